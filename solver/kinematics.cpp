@@ -1,0 +1,83 @@
+#include "solver/kinematics.h"
+
+#include "solver/slice.h"
+
+namespace twinarm {
+
+Kinematics::Kinematics(const Model<double>& model)
+    : X_WL(model.parent.size()),
+      w_WL(model.parent.size(), Vector3::Zero()),
+      v_WLo(model.parent.size(), Vector3::Zero()),
+      R_WB(model.parent.size(), Matrix3::Identity()),
+      a_bias(model.parent.size()),
+      v_(model.parent.size()) {}
+
+Vector3 Kinematics::position(int body, const Vector3& p_L) const {
+  return X_WL[static_cast<std::size_t>(body)] * p_L;
+}
+
+Vector3 Kinematics::velocity(int body, const Vector3& p_W) const {
+  const auto i = static_cast<std::size_t>(body);
+  return v_WLo[i] + w_WL[i].cross(p_W - X_WL[i].p);
+}
+
+void forward_kinematics(const Model<double>& model, const State<double>& x, Kinematics& k) {
+  k.a_bias[0] = {{}, -model.gravity};
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    visit_joint<double>(model.joint[i], [&](auto joint) {
+      const auto p = static_cast<std::size_t>(model.parent[i]);
+      const Motion<double> vJ = times(joint.subspace, slice<joint.nv>(x.qd, model.iv[i]));
+      const Transform<double> Xup = joint.XJ(&x.q[model.iq[i]]) * model.Xtree[i];
+      k.v_[i] = Xup * k.v_[p] + vJ;
+      k.a_bias[i] = Xup * k.a_bias[p] + crm(k.v_[i], vJ);
+
+      k.R_WB[i] = k.R_WB[p] * to_eigen(Xup.E).transpose();
+      k.X_WL[i].p = k.X_WL[p].p + k.R_WB[p] * to_eigen(Xup.r);
+      k.X_WL[i].R = k.R_WB[i] * to_eigen(model.turn[i]);
+      k.w_WL[i] = k.R_WB[i] * to_eigen(k.v_[i].w);
+      k.v_WLo[i] = k.R_WB[i] * to_eigen(k.v_[i].v);
+    });
+  }
+}
+
+namespace {
+
+// Calls f(velocity index, angular part, linear part at the joint's origin, that origin) for every
+// degree of freedom between the base and the body; all in world axes.
+template <class F>
+void for_each_dof_below(const Model<double>& model, const Kinematics& k, int body, F&& f) {
+  for (int b = body; b > 0; b = model.parent[static_cast<std::size_t>(b)]) {
+    const auto i = static_cast<std::size_t>(b);
+    visit_joint<double>(model.joint[i], [&](auto joint) {
+      for (std::size_t c = 0; c < joint.nv; ++c) {
+        VecN<double, joint.nv> unit{};
+        unit[c] = 1;
+        const Motion<double> s = times(joint.subspace, unit);
+        f(static_cast<Eigen::Index>(model.iv[i] + c), Vector3(k.R_WB[i] * to_eigen(s.w)),
+          Vector3(k.R_WB[i] * to_eigen(s.v)), k.X_WL[i].p);
+      }
+    });
+  }
+}
+
+}  // namespace
+
+Eigen::Matrix3Xd point_jacobian(const Model<double>& model, const Kinematics& k, int body,
+                                const Vector3& p_W) {
+  Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.nv));
+  for_each_dof_below(model, k, body,
+                     [&](Eigen::Index dof, const Vector3& w, const Vector3& v, const Vector3& o) {
+                       J.col(dof) = v + w.cross(p_W - o);
+                     });
+  return J;
+}
+
+Eigen::Matrix3Xd rotation_jacobian(const Model<double>& model, const Kinematics& k, int body) {
+  Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.nv));
+  for_each_dof_below(
+      model, k, body,
+      [&](Eigen::Index dof, const Vector3& w, const Vector3&, const Vector3&) { J.col(dof) = w; });
+  return J;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,85 @@
+// What the passes read and hand on to one another. Sized once; readable after a call at no cost.
+//
+// Everything is indexed by body (base included) unless marked "by velocity", and stands in body
+// axes about the body's origin. Sorted by the pass that writes it. In debug builds each pass fills
+// its fields with NaN first, so that a value read too early shows.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "solver/model.h"
+
+namespace twinarm {
+
+// What acts on the bodies besides gravity: the input of the passes, filled by ForceSources.
+template <class S>
+struct Forces {
+  std::vector<S> tau;                            // by velocity [N m, N]
+  std::vector<Force<S>> f_ext;                   // by body [N m, N]
+  std::vector<S> armature;                       // by velocity, added to D [kg m^2, kg]
+  std::vector<ArticulatedInertia<S>> impedance;  // by body, added to IA and to nothing else
+
+  explicit Forces(const Model<S>& model)
+      : tau(model.nv),
+        f_ext(model.parent.size()),
+        armature(model.nv),
+        impedance(model.parent.size()) {}
+  void clear() {
+    tau.assign(tau.size(), S(0));
+    f_ext.assign(f_ext.size(), Force<S>{});
+    armature.assign(armature.size(), S(0));
+    impedance.assign(impedance.size(), ArticulatedInertia<S>{});
+  }
+};
+
+template <class S>
+struct Workspace {
+  // pass 1 (base to tips)
+  std::vector<Transform<S>> Xup;  // XJ Xtree: from the parent's frame to the body's
+  std::vector<Motion<S>> v;       // spatial velocity [rad/s, m/s]
+  std::vector<Motion<S>> c;       // velocity-product acceleration cJ + v x vJ
+  // pass 2 (tips to base)
+  std::vector<ArticulatedInertia<S>> IA;  // articulated-body inertia
+  std::vector<Force<S>> pA;               // articulated bias force [N m, N]
+  std::vector<Force<S>> U;                // IA S, by velocity
+  std::vector<S> D, Dinv;                 // S^T U + armature and its inverse, nv x nv by body at iD
+  std::vector<S> u;                       // tau - S^T pA, by velocity
+  // pass 3 (base to tips)
+  std::vector<Motion<S>> a;  // spatial acceleration, gravity as a_0 = -g
+  std::vector<S> qdd;        // by velocity
+  // inverse dynamics
+  std::vector<Force<S>> f;  // force transmitted through joint i [N m, N]
+  std::vector<S> tau;       // by velocity
+  // mass matrix
+  std::vector<ArticulatedInertia<S>> Ic;  // composite inertia of the subtree
+
+  std::vector<std::size_t> iD;  // where D of body i begins
+
+  explicit Workspace(const Model<S>& model)
+      : Xup(n(model)),
+        v(n(model)),
+        c(n(model)),
+        IA(n(model)),
+        pA(n(model)),
+        U(model.nv),
+        u(model.nv),
+        a(n(model)),
+        qdd(model.nv),
+        f(n(model)),
+        tau(model.nv),
+        Ic(n(model)) {
+    std::size_t size = 0;
+    for (JointType type : model.joint) {
+      iD.push_back(size);
+      visit_joint<S>(type, [&](auto joint) { size += joint.nv * joint.nv; });
+    }
+    D.resize(size);
+    Dinv.resize(size);
+  }
+
+ private:
+  static std::size_t n(const Model<S>& model) { return model.parent.size(); }
+};
+
+}  // namespace twinarm
