@@ -1,0 +1,64 @@
+// What every coupling has: springs that pull links of the DVR after the KVR, readings of their
+// forces, and the joint-space stiffness and damping that its predictions are made of.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupling/kinematic_robot.h"
+#include "solver/force_source.h"
+
+namespace twinarm {
+
+// One spring-damper. Torsional: between the orientations (or joint angles) of the link in the KVR
+// and in the DVR, k [N m/rad], b [N m s/rad]. Linear: between the points p_L of the link in both,
+// k [N/m], b [N s/m]. On a prismatic joint, `joint` measure: k [N/m], b [N s/m].
+struct Spring {
+  std::string name;
+  int body = 0;
+  Vector3 p_L = Vector3::Zero();  // link axes, from the link's origin; linear couplings only
+  double k = 0, b = 0;
+};
+
+enum class Measure {
+  world,  // orientation of the link in the world (the paper's): an external couple on the link
+  joint   // coordinate of the joint that carries the link: acts between the link and its parent
+};
+
+// A spring's pull on the DVR at the last evaluation, for plots and pictures.
+struct SpringReading {
+  Vector3 p_K = Vector3::Zero(), p_D = Vector3::Zero();  // ends in the KVR and the DVR, world [m]
+  Vector3 pull = Vector3::Zero();  // force [N] or couple [N m] on the DVR, world axes
+  double size = 0;                 // |pull|; of a joint spring the torque, or force, with its sign
+};
+
+class Coupling : public ForceSource {
+ public:
+  Coupling(std::string name, const Model<double>& model, KinematicRobot& kvr,
+           std::vector<Spring> springs);
+
+  const std::string& name() const { return name_; }
+  const std::vector<Spring>& springs() const { return springs_; }
+  const std::vector<SpringReading>& readings() const { return readings_; }
+
+  // K_q and B_q about zero offset at a pose: tau = K_q (q_K - q_D) + B_q (qd_K - qd_D).
+  struct JointSpace {
+    Eigen::MatrixXd K, B;
+  };
+  virtual JointSpace joint_space(const Kinematics& k) const = 0;
+
+ protected:
+  std::string name_;
+  const Model<double>& model_;
+  KinematicRobot& kvr_;
+  std::vector<Spring> springs_;
+  std::vector<SpringReading> readings_;
+  double h_ = 0;  // step [s]
+};
+
+// Rotation vector [rad] of a rotation matrix, angle in [0, pi]; at pi either axis.
+Vector3 rotation_vector(const Matrix3& R);
+
+}  // namespace twinarm
