@@ -1,0 +1,33 @@
+// The commands of the program: options in, exit code out (docs/command_line.md). They throw
+// InputError for bad input and Interrupted after Ctrl-C; main() tells.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace twinarm {
+
+struct StudyOptions {
+  std::filesystem::path out = "out/study";
+  std::string device = "synthetic";
+  std::optional<unsigned> seed;  // left out: the settings' seed
+  std::filesystem::path trace;
+  bool recalibrate = false, paper_view = false, json = false;
+  std::filesystem::path assets;  // empty: found beside the program
+};
+int run_study(const StudyOptions& options);
+
+int run_make_robot(const std::filesystem::path& recipe);
+
+struct TraceOptions {
+  unsigned seed = 1;
+  double duration = 20, rate = 200;  // [s], [Hz]
+  std::filesystem::path out;
+};
+int run_trace(const TraceOptions& options);
+
+// The assets folder: beside the program's build tree, or below the current folder.
+std::filesystem::path find_assets(const std::filesystem::path& given);
+
+}  // namespace twinarm

@@ -1,0 +1,26 @@
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "solver/fault.h"
+
+namespace twinarm {
+
+std::filesystem::path find_assets(const std::filesystem::path& given) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  std::vector<fs::path> places;
+  if (!given.empty()) {
+    places.push_back(given);
+  } else {
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    places.push_back(program.parent_path() / "../../assets");  // build/PRESET/twinarm
+    places.push_back(fs::current_path(error) / "assets");
+  }
+  for (const fs::path& place : places)
+    if (fs::is_directory(place / "robots", error)) return fs::weakly_canonical(place);
+  throw InputError(
+      {{places.front().string(), 0, "assets", "the folder with the robots is not there",
+        "run from the project's folder, or give --assets"}});
+}
+
+}  // namespace twinarm

@@ -1,0 +1,15 @@
+// Ctrl-C: asked for once, noticed at the next safe point, so that no half file stays behind.
+#pragma once
+
+#include <exception>
+
+namespace twinarm {
+
+struct Interrupted : std::exception {
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
+void catch_interrupts();  // from now on SIGINT and SIGTERM only set a flag
+void check_interrupt();   // throws Interrupted once the flag is set
+
+}  // namespace twinarm

@@ -1,0 +1,47 @@
+// The study's settings, from assets/study/settings.toml, and the robots it runs.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "collision/import/robot_description.h"
+#include "coupling/kinematic_robot.h"
+#include "coupling/tracking.h"
+#include "solver/model.h"
+
+namespace twinarm {
+
+struct Mount {  // of an added mass, and so of a linear spring
+  std::string link;
+  Vector3 p_L = Vector3::Zero();  // [m]
+};
+
+struct StudySettings {
+  std::filesystem::path assets;  // the folder that all other paths are relative to
+  std::filesystem::path urdf;
+  DrivenJoints joints;
+  double added_mass = 0;  // [kg]
+  std::vector<Mount> mounts;
+
+  double auxiliary_frequency_hz = 0, auxiliary_damping_ratio = 0;
+  double stop_stiffness = 0, stop_damping = 0;
+
+  std::vector<double> rates_hz, search_rates_hz, sweep_times;
+  double held_physics_hz = 0, implicit_frequency_hz = 0, implicit_damping_ratio = 0;
+
+  unsigned seed = 1;
+  double operator_duration = 0;  // [s]
+
+  struct Obstacle {
+    Vector3 size = Vector3::Zero(), position = Vector3::Zero();
+    double rate_hz = 0, contact_stiffness = 0, contact_dissipation = 0, friction = 0;
+    double coupling_frequency_hz = 0, coupling_damping_ratio = 0;
+  } obstacle;
+};
+
+// Throws InputError with every entry that is missing or of the wrong kind.
+StudySettings read_settings(const std::filesystem::path& assets);
+
+}  // namespace twinarm

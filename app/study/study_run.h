@@ -1,0 +1,61 @@
+// One run of the study: what is to be run, and what came out, with its prediction beside it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/study/study_robot.h"
+#include "coupling/automatic_motion.h"
+#include "coupling/prediction.h"
+#include "coupling/tracking.h"
+
+namespace twinarm {
+
+// Gains of the studied coupling: on the links of joints 1 and 2.
+struct Gains {
+  double k1 = 0, b1 = 0, k2 = 0, b2 = 0;
+  static Gains both(double k, double b) { return {k, b, k, b}; }
+};
+
+struct RunSpec {
+  std::string name;       // "E3", "torsional-vector-60Hz", ...
+  std::string title;      // for people
+  CouplingSpec coupling;  // its springs are set from the gains
+  Gains gains;
+  double rate = 60;       // of the coupling [Hz]
+  int held_substeps = 1;  // physics steps per coupling evaluation
+  KvrRates kvr_rates = KvrRates::from_hand;
+  Integrator integrator = Integrator::semi_implicit;
+  double step() const { return 1 / (rate * held_substeps); }
+};
+
+struct RunResult {
+  RunSpec spec;
+  TrackingSeries series;
+  std::array<double, 2> max_deg{}, mean_deg{};
+  bool stable = false;  // stayed finite and within half a turn
+
+  // Linear theory about the pose at the start; filled by predict().
+  std::array<double, 2> frequency{};  // natural [rad/s], ascending
+  double step_limit = 0;              // largest stable step of the scheme [s]
+  std::array<double, 2> peak_deg{};   // predicted error after a reversal of the automatic motion
+};
+
+RunResult run(const StudyRobot& robot, const HandSource& hand, const RunSpec& spec);
+void predict(const StudyRobot& robot, RunResult& result);
+
+// The objective of the searches: errors over several sweep times T, weighted by T, so that no
+// resonance with one T is exploited.
+struct ProtocolErrors {
+  std::array<double, 2> max_deg{}, mean_deg{};  // max over T of T max_i, mean over T of T mean_i
+  double objective = 0;                         // max over T of T (max_1 + max_2); 1e6 if unstable
+};
+ProtocolErrors run_protocol(const StudyRobot& robot, const RunSpec& spec,
+                            const std::vector<double>& sweep_times);
+
+std::string coupling_words(const CouplingSpec& spec);  // "torsional (world), as printed"
+const char* treatment_name(const CouplingSpec& spec);  // "as printed", "explicit", ...
+
+}  // namespace twinarm

@@ -1,0 +1,34 @@
+// Which pairs of boxes along the axes overlap.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "solver/pose.h"
+
+namespace twinarm {
+
+struct Aabb {  // in W [m]
+  Vector3 low, high;
+};
+
+class BroadPhase {
+ public:
+  BroadPhase();
+  ~BroadPhase();
+  BroadPhase(BroadPhase&&) noexcept;
+  BroadPhase& operator=(BroadPhase&&) noexcept;
+
+  // One more box; returns its index. Call overlaps() with a box for each.
+  int add();
+  // All overlapping pairs (i < j), in ascending order whatever the shape of the tree.
+  void overlaps(std::span<const Aabb> boxes, std::vector<std::pair<int, int>>& pairs);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,22 @@
+// A half-space against any other shape, in closed form.
+#pragma once
+
+#include <vector>
+
+#include "collision/clip.h"
+#include "collision/solid.h"
+
+namespace twinarm {
+
+// Outward normal of the half-space in W.
+Vector3 outward_W(const Placed& half_space);
+
+// Signed distance of `body` from the half-space: negative inside [m].
+double half_space_distance(const Placed& half_space, const Placed& body);
+
+// Up to four contacts with depth > -margin, for the normal out of the half-space. p_WA is on its
+// surface, p_WB on the body.
+void half_space_contacts(const Placed& half_space, const Placed& body, double margin,
+                         Feature& scratch, std::vector<ManifoldPoint>& out);
+
+}  // namespace twinarm

@@ -1,0 +1,32 @@
+// The rules that every robot must keep, whatever file it was read from.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "collision/import/robot_description.h"
+#include "solver/fault.h"
+
+namespace twinarm {
+
+// The names of the joint types as files spell them.
+const char* to_string(JointDescription::Type type);
+bool joint_type_from(const std::string& text, JointDescription::Type& type);
+inline constexpr const char* kSupportedJoints =
+    "supported today: fixed, revolute, continuous, prismatic, floating";
+
+// All faults: names, the tree, inertias, axes, limits, damping. Empty for a good robot.
+std::vector<Fault> check_robot(const RobotDescription& robot);
+
+// Throws InputError with all faults in the order of their lines; returns if there is none.
+void throw_in_line_order(std::vector<Fault> faults);
+
+// The link that is no joint's child; empty where there is not exactly one.
+std::string find_root(const RobotDescription& robot);
+
+// Indices into robot.joints, each joint after the joint that carries its parent link; among those
+// that are ready at the same time, in the order of the file. The robot must have passed the check.
+std::vector<std::size_t> joints_from_root(const RobotDescription& robot);
+
+}  // namespace twinarm

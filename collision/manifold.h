@@ -1,0 +1,30 @@
+// The contact points of one pair whose normal is known.
+#pragma once
+
+#include <vector>
+
+#include "collision/clip.h"
+#include "collision/solid.h"
+
+namespace twinarm {
+
+constexpr int max_manifold_points = 4;
+
+class Manifold {
+ public:
+  // Up to four points along the given axis, with depth > -margin, the deepest among them.
+  // `p_W` is a point between the surfaces where they are nearest: it is used where the features
+  // have no common area (a rim, crossing edges, a corner).
+  const std::vector<ManifoldPoint>& between(const Placed& a, const Placed& b, const Axis& axis,
+                                            const Vector3& p_W, double margin);
+
+ private:
+  Feature feature_a_, feature_b_, scratch_, clipped_;
+  std::vector<ManifoldPoint> points_;
+};
+
+// Keeps the four points that hold best: the deepest, the farthest from it, the one that spans the
+// largest triangle with these, and the one farthest outside that triangle.
+void reduce_to_four(const Vector3& n_W, std::vector<ManifoldPoint>& points);
+
+}  // namespace twinarm

@@ -1,0 +1,21 @@
+// Reading triangle meshes from files: STL, OBJ, glTF and GLB.
+#pragma once
+
+#include <filesystem>
+
+#include "collision/mesh.h"
+
+namespace twinarm {
+
+// The mesh in `file` with all its parts in one list, vertices welded, coordinates times `scale`
+// (0.001 for a file in millimetres). The axes are those of the file; so a glTF file is y-up.
+// Throws InputError (file, rule, remedy) if the file is missing, unreadable, too large (64 MiB),
+// of another format, malformed, without triangles, or holds a coordinate that is not finite.
+// Files that the model names (glTF buffers, OBJ materials) are opened only inside its own folder.
+TriangleMesh load_mesh(const std::filesystem::path& file, double scale);
+
+// Each directed edge occurs once and its reverse occurs once: the surface has no border, and all
+// triangles agree on which side is outside. O(n log n).
+bool is_closed(const TriangleMesh& mesh);
+
+}  // namespace twinarm

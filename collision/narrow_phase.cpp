@@ -1,0 +1,118 @@
+// Narrow phase. In this order:
+//   1. closed forms: half-space with anything, sphere and capsule pairs, sphere-box,
+//   sphere-cylinder;
+//   2. polytopes with a radius: GJK distance of the cores by FCL, which is exact when they are
+//   apart;
+//      then all separating axes, which are exact when they overlap; the smaller overlap wins;
+//   3. cylinders: see cylinder_axis.h.
+// Every direction, wherever it comes from, is judged by overlap(n) of the true shapes: an upper
+// bound of the depth for any n. So a wrong answer of FCL can cost optimality, never consistency,
+// and the difference between distance and bound (the duality gap) tells that it happened: then ask
+// again. Cost: 0.1 us in closed form, 1-6 us otherwise; hulls with hundreds of vertices 10-100 us.
+#include "collision/narrow_phase.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "collision/direction.h"
+#include "collision/half_space_contact.h"
+
+namespace twinarm {
+namespace {
+
+bool is_half_space(const Placed& body) {
+  return std::holds_alternative<HalfSpace>(body.solid.shape);
+}
+
+double radii_of(const Placed& a, const Placed& b) {
+  return a.solid.core.radius + b.solid.core.radius;
+}
+
+}  // namespace
+
+bool is_supported(const Shape& a, const Shape& b) {
+  return !(std::holds_alternative<HalfSpace>(a) && std::holds_alternative<HalfSpace>(b));
+}
+
+bool NarrowPhase::nearest(const Placed& a, const Placed& b, double margin, NearestPair& pair) {
+  if (const auto closed = round_contact(a, b)) {
+    pair = *closed;
+    return pair.axis.overlap > -margin;
+  }
+  if (!a.solid.core.exists || !b.solid.core.exists) {
+    return cylinder_.nearest(a, b, margin, pair);
+  }
+  const double radii = radii_of(a, b);
+  const CoreDistance cores = distance_of(a, b, Core::whole);
+  Axis best;  // of the cores, until the end
+  if (cores.distance > gjk_floor) {
+    best.n_W = (cores.p_WB - cores.p_WA).normalized();
+    best.overlap = overlap(a, b, best.n_W) - radii;
+    if (best.overlap + radii < -margin) return false;
+  }
+  const Vector3 n_gjk = best.n_W;
+  separating_axis_.improve(a, b, cores.distance, best);
+  best.overlap += radii;
+  pair.axis = best;
+  pair.p_W = mean_of_supports(a, b, best.n_W);
+  if (n_gjk.dot(best.n_W) > 0.99) {
+    pair.p_W = midway(a, b, best.n_W, 0.5 * (cores.p_WA + cores.p_WB));
+  }
+  const bool apart = cores.distance > gjk_floor;
+  if (apart ? has_gap(cores.distance, best.overlap - radii) : best.overlap - radii < -1e-8) {
+    retry(a, b, pair);
+  }
+  return pair.axis.overlap > -margin;
+}
+
+// FCL was wrong by more than rounding: ask with swapped roles, then with A turned by a hair.
+void NarrowPhase::retry(const Placed& a, const Placed& b, NearestPair& pair) {
+  const auto take = [&](const Vector3& p_a, const Vector3& p_b) {
+    Axis better = pair.axis;
+    consider(a, b, p_b - p_a, 0, better);
+    if (better.overlap >= pair.axis.overlap) return;
+    pair = {better, midway(a, b, better.n_W, 0.5 * (p_a + p_b))};
+  };
+  const CoreDistance swapped = distance_of(b, a, Core::whole);
+  if (swapped.distance > gjk_floor) take(swapped.p_WB, swapped.p_WA);
+  for (int k = 0; k < 4; ++k) {
+    const Vector3 axis = Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, 0.3).normalized();
+    Pose X_WA = a.X_WG;
+    X_WA.R = Eigen::AngleAxisd(1e-7 * (k + 1), axis).toRotationMatrix() * X_WA.R;
+    const CoreDistance nudged = distance_of({a.solid, X_WA}, b, Core::whole);
+    if (nudged.distance > gjk_floor) take(nudged.p_WA, nudged.p_WB);
+  }
+}
+
+NarrowPhase::Result NarrowPhase::contacts(const Placed& a, const Placed& b, double margin) {
+  if (is_half_space(a) || is_half_space(b)) {
+    const bool a_is_ground = is_half_space(a);
+    const Placed& ground = a_is_ground ? a : b;
+    half_space_contacts(ground, a_is_ground ? b : a, margin, feature_, half_space_points_);
+    if (a_is_ground) return {outward_W(ground), &half_space_points_};
+    for (ManifoldPoint& point : half_space_points_) std::swap(point.p_WA, point.p_WB);
+    return {-outward_W(ground), &half_space_points_};
+  }
+  NearestPair pair;
+  if (!nearest(a, b, margin, pair)) return {};
+  return {pair.axis.n_W, &manifold_.between(a, b, pair.axis, pair.p_W, margin)};
+}
+
+double NarrowPhase::distance(const Placed& a, const Placed& b) {
+  if (is_half_space(a)) return half_space_distance(a, b);
+  if (is_half_space(b)) return half_space_distance(b, a);
+  if (!round_contact(a, b)) {
+    const CoreDistance cores = distance_of(a, b, Core::whole);
+    if (cores.distance > gjk_floor) {
+      const Vector3 n = (cores.p_WB - cores.p_WA).normalized();
+      const double radii = radii_of(a, b);
+      if (!has_gap(cores.distance, overlap(a, b, n) - radii)) return cores.distance - radii;
+    }
+  }
+  NearestPair pair;
+  nearest(a, b, 1e300, pair);
+  return -pair.axis.overlap;
+}
+
+}  // namespace twinarm

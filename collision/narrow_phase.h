@@ -1,0 +1,44 @@
+// Two solids -> the normal, the depth and the contact points.
+#pragma once
+
+#include <vector>
+
+#include "collision/clip.h"
+#include "collision/cylinder_axis.h"
+#include "collision/manifold.h"
+#include "collision/round_contact.h"
+#include "collision/separating_axis.h"
+#include "collision/solid.h"
+
+namespace twinarm {
+
+// Two half-spaces have no contact that could be listed; all other pairs have.
+bool is_supported(const Shape& a, const Shape& b);
+
+class NarrowPhase {
+ public:
+  // The normal from A to B, and the contacts with depth > -margin. Empty if there are none.
+  struct Result {
+    Vector3 n_W = Vector3::Zero();
+    const std::vector<ManifoldPoint>* points = nullptr;  // valid until the next call
+    bool empty() const { return points == nullptr || points->empty(); }
+  };
+  Result contacts(const Placed& a, const Placed& b, double margin);
+
+  // Signed distance: how far the surfaces are apart, or minus the least overlap [m].
+  double distance(const Placed& a, const Placed& b);
+
+ private:
+  // Direction and amount of the least overlap; false if it is certain that they are more than
+  // `margin` apart.
+  bool nearest(const Placed& a, const Placed& b, double margin, NearestPair& pair);
+  void retry(const Placed& a, const Placed& b, NearestPair& pair);
+
+  SeparatingAxis separating_axis_;
+  CylinderAxis cylinder_;
+  Manifold manifold_;
+  Feature feature_;
+  std::vector<ManifoldPoint> half_space_points_;
+};
+
+}  // namespace twinarm

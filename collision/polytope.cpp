@@ -1,0 +1,72 @@
+// Builds the polytope-with-radius of each shape. See polytope.h.
+#include "collision/polytope.h"
+
+#include <map>
+#include <utility>
+
+namespace twinarm {
+namespace {
+
+// Finds the edges of a polyhedron: each is walked once by either of its two faces.
+Polytope with_edges(ConvexHull hull) {
+  Polytope polytope;
+  std::map<std::pair<int, int>, int> face_of;  // directed edge -> face that walks it
+  for (std::size_t f = 0; f < hull.faces.size(); ++f) {
+    const std::vector<int>& loop = hull.faces[f];
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      face_of[{loop[i], loop[(i + 1) % loop.size()]}] = static_cast<int>(f);
+    }
+  }
+  for (const auto& [edge, face] : face_of) {
+    const auto twin = face_of.find({edge.second, edge.first});
+    if (edge.first < edge.second && twin != face_of.end()) {
+      polytope.edges.push_back({edge.first, edge.second, face, twin->second});
+    }
+  }
+  polytope.hull = std::move(hull);
+  return polytope;
+}
+
+struct Make {
+  Polytope operator()(const Sphere& s) const {
+    Polytope p;
+    p.hull.vertices = {Vector3::Zero()};
+    p.radius = s.radius;
+    return p;
+  }
+  Polytope operator()(const Capsule& c) const {
+    Polytope p;
+    p.hull.vertices = {Vector3(0, 0, -c.length / 2), Vector3(0, 0, c.length / 2)};
+    p.edges = {{0, 1, -1, -1}};
+    p.radius = c.radius;
+    return p;
+  }
+  Polytope operator()(const Box& b) const { return with_edges(box_hull(b.size)); }
+  Polytope operator()(const ConvexHull& hull) const { return with_edges(hull); }
+  Polytope operator()(const Cylinder&) const { return none(); }
+  Polytope operator()(const HalfSpace&) const { return none(); }
+  static Polytope none() {
+    Polytope p;
+    p.exists = false;
+    return p;
+  }
+};
+
+}  // namespace
+
+Polytope make_polytope(const Shape& shape) {
+  return std::visit(Make{}, shape);
+}
+
+ConvexHull box_hull(const Vector3& size) {
+  ConvexHull hull;
+  for (int i = 0; i < 8; ++i) {  // bit k of i: the side along axis k
+    const Vector3 sides(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    hull.vertices.push_back(0.5 * sides.cwiseProduct(size));
+  }
+  hull.faces = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  complete_faces(hull);
+  return hull;
+}
+
+}  // namespace twinarm

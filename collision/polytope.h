@@ -1,0 +1,29 @@
+// Shapes as polytopes with a radius, which makes one exact narrow phase of most pairs:
+//   sphere = point + r, capsule = segment + r, box and hull = polyhedron + 0,
+// so that depth(A, B) = r_A + r_B - signed distance of the cores. A cylinder is none of these.
+#pragma once
+
+#include <vector>
+
+#include "collision/convex_hull.h"
+#include "collision/shape.h"
+
+namespace twinarm {
+
+struct Polytope {
+  struct Edge {
+    int v0, v1;  // its ends
+    int f0, f1;  // the faces on both sides; -1 for a bare segment
+  };
+  ConvexHull hull;  // of a point or a segment: vertices only
+  std::vector<Edge> edges;
+  double radius = 0;   // [m]
+  bool exists = true;  // false for cylinder and half-space
+};
+
+Polytope make_polytope(const Shape& shape);
+
+// The box as a hull: 8 vertices, 6 faces.
+ConvexHull box_hull(const Vector3& size);
+
+}  // namespace twinarm

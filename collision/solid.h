@@ -1,0 +1,44 @@
+// A collision shape with all that the narrow phase prepares for it, once.
+#pragma once
+
+#include "collision/fcl_query.h"
+#include "collision/polytope.h"
+#include "collision/shape.h"
+#include "solver/pose.h"
+
+namespace twinarm {
+
+struct Solid {
+  explicit Solid(const Shape& s) : shape(s), core(make_polytope(s)), fcl(s, core) {}
+  Shape shape;
+  Polytope core;
+  FclShape fcl;
+};
+
+// A solid where it stands in this step. Cheap to copy; does not own.
+struct Placed {
+  const Solid& solid;
+  const Pose& X_WG;
+
+  // Farthest point along n_W, in W.
+  Vector3 support_W(const Vector3& n_W) const {
+    return X_WG * support(solid.shape, X_WG.R.transpose() * n_W);
+  }
+};
+
+// How far B must move along the unit vector n_W until a plane across n_W parts it from A:
+//   overlap(n) = h_A(n) + h_B(-n)
+// For convex bodies this is at least the signed depth for EVERY n, and equals it at the normal of
+// least translation. So any n can be checked, and the better of two chosen, without knowing where
+// they came from.
+inline double overlap(const Placed& a, const Placed& b, const Vector3& n_W) {
+  return (a.support_W(n_W) - b.support_W(-n_W)).dot(n_W);
+}
+
+// A unit direction from A to B and the overlap along it [m].
+struct Axis {
+  Vector3 n_W = Vector3::Zero();
+  double overlap = 1e300;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,164 @@
+// What a good URDF file says arrives in the description.
+#include "collision/import/urdf.h"
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "collision/import/robot_check.h"
+#include "tests/import/helpers.h"
+
+namespace twinarm {
+namespace {
+
+using Type = JointDescription::Type;
+
+TEST_CASE("the numbers of a URDF arrive as they stand there") {
+  const TemporaryFolder folder;
+  const RobotDescription robot = read_urdf(folder.write("arm.urdf", kGoodArm));
+  CHECK(robot.name == "arm");
+  CHECK(robot.root == "base");
+  REQUIRE(robot.links.size() == 2);
+  CHECK(!robot.links[0].has_inertia);
+  const LinkDescription& arm = robot.links[1];
+  CHECK(arm.line == 3);
+  CHECK(arm.mass == 2);
+  CHECK(arm.com == Vector3(0.2, 0, 0));
+  CHECK(arm.inertia == Matrix3(Vector3(0.01, 0.02, 0.025).asDiagonal()));
+  REQUIRE(arm.visuals.size() == 1);
+  CHECK(std::get<BoxGeometry>(arm.visuals[0].geometry).size == Vector3(0.4, 0.1, 0.1));
+  REQUIRE(robot.joints.size() == 1);
+  const JointDescription& joint = robot.joints[0];
+  CHECK(joint.type == Type::revolute);
+  CHECK(joint.line == 13);
+  CHECK(joint.axis == Vector3::UnitZ());
+  CHECK(joint.lower == -1);
+  CHECK(joint.upper == 1.5);
+  CHECK(joint.damping == 0.1);
+  CHECK(joint.coulomb_plus == 0.2);
+  CHECK(joint.coulomb_minus == 0.2);
+  CHECK(joint.armature == 0);
+}
+
+TEST_CASE("roll, pitch and yaw turn about the fixed axes x, y, z in this order") {
+  const double roll = 0.3, pitch = -0.7, yaw = 1.9;
+  const Matrix3 expected =
+      (Eigen::AngleAxisd(yaw, Vector3::UnitZ()) * Eigen::AngleAxisd(pitch, Vector3::UnitY()) *
+       Eigen::AngleAxisd(roll, Vector3::UnitX()))
+          .toRotationMatrix();
+  const Pose X = Origin{Vector3(1, 2, 3), Vector3(roll, pitch, yaw)}.pose();
+  CHECK((X.R - expected).norm() < 1e-15);
+  CHECK(X.p == Vector3(1, 2, 3));
+}
+
+TEST_CASE("an inertia given in turned axes is brought into link axes") {
+  // A quarter turn about z exchanges ixx and iyy.
+  const TemporaryFolder folder;
+  const std::string text =
+      replaced(kGoodArm, "xyz=\"0.2 0 0\"", "xyz=\"0.2 0 0\" rpy=\"0 0 1.5707963267948966\"");
+  const RobotDescription robot = read_urdf(folder.write("arm.urdf", text));
+  const Matrix3 expected = Vector3(0.02, 0.01, 0.025).asDiagonal();
+  CHECK((robot.links[1].inertia - expected).norm() < 1e-16);
+  CHECK(robot.links[1].inertia == Matrix3(robot.links[1].inertia.transpose()));
+  CHECK(robot.links[1].com == Vector3(0.2, 0, 0));
+}
+
+TEST_CASE("the axis becomes a unit vector and is x where it is not given, as URDF has it") {
+  const TemporaryFolder folder;
+  const auto axis = [&](const std::string& element) {
+    const std::string text = replaced(kGoodArm, "<axis xyz=\"0 0 1\"/>", element);
+    return read_urdf(folder.write("arm.urdf", text)).joints[0].axis;
+  };
+  CHECK(axis("<axis xyz=\"3 0 4\"/>") == Vector3(3.0 / 5, 0, 4.0 / 5));
+  CHECK(axis("") == Vector3::UnitX());
+}
+
+TEST_CASE("a missing lower or upper limit is 0, as URDF has it") {
+  const TemporaryFolder folder;
+  const RobotDescription robot =
+      read_urdf(folder.write("arm.urdf", replaced(kGoodArm, "lower=\"-1\"", "")));
+  CHECK(robot.joints[0].lower == 0);
+  CHECK(robot.joints[0].upper == 1.5);
+}
+
+TEST_CASE("the twinarm element gives armature and Coulomb friction of either direction") {
+  const TemporaryFolder folder;
+  const std::string text =
+      replaced(kGoodArm, "<axis", "<twinarm armature=\"0.03\" coulomb_plus=\"0.4\"/><axis");
+  const JointDescription joint = read_urdf(folder.write("arm.urdf", text)).joints[0];
+  CHECK(joint.armature == 0.03);
+  CHECK(joint.coulomb_plus == 0.4);
+  CHECK(joint.coulomb_minus == 0.2);  // that of <dynamics>
+}
+
+TEST_CASE("every supported joint type has a name, and the name gives the type") {
+  for (const Type type :
+       {Type::fixed, Type::revolute, Type::continuous, Type::prismatic, Type::floating}) {
+    Type found{};
+    CHECK(joint_type_from(to_string(type), found));
+    CHECK(found == type);
+    CHECK(std::string(kSupportedJoints).find(to_string(type)) != std::string::npos);
+  }
+}
+
+TEST_CASE("mesh files are found beside the URDF, in its package, and by file://") {
+  const TemporaryFolder folder;
+  const fs::path mesh = folder.write("my_robot/meshes/a.stl", "solid\nendsolid\n");
+  const fs::path folder_of_urdf = folder.path() / "my_robot" / "urdf";
+  fs::create_directories(folder_of_urdf);
+  const auto found = [&](const std::string& name) {
+    const std::string element = "<mesh filename=\"" + name + "\" scale=\"0.001 0.001 0.001\"/>";
+    const std::string text = replaced(kGoodArm, "<box size=\"0.4 0.1 0.1\"/>", element);
+    const RobotDescription robot = read_urdf(folder.write("my_robot/urdf/arm.urdf", text));
+    const auto& part = std::get<MeshGeometry>(robot.links[1].visuals[0].geometry);
+    CHECK(part.scale == 0.001);
+    return part.file;
+  };
+  CHECK(found("../meshes/a.stl") == mesh);
+  CHECK(found("package://my_robot/meshes/a.stl") == mesh);
+  CHECK(found("file://" + mesh.string()) == mesh);
+  CHECK(found(mesh.string()) == mesh);
+}
+
+TEST_CASE("a mesh with unequal or negative scales is refused") {
+  const TemporaryFolder folder;
+  folder.write("a.stl", "solid\nendsolid\n");
+  for (const char* scale : {"1 1 2", "-1 -1 -1", "0 0 0"}) {
+    const std::string element = std::string("<mesh filename=\"a.stl\" scale=\"") + scale + "\"/>";
+    const std::string text = replaced(kGoodArm, "<box size=\"0.4 0.1 0.1\"/>", element);
+    const auto faults = faults_of([&] { read_urdf(folder.write("arm.urdf", text)); });
+    CHECK(faults.size() == 1);
+    CHECK(tells(faults, 10, "mesh scale"));
+  }
+}
+
+TEST_CASE("a material is found by name, at the robot or where another visual states it") {
+  const TemporaryFolder folder;
+  std::string text = replaced(
+      kGoodArm, "<link name=\"base\"/>",
+      "<material name=\"red\"><color rgba=\"1 0 0 1\"/></material><link name=\"base\"><visual>"
+      "<geometry><sphere radius=\"1\"/></geometry>"
+      "<material name=\"blue\"><color rgba=\"0 0 1 0.5\"/></material></visual></link>");
+  for (const auto& [name, color] :
+       {std::pair{"red", Vector4(1, 0, 0, 1)}, std::pair{"blue", Vector4(0, 0, 1, 0.5)}}) {
+    const std::string use = std::string("<material name=\"") + name + "\"/></visual>";
+    const RobotDescription robot =
+        read_urdf(folder.write("arm.urdf", replaced(text, "    </visual>", use)));
+    CHECK(robot.links[1].visuals[0].color == color);
+    CHECK(robot.links[1].visuals[0].material == name);
+  }
+}
+
+TEST_CASE("joints are put in order from the root, whatever their order in the file") {
+  RobotDescription robot;
+  robot.root = "r";
+  const auto joint = [](const char* name, const char* parent, const char* child) {
+    JointDescription j;
+    j.name = name, j.parent = parent, j.child = child;
+    return j;
+  };
+  robot.joints = {joint("j3", "b", "c"), joint("j2", "a", "b"), joint("j1", "r", "a")};
+  CHECK(joints_from_root(robot) == std::vector<std::size_t>{2, 1, 0});
+}
+
+}  // namespace
+}  // namespace twinarm
