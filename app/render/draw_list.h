@@ -1,0 +1,121 @@
+// DrawList: what is to be seen, once, for every painter (OSMesa here, three.js in the browser).
+//
+// World frame W: z up, right-handed, metres, radians. Colours are sRGB in 0..1, not linearised; an
+// alpha below 1 makes an instance a translucent ghost. Pixels count from the top left, y down.
+//
+// A list is made once and kept: meshes stay registered, while clear_frame() drops what is placed
+// with them. Meshes are shared and never change, so a copy of a list is cheap and a painter may
+// recognise a mesh by its address.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/render/draw_mesh.h"
+#include "collision/mesh.h"
+#include "solver/pose.h"
+
+namespace twinarm {
+
+struct Color {
+  float r = 0, g = 0, b = 0, a = 1;
+};
+
+using MeshId = std::size_t;  // index into DrawList::meshes
+
+// A mesh at a place: p_W = X_WM * (scale * p_M), componentwise.
+struct Instance {
+  MeshId mesh = 0;
+  Pose X_WM;
+  Vector3 scale = Vector3::Ones();  // positive
+  Color color{0.7f, 0.7f, 0.7f, 1.0f};
+  float shininess = 0.35f;  // 0 = chalk, 1 = polished
+};
+
+enum class Align { left, center, right };
+
+// A line of text (UTF-8), never hidden by bodies.
+struct Label {
+  enum class Anchor { world, screen };
+  std::string text;
+  Anchor anchor = Anchor::world;
+  Vector3 p_W = Vector3::Zero();  // the point that it names, where anchored in the world
+  // World: from that point's pixel to the text; a thin line joins them where it is long enough.
+  // Screen: from the top left corner of the picture, or from the bottom or right where negative.
+  Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();
+  double size_px = 15;
+  Color color{0.10f, 0.12f, 0.15f, 1.0f};
+  Align align = Align::left;
+};
+
+// One entry of the legend, at the bottom left of the picture.
+struct LegendLine {
+  Color color;  // of the swatch
+  std::string text;
+};
+
+struct Camera {
+  Vector3 eye = Vector3(1.6, -2.0, 1.2);
+  Vector3 target = Vector3::Zero();
+  Vector3 up = Vector3::UnitZ();
+  double field_of_view = 0.55;  // vertical [rad]
+};
+
+// The floor z = height with a metric grid that fades with the distance.
+struct Ground {
+  bool visible = true;
+  double height = 0;        // [m]
+  double cell = 0.1;        // between thin lines [m]
+  int cells_per_major = 5;  // a stronger line every so many
+  bool show_scale = true;   // says in the picture what the lines measure
+};
+
+// A studio: the colour runs from the bottom to the top of the picture, and the floor melts into it.
+struct Background {
+  Color bottom{0.87f, 0.875f, 0.88f, 1.0f};
+  Color top{0.56f, 0.595f, 0.635f, 1.0f};
+};
+
+class DrawList {
+ public:
+  std::vector<std::shared_ptr<const DrawMesh>> meshes;  // append only, by the functions below
+  std::vector<Instance> instances;
+  std::vector<Label> labels;
+  std::string title;
+  std::vector<LegendLine> legend;
+  Camera camera;
+  Vector3 light_W = Vector3(-0.45, -0.62, 1.0);  // from the scene towards the light, any length
+  Ground ground;
+  Background background;
+
+  MeshId register_mesh(const TriangleMesh& mesh) { return register_mesh(make_draw_mesh(mesh)); }
+  MeshId register_mesh(DrawMesh mesh);
+  MeshId unit_mesh(UnitShape shape);  // registers it at its first use
+  MeshId unit_spring(double aspect);  // likewise, for the nearest of a few aspects
+  void clear_frame();                 // instances, labels, title, legend
+
+ private:
+  std::map<UnitShape, MeshId> units_;
+  std::map<int, MeshId> springs_;  // by the step of their aspect
+};
+
+// Places overlays. What has no extent (a force of zero) or is not finite is left out.
+void add_mesh_instance(DrawList& list, MeshId mesh, const Pose& X_WM, const Color& color,
+                       const Vector3& scale = Vector3::Ones(), float shininess = 0.35f);
+void add_box(DrawList& list, const Pose& X_WM, const Vector3& size, const Color& color);
+void add_sphere(DrawList& list, const Vector3& p_W, double radius, const Color& color);
+void add_rod(DrawList& list, const Vector3& from_W, const Vector3& to_W, double radius,
+             const Color& color);
+void add_spring(DrawList& list, const Vector3& from_W, const Vector3& to_W, double radius,
+                const Color& color);
+// `radius` is the shaft's; the head is 2.4 times as wide and ends at `to_W`.
+void add_arrow(DrawList& list, const Vector3& from_W, const Vector3& to_W, double radius,
+               const Color& color);
+void add_label(DrawList& list, const Vector3& p_W, const std::string& text,
+               const Eigen::Vector2d& offset_px = Eigen::Vector2d(10, -10), double size_px = 15);
+
+}  // namespace twinarm

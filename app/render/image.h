@@ -1,0 +1,36 @@
+// Image: a picture in memory, and PNG out of it (libpng ends here).
+//
+// Rows run from the top to the bottom, pixels from left to right, four sRGB bytes each: red, green,
+// blue, alpha (255 = opaque).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace twinarm {
+
+struct Image {
+  int width = 0, height = 0;       // [px]
+  std::vector<std::uint8_t> rgba;  // 4 * width * height bytes
+
+  std::uint8_t* pixel(int x, int y) { return rgba.data() + 4 * offset(x, y); }
+  const std::uint8_t* pixel(int x, int y) const { return rgba.data() + 4 * offset(x, y); }
+
+ private:
+  std::size_t offset(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  }
+};
+
+// The bytes of a PNG file, without alpha where the whole picture is opaque. Throws InputError on an
+// empty or inconsistent image.
+std::string encode_png(const Image& image);
+
+// Writes the file under a temporary name beside `path` and renames it: who watches the folder never
+// sees half a picture. Throws InputError where the folder cannot be written.
+void write_png(const std::string& path, const Image& image);
+
+}  // namespace twinarm

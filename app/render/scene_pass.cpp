@@ -1,0 +1,206 @@
+// Drawing one pass. See scene_pass.h for the order, shaders.cpp for the light.
+#include "app/render/scene_pass.h"
+
+#include <cmath>
+#include <iterator>
+
+namespace twinarm {
+namespace {
+
+constexpr int kKeyMapSide = 2048, kSkyMapSide = 1024;  // [texels]
+constexpr int kKeyUnit = 0, kSkyUnit = 1;              // texture units
+
+// IEC 61966-2-1.
+float linear(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+Eigen::Vector3f linear(const Color& c) {
+  return {linear(c.r), linear(c.g), linear(c.b)};
+}
+
+// Moves the picture by a part of a pixel: an offset times w, which the division takes out again.
+Eigen::Matrix4d shift(const Eigen::Vector2d& shift_px, int width, int height) {
+  Eigen::Matrix4d X = Eigen::Matrix4d::Identity();
+  X(0, 3) = 2 * shift_px.x() / width;
+  X(1, 3) = 2 * shift_px.y() / height;
+  return X;
+}
+
+}  // namespace
+
+ScenePass::ScenePass(const GlTable& gl, int width, int height, const ShaderVariant& variant,
+                     bool multisampled)
+    : gl_(gl),
+      width_(width),
+      height_(height),
+      canvas_(gl, width, height, multisampled),
+      key_map_(gl, kKeyMapSide),
+      solid_(gl, solid_vertex_shader(variant), solid_fragment_shader(variant)),
+      ghost_(gl, solid_vertex_shader(variant), ghost_fragment_shader()),
+      depth_(gl, depth_vertex_shader(), depth_fragment_shader()),
+      floor_(gl, floor_vertex_shader(variant), floor_fragment_shader(variant)),
+      background_(gl, background_vertex_shader(), background_fragment_shader()) {
+  if (variant.sky_sample) sky_map_.emplace(gl, kSkyMapSide);
+  gl.GenVertexArrays(1, &no_vertices_);
+}
+
+void ScenePass::prepare(const DrawList& list) {
+  list_ = &list;
+  bounds_ = bound_scene(list);
+  clip_from_world_ =
+      make_clip_from_world(list.camera, static_cast<double>(width_) / height_, bounds_);
+  forget_unused_meshes();
+  items_.clear();
+  for (const Instance& instance : list.instances) add_item(list, instance);
+}
+
+void ScenePass::add_item(const DrawList& list, const Instance& instance) {
+  const Vector3& scale = instance.scale;
+  Item item;
+  item.mesh = &upload(list.meshes[instance.mesh]);
+  item.world_from_mesh.setIdentity();
+  item.world_from_mesh.topLeftCorner<3, 3>() = (instance.X_WM.R * scale.asDiagonal()).cast<float>();
+  item.world_from_mesh.topRightCorner<3, 1>() = instance.X_WM.p.cast<float>();
+  // Inverse transpose of R * scale; its length does not matter, so it is kept near 1.
+  const Vector3 inverse = scale.minCoeff() * scale.cwiseInverse();
+  item.normal_from_mesh = (instance.X_WM.R * inverse.asDiagonal()).cast<float>();
+  item.color << linear(instance.color), instance.color.a;
+  item.shininess = instance.shininess;
+  item.ghost = instance.color.a < 1;
+  if (item.world_from_mesh.allFinite() && item.normal_from_mesh.allFinite()) {
+    items_.push_back(item);
+  }
+}
+
+const GpuMesh& ScenePass::upload(const std::shared_ptr<const DrawMesh>& mesh) {
+  const auto found = cache_.find(mesh.get());
+  if (found != cache_.end()) return found->second.gpu;
+  return cache_.try_emplace(mesh.get(), gl_, mesh).first->second.gpu;
+}
+
+void ScenePass::forget_unused_meshes() {
+  for (auto it = cache_.begin(); it != cache_.end();) {
+    it = it->second.source.use_count() == 1 ? cache_.erase(it) : std::next(it);
+  }
+}
+
+void ScenePass::draw(const LightSample& sample) {
+  gl_.Enable(GL_CULL_FACE);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LEQUAL);
+  draw_shadow(key_map_, sample.key_W);
+  if (sky_map_) draw_shadow(*sky_map_, sample.sky_W);
+  gl_.Enable(GL_FRAMEBUFFER_SRGB);
+  canvas_.begin();
+  draw_solids(sample);
+  if (list_->ground.visible) draw_floor(sample);
+  draw_background();
+  draw_ghosts(sample);
+  gl_.Disable(GL_FRAMEBUFFER_SRGB);
+}
+
+Eigen::Matrix4f ScenePass::light_clip_from_world(const Vector3& towards_light_W) const {
+  return make_light_clip_from_world(towards_light_W, bounds_.solid).cast<float>();
+}
+
+void ScenePass::draw_shadow(const ShadowMap& map, const Vector3& towards_light_W) {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, map.framebuffer);
+  gl_.Viewport(0, 0, map.side_px, map.side_px);
+  gl_.Clear(GL_DEPTH_BUFFER_BIT);
+  gl_.Enable(GL_POLYGON_OFFSET_FILL);
+  gl_.PolygonOffset(1.5f, 2.0f);  // beside the normal offset, for facets that the light grazes
+  depth_.use();
+  depth_.set(Uniform::clip_from_world, light_clip_from_world(towards_light_W));
+  for (const Item& item : items_) {
+    if (item.ghost) continue;
+    depth_.set(Uniform::world_from_mesh, item.world_from_mesh);
+    item.mesh->draw();
+  }
+  gl_.Disable(GL_POLYGON_OFFSET_FILL);
+}
+
+void ScenePass::set_frame(const Program& program, const LightSample& sample) const {
+  const Eigen::Matrix4d clip = shift(sample.shift_px, width_, height_) * clip_from_world_;
+  const int side = sky_map_ ? kSkyMapSide : kKeyMapSide;  // the coarser map rules the offset
+  program.use();
+  program.set(Uniform::clip_from_world, Eigen::Matrix4f(clip.cast<float>()));
+  program.set(Uniform::key_from_world, light_clip_from_world(sample.key_W));
+  program.set(Uniform::sky_from_world, light_clip_from_world(sample.sky_W));
+  program.set(Uniform::normal_offset, static_cast<float>(3.0 * bounds_.solid.radius / side));
+  program.set(Uniform::eye, Eigen::Vector3f(list_->camera.eye.cast<float>()));
+  program.set(Uniform::key_direction, Eigen::Vector3f(sample.key_W.cast<float>()));
+  program.set(Uniform::sky_direction, Eigen::Vector3f(sample.sky_W.cast<float>()));
+  program.set(Uniform::texel, 1.0f / kKeyMapSide);
+  program.set(Uniform::key_shadow, kKeyUnit);
+  program.set(Uniform::sky_shadow, kSkyUnit);
+  gl_.ActiveTexture(GL_TEXTURE0 + kSkyUnit);
+  gl_.BindTexture(GL_TEXTURE_2D, sky_map_ ? sky_map_->texture : key_map_.texture);
+  gl_.ActiveTexture(GL_TEXTURE0 + kKeyUnit);
+  gl_.BindTexture(GL_TEXTURE_2D, key_map_.texture);
+}
+
+void ScenePass::draw_items(const Program& program, bool ghosts) const {
+  for (const Item& item : items_) {
+    if (item.ghost != ghosts) continue;
+    program.set(Uniform::world_from_mesh, item.world_from_mesh);
+    program.set(Uniform::normal_from_mesh, item.normal_from_mesh);
+    program.set(Uniform::color, item.color);
+    program.set(Uniform::shininess, item.shininess);
+    item.mesh->draw();
+  }
+}
+
+void ScenePass::draw_solids(const LightSample& sample) const {
+  set_frame(solid_, sample);
+  draw_items(solid_, false);
+}
+
+void ScenePass::set_backdrop(const Program& program) const {
+  program.set(Uniform::background_bottom, linear(list_->background.bottom));
+  program.set(Uniform::background_top, linear(list_->background.top));
+  program.set(Uniform::size_px, static_cast<float>(width_), static_cast<float>(height_));
+}
+
+void ScenePass::draw_floor(const LightSample& sample) const {
+  const Ground& ground = list_->ground;
+  const Vector3& center = list_->camera.target;
+  const double radius = floor_radius(list_->camera, bounds_);
+  set_frame(floor_, sample);
+  set_backdrop(floor_);
+  floor_.set(Uniform::ground,
+             Eigen::Vector4f(
+                 Eigen::Vector4d(center.x(), center.y(), ground.height, radius).cast<float>()));
+  floor_.set(Uniform::grid,
+             Eigen::Vector4f(Eigen::Vector4d(ground.cell, ground.cell * ground.cells_per_major,
+                                             0.008 * ground.cell, 0)
+                                 .cast<float>()));
+  gl_.BindVertexArray(no_vertices_);
+  gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void ScenePass::draw_background() const {
+  background_.use();
+  set_backdrop(background_);
+  gl_.BindVertexArray(no_vertices_);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// Ghosts write their depth first, all of them, and are then coloured where they are nearest: a
+// shell shows one surface, not its inside. Both passes are pushed back a little, so that a ghost in
+// the same place as a body (a robot that follows perfectly) vanishes instead of flickering.
+void ScenePass::draw_ghosts(const LightSample& sample) const {
+  set_frame(ghost_, sample);
+  gl_.Enable(GL_POLYGON_OFFSET_FILL);
+  gl_.PolygonOffset(1.0f, 4.0f);
+  gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  draw_items(ghost_, true);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  draw_items(ghost_, true);
+  gl_.Disable(GL_BLEND);
+  gl_.Disable(GL_POLYGON_OFFSET_FILL);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,84 @@
+// ScenePass: one picture of the bodies, floor and background under one sample of the light.
+//
+// The order of a pass: shadow map(s) of the solids; solids; floor; background where nothing else
+// is; ghosts, depth first. Needs the context current in every call.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "app/render/draw_list.h"
+#include "app/render/gl_objects.h"
+#include "app/render/shaders.h"
+#include "app/render/view.h"
+
+namespace twinarm {
+
+struct LightSample {
+  Vector3 key_W;                                       // towards the key light, unit length
+  Vector3 sky_W = Vector3::UnitZ();                    // towards the piece of sky, unit length
+  Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();  // of the picture under the pixel grid
+};
+
+class ScenePass {
+ public:
+  // `multisampled`: 4 samples a pixel. The table must outlive the pass.
+  ScenePass(const GlTable& gl, int width, int height, const ShaderVariant& variant,
+            bool multisampled);
+
+  // Takes in the meshes and matrices of a list that must stay as it is until the last draw().
+  void prepare(const DrawList& list);
+  void draw(const LightSample& sample);
+  void read(std::uint8_t* rgba) { canvas_.read(rgba); }  // bottom row first
+
+  const Eigen::Matrix4d& clip_from_world() const { return clip_from_world_; }
+
+ private:
+  struct CachedMesh {
+    CachedMesh(const GlTable& gl, std::shared_ptr<const DrawMesh> mesh)
+        : source(std::move(mesh)), gpu(gl, *source) {}
+    std::shared_ptr<const DrawMesh> source;  // keeps the address, which is the key, from reuse
+    GpuMesh gpu;
+  };
+  struct Item {
+    const GpuMesh* mesh;
+    Eigen::Matrix4f world_from_mesh;
+    Eigen::Matrix3f normal_from_mesh;
+    Eigen::Vector4f color;  // linear
+    float shininess;
+    bool ghost;
+  };
+
+  void add_item(const DrawList& list, const Instance& instance);
+  Eigen::Matrix4f light_clip_from_world(const Vector3& towards_light_W) const;
+  void draw_shadow(const ShadowMap& map, const Vector3& towards_light_W);
+  void set_frame(const Program& program, const LightSample& sample) const;
+  void draw_items(const Program& program, bool ghosts) const;
+  void draw_solids(const LightSample& sample) const;
+  void draw_floor(const LightSample& sample) const;
+  void draw_background() const;
+  void draw_ghosts(const LightSample& sample) const;
+  void set_backdrop(const Program& program) const;
+  const GpuMesh& upload(const std::shared_ptr<const DrawMesh>& mesh);
+  void forget_unused_meshes();
+
+  const GlTable& gl_;
+  int width_, height_;
+  Canvas canvas_;
+  ShadowMap key_map_;
+  std::optional<ShadowMap> sky_map_;
+  Program solid_, ghost_, depth_, floor_, background_;
+  GLuint no_vertices_ = 0;  // vertex array for shaders that make their own vertices
+  std::unordered_map<const DrawMesh*, CachedMesh> cache_;
+
+  // The frame at hand.
+  const DrawList* list_ = nullptr;
+  std::vector<Item> items_;
+  SceneBounds bounds_;
+  Eigen::Matrix4d clip_from_world_ = Eigen::Matrix4d::Identity();
+};
+
+}  // namespace twinarm
