@@ -1,6 +1,8 @@
 #include "coupling/kinematic_robot.h"
 
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "solver/fault.h"
 
@@ -35,12 +37,15 @@ KinematicRobot::KinematicRobot(const Model<double>& model, const HandSource& han
   if (!joints.gripper.empty()) gripper_ = static_cast<int>(find(joints.gripper));
   faults.check();
   difference_.assign(iq_.size(), 0.0);
+  for (KvrSample* sample : {&start_, &middle_, &end_})
+    sample->x.t = std::numeric_limits<double>::quiet_NaN();
   set(start_, 0, 1);
   set(end_, 0, 1);
 }
 
 void KinematicRobot::begin_step(double t, double h) {
   if (started_ && start_.x.t == t && end_.x.t == t + h) return;
+  if (started_ && end_.x.t == t) std::swap(start_, end_);  // its pose is known already
   set(start_, t, t + h);
   set(end_, t + h, t);
   middle_.x.t = std::numeric_limits<double>::quiet_NaN();
@@ -65,15 +70,20 @@ const KvrSample& KinematicRobot::at(double t) {
 
 void KinematicRobot::set(KvrSample& sample, double t, double toward) const {
   const HandSample hand = hand_.sample(t, toward);
+  bool changed = std::isnan(sample.x.t);
+  const auto put = [&](double& place, double value) {
+    changed = changed || place != value;
+    place = value;
+  };
   sample.x.t = t;
   for (std::size_t j = 0; j < iq_.size(); ++j) {
-    sample.x.q[iq_[j]] = mapping_.robot_angle(hand, j);
-    sample.x.qd[iv_[j]] = mapping_.robot_rate(hand, j);
+    put(sample.x.q[iq_[j]], mapping_.robot_angle(hand, j));
+    put(sample.x.qd[iv_[j]], mapping_.robot_rate(hand, j));
   }
   if (gripper_ > 0)
-    sample.x.q[model_.iq[static_cast<std::size_t>(gripper_)]] =
-        hand.button ? gripper_closed_ : gripper_open_;
-  forward_kinematics(model_, sample.x, sample.k);
+    put(sample.x.q[model_.iq[static_cast<std::size_t>(gripper_)]],
+        hand.button ? gripper_closed_ : gripper_open_);
+  if (changed) forward_kinematics(model_, sample.x, sample.k);
 }
 
 }  // namespace twinarm

@@ -45,10 +45,15 @@ struct Calibration {
 Calibration read_calibration(const std::filesystem::path& file);
 void write_calibration(const Calibration& calibration, const std::filesystem::path& file);
 
-// Minimises over the parameters' boxes, in the logarithm of each: a global controlled random search
-// (Price 1983, Kaelo and Ali 2006), then a local subplex (Rowan 1990). NLopt's implementations.
+// How the box of the parameters is searched, in the logarithm of each. NLopt's implementations.
+enum class Method {
+  rugged,    // controlled random search (Price 1983, Kaelo and Ali 2006), then subplex: for the
+             // folded law, whose error jumps from one gain to the next
+  multistart // multi-level single linkage over a Sobol sequence (Kucherenko and Sytsko 2005) with
+             // subplex (Rowan 1990) as local search: for the others
+};
 // The same seed gives the same result. Writes the values, the objective and the evaluations.
-void minimise(CalibrationEntry& entry, unsigned seed, int evaluations,
+void minimise(CalibrationEntry& entry, Method method, unsigned seed, int evaluations,
               const std::function<double(const CalibrationEntry&)>& objective);
 std::string optimiser_name();
 

@@ -30,46 +30,68 @@ double evaluate(const std::vector<double>& x, std::vector<double>&, void* data) 
   return value;
 }
 
+// One optimisation from x; the best point of all so far is left in search.best.
+void optimise(nlopt::opt& optimiser, const std::vector<double>& low,
+              const std::vector<double>& high, int evaluations, Search& search,
+              std::vector<double> x) {
+  optimiser.set_lower_bounds(low);
+  optimiser.set_upper_bounds(high);
+  optimiser.set_min_objective(evaluate, &search);
+  optimiser.set_maxeval(evaluations);
+  optimiser.set_xtol_rel(1e-7);
+  double value = 0;
+  try {
+    optimiser.optimize(x, value);
+  } catch (const nlopt::roundoff_limited&) {
+    // The simplex has shrunk to nothing: as good as it gets.
+  } catch (const nlopt::forced_stop&) {
+    check_interrupt();  // NLopt turns what evaluate() throws into this
+    throw;
+  }
+}
+
 }  // namespace
 
 std::string optimiser_name() {
   int major = 0, minor = 0, fix = 0;
   nlopt::version(major, minor, fix);
-  return fmt::format("NLopt {}.{}.{}: GN_CRS2_LM, then LN_SBPLX", major, minor, fix);
+  return fmt::format(
+      "NLopt {}.{}.{}: E3 by GN_CRS2_LM, the others by G_MLSL_LDS with LN_SBPLX; all ended by "
+      "LN_SBPLX",
+      major, minor, fix);
 }
 
-void minimise(CalibrationEntry& entry, unsigned seed, int evaluations,
+void minimise(CalibrationEntry& entry, Method method, unsigned seed, int evaluations,
               const std::function<double(const CalibrationEntry&)>& objective) {
   nlopt::srand(seed);
-  std::vector<double> low, high;
+  std::vector<double> low, high, middle;
   for (const Parameter& p : entry.parameters) {
     low.push_back(std::log(p.low));
     high.push_back(std::log(p.high));
+    middle.push_back(0.5 * (low.back() + high.back()));
   }
-  Search search{entry, objective, {}, HUGE_VAL, 0};
-  std::vector<double> x(low.size());
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = 0.5 * (low[i] + high[i]);
-  for (const auto& [algorithm, share] :
-       {std::pair{nlopt::GN_CRS2_LM, 0.8}, {nlopt::LN_SBPLX, 0.2}}) {
-    nlopt::opt optimiser(algorithm, static_cast<unsigned>(x.size()));
-    optimiser.set_lower_bounds(low);
-    optimiser.set_upper_bounds(high);
-    optimiser.set_min_objective(evaluate, &search);
-    optimiser.set_maxeval(static_cast<int>(share * evaluations));
-    optimiser.set_xtol_rel(1e-6);
-    if (algorithm == nlopt::LN_SBPLX) optimiser.set_initial_step(0.05);
-    double value = 0;
-    try {
-      optimiser.optimize(x, value);
-    } catch (const nlopt::roundoff_limited&) {
-      // The simplex has shrunk to nothing: as good as it gets.
-    } catch (const nlopt::forced_stop&) {
-      check_interrupt();  // NLopt turns what evaluate() throws into this
-      throw;
-    }
-    x = search.best;
+  const auto n = static_cast<unsigned>(middle.size());
+  Search search{entry, objective, middle, HUGE_VAL, 0};
+  const int global = evaluations * 4 / 5;
+  nlopt::opt local(nlopt::LN_SBPLX, n);
+  if (method == Method::rugged) {
+    nlopt::opt crs(nlopt::GN_CRS2_LM, n);
+    crs.set_population(40 * n);
+    optimise(crs, low, high, global, search, middle);
+    local.set_initial_step(0.02);
+  } else {
+    nlopt::opt mlsl(nlopt::G_MLSL_LDS, n);
+    nlopt::opt inner(nlopt::LN_SBPLX, n);
+    inner.set_xtol_rel(1e-4);
+    inner.set_ftol_rel(1e-4);
+    inner.set_maxeval(150);
+    mlsl.set_local_optimizer(inner);
+    mlsl.set_population(8 * n);
+    optimise(mlsl, low, high, global, search, middle);
+    local.set_initial_step(0.05);
   }
-  for (std::size_t i = 0; i < x.size(); ++i) entry.parameters[i].value = std::exp(search.best[i]);
+  optimise(local, low, high, evaluations - global, search, search.best);
+  for (std::size_t i = 0; i < n; ++i) entry.parameters[i].value = std::exp(search.best[i]);
   entry.objective = search.best_value;
   entry.evaluations = search.evaluations;
 }

@@ -1,14 +1,135 @@
+// twinarm study: the paper's experiments from robot to report (docs/study.md).
+#include <fmt/format.h>
+
+#include <chrono>
+
 #include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/output_file.h"
 #include "app/study/calibrate.h"
+#include "app/study/figures.h"
+#include "app/study/findings.h"
+#include "app/study/output_csv.h"
+#include "app/study/output_json.h"
+#include "app/study/pictures.h"
+#include "app/study/report.h"
+#include "app/study/variants.h"
+#include "coupling/recorded_trace.h"
+#include "coupling/synthetic_operator.h"
+#include "solver/fault.h"
 
 namespace twinarm {
+namespace {
+
+std::unique_ptr<HandSource> make_hand(const StudyOptions& options, const StudySettings& settings) {
+  if (options.device == "trace" && options.trace.empty())
+    throw InputError({{"", 0, "--device trace", "no trace is given", "add --trace FILE.csv"}});
+  if (!options.trace.empty()) return std::make_unique<RecordedTrace>(options.trace);
+  return std::make_unique<SyntheticOperator>(options.seed.value_or(settings.seed),
+                                             settings.operator_duration);
+}
+
+std::string command_of(const StudyOptions& options) {
+  std::string command = "twinarm study --out " + options.out.string();
+  if (!options.trace.empty()) command += " --trace " + options.trace.string();
+  if (options.seed) command += fmt::format(" --seed {}", *options.seed);
+  if (options.paper_view) command += " --paper-view";
+  return command;
+}
+
+void fill_search_table(const StudySettings& settings, StudyResults& results) {
+  for (double rate : settings.search_rates_hz) {
+    SearchRow row;
+    row.rate = rate;
+    for (const std::string& law : e3_laws())
+      row.e3[law] = &results.calibration.entry(fmt::format("E3/{:g}/{}", rate, law));
+    row.e4 = &results.calibration.entry(fmt::format("E4/{:g}", rate));
+    results.search.push_back(row);
+  }
+}
+
+StudyResults compute(const StudyOptions& options, const StudyInputs& inputs, const HandSource& hand,
+                     const Calibration& calibration, Progress& progress) {
+  StudyResults results;
+  results.calibration = calibration;
+  results.hand_description = hand.description();
+  results.command = command_of(options);
+  results.settings_text = read_whole_file(inputs.settings.assets / "study" / "settings.toml");
+  results.arm2_mass_scale = calibration.entry("chosen").numbers.at("arm2_mass_scale");
+  for (const LinkDescription& link : inputs.s103.links)
+    results.link_masses.emplace_back(link.name, link.mass);
+  fill_search_table(inputs.settings, results);
+
+  const StudyRobot robot =
+      StudyRobot::s103(inputs.settings, inputs.s103, results.arm2_mass_scale);
+  progress.stage("E1 to E4", 0.02);
+  results.reproduction = run_reproduction(robot, calibration, hand);
+  progress.stage("variants: gains by trial, matched, implicit, held, ablations", 0.18);
+  results.variants = run_variants(inputs, robot, calibration, progress);
+  progress.stage("findings", 0.15);
+  results.findings = derive_findings(inputs, results, progress);
+  results.answer = answer_in_words(results);
+  progress.stage("the obstacle, and pictures", 0.45);
+  run_obstacles_and_paint(inputs, robot, results, options.out, options.paper_view, progress);
+  return results;
+}
+
+void tell_people(const StudyResults& results, const std::filesystem::path& report) {
+  fmt::print("\nTable 2, in degrees: measured (published)\n\n");
+  fmt::print("{:24}", "");
+  for (const RunResult& result : results.reproduction) fmt::print("{:>18}", result.spec.name);
+  const auto line = [&](const char* title, auto measured, auto published) {
+    fmt::print("\n  {:22}", title);
+    for (const RunResult& result : results.reproduction)
+      fmt::print("{:>18}", fmt::format("{:.2f} ({:.1f})", measured(result),
+                                       published(paper_table().at(result.spec.name))));
+  };
+  for (std::size_t j = 0; j < 2; ++j)
+    line(j == 0 ? "maximum, joint 1" : "maximum, joint 2",
+         [j](const RunResult& r) { return r.max_deg[j]; },
+         [j](const PaperRow& p) { return p.max_deg[j]; });
+  for (std::size_t j = 0; j < 2; ++j)
+    line(j == 0 ? "mean, joint 1" : "mean, joint 2",
+         [j](const RunResult& r) { return r.mean_deg[j]; },
+         [j](const PaperRow& p) { return p.mean_deg[j]; });
+  fmt::print("\n\n  E3, E4: gains calibrated. E1, E2: the same gains on a hand that is not the "
+             "paper's ({}).\n\n", results.hand_description);
+  for (const std::string& sentence : results.answer) fmt::print("{}\n", sentence);
+  fmt::print("\nReport: {}  ({:.0f} s)\n", report.string(), results.seconds);
+}
+
+}  // namespace
 
 int run_study(const StudyOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
   const std::filesystem::path assets = find_assets(options.assets);
+  require_writable_folder(options.out);
   const StudyInputs inputs = load_inputs(assets);
+  const std::unique_ptr<HandSource> hand = make_hand(options, inputs.settings);
+  const std::filesystem::path calibration_file = assets / "study" / "calibration.json";
+  if (options.recalibrate) {
+    Progress progress(false);
+    write_calibration(calibrate(inputs, progress), calibration_file);
+  }
+  const Calibration calibration = read_calibration(calibration_file);
+
   Progress progress(false);
-  if (options.recalibrate)
-    write_calibration(calibrate(inputs, progress), assets / "study" / "calibration.json");
+  StudyResults results = compute(options, inputs, *hand, calibration, progress);
+  progress.stage("figures and report", 0.2);
+  write_figures(results, options.out / "figures");
+  progress.advance(0.6);
+  write_csv(results, options.out / "csv");
+  results.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  write_report(results, options.out);
+  const std::filesystem::path report = options.out / "report.html";
+  const std::string json = study_json(results, report.string());
+  write_file(options.out / "study.json", json + "\n");
+  progress.finish();
+  if (options.json)
+    fmt::print("{}\n", json);
+  else
+    tell_people(results, report);
   return 0;
 }
 
