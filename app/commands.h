@@ -10,7 +10,7 @@ namespace twinarm {
 
 struct StudyOptions {
   std::filesystem::path out = "out/study";
-  std::string device = "synthetic";
+  std::string device;            // "synthetic" or "trace"; empty: a trace if one is given
   std::optional<unsigned> seed;  // left out: the settings' seed
   std::filesystem::path trace;
   bool recalibrate = false, paper_view = false, json = false;

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "app/commands.h"
 #include "app/interrupt.h"
@@ -12,7 +14,7 @@ namespace {
 
 using namespace twinarm;
 
-enum ExitCode { kDone = 0, kShort = 1, kBadInput = 2, kInternal = 4, kInterrupted = 130 };
+enum ExitCode { kDone = 0, kBadInput = 2, kInternal = 4, kInterrupted = 130 };
 
 // All faults at once: on stderr for people, on stdout for machines too.
 int tell(const InputError& error, bool as_json) {
@@ -35,9 +37,10 @@ void add_study(CLI::App& app, StudyOptions& options, std::function<int()>& comma
                          "The paper's study: E1 to E4, what explains them, and a report\n\n"
                          "Example:  twinarm study --out out/study");
   study->add_option("--out", options.out, "folder for report, figures, CSV")->capture_default_str();
-  study->add_option("--device", options.device, "hand of E1 and E2: synthetic, or trace")
-      ->check(CLI::IsMember({"synthetic", "trace"}))
-      ->capture_default_str();
+  study
+      ->add_option("--device", options.device,
+                   "hand of E1 and E2: synthetic, or trace (default: trace if one is given)")
+      ->check(CLI::IsMember({"synthetic", "trace"}));
   study->add_option("--seed", options.seed, "of the synthetic operator");
   study->add_option("--trace", options.trace, "CSV of a recorded hand, for E1 and E2");
   study->add_flag("--recalibrate", options.recalibrate,
@@ -89,7 +92,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kBadInput;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    const bool as_json =
+        std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
+    return tell(InputError({{"", 0, "command line", error.what(), "see twinarm --help"}}), as_json);
   }
 
   catch_interrupts();

@@ -1,5 +1,5 @@
 // A progress bar with the time left, on stderr. Silent where stderr is no terminal, but for one
-// line per finished stage.
+// line as a stage begins.
 #pragma once
 
 #include <chrono>

@@ -71,7 +71,6 @@ void BroadPhase::overlaps(std::span<const Aabb> boxes, Pairs& pairs) {
     impl_->manager.update();
   }
   impl_->manager.collide(&pairs, collect);
-  std::sort(pairs.begin(), pairs.end());
 }
 
 }  // namespace twinarm

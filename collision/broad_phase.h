@@ -23,7 +23,7 @@ class BroadPhase {
 
   // One more box; returns its index. Call overlaps() with a box for each.
   int add();
-  // All overlapping pairs (i < j), in ascending order whatever the shape of the tree.
+  // All overlapping pairs (i < j), in an order that depends on the shape of the tree: sort them.
   void overlaps(std::span<const Aabb> boxes, std::vector<std::pair<int, int>>& pairs);
 
  private:

@@ -1,5 +1,6 @@
 #include "coupling/linear.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "coupling/treatment.h"
@@ -11,7 +12,10 @@ LinearCoupling::LinearCoupling(std::string name, const Model<double>& model, Kin
                                std::vector<Spring> springs, Treatment treatment, int hold_steps)
     : Coupling(std::move(name), model, kvr, std::move(springs)),
       treatment_(treatment),
-      hold_steps_(hold_steps) {}
+      hold_steps_(hold_steps) {
+  if (hold_steps > 0 && treatment != Treatment::explicit_)
+    throw std::invalid_argument("a held force is explicit: it cannot see the end of the step");
+}
 
 void LinearCoupling::begin_step(const Kinematics&, double t, double h) noexcept {
   h_ = h;

@@ -27,6 +27,8 @@ void MatchedTorsional::add_forces(const State<double>& x, const Kinematics&,
           at_kvr_.K(r, c) * (target.x.q[j] - x.q[j]) + at_kvr_.B(r, c) * (target.x.qd[j] - x.qd[j]);
     }
     forces.tau[static_cast<std::size_t>(r)] += tau;
+    if (static_cast<std::size_t>(r) < readings_.size())
+      readings_[static_cast<std::size_t>(r)].size = tau;  // a torque of joint r, not of a spring
   }
 }
 

@@ -1,5 +1,6 @@
 #include "coupling/torsional.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "coupling/treatment.h"
@@ -13,7 +14,10 @@ TorsionalCoupling::TorsionalCoupling(std::string name, const Model<double>& mode
     : Coupling(std::move(name), model, kvr, std::move(springs)),
       measure_(measure),
       treatment_(treatment),
-      hold_steps_(hold_steps) {}
+      hold_steps_(hold_steps) {
+  if (hold_steps > 0 && treatment != Treatment::explicit_)
+    throw std::invalid_argument("a held force is explicit: it cannot see the end of the step");
+}
 
 void TorsionalCoupling::begin_step(const Kinematics&, double t, double h) noexcept {
   h_ = h;

@@ -15,6 +15,7 @@ namespace twinarm {
 template <class S>
 void aba(const Model<S>& model, const State<S>& x, const Forces<S>& forces, Workspace<S>& w) {
   const std::size_t n_bodies = model.parent.size();
+  forget(w.v), forget(w.c), forget(w.IA), forget(w.pA), forget(w.a), forget(w.qdd);
   w.v[0] = {};
   w.a[0] = {{}, -model.gravity};  // gravity as an upward acceleration of the base
 

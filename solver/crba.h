@@ -15,6 +15,7 @@ void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w,
           Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>& M) {
   const std::size_t n_bodies = model.parent.size();
   const auto at = [](std::size_t k) { return static_cast<Eigen::Index>(k); };
+  forget(w.Ic);
   M.setZero(at(model.nv), at(model.nv));
 
   for (std::size_t i = 1; i < n_bodies; ++i) {

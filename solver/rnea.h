@@ -14,6 +14,7 @@ template <class S>
 void rnea(const Model<S>& model, const State<S>& x, const std::vector<S>& qdd,
           const std::vector<Force<S>>& f_ext, Workspace<S>& w) {
   const std::size_t n_bodies = model.parent.size();
+  forget(w.v), forget(w.c), forget(w.a), forget(w.f), forget(w.tau);
   w.v[0] = {};
   w.a[0] = {{}, -model.gravity};
 

@@ -2,10 +2,11 @@
 //
 // Everything is indexed by body (base included) unless marked "by velocity", and stands in body
 // axes about the body's origin. Sorted by the pass that writes it. In debug builds each pass fills
-// its fields with NaN first, so that a value read too early shows.
+// its fields with NaN first (forget), so that a value read too early shows.
 #pragma once
 
-#include <limits>
+#include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "solver/model.h"
@@ -32,6 +33,15 @@ struct Forces {
     impedance.assign(impedance.size(), ArticulatedInertia<S>{});
   }
 };
+
+// In debug builds: fills with NaN (all bits set, for float and double alike).
+template <class T>
+void forget([[maybe_unused]] std::vector<T>& field) {
+#ifndef NDEBUG
+  static_assert(std::is_trivially_copyable_v<T>);
+  if (!field.empty()) std::memset(static_cast<void*>(field.data()), 0xFF, field.size() * sizeof(T));
+#endif
+}
 
 template <class S>
 struct Workspace {

@@ -6,9 +6,9 @@
 
 namespace twinarm {
 
-std::vector<Finding> derive_findings(const StudyInputs& inputs, const StudyResults& results,
-                                     Progress& progress);
-// Needs everything else of the results.
+// Fills results.findings and results.rows; needs the runs.
+void derive_findings(const StudyInputs& inputs, StudyResults& results, Progress& progress);
+// Needs the runs and the findings.
 std::vector<std::string> answer_in_words(const StudyResults& results);
 
 }  // namespace twinarm

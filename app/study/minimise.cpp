@@ -44,8 +44,8 @@ void optimise(nlopt::opt& optimiser, const std::vector<double>& low,
     optimiser.optimize(x, value);
   } catch (const nlopt::roundoff_limited&) {
     // The simplex has shrunk to nothing: as good as it gets.
-  } catch (const nlopt::forced_stop&) {
-    check_interrupt();  // NLopt turns what evaluate() throws into this
+  } catch (const std::exception&) {
+    check_interrupt();  // NLopt turns what evaluate() throws into errors of its own
     throw;
   }
 }

@@ -40,9 +40,9 @@ double beyond_face(const ContactReading& reading, const Kinematics& k_D, const K
 }
 
 // The spring and joint whose target radius comes nearest to its limit.
-void watch_target_radius(const Coupling& coupling,
-                         const Model<double>& model, const State<double>& x, const Kinematics& k,
-                         double h, ObstacleRun& result, double& nearest) {
+void watch_target_radius(const Coupling& coupling, const Model<double>& model,
+                         const State<double>& x, const Kinematics& k, double h, ObstacleRun& result,
+                         double& nearest) {
   const Eigen::MatrixXd M = mass_matrix(model, x);
   for (std::size_t s = 0; s < coupling.springs().size(); ++s) {
     const Spring& spring = coupling.springs()[s];
@@ -98,9 +98,9 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
   spec.name = result.name;
   spec.type = type;
   spec.treatment = Treatment::implicit;
-  result.gains = gains_from_frequency(robot, spec, o.coupling_frequency_hz, o.coupling_damping_ratio);
-  spec.springs =
-      robot.springs(result.gains.k1, result.gains.b1, result.gains.k2, result.gains.b2);
+  result.gains =
+      gains_from_frequency(robot, spec, o.coupling_frequency_hz, o.coupling_damping_ratio);
+  spec.springs = robot.springs(result.gains.k1, result.gains.b1, result.gains.k2, result.gains.b2);
 
   const AutomaticMotion hand{HandMapping{}};
   TrackingSetup setup;
@@ -136,8 +136,8 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
     result.beyond.push_back(beyond);
     result.penetration.push_back(contact.deepest(k));
     if (linear && t > 0)
-      watch_target_radius(system.coupling(0), model, system.simulation().state(), k,
-                          setup.h, result, nearest);
+      watch_target_radius(system.coupling(0), model, system.simulation().state(), k, setup.h,
+                          result, nearest);
     if (result.picture_time == 0 && t >= picture_time) {
       result.picture_time = t;
       if (at_picture) at_picture(system);

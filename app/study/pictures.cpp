@@ -18,7 +18,10 @@ class Pictures {
  public:
   Pictures(const StudyInputs& inputs, const StudyRobot& robot, std::filesystem::path folder,
            bool paper_view)
-      : inputs_(inputs), robot_(robot), folder_(std::move(folder)), paper_view_(paper_view),
+      : inputs_(inputs),
+        robot_(robot),
+        folder_(std::move(folder)),
+        paper_view_(paper_view),
         scene_(inputs.s103, robot.kvr_model()) {
     std::filesystem::create_directories(folder_);
   }
@@ -65,8 +68,9 @@ class Pictures {
     if (!paper_view_) scene_.add_ghost(k_K);
     if (!paper_view_ && linear) scene_.add_springs(readings, "N");
     if (!paper_view_ && !linear) scene_.add_couples(readings);
-    scene_.list().title = fmt::format("{} at its largest error, t = {:.2f} s",
-                                      result.spec.name, s.t[worst]);
+    scene_.look(-60, 32, 1.95, {0.26, 0, 0.52});
+    scene_.list().title =
+        fmt::format("{} at its largest error, t = {:.2f} s", result.spec.name, s.t[worst]);
     paint(result.spec.name + ".png", Quality::normal);
   }
 
@@ -81,9 +85,10 @@ class Pictures {
       if (!linear) scene_.add_couples(system.coupling(0).readings());
     }
     scene_.add_obstacle(box.X_WB, box.size);
-    scene_.list().title = fmt::format("{} coupling, t = {:.2f} s: the DVR is stopped, the KVR goes on",
-                                      linear ? "Linear" : "Torsional",
-                                      system.simulation().state().t);
+    scene_.look(30, 27, 2.55, {0.30, -0.12, 0.42});  // sees the face that stops the DVR
+    scene_.list().title =
+        fmt::format("{} coupling, t = {:.2f} s: the DVR is stopped, the KVR goes on",
+                    linear ? "Linear" : "Torsional", system.simulation().state().t);
     paint(linear ? "obstacle-linear.png" : "obstacle-torsional.png", Quality::normal);
   }
 
@@ -125,9 +130,8 @@ void run_obstacles_and_paint(const StudyInputs& inputs, const StudyRobot& robot,
   pictures.at_largest_error(results.reproduction.at(3));
   progress.advance(0.7);
   for (CouplingSpec::Type type : {CouplingSpec::Type::linear, CouplingSpec::Type::torsional})
-    results.obstacle.push_back(run_obstacle(inputs, robot, type, [&](TrackingSystem& system) {
-      pictures.stopped(system, type);
-    }));
+    results.obstacle.push_back(run_obstacle(
+        inputs, robot, type, [&](TrackingSystem& system) { pictures.stopped(system, type); }));
 }
 
 }  // namespace twinarm

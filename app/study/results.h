@@ -21,16 +21,16 @@ struct Finding {
 
 // The automatic motion with a box in the way.
 struct ObstacleRun {
-  std::string name;          // "linear", "torsional"
+  std::string name;  // "linear", "torsional"
   Gains gains;
   std::string treatment;
-  std::vector<double> t;                        // [s]
+  std::vector<double> t;  // [s]
   std::vector<std::array<double, 2>> q_K_deg, q_D_deg;
-  std::vector<double> pull;                     // largest spring force [N], or couple [N m]
-  std::vector<double> contact_force;            // sum of normal forces [N]
-  std::vector<double> penetration;              // of the DVR [m]
-  std::vector<double> beyond;                   // of the KVR: how far past the touched face [m]
-  std::string pull_unit;                        // "N" or "N m"
+  std::vector<double> pull;           // largest spring force [N], or couple [N m]
+  std::vector<double> contact_force;  // sum of normal forces [N]
+  std::vector<double> penetration;    // of the DVR [m]
+  std::vector<double> beyond;         // of the KVR: how far past the touched face [m]
+  std::string pull_unit;              // "N" or "N m"
   double largest_penetration = 0, largest_beyond = 0, largest_pull = 0, largest_force = 0;
   double target_radius_ratio = 0;               // largest R_K / r that occurred (linear)
   double target_radius_limit = 0;               // largest stable R_K / r (linear)
@@ -49,13 +49,14 @@ struct StudyResults {
   std::vector<RunResult> reproduction;  // E1, E2, E3, E4, in this order
   std::vector<RunResult> variants;
   std::vector<Finding> findings;
-  std::vector<ObstacleRun> obstacle;    // linear, torsional
-  std::vector<std::string> answer;      // five lines, each with its number
-  std::string hand_description;         // of E1 and E2
+  std::map<std::string, ProtocolErrors> rows;  // of the two-link robots, by calibration entry
+  std::vector<ObstacleRun> obstacle;           // linear, torsional
+  std::vector<std::string> answer;             // five lines, each with its number
+  std::string hand_description;                // of E1 and E2
   double arm2_mass_scale = 1;
-  double seconds = 0;                   // that the study took
-  std::string command;                  // that made it
-  std::string settings_text;            // settings.toml as it was used
+  double seconds = 0;         // that the study took
+  std::string command;        // that made it
+  std::string settings_text;  // settings.toml as it was used
   Calibration calibration;
   std::vector<SearchRow> search;
   // Parameters of the robot for the report: link, mass [kg], and the unit of the paper.

@@ -24,7 +24,8 @@ RobotScene::RobotScene(const RobotDescription& description, const Model<double>&
       if (!mesh) continue;
       const Eigen::Vector4f c = visual.color.cast<float>();
       parts_.push_back({static_cast<std::size_t>(model.find_body(link.name)),
-                        list_.register_mesh(load_mesh(mesh->file, mesh->scale)), visual.X_LG(),
+                        list_.register_mesh(load_mesh(mesh->file, mesh->scale)),
+                        visual.X_LG(),
                         {c(0), c(1), c(2), c(3)}});
     }
   list_.ground.cell = 0.1;
@@ -75,8 +76,8 @@ void RobotScene::look(double azimuth_deg, double elevation_deg, double distance,
   constexpr double degree = std::numbers::pi / 180;
   const double a = azimuth_deg * degree, e = elevation_deg * degree;
   list_.camera.target = target;
-  list_.camera.eye =
-      target + distance * Vector3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
+  list_.camera.eye = target + distance * Vector3(std::cos(e) * std::cos(a),
+                                                 std::cos(e) * std::sin(a), std::sin(e));
 }
 
 }  // namespace twinarm

@@ -17,8 +17,8 @@ class RobotScene {
   RobotScene(const RobotDescription& description, const Model<double>& model);
 
   void clear() { list_.clear_frame(); }
-  void add_robot(const Kinematics& k);                     // solid, in its own colours
-  void add_ghost(const Kinematics& k);                     // translucent
+  void add_robot(const Kinematics& k);  // solid, in its own colours
+  void add_ghost(const Kinematics& k);  // translucent
   void add_springs(const std::vector<SpringReading>& readings, const std::string& unit);
   void add_couples(const std::vector<SpringReading>& readings);  // arrows along the couples
   void add_obstacle(const Pose& X_WB, const Vector3& size);

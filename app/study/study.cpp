@@ -24,6 +24,9 @@ namespace {
 std::unique_ptr<HandSource> make_hand(const StudyOptions& options, const StudySettings& settings) {
   if (options.device == "trace" && options.trace.empty())
     throw InputError({{"", 0, "--device trace", "no trace is given", "add --trace FILE.csv"}});
+  if (options.device == "synthetic" && !options.trace.empty())
+    throw InputError({{"", 0, "--trace", "a trace is given, but --device says synthetic",
+                       "leave --device out, or give --device trace"}});
   if (!options.trace.empty()) return std::make_unique<RecordedTrace>(options.trace);
   return std::make_unique<SyntheticOperator>(options.seed.value_or(settings.seed),
                                              settings.operator_duration);
@@ -60,14 +63,13 @@ StudyResults compute(const StudyOptions& options, const StudyInputs& inputs, con
     results.link_masses.emplace_back(link.name, link.mass);
   fill_search_table(inputs.settings, results);
 
-  const StudyRobot robot =
-      StudyRobot::s103(inputs.settings, inputs.s103, results.arm2_mass_scale);
+  const StudyRobot robot = StudyRobot::s103(inputs.settings, inputs.s103, results.arm2_mass_scale);
   progress.stage("E1 to E4", 0.02);
   results.reproduction = run_reproduction(robot, calibration, hand);
   progress.stage("variants: gains by trial, matched, implicit, held, ablations", 0.18);
   results.variants = run_variants(inputs, robot, calibration, progress);
   progress.stage("findings", 0.15);
-  results.findings = derive_findings(inputs, results, progress);
+  derive_findings(inputs, results, progress);
   results.answer = answer_in_words(results);
   progress.stage("the obstacle, and pictures", 0.45);
   run_obstacles_and_paint(inputs, robot, results, options.out, options.paper_view, progress);
@@ -85,15 +87,19 @@ void tell_people(const StudyResults& results, const std::filesystem::path& repor
                                        published(paper_table().at(result.spec.name))));
   };
   for (std::size_t j = 0; j < 2; ++j)
-    line(j == 0 ? "maximum, joint 1" : "maximum, joint 2",
-         [j](const RunResult& r) { return r.max_deg[j]; },
-         [j](const PaperRow& p) { return p.max_deg[j]; });
+    line(
+        j == 0 ? "maximum, joint 1" : "maximum, joint 2",
+        [j](const RunResult& r) { return r.max_deg[j]; },
+        [j](const PaperRow& p) { return p.max_deg[j]; });
   for (std::size_t j = 0; j < 2; ++j)
-    line(j == 0 ? "mean, joint 1" : "mean, joint 2",
-         [j](const RunResult& r) { return r.mean_deg[j]; },
-         [j](const PaperRow& p) { return p.mean_deg[j]; });
-  fmt::print("\n\n  E3, E4: gains calibrated. E1, E2: the same gains on a hand that is not the "
-             "paper's ({}).\n\n", results.hand_description);
+    line(
+        j == 0 ? "mean, joint 1" : "mean, joint 2",
+        [j](const RunResult& r) { return r.mean_deg[j]; },
+        [j](const PaperRow& p) { return p.mean_deg[j]; });
+  fmt::print(
+      "\n\n  E3, E4: gains calibrated. E1, E2: the same gains on a hand that is not the "
+      "paper's ({}).\n\n",
+      results.hand_description);
   for (const std::string& sentence : results.answer) fmt::print("{}\n", sentence);
   fmt::print("\nReport: {}  ({:.0f} s)\n", report.string(), results.seconds);
 }
@@ -119,8 +125,7 @@ int run_study(const StudyOptions& options) {
   write_figures(results, options.out / "figures");
   progress.advance(0.6);
   write_csv(results, options.out / "csv");
-  results.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  results.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_report(results, options.out);
   const std::filesystem::path report = options.out / "report.html";
   const std::string json = study_json(results, report.string());

@@ -65,6 +65,10 @@ RunResult run(const StudyRobot& robot, const HandSource& hand, const RunSpec& sp
 }
 
 void predict(const StudyRobot& robot, RunResult& result) {
+  predict(robot, result, robot.start_state());
+}
+
+void predict(const StudyRobot& robot, RunResult& result, const State<double>& pose) {
   const RunSpec& spec = result.spec;
   const Model<double>& model = robot.dvr_model(spec.coupling.type);
   const AutomaticMotion hand{HandMapping{}};
@@ -73,9 +77,9 @@ void predict(const StudyRobot& robot, RunResult& result) {
   main.springs = robot.springs(spec.gains.k1, spec.gains.b1, spec.gains.k2, spec.gains.b2);
   const auto coupling = make_coupling(main, model, kvr);
   Kinematics k(model);
-  forward_kinematics(model, robot.start_state(), k);
+  forward_kinematics(model, pose, k);
   const Coupling::JointSpace full = coupling->joint_space(k);
-  const Eigen::Matrix2d M = robot.start_inertia(spec.coupling.type);
+  const Eigen::Matrix2d M = mass_matrix(model, pose).topLeftCorner<2, 2>();
   const Eigen::Matrix2d K = full.K.topLeftCorner<2, 2>(), B = full.B.topLeftCorner<2, 2>();
 
   const Eigen::VectorXd squares = squared_frequencies(M, K);

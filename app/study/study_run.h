@@ -37,14 +37,16 @@ struct RunResult {
   std::array<double, 2> max_deg{}, mean_deg{};
   bool stable = false;  // stayed finite and within half a turn
 
-  // Linear theory about the pose at the start; filled by predict().
+  // Linear theory about a pose; filled by predict().
   std::array<double, 2> frequency{};  // natural [rad/s], ascending
   double step_limit = 0;              // largest stable step of the scheme [s]
   std::array<double, 2> peak_deg{};   // predicted error after a reversal of the automatic motion
 };
 
 RunResult run(const StudyRobot& robot, const HandSource& hand, const RunSpec& spec);
+// About the start of the automatic motion, or about another pose.
 void predict(const StudyRobot& robot, RunResult& result);
+void predict(const StudyRobot& robot, RunResult& result, const State<double>& pose);
 
 // The objective of the searches: errors over several sweep times T, weighted by T, so that no
 // resonance with one T is exploited.

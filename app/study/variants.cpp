@@ -99,7 +99,7 @@ void add_held(const StudySettings& s, const Calibration& calibration, Runner& ad
       RunSpec spec = trial_spec(law, rate);
       spec.gains = calibration.entry(fmt::format("trial/{}/{:g}", law, rate)).gains();
       spec.held_substeps = static_cast<int>(std::lround(s.held_physics_hz / rate));
-      add(fmt::format("held/{}/{:g}-held", law, rate), "force held, physics at 1 kHz", spec);
+      add(fmt::format("held/{}/{:g}-held", law, rate), "force held, physics near 1 kHz", spec);
     }
 }
 
@@ -141,8 +141,8 @@ std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibrati
   std::vector<RunResult> results;
   for (const char* name : {"E1", "E2", "E3", "E4"}) {
     const bool torsional = name[1] == '1' || name[1] == '3', by_user = name[1] < '3';
-    RunSpec spec = torsional ? with_gains(e3_spec("world-", rate), e3)
-                             : with_gains(e4_spec(rate), e4);
+    RunSpec spec =
+        torsional ? with_gains(e3_spec("world-", rate), e3) : with_gains(e4_spec(rate), e4);
     spec.name = name;
     spec.title = fmt::format("{}, {}", torsional ? "torsional" : "linear",
                              by_user ? "by user (synthetic hand)" : "automatic");

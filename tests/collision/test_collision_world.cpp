@@ -117,11 +117,45 @@ TEST_CASE("lying and standing cylinders and capsules touch along what touches") 
       const Pose X{turn(0.3, Vector3::UnitZ()) * c.R, {0.1, 0.05, 0.1 + c.height - depth}};
       const auto contacts = touch(table, origin, c.shape, X);
       REQUIRE(contacts.size() == c.count);
+      const auto swapped = touch(c.shape, X, table, origin);
+      REQUIRE(swapped.size() == c.count);
+      for (const Contact& contact : swapped) {
+        CHECK(std::abs(contact.depth - depth) < 1e-8);
+        CHECK((contact.n_W + Vector3::UnitZ()).norm() < 1e-8);
+        CHECK(std::abs(contact.p_WC.z() - (0.1 - depth / 2)) < 1e-8);
+      }
       for (const Contact& contact : contacts) {
         CHECK(std::abs(contact.depth - depth) < 1e-8);
         CHECK((contact.n_W - Vector3::UnitZ()).norm() < 1e-8);
         CHECK(std::abs(contact.p_WC.z() - (0.1 - depth / 2)) < 1e-8);
       }
+    }
+  }
+}
+
+TEST_CASE("of many corners the four that are kept span most of the face") {
+  std::vector<Vector3> prism;
+  for (int k = 0; k < 64; ++k) {
+    const double angle = 2 * M_PI * (k / 2) / 32;
+    prism.emplace_back(0.1 * std::cos(angle), 0.1 * std::sin(angle), k % 2 == 0 ? -0.05 : 0.05);
+  }
+  const Pose X{turn(0.2, Vector3::UnitZ()), {0.1, 0.05, 0.15 - 1e-5}};
+  for (const Shape& shape : {Shape(convex_hull(prism)), Shape(Cylinder{0.1, 0.1})}) {
+    for (const Shape& ground : {Shape(Box{{1, 1, 0.2}}), Shape(HalfSpace{Vector3::UnitZ(), 0.1})}) {
+      const auto contacts = touch(ground, origin, shape, X);
+      REQUIRE(contacts.size() == 4);
+      std::vector<std::pair<double, Vector3>> round;
+      for (const Contact& c : contacts) {
+        const Vector3 r = c.p_WC - X.p;
+        round.emplace_back(std::atan2(r.y(), r.x()), r);
+      }
+      std::sort(round.begin(), round.end(),
+                [](const auto& x, const auto& y) { return x.first < y.first; });
+      double area = 0;
+      for (int i = 0; i < 4; ++i) {
+        area += 0.5 * round[i].second.cross(round[(i + 1) % 4].second).z();
+      }
+      CHECK(area > 0.9 * 2 * 0.1 * 0.1);  // of the inscribed square
     }
   }
 }
@@ -167,13 +201,31 @@ TEST_CASE("a box flat on a half-space has its 4 lower corners, and they keep the
   }
 }
 
+TEST_CASE("corners where sides cross have different names, which last while the box slides") {
+  std::vector<Contact> before;
+  for (int k = 0; k < 50; ++k) {  // a box that hangs over the corner of another, turned
+    const Pose X{turn(0.3 + 1e-3 * k, Vector3::UnitZ()), {0.45 + 1e-3 * k, 0.48, 0.15 - 1e-4}};
+    const auto contacts = touch(Box{{1, 1, 0.2}}, origin, Box{{0.2, 0.14, 0.1}}, X);
+    REQUIRE(contacts.size() == 4);
+    std::set<int> names;
+    for (const Contact& c : contacts) names.insert(c.feature);
+    CHECK(names.size() == 4);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      CHECK(contacts[i].feature == before[i].feature);
+      CHECK((contacts[i].p_WC - before[i].p_WC).norm() < 0.01);
+    }
+    before = contacts;
+  }
+}
+
 TEST_CASE("contacts of a pile come ordered, each pair once, the same bits whenever asked") {
   CollisionWorld world, again;
   Random random(14);
   std::vector<Pose> poses;
   const auto things = things_to_put_down();
   for (int i = 0; i < 40; ++i) {
-    const Geometry geometry{"thing", things[i % things.size()], 0};
+    const Shape& shape = i == 20 ? Shape(HalfSpace{}) : things[i % things.size()];
+    const Geometry geometry{"thing", shape, 0};
     world.add(geometry);
     again.add(geometry);
     poses.push_back({random.rotation(), 0.25 * random.direction()});

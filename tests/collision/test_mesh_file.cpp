@@ -101,7 +101,7 @@ TEST_CASE("a box of 1 mm in metres comes back welded and closed from STL and OBJ
     CHECK(mesh.vertices.size() == 8);
     CHECK(mesh.triangles.size() == 12);
     REQUIRE(is_closed(mesh));
-    CHECK(mass_properties(mesh, 1).mass == doctest::Approx(8e-9));
+    CHECK(mass_properties(mesh, 1).mass / 8e-9 == doctest::Approx(1));
   }
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("random damage to a file is an error or a finite mesh, never a crash")
       for (int i = 0; i < 5; ++i) {
         const auto at =
             static_cast<std::size_t>(random.uniform(0, static_cast<double>(text.size())));
-        text[at] = static_cast<char>(random.uniform(0, 255));
+        text[at] = static_cast<char>(static_cast<unsigned char>(random.uniform(0, 255)));
       }
       if (k % 3 == 0) text.resize(text.size() / 2);
       const fs::path file = folder.write(good[0] == ' ' ? "x.stl" : "x.obj", text);

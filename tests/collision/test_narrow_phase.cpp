@@ -160,9 +160,11 @@ TEST_CASE("moving b by the depth along the normal parts the bodies") {
       if (pair.detect(X_WA, X_WB).empty()) continue;
       const Vector3 n = pair.contacts[0].n_W;
       length.see(std::abs(n.norm() - 1));
-      X_WB.p += (pair.deepest() + 1e-9) * n;
+      // The search for the direction of a cylinder ends within 1e-8.
+      const double clearance = has_cylinder(a, b) ? 1e-7 : 1e-9;
+      X_WB.p += (pair.deepest() + clearance) * n;
       if (!(pair.world.distance(0, 1, X_WA, X_WB) > 0)) ++still_touching;
-      X_WB.p -= 2e-9 * n;
+      X_WB.p -= 2 * clearance * n;
       if (pair.world.distance(0, 1, X_WA, X_WB) > 1e-3) ++wrong_way;
     }
     CHECK(length.value < 1e-12);

@@ -1,0 +1,173 @@
+#include "app/study/gnuplot.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+
+#include "app/output_file.h"
+#include "solver/fault.h"
+
+extern char** environ;
+
+namespace twinarm {
+
+const char* const kFigureStyle =
+    "set encoding utf8\n"
+    "set samples 2\n"
+    "set border 3 lc '#555555' lw 1\n"
+    "set tics nomirror out scale 0.6\n"
+    "set grid lt 1 lc '#E4E4E4' lw 1\n"
+    "set key samplen 2.2 spacing 1.15 textcolor '#333333'\n"
+    "set xtics textcolor '#333333'\n"
+    "set ytics textcolor '#333333'\n";
+
+namespace {
+
+constexpr std::size_t kStretches = 700;  // of a curve: about one per pixel of a figure's width
+
+std::filesystem::path find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::string rest = path ? path : "";
+  while (!rest.empty()) {
+    const std::size_t colon = rest.find(':');
+    const std::filesystem::path candidate = std::filesystem::path(rest.substr(0, colon)) / name;
+    if (access(candidate.c_str(), X_OK) == 0) return candidate;
+    rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
+  }
+  throw InputError({{"", 0, name, "the program is not in PATH; it draws the figures",
+                     "install gnuplot-nox (scripts/setup does)"}});
+}
+
+std::filesystem::path make_temporary_folder() {
+  std::string name = (std::filesystem::temp_directory_path() / "twinarm-figures-XXXXXX").string();
+  if (!mkdtemp(name.data()))
+    throw InputError({{name, 0, "", "a temporary folder cannot be made", "set TMPDIR"}});
+  return name;
+}
+
+// Runs the script in `folder`; no shell, so that no name needs quoting.
+bool run_gnuplot(const std::filesystem::path& folder, const std::filesystem::path& script,
+                 const std::filesystem::path& messages) {
+  const std::string program = find_program("gnuplot").string();
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, script.c_str(), O_RDONLY, 0);
+  for (int stream : {STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&actions, stream, messages.c_str(),
+                                     O_WRONLY | O_CREAT | O_APPEND, 0600);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  std::string name = "gnuplot", option = "--default-settings";  // not the user's own ~/.gnuplot
+  char* arguments[] = {name.data(), option.data(), nullptr};
+  pid_t child = 0;
+  const int failed = posix_spawn(&child, program.c_str(), &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed) return false;
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string doubled = text;
+  replace_all(doubled, "'", "''");
+  return "'" + doubled + "'";
+}
+
+Gnuplot::Gnuplot(std::filesystem::path folder) : folder_(std::move(folder)) {
+  find_program("gnuplot");
+  require_writable_folder(folder_);
+  temporary_ = make_temporary_folder();
+}
+
+Gnuplot::~Gnuplot() {
+  std::error_code ignored;
+  std::filesystem::remove_all(temporary_, ignored);
+}
+
+std::string Gnuplot::data(const std::vector<std::vector<double>>& columns) {
+  fmt::memory_buffer text;
+  const std::size_t rows = columns.empty() ? 0 : columns.front().size();
+  for (std::size_t n = 0; n < rows; ++n)
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const double x = columns[c][n];
+      if (std::isfinite(x))
+        fmt::format_to(std::back_inserter(text), "{:.7g}", x);
+      else
+        fmt::format_to(std::back_inserter(text), "NaN");
+      text.push_back(c + 1 == columns.size() ? '\n' : ' ');
+    }
+  if (rows == 0) fmt::format_to(std::back_inserter(text), "NaN NaN\n");
+  const std::string name = fmt::format("data{}.txt", ++files_);
+  write_file(temporary_ / name, fmt::to_string(text));
+  return quoted(name);
+}
+
+std::string Gnuplot::curve(const std::vector<double>& x, const std::vector<double>& y) {
+  const std::size_t n = std::min(x.size(), y.size());
+  if (n <= 2 * kStretches)
+    return data({{x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)},
+                 {y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n)}});
+  std::vector<double> kept_x, kept_y;
+  const auto keep = [&](std::size_t i) {
+    kept_x.push_back(x[i]);
+    kept_y.push_back(y[i]);
+  };
+  for (std::size_t s = 0; s < kStretches; ++s) {
+    const std::size_t begin = s * n / kStretches, end = (s + 1) * n / kStretches;
+    std::size_t low = begin, high = begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (y[i] < y[low]) low = i;
+      if (y[i] > y[high]) high = i;
+    }
+    keep(std::min(low, high));
+    if (low != high) keep(std::max(low, high));
+  }
+  return data({kept_x, kept_y});
+}
+
+void Gnuplot::draw(const std::string& name, const std::string& title, int width, int height,
+                   const std::string& script) {
+  const std::filesystem::path made = temporary_ / (name + ".svg");
+  const std::filesystem::path input = temporary_ / (name + ".gp");
+  const std::filesystem::path messages = temporary_ / (name + ".log");
+  write_file(input, fmt::format("set terminal svg size {},{} noenhanced font 'DejaVu Sans,13' "
+                                "rounded background '#FFFFFF' name '{}'\nset output '{}'\n",
+                                width, height, name, made.filename().string()) +
+                        kFigureStyle + script + "\nunset output\n");
+  if (!run_gnuplot(temporary_, input, messages) || !std::filesystem::exists(made))
+    throw std::runtime_error("gnuplot could not draw " + name + ": " +
+                             (std::filesystem::exists(messages) ? read_whole_file(messages) : ""));
+  std::string svg = read_whole_file(made);
+  // Ids of their own, so that many figures can stand in one page; fonts that other systems have;
+  // a title that says what it is.
+  for (const char* id : {"gnuplot_canvas", "textbox", "greybox"}) {
+    replace_all(svg, fmt::format("\"{}\"", id), fmt::format("\"{}_{}\"", name, id));
+    replace_all(svg, fmt::format("'{}'", id), fmt::format("'{}_{}'", name, id));
+    replace_all(svg, fmt::format("#{})", id), fmt::format("#{}_{})", name, id));
+  }
+  replace_all(svg, "'gp", "'" + name + "_gp");
+  replace_all(svg, "#gp", "#" + name + "_gp");
+  replace_all(svg, "\"DejaVu Sans\"", "\"DejaVu Sans, Verdana, sans-serif\"");
+  replace_all(svg, "<title>" + name + "</title>", "<title>" + title + "</title>");
+  const std::size_t begin = svg.find("<desc>"), end = svg.find("</desc>");
+  if (end != std::string::npos && begin < end) svg.erase(begin, end + 7 - begin);
+  write_file(folder_ / (name + ".svg"), svg);
+}
+
+}  // namespace twinarm
