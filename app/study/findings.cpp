@@ -223,30 +223,30 @@ void add_differences(const StudyInputs& inputs, const StudyResults& results,
   }
 }
 
-// The largest stable step that theory gives for the poses of the motion, against runs on either
-// side of it.
+// The largest stable steps that theory gives for the poses of the motion, against runs below all of
+// them and above all of them. Between the two the arm passes through unstable poses unharmed.
 void add_stability(const StudyInputs& inputs, std::vector<Finding>& findings) {
   for (const char* name : {"findings_set0", "findings_10_14"}) {
     const StudyRobot& robot = inputs.findings.at(name);
     RunResult predicted;
     predicted.spec = row_spec("world", 1000);
     predicted.spec.gains = Gains::both(1200, 40);
-    double h = HUGE_VAL;
+    double least = HUGE_VAL, most = 0;
     for (double q2 = -45; q2 <= 45; q2 += 5) {
       State<double> pose = robot.start_state();
       pose.q[1] = q2 * std::numbers::pi / 180;
       predict(robot, predicted, pose);
-      h = std::min(h, predicted.step_limit);
+      least = std::min(least, predicted.step_limit);
+      most = std::max(most, predicted.step_limit);
     }
-    const RunResult below = automatic(robot, row_spec("world", 1000), 1200, 40, 1 / (0.97 * h));
-    const RunResult above = automatic(robot, row_spec("world", 1000), 1200, 40, 1 / (1.1 * h));
+    const RunResult below = automatic(robot, row_spec("world", 1000), 1200, 40, 1 / (0.97 * least));
+    const RunResult above = automatic(robot, row_spec("world", 1000), 1200, 40, 1 / (1.03 * most));
     findings.push_back(
         {"stability",
-         fmt::format(
-             "{}, world orientation, k = 1200, b = 40: theory puts the largest stable step of "
-             "the motion at {:.2f} ms",
-             robot_words(name), 1e3 * h),
-         fmt::format("3 % below: {} deg; 10 % above: {}", words(below.max_deg),
+         fmt::format("{}, world orientation, k = 1200, b = 40: theory allows steps of {:.2f} ms at "
+                     "every pose of the motion, and beyond {:.2f} ms at none",
+                     robot_words(name), 1e3 * least, 1e3 * most),
+         fmt::format("3 % below the first: {} deg; 3 % above the second: {}", words(below.max_deg),
                      above.stable ? words(above.max_deg) + " deg" : "diverges"),
          below.stable && (!above.stable || above.max_deg[0] > 5 * below.max_deg[0])});
   }
