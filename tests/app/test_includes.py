@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""The arrows between the rooms: who may include whom, and where the outside world begins.
+
+    test_includes.py [PROJECT_FOLDER]
+"""
+import pathlib
+import re
+import sys
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# Room by room, whom it may include (DESIGN 1). Nobody includes app/ but app/ itself.
+ARROWS = {
+    "solver": {"solver"},
+    "collision": {"collision", "solver"},
+    "coupling": {"coupling", "solver"},
+    "benchmarks": {"benchmarks", "solver", "collision", "coupling"},
+    "app": {"app", "benchmarks", "solver", "collision", "coupling"},
+    "tests": {"tests", "benchmarks", "solver", "collision", "coupling"},
+}
+
+# Outside libraries: how their headers are spelled, and the only .cpp files that may see them,
+# directly or through a header of ours.
+LIBRARIES = {
+    "fcl": (r"fcl/|ccd/", {"collision/broad_phase.cpp", "collision/fcl_query.cpp"}),
+    "assimp": (r"assimp/", {"collision/mesh_file.cpp"}),
+    "qhull": (r"libqhull", {"collision/convex_hull.cpp"}),
+    "tinyxml2": (r"tinyxml2", {"collision/import/urdf.cpp", "collision/import/urdf_shapes.cpp",
+                               "collision/import/urdf_xml.cpp"}),
+    "toml++": (r"toml\+\+/", {"collision/import/recipe_file.cpp", "collision/import/recipe_toml.cpp",
+                              "app/study/predictions.cpp", "app/study/settings.cpp"}),
+    "nlohmann": (r"nlohmann/", {"app/main.cpp", "app/study/calibration.cpp",
+                                "app/study/output_json.cpp"}),
+    "CLI11": (r"CLI/", {"app/main.cpp"}),
+    "NLopt": (r"nlopt", {"app/study/minimise.cpp"}),
+    "OpenGL": (r"GL/", {"app/render/draw_mesh.cpp", "app/render/gl_context.cpp",
+                        "app/render/gl_objects.cpp", "app/render/overlay.cpp",
+                        "app/render/painter.cpp", "app/render/scene_pass.cpp",
+                        "app/render/shaders.cpp"}),
+    "FreeType": (r"ft2build|freetype/", {"app/render/lettering.cpp"}),
+    "PNG": (r"png\.h", {"app/render/image.cpp"}),
+}
+# Headers that show an outside library. Each is of use inside its own folder only.
+INNER_HEADERS = {"collision/import/recipe_toml.h", "app/render/gl_table.h",
+                 "app/render/gl_objects.h", "app/render/scene_pass.h"}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+
+
+def sources(root):
+    """Of every room: {path: [(bracket, included)]}."""
+    found = {}
+    for room in ARROWS:
+        for path in sorted((root / room).rglob("*")):
+            if path.suffix in (".h", ".cpp", ".inl"):
+                text = path.read_text(encoding="utf-8")
+                found[str(path.relative_to(root))] = INCLUDE.findall(text)
+    return found
+
+
+class Includes(unittest.TestCase):
+    def setUp(self):
+        self.files = sources(ROOT)
+        self.assertGreater(len(self.files), 100)
+
+    def test_every_room_includes_only_whom_its_arrows_allow(self):
+        wrong = []
+        for path, includes in self.files.items():
+            room = path.split("/")[0]
+            for bracket, name in includes:
+                other = name.split("/")[0]
+                if bracket == '"' and other not in ARROWS[room]:
+                    wrong.append(f'{path} includes "{name}"')
+        self.assertEqual(wrong, [])
+
+    def test_every_quoted_include_is_a_file_named_from_the_root(self):
+        wrong = [f'{path} includes "{name}"' for path, includes in self.files.items()
+                 for bracket, name in includes if bracket == '"' and name not in self.files]
+        self.assertEqual(wrong, [])
+
+    def test_an_inner_header_is_included_from_its_own_folder_only(self):
+        wrong = [f'{path} includes "{name}"' for path, includes in self.files.items()
+                 for _, name in includes
+                 if name in INNER_HEADERS and path.rpartition("/")[0] != name.rpartition("/")[0]]
+        self.assertEqual(wrong, [])
+
+    def seen(self, path, memo):
+        """All outside headers that a file sees, directly or through headers of ours."""
+        if path not in memo:
+            memo[path] = set()
+            for bracket, name in self.files.get(path, []):
+                memo[path] |= {name} if bracket == "<" else self.seen(name, memo)
+        return memo[path]
+
+    def test_each_outside_library_is_seen_by_the_cpp_files_that_are_named_here_and_no_header(self):
+        memo, wrong = {}, []
+        for path in self.files:
+            for library, (spelling, allowed) in LIBRARIES.items():
+                sees = any(re.match(spelling, name) for name in self.seen(path, memo))
+                if sees and path not in allowed | INNER_HEADERS:
+                    wrong.append(f"{path} sees {library}")
+        self.assertEqual(wrong, [])
+
+    def test_no_file_of_the_lists_above_is_gone(self):
+        named = INNER_HEADERS.union(*(files for _, files in LIBRARIES.values()))
+        self.assertEqual(sorted(named - set(self.files)), [])
+
+    def test_the_solver_knows_nothing_but_eigen_and_the_standard_library(self):
+        outside = {name for path, includes in self.files.items() if path.startswith("solver/")
+                   for bracket, name in includes if bracket == "<"}
+        self.assertEqual(sorted(n for n in outside if "/" in n and not n.startswith("Eigen/")), [])
+
+    def test_every_room_with_source_has_a_readme(self):
+        rooms = {path.split("/")[0] for path in self.files} - {"tests"}
+        missing = [room for room in sorted(rooms) if not (ROOT / room / "README.md").is_file()]
+        self.assertEqual(missing, [])
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
+        ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+    unittest.main()

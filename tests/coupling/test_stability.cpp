@@ -1,0 +1,218 @@
+// The stability edges of coupling/prediction.h against runs of the real stepper (docs/cases.md,
+// F4), and the closed orbit of the printed, unsigned damper (docs/findings.md, 4 d).
+#include <doctest/doctest.h>
+
+#include <numbers>
+
+#include "coupling/prediction.h"
+#include "tests/coupling/one_joint.h"
+#include "tests/coupling/two_link.h"
+
+using namespace twinarm;
+using namespace twinarm::testing;
+
+namespace {
+
+constexpr double kInertia = 0.7, kStep = 0.01, kSmall = 1e-9;
+constexpr int kHeld = 20;  // steps of the integrator in one held step
+
+struct Stepper {
+  CouplingSpec spec;
+  Integrator integrator = Integrator::semi_implicit;
+  int substeps = 1;
+};
+
+// The coupling and integrator that make a scheme: torsional on a hinge, or linear on a slide.
+Stepper stepper_of(Scheme scheme, CouplingSpec::Type type, std::vector<Spring> springs) {
+  Stepper s;
+  s.spec.type = type;
+  s.spec.springs = std::move(springs);
+  s.spec.options.damper = Damper::vector_;
+  switch (scheme) {
+    case Scheme::euler:
+      s.integrator = Integrator::euler;
+      break;
+    case Scheme::semi_implicit:
+      break;
+    case Scheme::euler_difference:
+      s.integrator = Integrator::euler;
+      s.spec.printed = true;
+      break;
+    case Scheme::semi_implicit_difference:
+      s.spec.printed = true;
+      break;
+    case Scheme::semi_implicit_older:
+      s.spec.printed = true;
+      s.spec.options.difference = Difference::older;
+      break;
+    case Scheme::hold:
+    case Scheme::hold_difference:
+      s.integrator = Integrator::rk4;
+      s.substeps = s.spec.hold_steps = s.spec.options.hold_steps = kHeld;
+      s.spec.printed = scheme == Scheme::hold_difference;
+      break;
+    case Scheme::implicit_damper:
+      s.spec.treatment = Treatment::semi_implicit;
+      break;
+    case Scheme::implicit:
+      s.spec.treatment = Treatment::implicit;
+      break;
+  }
+  return s;
+}
+
+// Whether a small motion about the KVR at rest grows: its largest size in the last quarter of the
+// steps against the second quarter.
+bool grows(const Stepper& stepper, const Model<double>& model, std::vector<std::string> joints,
+           double h, int steps) {
+  State<double> start(model);
+  for (std::size_t j = 0; j < model.nq; ++j) start.q[j] = j % 2 == 0 ? kSmall : -0.7 * kSmall;
+  Coupled system(model, {}, std::move(joints), stepper.spec, start, stepper.integrator);
+  double early = 0, late = 0;
+  for (int n = 0; n < steps; ++n) {
+    for (int m = 0; m < stepper.substeps; ++m) system.simulation.step(h / stepper.substeps);
+    double size = 0;
+    for (std::size_t j = 0; j < model.nq; ++j)
+      size = std::max(size, std::abs(system.simulation.state().q[j]));
+    if (!(size < 1e6 * kSmall)) return true;
+    if (size < 1e-6 * kSmall && n > steps / 4) return false;
+    double& window = n < steps / 2 ? early : late;
+    if (n >= 3 * steps / 4 || (n >= steps / 4 && n < steps / 2)) window = std::max(window, size);
+  }
+  return late > early;
+}
+
+bool grows(Scheme scheme, CouplingSpec::Type type, double alpha, double beta) {
+  const JointType joint =
+      type == CouplingSpec::Type::linear ? JointType::prismatic : JointType::revolute;
+  const std::vector<Spring> springs{
+      {"spring", 1, Vector3::Zero(), alpha * kInertia / (kStep * kStep), beta * kInertia / kStep}};
+  return grows(stepper_of(scheme, type, springs), one_joint(joint, kInertia), {"joint1"}, kStep,
+               scheme == Scheme::hold || scheme == Scheme::hold_difference ? 800 : 4000);
+}
+
+// Where `stable` changes between a stable and an unstable value.
+template <class Stable>
+double edge(Stable&& stable, double inside, double outside) {
+  while (std::abs(outside - inside) > 1e-9 * std::abs(inside)) {
+    const double middle = 0.5 * (inside + outside);
+    (stable(middle) ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "every scheme's edge in alpha is where a run of the stepper begins to grow, to 1 percent") {
+  int edges = 0;
+  for (const Scheme scheme : all_schemes)
+    for (const auto type : {CouplingSpec::Type::torsional, CouplingSpec::Type::linear})
+      for (double beta : {0.15, 0.5, 0.8, 1.3, 3.0}) {
+        const auto predicted = [&](double alpha) { return is_stable(scheme, alpha, beta); };
+        const auto measured = [&](double alpha) { return !grows(scheme, type, alpha, beta); };
+        std::vector<double> alphas;  // where it is predicted to be stable
+        for (double alpha = 0.02; alpha < 40; alpha *= 1.2)
+          if (predicted(alpha)) alphas.push_back(alpha);
+        CAPTURE(name_of(scheme));
+        CAPTURE(beta);
+        if (alphas.empty()) {
+          for (double alpha : {0.02, 0.3, 2.0, 6.0}) CHECK_FALSE(measured(alpha));
+          continue;
+        }
+        const double inside = alphas[alphas.size() / 2];
+        CHECK(measured(inside));
+        for (const double outside : {40.0, 0.02}) {  // too stiff, or too soft for its damping
+          if (predicted(outside)) continue;
+          const double limit = edge(predicted, inside, outside);
+          const double percent = outside > inside ? 0.01 * limit : -0.01 * limit;
+          CAPTURE(limit);
+          CHECK(measured(limit - percent));
+          CHECK_FALSE(measured(limit + percent));
+          ++edges;
+        }
+      }
+  CHECK(edges >= 50);
+}
+
+TEST_CASE("the implicit treatment is stable at every alpha and beta, as it says") {
+  for (const auto type : {CouplingSpec::Type::torsional, CouplingSpec::Type::linear})
+    for (double alpha : {1e-2, 1.0, 1e2, 1e6, 1e10})
+      for (double beta : {0.0, 0.1, 1e2, 1e6})
+        CHECK_FALSE(grows(Scheme::implicit, type, alpha, beta));
+}
+
+TEST_CASE("largest_stable_step of a two-link arm is where its run begins to grow, to 1 percent") {
+  const TwoLink arm;
+  const Model<double> model = arm.model();
+  const std::vector<std::string> joints{"joint1", "joint2"};
+  for (const auto type : {CouplingSpec::Type::torsional, CouplingSpec::Type::linear})
+    for (const Scheme scheme : {Scheme::euler, Scheme::semi_implicit,
+                                Scheme::semi_implicit_difference, Scheme::implicit_damper}) {
+      const double gain = type == CouplingSpec::Type::linear ? 30 : 1;
+      const std::vector<Spring> springs = arm.springs(600 * gain, 9 * gain, 200 * gain, 2 * gain);
+      const Stepper stepper = stepper_of(scheme, type, springs);
+      Coupled still(model, {}, joints, stepper.spec, State<double>(model), stepper.integrator);
+      const Coupling::JointSpace space = still.coupling->joint_space(still.simulation.kinematics());
+      const double predicted =
+          largest_stable_step(mass_matrix(model, State<double>(model)), space.K, space.B, scheme);
+      CAPTURE(name_of(scheme));
+      CAPTURE(predicted);
+      const auto stable = [&](double h) { return !grows(stepper, model, joints, h, 8000); };
+      CHECK(stable(0.3 * predicted));
+      CHECK(stable(0.99 * predicted));
+      CHECK_FALSE(stable(1.01 * predicted));
+    }
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(2, 2);
+  CHECK(std::isinf(largest_stable_step(one, 100 * one, one, Scheme::implicit)));
+}
+
+namespace {
+
+// Turning points of e = q_K - q_D, relative to the first, which is 0.1 rad, over 10 s.
+std::vector<double> turning_points(Damper damper, double sign, double zeta) {
+  const double w = 10, h = 2e-5, speed = 1.5, e0 = 0.1, seconds = 10;
+  CouplingSpec spec;
+  spec.printed = true;
+  spec.options.damper = damper;
+  spec.options.damping_sign = sign;
+  spec.springs = {{"spring", 1, Vector3::Zero(), kInertia * w * w, 2 * zeta * w * kInertia}};
+  SteadyHand hand;
+  hand.angle[0] = e0;
+  hand.rate[0] = speed;
+  const Model<double> model = one_joint(JointType::revolute, kInertia);
+  Coupled system(model, hand, {"joint1"}, spec, state_of(model, {0}, {speed}));
+  std::vector<double> points;
+  double before = e0, now = e0;
+  for (long n = 1; n < std::lround(seconds / h); ++n) {
+    system.simulation.step(h);
+    const double t = static_cast<double>(n) * h;
+    const double next = e0 + speed * t - system.simulation.state().q[0];
+    if (n > 1 && (now - before) * (next - now) < 0) points.push_back(now / e0);
+    before = now;
+    now = next;
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("the unsigned damper never damps: turning points 1 and -exp(pi z/sqrt(1-z^2)) for ever") {
+  const double z = 0.2, ratio = std::exp(std::numbers::pi * z / std::sqrt(1 - z * z));
+  CHECK(ratio == doctest::Approx(1.89890027).epsilon(1e-8));
+  for (const double sign : {1.0, -1.0}) {  // along the KVR's motion, against it
+    const std::vector<double> points = turning_points(Damper::unsigned_, sign, z);
+    CHECK(points.size() > 28);
+    const double other = sign > 0 ? -ratio : -1 / ratio;
+    for (std::size_t n = 0; n < points.size(); ++n)
+      CHECK(points[n] == doctest::Approx(n % 2 == 0 ? other : 1.0).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("the signed damper damps: each turning point is exp(-pi z/sqrt(1-z^2)) of the last") {
+  const double z = 0.2, ratio = std::exp(-std::numbers::pi * z / std::sqrt(1 - z * z));
+  const std::vector<double> points = turning_points(Damper::vector_, 1, z);
+  REQUIRE(points.size() > 8);
+  for (std::size_t n = 1; n < 8; ++n)
+    CHECK(points[n] / points[n - 1] == doctest::Approx(-ratio).epsilon(2e-3));
+}

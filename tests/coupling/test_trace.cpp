@@ -1,0 +1,164 @@
+// Recorded traces: the round trip, interpolation, and every fault of a bad file, all at once.
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "coupling/recorded_trace.h"
+#include "coupling/synthetic_operator.h"
+#include "solver/fault.h"
+
+using namespace twinarm;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kHeader =
+    "t[s],theta1[rad],theta2[rad],theta3[rad],theta4[rad],theta5[rad],theta6[rad],button\n";
+
+// A folder of its own that goes with the test.
+class Folder {
+ public:
+  Folder() : path_(fs::temp_directory_path() / ("twinarm-trace-" + std::to_string(getpid()))) {
+    fs::create_directories(path_);
+  }
+  ~Folder() { fs::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  fs::path file(const std::string& name) const { return path_ / name; }
+  fs::path write(const std::string& content) const {
+    std::ofstream(file("trace.csv"), std::ios::binary) << content;
+    return file("trace.csv");
+  }
+
+ private:
+  fs::path path_;
+};
+
+std::vector<Fault> faults_of(const fs::path& file) {
+  try {
+    RecordedTrace trace(file);
+  } catch (const InputError& error) {
+    for (const Fault& fault : error.faults()) {
+      CHECK(fault.file == file.string());
+      CHECK_FALSE(fault.rule.empty());
+    }
+    return error.faults();
+  }
+  return {};
+}
+bool names(const std::vector<Fault>& faults, int line, const std::string& word) {
+  for (const Fault& fault : faults)
+    if (fault.line == line && to_string(fault).find(word) != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a trace that was written is read back to its six decimals, angles and button") {
+  const Folder folder;
+  const SyntheticOperator hand(3, 4.0);
+  write_trace(hand, 200, folder.file("hand.csv"));
+  CHECK_FALSE(fs::exists(folder.file("hand.csv.tmp")));
+  const RecordedTrace trace(folder.file("hand.csv"));
+  CHECK(trace.duration() == doctest::Approx(4.0));
+  for (int n = 0; n <= 800; ++n) {
+    const double t = n / 200.0;
+    const HandSample x = hand.sample(t, t + 1), y = trace.sample(t, t + 1);
+    for (std::size_t j = 0; j < 6; ++j) CHECK_UNARY(std::abs(x.theta[j] - y.theta[j]) < 1e-6);
+    CHECK_UNARY(x.button == y.button);
+  }
+}
+
+TEST_CASE("between samples a trace is linear; at a sample the rate is that of the side asked for") {
+  const Folder folder;
+  // Columns in another order, comments, blanks, another start of time, Windows line ends.
+  const RecordedTrace trace(folder.write(
+      "# made by hand\r\n"
+      "button, theta6[rad], theta5[rad],theta4[rad],theta3[rad],theta2[rad],theta1[rad],t[s]\r\n"
+      "0, 0,0,0,0,0, 1.0, 10\r\n# a pause\r\n\n1, 0,0,0,0,0, 2.0, 10.5\r\n"
+      "0, 6,0,0,0,0, -1.0, 12.5\r\n"));
+  CHECK(trace.duration() == doctest::Approx(2.5));
+  const auto angle = [&](double t) { return trace.sample(t, t + 0.01).theta[0]; };
+  CHECK(angle(0) == doctest::Approx(1));
+  CHECK(angle(0.25) == doctest::Approx(1.5));
+  CHECK(angle(0.5) == doctest::Approx(2));
+  CHECK(angle(1.5) == doctest::Approx(0.5));
+  CHECK(angle(9) == doctest::Approx(-1));  // the last sample, held
+  CHECK(trace.sample(1.5, 2).theta[5] == doctest::Approx(3));
+  const auto rate = [&](double t, double toward) { return trace.sample(t, toward).theta_dot[0]; };
+  CHECK(rate(0, 0.1) == doctest::Approx(2));
+  CHECK(rate(0.5, 0.4) == doctest::Approx(2));
+  CHECK(rate(0.5, 0.6) == doctest::Approx(-1.5));
+  CHECK(rate(2.5, 2.4) == doctest::Approx(-1.5));
+  CHECK(rate(2.5, 2.6) == 0);
+  CHECK(rate(9, 9.1) == 0);
+  CHECK_FALSE(trace.sample(0.49, 0.5).button);
+  CHECK(trace.sample(0.5, 0.6).button);
+  CHECK(trace.sample(2.4, 2.5).button);
+}
+
+TEST_CASE("a trace without a button column is read, its button never pressed") {
+  const Folder folder;
+  const RecordedTrace trace(folder.write(kHeader.substr(0, kHeader.find(",button")) +
+                                         "\n0,1,2,3,4,5,6\n1,1,2,3,4,5,6\n"));
+  CHECK_FALSE(trace.sample(0.5, 1).button);
+  CHECK(trace.sample(0.5, 1).theta[5] == 6);
+}
+
+TEST_CASE("a trace file that is not there, or is a folder, is refused by name") {
+  const Folder folder;
+  CHECK(faults_of(folder.file("nowhere.csv")).size() == 1);
+  CHECK_FALSE(faults_of(folder.file("")).empty());
+}
+
+TEST_CASE("all columns that a trace lacks are named at once") {
+  const Folder folder;
+  const auto faults =
+      faults_of(folder.write("# x\ntime,theta1[deg],theta2[rad],theta3[rad],theta4[rad],button\n"));
+  for (const char* column : {"t[s]", "theta1[rad]", "theta5[rad]", "theta6[rad]"})
+    CHECK(names(faults, 2, column));
+  CHECK(faults.size() == 4);
+}
+
+TEST_CASE("all bad lines of a trace are named at once: text, nan, inf, missing cells, time back") {
+  const Folder folder;
+  const auto faults = faults_of(folder.write(kHeader + "0,0,0,0,0,0,0,0\n"     // 2
+                                                       "1,0,oops,0,0,0,0,0\n"  // 3
+                                                       "2,0,0,nan,0,inf,0,0\n"
+                                                       "3,0,0,0,0,0,0,0\n"    // 5
+                                                       "2.5,0,0,0,0,0,0,0\n"  // 6
+                                                       "4,0,0,0\n"            // 7
+                                                       "5,0,0,0,0,0,1e999,0\n"
+                                                       "6,0,0,0,0,0,1.5x,0\n"
+                                                       "3,0,0,0,0,0,0,0\n"  // 10: equal time
+                                                       "7,0,0,0,0,0,0,yes\n"));
+  CHECK(names(faults, 3, "theta2"));
+  CHECK(names(faults, 3, "oops"));
+  CHECK(names(faults, 4, "theta3"));
+  CHECK(names(faults, 4, "theta5"));
+  CHECK(names(faults, 6, "2.5"));
+  CHECK(names(faults, 7, "theta4"));
+  CHECK(names(faults, 8, "1e999"));
+  CHECK(names(faults, 9, "1.5x"));
+  CHECK(names(faults, 10, "time"));
+  CHECK(names(faults, 11, "button"));
+  for (const int good : {1, 2, 5}) CHECK_FALSE(names(faults, good, ""));
+}
+
+TEST_CASE("a trace with fewer than two samples is refused, whatever else is in it") {
+  const Folder folder;
+  for (const std::string& body :
+       {std::string(), kHeader, kHeader + "0,0,0,0,0,0,0,0\n", std::string("# only a comment\n")})
+    CHECK_FALSE(faults_of(folder.write(body)).empty());
+}
+
+TEST_CASE("a trace with a hundred bad lines names the first twenty and counts the others") {
+  const Folder folder;
+  std::string body = kHeader;
+  for (int n = 0; n < 100; ++n) body += "x,0,0,0,0,0,0,0\n";
+  const auto faults = faults_of(folder.write(body));
+  CHECK(faults.size() == 21);
+  CHECK(faults.back().rule.find("80") != std::string::npos);
+}

@@ -1,0 +1,65 @@
+// Counts what a piece of code takes from the heap, by C++ or by C (Eigen's matrices call malloc).
+// To be included by ONE file of a test program: it takes malloc's place.
+#pragma once
+
+#include <cstddef>
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define TWINARM_ADDRESS_SANITIZER
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__)
+#define TWINARM_ADDRESS_SANITIZER
+#endif
+
+namespace twinarm::testing {
+inline volatile long allocations = 0;
+}
+
+#ifdef TWINARM_ADDRESS_SANITIZER
+#include <sanitizer/allocator_interface.h>
+namespace twinarm::testing {
+inline void note_malloc(const volatile void*, std::size_t) {
+  allocations = allocations + 1;
+}
+inline void note_free(const volatile void*) {}
+inline const int hooks_installed =
+    __sanitizer_install_malloc_and_free_hooks(note_malloc, note_free);
+}  // namespace twinarm::testing
+#else
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* old, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) {
+  twinarm::testing::allocations = twinarm::testing::allocations + 1;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  twinarm::testing::allocations = twinarm::testing::allocations + 1;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* old, std::size_t size) {
+  twinarm::testing::allocations = twinarm::testing::allocations + 1;
+  return __libc_realloc(old, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  twinarm::testing::allocations = twinarm::testing::allocations + 1;
+  return __libc_memalign(alignment, size);
+}
+}
+#endif
+
+namespace twinarm::testing {
+
+template <class Work>
+long allocations_in(Work&& work) {
+  const long before = allocations;
+  work();
+  return allocations - before;
+}
+
+}  // namespace twinarm::testing
