@@ -1,5 +1,7 @@
 #include "app/output_file.h"
 
+#include <unistd.h>
+
 #include <fstream>
 #include <sstream>
 
@@ -15,35 +17,15 @@ InputError cannot_write(const std::filesystem::path& path, const std::string& wh
 
 }  // namespace
 
-void write_file(const std::filesystem::path& file, const std::string& content) {
-  std::filesystem::path temporary = file;
-  temporary += ".tmp";
-  std::error_code error;
-  {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << content;
-    if (!stream.flush()) {
-      std::filesystem::remove(temporary, error);
-      throw cannot_write(file, "");
-    }
-  }
-  std::filesystem::rename(temporary, file, error);
-  if (error) {
-    std::filesystem::remove(temporary);
-    throw cannot_write(file, ": " + error.message());
-  }
-}
-
 void require_writable_folder(const std::filesystem::path& folder) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw cannot_write(folder, ": " + error.message());
-  const std::filesystem::path probe = folder / ".twinarm-probe";
-  {
-    std::ofstream stream(probe);
-    if (!stream) throw cannot_write(folder, "");
-  }
-  std::filesystem::remove(probe, error);
+  std::filesystem::path there = std::filesystem::absolute(folder, error);
+  while (!std::filesystem::exists(there, error) && there.has_relative_path())
+    there = there.parent_path();
+  if (!std::filesystem::is_directory(there, error))
+    throw cannot_write(folder, ": " + there.string() + " is not a folder");
+  if (access(there.c_str(), W_OK | X_OK) != 0)
+    throw cannot_write(folder, ": no permission in " + there.string());
 }
 
 std::string read_whole_file(const std::filesystem::path& file) {

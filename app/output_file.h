@@ -1,4 +1,4 @@
-// Files that are either whole or not there: written to a temporary name, then renamed.
+// The output folder, and files read whole. Files are written by solver/whole_file.h.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,8 @@
 
 namespace twinarm {
 
-// Throws InputError that names the folder if it cannot be written.
-void write_file(const std::filesystem::path& file, const std::string& content);
-// Makes the folder, and shows that files can be written in it, before any work is done.
+// Whether the folder is there and can be written, or could be made; makes nothing. Throws
+// InputError.
 void require_writable_folder(const std::filesystem::path& folder);
 std::string read_whole_file(const std::filesystem::path& file);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "solver/fault.h"
 #include "solver/spring.h"
@@ -28,6 +30,7 @@ ContactForce::ContactForce(const Model<double>& model, const ContactLaw& law)
   world_.set_group_filter(kLinkGroup, kLinkGroup, false);
   contacts_.reserve(kMostContacts);
   readings_.reserve(kMostContacts);
+  last_readings_.reserve(kMostContacts);
   points_.reserve(kMostContacts);
 }
 
@@ -53,6 +56,15 @@ double ContactForce::deepest(const Kinematics& k) {
   return depth;
 }
 
+double ContactForce::last_normal_force(const Contact& contact) const {
+  const auto key = [](const Contact& c) { return std::tuple(c.a, c.b, c.feature); };
+  const auto found = std::lower_bound(
+      last_readings_.begin(), last_readings_.end(), contact,
+      [&](const ContactReading& r, const Contact& c) { return key(r.contact) < key(c); });
+  const bool same = found != last_readings_.end() && key(found->contact) == key(contact);
+  return same ? found->normal_force : 0.0;
+}
+
 void ContactForce::begin_step(const Kinematics& k, double /*t*/, double h) noexcept {
   h_ = h;
   double fastest = 0;  // of the corners of any link, roughly: origin speed plus a metre's turning
@@ -60,6 +72,7 @@ void ContactForce::begin_step(const Kinematics& k, double /*t*/, double h) noexc
     fastest = std::max(fastest, k.v_WLo[i].norm() + k.w_WL[i].norm());
   find_contacts(k, std::max(kLeastMargin, 2 * h * fastest));
 
+  std::swap(readings_, last_readings_);
   readings_.clear();
   points_.clear();
   for (const Contact& contact : contacts_) {
@@ -74,6 +87,7 @@ void ContactForce::begin_step(const Kinematics& k, double /*t*/, double h) noexc
     point.v_n = k.velocity(reading.body, reading.p_W);
     point.s_n = point.s0 = -point.v_n.dot(reading.normal_W);
     point.v_t0 = point.v_n + point.s_n * reading.normal_W;
+    point.N_last = last_normal_force(contact);
     readings_.push_back(reading);
     points_.push_back(point);
   }
@@ -96,7 +110,8 @@ void ContactForce::add_forces(const State<double>&, const Kinematics& k,
     add_particle_along(k, reading.body, reading.p_W, reading.normal_W, h_ * slope, forces);
     reading.normal_force = N0;
 
-    const double factor = law_.friction * N0 / std::hypot(point.v_t0.norm(), law_.stiction_speed);
+    const double factor =
+        law_.friction * point.N_last / std::hypot(point.v_t0.norm(), law_.stiction_speed);
     const auto [t1, t2] = tangents(reading.normal_W);
     for (const Vector3& t : {t1, t2}) {
       add_point_force(k, reading.body, reading.p_W, -factor * t.dot(point.v_n) * t, forces);

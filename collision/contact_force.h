@@ -4,10 +4,12 @@
 // d: depth at a contact point, s = d' its rate, positive when closing. After the step d' = d + h s.
 //   normal     N = k d' (1 + c s)           where d' > 0 and 1 + c s > 0, else 0
 //              (Hunt and Crossley 1975, exponent 1: flat faces)
-//   friction   T = -mu N v_t / sqrt(|v_t|^2 + v_s^2)
+//   friction   T = -mu N_last v_t / sqrt(|v_t|^2 + v_s^2), N_last the normal force of the same
+//   contact
+//              one step before: a bound of this step's own N makes the two chase each other
 // N is linearised about the rate s0 of the last round, N = N0 + N' (s - s0), and s = s_n + h J qdd:
 // an explicit force and a weightless particle m* = h N' along the normal. Friction has its factor
-// mu N0 / sqrt(|v_t0|^2 + v_s^2) from the last round and acts as an implicit damper. Rounds of
+// mu N_last / sqrt(|v_t0|^2 + v_s^2) from the last round and acts as an implicit damper. Rounds of
 // forces and ABA go on until s stands still: Newton's method. A contact that is still apart takes
 // part if the step would close it, so a fast link does not enter the obstacle for a step.
 #pragma once
@@ -61,8 +63,10 @@ class ContactForce final : public ForceSource {
     double s_n = 0, s0 = 0;          // closing rate at the start, and of the last round [m/s]
     Vector3 v_t0 = Vector3::Zero();  // sliding velocity of the last round [m/s]
     Vector3 v_n = Vector3::Zero();   // velocity of the link's point at the start [m/s]
+    double N_last = 0;               // of the same contact, one step before [N]
   };
   void find_contacts(const Kinematics& k, double margin);
+  double last_normal_force(const Contact& contact) const;
 
   const Model<double>& model_;
   ContactLaw law_;
@@ -70,7 +74,7 @@ class ContactForce final : public ForceSource {
   std::vector<Piece> pieces_;
   std::vector<Pose> X_WG_;
   std::vector<Contact> contacts_;
-  std::vector<ContactReading> readings_;
+  std::vector<ContactReading> readings_, last_readings_;  // sorted by (a, b, feature)
   std::vector<Point> points_;
   double h_ = 0;
 };

@@ -14,21 +14,25 @@ void MatchedTorsional::begin_step(const Kinematics&, double t, double h) noexcep
   kvr_.begin_step(t, h);
 }
 
+// tau = sum_p J_p^T (k J_p e + b J_p e'), point by point: no matrix, nothing allocated.
 void MatchedTorsional::add_forces(const State<double>& x, const Kinematics&,
                                   Forces<double>& forces) noexcept {
   const KvrSample& target = kvr_.at(x.t);
-  at_kvr_ = joint_space_of_points(model_, target.k, springs_);
-  const auto n = static_cast<Eigen::Index>(model_.nv);
-  for (Eigen::Index r = 0; r < n; ++r) {
-    double tau = 0;
-    for (Eigen::Index c = 0; c < n; ++c) {
-      const auto j = static_cast<std::size_t>(c);
-      tau +=
-          at_kvr_.K(r, c) * (target.x.q[j] - x.q[j]) + at_kvr_.B(r, c) * (target.x.qd[j] - x.qd[j]);
-    }
-    forces.tau[static_cast<std::size_t>(r)] += tau;
-    if (static_cast<std::size_t>(r) < readings_.size())
-      readings_[static_cast<std::size_t>(r)].size = tau;  // a torque of joint r, not of a spring
+  for (std::size_t s = 0; s < springs_.size(); ++s) {
+    const Spring& spring = springs_[s];
+    const Vector3 p_K = target.k.position(spring.body, spring.p_L);
+    const auto for_each_column = [&](auto f) {
+      for_each_dof_below(model_, target.k, spring.body,
+                         [&](std::size_t dof, const Vector3& w, const Vector3& v,
+                             const Vector3& o) { f(dof, Vector3(v + w.cross(p_K - o))); });
+    };
+    Vector3 pull = Vector3::Zero();
+    for_each_column([&](std::size_t dof, const Vector3& J) {
+      const double e = target.x.q[dof] - x.q[dof], e_dot = target.x.qd[dof] - x.qd[dof];
+      pull += (spring.k * e + spring.b * e_dot) * J;
+    });
+    for_each_column([&](std::size_t dof, const Vector3& J) { forces.tau[dof] += J.dot(pull); });
+    readings_[s] = {p_K, p_K, pull, pull.norm()};
   }
 }
 

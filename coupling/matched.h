@@ -18,9 +18,6 @@ class MatchedTorsional final : public Coupling {
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
   JointSpace joint_space(const Kinematics& k) const override;
-
- private:
-  JointSpace at_kvr_;
 };
 
 }  // namespace twinarm

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "solver/fault.h"
+#include "solver/whole_file.h"
 
 namespace twinarm {
 namespace {
@@ -53,7 +54,8 @@ RecordedTrace::RecordedTrace(const std::filesystem::path& file) : file_(file.str
   for (std::string line; std::getline(stream, line);) {
     ++line_number;
     const std::vector<std::string> cells = split(line);
-    if (cells.empty() || cells[0].starts_with("#")) continue;
+    const bool blank = cells.empty() || (cells.size() == 1 && cells[0].empty());
+    if (blank || cells[0].starts_with("#")) continue;
     const auto find = [&](const char* name) {
       return static_cast<std::size_t>(std::find(cells.begin(), cells.end(), name) - cells.begin());
     };
@@ -124,28 +126,18 @@ std::string RecordedTrace::description() const {
 }
 
 void write_trace(const HandSource& hand, double rate, const std::filesystem::path& file) {
-  std::filesystem::path temporary = file;
-  temporary += ".tmp";
-  {
-    std::ofstream stream(temporary);
-    stream << "# " << hand.description() << "\n";
-    for (const char* column : kColumns) stream << column << ",";
-    stream << "button\n";
-    const auto count = static_cast<long>(std::floor(hand.duration() * rate)) + 1;
-    for (long n = 0; n < count; ++n) {
-      const double t = static_cast<double>(n) / rate;
-      const HandSample sample = hand.sample(t, t + 1 / rate);
-      stream << fmt::format("{:.6f}", t);
-      for (double theta : sample.theta) stream << fmt::format(",{:.6f}", theta);
-      stream << "," << (sample.button ? 1 : 0) << "\n";
-    }
-    if (!stream.flush()) {
-      std::filesystem::remove(temporary);
-      throw InputError({{file.string(), 0, "", "the file cannot be written",
-                         "choose a folder that can be written"}});
-    }
+  std::string text = "# " + hand.description() + "\n";
+  for (const char* column : kColumns) text += fmt::format("{},", column);
+  text += "button\n";
+  const auto count = static_cast<long>(std::floor(hand.duration() * rate)) + 1;
+  for (long n = 0; n < count; ++n) {
+    const double t = static_cast<double>(n) / rate;
+    const HandSample sample = hand.sample(t, t + 1 / rate);
+    text += fmt::format("{:.6f}", t);
+    for (double theta : sample.theta) text += fmt::format(",{:.6f}", theta);
+    text += sample.button ? ",1\n" : ",0\n";
   }
-  std::filesystem::rename(temporary, file);
+  write_whole_file(file, text);
 }
 
 }  // namespace twinarm

@@ -40,43 +40,22 @@ void forward_kinematics(const Model<double>& model, const State<double>& x, Kine
   }
 }
 
-namespace {
-
-// Calls f(velocity index, angular part, linear part at the joint's origin, that origin) for every
-// degree of freedom between the base and the body; all in world axes.
-template <class F>
-void for_each_dof_below(const Model<double>& model, const Kinematics& k, int body, F&& f) {
-  for (int b = body; b > 0; b = model.parent[static_cast<std::size_t>(b)]) {
-    const auto i = static_cast<std::size_t>(b);
-    visit_joint<double>(model.joint[i], [&](auto joint) {
-      for (std::size_t c = 0; c < joint.nv; ++c) {
-        VecN<double, joint.nv> unit{};
-        unit[c] = 1;
-        const Motion<double> s = times(joint.subspace, unit);
-        f(static_cast<Eigen::Index>(model.iv[i] + c), Vector3(k.R_WB[i] * to_eigen(s.w)),
-          Vector3(k.R_WB[i] * to_eigen(s.v)), k.X_WL[i].p);
-      }
-    });
-  }
-}
-
-}  // namespace
-
 Eigen::Matrix3Xd point_jacobian(const Model<double>& model, const Kinematics& k, int body,
                                 const Vector3& p_W) {
   Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.nv));
   for_each_dof_below(model, k, body,
-                     [&](Eigen::Index dof, const Vector3& w, const Vector3& v, const Vector3& o) {
-                       J.col(dof) = v + w.cross(p_W - o);
+                     [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
+                       J.col(static_cast<Eigen::Index>(dof)) = v + w.cross(p_W - o);
                      });
   return J;
 }
 
 Eigen::Matrix3Xd rotation_jacobian(const Model<double>& model, const Kinematics& k, int body) {
   Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.nv));
-  for_each_dof_below(
-      model, k, body,
-      [&](Eigen::Index dof, const Vector3& w, const Vector3&, const Vector3&) { J.col(dof) = w; });
+  for_each_dof_below(model, k, body,
+                     [&](std::size_t dof, const Vector3& w, const Vector3&, const Vector3&) {
+                       J.col(static_cast<Eigen::Index>(dof)) = w;
+                     });
   return J;
 }
 

@@ -48,4 +48,22 @@ inline Matrix3 to_eigen(const Mat3<double>& A) {
       .finished();
 }
 
+// Calls f(velocity index, angular part, linear part at the joint's origin, that origin) for every
+// degree of freedom between the base and the body; all in world axes. Allocates nothing.
+template <class F>
+void for_each_dof_below(const Model<double>& model, const Kinematics& k, int body, F&& f) {
+  for (int b = body; b > 0; b = model.parent[static_cast<std::size_t>(b)]) {
+    const auto i = static_cast<std::size_t>(b);
+    visit_joint<double>(model.joint[i], [&](auto joint) {
+      for (std::size_t c = 0; c < joint.nv; ++c) {
+        VecN<double, joint.nv> unit{};
+        unit[c] = 1;
+        const Motion<double> s = times(joint.subspace, unit);
+        f(model.iv[i] + c, Vector3(k.R_WB[i] * to_eigen(s.w)), Vector3(k.R_WB[i] * to_eigen(s.v)),
+          k.X_WL[i].p);
+      }
+    });
+  }
+}
+
 }  // namespace twinarm

@@ -5,8 +5,18 @@
 #include <utility>
 
 #include "solver/aba.h"
+#include "solver/slice.h"
 
 namespace twinarm {
+namespace {
+
+void check(const ForceSource& source, Integrator integrator) {
+  if (integrator != Integrator::semi_implicit && source.needs_semi_implicit())
+    throw std::invalid_argument(
+        "implicit spring-dampers go with the semi-implicit integrator only");
+}
+
+}  // namespace
 
 Simulation::Simulation(const Model<double>& model, State<double> start)
     : model_(model),
@@ -24,20 +34,13 @@ Simulation::Simulation(const Model<double>& model, State<double> start)
 }
 
 void Simulation::add(ForceSource& source) {
+  check(source, integrator_);
   sources_.push_back(&source);
-  check_sources();
 }
 
 void Simulation::set_integrator(Integrator integrator) {
+  for (const ForceSource* source : sources_) check(*source, integrator);
   integrator_ = integrator;
-  check_sources();
-}
-
-void Simulation::check_sources() const {
-  for (const ForceSource* source : sources_)
-    if (integrator_ != Integrator::semi_implicit && source->needs_semi_implicit())
-      throw std::invalid_argument(
-          "implicit spring-dampers go with the semi-implicit integrator only");
 }
 
 StepReport Simulation::step(double h) noexcept {
@@ -112,19 +115,29 @@ StepReport Simulation::report(int rounds) const {
 
   report.finite = false;
   const auto bad = [](const Vec3<double>& v) { return !(v.x * 0 + v.y * 0 + v.z * 0 == 0); };
-  const auto look = [&](const char* field, auto is_bad) {
-    for (std::size_t i = 1; i < model_.parent.size() && !report.bad_field; ++i)
-      if (is_bad(i)) {
-        report.bad_field = field;
-        report.bad_body = static_cast<int>(i);
-      }
+  const std::size_t n = model_.parent.size();
+  const auto look = [&](const char* field, bool from_tips, auto is_bad) {
+    for (std::size_t step = 1; step < n && !report.bad_field; ++step) {
+      const std::size_t i = from_tips ? n - step : step;
+      if (!is_bad(i)) continue;
+      report.bad_field = field;
+      report.bad_body = static_cast<int>(i);
+    }
   };
-  look("f_ext", [&](std::size_t i) { return bad(forces_.f_ext[i].n) || bad(forces_.f_ext[i].f); });
-  look("v", [&](std::size_t i) { return bad(w_.v[i].w) || bad(w_.v[i].v); });
-  look("c", [&](std::size_t i) { return bad(w_.c[i].w) || bad(w_.c[i].v); });
-  look("pA", [&](std::size_t i) { return bad(w_.pA[i].n) || bad(w_.pA[i].f); });
-  look("a", [&](std::size_t i) { return bad(w_.a[i].w) || bad(w_.a[i].v); });
-  look("q", [&](std::size_t i) {
+  look("tau", false, [&](std::size_t i) {
+    bool any = false;
+    visit_joint<double>(model_.joint[i], [&](auto joint) {
+      for (double tau : slice<joint.nv>(forces_.tau, model_.iv[i])) any = any || tau * 0 != 0;
+    });
+    return any;
+  });
+  look("f_ext", false,
+       [&](std::size_t i) { return bad(forces_.f_ext[i].n) || bad(forces_.f_ext[i].f); });
+  look("v", false, [&](std::size_t i) { return bad(w_.v[i].w) || bad(w_.v[i].v); });
+  look("c", false, [&](std::size_t i) { return bad(w_.c[i].w) || bad(w_.c[i].v); });
+  look("pA", true, [&](std::size_t i) { return bad(w_.pA[i].n) || bad(w_.pA[i].f); });
+  look("a", false, [&](std::size_t i) { return bad(w_.a[i].w) || bad(w_.a[i].v); });
+  look("q", false, [&](std::size_t i) {
     return model_.iq[i] < model_.nq && !std::isfinite(x_.q[model_.iq[i]]);
   });
   return report;

@@ -44,7 +44,6 @@ class Simulation {
   void accelerations(const State<double>& x, const Kinematics& k);
   int step_euler(double h);  // both Euler methods
   void step_rk4(double h);
-  void check_sources() const;
   StepReport report(int rounds) const;
 
   const Model<double>& model_;

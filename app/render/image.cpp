@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "solver/fault.h"
+#include "solver/whole_file.h"
 
 namespace twinarm {
 namespace {
@@ -95,20 +96,7 @@ std::string encode_png(const Image& image) {
 }
 
 void write_png(const std::string& path, const Image& image) {
-  const std::string bytes = encode_png(image);
-  // The process number keeps two programs that write the same picture from meeting in one file.
-  const std::string temporary = path + "." + std::to_string(::getpid()) + ".tmp";
-  std::ofstream out(temporary, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(temporary, path, error);
-  if (!out || error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    fail(path, "cannot be written" + (error ? " (" + error.message() + ")" : std::string()),
-         "give a path in an existing folder with write permission and free space");
-  }
+  write_whole_file(path, encode_png(image));
 }
 
 }  // namespace twinarm

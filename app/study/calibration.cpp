@@ -7,6 +7,7 @@
 
 #include "app/output_file.h"
 #include "solver/fault.h"
+#include "solver/whole_file.h"
 
 namespace twinarm {
 
@@ -87,7 +88,7 @@ void write_calibration(const Calibration& calibration, const std::filesystem::pa
           {{"name", p.name}, {"low", p.low}, {"high", p.high}, {"value", p.value}});
     root["entries"].push_back(item);
   }
-  write_file(file, root.dump(1) + "\n");
+  write_whole_file(file, root.dump(1) + "\n");
 }
 
 }  // namespace twinarm

@@ -13,6 +13,7 @@
 
 #include "app/output_file.h"
 #include "solver/fault.h"
+#include "solver/whole_file.h"
 
 extern char** environ;
 
@@ -114,7 +115,7 @@ std::string Gnuplot::data(const std::vector<std::vector<double>>& columns) {
     }
   if (rows == 0) fmt::format_to(std::back_inserter(text), "NaN NaN\n");
   const std::string name = fmt::format("data{}.txt", ++files_);
-  write_file(temporary_ / name, fmt::to_string(text));
+  write_whole_file(temporary_ / name, fmt::to_string(text));
   return quoted(name);
 }
 
@@ -146,10 +147,11 @@ void Gnuplot::draw(const std::string& name, const std::string& title, int width,
   const std::filesystem::path made = temporary_ / (name + ".svg");
   const std::filesystem::path input = temporary_ / (name + ".gp");
   const std::filesystem::path messages = temporary_ / (name + ".log");
-  write_file(input, fmt::format("set terminal svg size {},{} noenhanced font 'DejaVu Sans,13' "
-                                "rounded background '#FFFFFF' name '{}'\nset output '{}'\n",
-                                width, height, name, made.filename().string()) +
-                        kFigureStyle + script + "\nunset output\n");
+  write_whole_file(input,
+                   fmt::format("set terminal svg size {},{} noenhanced font 'DejaVu Sans,13' "
+                               "rounded background '#FFFFFF' name '{}'\nset output '{}'\n",
+                               width, height, name, made.filename().string()) +
+                       kFigureStyle + script + "\nunset output\n");
   if (!run_gnuplot(temporary_, input, messages) || !std::filesystem::exists(made))
     throw std::runtime_error("gnuplot could not draw " + name + ": " +
                              (std::filesystem::exists(messages) ? read_whole_file(messages) : ""));
@@ -167,7 +169,7 @@ void Gnuplot::draw(const std::string& name, const std::string& title, int width,
   replace_all(svg, "<title>" + name + "</title>", "<title>" + title + "</title>");
   const std::size_t begin = svg.find("<desc>"), end = svg.find("</desc>");
   if (end != std::string::npos && begin < end) svg.erase(begin, end + 7 - begin);
-  write_file(folder_ / (name + ".svg"), svg);
+  write_whole_file(folder_ / (name + ".svg"), svg);
 }
 
 }  // namespace twinarm

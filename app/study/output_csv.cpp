@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "app/output_file.h"
+#include "solver/whole_file.h"
 
 namespace twinarm {
 namespace {
@@ -74,9 +75,10 @@ std::string obstacle_csv(const ObstacleRun& run) {
 void write_csv(const StudyResults& results, const std::filesystem::path& folder) {
   require_writable_folder(folder);
   for (const auto* runs : {&results.reproduction, &results.variants})
-    for (const RunResult& run : *runs) write_file(folder / file_name(run.spec.name), run_csv(run));
+    for (const RunResult& run : *runs)
+      write_whole_file(folder / file_name(run.spec.name), run_csv(run));
   for (const ObstacleRun& run : results.obstacle)
-    write_file(folder / file_name("obstacle_" + run.name), obstacle_csv(run));
+    write_whole_file(folder / file_name("obstacle_" + run.name), obstacle_csv(run));
 }
 
 }  // namespace twinarm

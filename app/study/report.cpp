@@ -8,6 +8,7 @@
 #include "app/output_file.h"
 #include "app/study/report_sections.h"
 #include "app/study/report_style.h"
+#include "solver/whole_file.h"
 
 namespace twinarm {
 namespace {
@@ -173,7 +174,7 @@ void write_report(const StudyResults& results, const std::filesystem::path& fold
       {"obstacle", "Obstacle", obstacle_section(results, gallery)},
       {"search", "Search", search_section(results, gallery)},
       {"parameters", "Parameters", parameters_section(results)}};
-  write_file(folder / "report.html", page(results, sections));
+  write_whole_file(folder / "report.html", page(results, sections));
 }
 
 }  // namespace twinarm

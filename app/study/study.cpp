@@ -17,6 +17,7 @@
 #include "coupling/recorded_trace.h"
 #include "coupling/synthetic_operator.h"
 #include "solver/fault.h"
+#include "solver/whole_file.h"
 
 namespace twinarm {
 namespace {
@@ -109,15 +110,29 @@ void tell_people(const StudyResults& results, const std::filesystem::path& repor
 int run_study(const StudyOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const std::filesystem::path assets = find_assets(options.assets);
-  require_writable_folder(options.out);
-  const StudyInputs inputs = load_inputs(assets);
-  const std::unique_ptr<HandSource> hand = make_hand(options, inputs.settings);
   const std::filesystem::path calibration_file = assets / "study" / "calibration.json";
+  StudyInputs inputs;
+  std::unique_ptr<HandSource> hand;
+  Calibration calibration;
+  FaultList faults;  // of all inputs, told together, before anything is made
+  const auto attempt = [&](const auto& load) {
+    try {
+      load();
+    } catch (const InputError& error) {
+      faults.add(error.faults());
+    }
+  };
+  attempt([&] { inputs = load_inputs(assets); });
+  attempt([&] { hand = make_hand(options, inputs.settings); });
+  if (!options.recalibrate) attempt([&] { calibration = read_calibration(calibration_file); });
+  attempt([&] { require_writable_folder(options.out); });
+  faults.check();
   if (options.recalibrate) {
     Progress progress(false);
-    write_calibration(calibrate(inputs, progress), calibration_file);
+    calibration = calibrate(inputs, progress);
+    write_calibration(calibration, calibration_file);
   }
-  const Calibration calibration = read_calibration(calibration_file);
+  std::filesystem::create_directories(options.out);
 
   Progress progress(false);
   StudyResults results = compute(options, inputs, *hand, calibration, progress);
@@ -129,7 +144,7 @@ int run_study(const StudyOptions& options) {
   write_report(results, options.out);
   const std::filesystem::path report = options.out / "report.html";
   const std::string json = study_json(results, report.string());
-  write_file(options.out / "study.json", json + "\n");
+  write_whole_file(options.out / "study.json", json + "\n");
   progress.finish();
   if (options.json)
     fmt::print("{}\n", json);

@@ -15,9 +15,9 @@
 #include "collision/import/robot_check.h"
 #include "collision/import/stl_writer.h"
 #include "collision/import/urdf_writer.h"
-#include "collision/import/whole_file.h"
 #include "collision/mass_properties.h"
 #include "collision/mesh_file.h"
+#include "solver/whole_file.h"
 
 namespace twinarm {
 namespace {

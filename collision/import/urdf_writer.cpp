@@ -6,7 +6,7 @@
 
 #include "collision/import/number_text.h"
 #include "collision/import/robot_check.h"
-#include "collision/import/whole_file.h"
+#include "solver/whole_file.h"
 
 namespace twinarm {
 namespace {

@@ -10,7 +10,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# Room by room, whom it may include (DESIGN 1). Nobody includes app/ but app/ itself.
+# Room by room, whom it may include (docs/design.md). Nobody includes app/ but app/ itself.
 ARROWS = {
     "solver": {"solver"},
     "collision": {"collision", "solver"},

@@ -25,6 +25,8 @@ std::vector<Run> runs() {
     for (const Measure measure : {Measure::world, Measure::joint})
       list.push_back({torsional(gains, measure), integrator});
     list.push_back({linear(point_gains), integrator});
+    list.push_back({linear(point_gains), integrator});
+    list.back().spec.type = CouplingSpec::Type::matched;
     for (const auto type : {CouplingSpec::Type::torsional, CouplingSpec::Type::linear})
       list.push_back({printed(type, gains, {}), integrator});
   }

@@ -162,3 +162,17 @@ TEST_CASE("a trace with a hundred bad lines names the first twenty and counts th
   CHECK(faults.size() == 21);
   CHECK(faults.back().rule.find("80") != std::string::npos);
 }
+
+TEST_CASE("a trace that cannot be written is refused and leaves nothing behind") {
+  const Folder folder;
+  const fs::path below_a_file = folder.write("x") / "trace.csv";
+  CHECK_THROWS_AS(write_trace(SyntheticOperator(1, 1), 10, below_a_file), InputError);
+  fs::create_directories(folder.file("taken.csv") / "inside");
+  CHECK_THROWS_AS(write_trace(SyntheticOperator(1, 1), 10, folder.file("taken.csv")), InputError);
+  CHECK_FALSE(fs::exists(folder.file("taken.csv.tmp")));
+}
+
+TEST_CASE("a blank line with a Windows line end is skipped") {
+  const Folder folder;
+  CHECK(faults_of(folder.write(kHeader + "0,0,0,0,0,0,0,0\r\n\r\n1,0,0,0,0,0,0,0\r\n")).empty());
+}

@@ -35,11 +35,11 @@ LinkDescription random_link(const std::string& name, const fs::path& mesh, Numbe
     link.inertia += r.squaredNorm() * Matrix3::Identity() - r * r.transpose();
   }
   const PartGeometry shapes[] = {BoxGeometry{numbers.vector().cwiseAbs() + Vector3::Constant(1e-9)},
-                             SphereGeometry{numbers.positive()},
-                             CylinderGeometry{numbers.positive(), numbers.positive()},
-                             CapsuleGeometry{numbers.positive(), numbers.positive()},
-                             MeshGeometry{mesh, numbers.positive()},
-                             MeshGeometry{mesh, 1.0}};
+                                 SphereGeometry{numbers.positive()},
+                                 CylinderGeometry{numbers.positive(), numbers.positive()},
+                                 CapsuleGeometry{numbers.positive(), numbers.positive()},
+                                 MeshGeometry{mesh, numbers.positive()},
+                                 MeshGeometry{mesh, 1.0}};
   for (const PartGeometry& shape : shapes) {
     VisualPart visual;
     visual.name = name + " <&\"'> " + std::to_string(link.visuals.size());

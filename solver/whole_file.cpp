@@ -1,5 +1,4 @@
-// Writes a file in one piece.
-#include "collision/import/whole_file.h"
+#include "solver/whole_file.h"
 
 #include <unistd.h>
 
@@ -23,7 +22,7 @@ void write_whole_file(const std::filesystem::path& file, const std::string& byte
   std::error_code ignored;
   std::filesystem::remove(temporary, ignored);
   throw InputError({{file.string(), 0, "", "the file cannot be written",
-                     "check that its folder exists and may be written"}});
+                     "choose a folder that exists and can be written"}});
 }
 
 }  // namespace twinarm

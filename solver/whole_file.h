@@ -1,4 +1,5 @@
-// Writes a file in one piece: under a temporary name in the same folder, then renamed.
+// Writes a file in one piece: under a temporary name in the same folder, then renamed. Every file
+// of the project is written by it, so that none is ever seen half.
 #pragma once
 
 #include <filesystem>
