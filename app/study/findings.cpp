@@ -122,7 +122,9 @@ void add_equal_gains(const StudyInputs& inputs, std::vector<Finding>& findings) 
 void add_rows(const StudyInputs& inputs, const Predictions& predictions, StudyResults& results,
               Progress& progress) {
   std::size_t done = 0;
-  for (const auto& [name, entry] : results.calibration.entries) {
+  for (const auto& item : results.calibration.entries) {
+    const std::string& name = item.first;
+    const CalibrationEntry& entry = item.second;
     progress.advance(0.1 + 0.6 * static_cast<double>(++done) /
                                static_cast<double>(results.calibration.entries.size()));
     if (!name.starts_with("row/")) continue;
