@@ -92,7 +92,6 @@ std::string quoted(const std::string& text) {
 
 Gnuplot::Gnuplot(std::filesystem::path folder) : folder_(std::move(folder)) {
   find_program("gnuplot");
-  require_writable_folder(folder_);
   temporary_ = make_temporary_folder();
 }
 

@@ -22,9 +22,7 @@ class Pictures {
         robot_(robot),
         folder_(std::move(folder)),
         paper_view_(paper_view),
-        scene_(inputs.s103, robot.kvr_model()) {
-    std::filesystem::create_directories(folder_);
-  }
+        scene_(inputs.s103, robot.kvr_model()) {}
 
   void portrait() {
     scene_.clear();

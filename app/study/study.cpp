@@ -132,7 +132,8 @@ int run_study(const StudyOptions& options) {
     calibration = calibrate(inputs, progress);
     write_calibration(calibration, calibration_file);
   }
-  std::filesystem::create_directories(options.out);
+  for (const char* part : {"figures", "csv", "pictures"})
+    std::filesystem::create_directories(options.out / part);
 
   Progress progress(false);
   StudyResults results = compute(options, inputs, *hand, calibration, progress);

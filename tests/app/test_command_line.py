@@ -50,6 +50,35 @@ class CommandLine(unittest.TestCase):
         shutil.copytree(ASSETS, copy, ignore=shutil.ignore_patterns("cad"))
         return copy
 
+    # The whole study
+
+    def test_a_study_gives_its_json_its_report_and_the_numbers_that_it_must_reach(self):
+        out = self.folder / "new" / "study"
+        trace = ASSETS / "traces" / "synthetic_seed1.csv"
+        result = run("study", "--out", out, "--trace", trace, "--json", timeout=300)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        study = json.loads(result.stdout)
+        published = {"E3": (16.6, 23.5, 8.6, 5.2), "E4": (3.4, 6.0, 0.3, 0.6)}
+        for name, numbers in published.items():
+            run_ = study["runs"][name]
+            measured = (*run_["max_deg"].values(), *run_["mean_deg"].values())
+            for value, number in zip(measured, numbers):
+                self.assertLess(abs(value / number - 1), 0.15, name)
+            self.assertEqual(set(run_["gains"]) & {"k1", "b1"}, {"k1", "b1"})
+        for obstacle in study["obstacle"]:
+            self.assertLess(obstacle["largest_penetration"], 0.5e-3)
+            self.assertGreater(obstacle["largest_beyond"], 50e-3)
+        names = {variant["name"] for variant in study["variants"]}
+        self.assertLessEqual({"trial/printed-linear/60", "held/printed-linear/60-held",
+                              "implicit/linear/1000", "ablation/folded"}, names)
+        self.assertEqual(len(study["answer"]), 5)
+        report = pathlib.Path(study["report"]).read_text(encoding="utf-8")
+        for outside in ("src=\"http", "href=\"http", "@import", "<script src"):
+            self.assertNotIn(outside, report)
+        self.assertEqual(report.count("<svg"), 10)
+        self.assertEqual(report.count("data:image/png;base64"), 5)
+        self.assertEqual([f for f in self.written() if f.endswith(".tmp")], [])
+
     # Help
 
     def commands(self):
