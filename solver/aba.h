@@ -25,7 +25,7 @@ void aba(const Model<S>& model, const State<S>& x, const Forces<S>& forces, Work
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const Motion<S> vJ = times(joint.subspace, slice<joint.nv>(x.qd, model.iv[i]));
 
-      w.Xup[i] = joint.XJ(&x.q[model.iq[i]]) * model.Xtree[i];
+      w.Xup[i] = joint.XJ(x.q.data() + model.iq[i]) * model.Xtree[i];
       w.v[i] = w.Xup[i] * w.v[p] + vJ;
       w.c[i] = crm(w.v[i], vJ);
       w.IA[i] = ArticulatedInertia<S>(model.I[i]) + forces.impedance[i];

@@ -20,7 +20,7 @@ void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w,
 
   for (std::size_t i = 1; i < n_bodies; ++i) {
     visit_joint<S>(model.joint[i], [&](auto joint) {
-      w.Xup[i] = joint.XJ(&x.q[model.iq[i]]) * model.Xtree[i];
+      w.Xup[i] = joint.XJ(x.q.data() + model.iq[i]) * model.Xtree[i];
       w.Ic[i] = ArticulatedInertia<S>(model.I[i]);
     });
   }

@@ -9,7 +9,7 @@ double kinetic_energy(const Model<double>& model, const State<double>& x) {
   double sum = 0;
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     visit_joint<double>(model.joint[i], [&](auto joint) {
-      const Transform<double> Xup = joint.XJ(&x.q[model.iq[i]]) * model.Xtree[i];
+      const Transform<double> Xup = joint.XJ(x.q.data() + model.iq[i]) * model.Xtree[i];
       v[i] = Xup * v[static_cast<std::size_t>(model.parent[i])] +
              times(joint.subspace, slice<joint.nv>(x.qd, model.iv[i]));
     });
@@ -23,7 +23,7 @@ double potential_energy(const Model<double>& model, const State<double>& x) {
   double sum = 0;
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     visit_joint<double>(model.joint[i], [&](auto joint) {
-      X0[i] = joint.XJ(&x.q[model.iq[i]]) * model.Xtree[i] *
+      X0[i] = joint.XJ(x.q.data() + model.iq[i]) * model.Xtree[i] *
               X0[static_cast<std::size_t>(model.parent[i])];
     });
     const Vec3<double> mass_times_com =

@@ -8,7 +8,8 @@ void integrate_coordinates(const Model<double>& model, const std::vector<double>
                            const std::vector<double>& shift, std::vector<double>& q_out) {
   for (std::size_t i = 1; i < model.parent.size(); ++i)
     visit_joint<double>(model.joint[i], [&](auto joint) {
-      joint.integrate(&q[model.iq[i]], &shift[model.iv[i]], &q_out[model.iq[i]]);
+      joint.integrate(q.data() + model.iq[i], shift.data() + model.iv[i],
+                      q_out.data() + model.iq[i]);
     });
 }
 

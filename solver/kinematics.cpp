@@ -27,7 +27,7 @@ void forward_kinematics(const Model<double>& model, const State<double>& x, Kine
     visit_joint<double>(model.joint[i], [&](auto joint) {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const Motion<double> vJ = times(joint.subspace, slice<joint.nv>(x.qd, model.iv[i]));
-      const Transform<double> Xup = joint.XJ(&x.q[model.iq[i]]) * model.Xtree[i];
+      const Transform<double> Xup = joint.XJ(x.q.data() + model.iq[i]) * model.Xtree[i];
       k.v_[i] = Xup * k.v_[p] + vJ;
       k.a_bias[i] = Xup * k.a_bias[p] + crm(k.v_[i], vJ);
 

@@ -24,7 +24,7 @@ void rnea(const Model<S>& model, const State<S>& x, const std::vector<S>& qdd,
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const Motion<S> vJ = times(joint.subspace, slice<joint.nv>(x.qd, model.iv[i]));
 
-      w.Xup[i] = joint.XJ(&x.q[model.iq[i]]) * model.Xtree[i];
+      w.Xup[i] = joint.XJ(x.q.data() + model.iq[i]) * model.Xtree[i];
       w.v[i] = w.Xup[i] * w.v[p] + vJ;
       w.c[i] = crm(w.v[i], vJ);
       w.a[i] =

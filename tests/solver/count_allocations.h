@@ -18,7 +18,10 @@ inline volatile long allocations = 0;
 }
 
 #ifdef TWINARM_ADDRESS_SANITIZER
-#include <sanitizer/allocator_interface.h>
+// g++ ships the function but not its header.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*malloc_hook)(const volatile void*,
+                                                                             std::size_t),
+                                                         void (*free_hook)(const volatile void*));
 namespace twinarm::testing {
 inline void note_malloc(const volatile void*, std::size_t) {
   allocations = allocations + 1;

@@ -144,7 +144,8 @@ TEST_CASE("velocities and Jacobians are the derivatives of positions, for every 
       for (double& d : shift) d *= s;
       for (std::size_t i = 1; i < c.model.parent.size(); ++i)
         visit_joint<double>(c.model.joint[i], [&](auto joint) {
-          joint.integrate(&c.x.q[c.model.iq[i]], &shift[c.model.iv[i]], &y.q[c.model.iq[i]]);
+          joint.integrate(c.x.q.data() + c.model.iq[i], shift.data() + c.model.iv[i],
+                          y.q.data() + c.model.iq[i]);
         });
       Kinematics k(c.model);
       forward_kinematics(c.model, y, k);
