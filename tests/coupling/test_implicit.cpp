@@ -1,5 +1,5 @@
 // Spring-dampers treated semi-implicitly and implicitly, on mechanisms whose discrete motion is
-// known: DESIGN 5, solver/spring.h.
+// known: docs/coupling.md, solver/spring.h.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>

@@ -42,7 +42,6 @@ struct Row {
 
 TEST_CASE("a spinning symmetric body under rk4 of 1 ms precesses as the closed form, to 1e-8") {
   const Model<double> model = free_body(diagonal(1, 0.04, 0.04, 0.02), Vector3::Zero());
-  // docs/cases.md prints x = 0.19689377... at 1 s: not a unit quaternion; the closed form has this.
   const Row table[] = {
       {1,
        {-0.75015282954333481, 0.19689177386125114, -0.59255951164587993, 0.2176639310310615},
