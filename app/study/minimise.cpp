@@ -56,8 +56,8 @@ std::string optimiser_name() {
   int major = 0, minor = 0, fix = 0;
   nlopt::version(major, minor, fix);
   return fmt::format(
-      "NLopt {}.{}.{}: E3 by GN_CRS2_LM, the others by G_MLSL_LDS with LN_SBPLX; all ended by "
-      "LN_SBPLX",
+      "NLopt {}.{}.{}: GN_CRS2_LM for the folded and the unsigned damper, G_MLSL_LDS with LN_SBPLX "
+      "for the others; all ended by LN_SBPLX",
       major, minor, fix);
 }
 

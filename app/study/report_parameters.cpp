@@ -117,9 +117,8 @@ std::string search_section(const StudyResults& results, const Gallery& gallery) 
   html += "</tbody></table></div>\n";
   html +=
       gallery.figure("search",
-                     "<b>Best fit against the rate.</b> Of E3 the error under shifted gains, which "
-                     "was the objective. Where both E3 and E4 lie low, one common rate can explain "
-                     "both rows.");
+                     "<b>Best fit against the rate.</b> The largest deviation of the four numbers. "
+                     "Where both E3 and E4 lie low, one common rate can explain both rows.");
   if (rate <= 0) return html;
   html += fmt::format("<h3>Chosen: {:g} Hz for all four runs, mass of arm 2 times {}</h3>\n", rate,
                       rounded(results.arm2_mass_scale));
