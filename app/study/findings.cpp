@@ -163,6 +163,25 @@ void add_rows(const StudyInputs& inputs, const Predictions& predictions, StudyRe
   }
 }
 
+// Whether linear springs at the centres of mass hold better than torsional ones, rate by rate.
+void add_ratios(const StudyInputs& inputs, const StudyResults& results,
+                std::vector<Finding>& findings) {
+  for (const char* robot : {"findings_set0", "findings_10_14"})
+    for (double rate : inputs.settings.rates_hz) {
+      const Pair torsional = results.rows.at(fmt::format("row/{}/world/{:g}", robot, rate)).max_deg;
+      const Pair linear = results.rows.at(fmt::format("row/{}/linear/{:g}", robot, rate)).max_deg;
+      findings.push_back(
+          {"update rate",
+           fmt::format(
+               "{}, {:g} Hz: with equal gains the best linear coupling at the centres of mass "
+               "errs less than the best torsional one, in both joints",
+               robot_words(robot), rate),
+           fmt::format("linear {}, torsional {} deg: factors {:.1f} and {:.1f}", words(linear),
+                       words(torsional), torsional[0] / linear[0], torsional[1] / linear[1]),
+           torsional[0] > linear[0] && torsional[1] > linear[1]});
+    }
+}
+
 // ---- the damping term
 // ------------------------------------------------------------------------------
 
@@ -326,6 +345,7 @@ void derive_findings(const StudyInputs& inputs, StudyResults& results, Progress&
   add_proportional_springs(findings);
   add_equal_gains(inputs, findings);
   add_rows(inputs, predictions, results, progress);
+  add_ratios(inputs, results, findings);
   add_damping(inputs, findings);
   add_differences(inputs, results, findings);
   add_stability(inputs, findings);
