@@ -58,7 +58,10 @@ class Pictures {
       reading.p_K = k_K.position(spring.body, p_L);
       reading.p_D = k_D.position(spring.body, p_L);
       reading.size = s.pull[index++][worst];
-      reading.pull = Vector3(0, 0, reading.size);
+      // The series keeps the size of a couple; the spring turns the DVR towards the KVR.
+      const auto i = static_cast<std::size_t>(spring.body);
+      const double turn = rotation_vector(k_K.X_WL[i].R * k_D.X_WL[i].R.transpose()).z();
+      reading.pull = Vector3(0, 0, std::copysign(reading.size, turn));
       readings.push_back(reading);
     }
     scene_.clear();

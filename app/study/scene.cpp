@@ -57,11 +57,14 @@ void RobotScene::add_springs(const std::vector<SpringReading>& readings, const s
 }
 
 void RobotScene::add_couples(const std::vector<SpringReading>& readings) {
-  constexpr double kMetresPerNewtonMetre = 0.006;
+  constexpr double kMetresPerNewtonMetre = 0.002;
+  const Vector3 above(0, 0, 0.40);  // the joint, clear of the arm [m]
   for (const SpringReading& reading : readings) {
-    const Vector3 tip = reading.p_D + kMetresPerNewtonMetre * reading.pull;
-    add_arrow(list_, reading.p_D, tip, 0.008, kCouple);
-    add_label(list_, tip, fmt::format("{:.0f} N m", reading.pull.z()), {24, -10});
+    // The whole arrow stands above the joint, whichever way it points.
+    const Vector3 arrow = kMetresPerNewtonMetre * reading.pull;
+    const Vector3 low = reading.p_D + above, from = arrow.z() < 0 ? Vector3(low - arrow) : low;
+    add_arrow(list_, from, from + arrow, 0.008, kCouple);
+    add_label(list_, low, fmt::format("{:.0f} N m", reading.pull.z()), {24, -10});
   }
   list_.legend.push_back({kCouple, "couple of the torsional spring-damper on the link"});
 }
