@@ -69,7 +69,7 @@ class Pictures {
     if (!paper_view_) scene_.add_ghost(k_K);
     if (!paper_view_ && linear) scene_.add_springs(readings, "N");
     if (!paper_view_ && !linear) scene_.add_couples(readings);
-    scene_.look(-60, 32, 1.95, {0.26, 0, 0.52});
+    scene_.look(-60, 30, 2.3, {0.26, 0, 0.60});
     scene_.list().title =
         fmt::format("{} at its largest error, t = {:.2f} s", result.spec.name, s.t[worst]);
     paint(result.spec.name + ".png", Quality::normal);
@@ -86,7 +86,7 @@ class Pictures {
       if (!linear) scene_.add_couples(system.coupling(0).readings());
     }
     scene_.add_obstacle(box.X_WB, box.size);
-    scene_.look(30, 27, 2.55, {0.30, -0.12, 0.42});  // sees the face that stops the DVR
+    scene_.look(30, 26, 2.75, {0.30, -0.12, 0.52});  // sees the face that stops the DVR
     scene_.list().title =
         fmt::format("{} coupling, t = {:.2f} s: the DVR is stopped, the KVR goes on",
                     linear ? "Linear" : "Torsional", system.simulation().state().t);
