@@ -77,13 +77,18 @@ JointDescription read_joint(const toml::table& table, const toml::table* paper,
   source.only_keys(
       table, where,
       {"name", "type", "parent", "child", "axis", "limits", "origin", "rpy", "effort", "velocity",
-       "damping", "friction", "armature", "coulomb_plus", "coulomb_minus", "note"});
+       "damping", "friction", "pitch", "armature", "coulomb_plus", "coulomb_minus", "note"});
   const auto line_of = [&](const char* key) {
     const toml::node* node = table.get(key);
     return node ? TomlSource::line_of(*node) : 0;
   };
-  joint.lines = {line_of("parent"), line_of("child"),   line_of("axis"),
-                 line_of("limits"), line_of("damping"), line_of("armature")};
+  joint.lines = {line_of("parent"),
+                 line_of("child"),
+                 line_of("axis"),
+                 line_of("limits"),
+                 line_of("damping"),
+                 line_of("armature"),
+                 0};
   const std::string type = source.text(table, "type", where);
   if (!type.empty() && !joint_type_from(type, joint.type))
     source.fault(TomlSource::line_of(*table.get("type")), where,
@@ -98,7 +103,7 @@ JointDescription read_joint(const toml::table& table, const toml::table* paper,
     const double length = joint.axis.norm();
     if (length >= 1e-9) joint.axis /= length;
   }
-  if (joint.is_limited())
+  if (joint.is_limited() || (joint.type == Type::screw && table.contains("limits")))
     if (const auto limits = source.numbers(table, "limits", where, 2)) {
       joint.lower = (*limits)[0];
       joint.upper = (*limits)[1];
@@ -109,6 +114,7 @@ JointDescription read_joint(const toml::table& table, const toml::table* paper,
   joint.damping = source.number(table, "damping", where, 0.0);
   joint.friction = source.number(table, "friction", where, 0.0);
   joint.armature = source.number(table, "armature", where, 0.0);
+  if (joint.type == Type::screw) joint.pitch = source.number(table, "pitch", where);
   joint.coulomb_plus = source.number(table, "coulomb_plus", where, joint.friction);
   joint.coulomb_minus = source.number(table, "coulomb_minus", where, joint.friction);
   return joint;

@@ -9,10 +9,12 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "solver/fault.h"
 #include "solver/pose.h"
 
 namespace twinarm {
@@ -53,9 +55,10 @@ struct CapsuleGeometry {  // axis z, centre at the origin
   double radius = 1;
   double length = 1;  // of the cylinder between the two half balls
 };
-struct MeshGeometry {
-  std::filesystem::path file;  // absolute
-  double scale = 1;            // metres per unit of the file
+struct MeshGeometry {               // collision/import/mesh_geometry.h loads it
+  std::filesystem::path file;       // absolute; empty where it was not found
+  Vector3 scale = Vector3::Ones();  // metres per unit of the file, along its axes; < 0 mirrors
+  std::string name;                 // as the robot's file calls it; may be empty
 };
 using PartGeometry =
     std::variant<BoxGeometry, SphereGeometry, CylinderGeometry, CapsuleGeometry, MeshGeometry>;
@@ -83,7 +86,7 @@ struct LinkDescription {
   int line = 0;
   int mass_line = 0;  // of the elements that state them; 0 where unknown
   int inertia_line = 0;
-  bool has_inertia = false;  // false: mass, com and inertia are zero and mean nothing
+  bool has_inertia = false;  // false: a frame without mass; mass, com and inertia are zero
   double mass = 0;
   Vector3 com = Vector3::Zero();      // in the link frame
   Matrix3 inertia = Matrix3::Zero();  // about the com, in link axes
@@ -92,11 +95,28 @@ struct LinkDescription {
 };
 
 struct JointDescription {
-  enum class Type { fixed, revolute, continuous, prismatic, floating };
+  enum class Type {
+    fixed,
+    revolute,
+    continuous,
+    prismatic,
+    screw,
+    cylindrical,
+    universal,
+    spherical,
+    planar,
+    floating
+  };
+
+  struct Mimic {  // q = multiplier * (q of `joint`) + offset, at all times
+    std::string joint;
+    double multiplier = 1;
+    double offset = 0;
+  };
 
   // Where in the file the element stands that states it; 0 where unknown.
   struct Lines {
-    int parent = 0, child = 0, axis = 0, limits = 0, dynamics = 0, extension = 0;
+    int parent = 0, child = 0, axis = 0, limits = 0, dynamics = 0, extension = 0, mimic = 0;
   };
 
   std::string name;
@@ -106,20 +126,45 @@ struct JointDescription {
   std::string parent;
   std::string child;
   Origin origin;                    // of the joint (and child) frame in the parent link's frame
-  Vector3 axis = Vector3::UnitX();  // unit length, in the joint frame; no meaning if fixed/floating
-  double lower = 0;                 // [rad] or [m]; revolute and prismatic only
+  Vector3 axis = Vector3::UnitX();  // unit length, in the joint frame; no meaning if !has_axis();
+                                    // of a universal joint the first axis, of a planar the normal
+  double pitch = 0;                 // [m per revolution], as files have it; screw only
+  double lower = 0;                 // [rad] or [m]; may be infinite; see is_limited()
   double upper = 0;
   double effort = 0;         // these two are kept for other programs that read our files;
   double velocity = 0;       // nothing here uses them
-  double damping = 0;        // viscous [N m s/rad] or [N s/m]
+  double damping = 0;        // viscous, of each dof [N m s/rad] or [N s/m]
   double friction = 0;       // Coulomb, as URDF states it, alike in both directions [N m] or [N]
   double armature = 0;       // rotor inertia seen at the joint [kg m^2] or [kg]
   double coulomb_plus = 0;   // Coulomb friction for qd > 0 and for qd < 0, both >= 0: equal to
   double coulomb_minus = 0;  // `friction` unless the <twinarm> element says otherwise. Use these.
+  std::optional<Mimic> mimic;
 
   Pose X_PJ() const { return origin.pose(); }
-  bool is_limited() const { return type == Type::revolute || type == Type::prismatic; }
-  bool has_axis() const { return type != Type::fixed && type != Type::floating; }
+  // A screw may have limits: it has where lower < upper.
+  bool is_limited() const {
+    return type == Type::revolute || type == Type::prismatic ||
+           (type == Type::screw && lower < upper);
+  }
+  bool has_axis() const {
+    return type != Type::fixed && type != Type::floating && type != Type::spherical;
+  }
+  int dofs() const {
+    switch (type) {
+      case Type::fixed:
+        return 0;
+      case Type::cylindrical:
+      case Type::universal:
+        return 2;
+      case Type::spherical:
+      case Type::planar:
+        return 3;
+      case Type::floating:
+        return 6;
+      default:
+        return 1;
+    }
+  }
 };
 
 struct RobotDescription {
@@ -128,6 +173,8 @@ struct RobotDescription {
   std::vector<LinkDescription> links;    // in the order of the file
   std::vector<JointDescription> joints;  // in the order of the file
   std::string root;                      // the one link that is no joint's child
+  // What was read but is suspicious, or has no effect here; in the order of the lines.
+  std::vector<Fault> warnings;
 };
 
 }  // namespace twinarm

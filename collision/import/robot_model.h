@@ -7,6 +7,7 @@
 
 #include "collision/import/robot_description.h"
 #include "solver/model.h"
+#include "solver/model_builder.h"
 
 namespace twinarm {
 
@@ -20,10 +21,21 @@ struct PointMass {
 struct ModelOptions {
   std::map<std::string, double> mass_scale;  // by link; scales mass and inertia
   std::vector<PointMass> added_masses;
+  bool floating =
+      false;  // the root link is carried by a free joint, and does not stand on the world
+  bool armature = true;  // false: as if no joint had any
+  bool friction = true;  // false: as if no joint had damping or Coulomb friction
 };
 
-// The root link stands on the world. Throws InputError, with the lines of the description, for
-// what the solver cannot carry.
+// The root link is always the first body after the world.
+inline constexpr int kRootBody = 1;
+
+// The joint that carries the root link: "base" where it floats, "<root>_on_world" where it stands,
+// with as many "_" after it as make it no joint of the robot.
+std::string root_joint_name(const RobotDescription& robot, bool floating);
+
+// The robot must have passed check_robot. Throws InputError, with the lines of the description, for
+// what the solver cannot carry: a joint that moves nothing of mass or inertia.
 Model<double> build_model(const RobotDescription& robot, const ModelOptions& options = {});
 
 BodyInertia plus_point_mass(const BodyInertia& body, const Vector3& p, double mass);

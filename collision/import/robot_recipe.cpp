@@ -32,8 +32,9 @@ class Maker {
     result_.robot.joints = recipe_.joints;
     file_name(recipe_.name, "recipe", 1);
     for (const RecipeLink& link : recipe_.links) make_link(link);
-    const std::vector<Fault> more = check_robot(result_.robot);
-    faults_.insert(faults_.end(), more.begin(), more.end());
+    RobotCheck check = check_robot(result_.robot, true);
+    faults_.insert(faults_.end(), check.faults.begin(), check.faults.end());
+    result_.robot.warnings = std::move(check.warnings);
     throw_in_line_order(faults_);
     result_.robot.root = find_root(result_.robot);
     return std::move(result_);
@@ -107,7 +108,7 @@ class Maker {
     VisualPart visual;
     visual.name = part.mesh;
     visual.line = part.line;
-    visual.geometry = MeshGeometry{mesh_file(part), recipe_.mesh_scale};
+    visual.geometry = MeshGeometry{mesh_file(part), Vector3::Constant(recipe_.mesh_scale), {}};
     visual.material = part.material;
     visual.color = material->second.color;
     link.visuals.push_back(std::move(visual));
@@ -140,7 +141,7 @@ class Maker {
     CollisionPart part;
     part.name = collision.name;
     part.line = collision.line;
-    part.geometry = MeshGeometry{file, recipe_.mesh_scale};
+    part.geometry = MeshGeometry{file, Vector3::Constant(recipe_.mesh_scale), {}};
     link.collisions.push_back(std::move(part));
   }
 

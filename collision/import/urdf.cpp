@@ -4,10 +4,14 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <utility>
 
-#include "collision/import/number_text.h"
 #include "collision/import/robot_check.h"
+#include "collision/import/urdf_joint.h"
 #include "collision/import/urdf_shapes.h"
+#include "collision/import/urdf_vocabulary.h"
 #include "collision/import/urdf_xml.h"
 
 namespace twinarm {
@@ -15,8 +19,6 @@ namespace twinarm {
 using tinyxml2::XMLElement;
 
 namespace {
-
-using Type = JointDescription::Type;
 
 // "XML_ERROR_MISMATCHED_ELEMENT" -> "mismatched element"
 std::string xml_error_text(const tinyxml2::XMLDocument& document) {
@@ -29,21 +31,12 @@ std::string xml_error_text(const tinyxml2::XMLDocument& document) {
   return text;
 }
 
-// More than one of what there can be only one of: which would count?
-void at_most_one(const XMLElement& parent, const char* name, const std::string& where,
-                 UrdfSource& source) {
-  const XMLElement* first = parent.FirstChildElement(name);
-  const XMLElement* second = first ? first->NextSiblingElement(name) : nullptr;
-  if (second)
-    source.fault(second->GetLineNum(), where, std::string("a second <") + name + ">",
-                 std::string("give one <") + name + ">");
-}
-
 void read_inertial(const XMLElement& element, const std::string& where, LinkDescription& link,
                    UrdfSource& source) {
   link.has_inertia = true;
   link.mass = 1;  // harmless values, in place of those that are missing or no numbers
   link.inertia = Matrix3::Identity();
+  for (const char* name : {"mass", "inertia"}) source.at_most_one(element, name, where);
   const Origin origin = source.origin(element, where);
   link.com = origin.xyz;
   if (const XMLElement* mass = element.FirstChildElement("mass")) {
@@ -84,106 +77,23 @@ LinkDescription read_link(const XMLElement& element, const MaterialColors& mater
   link.line = element.GetLineNum();
   if (const char* name = element.Attribute("name")) link.name = name;
   const std::string where = "link '" + link.name + "'";
-  at_most_one(element, "inertial", where, source);
+  source.at_most_one(element, "inertial", where);
   if (const XMLElement* inertial = element.FirstChildElement("inertial"))
     read_inertial(*inertial, where, link, source);
   read_shapes(element, materials, link, source);
   return link;
 }
 
-void read_type(const XMLElement& element, const std::string& where, JointDescription& joint,
-               UrdfSource& source) {
-  std::string type = source.text(element, "type", where);
-  // Joints that URDF lacks come by an extension element, which names the true type.
-  const XMLElement* extension = element.FirstChildElement("twinarm");
-  if (extension && extension->Attribute("type")) type = extension->Attribute("type");
-  if (!type.empty() && !joint_type_from(type, joint.type))
-    source.fault(element.GetLineNum(), where, "joint type '" + type + "' is not supported",
-                 kSupportedJoints);
-  if (const XMLElement* mimic = element.FirstChildElement("mimic"))
-    source.fault(mimic->GetLineNum(), where, "<mimic> is not supported",
-                 "leave it out: the joint is then free");
-}
-
-void read_limits(const XMLElement& element, const std::string& where, JointDescription& joint,
-                 UrdfSource& source) {
-  const XMLElement* limit = element.FirstChildElement("limit");
-  if (limit) {
-    joint.effort = source.number(*limit, "effort", where, 0.0).value_or(0.0);
-    joint.velocity = source.number(*limit, "velocity", where, 0.0).value_or(0.0);
-  }
-  if (!joint.is_limited()) return;
-  if (!limit || (!limit->FindAttribute("lower") && !limit->FindAttribute("upper"))) {
-    source.fault((limit ? limit : &element)->GetLineNum(), where,
-                 std::string("a ") + to_string(joint.type) + " joint must have limits",
-                 joint.type == Type::revolute
-                     ? "give <limit lower upper effort velocity/>, or make the joint continuous"
-                     : "give <limit lower upper effort velocity/> in metres");
-    return;
-  }
-  const auto lower = source.number(*limit, "lower", where, 0.0);
-  const auto upper = source.number(*limit, "upper", where, 0.0);
-  if (lower && upper) {
-    joint.lower = *lower;
-    joint.upper = *upper;
-  }
-}
-
-// Unit length; an axis that has it already keeps its bits.
-Vector3 unit_axis(const Vector3& axis) {
-  const double length = axis.norm();
-  return length < 1e-9 || std::abs(length - 1) < 1e-15 ? axis : Vector3(axis / length);
-}
-
-JointDescription read_joint(const XMLElement& element, UrdfSource& source) {
-  JointDescription joint;
-  joint.line = element.GetLineNum();
-  if (const char* name = element.Attribute("name")) joint.name = name;
-  const std::string where = "joint '" + joint.name + "'";
-  for (const char* name : {"origin", "axis", "limit", "dynamics", "parent", "child", "twinarm"})
-    at_most_one(element, name, where, source);
-  read_type(element, where, joint, source);
-  joint.origin = source.origin(element, where);
-
-  const auto line_of = [&](const char* name) {
-    const XMLElement* e = element.FirstChildElement(name);
-    return e ? e->GetLineNum() : 0;
-  };
-  joint.lines = {line_of("parent"), line_of("child"),    line_of("axis"),
-                 line_of("limit"),  line_of("dynamics"), line_of("twinarm")};
-  const auto link_of = [&](const char* role) {  // what is missing is told by check_robot
-    const XMLElement* e = element.FirstChildElement(role);
-    const char* link = e ? e->Attribute("link") : nullptr;
-    return std::string(link ? link : "");
-  };
-  joint.parent = link_of("parent");
-  joint.child = link_of("child");
-
-  if (const XMLElement* axis = element.FirstChildElement("axis"); axis && joint.has_axis())
-    joint.axis = unit_axis(source.vector3(*axis, "xyz", where).value_or(Vector3::UnitX()));
-  read_limits(element, where, joint, source);
-  if (const XMLElement* dynamics = element.FirstChildElement("dynamics")) {
-    joint.damping = source.number(*dynamics, "damping", where, 0.0).value_or(0.0);
-    joint.friction = source.number(*dynamics, "friction", where, 0.0).value_or(0.0);
-  }
-  joint.coulomb_plus = joint.coulomb_minus = joint.friction;
-  if (const XMLElement* extra = element.FirstChildElement("twinarm")) {
-    const auto take = [&](const char* attribute, double& value) {
-      value = source.number(*extra, attribute, where, value).value_or(value);
-    };
-    take("armature", joint.armature);
-    take("coulomb_plus", joint.coulomb_plus);
-    take("coulomb_minus", joint.coulomb_minus);
-  }
-  return joint;
-}
-
 // The <robot> element; throws where there is none to go on with.
 const XMLElement& open_robot(tinyxml2::XMLDocument& document, UrdfSource& source) {
+  constexpr std::uintmax_t kMaxBytes = 64u << 20;
   std::error_code ignored;
   const XMLElement* robot = nullptr;
   if (!std::filesystem::is_regular_file(source.file(), ignored)) {
     source.fault(0, "", "the file does not exist", "check the path");
+  } else if (std::filesystem::file_size(source.file(), ignored) > kMaxBytes) {
+    source.fault(0, "", "the file has more than 64 MiB",
+                 "give a URDF file; meshes stand in theirs");
   } else if (document.LoadFile(source.file().c_str()) != tinyxml2::XML_SUCCESS) {
     source.fault(document.ErrorLineNum(), "", "not well-formed XML: " + xml_error_text(document),
                  "mend the XML at or shortly before this line");
@@ -203,10 +113,11 @@ const XMLElement& open_robot(tinyxml2::XMLDocument& document, UrdfSource& source
 
 }  // namespace
 
-RobotDescription read_urdf(const std::filesystem::path& file) {
-  UrdfSource source(file);
+RobotDescription read_urdf(const std::filesystem::path& file, const UrdfOptions& options) {
+  UrdfSource source(file, options);
   tinyxml2::XMLDocument document;
   const XMLElement& element = open_robot(document, source);
+  check_vocabulary(element, source);
 
   RobotDescription robot;
   robot.file = source.file();
@@ -216,13 +127,13 @@ RobotDescription read_urdf(const std::filesystem::path& file) {
     const std::string name = e->Name();
     if (name == "link") robot.links.push_back(read_link(*e, materials, source));
     if (name == "joint") robot.joints.push_back(read_joint(*e, source));
-    if (name.starts_with("xacro:"))
-      source.fault(e->GetLineNum(), "<" + name + ">", "this is a xacro file",
-                   "expand it first (xacro robot.urdf.xacro > robot.urdf)");
   }
-  source.fault(check_robot(robot));
+  RobotCheck check = check_robot(robot, options.strict);
+  source.fault(std::move(check.faults));
+  source.warn(std::move(check.warnings));
   source.check();
   robot.root = find_root(robot);
+  robot.warnings = source.warnings();
   return robot;
 }
 

@@ -7,13 +7,19 @@
 
 namespace twinarm {
 
-// Throws InputError with ALL faults of the file, each with its line.
-//
-// Joints supported today: fixed, revolute, continuous, prismatic, floating; a <mimic> is refused.
-// A root link that stands on the world may lack <inertial> (`has_inertia` tells: a floating base
-// needs it). Of <limit>, a missing `lower` or `upper` is 0, as URDF has it, but not both. The
-// element <twinarm armature="" coulomb_plus="" coulomb_minus=""/> inside a joint is read. Elements
-// of other programs (transmission, gazebo, ...) are left out.
-RobotDescription read_urdf(const std::filesystem::path& file);
+struct UrdfOptions {
+  // What collides and what is drawn. `optional` (enough for dynamics): a mesh that is missing and a
+  // shape that cannot be read are warnings; the former stays in the description with an empty
+  // `file`, the latter is left out. `required` (study, rendering, collision): they are faults.
+  enum class Geometry { required, optional };
+  Geometry geometry = Geometry::required;
+  // An inertia that no rigid body can have is a fault, and not only a warning.
+  bool strict = false;
+};
+
+// Throws InputError with ALL faults of the file, each with its line. What was read but is
+// suspicious, or has no effect here, stands in RobotDescription::warnings; what URDF takes for
+// granted and what we add to it is told in collision/import/README.md.
+RobotDescription read_urdf(const std::filesystem::path& file, const UrdfOptions& options = {});
 
 }  // namespace twinarm

@@ -97,9 +97,9 @@ class Writer {
   }
   std::string shape(const MeshGeometry& mesh) {
     const auto relative = mesh.file.lexically_relative(folder_);
-    const std::string name = (relative.empty() ? mesh.file : relative).generic_string();
-    return "<mesh" + attribute("filename", name) +
-           (mesh.scale == 1 ? "" : attribute<3>("scale", Vector3::Constant(mesh.scale)));
+    const std::string file = (relative.empty() ? mesh.file : relative).generic_string();
+    return "<mesh" + attribute("filename", mesh.file.empty() ? mesh.name : file) +
+           (mesh.scale == Vector3::Ones() ? "" : attribute<3>("scale", mesh.scale));
   }
 
   template <class Part>
@@ -141,7 +141,8 @@ class Writer {
   }
 
   void joint(const JointDescription& joint) {
-    out_ << "  <joint" << attribute("name", joint.name) << attribute("type", to_string(joint.type))
+    out_ << "  <joint" << attribute("name", joint.name)
+         << attribute("type", to_string(urdf_type_of(joint.type, joint.is_limited())))
          << ">\n    <parent" << attribute("link", joint.parent) << "/>\n    <child"
          << attribute("link", joint.child) << "/>\n";
     origin("    ", joint.origin);
@@ -156,12 +157,18 @@ class Writer {
     if (joint.damping != 0 || joint.friction != 0)
       out_ << "    <dynamics" << attribute("damping", joint.damping)
            << attribute("friction", joint.friction) << "/>\n";
+    if (joint.mimic)
+      out_ << "    <mimic" << attribute("joint", joint.mimic->joint)
+           << attribute("multiplier", joint.mimic->multiplier)
+           << attribute("offset", joint.mimic->offset) << "/>\n";
     extension(joint);
     out_ << "  </joint>\n";
   }
 
   void extension(const JointDescription& joint) {
     std::string text;
+    if (!is_urdf_type(joint.type)) text += attribute("type", to_string(joint.type));
+    if (joint.type == JointDescription::Type::screw) text += attribute("pitch", joint.pitch);
     if (joint.armature != 0) text += attribute("armature", joint.armature);
     if (joint.coulomb_plus != joint.friction) text += attribute("coulomb_plus", joint.coulomb_plus);
     if (joint.coulomb_minus != joint.friction)

@@ -109,6 +109,7 @@ inline void check_same(const PartGeometry& a, const PartGeometry& b, double tole
   }
   if (const auto* mesh = std::get_if<MeshGeometry>(&a)) {
     CHECK(mesh->file == std::get<MeshGeometry>(b).file);
+    if (mesh->file.empty()) CHECK(mesh->name == std::get<MeshGeometry>(b).name);
     CHECK(same(mesh->scale, std::get<MeshGeometry>(b).scale, tolerance));
   }
 }
@@ -148,6 +149,7 @@ inline void check_same(const JointDescription& a, const JointDescription& b, dou
   CHECK(same(a.origin.xyz, b.origin.xyz, tolerance));
   CHECK(same(a.origin.rpy, b.origin.rpy, tolerance));
   CHECK(same(a.axis, b.axis, tolerance));
+  CHECK(same(a.pitch, b.pitch, tolerance));
   CHECK(same(a.lower, b.lower, tolerance));
   CHECK(same(a.upper, b.upper, tolerance));
   CHECK(same(a.effort, b.effort, tolerance));
@@ -157,9 +159,14 @@ inline void check_same(const JointDescription& a, const JointDescription& b, dou
   CHECK(same(a.armature, b.armature, tolerance));
   CHECK(same(a.coulomb_plus, b.coulomb_plus, tolerance));
   CHECK(same(a.coulomb_minus, b.coulomb_minus, tolerance));
+  REQUIRE(a.mimic.has_value() == b.mimic.has_value());
+  if (!a.mimic) return;
+  CHECK(a.mimic->joint == b.mimic->joint);
+  CHECK(same(a.mimic->multiplier, b.mimic->multiplier, tolerance));
+  CHECK(same(a.mimic->offset, b.mimic->offset, tolerance));
 }
 
-// All but the lines and the name of the file.
+// All but the lines, the warnings and the name of the file.
 inline void check_same(const RobotDescription& a, const RobotDescription& b, double tolerance) {
   CHECK(a.name == b.name);
   CHECK(a.root == b.root);

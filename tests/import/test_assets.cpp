@@ -1,5 +1,6 @@
 // The committed robots are what they are said to be.
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "collision/import/robot_recipe.h"
 #include "collision/import/stl_writer.h"
@@ -73,6 +74,25 @@ TEST_CASE("the S-103 has the paper's joint offsets, 10 : 14 from joint to joint"
     CHECK((joint.origin.xyz - 0.025 * paper[k]).norm() < 1e-15);
   }
   CHECK(robot.joints[3].type == JointDescription::Type::prismatic);
+}
+
+TEST_CASE("the published PUMA 560 loads, and its two inertias that no body has are named") {
+  const fs::path file = kRobots / "puma560" / "puma560.urdf";
+  const RobotDescription robot = read_urdf(file);
+  INFO(listing(robot.warnings));
+  double mass = 0;
+  for (const LinkDescription& link : robot.links) mass += link.mass;
+  CHECK(mass == doctest::Approx(23.45).epsilon(1e-15));
+  const auto told = [&](const std::vector<Fault>& faults, const std::string& words) {
+    return std::count_if(faults.begin(), faults.end(), [&](const Fault& fault) {
+      return to_string(fault).find(words) != std::string::npos;
+    });
+  };
+  CHECK(told(robot.warnings, "no rigid body of positive density has it") == 2);
+  CHECK(told(robot.warnings, "link 'link1': its inertia is not positive definite") == 1);
+  CHECK(told(robot.warnings, "link 'link3': its inertia breaks the triangle inequality") == 1);
+  const auto faults = faults_of([&] { read_urdf(file, {UrdfOptions::Geometry::required, true}); });
+  CHECK(faults.size() == 2);
 }
 
 }  // namespace

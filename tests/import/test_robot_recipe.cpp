@@ -1,9 +1,9 @@
 // A robot made from a recipe. The oracles are the closed forms of boxes.
 #include "collision/import/robot_recipe.h"
 
+#include "collision/import/mesh_geometry.h"
 #include "collision/import/stl_writer.h"
 #include "collision/import/urdf.h"
-#include "collision/mesh_file.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {
@@ -99,7 +99,7 @@ TEST_CASE("the files that a recipe makes read back as the robot that it says") {
   const auto& hull = std::get<MeshGeometry>(read.links[1].collisions[0].geometry);
   CHECK(hull.file == folder.path() / "collision" / "body.stl");
   // The hull of the two halves is the cube: the corners of the seam are gone, or lie on its sides.
-  const TriangleMesh mesh = load_mesh(hull.file, hull.scale);
+  const TriangleMesh mesh = load_mesh(hull);
   for (int corner = 0; corner < 8; ++corner) {
     const Vector3 p(corner & 1, (corner >> 1) & 1, corner >> 2);
     double nearest = 1;
@@ -140,7 +140,8 @@ const Spoilt kOneLine[] = {
     {"mesh = \"upper\"", "mesh = \"lower\"", 19, "has this part already"},
     {"material = \"light\"", "material = \"gold\"", 19, "material 'gold' does not exist"},
     {"parts = [\"lower\", \"upper\"]", "parts = [\"side\"]", 22, "'side' is no part of this link"},
-    {"type = \"revolute\"", "type = \"ball\"", 26, "supported today"},
+    {"type = \"revolute\"", "type = \"ball\"", 26, "is not supported; types: fixed"},
+    {"type = \"revolute\"", "type = \"screw\"", 24, "'pitch'"},
     {"parent = \"foot\"", "parent = \"nobody\"", 27, "'nobody' does not exist"},
     {"axis = [0, 0, 2]", "axis = [0, 0, 0]", 29, "its axis is zero"},
     {"limits = [-1, 2]", "limits = [3, 2]", 30, "above its upper limit"},

@@ -2,8 +2,11 @@
 #include "collision/import/urdf.h"
 
 #include <Eigen/Geometry>
+#include <cstdlib>
 #include <numbers>
+#include <optional>
 
+#include "collision/import/mesh_geometry.h"
 #include "collision/import/robot_check.h"
 #include "tests/import/helpers.h"
 
@@ -90,9 +93,10 @@ TEST_CASE("the twinarm element gives armature and Coulomb friction of either dir
   CHECK(joint.coulomb_minus == 0.2);  // that of <dynamics>
 }
 
-TEST_CASE("every supported joint type has a name, and the name gives the type") {
+TEST_CASE("every joint type has a name, and the name gives the type") {
   for (const Type type :
-       {Type::fixed, Type::revolute, Type::continuous, Type::prismatic, Type::floating}) {
+       {Type::fixed, Type::revolute, Type::continuous, Type::prismatic, Type::floating,
+        Type::planar, Type::screw, Type::cylindrical, Type::universal, Type::spherical}) {
     Type found{};
     CHECK(joint_type_from(to_string(type), found));
     CHECK(found == type);
@@ -110,7 +114,8 @@ TEST_CASE("mesh files are found beside the URDF, in its package, and by file://"
     const std::string text = replaced(kGoodArm, "<box size=\"0.4 0.1 0.1\"/>", element);
     const RobotDescription robot = read_urdf(folder.write("my_robot/urdf/arm.urdf", text));
     const auto& part = std::get<MeshGeometry>(robot.links[1].visuals[0].geometry);
-    CHECK(part.scale == 0.001);
+    CHECK(part.scale == Vector3::Constant(0.001));
+    CHECK(part.name == name);
     return part.file;
   };
   CHECK(found("../meshes/a.stl") == mesh);
@@ -119,15 +124,92 @@ TEST_CASE("mesh files are found beside the URDF, in its package, and by file://"
   CHECK(found(mesh.string()) == mesh);
 }
 
-TEST_CASE("a mesh with unequal or negative scales is refused") {
+// A tetrahedron with corners at the origin and on the axes.
+const char* const kTetrahedron = R"(v 0 0 0
+v 1 0 0
+v 0 1 0
+v 0 0 1
+f 1 3 2
+f 1 2 4
+f 1 4 3
+f 2 3 4
+)";
+
+TEST_CASE("a mesh may be stretched and mirrored, and stays oriented outward") {
+  // Six times the volume of a tetrahedron at the origin: the product of the scales.
   const TemporaryFolder folder;
-  folder.write("a.stl", "solid\nendsolid\n");
-  for (const char* scale : {"1 1 2", "-1 -1 -1", "0 0 0"}) {
-    const std::string element = std::string("<mesh filename=\"a.stl\" scale=\"") + scale + "\"/>";
-    const std::string text = replaced(kGoodArm, "<box size=\"0.4 0.1 0.1\"/>", element);
-    const auto faults = faults_of([&] { read_urdf(folder.write("arm.urdf", text)); });
-    CHECK(faults.size() == 1);
-    CHECK(tells(faults, 10, "mesh scale"));
+  folder.write("a.obj", kTetrahedron);
+  for (const Vector3& scale : {Vector3(1, 1, 2), Vector3(-1, 2, 3), Vector3(-0.5, -2, -3)}) {
+    std::ostringstream text;
+    text << "<mesh filename=\"a.obj\" scale=\"" << scale.transpose() << "\"/>";
+    const RobotDescription robot = read_urdf(
+        folder.write("arm.urdf", replaced(kGoodArm, "<box size=\"0.4 0.1 0.1\"/>", text.str())));
+    const auto& geometry = std::get<MeshGeometry>(robot.links[1].visuals[0].geometry);
+    CHECK(geometry.scale == scale);
+    const TriangleMesh mesh = load_mesh(geometry);
+    double six_volumes = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const auto at = [&](int k) { return mesh.vertices[static_cast<std::size_t>(k)]; };
+      six_volumes += at(a).dot(at(b).cross(at(c)));
+    }
+    CHECK(six_volumes == doctest::Approx(std::abs(scale.prod())).epsilon(1e-14));
+  }
+}
+
+// Sets an environment variable for as long as it lives.
+class Environment {
+ public:
+  Environment(const char* name, const std::string& value) : name_(name) {
+    if (const char* old = std::getenv(name)) before_ = old;
+    ::setenv(name, value.c_str(), 1);
+  }
+  ~Environment() {
+    if (before_)
+      ::setenv(name_, before_->c_str(), 1);
+    else
+      ::unsetenv(name_);
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+TEST_CASE("a package is sought in ROS_PACKAGE_PATH and AMENT_PREFIX_PATH") {
+  const TemporaryFolder urdfs, packages;
+  const fs::path direct = packages.write("src/near/a.stl", "solid\nendsolid\n");
+  const fs::path nested = packages.write("src/repository/far/a.stl", "solid\nendsolid\n");
+  const fs::path itself = packages.write("single/a.stl", "solid\nendsolid\n");
+  const fs::path ros2 = packages.write("prefix/share/new/a.stl", "solid\nendsolid\n");
+  const std::string root = packages.path().string();
+  const Environment ros("ROS_PACKAGE_PATH",
+                        "/no/such/folder::" + root + "/src:" + root + "/single");
+  const Environment ament("AMENT_PREFIX_PATH", root + "/prefix");
+  for (const auto& [name, file] : {std::pair{"near", direct}, std::pair{"far", nested},
+                                   std::pair{"single", itself}, std::pair{"new", ros2}}) {
+    const std::string mesh = std::string("<mesh filename=\"package://") + name + "/a.stl\"/>";
+    const std::string text = replaced(kGoodArm, "<box size=\"0.4 0.1 0.1\"/>", mesh);
+    const RobotDescription robot = read_urdf(urdfs.write("arm.urdf", text));
+    CHECK(std::get<MeshGeometry>(robot.links[1].visuals[0].geometry).file == file);
+  }
+}
+
+TEST_CASE("an origin may be given by a quaternion") {
+  // A quarter turn about z, and one about y: there roll and yaw cannot be told apart.
+  const TemporaryFolder folder;
+  const auto turn = [&](const std::string& quat) {
+    const std::string text =
+        replaced(kGoodArm, "<axis", "<origin xyz=\"1 2 3\" quat_xyzw=\"" + quat + "\"/><axis");
+    return read_urdf(folder.write("arm.urdf", text)).joints[0].X_PJ().R;
+  };
+  for (const Eigen::Quaterniond& q :
+       {Eigen::Quaterniond(1, 0, 0, 1), Eigen::Quaterniond(1, 0, 1, 0),
+        Eigen::Quaterniond(1, 0, -1, 0), Eigen::Quaterniond(0.3, -0.4, 0.5, 0.6)}) {
+    std::ostringstream text;
+    text << q.coeffs().transpose();  // x, y, z, w
+    CHECK((turn(text.str()) - q.normalized().toRotationMatrix()).norm() < 1e-15);
   }
 }
 
@@ -158,6 +240,20 @@ TEST_CASE("joints are put in order from the root, whatever their order in the fi
   };
   robot.joints = {joint("j3", "b", "c"), joint("j2", "a", "b"), joint("j1", "r", "a")};
   CHECK(joints_from_root(robot) == std::vector<std::size_t>{2, 1, 0});
+}
+
+TEST_CASE("joints of equal rank keep the order of the file") {
+  // Swept again and again: j2 waits for j3, and then comes in the next sweep, after j4 and j5.
+  RobotDescription robot;
+  robot.root = "r";
+  const auto joint = [](const char* name, const char* parent, const char* child) {
+    JointDescription j;
+    j.name = name, j.parent = parent, j.child = child;
+    return j;
+  };
+  robot.joints = {joint("j1", "r", "a"), joint("j2", "c", "b"), joint("j3", "r", "c"),
+                  joint("j4", "c", "d"), joint("j5", "a", "e"), joint("j6", "b", "f")};
+  CHECK(joints_from_root(robot) == std::vector<std::size_t>{0, 2, 3, 4, 1, 5});
 }
 
 }  // namespace

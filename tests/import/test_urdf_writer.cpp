@@ -38,8 +38,9 @@ LinkDescription random_link(const std::string& name, const fs::path& mesh, Numbe
                                  SphereGeometry{numbers.positive()},
                                  CylinderGeometry{numbers.positive(), numbers.positive()},
                                  CapsuleGeometry{numbers.positive(), numbers.positive()},
-                                 MeshGeometry{mesh, numbers.positive()},
-                                 MeshGeometry{mesh, 1.0}};
+                                 MeshGeometry{mesh, numbers.vector(), {}},
+                                 MeshGeometry{mesh, Vector3::Ones(), {}},
+                                 MeshGeometry{{}, numbers.vector(), "package://lost/a.stl"}};
   for (const PartGeometry& shape : shapes) {
     VisualPart visual;
     visual.name = name + " <&\"'> " + std::to_string(link.visuals.size());
@@ -60,19 +61,22 @@ RobotDescription random_robot(const fs::path& mesh) {
   robot.name = "random";
   robot.root = "link0";
   using Type = JointDescription::Type;
-  const Type types[] = {Type::revolute, Type::continuous, Type::prismatic, Type::floating,
-                        Type::fixed};
+  const Type types[] = {Type::revolute,  Type::continuous,  Type::prismatic, Type::floating,
+                        Type::fixed,     Type::planar,      Type::screw,     Type::screw,
+                        Type::universal, Type::cylindrical, Type::spherical};
   robot.links.push_back(random_link("link0", mesh, numbers));
-  for (int k = 1; k <= 20; ++k) {
+  for (int k = 1; k <= 33; ++k) {
     robot.links.push_back(random_link("link" + std::to_string(k), mesh, numbers));
     JointDescription joint;
     joint.name = "joint" + std::to_string(k);
-    joint.type = types[k % 5];
+    joint.type = types[k % 11];
     joint.parent = "link" + std::to_string(k / 2);
     joint.child = "link" + std::to_string(k);
     joint.origin = {numbers.vector(), numbers.vector()};
     if (joint.has_axis()) joint.axis = numbers.vector().normalized();
-    if (joint.is_limited()) {
+    if (joint.type == Type::screw) joint.pitch = numbers.any();
+    // Some screws have limits, some have not.
+    if (joint.is_limited() || (joint.type == Type::screw && k % 2)) {
       joint.lower = numbers.any();
       joint.upper = joint.lower + numbers.positive();
     }
@@ -83,6 +87,9 @@ RobotDescription random_robot(const fs::path& mesh) {
     joint.armature = numbers.positive();
     joint.coulomb_plus = k % 2 ? joint.friction : numbers.positive();
     joint.coulomb_minus = k % 3 ? joint.friction : numbers.positive();
+    // Hinges follow the hinge before them.
+    if (joint.type == Type::revolute && k > 11)
+      joint.mimic = {"joint" + std::to_string(k - 11), numbers.any(), numbers.any()};
     robot.joints.push_back(joint);
   }
   robot.links[0].has_inertia = false;
@@ -97,7 +104,9 @@ TEST_CASE("a robot that is written and read again is the same to the last bit") 
   const fs::path mesh = folder.write("meshes/part one.stl", "solid\nendsolid\n");
   const RobotDescription robot = random_robot(mesh);
   write_urdf(robot, folder.path() / "robot.urdf", "two -- lines\nof comment --");
-  const RobotDescription again = read_urdf(folder.path() / "robot.urdf");
+  // One mesh is nowhere to be found.
+  const UrdfOptions options{UrdfOptions::Geometry::optional, true};
+  const RobotDescription again = read_urdf(folder.path() / "robot.urdf", options);
   check_same(again, robot, 0.0);
   write_urdf(again, folder.path() / "again.urdf", "two -- lines\nof comment --");
   CHECK(text_of(folder.path() / "again.urdf") == text_of(folder.path() / "robot.urdf"));

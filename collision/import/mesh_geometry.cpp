@@ -1,0 +1,20 @@
+#include "collision/import/mesh_geometry.h"
+
+#include <utility>
+
+#include "collision/mesh_file.h"
+
+namespace twinarm {
+
+TriangleMesh load_mesh(const MeshGeometry& geometry) {
+  if (geometry.file.empty())
+    throw InputError({{"", 0, "mesh '" + geometry.name + "'", "its file was not found",
+                       "put it where the robot's file names it"}});
+  TriangleMesh mesh = load_mesh(geometry.file, 1.0);
+  for (Vector3& vertex : mesh.vertices) vertex = geometry.scale.cwiseProduct(vertex);
+  if (geometry.scale.prod() < 0)
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  return mesh;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,20 @@
+// Where the mesh lies that a robot's file names.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace twinarm {
+
+struct MeshPlace {
+  std::filesystem::path file;  // absolute; empty where it was not found
+  std::string rule, remedy;    // then: why not, and what to do
+};
+
+// A name without scheme, or with file://, is relative to `folder` (that of the robot's file) unless
+// it is absolute. package://NAME/rest and model://NAME/rest: NAME is a folder that contains
+// `folder`, or lies in one that does; or a package in a folder of ROS_PACKAGE_PATH, at most two
+// levels down, or of AMENT_PREFIX_PATH (share/NAME); or, at last, `folder` itself.
+MeshPlace find_mesh(const std::string& name, const std::filesystem::path& folder);
+
+}  // namespace twinarm
