@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "solver/crba.h"
+#include "solver/dynamics.h"
 
 namespace twinarm {
 
@@ -146,9 +146,9 @@ double largest_target_radius(double I, double r, double k, double b, double h) {
 
 MatrixXd mass_matrix(const Model<double>& model, const State<double>& x) {
   Workspace<double> w(model);
-  MatrixXd M;
-  crba(model, x, w, M);
-  return M;
+  crba(model, x, w);
+  const auto n = static_cast<Eigen::Index>(model.nv);
+  return Eigen::Map<const MatrixXd>(w.M.data(), n, n);  // symmetric
 }
 
 }  // namespace twinarm

@@ -2,18 +2,21 @@
 //
 //   qdd = M^-1 (tau - C(q, qd, f_ext)),  in O(n).
 //
-// All quantities in body axes. Two inputs beyond the book, both for implicit spring-dampers
-// (docs/coupling.md): forces.armature is added to D, forces.impedance to IA, and neither to
-// anything else.
+// All quantities in body axes. Inputs beyond the book: the rotors' armature is added to D; and for
+// implicit spring-dampers (docs/coupling.md) forces.armature to D, forces.impedance to IA, and
+// neither to anything else. Callers include solver/dynamics.h.
 #pragma once
 
+#include "solver/isa.h"
 #include "solver/slice.h"
+#include "solver/trace.h"
 #include "solver/workspace.h"
 
-namespace twinarm {
+namespace twinarm::TWINARM_ISA {
 
-template <class S>
-void aba(const Model<S>& model, const State<S>& x, const Forces<S>& forces, Workspace<S>& w) {
+template <class S, class Trace = NoTrace>
+[[gnu::flatten]] void aba(const Model<S>& model, const State<S>& x, const Forces<S>& forces,
+                          Workspace<S>& w, Trace&& trace = {}) {
   const std::size_t n_bodies = model.parent.size();
   forget(w.v), forget(w.c), forget(w.IA), forget(w.pA), forget(w.a), forget(w.qdd);
   w.v[0] = {};
@@ -21,60 +24,62 @@ void aba(const Model<S>& model, const State<S>& x, const Forces<S>& forces, Work
 
   // pass 1, base to tips: velocities, velocity-product terms, inertias and bias forces of each body
   for (std::size_t i = 1; i < n_bodies; ++i) {
-    visit_joint<S>(model.joint[i], [&](auto joint) {
+    visit_joint(model, i, [&](auto joint) {
       const auto p = static_cast<std::size_t>(model.parent[i]);
-      const Motion<S> vJ = times(joint.subspace, slice<joint.nv>(x.qd, model.iv[i]));
+      const S *q = x.q.data() + model.iq[i], *qd = x.qd.data() + model.iv[i];
+      const auto S_i = joint.subspace(q);
+      const auto vJ = joint_velocity(joint, S_i, q, qd);
 
-      w.Xup[i] = joint.XJ(x.q.data() + model.iq[i]) * model.Xtree[i];
+      w.Xup[i] = joint.XJ(q) * model.Xtree[i];
       w.v[i] = w.Xup[i] * w.v[p] + vJ;
-      w.c[i] = crm(w.v[i], vJ);
-      w.IA[i] = ArticulatedInertia<S>(model.I[i]) + forces.impedance[i];
+      w.c[i] = crm(w.v[i], vJ) + joint.cJ(q, qd);
+      w.IA[i] = model.I[i];
+      if (forces.has_impedance) w.IA[i] += forces.impedance[i];
       w.pA[i] = crf(w.v[i], model.I[i] * w.v[i]) - forces.f_ext[i];
+      remember(S_i, w.S_.data() + model.iv[i]);
     });
   }
 
   // pass 2, tips to base: articulated-body inertias and bias forces
   for (std::size_t i = n_bodies; i-- > 1;) {
-    visit_joint<S>(model.joint[i], [&](auto joint) {
-      constexpr auto subspace = joint.subspace;
+    visit_joint(model, forces.armature, i, [&](auto joint, auto felt) TWINARM_KERNEL {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const std::size_t iv = model.iv[i];
+      decltype(joint.subspace(nullptr)) S_i;
+      recall(w.S_.data() + iv, S_i);
 
-      const auto U = w.IA[i] * subspace;
-      const auto D = plus_diagonal(transpose_times(subspace, U), forces.armature, iv);
-      const auto Dinv = inverse_spd(D);
-      const auto u = minus(slice<joint.nv>(forces.tau, iv), transpose_times(subspace, w.pA[i]));
+      const auto U = w.IA[i] * S_i;
+      auto D = transpose_times(S_i, U);
+      add_to_diagonal(D, model.armature, forces.armature, iv);
+      const auto factors = factorized(D);
+      const auto u = slice<joint.nv>(forces.tau, iv) - transpose_times(S_i, w.pA[i]);
       if (p > 0) {
-        const ArticulatedInertia<S> Ia = w.IA[i] - congruence(U, Dinv);
-        const Force<S> pa = w.pA[i] + Ia * w.c[i] + times(U, Dinv * u);
-        w.IA[p] += congruence(w.Xup[i], Ia);
+        const auto Ia = felt_inertia(felt, w.IA[i], U, factors);  // IA - U D^-1 U^T
+        const Force<S> pa = w.pA[i] + Ia * w.c[i] + times(U, solve(factors, u));
         w.pA[p] += transpose_times(w.Xup[i], pa);
+        add_congruence(w.Xup[i], Ia, w.IA[p]);  // IA_p += X^T Ia X
+        trace.felt(i, Ia, pa);
       }
-      store(U, w.U, iv);
-      store(u, w.u, iv);
-      store_matrix(D, w.D, w.iD[i]);
-      store_matrix(Dinv, w.Dinv, w.iD[i]);
+      store(U, w.U, iv), store(D, w.D, w.iD[i]);
+      store(factors, w.D_factors, w.iD[i]), store(u, w.u, iv);
     });
   }
 
   // pass 3, base to tips: accelerations
   for (std::size_t i = 1; i < n_bodies; ++i) {
-    visit_joint<S>(model.joint[i], [&](auto joint) {
+    visit_joint(model, i, [&](auto joint) {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const std::size_t iv = model.iv[i];
-      const auto U = slice<joint.nv>(w.U, iv);
-      const auto u = slice<joint.nv>(w.u, iv);
-      const auto Dinv = slice_matrix<joint.nv>(w.Dinv, w.iD[i]);
+      decltype(joint.subspace(nullptr)) S_i;
+      recall(w.S_.data() + iv, S_i);
 
       const Motion<S> a = w.Xup[i] * w.a[p] + w.c[i];
-      const auto qdd = Dinv * minus(u, transpose_times(U, a));
-      w.a[i] = a + times(joint.subspace, qdd);
+      const auto r = slice<joint.nv>(w.u, iv) - transpose_times(slice<joint.nv>(w.U, iv), a);
+      const auto qdd = solve(slice_spd<joint.nv>(w.D_factors, w.iD[i]), r);
+      w.a[i] = a + times(S_i, qdd);
       store(qdd, w.qdd, iv);
     });
   }
 }
 
-extern template void aba(const Model<double>&, const State<double>&, const Forces<double>&,
-                         Workspace<double>&);
-
-}  // namespace twinarm
+}  // namespace twinarm::TWINARM_ISA

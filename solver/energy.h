@@ -1,12 +1,12 @@
-// Energy and momentum of a mechanism.
+// Energy of a mechanism at a state, for those who have no workspace at hand (world.h): allocates.
 #pragma once
 
 #include "solver/model.h"
 
 namespace twinarm {
 
-double kinetic_energy(const Model<double>& model, const State<double>& x);  // [J]
-// Of the moving bodies under gravity alone, 0 at the world's origin [J].
+double kinetic_energy(const Model<double>& model, const State<double>& x);  // with rotors [J]
+// In the field of gravity, 0 at the world's origin [J].
 double potential_energy(const Model<double>& model, const State<double>& x);
 
 }  // namespace twinarm

@@ -1,93 +1,227 @@
 // Joint models, RBDA table 4.1: transform XJ(q), motion subspace S, integration on the group.
 //
-// The model builder turns every body frame so that the axis of a one-dof joint is its z axis. S is
-// then a unit basis vector of R^6 that the compiler knows: IA S is a column of IA and S^T U an
-// entry of U (the operators at the end of this file). All quantities are in body coordinates.
-// A joint of a new type is one struct here and its name in the list at the bottom.
+// The model builder turns every body frame so that the joint's axis is its z axis; S is then made
+// of unit vectors that the compiler knows (solver/subspace.h). All quantities are in the axes of
+// the child body, unless a joint says otherwise. A joint of a new type is one struct here and its
+// name in the list at the bottom. Each struct states
+//   nq, nv            numbers in q and in qd
+//   XJ(q)             from the joint's frame in the parent to the child's frame
+//   S(q)              motion subspace, and S_is_constant
+//   vJ, cJ            where they are not S qd and 0: velocity, and apparent derivative of S qd
+//   identity(q)       writes the q at which the frames coincide
+//   integrate         q exp(shift): shift has nv numbers. `out` may be q
+//   dexpinv           d theta/dt where q(t) = q(0) exp(theta(t)): what a Runge-Kutta method needs
+//   on
+//                     a group (Munthe-Kaas 1998)
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
-#include "solver/spatial.h"
+#include "solver/rotation.h"
+#include "solver/subspace.h"
 
 namespace twinarm {
 
-// Motion subspaces. UnitAxis<k>: one column, the k-th basis vector (0..2 turn about x, y, z; 3..5
-// shift along x, y, z). AllAxes: the 6x6 identity. NoAxes: no column.
-template <int k>
-struct UnitAxis {};
-struct AllAxes {};
-struct NoAxes {};
+struct NoBias {};  // cJ of a joint whose S is constant in the child's axes
+template <class S>
+Motion<S> operator+(const Motion<S>& a, NoBias) {
+  return a;
+}
+template <class S>
+AcrossZ<S> operator+(const AcrossZ<S>& a, NoBias) {
+  return a;
+}
 
+// What every joint shares that does not say otherwise: q is a vector, and qd its rate.
 template <class S, std::size_t n>
-using VecN = std::array<S, n>;
-template <class S, std::size_t n>
-using MatN = std::array<std::array<S, n>, n>;
-template <class S, std::size_t n>
-using ForceColumns = std::array<Force<S>, n>;  // U = IA S, 6 x n by columns
+struct VectorJoint {
+  static constexpr std::size_t nq = n, nv = n;
+  static void identity(S* q) { std::fill_n(q, n, S(0)); }
+  static void integrate(const S* q, const S* shift, S* out) {
+    for (std::size_t k = 0; k < n; ++k) out[k] = q[k] + shift[k];
+  }
+  static VecN<S, n> dexpinv(const VecN<S, n>&, const VecN<S, n>& qd) { return qd; }
+};
+template <class S, class Axes>
+struct ConstantSubspace {
+  static constexpr bool S_is_constant = true;
+  static constexpr Axes subspace(const S*) { return {}; }
+  static NoBias cJ(const S*, const S*) { return {}; }
+};
 
 template <class S>
-struct FixedJoint {
-  static constexpr std::size_t nq = 0, nv = 0;
-  static constexpr NoAxes subspace{};
+struct FixedJoint : VectorJoint<S, 0>, ConstantSubspace<S, NoAxes> {
   static Transform<S> XJ(const S*) { return {}; }
-  static void integrate(const S*, const S*, S*) {}
-  static VecN<S, 0> dexpinv(const VecN<S, 0>&, const VecN<S, 0>&) { return {}; }
 };
 
 // Turns about z.
 template <class S>
-struct RevoluteJoint {
-  static constexpr std::size_t nq = 1, nv = 1;
-  static constexpr UnitAxis<2> subspace{};
-  static Transform<S> XJ(const S* q) {
-    using std::cos, std::sin;
-    const S c = cos(q[0]), s = sin(q[0]);
-    return {{{c, s, S(0)}, {-s, c, S(0)}, {S(0), S(0), S(1)}}, {}};
-  }
-  static void integrate(const S* q, const S* shift, S* out) { out[0] = q[0] + shift[0]; }
-  static VecN<S, 1> dexpinv(const VecN<S, 1>&, const VecN<S, 1>& qd) { return qd; }
+struct RevoluteJoint : VectorJoint<S, 1>, ConstantSubspace<S, AxisZ> {
+  static TurnZ<S> XJ(const S* q) { return TurnZ<S>(q[0]); }
 };
 
 // Shifts along z.
 template <class S>
-struct PrismaticJoint {
-  static constexpr std::size_t nq = 1, nv = 1;
-  static constexpr UnitAxis<5> subspace{};
+struct PrismaticJoint : VectorJoint<S, 1>, ConstantSubspace<S, UnitAxes<5>> {
   static Transform<S> XJ(const S* q) { return {Mat3<S>::identity(), {S(0), S(0), q[0]}}; }
-  static void integrate(const S* q, const S* shift, S* out) { out[0] = q[0] + shift[0]; }
-  static VecN<S, 1> dexpinv(const VecN<S, 1>&, const VecN<S, 1>& qd) { return qd; }
 };
 
-// Six degrees of freedom. q = (x, y, z; w, x, y, z): origin of the body in the parent, and the unit
-// quaternion that turns body coordinates into parent coordinates. qd = (w; v) in body coordinates,
-// so S is the identity and cJ = 0.
+// Turns about z by q and shifts along it by pitch q.
+template <class S>
+struct ScrewJoint : VectorJoint<S, 1> {
+  S pitch;  // [m/rad]
+  static constexpr bool S_is_constant = false;
+  Columns<S, 1> subspace(const S*) const { return {{{{{S(0), S(0), S(1)}, {S(0), S(0), pitch}}}}}; }
+  static NoBias cJ(const S*, const S*) { return {}; }
+  Transform<S> XJ(const S* q) const { return {TurnZ<S>(q[0]).E(), {S(0), S(0), pitch * q[0]}}; }
+};
+
+// q = (angle about z, shift along z).
+template <class S>
+struct CylindricalJoint : VectorJoint<S, 2>, ConstantSubspace<S, UnitAxes<2, 5>> {
+  static Transform<S> XJ(const S* q) { return {TurnZ<S>(q[0]).E(), {S(0), S(0), q[1]}}; }
+};
+
+// Turns about z, then about the turned y: E = E_y(q2) E_z(q1), S = (E_y z, y).
+template <class S>
+struct UniversalJoint : VectorJoint<S, 2> {
+  static constexpr bool S_is_constant = false;
+  static Columns<S, 2> subspace(const S* q) {
+    const SinCos<S> b = sin_cos(q[1]);
+    return {{{{{-b.sin, S(0), b.cos}, {}}, {{S(0), S(1), S(0)}, {}}}}};
+  }
+  static Motion<S> cJ(const S* q, const S* qd) {
+    const SinCos<S> b = sin_cos(q[1]);
+    const S rate = qd[0] * qd[1];
+    return {{-(rate * b.cos), S(0), -(rate * b.sin)}, {}};
+  }
+  static Transform<S> XJ(const S* q) {
+    const SinCos<S> b = sin_cos(q[1]);
+    const Mat3<S> E_y{{b.cos, S(0), -b.sin}, {S(0), S(1), S(0)}, {b.sin, S(0), b.cos}};
+    return {E_y * TurnZ<S>(q[0]).E(), {}};
+  }
+};
+
+// q = (x, y, angle): position in the parent's x-y plane and angle about z; qd are their rates.
+template <class S>
+struct PlanarJoint : VectorJoint<S, 3> {
+  static constexpr bool S_is_constant = false;
+  static Columns<S, 3> subspace(const S* q) {
+    const SinCos<S> a = sin_cos(q[2]);
+    return {{{{{}, {a.cos, -a.sin, S(0)}}, {{}, {a.sin, a.cos, S(0)}}, {{S(0), S(0), S(1)}, {}}}}};
+  }
+  static Motion<S> cJ(const S* q, const S* qd) {  // E'(q) (vx, vy), E' = -[angle' z]x E
+    const SinCos<S> a = sin_cos(q[2]);
+    const S vx = a.cos * qd[0] + a.sin * qd[1], vy = a.cos * qd[1] - a.sin * qd[0];
+    return {{}, {qd[2] * vy, -(qd[2] * vx), S(0)}};
+  }
+  static Transform<S> XJ(const S* q) { return {TurnZ<S>(q[2]).E(), {q[0], q[1], S(0)}}; }
+};
+
+// q is the unit quaternion (w, x, y, z) that turns the child's coordinates into the parent's; qd
+// the angular velocity.
+template <class S>
+struct SphericalJoint : ConstantSubspace<S, UnitAxes<0, 1, 2>> {
+  static constexpr std::size_t nq = 4, nv = 3;
+  static Transform<S> XJ(const S* q) { return {quaternion_E(q), {}}; }
+  static void identity(S* q) {
+    q[0] = S(1);
+    q[1] = q[2] = q[3] = S(0);
+  }
+  static void integrate(const S* q, const S* shift, S* out) { turn_quaternion(q, shift, out); }
+  static VecN<S, 3> dexpinv(const VecN<S, 3>& theta, const VecN<S, 3>& qd) {
+    const Vec3<S> rate = dexpinv_so3<S>({theta[0], theta[1], theta[2]}, {qd[0], qd[1], qd[2]});
+    return {rate.x, rate.y, rate.z};
+  }
+};
+
+// Six degrees of freedom, on R^3 x SO(3). q = (x, y, z; w, x, y, z): origin of the child in the
+// parent, and its quaternion. qd = (angular velocity in the child's axes; velocity of the child's
+// origin in the PARENT's axes), so that a thrown body's momentum has no error of rotation.
 template <class S>
 struct FreeJoint {
   static constexpr std::size_t nq = 7, nv = 6;
-  static constexpr AllAxes subspace{};
-  static Transform<S> XJ(const S* q);
-  // q exp(shift) on SE(3), shift = (turn; shift) in body coordinates.
-  static void integrate(const S* q, const S* shift, S* out);
-  // d/dt of theta where q(t) = q(0) exp(theta(t)), up to third order in theta: what a Runge-Kutta
-  // method of order 4 needs on a group (Munthe-Kaas 1998).
-  static VecN<S, 6> dexpinv(const VecN<S, 6>& theta, const VecN<S, 6>& qd);
+  static constexpr bool S_is_constant = false;
+  static FreeAxes<S> subspace(const S* q) { return {quaternion_E(q + 3)}; }
+  static Motion<S> cJ(const S* q, const S* qd) {  // E' v = -w x E v
+    return {{}, cross(quaternion_E(q + 3) * Vec3<S>{qd[3], qd[4], qd[5]}, {qd[0], qd[1], qd[2]})};
+  }
+  static Transform<S> XJ(const S* q) { return {quaternion_E(q + 3), {q[0], q[1], q[2]}}; }
+  static void identity(S* q) {
+    std::fill_n(q, nq, S(0));
+    q[3] = S(1);
+  }
+  static void integrate(const S* q, const S* shift, S* out) {
+    for (std::size_t k = 0; k < 3; ++k) out[k] = q[k] + shift[3 + k];
+    turn_quaternion(q + 3, shift, out + 3);
+  }
+  static VecN<S, 6> dexpinv(const VecN<S, 6>& theta, const VecN<S, 6>& qd) {
+    const Vec3<S> rate = dexpinv_so3<S>({theta[0], theta[1], theta[2]}, {qd[0], qd[1], qd[2]});
+    return {rate.x, rate.y, rate.z, qd[3], qd[4], qd[5]};
+  }
 };
 
+// Moved from outside: no degree of freedom. q = (x, y, z; w, x, y, z; vJ; aJ): pose of the child in
+// the parent, its velocity (w; v) relative to the parent and the apparent derivative of that, both
+// in the child's axes. Simulation::prescribe writes them at every stage; integrate keeps them.
+template <class S>
+struct PrescribedJoint {
+  static constexpr std::size_t nq = 19, nv = 0;
+  static constexpr bool S_is_constant = true;
+  static NoAxes subspace(const S*) { return {}; }
+  static Motion<S> vJ(const S* q) { return {{q[7], q[8], q[9]}, {q[10], q[11], q[12]}}; }
+  static Motion<S> cJ(const S* q, const S*) {
+    return {{q[13], q[14], q[15]}, {q[16], q[17], q[18]}};
+  }
+  static Transform<S> XJ(const S* q) { return {quaternion_E(q + 3), {q[0], q[1], q[2]}}; }
+  static void identity(S* q) {
+    std::fill_n(q, nq, S(0));
+    q[3] = S(1);
+  }
+  static void integrate(const S* q, const S*, S* out) { std::copy_n(q, nq, out); }
+  static VecN<S, 0> dexpinv(const VecN<S, 0>&, const VecN<S, 0>&) { return {}; }
+};
+
+// vJ = S qd, RBDA (3.34), but for the joint whose motion is given.
+template <class Joint, class Subspace, class S>
+auto joint_velocity(const Joint& joint, const Subspace& subspace, const S* q, const S* qd) {
+  if constexpr (requires { joint.vJ(q); }) {
+    return joint.vJ(q);
+  } else {
+    VecN<S, Joint::nv> rate;
+    for (std::size_t k = 0; k < Joint::nv; ++k) rate[k] = qd[k];
+    return times(subspace, rate);
+  }
+}
+
 // What is listed here exists everywhere: builder, passes, contract tests.
-enum class JointType { fixed, revolute, prismatic, free };
-inline constexpr std::array<JointType, 4> all_joint_types{JointType::fixed, JointType::revolute,
-                                                          JointType::prismatic, JointType::free};
+enum class JointType : unsigned char {
+  fixed,
+  revolute,
+  prismatic,
+  screw,
+  cylindrical,
+  universal,
+  spherical,
+  planar,
+  free,
+  prescribed
+};
+inline constexpr std::array all_joint_types{
+    JointType::fixed,       JointType::revolute,  JointType::prismatic, JointType::screw,
+    JointType::cylindrical, JointType::universal, JointType::spherical, JointType::planar,
+    JointType::free,        JointType::prescribed};
 inline const char* name_of(JointType type) {
-  constexpr std::array<const char*, 4> names{"fixed", "revolute", "prismatic", "free"};
+  constexpr std::array names{"fixed",     "revolute",  "prismatic", "screw", "cylindrical",
+                             "universal", "spherical", "planar",    "free",  "prescribed"};
   return names[static_cast<std::size_t>(type)];
 }
 
 // Calls f with the joint struct of this type: f(RevoluteJoint<S>{}), and so on.
 template <class S, class F>
-void visit_joint(JointType type, F&& f) {
+void visit_joint(JointType type, const S& pitch, F&& f) {
   switch (type) {
     case JointType::fixed:
       return f(FixedJoint<S>{});
@@ -95,168 +229,21 @@ void visit_joint(JointType type, F&& f) {
       return f(RevoluteJoint<S>{});
     case JointType::prismatic:
       return f(PrismaticJoint<S>{});
+    case JointType::screw:
+      return f(ScrewJoint<S>{{}, pitch});
+    case JointType::cylindrical:
+      return f(CylindricalJoint<S>{});
+    case JointType::universal:
+      return f(UniversalJoint<S>{});
+    case JointType::spherical:
+      return f(SphericalJoint<S>{});
+    case JointType::planar:
+      return f(PlanarJoint<S>{});
     case JointType::free:
       return f(FreeJoint<S>{});
+    case JointType::prescribed:
+      return f(PrescribedJoint<S>{});
   }
-}
-
-// ---- products of a motion subspace with what the passes multiply it by -------------------------
-
-template <class S>
-Force<S> column(const ArticulatedInertia<S>& IA, int k) {
-  const Mat3<S> Ht = transpose(IA.H);
-  switch (k) {
-    case 0:
-      return {IA.I.row0(), IA.H.r0};
-    case 1:
-      return {IA.I.row1(), IA.H.r1};
-    case 2:
-      return {IA.I.row2(), IA.H.r2};
-    case 3:
-      return {Ht.r0, IA.M.row0()};
-    case 4:
-      return {Ht.r1, IA.M.row1()};
-    default:
-      return {Ht.r2, IA.M.row2()};
-  }
-}
-template <class S>
-S component(const Force<S>& f, int k) {
-  switch (k) {
-    case 0:
-      return f.n.x;
-    case 1:
-      return f.n.y;
-    case 2:
-      return f.n.z;
-    case 3:
-      return f.f.x;
-    case 4:
-      return f.f.y;
-    default:
-      return f.f.z;
-  }
-}
-template <class S>
-Motion<S> basis_motion(int k, const S& s) {
-  const auto e = [&](int i) { return i == k ? s : S(0); };
-  return {{e(0), e(1), e(2)}, {e(3), e(4), e(5)}};
-}
-
-// S qd
-template <class S>
-Motion<S> times(NoAxes, const VecN<S, 0>&) {
-  return {};
-}
-template <class S, int k>
-Motion<S> times(UnitAxis<k>, const VecN<S, 1>& qd) {
-  return basis_motion(k, qd[0]);
-}
-template <class S>
-Motion<S> times(AllAxes, const VecN<S, 6>& qd) {
-  return {{qd[0], qd[1], qd[2]}, {qd[3], qd[4], qd[5]}};
-}
-// IA S
-template <class S>
-ForceColumns<S, 0> operator*(const ArticulatedInertia<S>&, NoAxes) {
-  return {};
-}
-template <class S, int k>
-ForceColumns<S, 1> operator*(const ArticulatedInertia<S>& IA, UnitAxis<k>) {
-  return {column(IA, k)};
-}
-template <class S>
-ForceColumns<S, 6> operator*(const ArticulatedInertia<S>& IA, AllAxes) {
-  return {column(IA, 0), column(IA, 1), column(IA, 2), column(IA, 3), column(IA, 4), column(IA, 5)};
-}
-// S^T f
-template <class S>
-VecN<S, 0> transpose_times(NoAxes, const Force<S>&) {
-  return {};
-}
-template <class S, int k>
-VecN<S, 1> transpose_times(UnitAxis<k>, const Force<S>& f) {
-  return {component(f, k)};
-}
-template <class S>
-VecN<S, 6> transpose_times(AllAxes, const Force<S>& f) {
-  return {f.n.x, f.n.y, f.n.z, f.f.x, f.f.y, f.f.z};
-}
-// S^T U, U = IA S: symmetric n x n
-template <class Subspace, class S, std::size_t n>
-MatN<S, n> transpose_times(Subspace subspace, const std::array<Force<S>, n>& U) {
-  MatN<S, n> D{};
-  for (std::size_t l = 0; l < n; ++l) {
-    const auto column_l = transpose_times(subspace, U[l]);
-    for (std::size_t k = 0; k < n; ++k) D[k][l] = column_l[k];
-  }
-  return D;
-}
-
-// ---- small dense algebra of a joint (n = nv) ----------------------------------------------------
-
-// Inverse of a symmetric positive definite matrix, by L D L^T without pivoting. D is the inertia
-// that a joint feels, positive wherever the bodies outward of it have inertia (RBDA section 7.1).
-template <class S, std::size_t n>
-MatN<S, n> inverse_spd(const MatN<S, n>& A) {
-  MatN<S, n> L{}, inverse{};
-  VecN<S, n> d{};
-  for (std::size_t j = 0; j < n; ++j) {
-    d[j] = A[j][j];
-    for (std::size_t k = 0; k < j; ++k) d[j] = d[j] - L[j][k] * L[j][k] * d[k];
-    for (std::size_t i = j + 1; i < n; ++i) {
-      L[i][j] = A[i][j];
-      for (std::size_t k = 0; k < j; ++k) L[i][j] = L[i][j] - L[i][k] * L[j][k] * d[k];
-      L[i][j] = L[i][j] / d[j];
-    }
-  }
-  for (std::size_t c = 0; c < n; ++c) {
-    VecN<S, n> y{};
-    for (std::size_t i = 0; i < n; ++i) {
-      y[i] = S(i == c ? 1 : 0);
-      for (std::size_t k = 0; k < i; ++k) y[i] = y[i] - L[i][k] * y[k];
-    }
-    for (std::size_t i = n; i-- > 0;) {
-      y[i] = y[i] / d[i];
-      for (std::size_t k = i + 1; k < n; ++k) y[i] = y[i] - L[k][i] * y[k];
-      inverse[i][c] = y[i];
-    }
-  }
-  return inverse;
-}
-template <class S, std::size_t n>
-VecN<S, n> operator*(const MatN<S, n>& A, const VecN<S, n>& b) {
-  VecN<S, n> y{};
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < n; ++k) y[i] = y[i] + A[i][k] * b[k];
-  return y;
-}
-// U y
-template <class S, std::size_t n>
-Force<S> times(const std::array<Force<S>, n>& U, const VecN<S, n>& y) {
-  Force<S> f;
-  for (std::size_t k = 0; k < n; ++k) f += y[k] * U[k];
-  return f;
-}
-// U^T a
-template <class S, std::size_t n>
-VecN<S, n> transpose_times(const std::array<Force<S>, n>& U, const Motion<S>& a) {
-  VecN<S, n> y{};
-  for (std::size_t k = 0; k < n; ++k) y[k] = dot(a, U[k]);
-  return y;
-}
-// U A U^T, A symmetric
-template <class S, std::size_t n>
-ArticulatedInertia<S> congruence(const std::array<Force<S>, n>& U, const MatN<S, n>& A) {
-  ArticulatedInertia<S> sum;
-  for (std::size_t l = 0; l < n; ++l) {
-    Force<S> UA_l;
-    for (std::size_t k = 0; k < n; ++k) UA_l += A[k][l] * U[k];
-    sum += outer(UA_l, U[l]);
-  }
-  return sum;
 }
 
 }  // namespace twinarm
-
-#include "solver/free_joint.inl"

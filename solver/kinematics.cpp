@@ -1,6 +1,6 @@
 #include "solver/kinematics.h"
 
-#include "solver/slice.h"
+#include "solver/workspace.h"
 
 namespace twinarm {
 
@@ -10,7 +10,8 @@ Kinematics::Kinematics(const Model<double>& model)
       v_WLo(model.parent.size(), Vector3::Zero()),
       R_WB(model.parent.size(), Matrix3::Identity()),
       a_bias(model.parent.size()),
-      v_(model.parent.size()) {}
+      v_(model.parent.size()),
+      subspace_(Workspace<double>(model).S_) {}
 
 Vector3 Kinematics::position(int body, const Vector3& p_L) const {
   return X_WL[static_cast<std::size_t>(body)] * p_L;
@@ -24,12 +25,15 @@ Vector3 Kinematics::velocity(int body, const Vector3& p_W) const {
 void forward_kinematics(const Model<double>& model, const State<double>& x, Kinematics& k) {
   k.a_bias[0] = {{}, -model.gravity};
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
-    visit_joint<double>(model.joint[i], [&](auto joint) {
+    visit_joint(model, i, [&](auto joint) {
       const auto p = static_cast<std::size_t>(model.parent[i]);
-      const Motion<double> vJ = times(joint.subspace, slice<joint.nv>(x.qd, model.iv[i]));
-      const Transform<double> Xup = joint.XJ(x.q.data() + model.iq[i]) * model.Xtree[i];
+      const double *q = x.q.data() + model.iq[i], *qd = x.qd.data() + model.iv[i];
+      const auto S_i = joint.subspace(q);
+      const auto vJ = joint_velocity(joint, S_i, q, qd);
+      const Transform<double> Xup = joint.XJ(q) * model.Xtree[i];
       k.v_[i] = Xup * k.v_[p] + vJ;
-      k.a_bias[i] = Xup * k.a_bias[p] + crm(k.v_[i], vJ);
+      k.a_bias[i] = Xup * k.a_bias[p] + (crm(k.v_[i], vJ) + joint.cJ(q, qd));
+      remember(S_i, k.subspace_.data() + model.iv[i]);
 
       k.R_WB[i] = k.R_WB[p] * to_eigen(Xup.E).transpose();
       k.X_WL[i].p = k.X_WL[p].p + k.R_WB[p] * to_eigen(Xup.r);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/model.h"
+#include "solver/pose.h"
 
 namespace twinarm {
 
@@ -25,7 +26,10 @@ struct Kinematics {
 
  private:
   friend void forward_kinematics(const Model<double>&, const State<double>&, Kinematics&);
-  std::vector<Motion<double>> v_;  // spatial velocities, body axes
+  template <class F>
+  friend void for_each_dof_below(const Model<double>&, const Kinematics&, int, F&&);
+  std::vector<Motion<double>> v_;         // spatial velocities, body axes
+  std::vector<Motion<double>> subspace_;  // columns of S by velocity, body axes
 };
 
 // Fills all of k, in O(n).
@@ -54,15 +58,10 @@ template <class F>
 void for_each_dof_below(const Model<double>& model, const Kinematics& k, int body, F&& f) {
   for (int b = body; b > 0; b = model.parent[static_cast<std::size_t>(b)]) {
     const auto i = static_cast<std::size_t>(b);
-    visit_joint<double>(model.joint[i], [&](auto joint) {
-      for (std::size_t c = 0; c < joint.nv; ++c) {
-        VecN<double, joint.nv> unit{};
-        unit[c] = 1;
-        const Motion<double> s = times(joint.subspace, unit);
-        f(model.iv[i] + c, Vector3(k.R_WB[i] * to_eigen(s.w)), Vector3(k.R_WB[i] * to_eigen(s.v)),
-          k.X_WL[i].p);
-      }
-    });
+    for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof) {
+      const Motion<double>& s = k.subspace_[dof];
+      f(dof, Vector3(k.R_WB[i] * to_eigen(s.w)), Vector3(k.R_WB[i] * to_eigen(s.v)), k.X_WL[i].p);
+    }
   }
 }
 

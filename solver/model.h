@@ -3,19 +3,27 @@
 // Bodies are numbered so that parent[i] < i; body 0 is the fixed base (RBDA section 4.1). Body i
 // moves relative to its parent through joint i. Each body has two frames with the same origin, the
 // origin of joint i:
-//   body frame  turned at build time so that a one-dof joint's axis is z; the passes work in it;
+//   body frame  turned at build time so that the joint's axis is z; the passes work in it;
 //   link frame  the axes of the user's file; everything that leaves solver/ is in it.
 // turn[i] = R_BL takes coordinates in link axes to coordinates in body axes.
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solver/joint.h"
-#include "solver/pose.h"
 #include "solver/spatial.h"
 
 namespace twinarm {
+
+// qd[follower] = ratio qd[leader] and q[follower] = ratio q[leader] + offset: a URDF's mimic joint.
+// The leader of one is never the follower of another.
+struct Mimic {
+  std::size_t follower, leader;      // velocity indices
+  std::size_t follower_q, leader_q;  // coordinate indices
+  double ratio = 1, offset = 0;
+};
 
 template <class S>
 struct Model {
@@ -23,6 +31,7 @@ struct Model {
   std::vector<std::string> joint_name;  // of the joint that carries the body; empty for the base
   std::vector<int> parent;
   std::vector<JointType> joint;
+  std::vector<S> pitch;             // of screws [m/rad]; 0 for all others
   std::vector<std::size_t> iq, iv;  // first coordinate and first velocity of joint i
   std::vector<Transform<S>> Xtree;  // from the parent's body frame to joint i at q_i = identity
   std::vector<Inertia<S>> I;        // about the body's origin, body axes [kg, kg m, kg m^2]
@@ -30,48 +39,38 @@ struct Model {
   Vec3<S> gravity{S(0), S(0), S(-9.81)};  // world axes [m/s^2]
   std::size_t nq = 0, nv = 0;
 
+  // By velocity.
+  std::vector<S> armature;                     // rotor inertia felt at the joint [kg m^2, kg]
+  std::vector<S> damping;                      // viscous [N m s/rad, N s/m]
+  std::vector<S> coulomb_plus, coulomb_minus;  // Coulomb friction for qd > 0, qd < 0 [N m, N]
+  std::vector<Mimic> mimics;
+
+  std::size_t dofs(std::size_t i) const { return (i + 1 < iv.size() ? iv[i + 1] : nv) - iv[i]; }
   int body_count() const { return static_cast<int>(parent.size()); }  // with the base
   int find_body(const std::string& name) const;                       // -1 where there is none
   int find_joint(const std::string& name) const;  // the body that the joint carries, or -1
 };
 
-// Mass, centre of mass and rotational inertia about it, in link axes, SI.
-struct BodyInertia {
-  double mass = 0;
-  Vector3 com = Vector3::Zero();
-  Matrix3 inertia = Matrix3::Zero();
-};
+// Calls f with the joint struct of body i.
+template <class S, class F>
+void visit_joint(const Model<S>& model, std::size_t i, F&& f) {
+  visit_joint<S>(model.joint[i], model.pitch[i], std::forward<F>(f));
+}
 
-// Adds bodies one by one (a parent before its children) and checks everything; build() throws ONE
-// InputError that lists all faults.
-class ModelBuilder {
- public:
-  // Places joint `joint_name` at X_PJ in the parent's link frame; at q = 0 the new link's frame
-  // coincides with it. `axis` in link axes, any length but zero; unused by fixed and free joints.
-  // Returns the body's index. A body with no mass must be carried by a fixed joint.
-  int add_body(const std::string& body_name, int parent, const std::string& joint_name,
-               JointType type, const Pose& X_PJ, const Vector3& axis, const BodyInertia& inertia);
-  void set_gravity(const Vector3& g_W) { gravity_ = g_W; }
-  Model<double> build() const;
-
- private:
-  struct Body {
-    std::string name, joint_name;
-    int parent;
-    JointType type;
-    Pose X_PJ;
-    Vector3 axis;
-    BodyInertia inertia;
-  };
-  std::vector<Body> bodies_;
-  Vector3 gravity_{0, 0, -9.81};
-};
+// The same with how its Ia is formed: a hinge is told apart from a geared one.
+template <class S, class F>
+void visit_joint(const Model<S>& model, const std::vector<S>& more_armature, std::size_t i, F&& f) {
+  if (model.joint[i] == JointType::revolute && !is_nonzero(model.armature[model.iv[i]]) &&
+      !is_nonzero(more_armature[model.iv[i]]))
+    return f(RevoluteJoint<S>{}, HingeZeros{});
+  visit_joint(model, i, [&](auto joint) { f(joint, FullInertia{}); });
+}
 
 template <class S>
 int Model<S>::find_body(const std::string& name) const {
-  for (int i = 0; i < body_count(); ++i)
+  for (int i = 1; i < body_count(); ++i)
     if (body_name[static_cast<std::size_t>(i)] == name) return i;
-  return -1;
+  return !body_name.empty() && name == body_name[0] ? 0 : -1;  // a link may be called "world" too
 }
 template <class S>
 int Model<S>::find_joint(const std::string& name) const {
@@ -91,7 +90,7 @@ struct State {
   // Every joint at its identity, at rest.
   explicit State(const Model<S>& model) : q(model.nq, S(0)), qd(model.nv, S(0)) {
     for (std::size_t i = 1; i < model.parent.size(); ++i)
-      if (model.joint[i] == JointType::free) q[model.iq[i] + 3] = S(1);
+      visit_joint(model, i, [&](auto joint) { joint.identity(q.data() + model.iq[i]); });
   }
 };
 

@@ -2,120 +2,150 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
-#include "solver/aba.h"
-#include "solver/slice.h"
+#include "solver/mimic.h"
 
 namespace twinarm {
 namespace {
 
 void check(const ForceSource& source, Integrator integrator) {
-  if (integrator != Integrator::semi_implicit && source.needs_semi_implicit())
+  if (source.needs_semi_implicit() && !facts_of(integrator).implicit_force)
     throw std::invalid_argument(
-        "implicit spring-dampers go with the semi-implicit integrator only");
+        std::string("implicit spring-dampers and contacts go with the semi-implicit integrators "
+                    "only, not with ") +
+        integrator_name(integrator));
 }
 
 }  // namespace
 
 Simulation::Simulation(const Model<double>& model, State<double> start)
-    : model_(model),
-      x_(std::move(start)),
-      stage_(x_),
-      k_(model),
-      k_stage_(model),
-      w_(model),
-      forces_(model),
-      theta_(model.nv),
-      rate_(model.nv),
-      theta_sum_(model.nv),
-      qdd_sum_(model.nv) {
-  forward_kinematics(model_, x_, k_);
-}
+    : m_(model, std::move(start)), shift_(model.nv), rk_(model.nv), dopri5_(m_), events_(m_) {}
 
 void Simulation::add(ForceSource& source) {
   check(source, integrator_);
-  sources_.push_back(&source);
+  m_.sources.push_back(&source);
 }
 
 void Simulation::set_integrator(Integrator integrator) {
-  for (const ForceSource* source : sources_) check(*source, integrator);
+  for (const ForceSource* source : m_.sources) check(*source, integrator);
   integrator_ = integrator;
+  dopri5_.forget();
+  if (facts_of(integrator).solves && !implicit_) implicit_.emplace(model().nv);
+}
+
+void Simulation::set_tolerance(double tolerance) {
+  if (!(tolerance > 0) || !std::isfinite(tolerance))
+    throw std::invalid_argument("a tolerance is a positive number");
+  dopri5_.set_tolerance(tolerance);
+  dopri5_.forget();
+}
+
+void Simulation::prescribe(int body, MotionLaw law) {
+  const auto i = static_cast<std::size_t>(body);
+  if (body <= 0 || body >= model().body_count() || model().joint[i] != JointType::prescribed)
+    throw std::invalid_argument("only the body of a prescribed joint moves by a law");
+  std::erase_if(m_.drives, [&](const Mechanism::Drive& drive) { return drive.body == i; });
+  m_.drives.push_back({i, std::move(law)});
+  m_.refresh();
+  dopri5_.forget();
+}
+
+void Simulation::set_state(State<double> x) {
+  if (x.q.size() != model().nq || x.qd.size() != model().nv)
+    throw std::invalid_argument("the state is not one of this model");
+  m_.x = std::move(x);
+  m_.refresh();
+  dopri5_.forget();
 }
 
 StepReport Simulation::step(double h) noexcept {
-  for (ForceSource* source : sources_) source->begin_step(k_, x_.t, h);
-  int rounds = 1;
-  switch (integrator_) {
-    case Integrator::euler:
-    case Integrator::semi_implicit:
-      rounds = step_euler(h);
-      break;
-    case Integrator::rk4:
-      step_rk4(h);
-      break;
-  }
-  x_.t += h;
-  forward_kinematics(model_, x_, k_);
-  return report(rounds);
+  return advance(h, false);
 }
 
-void Simulation::accelerations(const State<double>& x, const Kinematics& k) {
-  forces_.clear();
-  for (ForceSource* source : sources_) source->add_forces(x, k, forces_);
-  aba(model_, x, forces_, w_);
+StepReport Simulation::substep(double h) noexcept {
+  return advance(h, true);
 }
 
-int Simulation::step_euler(double h) {
-  int rounds = 0;
-  for (bool again = true; again && rounds < ForceSource::kMaxRounds; ++rounds) {
-    accelerations(x_, k_);
-    again = false;
-    for (ForceSource* source : sources_) again = source->refine(k_, w_) || again;
+State<double> Simulation::side_step(double h, StepReport* report) const {
+  std::vector<Rewindable*> memories;
+  for (ForceSource* source : m_.sources) {
+    memories.push_back(dynamic_cast<Rewindable*>(source));
+    if (!memories.back())
+      throw std::invalid_argument("a source of forces does not let a step be taken back");
   }
-  for (std::size_t i = 0; i < model_.nv; ++i) {
-    const double qd_before = x_.qd[i];
-    x_.qd[i] += h * w_.qdd[i];
-    theta_[i] = h * (integrator_ == Integrator::euler ? qd_before : x_.qd[i]);
-  }
-  integrate_coordinates(model_, x_.q, theta_, x_.q);
-  return rounds;
+  for (Rewindable* memory : memories) memory->keep();
+  Simulation aside(*this);
+  const StepReport taken = aside.step(h);
+  for (Rewindable* memory : memories) memory->go_back();
+  if (report) *report = taken;
+  return aside.state();
 }
 
-void Simulation::step_rk4(double h) {
-  constexpr double c[4] = {0, 0.5, 0.5, 1}, b[4] = {1, 2, 2, 1};
-  theta_sum_.assign(model_.nv, 0.0);
-  qdd_sum_.assign(model_.nv, 0.0);
-  for (int s = 0; s < 4; ++s) {
-    for (std::size_t i = 0; i < model_.nv; ++i) {
-      theta_[i] = s == 0 ? 0 : h * c[s] * rate_[i];
-      stage_.qd[i] = x_.qd[i] + (s == 0 ? 0 : h * c[s] * w_.qdd[i]);
-    }
-    integrate_coordinates(model_, x_.q, theta_, stage_.q);
-    stage_.t = x_.t + c[s] * h;
-    forward_kinematics(model_, stage_, k_stage_);
-    accelerations(stage_, k_stage_);
-    shift_rate(model_, theta_, stage_.qd, rate_);
-    for (std::size_t i = 0; i < model_.nv; ++i) {
-      theta_sum_[i] += b[s] / 6 * h * rate_[i];
-      qdd_sum_[i] += b[s] / 6 * h * w_.qdd[i];
-    }
-  }
-  for (std::size_t i = 0; i < model_.nv; ++i) x_.qd[i] += qdd_sum_[i];
-  integrate_coordinates(model_, x_.q, theta_sum_, x_.q);
-}
-
-StepReport Simulation::report(int rounds) const {
+StepReport Simulation::advance(double h, bool one_substep) {
   StepReport report;
-  report.rounds = rounds;
+  const double t = m_.x.t;
+  if (integrator_ == Integrator::semi_implicit_xv) {  // its sources act at the new coordinates
+    drift(m_, shift_, h);
+    m_.x.t = t + h;
+    m_.refresh();
+  }
+  m_.begin_step(h);
+  if (facts_of(integrator_).implicit_force) {
+    solve_sources(h, report);
+    kick(m_, h);
+    m_.dynamics.settle(m_.x);
+    apply_mimics(model(), m_.x);
+    if (integrator_ == Integrator::semi_implicit) drift(m_, shift_, h);
+  } else if (integrator_ == Integrator::dopri5) {
+    dopri5_.step(m_, h, one_substep, report);
+  } else if (m_.dynamics.has_coulomb()) {
+    report.events = events_.advance(m_, h, [&](double s) { move(s, report); });
+  } else {
+    move(h, report);
+  }
+  if (integrator_ != Integrator::dopri5) m_.x.t = t + h;
+  m_.refresh();
+  report.h = m_.x.t - t;
+  look_for_bad_numbers(report);
+  return report;
+}
+
+void Simulation::move(double h, StepReport& report) {
+  if (facts_of(integrator_).solves)
+    implicit_->step(m_, integrator_, h, report);
+  else if (integrator_ == Integrator::verlet)
+    step_verlet(m_, shift_, h);
+  else
+    rk_.step(m_, tableau_of(integrator_), h);
+}
+
+void Simulation::solve_sources(double h, StepReport& report) {
+  bool again = true;
+  for (report.rounds = 0; again && report.rounds < ForceSource::kMaxRounds; ++report.rounds) {
+    m_.accelerate_over(h);
+    again = false;
+    for (ForceSource* source : m_.sources) again = source->refine(m_.k, m_.w) || again;
+  }
+  report.converged = !again;
+}
+
+void Simulation::look_for_bad_numbers(StepReport& report) const {
   double sum = 0;  // one non-finite number makes the sum non-finite
-  for (double q : x_.q) sum += q * 0;
-  for (double qd : x_.qd) sum += qd * 0;
-  if (sum == 0) return report;
+  for (double q : m_.x.q) sum += q * 0;
+  for (double qd : m_.x.qd) sum += qd * 0;
+  if (sum == 0) return;
 
   report.finite = false;
+  const Workspace<double>& w = m_.w;
   const auto bad = [](const Vec3<double>& v) { return !(v.x * 0 + v.y * 0 + v.z * 0 == 0); };
-  const std::size_t n = model_.parent.size();
+  const auto any_bad = [](const std::vector<double>& all, std::size_t first, std::size_t count) {
+    bool any = false;
+    for (std::size_t c = first; c < first + count; ++c) any = any || !std::isfinite(all[c]);
+    return any;
+  };
+  const std::size_t n = model().parent.size();
   const auto look = [&](const char* field, bool from_tips, auto is_bad) {
     for (std::size_t step = 1; step < n && !report.bad_field; ++step) {
       const std::size_t i = from_tips ? n - step : step;
@@ -126,21 +156,21 @@ StepReport Simulation::report(int rounds) const {
   };
   look("tau", false, [&](std::size_t i) {
     bool any = false;
-    visit_joint<double>(model_.joint[i], [&](auto joint) {
-      for (double tau : slice<joint.nv>(forces_.tau, model_.iv[i])) any = any || tau * 0 != 0;
-    });
+    visit_joint(model(), i,
+                [&](auto joint) { any = any_bad(m_.forces.tau, model().iv[i], joint.nv); });
     return any;
   });
   look("f_ext", false,
-       [&](std::size_t i) { return bad(forces_.f_ext[i].n) || bad(forces_.f_ext[i].f); });
-  look("v", false, [&](std::size_t i) { return bad(w_.v[i].w) || bad(w_.v[i].v); });
-  look("c", false, [&](std::size_t i) { return bad(w_.c[i].w) || bad(w_.c[i].v); });
-  look("pA", true, [&](std::size_t i) { return bad(w_.pA[i].n) || bad(w_.pA[i].f); });
-  look("a", false, [&](std::size_t i) { return bad(w_.a[i].w) || bad(w_.a[i].v); });
+       [&](std::size_t i) { return bad(m_.forces.f_ext[i].n) || bad(m_.forces.f_ext[i].f); });
+  look("v", false, [&](std::size_t i) { return bad(w.v[i].w) || bad(w.v[i].v); });
+  look("c", false, [&](std::size_t i) { return bad(w.c[i].w) || bad(w.c[i].v); });
+  look("pA", true, [&](std::size_t i) { return bad(w.pA[i].n) || bad(w.pA[i].f); });
+  look("a", false, [&](std::size_t i) { return bad(w.a[i].w) || bad(w.a[i].v); });
   look("q", false, [&](std::size_t i) {
-    return model_.iq[i] < model_.nq && !std::isfinite(x_.q[model_.iq[i]]);
+    bool any = false;
+    visit_joint(model(), i, [&](auto joint) { any = any_bad(m_.x.q, model().iq[i], joint.nq); });
+    return any;
   });
-  return report;
 }
 
 }  // namespace twinarm

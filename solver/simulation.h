@@ -1,29 +1,25 @@
 // One step, in the order that the data flows:
 //
-//   kinematics -> sources (targets, contacts, forces) -> ABA (+ implicit terms) -> integrate ->
-//   report
+//   kinematics -> sources (targets, contacts, forces) -> ABA (+ implicit terms, joint friction,
+//   mimics) -> integrate -> report
 //
 // step() never throws and never allocates. The same inputs give the same bits.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/force_source.h"
 #include "solver/integrator.h"
-#include "solver/kinematics.h"
-#include "solver/model.h"
-#include "solver/workspace.h"
+#include "solver/integrator_dopri5.h"
+#include "solver/integrator_events.h"
+#include "solver/integrator_explicit.h"
+#include "solver/integrator_implicit.h"
+#include "solver/integrator_mechanism.h"
+#include "solver/integrator_report.h"
+#include "solver/integrator_rewind.h"
 
 namespace twinarm {
-
-struct StepReport {
-  bool finite = true;
-  int rounds = 1;  // of forces and ABA; more than one where a source asked for it
-  // Where the first non-finite number stands, in the order in which the passes write; body 0 and
-  // null where all is finite.
-  int bad_body = 0;
-  const char* bad_field = nullptr;
-};
 
 class Simulation {
  public:
@@ -32,28 +28,46 @@ class Simulation {
   // Throws std::invalid_argument for a source that cannot go with the integrator.
   void add(ForceSource& source);
   void set_integrator(Integrator integrator);
+  void set_tolerance(double tolerance);  // of dopri5, relative and absolute
+  // The prescribed joint that carries the body moves by this law, from now on.
+  void prescribe(int body, MotionLaw law);
+  // Off: as if no joint had damping or Coulomb friction.
+  void set_joint_friction(bool on) { m_.dynamics.set_friction(on); }
+  // Elsewhere, at another time; followers go to their leaders. What sources remember is left alone.
+  void set_state(State<double> x);
 
+  // By exactly h. Only dopri5 may stand before it, and then says so (StepReport::reached).
   StepReport step(double h) noexcept;
+  // By one substep of dopri5, of the size that its tolerance asks for, at most h; other integrators
+  // take the whole of h. StepReport::h says how far it went.
+  StepReport substep(double h) noexcept;
+  // Where a step of h would lead; the run is not changed, down to the last bit. For samples between
+  // the steps. Throws std::invalid_argument for a source that is not Rewindable. May allocate.
+  State<double> side_step(double h, StepReport* report = nullptr) const;
 
-  const Model<double>& model() const { return model_; }
-  const State<double>& state() const { return x_; }
-  const Kinematics& kinematics() const { return k_; }        // of state()
-  const Workspace<double>& workspace() const { return w_; }  // of the last step's last ABA
+  const Model<double>& model() const { return m_.model; }
+  const State<double>& state() const { return m_.x; }
+  const Kinematics& kinematics() const { return m_.k; }        // of state()
+  const Workspace<double>& workspace() const { return m_.w; }  // of the last step's last ABA
+  const Forces<double>& forces() const { return m_.forces; }   // likewise
+  // Friction and followers' forces, likewise.
+  const ForwardDynamics& dynamics() const { return m_.dynamics; }
+  Integrator integrator() const { return integrator_; }
 
  private:
-  void accelerations(const State<double>& x, const Kinematics& k);
-  int step_euler(double h);  // both Euler methods
-  void step_rk4(double h);
-  StepReport report(int rounds) const;
+  StepReport advance(double h, bool one_substep);
+  void move(double h, StepReport& report);  // one step of fixed size that is not semi-implicit
+  void solve_sources(double h,
+                     StepReport& report);  // forces and ABA, in rounds where a source asks for them
+  void look_for_bad_numbers(StepReport& report) const;
 
-  const Model<double>& model_;
-  State<double> x_, stage_;
-  Kinematics k_, k_stage_;
-  Workspace<double> w_;
-  Forces<double> forces_;
-  std::vector<ForceSource*> sources_;
+  Mechanism m_;
   Integrator integrator_ = Integrator::semi_implicit;
-  std::vector<double> theta_, rate_, theta_sum_, qdd_sum_;  // Runge-Kutta, by velocity
+  std::vector<double> shift_;
+  RungeKutta rk_;
+  Dopri5 dopri5_;
+  FrictionEvents events_;
+  std::optional<ImplicitStep> implicit_;  // nv x nv numbers: only where the integrator needs it
 };
 
 }  // namespace twinarm

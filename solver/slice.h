@@ -5,40 +5,42 @@
 #include <cstddef>
 #include <vector>
 
-#include "solver/joint.h"
+#include "solver/joint_algebra.h"
 
 namespace twinarm {
 
 template <std::size_t n, class T>
 std::array<T, n> slice(const std::vector<T>& all, std::size_t first) {
-  std::array<T, n> part{};
+  std::array<T, n> part;
   for (std::size_t k = 0; k < n; ++k) part[k] = all[first + k];
-  return part;
-}
-template <std::size_t n, class S>
-MatN<S, n> slice_matrix(const std::vector<S>& all, std::size_t first) {
-  MatN<S, n> part{};
-  for (std::size_t k = 0; k < n; ++k) part[k] = slice<n>(all, first + k * n);
   return part;
 }
 template <class T, std::size_t n>
 void store(const std::array<T, n>& part, std::vector<T>& all, std::size_t first) {
   for (std::size_t k = 0; k < n; ++k) all[first + k] = part[k];
 }
+// Row by row.
 template <class S, std::size_t n>
-void store_matrix(const MatN<S, n>& part, std::vector<S>& all, std::size_t first) {
+void store(const MatN<S, n>& part, std::vector<S>& all, std::size_t first) {
   for (std::size_t k = 0; k < n; ++k) store(part[k], all, first + k * n);
 }
 template <class S, std::size_t n>
-VecN<S, n> minus(const VecN<S, n>& a, const VecN<S, n>& b) {
-  VecN<S, n> difference{};
-  for (std::size_t k = 0; k < n; ++k) difference[k] = a[k] - b[k];
-  return difference;
+void add_to_diagonal(MatN<S, n>& A, const std::vector<S>& d1, const std::vector<S>& d2,
+                     std::size_t first) {
+  for (std::size_t k = 0; k < n; ++k) A[k][k] = A[k][k] + d1[first + k] + d2[first + k];
 }
+// A factorization takes n (n + 1) / 2 numbers: 1/d, then the rows of L.
 template <class S, std::size_t n>
-MatN<S, n> plus_diagonal(MatN<S, n> A, const std::vector<S>& all, std::size_t first) {
-  for (std::size_t k = 0; k < n; ++k) A[k][k] = A[k][k] + all[first + k];
-  return A;
+void store(const Spd<S, n>& part, std::vector<S>& all, std::size_t first) {
+  store(part.inverse_d, all, first);
+  for (std::size_t k = 0; k < row_of_L(n); ++k) all[first + n + k] = part.L[k];
+}
+template <std::size_t n, class S>
+Spd<S, n> slice_spd(const std::vector<S>& all, std::size_t first) {
+  Spd<S, n> part;
+  part.inverse_d = slice<n>(all, first);
+  for (std::size_t k = 0; k < row_of_L(n); ++k) part.L[k] = all[first + n + k];
+  return part;
 }
 
 }  // namespace twinarm

@@ -6,19 +6,18 @@
 // formula are in the same frame; the frame is named where the quantity is stored (Workspace).
 #pragma once
 
-namespace twinarm {
+#include "solver/scalar.h"
 
-// condition ? a : b, lane by lane where S has lanes. Both sides are evaluated.
-template <class S>
-S select(bool condition, const S& a, const S& b) {
-  return condition ? a : b;
-}
+namespace twinarm {
 
 template <class S>
 struct Vec3 {
   S x{}, y{}, z{};
   Vec3 operator-() const { return {-x, -y, -z}; }
-  Vec3& operator+=(const Vec3& b) { return *this = *this + b; }
+  Vec3& operator+=(const Vec3& b) {
+    x = x + b.x, y = y + b.y, z = z + b.z;
+    return *this;
+  }
   friend Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend Vec3 operator*(const S& s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
@@ -32,11 +31,25 @@ Vec3<S> cross(const Vec3<S>& a, const Vec3<S>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+// a + r x b and a - r x b, in an order that a fused multiply-add can take.
+template <class S>
+Vec3<S> plus_cross(const Vec3<S>& a, const Vec3<S>& r, const Vec3<S>& b) {
+  return {a.x + r.y * b.z - r.z * b.y, a.y + r.z * b.x - r.x * b.z, a.z + r.x * b.y - r.y * b.x};
+}
+template <class S>
+Vec3<S> minus_cross(const Vec3<S>& a, const Vec3<S>& r, const Vec3<S>& b) {
+  return {a.x - r.y * b.z + r.z * b.y, a.y - r.z * b.x + r.x * b.z, a.z - r.x * b.y + r.y * b.x};
+}
+
 // General 3x3 matrix, by rows.
 template <class S>
 struct Mat3 {
   Vec3<S> r0, r1, r2;
   static Mat3 identity() { return {{S(1), S(0), S(0)}, {S(0), S(1), S(0)}, {S(0), S(0), S(1)}}; }
+  Mat3& operator+=(const Mat3& b) {
+    r0 += b.r0, r1 += b.r1, r2 += b.r2;
+    return *this;
+  }
   friend Mat3 operator+(const Mat3& a, const Mat3& b) {
     return {a.r0 + b.r0, a.r1 + b.r1, a.r2 + b.r2};
   }
@@ -75,6 +88,11 @@ struct Sym3 {
   Vec3<S> row0() const { return {xx, xy, xz}; }
   Vec3<S> row1() const { return {xy, yy, yz}; }
   Vec3<S> row2() const { return {xz, yz, zz}; }
+  Sym3& operator+=(const Sym3& b) {
+    xx = xx + b.xx, yy = yy + b.yy, zz = zz + b.zz;
+    xy = xy + b.xy, xz = xz + b.xz, yz = yz + b.yz;
+    return *this;
+  }
   friend Sym3 operator+(const Sym3& a, const Sym3& b) {
     return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
   }
@@ -95,18 +113,22 @@ Sym3<S> symmetric_part_of(const Mat3<S>& a) {  // for a matrix that is symmetric
 }
 template <class S>
 Sym3<S> rotate_back(const Mat3<S>& E, const Sym3<S>& a) {  // E^T a E, six outputs
-  const Mat3<S> aE = full(a) * E;
-  const Vec3<S> c0{E.r0.x, E.r1.x, E.r2.x}, c1{E.r0.y, E.r1.y, E.r2.y}, c2{E.r0.z, E.r1.z, E.r2.z};
-  const Vec3<S> b0{aE.r0.x, aE.r1.x, aE.r2.x}, b1{aE.r0.y, aE.r1.y, aE.r2.y},
-      b2{aE.r0.z, aE.r1.z, aE.r2.z};
-  return {dot(c0, b0), dot(c1, b1), dot(c2, b2), dot(c0, b1), dot(c0, b2), dot(c1, b2)};
+  const Vec3<S>&e0 = E.r0, &e1 = E.r1, &e2 = E.r2;
+  const Vec3<S> x = a.xx * e0 + a.xy * e1 + a.xz * e2, y = a.xy * e0 + a.yy * e1 + a.yz * e2,
+                z = a.xz * e0 + a.yz * e1 + a.zz * e2;  // the rows of a E
+  return {e0.x * x.x + e1.x * y.x + e2.x * z.x, e0.y * x.y + e1.y * y.y + e2.y * z.y,
+          e0.z * x.z + e1.z * y.z + e2.z * z.z, e0.x * x.y + e1.x * y.y + e2.x * z.y,
+          e0.x * x.z + e1.x * y.z + e2.x * z.z, e0.y * x.z + e1.y * y.z + e2.y * z.z};
 }
 
 template <class S>
 struct Motion {  // (w; v): angular, then linear velocity of the frame's origin
   Vec3<S> w, v;
   Motion operator-() const { return {-w, -v}; }
-  Motion& operator+=(const Motion& b) { return *this = *this + b; }
+  Motion& operator+=(const Motion& b) {
+    w += b.w, v += b.v;
+    return *this;
+  }
   friend Motion operator+(const Motion& a, const Motion& b) { return {a.w + b.w, a.v + b.v}; }
   friend Motion operator-(const Motion& a, const Motion& b) { return {a.w - b.w, a.v - b.v}; }
   friend Motion operator*(const S& s, const Motion& a) { return {s * a.w, s * a.v}; }
@@ -115,7 +137,10 @@ template <class S>
 struct Force {  // (n; f): couple about the frame's origin, then force
   Vec3<S> n, f;
   Force operator-() const { return {-n, -f}; }
-  Force& operator+=(const Force& b) { return *this = *this + b; }
+  Force& operator+=(const Force& b) {
+    n += b.n, f += b.f;
+    return *this;
+  }
   friend Force operator+(const Force& a, const Force& b) { return {a.n + b.n, a.f + b.f}; }
   friend Force operator-(const Force& a, const Force& b) { return {a.n - b.n, a.f - b.f}; }
   friend Force operator*(const S& s, const Force& a) { return {s * a.n, s * a.f}; }
@@ -126,11 +151,11 @@ S dot(const Motion<S>& a, const Force<S>& b) {  // power of the force b at the v
 }
 template <class S>
 Motion<S> crm(const Motion<S>& a, const Motion<S>& b) {  // a x b, RBDA (2.31)
-  return {cross(a.w, b.w), cross(a.w, b.v) + cross(a.v, b.w)};
+  return {cross(a.w, b.w), plus_cross(cross(a.w, b.v), a.v, b.w)};
 }
 template <class S>
 Force<S> crf(const Motion<S>& a, const Force<S>& b) {  // a x* b, RBDA (2.32)
-  return {cross(a.w, b.n) + cross(a.v, b.f), cross(a.w, b.f)};
+  return {plus_cross(cross(a.w, b.n), a.v, b.f), cross(a.w, b.f)};
 }
 
 // Pluecker transform B_X_A, RBDA (2.24): E turns coordinates in A into coordinates in B, r is the
@@ -140,7 +165,7 @@ struct Transform {
   Mat3<S> E = Mat3<S>::identity();
   Vec3<S> r;
   friend Motion<S> operator*(const Transform& X, const Motion<S>& m) {
-    return {X.E * m.w, X.E * (m.v - cross(X.r, m.w))};
+    return {X.E * m.w, X.E * minus_cross(m.v, X.r, m.w)};
   }
   friend Transform operator*(const Transform& X2, const Transform& X1) {
     return {X2.E * X1.E, X1.r + transpose_times(X1.E, X2.r)};
@@ -149,7 +174,7 @@ struct Transform {
 template <class S>
 Force<S> transpose_times(const Transform<S>& X, const Force<S>& f) {  // X^T f, from B to A
   const Vec3<S> f_A = transpose_times(X.E, f.f);
-  return {transpose_times(X.E, f.n) + cross(X.r, f_A), f_A};
+  return {plus_cross(transpose_times(X.E, f.n), X.r, f_A), f_A};
 }
 
 // Rigid-body inertia about the frame's origin, RBDA (2.63): mass, first moment h = m c, and
@@ -160,9 +185,28 @@ struct Inertia {
   Vec3<S> h;
   Sym3<S> I;
   friend Force<S> operator*(const Inertia& a, const Motion<S>& b) {
-    return {a.I * b.w + cross(a.h, b.v), a.m * b.v - cross(a.h, b.w)};
+    return {plus_cross(a.I * b.w, a.h, b.v), minus_cross(a.m * b.v, a.h, b.w)};
   }
 };
+
+// sum += X^T I X, RBDA (2.66): the inertia of a child's subtree added to its parent's. Rotated into
+// the parent's axes (h, I_r), then about the parent's origin:
+//   I' = I_r + 2 (r.t) 1 - t r^T - r t^T,  t = h + m r / 2.
+template <class S>
+void add_congruence(const Transform<S>& X, const Inertia<S>& a, Inertia<S>& sum) {
+  const Vec3<S> h = transpose_times(X.E, a.h), t = h + (S(0.5) * a.m) * X.r;
+  const Vec3<S>& r = X.r;
+  const S d = dot(r, t) + dot(r, t);
+  const Sym3<S> I = rotate_back(X.E, a.I);
+  sum.m = sum.m + a.m;
+  sum.h += h + a.m * r;
+  sum.I.xx = sum.I.xx + I.xx + d - (t.x * r.x + t.x * r.x);
+  sum.I.yy = sum.I.yy + I.yy + d - (t.y * r.y + t.y * r.y);
+  sum.I.zz = sum.I.zz + I.zz + d - (t.z * r.z + t.z * r.z);
+  sum.I.xy = sum.I.xy + I.xy - t.x * r.y - t.y * r.x;
+  sum.I.xz = sum.I.xz + I.xz - t.x * r.z - t.z * r.x;
+  sum.I.yz = sum.I.yz + I.yz - t.y * r.z - t.z * r.y;
+}
 
 // Articulated-body inertia [I H; H^T M], RBDA (7.22): 6 + 9 + 6 numbers.
 template <class S>
@@ -172,9 +216,21 @@ struct ArticulatedInertia {
   Sym3<S> M;
   ArticulatedInertia() = default;
   ArticulatedInertia(const Sym3<S>& i, const Mat3<S>& h, const Sym3<S>& m) : I(i), H(h), M(m) {}
-  explicit ArticulatedInertia(const Inertia<S>& a)
-      : I(a.I), H(skew(a.h)), M(Sym3<S>::scaled_identity(a.m)) {}
-  ArticulatedInertia& operator+=(const ArticulatedInertia& b) { return *this = *this + b; }
+  explicit ArticulatedInertia(const Inertia<S>& a) { *this = a; }
+  ArticulatedInertia& operator=(const Inertia<S>& a) {
+    const S zero(0);
+    I = a.I;
+    H.r0.x = zero, H.r0.y = -a.h.z, H.r0.z = a.h.y;
+    H.r1.x = a.h.z, H.r1.y = zero, H.r1.z = -a.h.x;
+    H.r2.x = -a.h.y, H.r2.y = a.h.x, H.r2.z = zero;
+    M.xx = M.yy = M.zz = a.m;
+    M.xy = M.xz = M.yz = zero;
+    return *this;
+  }
+  ArticulatedInertia& operator+=(const ArticulatedInertia& b) {
+    I += b.I, H += b.H, M += b.M;
+    return *this;
+  }
   friend Force<S> operator*(const ArticulatedInertia& a, const Motion<S>& b) {
     return {a.I * b.w + a.H * b.v, a.M * b.v + transpose_times(a.H, b.w)};
   }
@@ -191,16 +247,30 @@ template <class S>
 ArticulatedInertia<S> outer(const Force<S>& a, const Force<S>& b) {
   return {symmetric_part_of(outer(a.n, b.n)), outer(a.n, b.f), symmetric_part_of(outer(a.f, b.f))};
 }
-// X^T IA X: the inertia of a child as its parent feels it, RBDA (2.66), by rotation and shift.
+// Adds to `sum` the part of an inertia [0 H; H^T M] about a point, seen from a point r before it:
+//   H' = H + [r]x M,   I' = [r]x H^T + ([r]x H'^T)^T   (symmetric: six outputs).
 template <class S>
-ArticulatedInertia<S> congruence(const Transform<S>& X, const ArticulatedInertia<S>& a) {
-  const Sym3<S> I = rotate_back(X.E, a.I);
-  const Mat3<S> H = transpose(X.E) * a.H * X.E;
+void add_shifted(const Vec3<S>& r, const Mat3<S>& H, const Sym3<S>& M, ArticulatedInertia<S>& sum) {
+  sum.M += M;
+  const Mat3<S> Hs{H.r0 + r.y * M.row2() - r.z * M.row1(), H.r1 + r.z * M.row0() - r.x * M.row2(),
+                   H.r2 + r.x * M.row1() - r.y * M.row0()};
+  sum.H += Hs;
+  const Vec3<S>&p0 = H.r0, &p1 = H.r1, &p2 = H.r2, &q0 = Hs.r0, &q1 = Hs.r1, &q2 = Hs.r2;
+  sum.I.xx = sum.I.xx + r.y * p0.z - r.z * p0.y + r.y * q0.z - r.z * q0.y;
+  sum.I.yy = sum.I.yy + r.z * p1.x - r.x * p1.z + r.z * q1.x - r.x * q1.z;
+  sum.I.zz = sum.I.zz + r.x * p2.y - r.y * p2.x + r.x * q2.y - r.y * q2.x;
+  sum.I.xy = sum.I.xy + r.y * p1.z - r.z * p1.y + r.z * q0.x - r.x * q0.z;
+  sum.I.xz = sum.I.xz + r.y * p2.z - r.z * p2.y + r.x * q0.y - r.y * q0.x;
+  sum.I.yz = sum.I.yz + r.z * p2.x - r.x * p2.z + r.x * q1.y - r.y * q1.x;
+}
+// parent += X^T IA X: the inertia of a child as its parent feels it, RBDA (2.66), by rotation and
+// shift. Added piece by piece, so that little has to be kept in registers.
+template <class S>
+void add_congruence(const Transform<S>& X, const ArticulatedInertia<S>& a,
+                    ArticulatedInertia<S>& parent) {
   const Sym3<S> M = rotate_back(X.E, a.M);
-  const Mat3<S> rx = skew(X.r);
-  const Mat3<S> H_shifted = H + rx * full(M);
-  const Mat3<S> dI = rx * transpose(H_shifted) - H * rx;
-  return {I + symmetric_part_of(dI), H_shifted, M};
+  add_shifted(X.r, transpose(X.E) * (a.H * X.E), M, parent);
+  parent.I += rotate_back(X.E, a.I);
 }
 
 }  // namespace twinarm

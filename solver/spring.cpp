@@ -16,7 +16,7 @@ Vec3<double> arm(const Kinematics& k, int body, const Vector3& p_W) {
 }
 void add_weightless(const Kinematics& k, int body, const ArticulatedInertia<double>& inertia,
                     Forces<double>& forces) {
-  forces.impedance[at(body)] += inertia;
+  forces.add_impedance(at(body), inertia);
   forces.f_ext[at(body)] += inertia * k.a_bias[at(body)];  // hand back what acts at qdd = 0
 }
 

@@ -20,6 +20,7 @@ struct Forces {
   std::vector<Force<S>> f_ext;                   // by body [N m, N]
   std::vector<S> armature;                       // by velocity, added to D [kg m^2, kg]
   std::vector<ArticulatedInertia<S>> impedance;  // by body, added to IA and to nothing else
+  bool has_impedance = false;                    // false: all of impedance is zero
 
   explicit Forces(const Model<S>& model)
       : tau(model.nv),
@@ -30,7 +31,12 @@ struct Forces {
     tau.assign(tau.size(), S(0));
     f_ext.assign(f_ext.size(), Force<S>{});
     armature.assign(armature.size(), S(0));
-    impedance.assign(impedance.size(), ArticulatedInertia<S>{});
+    if (has_impedance) impedance.assign(impedance.size(), ArticulatedInertia<S>{});
+    has_impedance = false;
+  }
+  void add_impedance(std::size_t body, const ArticulatedInertia<S>& inertia) {
+    impedance[body] += inertia;
+    has_impedance = true;
   }
 };
 
@@ -38,7 +44,7 @@ struct Forces {
 template <class T>
 void forget([[maybe_unused]] std::vector<T>& field) {
 #ifndef NDEBUG
-  static_assert(std::is_trivially_copyable_v<T>);
+  static_assert(std::is_trivially_destructible_v<T>);
   if (!field.empty()) std::memset(static_cast<void*>(field.data()), 0xFF, field.size() * sizeof(T));
 #endif
 }
@@ -46,14 +52,17 @@ void forget([[maybe_unused]] std::vector<T>& field) {
 template <class S>
 struct Workspace {
   // pass 1 (base to tips)
+  std::vector<Motion<S>> S_;      // columns of the motion subspaces, by velocity
   std::vector<Transform<S>> Xup;  // XJ Xtree: from the parent's frame to the body's
   std::vector<Motion<S>> v;       // spatial velocity [rad/s, m/s]
   std::vector<Motion<S>> c;       // velocity-product acceleration cJ + v x vJ
+  std::vector<Transform<S>> X0;   // from the world's frame to the body's; kinematics() alone
   // pass 2 (tips to base)
   std::vector<ArticulatedInertia<S>> IA;  // articulated-body inertia
   std::vector<Force<S>> pA;               // articulated bias force [N m, N]
   std::vector<Force<S>> U;                // IA S, by velocity
-  std::vector<S> D, Dinv;                 // S^T U + armature and its inverse, nv x nv by body at iD
+  std::vector<S> D;                       // S^T U + armature, nv x nv of body i at iD[i]
+  std::vector<S> D_factors;               // L D L^T of it, at the same place (slice_spd)
   std::vector<S> u;                       // tau - S^T pA, by velocity
   // pass 3 (base to tips)
   std::vector<Motion<S>> a;  // spatial acceleration, gravity as a_0 = -g
@@ -62,14 +71,21 @@ struct Workspace {
   std::vector<Force<S>> f;  // force transmitted through joint i [N m, N]
   std::vector<S> tau;       // by velocity
   // mass matrix
-  std::vector<ArticulatedInertia<S>> Ic;  // composite inertia of the subtree
+  std::vector<Inertia<S>> Ic;  // composite inertia of the subtree
+  std::vector<S> M;            // nv x nv, row by row, both triangles [kg m^2, kg]
+  // M^-1 times a vector
+  std::vector<Force<S>> p;    // bias force of the vector alone
+  std::vector<Motion<S>> dv;  // acceleration that it causes
+  std::vector<S> y;           // the product, by velocity
 
   std::vector<std::size_t> iD;  // where D of body i begins
 
   explicit Workspace(const Model<S>& model)
-      : Xup(n(model)),
+      : S_(model.nv),
+        Xup(n(model)),
         v(n(model)),
         c(n(model)),
+        X0(n(model)),
         IA(n(model)),
         pA(n(model)),
         U(model.nv),
@@ -78,14 +94,24 @@ struct Workspace {
         qdd(model.nv),
         f(n(model)),
         tau(model.nv),
-        Ic(n(model)) {
+        Ic(n(model)),
+        M(model.nv * model.nv),
+        p(n(model)),
+        dv(n(model)),
+        y(model.nv) {
     std::size_t size = 0;
-    for (JointType type : model.joint) {
+    const State<S> home(model);
+    for (std::size_t i = 0; i < n(model); ++i) {
       iD.push_back(size);
-      visit_joint<S>(type, [&](auto joint) { size += joint.nv * joint.nv; });
+      visit_joint(model, i, [&](auto joint) {
+        size += joint.nv * joint.nv;
+        const auto subspace = joint.subspace(home.q.data() + model.iq[i]);
+        for (std::size_t k = 0; k < joint.nv; ++k)
+          S_[model.iv[i] + k] = Motion<S>(times(subspace, unit_vector<S, joint.nv>(k)));
+      });
     }
     D.resize(size);
-    Dinv.resize(size);
+    D_factors.resize(size);
   }
 
  private:

@@ -1,4 +1,5 @@
 #include "app/study/findings.h"
+#include "solver/model_builder.h"
 
 #include <fmt/format.h>
 

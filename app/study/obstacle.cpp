@@ -9,7 +9,7 @@
 #include "app/study/variants.h"
 #include "collision/contact_force.h"
 #include "collision/convex_hull.h"
-#include "collision/mesh_file.h"
+#include "collision/import/mesh_geometry.h"
 
 namespace twinarm {
 namespace {
@@ -25,7 +25,7 @@ void add_geometry(const StudyInputs& inputs, const Model<double>& model, Contact
       const auto* mesh = std::get_if<MeshGeometry>(&part.geometry);
       if (!mesh) continue;
       contact.add(body, part.X_LG(), link.name + "/" + part.name,
-                  convex_hull(load_mesh(mesh->file, mesh->scale).vertices));
+                  convex_hull(load_mesh(*mesh).vertices));
     }
   }
   const ObstacleScene scene = obstacle_scene(inputs.settings);

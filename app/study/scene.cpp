@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "collision/mesh_file.h"
+#include "collision/import/mesh_geometry.h"
 
 namespace twinarm {
 namespace {
@@ -24,7 +24,7 @@ RobotScene::RobotScene(const RobotDescription& description, const Model<double>&
       if (!mesh) continue;
       const Eigen::Vector4f c = visual.color.cast<float>();
       parts_.push_back({static_cast<std::size_t>(model.find_body(link.name)),
-                        list_.register_mesh(load_mesh(mesh->file, mesh->scale)),
+                        list_.register_mesh(load_mesh(*mesh)),
                         visual.X_LG(),
                         {c(0), c(1), c(2), c(3)}});
     }

@@ -177,7 +177,10 @@ class Traced : public Twinarm<double> {
 void add_twinarm(Engines& engines) {
   const Isa best = best_isa();
   engines.push_back(std::make_unique<Twinarm<double>>("twinarm double", best));
-  engines.push_back(std::make_unique<Twinarm<double>>("twinarm double generic", Isa::generic));
+  for (const Isa isa : {Isa::v3, Isa::generic})
+    if (isa < best)
+      engines.push_back(
+          std::make_unique<Twinarm<double>>(std::string("twinarm double ") + name_of(isa), isa));
   engines.push_back(std::make_unique<Traced>());
   engines.push_back(std::make_unique<Twinarm<float>>("twinarm float", best));
   engines.push_back(std::make_unique<Twinarm<Batch<4>>>("twinarm batch4", best));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/model_builder.h"
 #include "solver/simulation.h"
 
 using namespace twinarm;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "coupling/tracking.h"
+#include "solver/model_builder.h"
 #include "solver/simulation.h"
 
 namespace twinarm::testing {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "coupling/prediction.h"
-#include "solver/aba.h"
+#include "solver/dynamics.h"
 #include "solver/fault.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/solver/random_tree.h"

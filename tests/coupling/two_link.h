@@ -5,6 +5,7 @@
 
 #include "coupling/automatic_motion.h"
 #include "coupling/tracking.h"
+#include "solver/model_builder.h"
 
 namespace twinarm::testing {
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "solver/model_builder.h"
 #include "solver/simulation.h"
 
 namespace twinarm::testing {

@@ -1,0 +1,72 @@
+// The same model and state in another scalar: float, Dual<N>, Batch<N>.
+#pragma once
+
+#include "solver/model.h"
+
+namespace twinarm {
+
+template <class T, class S>
+Vec3<T> convert(const Vec3<S>& a) {
+  return {T(a.x), T(a.y), T(a.z)};
+}
+template <class T, class S>
+Mat3<T> convert(const Mat3<S>& a) {
+  return {convert<T>(a.r0), convert<T>(a.r1), convert<T>(a.r2)};
+}
+template <class T, class S>
+Sym3<T> convert(const Sym3<S>& a) {
+  return {T(a.xx), T(a.yy), T(a.zz), T(a.xy), T(a.xz), T(a.yz)};
+}
+template <class T, class S>
+Transform<T> convert(const Transform<S>& a) {
+  return {convert<T>(a.E), convert<T>(a.r)};
+}
+template <class T, class S>
+Inertia<T> convert(const Inertia<S>& a) {
+  return {T(a.m), convert<T>(a.h), convert<T>(a.I)};
+}
+template <class T, class S>
+T convert(const S& a) {
+  return T(a);
+}
+template <class T, class From>
+auto convert_all(const std::vector<From>& all) {
+  std::vector<decltype(convert<T>(std::declval<From>()))> out;
+  out.reserve(all.size());
+  for (const From& one : all) out.push_back(convert<T>(one));
+  return out;
+}
+
+template <class T>
+Model<T> convert(const Model<double>& m) {
+  Model<T> out;
+  out.body_name = m.body_name;
+  out.joint_name = m.joint_name;
+  out.parent = m.parent;
+  out.joint = m.joint;
+  out.pitch = convert_all<T>(m.pitch);
+  out.iq = m.iq;
+  out.iv = m.iv;
+  out.Xtree = convert_all<T>(m.Xtree);
+  out.I = convert_all<T>(m.I);
+  out.turn = convert_all<T>(m.turn);
+  out.gravity = convert<T>(m.gravity);
+  out.nq = m.nq;
+  out.nv = m.nv;
+  out.armature = convert_all<T>(m.armature);
+  out.damping = convert_all<T>(m.damping);
+  out.coulomb_plus = convert_all<T>(m.coulomb_plus);
+  out.coulomb_minus = convert_all<T>(m.coulomb_minus);
+  out.mimics = m.mimics;
+  return out;
+}
+template <class T>
+State<T> convert(const State<double>& x) {
+  State<T> out;
+  out.q = convert_all<T>(x.q);
+  out.qd = convert_all<T>(x.qd);
+  out.t = T(x.t);
+  return out;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,24 @@
+// Vectors of doubles, by the vector extension of g++ and clang: plain operators, lowered to
+// whatever the processor has.
+#pragma once
+
+#include <cstdint>
+
+namespace twinarm {
+
+// Bare, a vector's alignment depends on the instruction set that a unit is compiled for: whoever
+// holds one says alignas.
+template <int N>
+struct LanesOf;  // Mask: all bits of a lane, or none
+template <>
+struct LanesOf<4> {
+  typedef double Lanes __attribute__((vector_size(32)));
+  typedef std::int64_t Mask __attribute__((vector_size(32)));
+};
+template <>
+struct LanesOf<8> {
+  typedef double Lanes __attribute__((vector_size(64)));
+  typedef std::int64_t Mask __attribute__((vector_size(64)));
+};
+
+}  // namespace twinarm

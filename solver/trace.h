@@ -1,0 +1,29 @@
+// What ABA can be asked to show beyond its workspace: the quantities that live only while a body is
+// handed on to its parent. NoTrace compiles to nothing.
+#pragma once
+
+#include <vector>
+
+#include "solver/spatial.h"
+
+namespace twinarm {
+
+struct NoTrace {
+  template <class... T>
+  void felt(const T&...) const {}
+};
+
+// By body; bodies that the base carries hand nothing on, and theirs stay zero.
+template <class S>
+struct FullTrace {
+  std::vector<ArticulatedInertia<S>> Ia;  // IA - U D^-1 U^T: felt through the joint
+  std::vector<Force<S>> pa;               // pA + Ia c + U D^-1 u
+  explicit FullTrace(std::size_t body_count) : Ia(body_count), pa(body_count) {}
+  template <class Inertia>
+  void felt(std::size_t i, const Inertia& Ia_i, const Force<S>& pa_i) {
+    Ia[i] = ArticulatedInertia<S>(Ia_i);
+    pa[i] = pa_i;
+  }
+};
+
+}  // namespace twinarm

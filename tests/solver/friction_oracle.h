@@ -1,0 +1,36 @@
+// Coulomb friction at rest by trying every case: each of n <= 5 dofs sticks, or slips one way.
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+
+namespace twinarm::testing {
+
+// f in [low, high] with v' = a + B f, v' > 0 only at low, v' < 0 only at high; each of the 3^n sets
+// is solved by a dense factorisation and looked at.
+inline std::optional<Eigen::VectorXd> friction_by_enumeration(const Eigen::MatrixXd& B,
+                                                              const Eigen::VectorXd& a,
+                                                              const Eigen::VectorXd& low,
+                                                              const Eigen::VectorXd& high) {
+  const Eigen::Index n = a.size();
+  Eigen::Index cases = 1;
+  for (Eigen::Index i = 0; i < n; ++i) cases *= 3;
+  for (Eigen::Index c = 0; c < cases; ++c) {
+    Eigen::MatrixXd A = Eigen::MatrixXd::Identity(n, n);  // f = bound, or v' = 0
+    Eigen::VectorXd b(n);
+    for (Eigen::Index i = 0, digits = c; i < n; ++i, digits /= 3) {
+      if (digits % 3 == 0) A.row(i) = B.row(i);
+      b[i] = digits % 3 == 0 ? -a[i] : digits % 3 == 1 ? low[i] : high[i];
+    }
+    const Eigen::VectorXd f = A.fullPivLu().solve(b), v = a + B * f;
+    bool good = true;
+    for (Eigen::Index i = 0, digits = c; i < n; ++i, digits /= 3)
+      good = good && (digits % 3 == 0   ? f[i] >= low[i] - 1e-12 && f[i] <= high[i] + 1e-12
+                      : digits % 3 == 1 ? v[i] >= -1e-12
+                                        : v[i] <= 1e-12);
+    if (good) return f;
+  }
+  return std::nullopt;
+}
+
+}  // namespace twinarm::testing
