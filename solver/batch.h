@@ -1,7 +1,8 @@
 // Batch<N>: N doubles side by side, so that one call of a pass computes N states of one model.
 //
 // Lanes never mix, so lane k gives the same as a run of its own (to the bit, at one level of the
-// instruction set; solver/dynamics.h).
+// instruction set; solver/dynamics.h). By rounding only where a hinge has armature in some lanes
+// and none in others: all of them then take the way of a geared hinge.
 #pragma once
 
 #include "solver/lanes.h"

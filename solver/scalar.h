@@ -30,10 +30,10 @@ struct SinCos {
   S sin, cos;
 };
 
-// Both to within 1 ulp of libm's for |x| <= 200, by reduction to [-pi/4, pi/4] in three parts
-// (Cody and Waite) and the minimax polynomials of fdlibm's kernels; no branch, so that it is 3 to 4
-// times as fast as libm and has the same text for lanes. T: a floating-point number or a vector of
-// them, I: the integers of the same size.
+// Both to within 1.6 units in the last place for |x| <= 200, by reduction to [-pi/4, pi/4] in three
+// parts (Cody and Waite) and the minimax polynomials of fdlibm's kernels; no branch, so that it is
+// 3 to 4 times as fast as libm and has the same text for lanes. T: a floating-point number or a
+// vector of them, I: the integers of the same size.
 template <class T, class I>
 SinCos<T> sin_cos_polynomial(const T& x) {
   constexpr double round_by_adding = 6755399441055744.0;  // 1.5 * 2^52: leaves the integer part

@@ -1,5 +1,5 @@
 // Counts what a piece of code takes from the heap, by C++ or by C (Eigen's matrices call malloc).
-// To be included by ONE file of a test program: it takes malloc's place.
+// Takes malloc's place in the test program that includes it.
 #pragma once
 
 #include <cstddef>
@@ -37,19 +37,20 @@ void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* old, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 
-void* malloc(std::size_t size) {
+// Weak: the same in every file that includes this.
+[[gnu::weak]] void* malloc(std::size_t size) {
   twinarm::testing::allocations = twinarm::testing::allocations + 1;
   return __libc_malloc(size);
 }
-void* calloc(std::size_t count, std::size_t size) {
+[[gnu::weak]] void* calloc(std::size_t count, std::size_t size) {
   twinarm::testing::allocations = twinarm::testing::allocations + 1;
   return __libc_calloc(count, size);
 }
-void* realloc(void* old, std::size_t size) {
+[[gnu::weak]] void* realloc(void* old, std::size_t size) {
   twinarm::testing::allocations = twinarm::testing::allocations + 1;
   return __libc_realloc(old, size);
 }
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
+[[gnu::weak]] void* aligned_alloc(std::size_t alignment, std::size_t size) {
   twinarm::testing::allocations = twinarm::testing::allocations + 1;
   return __libc_memalign(alignment, size);
 }

@@ -1,0 +1,295 @@
+// What the builder makes of its input, and what it refuses, all faults at once.
+#include "solver/model_builder.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/dynamics.h"
+#include "solver/kinematics.h"
+
+using namespace twinarm;
+
+namespace {
+
+const Vector3 kZ = Vector3::UnitZ();
+const BodyInertia kBody{2, {0.1, 0, 0}, Vector3(0.3, 0.2, 0.4).asDiagonal()};
+const BodyInertia kNothing;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// A good builder with one good body; bodies are added to it.
+ModelBuilder started() {
+  ModelBuilder builder;
+  builder.add_body("arm", 0, "shoulder", JointType::revolute, {}, kZ, kBody);
+  return builder;
+}
+std::vector<Fault> faults_of(const ModelBuilder& builder) {
+  try {
+    builder.build();
+  } catch (const InputError& error) {
+    return error.faults();
+  }
+  return {};
+}
+bool tells(const std::vector<Fault>& faults, const std::string& where, const std::string& words) {
+  return std::any_of(faults.begin(), faults.end(), [&](const Fault& fault) {
+    return fault.where.find(where) != std::string::npos &&
+           (fault.rule + "; " + fault.remedy).find(words) != std::string::npos;
+  });
+}
+bool only_fault(const ModelBuilder& builder, const std::string& where, const std::string& words) {
+  const std::vector<Fault> faults = faults_of(builder);
+  std::string all;
+  for (const Fault& fault : faults) all += to_string(fault) + "\n";
+  INFO(all);
+  CHECK(faults.size() == 1);
+  return faults.size() == 1 && tells(faults, where, words);
+}
+ModelBuilder with(const BodyInertia& inertia, const JointProperties& properties = {},
+                  JointType type = JointType::revolute, const Vector3& axis = kZ) {
+  ModelBuilder builder = started();
+  builder.add_body("hand", 1, "wrist", type, {}, axis, inertia, properties);
+  return builder;
+}
+
+}  // namespace
+
+TEST_CASE("a parent must be a body that was added before") {
+  for (const int parent : {-1, 2, 7}) {
+    ModelBuilder builder = started();
+    builder.add_body("hand", parent, "wrist", JointType::revolute, {}, kZ, kBody);
+    CHECK(only_fault(builder, "link 'hand'", "parent"));
+  }
+}
+
+TEST_CASE("links and joints have names of their own") {
+  ModelBuilder same_link = started();
+  same_link.add_body("arm", 1, "wrist", JointType::revolute, {}, kZ, kBody);
+  CHECK(only_fault(same_link, "link 'arm'", "the name is taken already"));
+  ModelBuilder same_joint = started();
+  same_joint.add_body("hand", 1, "shoulder", JointType::revolute, {}, kZ, kBody);
+  CHECK(only_fault(same_joint, "joint 'shoulder'", "the name is taken already"));
+}
+
+TEST_CASE("a link may be called world, and is found before the base") {
+  ModelBuilder builder;
+  builder.add_body("world", 0, "stand", JointType::fixed, {}, kZ, kBody);
+  builder.add_body("arm", 1, "shoulder", JointType::revolute, {}, kZ, kBody);
+  const Model<double> model = builder.build();
+  CHECK(model.find_body("world") == 1);
+  CHECK(model.find_body("arm") == 2);
+  CHECK(model.find_body("leg") == -1);
+  CHECK(model.find_joint("shoulder") == 2);
+  CHECK(model.find_joint("") == -1);
+  CHECK(started().build().find_body("world") == 0);
+}
+
+TEST_CASE("an axis must have a direction, where the joint has an axis") {
+  for (const JointType type : all_joint_types)
+    for (const Vector3& axis : {Vector3(0, 0, 0), Vector3(kNaN, 0, 1), Vector3(INFINITY, 0, 0)}) {
+      CAPTURE(std::string(name_of(type)));
+      const bool has_axis = type == JointType::revolute || type == JointType::prismatic ||
+                            type == JointType::screw || type == JointType::cylindrical ||
+                            type == JointType::universal || type == JointType::planar;
+      const ModelBuilder builder = with(kBody, {}, type, axis);
+      if (has_axis)
+        CHECK(only_fault(builder, "joint 'wrist'", "axis has no direction"));
+      else
+        CHECK(faults_of(builder).empty());
+    }
+}
+
+TEST_CASE("masses and inertias must be numbers, and masses not negative") {
+  BodyInertia body = kBody;
+  body.mass = -3;
+  CHECK(only_fault(with(body), "link 'hand'", "mass is -3"));
+  body = kBody;
+  body.mass = kNaN;
+  CHECK(only_fault(with(body), "link 'hand'", "not a finite number"));
+  body = kBody;
+  body.com.y() = INFINITY;
+  CHECK(only_fault(with(body), "link 'hand'", "not a finite number"));
+  body = kBody;
+  body.inertia(1, 2) = kNaN;
+  CHECK(only_fault(with(body), "link 'hand'", "not a finite number"));
+}
+
+TEST_CASE("armature, damping and Coulomb friction must not be negative, pitches be numbers") {
+  const auto set = [](double JointProperties::*member, double value) {
+    JointProperties properties;
+    properties.*member = value;
+    return with(kBody, properties, JointType::screw);
+  };
+  for (const double bad : {-1.0, kNaN, HUGE_VAL}) {
+    CHECK(only_fault(set(&JointProperties::armature, bad), "joint 'wrist'", "armature"));
+    CHECK(only_fault(set(&JointProperties::damping, bad), "joint 'wrist'", "damping"));
+    CHECK(only_fault(set(&JointProperties::coulomb_plus, bad), "joint 'wrist'", "Coulomb"));
+    CHECK(only_fault(set(&JointProperties::coulomb_minus, bad), "joint 'wrist'", "Coulomb"));
+  }
+  CHECK(only_fault(set(&JointProperties::pitch, kNaN), "joint 'wrist'", "pitch"));
+  CHECK(faults_of(set(&JointProperties::pitch, -0.1)).empty());
+}
+
+TEST_CASE("all faults are told at once") {
+  BodyInertia negative = kBody;
+  negative.mass = -1;
+  JointProperties bad;
+  bad.armature = -1;
+  bad.damping = kNaN;
+  ModelBuilder builder = started();
+  builder.add_body("arm", 5, "shoulder", JointType::revolute, {}, Vector3::Zero(), negative, bad);
+  const auto faults = faults_of(builder);
+  CHECK(faults.size() == 7);  // parent, two names, axis, mass, armature, damping
+}
+
+TEST_CASE("a joint that moves nothing is refused, by name") {
+  for (const JointType type : all_joint_types) {
+    CAPTURE(std::string(name_of(type)));
+    const ModelBuilder tip = with(kNothing, {}, type);
+    if (type == JointType::fixed || type == JointType::prescribed)
+      CHECK(faults_of(tip).empty());
+    else
+      CHECK(only_fault(tip, "joint 'wrist'", "no inertia in its direction"));
+  }
+  // A point mass does not resist turning about itself, nor about a line through it.
+  const BodyInertia point{1, Vector3::Zero(), Matrix3::Zero()}, below{1, -kZ, Matrix3::Zero()};
+  CHECK(only_fault(with(point), "joint 'wrist'", "no inertia"));
+  CHECK(only_fault(with(below), "joint 'wrist'", "no inertia"));
+  CHECK(only_fault(with(below, {}, JointType::spherical), "joint 'wrist'", "no inertia"));
+  CHECK(only_fault(with(below, {}, JointType::free), "joint 'wrist'", "no inertia"));
+  CHECK(faults_of(with(point, {}, JointType::prismatic)).empty());
+  CHECK(faults_of(with(below, {}, JointType::universal, Vector3::UnitX())).empty());
+  JointProperties geared;
+  geared.armature = 0.01;
+  CHECK(faults_of(with(kNothing, geared)).empty());
+}
+
+TEST_CASE("links without inertia may carry others, unless two hinges turn about one line") {
+  ModelBuilder wrist = started();  // three hinges in a row, only the last link has inertia
+  wrist.add_body("a", 1, "roll", JointType::revolute, {}, Vector3::UnitX(), kNothing);
+  wrist.add_body("b", 2, "pitch", JointType::revolute, {}, Vector3::UnitY(), kNothing);
+  wrist.add_body("c", 3, "yaw", JointType::revolute, {}, kZ, kBody);
+  CHECK(faults_of(wrist).empty());
+  ModelBuilder doubled = started();
+  doubled.add_body("a", 1, "inner", JointType::revolute, {}, kZ, kNothing);
+  doubled.add_body("b", 2, "outer", JointType::revolute, {}, kZ, kBody);
+  CHECK(tells(faults_of(doubled), "joint 'inner'", "no inertia in its direction"));
+  ModelBuilder far = started();  // the same hinges side by side are a crank: fine
+  far.add_body("a", 1, "inner", JointType::revolute, {}, kZ, kNothing);
+  far.add_body("b", 2, "outer", JointType::revolute, {Matrix3::Identity(), {0.3, 0, 0}}, kZ, kBody);
+  CHECK(faults_of(far).empty());
+}
+
+TEST_CASE("tiny bodies and great ones, and inertias that no body has, are accepted") {
+  BodyInertia dust = kBody, planet = kBody;
+  dust.mass *= 1e-9;
+  dust.inertia *= 1e-15;
+  dust.com *= 1e-3;
+  planet.mass *= 1e9;
+  planet.inertia *= 1e9;
+  CHECK(faults_of(with(dust)).empty());
+  CHECK(faults_of(with(planet)).empty());
+  // The PUMA's published link 1 and link 3: no body, but good about its hinges.
+  const BodyInertia link1{0, Vector3::Zero(), Vector3(0, 0.35, 0).asDiagonal()};
+  CHECK(faults_of(with(link1, {}, JointType::revolute, Vector3::UnitY())).empty());
+  const BodyInertia link3{4.8, {-0.02, -0.014, 0.07}, Vector3(0.066, 0.086, 0.0125).asDiagonal()};
+  CHECK(faults_of(with(link3)).empty());
+}
+
+TEST_CASE("the body's z is the joint's axis, by the shortest turn, for axes of any direction") {
+  for (const Vector3& axis :
+       {Vector3(0, 0, 1), Vector3(0, 0, -1), Vector3(0, 0, 5), Vector3(1, 0, 0), Vector3(0, -2, 0),
+        Vector3(1, 2, 3), Vector3(-1, 1, -3), Vector3(1e-3, 0, -1), Vector3(1e-6, 0, -1),
+        Vector3(2e-6, 6e-7, -1), Vector3(0, 1e-9, -1), Vector3(1e-200, 0, -1),
+        Vector3(1e-8, 1e-8, 1)}) {
+    CAPTURE(axis.transpose());
+    const Model<double> model = with(kBody, {}, JointType::revolute, axis).build();
+    const Matrix3 R_LB = to_eigen(model.turn[2]).transpose();
+    const Vector3 a = axis.normalized();
+    CHECK((R_LB * kZ - a).norm() < 4e-16);
+    CHECK((R_LB.transpose() * R_LB - Matrix3::Identity()).norm() < 1e-15);
+    CHECK(R_LB.determinant() == doctest::Approx(1).epsilon(1e-15));
+    // Shortest: the turn's axis is normal to z and to a, so it leaves z x a as it is.
+    const Vector3 normal = kZ.cross(a);
+    CHECK((R_LB * normal - normal).norm() <= 1e-15 * normal.norm() + 1e-300);
+  }
+  const Model<double> along = started().build();
+  CHECK(to_eigen(along.turn[1]) == Matrix3(Matrix3::Identity()));
+  const Model<double> against = with(kBody, {}, JointType::revolute, -kZ).build();
+  CHECK(to_eigen(against.turn[2]) == Matrix3(Vector3(1, -1, -1).asDiagonal()));
+}
+
+TEST_CASE("properties of a joint are those of each of its dofs; the pitch is a screw's alone") {
+  JointProperties p;
+  p.pitch = 0.2, p.armature = 1, p.damping = 2, p.coulomb_plus = 3, p.coulomb_minus = 4;
+  for (const JointType type : all_joint_types) {
+    const Model<double> model = with(kBody, p, type).build();
+    CHECK(model.dofs(2) == model.nv - 1);
+    CHECK(model.pitch[2] == (type == JointType::screw ? 0.2 : 0));
+    CHECK(model.armature[0] == 0);
+    for (std::size_t k = 1; k < model.nv; ++k) {
+      CHECK(model.armature[k] == 1);
+      CHECK(model.damping[k] == 2);
+      CHECK(model.coulomb_plus[k] == 3);
+      CHECK(model.coulomb_minus[k] == 4);
+    }
+  }
+}
+
+namespace {
+
+ModelBuilder four_hinges() {
+  ModelBuilder builder;
+  for (int i = 1; i <= 4; ++i) {
+    const std::string n = std::to_string(i);
+    builder.add_body("link" + n, i - 1, "j" + n,
+                     i == 4 ? JointType::universal : JointType::revolute, {}, Vector3(1, 0, i),
+                     kBody);
+  }
+  return builder;
+}
+
+}  // namespace
+
+TEST_CASE("who follows a follower follows its leader") {
+  ModelBuilder builder = four_hinges();
+  builder.add_mimic("j3", "j2", 2, 0.5);
+  builder.add_mimic("j2", "j1", -3, 0.1);
+  const Model<double> model = builder.build();
+  REQUIRE(model.mimics.size() == 2);
+  const Mimic& third = model.mimics[0];  // 2 (-3 q1 + 0.1) + 0.5
+  CHECK(third.follower == 2);
+  CHECK(third.leader == 0);
+  CHECK(third.follower_q == 2);
+  CHECK(third.leader_q == 0);
+  CHECK(third.ratio == -6);
+  CHECK(third.offset == doctest::Approx(0.7).epsilon(1e-15));
+  CHECK(model.mimics[1].leader == 0);
+  CHECK(model.mimics[1].ratio == -3);
+}
+
+TEST_CASE("mimic joints need a leader, one dof each, and no circle") {
+  const auto faults = [](const std::string& follower, const std::string& leader) {
+    ModelBuilder builder = four_hinges();
+    builder.add_mimic(follower, leader, 1, 0);
+    return faults_of(builder);
+  };
+  CHECK(tells(faults("j2", "nobody"), "joint 'j2'", "'nobody'"));
+  CHECK(tells(faults("nobody", "j2"), "joint 'nobody'", "must exist"));
+  CHECK(tells(faults("j2", "j4"), "joint 'j2'", "one dof"));
+  CHECK(tells(faults("j4", "j2"), "joint 'j4'", "one dof"));
+  CHECK(tells(faults("j2", "j2"), "joint 'j2'", "follows itself"));
+
+  ModelBuilder circle = four_hinges();
+  circle.add_mimic("j1", "j2", 1, 0);
+  circle.add_mimic("j2", "j3", 1, 0);
+  circle.add_mimic("j3", "j1", 1, 0);
+  CHECK(tells(faults_of(circle), "joint 'j1'", "follows itself"));
+  ModelBuilder beside = four_hinges();  // leads into a circle without being in it
+  beside.add_mimic("j1", "j2", 1, 0);
+  beside.add_mimic("j2", "j3", 1, 0);
+  beside.add_mimic("j3", "j2", 1, 0);
+  CHECK_FALSE(faults_of(beside).empty());
+}
