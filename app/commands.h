@@ -6,6 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "app/dynamics/robot_input.h"
+#include "app/simulate/simulate_options.h"
+
 namespace twinarm {
 
 struct StudyOptions {
@@ -26,6 +29,14 @@ struct TraceOptions {
   std::filesystem::path out;
 };
 int run_trace(const TraceOptions& options);
+
+struct DynamicsOptions {
+  RobotOptions robot;
+  bool json = false;
+};
+int run_dynamics(const DynamicsOptions& options);
+
+int run_simulate(const SimulateOptions& options);
 
 // The assets folder: beside the program's build tree, or below the current folder.
 std::filesystem::path find_assets(const std::filesystem::path& given);

@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/nearest_name.h"
 #include "solver/fault.h"
 
 namespace {
@@ -77,24 +78,85 @@ void add_trace(CLI::App& app, TraceOptions& options, std::function<int()>& comma
   trace->callback([&] { command = [&] { return run_trace(options); }; });
 }
 
+// What `dynamics` and `simulate` are both given.
+void add_robot_options(CLI::App& command, RobotOptions& options) {
+  command.add_option("model", options.model, "the robot's URDF")->required();
+  command.add_option("--state", options.state, "JSON file: q, qd, tau, qdd, base, wrenches");
+  command.add_option("--gravity", options.gravity,
+                     "x,y,z in world axes [m/s^2]; 0,0,-9.81 if not given");
+  command.add_flag("--floating", options.floating, "the root link is free, not fixed to the world");
+  command.add_flag_callback(
+      "--no-friction", [&] { options.friction = false; }, "as if no joint had damping or friction");
+  command.add_flag_callback(
+      "--no-armature", [&] { options.armature = false; }, "as if no joint had a rotor's inertia");
+}
+
+void add_dynamics(CLI::App& app, DynamicsOptions& options, std::function<int()>& command) {
+  CLI::App* dynamics = app.add_subcommand(
+      "dynamics",
+      "Forward and inverse dynamics, mass matrix, energies of a robot in one state\n\n"
+      "Example:  twinarm dynamics assets/robots/puma560/puma560.urdf --state "
+      "assets/states/puma_qn.json");
+  add_robot_options(*dynamics, options.robot);
+  dynamics->add_flag("--json", options.json, "print one JSON object on stdout");
+  dynamics->callback([&] { command = [&] { return run_dynamics(options); }; });
+}
+
+void add_simulate(CLI::App& app, SimulateOptions& options, std::function<int()>& command) {
+  CLI::App* simulate = app.add_subcommand(
+      "simulate",
+      "Let a robot move, under gravity, constant torques and forces\n\n"
+      "Example:  twinarm simulate assets/robots/puma560/puma560.urdf --duration 1 --every 0.1");
+  add_robot_options(*simulate, options.robot);
+  std::string names;
+  for (const IntegratorFacts& facts : all_integrators) names += std::string(" ") + facts.name;
+  simulate->add_option("--duration", options.duration, "seconds")->required();
+  simulate->add_option("--step", options.step,
+                       "seconds; 0.001 if not given; of dopri5 the longest");
+  simulate->add_option("--integrator", options.integrator, "one of" + names)->capture_default_str();
+  simulate->add_option("--tolerance", options.tolerance, "of dopri5, relative and absolute");
+  simulate->add_option("--every", options.every, "a sample each so many seconds");
+  simulate->add_option("--at", options.at, "samples at these times: t1,t2,..");
+  simulate->add_flag("--json", options.json, "print one JSON object on stdout");
+  simulate->add_flag("--csv", options.csv, "print one row a sample on stdout");
+  simulate->callback([&] { command = [&] { return run_simulate(options); }; });
+}
+
+// The first word, where it is meant to be a command and is none.
+void check_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  throw InputError({{"", 0, "command line", fmt::format("there is no command '{}'", argv[1]),
+                     name_remedy(argv[1], names, "commands")}});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"twinarm: a glass-box multibody laboratory\n\nExample:  twinarm study"};
   app.require_subcommand(1);
+  DynamicsOptions dynamics;
+  SimulateOptions simulate;
   StudyOptions study;
   TraceOptions trace;
   std::string recipe;
   std::function<int()> command;
+  add_dynamics(app, dynamics, command);
+  add_simulate(app, simulate, command);
   add_study(app, study, command);
   add_make_robot(app, recipe, command);
   add_trace(app, trace, command);
+  const bool as_json =
+      std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
   try {
+    check_command(app, argc, argv);
     app.parse(argc, argv);
+  } catch (const InputError& error) {
+    return tell(error, as_json);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
-    const bool as_json =
-        std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
     return tell(InputError({{"", 0, "command line", error.what(), "see twinarm --help"}}), as_json);
   }
 
@@ -102,7 +164,7 @@ int main(int argc, char** argv) {
   try {
     return command();
   } catch (const InputError& error) {
-    return tell(error, study.json);
+    return tell(error, as_json);
   } catch (const Interrupted&) {
     fmt::print(stderr, "twinarm: interrupted; nothing half-written was left behind\n");
     return kInterrupted;

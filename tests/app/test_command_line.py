@@ -100,13 +100,13 @@ class CommandLine(unittest.TestCase):
                                  (["study", "--device", "mouse"], "mouse"),
                                  (["study", "--seed", "many"], "many"),
                                  (["trace", "--out", "/tmp/x.csv", "--rate", "-5"], "--rate"),
-                                 (["fly"], "")):
+                                 (["fly"], "'fly'"), (["simulat"], "'simulate'")):
             result = run(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertIn(named, result.stderr)
 
     def test_no_command_or_a_missing_required_option_ends_with_2(self):
-        for arguments in ([], ["trace"], ["make-robot"]):
+        for arguments in ([], ["trace"], ["make-robot"], ["dynamics"], ["simulate"]):
             self.assertEqual(run(*arguments).returncode, 2, arguments)
 
     # Bad files

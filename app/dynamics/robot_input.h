@@ -1,0 +1,38 @@
+// What `dynamics` and `simulate` are both given: a URDF, a state, gravity, and what to leave out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/dynamics/coordinates.h"
+#include "app/dynamics/state_file.h"
+#include "collision/import/robot_description.h"
+#include "solver/fault.h"
+#include "solver/model.h"
+
+namespace twinarm {
+
+struct RobotOptions {
+  std::filesystem::path model, state;  // state may be empty: at rest at the identity
+  std::string gravity;                 // "x,y,z"; empty: 0,0,-9.81
+  bool floating = false;
+  bool friction = true, armature = true;
+};
+
+struct RobotInput {
+  RobotDescription robot;
+  Model<double> model;
+  Coordinates coordinates;
+  GivenState state;
+  std::vector<std::string> warnings;
+};
+
+// Throws InputError with all faults: those given, and those of the options, the URDF and the state.
+RobotInput read_robot_input(const RobotOptions& options, FaultList faults = {});
+
+// Numbers separated by commas, as options have them; adds a fault and returns nothing else.
+std::vector<double> parse_list(const std::string& option, const std::string& text,
+                               FaultList& faults);
+
+}  // namespace twinarm

@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/progress.h"
+#include "app/simulate/simulate_output.h"
+
+namespace twinarm {
+namespace {
+
+// A bar for those who have waited for two seconds.
+class PatientProgress {
+ public:
+  explicit PatientProgress(double duration) : duration_(duration) {}
+  void operator()(double t) {
+    using Clock = std::chrono::steady_clock;
+    if (!bar_ && Clock::now() - start_ > std::chrono::seconds(2)) {
+      bar_.emplace(isatty(STDERR_FILENO) == 0);
+      bar_->stage("simulate", 1);
+    }
+    if (bar_) bar_->advance(t / duration_);
+  }
+
+ private:
+  double duration_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::optional<Progress> bar_;
+};
+
+std::unique_ptr<RunOutput> output_of(const SimulateOptions& options, const RobotInput& input,
+                                     const RunPlan& plan) {
+  if (options.json) return json_output(input, plan);
+  if (options.csv) return csv_output(input);
+  return table_output(input, plan);
+}
+
+}  // namespace
+
+int run_simulate(const SimulateOptions& options) {
+  constexpr int kStopped = 3;
+  FaultList faults;
+  const RunPlan plan = plan_run(options, faults);
+  const RobotInput input = read_robot_input(options.robot, faults);
+  const std::unique_ptr<RunOutput> output = output_of(options, input, plan);
+
+  RunResult result;
+  {
+    PatientProgress progress(plan.duration);
+    RunWatch watch;
+    watch.sample = [&](double t, const State<double>& x) { output->sample(t, x); };
+    watch.tick = [&](double t) {
+      check_interrupt();
+      progress(t);
+    };
+    result = run_plan(input, plan, watch);
+  }
+  output->end(result);
+  if (!result.post_mortem) return 0;
+  const PostMortem& found = *result.post_mortem;
+  fmt::print(stderr, "twinarm: stopped after t = {} s, in step {}: {}", found.time, found.step,
+             found.reason);
+  if (!found.field.empty())
+    fmt::print(stderr, "; first in '{}' of link '{}' (joint '{}')", found.field, found.body,
+               found.joint);
+  if (!found.fastest_joint.empty())
+    fmt::print(stderr, "; the fastest was joint '{}'", found.fastest_joint);
+  fmt::print(stderr, "\n");
+  return kStopped;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,210 @@
+#include "app/simulate/run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "collision/import/number_text.h"
+
+namespace twinarm {
+namespace {
+
+// Two times within this part of a step are the same one.
+constexpr double kSameTime = 1e-9;
+
+// The times t = n step, the last one `duration`.
+class Grid {
+ public:
+  explicit Grid(const RunPlan& plan) : step_(plan.step), duration_(plan.duration) {
+    const double whole = std::floor(duration_ / step_ + kSameTime);
+    steps_ = static_cast<long>(whole);
+    if (duration_ - whole * step_ > kSameTime * step_) ++steps_;
+  }
+  long steps() const { return steps_; }
+  double time(long n) const { return n >= steps_ ? duration_ : static_cast<double>(n) * step_; }
+  // The last one is shorter where the duration is no multiple of the step.
+  double length(long n) const {
+    const double rest = duration_ - time(n);
+    return rest < step_ * (1 - kSameTime) ? rest : step_;
+  }
+
+ private:
+  double step_, duration_;
+  long steps_ = 0;
+};
+
+// Notes the first time at which a joint stands beyond its limits, which do not act.
+class LimitWatch {
+ public:
+  LimitWatch(const RobotInput& input, std::vector<std::string>& warnings) : warnings_(warnings) {
+    for (const JointDescription& joint : input.robot.joints) {
+      const int body = input.model.find_joint(joint.name);
+      if (joint.is_limited() && body > 0)
+        limits_.push_back({&joint, input.model.iq[static_cast<std::size_t>(body)]});
+    }
+  }
+  void look(double t, const State<double>& x) {
+    for (Limit& limit : limits_) {
+      const double q = x.q[limit.iq];
+      if (limit.is_told || (q >= limit.joint->lower && q <= limit.joint->upper)) continue;
+      limit.is_told = true;
+      warnings_.push_back(fmt::format(
+          "joint '{}' stands at {} beyond its limits {} .. {} at t = {} s: position limits do not "
+          "act here",
+          limit.joint->name, short_number_text(q), short_number_text(limit.joint->lower),
+          short_number_text(limit.joint->upper), short_number_text(t)));
+    }
+  }
+
+ private:
+  struct Limit {
+    const JointDescription* joint;
+    std::size_t iq;
+    bool is_told = false;
+  };
+  std::vector<Limit> limits_;
+  std::vector<std::string>& warnings_;
+};
+
+PostMortem examine(const StepReport& report, const Model<double>& model, const State<double>& last,
+                   double t, long step) {
+  PostMortem found;
+  found.time = t;
+  found.step = step;
+  double fastest = 0;
+  for (std::size_t i = 1; i < model.parent.size(); ++i)
+    for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof)
+      if (std::abs(last.qd[dof]) > fastest) {
+        fastest = std::abs(last.qd[dof]);
+        found.fastest_joint = model.joint_name[i];
+      }
+  if (!report.finite && report.bad_field) {
+    const auto body = static_cast<std::size_t>(report.bad_body);
+    found.body = model.body_name[body];
+    found.joint = model.joint_name[body];
+    found.field = report.bad_field;
+  }
+  found.reason = report.finite ? "no substep however short meets the tolerance"
+                               : "a number is not finite: the run diverged";
+  return found;
+}
+
+class Run {
+ public:
+  Run(const RobotInput& input, const RunPlan& plan, const RunWatch& watch)
+      : input_(input),
+        plan_(plan),
+        watch_(watch),
+        sim_(input.model, input.state.x),
+        torques_(input.model, input.coordinates, input.state.tau),
+        limits_(input, result_.warnings) {
+    Kinematics start(input.model);
+    forward_kinematics(input.model, input.state.x, start);
+    for (const Wrench& wrench : input.state.wrenches) wrenches_.emplace_back(wrench, start);
+    sim_.add(torques_);
+    for (GivenWrench& wrench : wrenches_) sim_.add(wrench);
+    sim_.set_integrator(plan.integrator);
+    if (plan.is_adaptive()) sim_.set_tolerance(plan.tolerance);
+    ledger_.emplace(input, wrenches_, plan.integrator);
+  }
+
+  RunResult run() {
+    limits_.look(0, sim_.state());
+    if (plan_.is_adaptive())
+      run_adaptive();
+    else
+      run_grid();
+    if (!result_.post_mortem)  // what is left is the end
+      for (; next_ < plan_.times.size(); ++next_) watch_.sample(plan_.times[next_], sim_.state());
+    if (unsolved_ > 0)
+      result_.warnings.push_back(
+          fmt::format("in {} of {} steps the equation of the step was not solved to rounding",
+                      unsolved_, result_.steps));
+    result_.ledger = ledger_->rows();
+    return std::move(result_);
+  }
+
+ private:
+  void run_grid() {
+    const Grid grid(plan_);
+    for (long n = 0; n < grid.steps(); ++n) {
+      const double h = grid.length(n);
+      const auto take = [&] { return sim_.step(h); };
+      if (!one_step(grid.time(n), h, take, [&](double) { return grid.time(n + 1); })) return;
+    }
+  }
+  void run_adaptive() {
+    double t = 0;
+    while (t < plan_.duration) {
+      const double left = plan_.duration - t, h_most = std::min(plan_.step, left);
+      const auto take = [&] { return sim_.substep(h_most); };
+      const auto next = [&](double h) {
+        return left - h <= kSameTime * h ? plan_.duration : t + h;
+      };
+      if (!one_step(t, h_most, take, next)) return;
+      t = result_.end;
+    }
+  }
+
+  // From t by at most h_most. False where the run stops.
+  template <class Take, class Next>
+  bool one_step(double t, double h_most, Take take, Next next) {
+    before_.reset();
+    const bool has_sample_within =
+        next_ < plan_.times.size() && plan_.times[next_] < t + h_most * (1 - kSameTime);
+    if (has_sample_within || !ledger_->inner_nodes().empty()) before_.emplace(sim_);
+    const StepReport report = take();
+    ++result_.steps;
+    if (!report.finite || !report.reached) {
+      // Of the samples of this step only those at its start are good.
+      for (; has_sample_within && next_ < plan_.times.size() &&
+             plan_.times[next_] - t <= kSameTime * h_most;
+           ++next_)
+        watch_.sample(plan_.times[next_], before_->state());
+      result_.post_mortem = examine(report, input_.model, ledger_->now(), t, result_.steps);
+      return false;
+    }
+    unsolved_ += report.converged ? 0 : 1;
+    const double t_next = next(report.h);
+    if (has_sample_within) sample_up_to(t_next - kSameTime * report.h, t, *before_);
+    inner_.clear();
+    for (const double part : ledger_->inner_nodes())
+      inner_.push_back(before_->side_step(part * report.h));
+    ledger_->add_step(report.h, inner_, sim_.state());
+    result_.end = t_next;
+    limits_.look(t_next, sim_.state());
+    watch_.tick(t_next);
+    return true;
+  }
+
+  // Samples before t_end, by side steps from `from`, which stands at t.
+  void sample_up_to(double t_end, double t, const Simulation& from) {
+    for (; next_ < plan_.times.size() && plan_.times[next_] < t_end; ++next_) {
+      const double at = plan_.times[next_];
+      const bool same = at - t <= kSameTime * (t_end - t);
+      watch_.sample(at, same ? from.state() : from.side_step(at - t));
+    }
+  }
+
+  const RobotInput& input_;
+  const RunPlan& plan_;
+  const RunWatch& watch_;
+  RunResult result_;
+  Simulation sim_;
+  GivenTorques torques_;
+  std::vector<GivenWrench> wrenches_;
+  LimitWatch limits_;
+  std::optional<Ledger> ledger_;
+  std::optional<Simulation> before_;  // the run at the start of the step
+  std::vector<State<double>> inner_;
+  std::size_t next_ = 0;  // sample
+  long unsolved_ = 0;
+};
+
+}  // namespace
+
+RunResult run_plan(const RobotInput& input, const RunPlan& plan, const RunWatch& watch) {
+  return Run(input, plan, watch).run();
+}
+
+}  // namespace twinarm

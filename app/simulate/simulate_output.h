@@ -1,0 +1,26 @@
+// What `twinarm simulate` prints: one JSON object, CSV row by row, or a table for people.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/dynamics/robot_input.h"
+#include "app/simulate/run.h"
+#include "app/simulate/simulate_options.h"
+
+namespace twinarm {
+
+class RunOutput {
+ public:
+  virtual ~RunOutput() = default;
+  virtual void sample(double t, const State<double>& x) = 0;
+  virtual void end(const RunResult& result) = 0;
+};
+
+// They print to stdout: JSON and the table at the end, CSV as the rows come. The arguments must
+// outlive them.
+std::unique_ptr<RunOutput> json_output(const RobotInput& input, const RunPlan& plan);
+std::unique_ptr<RunOutput> csv_output(const RobotInput& input);
+std::unique_ptr<RunOutput> table_output(const RobotInput& input, const RunPlan& plan);
+
+}  // namespace twinarm

@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include "app/dynamics/robot_table.h"
+#include "app/simulate/simulate_output.h"
+#include "app/text_table.h"
+#include "solver/energy.h"
+
+namespace twinarm {
+namespace {
+
+class TableOutput : public RunOutput {
+ public:
+  TableOutput(const RobotInput& input, const RunPlan& plan)
+      : input_(input), plan_(plan), samples_(headings(input.coordinates)) {}
+
+  void sample(double t, const State<double>& x) override {
+    std::vector<std::string> row{cell(t)};
+    for (const NamedJoint& joint : input_.coordinates.all())
+      for (const double q : coordinates_of(joint, x)) row.push_back(cell(q));
+    const double kinetic = kinetic_energy(input_.model, x);
+    const double potential = potential_energy(input_.model, x);
+    for (const double energy : {kinetic, potential, kinetic + potential})
+      row.push_back(cell(energy));
+    samples_.add(std::move(row));
+  }
+
+  void end(const RunResult& result) override {
+    const std::string steps = plan_.is_adaptive()
+                                  ? fmt::format("tolerance {}", cell(plan_.tolerance))
+                                  : fmt::format("step {} s", cell(plan_.step));
+    fmt::print("{}: {} steps of {}, {}\n\n{}\n", input_.robot.name, result.steps,
+               integrator_name(plan_.integrator), steps, samples_.str());
+    TextTable ledger({"work on the bodies, 0 to " + cell(result.end) + " s", "[J]"});
+    double sum = 0;
+    for (const LedgerRow& row : result.ledger) {
+      ledger.add({row.name, cell(row.work)});
+      sum += row.work;
+    }
+    ledger.add({"change of kinetic energy", cell(sum)});
+    fmt::print("{}", ledger.str());
+    const char* space = "\n";
+    for (const auto* warnings : {&input_.warnings, &result.warnings})
+      for (const std::string& warning : *warnings) {
+        fmt::print("{}warning: {}\n", space, warning);
+        space = "";
+      }
+  }
+
+ private:
+  static std::vector<std::string> headings(const Coordinates& coordinates) {
+    std::vector<std::string> names{"t [s]"};
+    for (const NamedJoint& joint : coordinates.all())
+      for (const JointComponent& c : joint.components())
+        names.push_back(component_name(coordinates, joint, c) + (c.is_quaternion ? " [1]"
+                                                                 : c.is_angle    ? " [rad]"
+                                                                                 : " [m]"));
+    names.insert(names.end(), {"kinetic [J]", "potential [J]", "sum [J]"});
+    return names;
+  }
+
+  const RobotInput& input_;
+  const RunPlan& plan_;
+  TextTable samples_;
+};
+
+}  // namespace
+
+std::unique_ptr<RunOutput> table_output(const RobotInput& input, const RunPlan& plan) {
+  return std::make_unique<TableOutput>(input, plan);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+"""`twinarm simulate`: the ledger, runs that stop, faults.
+
+    test_simulate_ends.py PATH/TO/twinarm
+"""
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import robot_command
+from robot_command import (PENDULUM, RobotCommand, add, cross, dot, from_quaternion, link, robot,
+                           scale, slider, times)
+
+LEVEL = {"q": {"hinge": math.pi / 2}}
+
+
+class Joules(RobotCommand):
+    command = "simulate"
+
+    def test_work_of_a_motor_and_of_damping_is_that_of_the_closed_form(self):
+        m, c, F, T = 2.0, 0.8, 3.0, 1.7
+        tau = m / c
+        v = F / c * (1 - math.exp(-T / tau))
+        x = F / c * (T - tau * (1 - math.exp(-T / tau)))
+        for integrator, tolerance in (("rk4", 1e-11), ("dopri5", 1e-8), ("verlet", 1e-6)):
+            answer = self.answer(slider(damping=c), "--duration", T, "--integrator", integrator,
+                                 state={"tau": {"slide": F}})
+            sample, ledger = answer["samples"][-1], answer["ledger"]
+            self.close([sample["q"]["slide"], sample["qd"]["slide"]], [x, v], tolerance)
+            self.assertEqual(list(ledger), ["gravity", "actuator/slide", "joint/slide/damping",
+                                            "numerical"])
+            self.close(ledger["actuator/slide"], F * x, tolerance)
+            self.close(ledger["joint/slide/damping"], m * v * v / 2 - F * x, tolerance)
+            self.close(ledger["numerical"], 0, tolerance, integrator)
+            self.close(sum(ledger.values()), sample["kinetic_energy"], 1e-12)
+
+    def test_friction_takes_all_that_a_sliding_block_has_and_holds_it_then(self):
+        m, f, v = 2.0, 1.5, 3.0
+        for integrator in ("rk4", "semi-implicit", "dopri5"):
+            answer = self.answer(slider(friction=f), "--duration", 6, "--integrator", integrator,
+                                 state={"qd": {"slide": v}})
+            sample = answer["samples"][-1]
+            self.assertEqual(sample["qd"]["slide"], 0, integrator)
+            tolerance = 1e-9 if integrator == "rk4" else 2e-3
+            self.close(sample["q"]["slide"], m * v * v / 2 / f, tolerance, integrator)
+            self.close(sum(answer["ledger"].values()), -m * v * v / 2, 1e-12, integrator)
+        kept = self.answer(slider(friction=f), "--no-friction", "--duration", 1,
+                           state={"qd": {"slide": v}})
+        self.assertEqual(kept["samples"][-1]["qd"]["slide"], v)
+        self.assertNotIn("joint/slide/friction", kept["ledger"])
+
+    def test_a_world_wrench_keeps_its_direction_and_stays_with_its_point_of_the_link(self):
+        urdf = robot(link("body"))
+        force, torque, at = [1.0, 2.0, -0.5], [0.3, 0, 0.2], [0.4, 0.1, 0.2]
+        wrench = {"link": "body", "point": at, "force": force}
+        state = {"base": {"angular_velocity": [1, -2, 0.5]}, "wrenches": [wrench]}
+        options = ["--floating", "--gravity", "0,0,0", "--duration", 1, "--integrator", "rk4"]
+        answer = self.answer(urdf, *options, state=state)
+        base = answer["samples"][-1]["base"]
+        point = add(base["position"], times(from_quaternion(base["orientation"]), at))
+        self.close(answer["ledger"]["wrench/0"], dot(force, add(point, scale(-1, at))), 1e-10)
+        self.close(answer["ledger"]["numerical"], 0, 1e-10)
+
+        # Momentum grows by force times time.
+        com = answer["samples"][-1]["links"]["body"]
+        v = add(com["linear_velocity"],
+                cross(com["angular_velocity"], times(com["rotation"], list(robot_command.COM))))
+        first = answer["samples"][0]["links"]["body"]
+        v0 = cross(first["angular_velocity"], list(robot_command.COM))
+        self.close(scale(robot_command.MASS, add(v, scale(-1, v0))), force, 1e-10)
+
+        state["wrenches"] = [{"link": "body", "frame": "link", "point": at, "force": force,
+                              "torque": torque}]
+        turning = self.answer(urdf, *options, state=state)
+        self.close(turning["ledger"]["numerical"], 0, 1e-9)
+        self.assertGreater(abs(turning["ledger"]["wrench/0"] - answer["ledger"]["wrench/0"]), 0.1)
+
+    def test_the_remainder_is_the_error_of_the_integrator(self):
+        for name, sign in (("euler", 1), ("implicit-euler", -1)):
+            answer = self.answer(PENDULUM, "--duration", 2, "--step", 0.01, "--integrator", name,
+                                 state=LEVEL)
+            first, last = answer["samples"][0], answer["samples"][-1]
+
+            def energy(sample):
+                return sample["kinetic_energy"] + sample["potential_energy"]
+            self.close(answer["ledger"]["numerical"], energy(last) - energy(first))
+            self.assertGreater(sign * answer["ledger"]["numerical"], 0.1)
+
+
+class Ends(RobotCommand):
+    command = "simulate"
+
+    def test_a_run_that_diverges_ends_with_3_and_tells_where_it_began(self):
+        m, c, h = 2.0, 1e5, 0.001
+        growth = abs(1 - c * h / m)  # of the velocity in a step of explicit Euler
+        steps = math.log(sys.float_info.max) / math.log(growth)
+        options = ["--duration", 1, "--integrator", "euler", "--step", h]
+        for more in (["--json"], []):
+            result = self.run_it(slider(damping=c), *options, *more, state={"qd": {"slide": 1}})
+            self.assertEqual(result.returncode, 3, result.stderr)
+            self.assertIn("'slide'", result.stderr)
+            if not more:
+                continue
+            answer = json.loads(result.stdout, parse_constant=self.fail)
+            post_mortem = answer["post_mortem"]
+            self.close(post_mortem["time"], h * steps, 0.02)
+            self.close(post_mortem["step"], steps, 0.02)
+            self.assertEqual(post_mortem["fastest_joint"], "slide")
+            self.assertTrue(post_mortem["body"])
+            self.assertTrue(post_mortem["field"])
+            self.assertEqual([sample["t"] for sample in answer["samples"]], [0])
+        for integrator in ("semi-implicit", "implicit-euler", "dopri5"):
+            still = self.answer(slider(damping=c), "--duration", 0.01, "--integrator", integrator,
+                                state={"qd": {"slide": 1}})
+            self.assertLess(abs(still["samples"][-1]["qd"]["slide"]), 1)
+
+    def test_a_joint_beyond_its_limits_is_warned_of_once(self):
+        urdf = slider(more='<limit lower="-1" upper="1" effort="1" velocity="1"/>')
+        answer = self.answer(urdf, "--duration", 2, state={"qd": {"slide": 1}})
+        self.assertEqual(len([w for w in answer["warnings"] if "limits" in w]), 1)
+        self.close(answer["samples"][-1]["q"]["slide"], 2)
+
+    def test_ctrl_c_ends_with_130_and_prints_no_half_of_an_object(self):
+        (self.folder / "test.urdf").write_text(PENDULUM)
+        process = subprocess.Popen(
+            [robot_command.PROGRAM, "simulate", str(self.folder / "test.urdf"), "--json",
+             "--duration", "1e5", "--every", "1000"],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(0.7)
+        self.assertIsNone(process.poll(), "it ended before it could be interrupted")
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=20)
+        self.assertEqual((process.returncode, out), (130, ""), err)
+        self.assertIn("interrupted", err)
+
+    def test_bad_options_are_all_told_at_once(self):
+        errors = self.errors(PENDULUM, "--duration", -1, "--step", 0, "--integrator", "rk5",
+                             "--tolerance", "1e-9", "--every", 0, "--csv", state={"q": {"hing": 1}})
+        for words in (["--duration"], ["--step"], ["rk5", "'rk4'"], ["--tolerance"], ["--every"],
+                      ["--csv", "--json"], ["hing", "'hinge'"]):
+            self.assertTrue(any(all(w in e for w in words) for e in errors), f"{words} {errors}")
+        self.assertEqual(len(errors), 7, errors)
+
+    def test_times_must_ascend_within_the_run(self):
+        for at, named in (("0.5,0.2", "0.2"), ("0.5,0.5", "0.5"), ("-1", "-1"), ("2", "2"),
+                          ("0.1,soon", "soon"), ("0.1,,0.2", "''"), ("nan", "nan")):
+            errors = self.errors(PENDULUM, "--duration", 1, "--at", at)
+            self.assertTrue("--at" in errors[0] and named in errors[0], errors)
+        self.assertTrue(self.errors(PENDULUM, "--duration", 1, "--at", "0.5", "--every", "0.1"))
+        self.assertTrue(self.errors(PENDULUM, "--duration", 1, "--step", "1e-11"))
+        self.assertTrue(self.errors(PENDULUM))
+
+    def test_what_comes_later_is_refused(self):
+        self.assertIn("scenes", self.errors("scene.toml", "--duration", 1)[0])
+        for option in ("--limits", "--record"):
+            self.assertIn(option, self.errors(PENDULUM, "--duration", 1, option)[0])
+
+
+if __name__ == "__main__":
+    robot_command.PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
