@@ -89,6 +89,7 @@ void add_robot_options(CLI::App& command, RobotOptions& options) {
       "--no-friction", [&] { options.friction = false; }, "as if no joint had damping or friction");
   command.add_flag_callback(
       "--no-armature", [&] { options.armature = false; }, "as if no joint had a rotor's inertia");
+  command.add_flag("--strict", options.strict, "refuse inertias that no body has");
 }
 
 void add_dynamics(CLI::App& app, DynamicsOptions& options, std::function<int()>& command) {

@@ -21,14 +21,14 @@ auto attempt(FaultList& faults, F f) -> std::optional<decltype(f())> {
   }
 }
 
-std::optional<RobotDescription> read_model_file(const std::filesystem::path& file,
-                                                FaultList& faults) {
+std::optional<RobotDescription> read_model_file(const RobotOptions& options, FaultList& faults) {
+  const std::filesystem::path& file = options.model;
   if (file.extension() == ".toml") {
     faults.add({file.string(), 0, "model", "scenes cannot be run yet", "give a robot's URDF"});
     return std::nullopt;
   }
   return attempt(faults, [&] {
-    return read_urdf(file, {.geometry = UrdfOptions::Geometry::optional, .strict = false});
+    return read_urdf(file, {.geometry = UrdfOptions::Geometry::optional, .strict = options.strict});
   });
 }
 
@@ -65,7 +65,7 @@ RobotInput read_robot_input(const RobotOptions& options, FaultList faults) {
   }
   std::optional<JsonValue> json;
   if (!options.state.empty()) json = attempt(faults, [&] { return read_json(options.state); });
-  const auto robot = read_model_file(options.model, faults);
+  const auto robot = read_model_file(options, faults);
   if (!robot) faults.check();
 
   ModelOptions model_options;

@@ -18,6 +18,7 @@ struct RobotOptions {
   std::string gravity;                 // "x,y,z"; empty: 0,0,-9.81
   bool floating = false;
   bool friction = true, armature = true;
+  bool strict = false;  // inertias that no body has are faults
 };
 
 struct RobotInput {

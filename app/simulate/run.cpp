@@ -46,7 +46,9 @@ class LimitWatch {
   void look(double t, const State<double>& x) {
     for (Limit& limit : limits_) {
       const double q = x.q[limit.iq];
-      if (limit.is_told || (q >= limit.joint->lower && q <= limit.joint->upper)) continue;
+      const double slack = 1e-9;  // a joint that rests at its limit is not beyond it
+      if (limit.is_told || (q >= limit.joint->lower - slack && q <= limit.joint->upper + slack))
+        continue;
       limit.is_told = true;
       warnings_.push_back(fmt::format(
           "joint '{}' stands at {} beyond its limits {} .. {} at t = {} s: position limits do not "

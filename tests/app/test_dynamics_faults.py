@@ -71,6 +71,13 @@ class Faults(RobotCommand):
                               state={"base": {"orientation": [1, 1, 0, 0], "speed": 1}}),
                   ["base.orientation"], ["base.speed"])
 
+    def test_an_inertia_that_no_body_has_is_a_warning_and_under_strict_a_fault(self):
+        flat = robot('<link name="base"/>', link("disc", inertia=(0.01, 0, 0, 0.01, 0, 0.05)),
+                     joint("hinge", "continuous", "base", "disc"))
+        warnings = self.answer(flat)["warnings"]
+        self.assertTrue(any("disc" in w and "A + B >= C" in w for w in warnings), warnings)
+        self.told(self.errors(flat, "--strict"), ["disc", "A + B >= C"])
+
     def test_options_that_are_no_numbers_are_told(self):
         self.told(self.errors(self.ARM, "--gravity", "0,0,down"), ["--gravity", "down"])
         self.told(self.errors(self.ARM, "--gravity", "0,0,nan"), ["--gravity", "nan"])
