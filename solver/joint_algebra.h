@@ -29,11 +29,6 @@ VecN<S, n> unit_vector(std::size_t k) {
   for (std::size_t i = 0; i < n; ++i) e[i] = S(i == k ? 1 : 0);
   return e;
 }
-template <class S, std::size_t n>
-MatN<S, n> plus_diagonal(MatN<S, n> A, const VecN<S, n>& d) {
-  for (std::size_t k = 0; k < n; ++k) A[k][k] = A[k][k] + d[k];
-  return A;
-}
 
 // L D L^T of a symmetric positive definite matrix, without pivoting: here always the inertia that
 // a joint feels, which is positive wherever the bodies outward of it have inertia.
