@@ -16,6 +16,8 @@
 namespace twinarm {
 namespace {
 
+constexpr double on_the_plane = 1e-9;  // [m]
+
 // Beyond this angle to the normal a face is no contact area any more, but its corner is.
 constexpr double min_cosine_of_face = 0.2;
 // A capsule or cylinder whose axis is this near to the contact plane touches with its side.
@@ -99,19 +101,22 @@ void polytope_feature(const Placed& body, const Vector3& n_W, Feature& f) {
 }
 
 // Cuts away what is beyond the plane side . x = offset. The new side gets the label of the plane.
+// A corner within rounding of the plane stays as it is: where two edges lie on one another, their
+// crossing could be anywhere along them, and another one in the next step.
 void clip(const Vector3& side, double offset, int label, const Feature& in, Feature& out) {
   out.points.clear();
   out.labels.clear();
+  const double on = on_the_plane * side.norm();
   const std::size_t n = in.points.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Vector3& p = in.points[i];
     const Vector3& q = in.points[(i + 1) % n];
     const double dp = side.dot(p) - offset, dq = side.dot(q) - offset;
-    if (dp <= 0) {
+    if (dp <= on) {
       out.points.push_back(p);
-      out.labels.push_back(dp == 0 && dq > 0 ? label : in.labels[i]);
+      out.labels.push_back(dp >= -on && dq > on ? label : in.labels[i]);
     }
-    if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) {
+    if ((dp < -on && dq > on) || (dp > on && dq < -on)) {
       out.points.push_back(p + (q - p) * (dp / (dp - dq)));
       out.labels.push_back(dp < 0 ? label : in.labels[i]);
     }

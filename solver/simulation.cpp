@@ -21,14 +21,27 @@ void check(const ForceSource& source, Integrator integrator) {
 }  // namespace
 
 Simulation::Simulation(const Model<double>& model, State<double> start)
-    : m_(model, std::move(start)), shift_(model.nv), rk_(model.nv), dopri5_(m_), events_(m_) {}
+    : m_(model, std::move(start)),
+      shift_(model.nv),
+      rk_(model.nv),
+      dopri5_(m_),
+      events_(m_),
+      constrained_(model) {}
 
 void Simulation::add(ForceSource& source) {
   check(source, integrator_);
   m_.sources.push_back(&source);
 }
 
+void Simulation::add(ConstraintSource& source) {
+  if (integrator_ != Integrator::semi_implicit)
+    throw std::invalid_argument("contacts and limits go with the integrator 'semi-implicit' only");
+  constrained_.add(source);
+}
+
 void Simulation::set_integrator(Integrator integrator) {
+  if (constrained_.any() && integrator != Integrator::semi_implicit)
+    throw std::invalid_argument("contacts and limits go with the integrator 'semi-implicit' only");
   for (const ForceSource* source : m_.sources) check(*source, integrator);
   integrator_ = integrator;
   dopri5_.forget();
@@ -90,6 +103,14 @@ StepReport Simulation::advance(double h, bool one_substep) {
     drift(m_, shift_, h);
     m_.x.t = t + h;
     m_.refresh();
+  }
+  if (constrained_.any()) {
+    constrained_.step(m_, h, report);
+    m_.x.t = t + h;
+    m_.refresh();
+    report.h = h;
+    look_for_bad_numbers(report);
+    return report;
   }
   m_.begin_step(h);
   if (facts_of(integrator_).implicit_force) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/constrained_step.h"
 #include "solver/force_source.h"
 #include "solver/integrator.h"
 #include "solver/integrator_dopri5.h"
@@ -27,12 +28,18 @@ class Simulation {
   Simulation(const Model<double>& model, State<double> start);
   // Throws std::invalid_argument for a source that cannot go with the integrator.
   void add(ForceSource& source);
+  // Contacts, limits, locks: from now on a step is one of solver/constrained_step.h, which goes
+  // with the semi-implicit integrator alone.
+  void add(ConstraintSource& source);
   void set_integrator(Integrator integrator);
   void set_tolerance(double tolerance);  // of dopri5, relative and absolute
   // The prescribed joint that carries the body moves by this law, from now on.
   void prescribe(int body, MotionLaw law);
   // Off: as if no joint had damping or Coulomb friction.
-  void set_joint_friction(bool on) { m_.dynamics.set_friction(on); }
+  void set_joint_friction(bool on) {
+    m_.dynamics.set_friction(on);
+    constrained_.set_friction(on);
+  }
   // Elsewhere, at another time; followers go to their leaders. What sources remember is left alone.
   void set_state(State<double> x);
 
@@ -52,6 +59,8 @@ class Simulation {
   const Forces<double>& forces() const { return m_.forces; }   // likewise
   // Friction and followers' forces, likewise.
   const ForwardDynamics& dynamics() const { return m_.dynamics; }
+  // Where there are constraints: of the last step.
+  const ConstrainedStep& constraints() const { return constrained_; }
   Integrator integrator() const { return integrator_; }
 
  private:
@@ -67,6 +76,7 @@ class Simulation {
   RungeKutta rk_;
   Dopri5 dopri5_;
   FrictionEvents events_;
+  ConstrainedStep constrained_;
   std::optional<ImplicitStep> implicit_;  // nv x nv numbers: only where the integrator needs it
 };
 

@@ -1,0 +1,116 @@
+// Contacts of everything with everything, as constraints of the solver (solver/constrained_step.h).
+//
+// Two responses, chosen for all contacts of an instance:
+//   rigid      no penetration, restitution e (Newton's law, impacts faster than 1 mm/s), exact
+//              Coulomb cones; optional torsional and rolling friction
+//   compliant  Hunt-Crossley normal force, N = k d (1 + c s), and bristles that stick at rest and
+//              slip at mu N; both at the end of the step, so stable at any stiffness. The bound mu
+//              N is that of the last round, which at the end is this step's own.
+// Moving bodies are found as far ahead as they move within a step, and gaps may close but not more:
+// nothing tunnels, whatever its speed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "collision/collision_world.h"
+#include "solver/constraint_source.h"
+
+namespace twinarm {
+
+enum class ContactResponse { rigid, compliant };
+
+struct Surface {
+  double friction = 0.5;   // a pair takes the geometric mean
+  double restitution = 0;  // a pair takes the product
+  double torsional = 0;    // radius of the patch that resists a turn about the normal [m]
+  double rolling = 0;      // arm of the normal force when it rolls [m]
+  double stiffness = 1e6;  // compliant: of one contact point; two surfaces in series [N/m]
+  double dissipation = 1;  // compliant: c [s/m]; two surfaces take the mean
+};
+
+struct ContactGeometry {
+  std::string name;  // for messages and readings
+  int body = 0;      // of the model; 0: fixed in the world
+  Pose X_LG;         // in the axes of its link
+  Shape shape;
+  Surface surface;
+  int group = 0;  // CollisionWorld::set_group_filter
+};
+
+// One contact point of the last step.
+struct ContactPoint {
+  Contact contact;  // at the start of the step
+  double friction = 0, restitution = 0;
+  Vector3 impulse_W = Vector3::Zero();  // on b, over the step, impacts included [N s]
+  Vector3 force_W = Vector3::Zero();    // on b, without impacts [N]
+  Vector3 couple_W = Vector3::Zero();   // on b: torsional and rolling friction [N m]
+  Vector3 anchor_W = Vector3::Zero();   // compliant: how far the bristles are bent [m]
+  double normal_velocity = 0;           // at the end of the step, opening [m/s]
+};
+
+class ContactConstraints final : public ConstraintSource {
+ public:
+  ContactConstraints(const Model<double>& model, ContactResponse response);
+
+  // Returns its id. Throws InputError for bad numbers.
+  int add(const ContactGeometry& geometry);
+  void set_pair(int a, int b, double friction, double restitution);
+  void never(int a, int b) { world_.disable_pair(a, b); }
+  CollisionWorld& world() { return world_; }
+  const ContactGeometry& geometry(int id) const {
+    return geometries_[static_cast<std::size_t>(id)];
+  }
+
+  void begin_step(const Kinematics& k, const State<double>& x, double h) noexcept override;
+  bool closes(const ConstraintFrame& frame) noexcept override;
+  bool wants_separation() const noexcept override;
+  void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
+  void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
+            std::size_t first) noexcept override;
+
+  const std::vector<ContactPoint>& points() const { return points_; }
+  // Work of the last step on the bodies [J]: by the normal forces, by friction, by impacts.
+  struct Work {
+    double normal = 0, friction = 0, impact = 0;
+  };
+  const Work& work() const { return work_; }
+
+ private:
+  struct PairRule {
+    int a, b;
+    double friction, restitution;
+  };
+  struct Part {  // a contact's share of the problem
+    std::size_t point;
+    std::size_t row;  // of its constraint
+    int extra;        // constraints for torsional and rolling friction behind it
+  };
+  void place(const Kinematics& k);
+  double reach(std::size_t geometry, const Kinematics& k, double h) const;
+  ContactPoint start(const Contact& contact) const;
+  const ContactPoint* last_of(const Contact& contact) const;
+  Vector3 approach(const Contact& contact, const Kinematics& k) const;
+  void add_contact(const ConstraintFrame& frame, std::size_t point, ImpulseProblem& problem);
+  void add_friction_couples(const ConstraintFrame& frame, std::size_t point, const Matrix3& axes,
+                            ImpulseProblem& problem);
+  void set_compliance(std::size_t point, double h, const Matrix3& axes, ImpulseConstraint& c) const;
+
+  const Model<double>* model_;
+  ContactResponse response_;
+  bool has_drives_ = false;
+  CollisionWorld world_;
+  std::vector<ContactGeometry> geometries_;
+  std::vector<double> radius_;  // by geometry: of a ball about its link's origin [m]
+  std::vector<PairRule> rules_;
+  std::vector<Pose> X_WG_;
+  std::vector<double> reach_;
+  std::vector<Contact> contacts_;
+  std::vector<ContactPoint> points_, last_;  // sorted by (a, b, feature)
+  std::vector<double> gap_after_;
+  std::vector<char> closing_;
+  std::vector<Part> parts_;
+  Work work_;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,216 @@
+#include "solver/constrained_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/dynamics.h"
+#include "solver/integrator_explicit.h"
+
+namespace twinarm {
+
+ConstrainedStep::ConstrainedStep(const Model<double>& model)
+    : model_(&model),
+      trees_(model),
+      damping_(model.nv),
+      coulomb_(model.nv),
+      constraint_(model.nv),
+      shift_(model.nv),
+      friction_guess_(model.nv),
+      mimic_guess_(model.mimics.size()) {}
+
+void ConstrainedStep::step(Mechanism& m, double h, StepReport& report) {
+  report_ = {};
+  for (ConstraintSource* source : sources_) source->begin_step(m.k, m.x, h);
+  resolve_impacts(m, h);
+  m.begin_step(h);
+  accelerate(m, h);
+  resolve_step(m, h);
+  kick(m, h);
+  drift(m, shift_, h);
+  separate(m, h);
+  report.converged = report_.step.converged && report_.impact.converged;
+  report.rounds = report_.step.rounds;
+  report.iterations = report_.step.newton;
+}
+
+void ConstrainedStep::add_sources(const ConstraintFrame& frame) {
+  first_.clear();
+  for (ConstraintSource* source : sources_) {
+    first_.push_back(problem_.constraints().size());
+    source->add(frame, problem_);
+  }
+}
+
+void ConstrainedStep::hand_out(const ConstraintFrame& frame) {
+  for (std::size_t s = 0; s < sources_.size(); ++s) sources_[s]->take(frame, problem_, first_[s]);
+}
+
+// 1/2 v^T M v
+double ConstrainedStep::kinetic_energy(const double* v) const {
+  double twice = 0;
+  for (int t = 0; t < problem_.tree_count(); ++t) {
+    const int n = problem_.size(t);
+    const double *M = problem_.M(t), *v_t = v + problem_.first(t);
+    for (int r = 0; r < n; ++r)
+      for (int k = 0; k < n; ++k) twice += v_t[r] * M[r * n + k] * v_t[k];
+  }
+  return 0.5 * twice;
+}
+
+void ConstrainedStep::resolve_impacts(Mechanism& m, double h) {
+  for (; report_.impacts < most_impacts; ++report_.impacts) {
+    ConstraintFrame frame{m.k, trees_, m.x, Phase::impact, h};
+    bool closes = false;
+    for (ConstraintSource* source : sources_) closes = source->closes(frame) || closes;
+    if (!closes) break;
+    if (report_.impacts == 0) kinematics(*model_, m.x, m.w);  // Xup, S_
+
+    const auto solve = [&](bool plastic) {
+      frame.plastic = plastic;
+      problem_.clear();
+      trees_.add_to(problem_, nullptr, m.w);
+      trees_.gather(m.x.qd, problem_);
+      add_sources(frame);
+      add_mimics();
+      report_.impact = solver_.solve(problem_);
+    };
+    solve(false);
+    const double before = kinetic_energy(problem_.v0(0));
+    double after = kinetic_energy(problem_.v(0));
+    if (after > before * (1 + 1e-12)) {
+      plastic_.assign(problem_.v(0), problem_.v(0) + problem_.nv());
+      sum_.clear();
+      for (const ImpulseConstraint& c : problem_.constraints())
+        sum_.insert(sum_.end(), c.p.begin(), c.p.end());
+      solve(true);
+      after = bounce(plastic_);
+      report_.limited = true;
+    }
+    report_.impact_loss += before - after;
+    hand_out(frame);  // with the kinematics before
+    trees_.scatter(problem_, m.x.qd);
+    forward_kinematics(*model_, m.x, m.k);
+  }
+}
+
+// From the plastic solution, which the problem holds, towards the elastic one (`elastic` its
+// velocities, sum_ its impulses) as far as the energy before allows. Impulses of both lie in convex
+// cones, so the mixture does. Returns the energy after.
+double ConstrainedStep::bounce(std::vector<double>& elastic) {
+  double* v = problem_.v(0);
+  const std::size_t nv = problem_.nv();
+  const double before = kinetic_energy(problem_.v0(0)), plastic = kinetic_energy(v);
+  for (std::size_t k = 0; k < nv; ++k) elastic[k] -= v[k];
+  const double square = kinetic_energy(elastic.data());
+  double cross = 0;  // d/ds of the energy at s = 0
+  for (int t = 0; t < problem_.tree_count(); ++t) {
+    const int n = problem_.size(t);
+    const double *M = problem_.M(t), *a = problem_.v(t), *b = elastic.data() + problem_.first(t);
+    for (int r = 0; r < n; ++r)
+      for (int k = 0; k < n; ++k) cross += a[r] * M[r * n + k] * b[k];
+  }
+  // square s^2 + cross s + plastic = before
+  const double room = std::max(0.0, before - plastic);
+  const double root = std::sqrt(cross * cross + 4 * square * room);
+  const double s = std::clamp(2 * room / (cross + root), 0.0, 1.0);
+  for (std::size_t k = 0; k < nv; ++k) v[k] += s * elastic[k];
+  for (std::size_t i = 0; i < problem_.constraints().size(); ++i)
+    for (std::size_t r = 0; r < 3; ++r) {
+      double& p = problem_.constraints()[i].p[r];
+      p += s * (sum_[3 * i + r] - p);
+    }
+  return kinetic_energy(v);
+}
+
+// Without constraints. Dampers of joints act at the end of the step: h b is armature.
+void ConstrainedStep::accelerate(Mechanism& m, double h) {
+  m.forces.clear();
+  for (ForceSource* source : m.sources) source->add_forces(m.x, m.k, m.forces);
+  for (std::size_t dof = 0; dof < model_->nv; ++dof) {
+    damping_[dof] = friction_on_ ? -model_->damping[dof] * m.x.qd[dof] : 0;
+    if (damping_[dof] == 0 && model_->damping[dof] == 0) continue;
+    m.forces.tau[dof] += damping_[dof];
+    if (friction_on_) m.forces.armature[dof] += h * model_->damping[dof];
+  }
+  aba(*model_, m.x, m.forces, m.w);
+}
+
+void ConstrainedStep::resolve_step(Mechanism& m, double h) {
+  problem_.clear();
+  trees_.add_to(problem_, &m.forces, m.w);
+  trees_.gather(m.x.qd, problem_);
+  for (std::size_t dof = 0; dof < model_->nv; ++dof)
+    problem_.v0(trees_.tree_of_dof(dof))[trees_.place(dof)] += h * m.w.qdd[dof];
+  const ConstraintFrame frame{m.k, trees_, m.x, Phase::step, h};
+  add_sources(frame);
+  const std::size_t friction = problem_.constraints().size();
+  add_joint_friction(m, h);
+  add_mimics();
+  std::fill(constraint_.begin(), constraint_.end(), 0);
+  std::fill(coulomb_.begin(), coulomb_.end(), 0);
+  if (problem_.constraints().empty()) return;
+  report_.step = solver_.solve(problem_);
+  hand_out(frame);
+
+  sum_.assign(problem_.nv(), 0);
+  for (const ImpulseConstraint& c : problem_.constraints())
+    problem_.add_transpose(c, c.p, sum_.data());
+  for (std::size_t dof = 0; dof < model_->nv; ++dof) {
+    const int tree = trees_.tree_of_dof(dof);
+    constraint_[dof] = sum_[problem_.first(tree) + trees_.place(dof)] / h;
+    m.forces.tau[dof] += constraint_[dof];
+  }
+  std::size_t next = friction;
+  for (std::size_t dof = 0; friction_on_ && dof < model_->nv; ++dof)
+    if (model_->coulomb_plus[dof] > 0 || model_->coulomb_minus[dof] > 0) {
+      friction_guess_[dof] = problem_.constraints()[next++].p[0];
+      coulomb_[dof] = friction_guess_[dof] / h;
+      constraint_[dof] -= coulomb_[dof];
+    }
+  for (std::size_t i = 0; i < mimic_guess_.size(); ++i)
+    mimic_guess_[i] = problem_.constraints()[next++].p[0];
+  aba(*model_, m.x, m.forces, m.w);
+  if (friction_on_)
+    for (std::size_t dof = 0; dof < model_->nv; ++dof)
+      damping_[dof] -= h * model_->damping[dof] * m.w.qdd[dof];
+}
+
+void ConstrainedStep::add_joint_friction(const Mechanism&, double h) {
+  for (std::size_t dof = 0; friction_on_ && dof < model_->nv; ++dof) {
+    const double plus = model_->coulomb_plus[dof], minus = model_->coulomb_minus[dof];
+    if (plus <= 0 && minus <= 0) continue;
+    ImpulseConstraint& c =
+        problem_.add(ImpulseLaw::within, 1, trees_.tree_of_dof(dof), ImpulseConstraint::no_tree);
+    problem_.J(c, 0)[trees_.place(dof)] = 1;
+    c.low = -h * plus, c.high = h * minus;
+    c.p[0] = std::clamp(friction_guess_[dof], c.low, c.high);
+  }
+}
+
+void ConstrainedStep::add_mimics() {
+  for (std::size_t i = 0; i < model_->mimics.size(); ++i) {
+    const Mimic& mimic = model_->mimics[i];
+    const int a = trees_.tree_of_dof(mimic.follower), b = trees_.tree_of_dof(mimic.leader);
+    ImpulseConstraint& c =
+        problem_.add(ImpulseLaw::equal, 1, a, a == b ? ImpulseConstraint::no_tree : b);
+    problem_.J(c, 0)[trees_.place(mimic.follower)] = 1;
+    problem_.J(c, a == b ? 0 : 1)[trees_.place(mimic.leader)] -= mimic.ratio;
+    c.p[0] = mimic_guess_[i];
+  }
+}
+
+void ConstrainedStep::separate(Mechanism& m, double h) {
+  bool wanted = false;
+  for (const ConstraintSource* source : sources_) wanted = source->wants_separation() || wanted;
+  if (!wanted) return;
+  problem_.clear();
+  trees_.add_to(problem_, nullptr, m.w);
+  const ConstraintFrame frame{m.k, trees_, m.x, Phase::separate, h};
+  add_sources(frame);
+  add_mimics();
+  solver_.solve(problem_);
+  trees_.scatter(problem_, shift_);
+  integrate_coordinates(*model_, m.x.q, shift_, m.x.q);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,76 @@
+// A semi-implicit step under constraints (contacts, limits, locks, dry friction of joints, mimics).
+//
+//   impacts    while something closes within the step faster than it may without a bounce:
+//              M (v+ - v-) = J^T p at the coordinates of the start. What closes leaves with
+//              u+ >= -e u-, what touches stays, both under Coulomb friction: touching bodies take
+//              part at once (Newton's law, simultaneous), those with a gap between in sequence.
+//   velocity   v* = v+ + h ABA(q, v+, forces);   M' (v' - v*) = J^T p,  where gaps g may close:
+//              u' >= -g/h. M' has the implicit terms that ABA solved with.
+//   position   q' = q + h v'
+//   separate   what penetrates by more than a slop is moved apart by the smallest motion in the
+//   norm
+//              of M; velocities do not feel it.
+// No step gains energy from its impulses. In an impact Newton's law with friction can (Kane and
+// Levinson 1985): then v+ is taken back towards the plastic one, which cannot, until it does not.
+// In the second phase p u' <= 0, as gaps only close.
+#pragma once
+
+#include <vector>
+
+#include "solver/constraint_source.h"
+#include "solver/impulse_solver.h"
+#include "solver/integrator_mechanism.h"
+#include "solver/integrator_report.h"
+#include "solver/model_trees.h"
+
+namespace twinarm {
+
+struct ConstraintReport {
+  int impacts = 0;  // passes of the first phase
+  ImpulseReport step, impact;
+  double impact_loss = 0;  // kinetic energy that impacts took [J]
+  bool limited = false;    // an impact was taken back to keep the energy
+};
+
+class ConstrainedStep {
+ public:
+  explicit ConstrainedStep(const Model<double>& model);
+  void add(ConstraintSource& source) { sources_.push_back(&source); }
+  bool any() const { return !sources_.empty(); }
+  void set_friction(bool on) { friction_on_ = on; }  // damping and Coulomb friction of joints
+
+  // From m.x, whose m.k is up to date, and after m.begin_step(h): to the end of the step.
+  void step(Mechanism& m, double h, StepReport& report);
+
+  const ConstraintReport& report() const { return report_; }
+  const std::vector<double>& damping_torque() const { return damping_; }  // of the last step
+  const std::vector<double>& coulomb_torque() const { return coulomb_; }
+  // Generalised force of all constraints, by velocity [N m, N]; without impacts.
+  const std::vector<double>& constraint_force() const { return constraint_; }
+
+ private:
+  static constexpr int most_impacts = 50;
+  void resolve_impacts(Mechanism& m, double h);
+  void accelerate(Mechanism& m, double h);
+  void resolve_step(Mechanism& m, double h);
+  void separate(Mechanism& m, double h);
+  void add_sources(const ConstraintFrame& frame);
+  void hand_out(const ConstraintFrame& frame);
+  void add_joint_friction(const Mechanism& m, double h);
+  void add_mimics();
+  double kinetic_energy(const double* v) const;
+  double bounce(std::vector<double>& before);
+
+  const Model<double>* model_;
+  ModelTrees trees_;
+  std::vector<ConstraintSource*> sources_;
+  std::vector<std::size_t> first_;  // by source: its first constraint in problem_
+  ImpulseProblem problem_;
+  ImpulseSolver solver_;
+  ConstraintReport report_;
+  bool friction_on_ = true;
+  std::vector<double> damping_, coulomb_, constraint_, shift_;
+  std::vector<double> friction_guess_, mimic_guess_, before_, plastic_, sum_;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,45 @@
+// The plug for everything that constrains velocities by impulses: contacts, joint limits, locks.
+//
+// A step of h asks each source, in this order (constrained_step.h):
+//   begin_step      once, with the kinematics at its start: find contacts, measure gaps
+//   closes          before impacts: does anything hit within this step, at these velocities?
+//   add, take       Phase::impact, as often as something closes; Phase::step once;
+//                   Phase::separate if one of them wants_separation
+// None of them may throw or allocate once warm.
+#pragma once
+
+#include "solver/impulse_problem.h"
+#include "solver/kinematics.h"
+#include "solver/model_trees.h"
+
+namespace twinarm {
+
+enum class Phase {
+  impact,   // velocities jump: v0 are those before
+  step,     // v0 are those at the end of the step without the impulses
+  separate  // v0 = 0, and v is a small motion [m, rad]: what penetrates is pushed apart
+};
+
+struct ConstraintFrame {
+  const Kinematics& k;  // at the start of the step
+  const ModelTrees& trees;
+  const State<double>& x;  // q at the start, qd before this phase
+  Phase phase;
+  double h;              // [s]
+  bool plastic = false;  // impact: as if every restitution were 0
+};
+
+class ConstraintSource {
+ public:
+  virtual ~ConstraintSource() = default;
+  virtual void begin_step(const Kinematics&, const State<double>&, double /*h*/) noexcept {}
+  virtual bool closes(const ConstraintFrame&) noexcept { return false; }
+  virtual bool wants_separation() const noexcept { return false; }
+  // Adds its constraints, with the last impulses as a guess.
+  virtual void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept = 0;
+  // The solution for them: the same constraints, from index `first` on.
+  virtual void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
+                    std::size_t first) noexcept = 0;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,144 @@
+#include "solver/impulse_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace twinarm {
+namespace {
+
+enum { xx, xy, xz, yx, yy, yz, zx, zy, zz };
+
+// A symmetric 2 x 2 on rows first, first + 1 of D.
+void set_pair(Mat& D, int first, double aa, double ab, double bb) {
+  const int at = first * 4;
+  D[at] = aa, D[at + 1] = D[at + 3] = ab, D[at + 4] = bb;
+}
+
+// The vector of rows first .. first + count, made no longer than `radius`; D is P' there.
+void clip_to_disc(int first, int count, double radius, Vec& p, Mat& D) {
+  const double x = p[first], y = count > 1 ? p[first + 1] : 0;
+  const double length = std::hypot(x, y);
+  if (length <= radius) return set_pair(D, first, 1, 0, count > 1 ? 1 : 0);
+  const double scale = radius / length, dx = x / length, dy = y / length;
+  p[first] = scale * x;
+  if (count > 1) p[first + 1] = scale * y;
+  // Slipping: only a turn of the vector changes the answer; in one dimension nothing does.
+  const double turn = count > 1 ? scale : 0;
+  set_pair(D, first, turn * dy * dy, -turn * dx * dy, turn * dx * dx);
+}
+
+// Coulomb's cone |p_t| <= mu p_n, nearest point.
+void project_on_cone(double mu, Vec& p, Mat& D) {
+  const double t = std::hypot(p[1], p[2]);
+  D = {};
+  if (t <= mu * p[0]) {
+    D[xx] = D[yy] = D[zz] = 1;
+  } else if (mu * t <= -p[0]) {
+    p = {};
+  } else {
+    const double a = 1 / (1 + mu * mu), dx = p[1] / t, dy = p[2] / t;
+    const double p_n = a * (p[0] + mu * t), turn = mu * p_n / t, along = a * mu * mu;
+    p = {p_n, mu * p_n * dx, mu * p_n * dy};
+    D[xx] = a;
+    D[xy] = D[yx] = a * mu * dx;
+    D[xz] = D[zx] = a * mu * dy;
+    D[yy] = along * dx * dx + turn * dy * dy;
+    D[yz] = D[zy] = (along - turn) * dx * dy;
+    D[zz] = along * dy * dy + turn * dx * dx;
+  }
+}
+
+void project(const ImpulseConstraint& c, double radius, Vec& p, Mat& D) {
+  D = {};
+  switch (c.law) {
+    case ImpulseLaw::equal:
+      D[xx] = 1, D[yy] = c.rows > 1, D[zz] = c.rows > 2;
+      break;
+    case ImpulseLaw::at_least:
+      D[xx] = p[0] > 0;
+      p[0] = std::max(0.0, p[0]);
+      break;
+    case ImpulseLaw::within:
+      D[xx] = p[0] > c.low && p[0] < c.high;
+      p[0] = std::clamp(p[0], c.low, c.high);
+      break;
+    case ImpulseLaw::disc:
+      clip_to_disc(0, c.rows, radius, p, D);
+      break;
+    case ImpulseLaw::coulomb:
+      project_on_cone(c.mu, p, D);
+      break;
+    case ImpulseLaw::compliant:
+      break;
+  }
+}
+
+void respond_softly(const ImpulseConstraint& c, double bound, const Vec& u, Vec& p, Mat& D) {
+  D = {}, p = {};
+  const double s = -u[0], after = c.depth + c.h * s, grip = 1 + c.c * s;
+  if (after > 0 && grip > 0) {
+    p[0] = c.h * c.k * after * grip;
+    D[xx] = c.h * c.k * (c.h * grip + c.c * after);
+  }
+  const double stiff = c.h * (c.k_t * c.h + c.b_t);
+  p[1] = -c.h * c.k_t * c.anchor[0] - stiff * u[1];
+  p[2] = -c.h * c.k_t * c.anchor[1] - stiff * u[2];
+  clip_to_disc(1, 2, bound, p, D);
+  for (const int at : {yy, yz, zy, zz}) D[at] *= stiff;
+}
+
+Vec shifted(const ImpulseConstraint& c, double shift, const Vec& u) {
+  return c.law == ImpulseLaw::coulomb ? Vec{u[0] + shift, u[1], u[2]} : u;
+}
+
+double slip(const Vec& u) {
+  return std::hypot(u[1], u[2]);
+}
+
+}  // namespace
+
+void respond(const ImpulseConstraint& c, const LawMemory& memory, Shift shift, const Vec& u, Vec& p,
+             Mat& D) {
+  if (c.law == ImpulseLaw::compliant) return respond_softly(c, memory.radius, u, p, D);
+  const bool follow = shift == Shift::followed && c.law == ImpulseLaw::coulomb;
+  const Vec ut = shifted(c, follow ? c.mu * slip(u) : memory.shift, u);
+  p = {};
+  for (int r = 0; r < c.rows; ++r) p[r] = memory.l[r] - memory.rho * ut[r];
+  project(c, memory.radius, p, D);
+  for (double& d : D) d *= memory.rho;
+  if (const double speed = slip(u); follow && speed > 0) {
+    // d ut / du = 1 + e_n (0, mu u_t / |u_t|)
+    const double x = c.mu * u[1] / speed, y = c.mu * u[2] / speed;
+    for (int r = 0; r < 9; r += 3) D[r + 1] += D[r] * x, D[r + 2] += D[r] * y;
+  }
+}
+
+double law_residual(const ImpulseConstraint& c, const LawMemory& memory, double rho, const Vec& u,
+                    const Vec& p) {
+  Vec again{};
+  Mat unused;
+  if (c.law == ImpulseLaw::compliant) {
+    respond_softly(c, c.mu * p[0], u, again, unused);
+  } else {
+    const Vec ut = shifted(c, c.mu * slip(u), u);
+    for (int r = 0; r < c.rows; ++r) again[r] = p[r] - rho * ut[r];
+    project(c, memory.radius, again, unused);
+  }
+  double largest = 0;
+  for (int r = 0; r < c.rows; ++r) largest = std::max(largest, std::abs(p[r] - again[r]));
+  return largest / rho;
+}
+
+double shift_of(const ImpulseConstraint& c, const Vec& u) {
+  return c.law == ImpulseLaw::coulomb ? c.mu * slip(u) : 0;
+}
+
+void remember(const ImpulseConstraint& c, const std::vector<ImpulseConstraint>& all, const Vec& u,
+              const Vec& p, LawMemory& memory) {
+  memory.l = p;
+  memory.shift = shift_of(c, u);
+  if (c.law == ImpulseLaw::compliant) memory.radius = c.mu * p[0];
+  if (c.law == ImpulseLaw::disc) memory.radius = c.radius * all[c.of].p[0];
+}
+
+}  // namespace twinarm

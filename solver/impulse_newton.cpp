@@ -1,0 +1,260 @@
+// The inner problem of impulse_solver.h: Newton's method on one island.
+#include <algorithm>
+#include <cmath>
+
+#include "solver/impulse_solver.h"
+
+namespace twinarm {
+namespace {
+
+constexpr int no_tree = ImpulseConstraint::no_tree;
+
+// D J, where J is rows x n
+void times(const Mat& D, const double* J, int rows, int n, double* out) {
+  for (int r = 0; r < rows; ++r)
+    for (int k = 0; k < n; ++k) {
+      double sum = 0;
+      for (int s = 0; s < rows; ++s) sum += D[r * 3 + s] * J[s * n + k];
+      out[r * n + k] = sum;
+    }
+}
+
+double dot(const Vec& a, const Vec& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+}  // namespace
+
+// Reverse Cuthill-McKee: a breadth-first walk from an outermost tree, back to front; it keeps the
+// rows of the matrix short.
+void ImpulseSolver::order(const ImpulseProblem& problem, const Island& island) {
+  const auto trees = static_cast<std::size_t>(problem.tree_count());
+  neighbour_begin_.assign(trees + 1, 0);
+  const auto for_each_pair = [&](auto&& f) {
+    int last_a = no_tree, last_b = no_tree;
+    for (const int i : island.constraints) {
+      const auto [a, b] = problem.constraints()[i].tree;
+      if (a == no_tree || b == no_tree || a == b || (a == last_a && b == last_b)) continue;
+      f(a, b), last_a = a, last_b = b;
+    }
+  };
+  for_each_pair([&](int a, int b) { ++neighbour_begin_[a + 1], ++neighbour_begin_[b + 1]; });
+  for (std::size_t t = 0; t < trees; ++t) neighbour_begin_[t + 1] += neighbour_begin_[t];
+  neighbours_.resize(neighbour_begin_[trees]);
+  lowest_.assign(neighbour_begin_.begin(), neighbour_begin_.end());
+  for_each_pair(
+      [&](int a, int b) { neighbours_[lowest_[a]++] = b, neighbours_[lowest_[b]++] = a; });
+  const auto degree = [&](int t) { return neighbour_begin_[t + 1] - neighbour_begin_[t]; };
+
+  const auto walk = [&](int start) {
+    for (const int t : island.trees) lowest_[t] = 0;
+    order_.assign(1, start), lowest_[start] = 1;
+    for (std::size_t done = 0; done < order_.size(); ++done) {
+      const std::size_t from = order_.size();
+      for (int e = neighbour_begin_[order_[done]]; e < neighbour_begin_[order_[done] + 1]; ++e)
+        if (const int t = neighbours_[e]; !lowest_[t]) lowest_[t] = 1, order_.push_back(t);
+      std::sort(order_.begin() + static_cast<std::ptrdiff_t>(from), order_.end(),
+                [&](int a, int b) { return std::pair(degree(a), a) < std::pair(degree(b), b); });
+    }
+  };
+  walk(island.trees.front());
+  walk(order_.back());  // from one end to the other
+  std::reverse(order_.begin(), order_.end());
+}
+
+void ImpulseSolver::lay_out(const ImpulseProblem& problem, const Island& island) {
+  row_.resize(static_cast<std::size_t>(problem.tree_count()));
+  lowest_.resize(row_.size());
+  std::size_t row = 0;
+  for (const int t : order_) {
+    row_[t] = row;
+    lowest_[t] = t;
+    row += static_cast<std::size_t>(problem.size(t));
+  }
+  for (const int i : island.constraints) {
+    const auto [a, b] = problem.constraints()[i].tree;
+    if (a == no_tree || b == no_tree) continue;
+    const int later = row_[a] > row_[b] ? a : b, earlier = later == a ? b : a;
+    if (row_[earlier] < row_[lowest_[later]]) lowest_[later] = earlier;
+  }
+  matrix_.clear();
+  for (const int t : order_)
+    for (int k = 0; k < problem.size(t); ++k) matrix_.add_row(row_[lowest_[t]]);
+  rhs_.resize(row);
+}
+
+// The convex problem, whose shifts are held; then, from its solution, Newton on the shifts that
+// follow. That has no function to go down on, so it is taken only as long as it comes nearer.
+int ImpulseSolver::solve_round(ImpulseProblem& problem, const Island& island, int most) {
+  int steps = 0;
+  for (Gradient now = gradient(problem, island, Shift::held);
+       steps < most && now.largest > now.rounding; now = gradient(problem, island, Shift::held)) {
+    find_direction(problem, island, true);
+    const double step = step_length(problem, island);
+    move(problem, island, step);
+    ++steps;
+    if (step == 1 && now.largest < 1e2 * now.rounding) break;
+  }
+  Gradient now = gradient(problem, island, Shift::followed);
+  while (steps < most && now.largest > now.rounding) {
+    find_direction(problem, island, false);
+    move(problem, island, 1);
+    ++steps;
+    const Gradient then = gradient(problem, island, Shift::followed);
+    if (!(then.squared < 0.25 * now.squared)) {
+      move(problem, island, -1);
+      gradient(problem, island, Shift::held);
+      break;
+    }
+    now = then;
+  }
+  return steps;
+}
+
+void ImpulseSolver::move(ImpulseProblem& problem, const Island& island, double step) {
+  for (const int t : island.trees)
+    for (int k = 0; k < problem.size(t); ++k)
+      problem.v(t)[k] += step * dv_[problem.first(t) + static_cast<std::size_t>(k)];
+}
+
+// u, p and D at v; rhs_ = M (v - v0) - J^T p.
+ImpulseSolver::Gradient ImpulseSolver::gradient(ImpulseProblem& problem, const Island& island,
+                                                Shift shift) {
+  for (const int t : island.trees)
+    std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)), problem.size(t), 0.0);
+  double fastest = 0;
+  for (const int i : island.constraints) {
+    const ImpulseConstraint& c = problem.constraints()[i];
+    problem.velocity(c, problem.v(0), u_[i]);
+    for (int r = 0; r < c.rows; ++r) u_[i][r] += c.b[r];
+    respond(c, memory_[i], shift, u_[i], p_[i], D_[i]);
+    problem.add_transpose(c, p_[i], f_.data());
+    fastest = std::max({fastest, std::abs(u_[i][0]), std::abs(u_[i][1]), std::abs(u_[i][2])});
+  }
+  Gradient all = balance(problem, island);
+  all.rounding = std::max(0.01 * tolerance, 2e-14 * rho_ratio_ * fastest);
+  return all;
+}
+
+// rhs_ = M (v - v0) - f_
+ImpulseSolver::Gradient ImpulseSolver::balance(const ImpulseProblem& problem,
+                                               const Island& island) {
+  Gradient all{0, 0, 0};
+  for (const int t : island.trees) {
+    const int n = problem.size(t);
+    const std::size_t at = problem.first(t);
+    const double* M = problem.M(t);
+    for (int k = 0; k < n; ++k)
+      delta_[at + static_cast<std::size_t>(k)] = problem.v(t)[k] - problem.v0(t)[k];
+    for (int r = 0; r < n; ++r) {
+      double sum = -f_[at + static_cast<std::size_t>(r)];
+      for (int k = 0; k < n; ++k) sum += M[r * n + k] * delta_[at + static_cast<std::size_t>(k)];
+      rhs_[row_[t] + static_cast<std::size_t>(r)] = sum;
+      all.largest = std::max(all.largest, std::abs(sum) / M[r * n + r]);
+      all.squared += sum * sum / M[r * n + r];
+    }
+  }
+  return all;
+}
+
+// dv_ = -(M + J^T D J)^-1 rhs_
+void ImpulseSolver::find_direction(const ImpulseProblem& problem, const Island& island,
+                                   bool symmetric) {
+  assemble(problem, island);
+  matrix_.factorise(symmetric);
+  matrix_.solve(rhs_.data());
+  for (const int t : island.trees)
+    for (int k = 0; k < problem.size(t); ++k)
+      dv_[problem.first(t) + static_cast<std::size_t>(k)] =
+          -rhs_[row_[t] + static_cast<std::size_t>(k)];
+}
+
+void ImpulseSolver::assemble(const ImpulseProblem& problem, const Island& island) {
+  matrix_.set_zero();
+  for (const int t : island.trees) {
+    const int n = problem.size(t);
+    const double* M = problem.M(t);
+    for (int r = 0; r < n; ++r)
+      add_row(row_[t] + static_cast<std::size_t>(r), row_[t], M + r * n, n, 1);
+  }
+  for (const int i : island.constraints) {
+    const ImpulseConstraint& c = problem.constraints()[i];
+    for (int side = 0; side < 2; ++side) {
+      const int t = c.tree[side];
+      if (t == no_tree) continue;
+      const int n = problem.size(t);
+      DJ_.resize(std::max(DJ_.size(), static_cast<std::size_t>(3 * n)));
+      times(D_[i], problem.J(c, side), c.rows, n, DJ_.data());
+      for (int other = 0; other < 2; ++other) {
+        const int s = c.tree[other];
+        if (s == no_tree) continue;
+        const int m = problem.size(s);
+        const double* J = problem.J(c, other);
+        for (int q = 0; q < c.rows; ++q)
+          for (int r = 0; r < m; ++r)
+            if (J[q * m + r] != 0)
+              add_row(row_[s] + static_cast<std::size_t>(r), row_[t], DJ_.data() + q * n, n,
+                      J[q * m + r]);
+      }
+    }
+  }
+}
+
+// Adds factor * values to the row of the matrix, from the given column on.
+void ImpulseSolver::add_row(std::size_t row, std::size_t column, const double* values, int n,
+                            double factor) {
+  const auto count = static_cast<std::size_t>(n);
+  const std::size_t below = column > row ? 0 : std::min(count, row + 1 - column);
+  if (below > 0) {
+    double* out = matrix_.row(row, column);
+    for (std::size_t k = 0; k < below; ++k) out[k] += factor * values[k];
+  }
+  for (std::size_t k = below; k < count; ++k)
+    *matrix_.column(column + k, row) += factor * values[k];
+}
+
+// Where the slope along dv is zero, near enough; the slope only rises.
+double ImpulseSolver::step_length(const ImpulseProblem& problem, const Island& island) {
+  double slope0 = 0, curvature = 0;  // of 1/2 |v - v0|_M^2
+  for (const int t : island.trees) {
+    const int n = problem.size(t);
+    const double *dv = dv_.data() + problem.first(t), *delta = delta_.data() + problem.first(t);
+    const double* M = problem.M(t);
+    for (int r = 0; r < n; ++r)
+      for (int k = 0; k < n; ++k) {
+        slope0 += dv[r] * M[r * n + k] * delta[k];
+        curvature += dv[r] * M[r * n + k] * dv[k];
+      }
+  }
+  double start = slope0;
+  for (const int i : island.constraints) {
+    problem.velocity(problem.constraints()[i], dv_.data(), du_[i]);
+    start -= dot(p_[i], du_[i]);
+  }
+  const auto slope = [&](double s) {
+    double sum = slope0 + s * curvature;
+    for (const int i : island.constraints) {
+      Vec u = u_[i], p;
+      Mat D;
+      for (int r = 0; r < 3; ++r) u[r] += s * du_[i][r];
+      respond(problem.constraints()[i], memory_[i], Shift::held, u, p, D);
+      sum -= dot(p, du_[i]);
+    }
+    return sum;
+  };
+  double low = 0, high = 1, at_low = start, at_high = slope(1);
+  if (!(at_high > 0.3 * std::abs(start))) return 1;
+  double s = 1;
+  for (int k = 0; k < 30; ++k) {  // regula falsi, halving what stays (Illinois)
+    s = (low * at_high - high * at_low) / (at_high - at_low);
+    const double here = slope(s);
+    if (std::abs(here) <= 0.1 * std::abs(start)) break;
+    if (here > 0)
+      high = s, at_high = here, at_low *= 0.5;
+    else
+      low = s, at_low = here, at_high *= 0.5;
+  }
+  return s;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,219 @@
+#include "solver/impulse_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace twinarm {
+namespace {
+
+constexpr int no_tree = ImpulseConstraint::no_tree;
+constexpr double first_rho = 1e2, largest_rho = 1e5;  // times rho0
+
+}  // namespace
+
+ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
+  ImpulseReport report;
+  factorise_trees(problem);
+  const std::size_t count = problem.constraints().size();
+  memory_.assign(count, {});
+  rho0_.assign(count, 0);
+  D_.resize(count), u_.resize(count), du_.resize(count), p_.resize(count);
+  f_.assign(problem.nv(), 0), dv_.resize(problem.nv()), delta_.resize(problem.nv());
+  std::copy_n(problem.v0(0), problem.tree_count() > 0 ? problem.nv() : 0, problem.v(0));
+  find_islands(problem);
+  for (std::size_t i = 0; i < count; ++i) {
+    const ImpulseConstraint& c = problem.constraints()[i];
+    double inverse = 0;
+    for (int side = 0; side < 2; ++side) {
+      if (c.tree[side] == no_tree) continue;
+      const int n = problem.size(c.tree[side]);
+      const double *J = problem.J(c, side), *M = problem.M(c.tree[side]);
+      for (int k = 0; k < n; ++k) {
+        double sum = 0;
+        for (int r = 0; r < c.rows; ++r) sum += J[r * n + k] * J[r * n + k];
+        inverse += sum / M[k * n + k];
+      }
+    }
+    rho0_[i] = inverse > 0 ? c.rows / inverse : 1;
+  }
+  report.islands = static_cast<int>(island_count_);
+  solve_again_.resize(static_cast<std::size_t>(problem.tree_count()));
+  for (std::size_t i = 0; i < island_count_; ++i) {
+    double residual = settle(problem, islands_[i]);
+    char& again = solve_again_[static_cast<std::size_t>(islands_[i].trees.front())];
+    const bool fails = !(residual <= accepted);
+    if (fails || (again && residual > 0.1 * tolerance)) {
+      solve_island(problem, islands_[i], report);
+      residual = settle(problem, islands_[i]);
+    } else if (residual > tolerance) {
+      residual = relax(problem, islands_[i]);
+    }
+    again = fails;
+    report.residual = std::max(report.residual, residual);
+    report.converged = report.converged && residual <= accepted;
+  }
+  return report;
+}
+
+void ImpulseSolver::factorise_trees(const ImpulseProblem& problem) {
+  factors_.resize(problem.blocks_size());
+  for (int t = 0; t < problem.tree_count(); ++t) {
+    const int n = problem.size(t);
+    const double* A = problem.M(t);
+    double* L = factors_.data() + problem.block(t);
+    for (int r = 0; r < n; ++r)
+      for (int j = 0; j <= r; ++j) {
+        double rest = A[r * n + j];
+        for (int k = 0; k < j; ++k) rest -= L[r * n + k] * L[j * n + k];
+        L[r * n + j] = j < r ? rest * L[j * n + j] : 1 / std::sqrt(rest);
+      }
+  }
+}
+
+void ImpulseSolver::solve_tree(const ImpulseProblem& problem, int tree, double* f) const {
+  const int n = problem.size(tree);
+  const double* L = factors_.data() + problem.block(tree);
+  for (int r = 0; r < n; ++r) {
+    for (int k = 0; k < r; ++k) f[r] -= L[r * n + k] * f[k];
+    f[r] *= L[r * n + r];
+  }
+  for (int r = n; r-- > 0;) {
+    f[r] *= L[r * n + r];
+    for (int k = 0; k < r; ++k) f[k] -= L[r * n + k] * f[r];
+  }
+}
+
+// Union by constraints; islands in the order of their first tree, members ascending.
+void ImpulseSolver::find_islands(const ImpulseProblem& problem) {
+  const auto trees = static_cast<std::size_t>(problem.tree_count());
+  root_.resize(trees);
+  std::iota(root_.begin(), root_.end(), 0);
+  const auto find = [&](int t) {
+    while (root_[t] != t) t = root_[t] = root_[root_[t]];
+    return t;
+  };
+  for (const ImpulseConstraint& c : problem.constraints())
+    if (c.tree[0] != no_tree && c.tree[1] != no_tree) {
+      const int a = find(c.tree[0]), b = find(c.tree[1]);
+      root_[std::max(a, b)] = std::min(a, b);
+    }
+  island_of_.assign(trees, -1);
+  island_count_ = 0;
+  const auto island_at = [&](int tree) -> Island& {
+    int& island = island_of_[find(tree)];
+    if (island < 0) {
+      island = static_cast<int>(island_count_++);
+      if (islands_.size() < island_count_) islands_.emplace_back();
+      islands_[island].trees.clear(), islands_[island].constraints.clear();
+    }
+    return islands_[island];
+  };
+  for (std::size_t i = 0; i < problem.constraints().size(); ++i) {
+    const ImpulseConstraint& c = problem.constraints()[i];
+    if (const int t = c.tree[0] != no_tree ? c.tree[0] : c.tree[1]; t != no_tree)
+      island_at(t).constraints.push_back(static_cast<int>(i));
+  }
+  for (std::size_t t = 0; t < trees; ++t)  // those without a constraint move as v0
+    if (const int island = island_of_[find(static_cast<int>(t))]; island >= 0)
+      islands_[island].trees.push_back(static_cast<int>(t));
+}
+
+// v = v0 + M^-1 J^T p, u of it, and what is left of the laws: of the problem itself, not of the
+// rounds'.
+double ImpulseSolver::settle(ImpulseProblem& problem, const Island& island) {
+  for (const int t : island.trees)
+    std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)), problem.size(t), 0.0);
+  for (const int i : island.constraints)
+    problem.add_transpose(problem.constraints()[i], problem.constraints()[i].p, f_.data());
+  for (const int t : island.trees) {
+    double* change = f_.data() + problem.first(t);
+    solve_tree(problem, t, change);
+    for (int k = 0; k < problem.size(t); ++k) problem.v(t)[k] = problem.v0(t)[k] + change[k];
+  }
+  double residual = 0;
+  for (const int i : island.constraints) {
+    ImpulseConstraint& c = problem.constraints()[i];
+    problem.velocity(c, problem.v(0), c.u);
+    for (int r = 0; r < c.rows; ++r) c.u[r] += c.b[r];
+    if (c.law == ImpulseLaw::disc) memory_[i].radius = c.radius * problem.constraints()[c.of].p[0];
+    const double left = law_residual(c, memory_[i], rho0_[i], c.u, c.p);
+    residual = left <= residual ? residual : left;  // keeps what is not a number
+  }
+  return residual;
+}
+
+// One step of projected descent: what a guess leaves open is the same in every step of a body at
+// rest, and would add up.
+double ImpulseSolver::relax(ImpulseProblem& problem, const Island& island) {
+  constexpr double part = 0.125;  // of rho0: up to eight contacts of a body share its inertia
+  Mat unused;
+  for (const int i : island.constraints) {
+    ImpulseConstraint& c = problem.constraints()[i];
+    remember(c, problem.constraints(), c.u, c.p, memory_[i]);
+    memory_[i].rho = part * rho0_[i];
+    respond(c, memory_[i], Shift::held, c.u, p_[i], unused);
+    c.p = p_[i];
+  }
+  return settle(problem, island);
+}
+
+// The rounds from the guess; where that does not do soon, from the middle. The best of all is kept.
+void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
+                                 ImpulseReport& report) {
+  ++report.solved;
+  order(problem, island);
+  lay_out(problem, island);
+  double best = std::numeric_limits<double>::infinity();
+  best_p_.resize(problem.constraints().size());
+  const auto judge = [&] {
+    const double residual = settle(problem, island);
+    if (residual < best) {
+      best = residual;
+      for (const int i : island.constraints) best_p_[i] = problem.constraints()[i].p;
+    }
+  };
+  run_rounds(problem, island, quick_newton, report);
+  judge();
+  if (best > accepted) {
+    report.interior = std::max(report.interior, approach_centrally(problem, island));
+    judge();
+  }
+  if (best > accepted) {
+    for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
+    settle(problem, island);
+    run_rounds(problem, island, most_newton, report);
+    judge();
+  }
+  for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
+}
+
+// From p and u of the constraints, and v.
+void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, int most,
+                               ImpulseReport& report) {
+  for (const int i : island.constraints)
+    remember(problem.constraints()[i], problem.constraints(), problem.constraints()[i].u,
+             problem.constraints()[i].p, memory_[i]);
+  int newton = 0, round = 0;
+  for (rho_ratio_ = first_rho; newton < most; rho_ratio_ = std::min(10 * rho_ratio_, largest_rho)) {
+    for (const int i : island.constraints) memory_[i].rho = rho_ratio_ * rho0_[i];
+    newton += solve_round(problem, island, most - newton);
+    ++round;
+    for (const int i : island.constraints) {
+      ImpulseConstraint& c = problem.constraints()[i];
+      c.p = p_[i], c.u = u_[i];
+    }
+    double residual = 0;
+    for (const int i : island.constraints) {
+      const ImpulseConstraint& c = problem.constraints()[i];
+      remember(c, problem.constraints(), c.u, c.p, memory_[i]);
+      residual = std::max(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
+    }
+    if (residual <= 0.3 * tolerance) break;
+  }
+  report.rounds = std::max(report.rounds, round);
+  report.newton = std::max(report.newton, newton);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,97 @@
+// Solves impulse_problem.h: exact laws, whatever the number of redundant contacts.
+//
+// Outer rounds: the method of multipliers (Rockafellar 1976) with de Saxce's shift, which makes
+// every inner problem convex. Inner: with multipliers and shifts held,
+//   M (v - v0) = J^T p(u(v))
+// are the conditions of min 1/2 |v - v0|_M^2 + sum_i phi_i(u_i), phi_i' = -p, which is smooth and
+// strictly convex: Newton's method with an exact line search, on matrices
+//   M + J^T D J,    D = -dp/du,
+// whose blocks follow the contacts between trees (as in Castro, Permenter and Han 2022, where a
+// compliance stands in place of the rounds). Redundant contacts do no harm, since M alone makes the
+// matrix positive. A larger rho needs fewer rounds; beyond 1e8 of the inertia rounding eats that.
+// First of all the guess is tried: what has come to rest costs one check. A solution that had to
+// stop a motion is no good guess for the step after, so that one is solved too.
+//
+// Islands (trees joined by constraints) are solved one by one. Deterministic.
+#pragma once
+
+#include <vector>
+
+#include "solver/envelope_lu.h"
+#include "solver/impulse_law.h"
+#include "solver/impulse_problem.h"
+#include "solver/second_order_cone.h"
+
+namespace twinarm {
+
+struct ImpulseReport {
+  int islands = 0, solved = 0;  // solved: those whose guess did not do
+  int rounds = 0, newton = 0;   // the most of any island
+  int interior = 0;             // iterations of impulse_interior.cpp, the most of any island
+  double residual = 0;          // largest of any constraint, law_residual() [m/s, rad/s]
+  bool converged = true;
+};
+
+class ImpulseSolver {
+ public:
+  double accepted = 5e-9;    // residual of a guess, or of a solution, that will do [m/s]
+  double tolerance = 1e-10;  // residual that a solution aims at [m/s]
+  int quick_newton = 12;     // steps before the start of impulse_interior.cpp is asked for
+  int most_newton = 200;     // steps in all
+
+  // Writes v of the problem, and p and u of its constraints.
+  ImpulseReport solve(ImpulseProblem& problem);
+
+ private:
+  struct Island {
+    std::vector<int> trees, constraints;
+  };
+  void factorise_trees(const ImpulseProblem& problem);
+  void solve_tree(const ImpulseProblem& problem, int tree, double* f) const;
+  void find_islands(const ImpulseProblem& problem);
+  double relax(ImpulseProblem& problem, const Island& island);
+  double settle(ImpulseProblem& problem, const Island& island);
+  void solve_island(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
+  void run_rounds(ImpulseProblem& problem, const Island& island, int most, ImpulseReport& report);
+  void order(const ImpulseProblem& problem, const Island& island);
+  void lay_out(const ImpulseProblem& problem, const Island& island);
+  struct Gradient {
+    double largest, squared, rounding;  // as velocities [m/s]; squared in the norm of diag(M)^-1
+  };
+  int solve_round(ImpulseProblem& problem, const Island& island, int most);
+  Gradient gradient(ImpulseProblem& problem, const Island& island, Shift shift);
+  Gradient balance(const ImpulseProblem& problem, const Island& island);
+  void find_direction(const ImpulseProblem& problem, const Island& island, bool symmetric);
+  void assemble(const ImpulseProblem& problem, const Island& island);
+  void add_row(std::size_t row, std::size_t column, const double* values, int n, double factor);
+  void move(ImpulseProblem& problem, const Island& island, double step);
+  int approach_centrally(ImpulseProblem& problem, const Island& island);
+  void begin_centrally(ImpulseProblem& problem, const Island& island);
+  double measure_centrally(ImpulseProblem& problem, const Island& island, double& residual);
+  double direct_centrally(ImpulseProblem& problem, const Island& island, double s, bool correct);
+  double step_length(const ImpulseProblem& problem, const Island& island);
+
+  std::vector<double> factors_;           // of the blocks of M: L L^T, 1 / l_ii on the diagonal
+  std::vector<LawMemory> memory_;         // by constraint
+  std::vector<double> rho0_;              // by constraint: 1 / J diag(M)^-1 J^T
+  std::vector<Mat> D_;                    // by constraint
+  std::vector<Vec> u_, du_, p_, best_p_;  // by constraint
+  std::vector<double> f_, dv_, delta_;    // by velocity
+  std::vector<Island> islands_;
+  std::size_t island_count_ = 0;
+  std::vector<int> root_, island_of_;  // by tree
+  std::vector<char> solve_again_;      // by tree, that of its island's first tree
+  std::vector<std::size_t> row_;       // by tree: its first row in matrix_
+  std::vector<int> neighbour_begin_, neighbours_, order_, lowest_;
+  std::vector<double> rhs_, DJ_;
+  double rho_ratio_ = 0;  // rho / rho0 of the island that is being solved
+  EnvelopeLu matrix_;
+  // of impulse_interior.cpp, by constraint
+  int cones_ = 0;
+  std::vector<ConeVec> x_, z_, dx_, dz_, d_, r_z_, kept_;
+  std::vector<std::array<double, 2>> lift_;
+  std::vector<ConeScaling> scaling_;
+  std::vector<double> step_rhs_;
+};
+
+}  // namespace twinarm
