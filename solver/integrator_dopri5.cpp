@@ -91,6 +91,8 @@ void Dopri5::accept(Mechanism& m, double t) {
     m.dynamics.settle(m.x);
     m.refresh();
     m.accelerate();
+  } else {
+    m.start_projection();
   }
   rk_.first_stage(m);
 }

@@ -1,0 +1,97 @@
+#include "solver/loop_projection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/integrator.h"
+#include "solver/mimic.h"
+
+namespace twinarm {
+namespace {
+
+constexpr int kMaxIterations = 20;
+constexpr double kRounding = 2e-15;  // of 1 m or rad, and of the largest velocity
+
+double largest(const Eigen::VectorXd& v) {
+  return v.size() == 0 ? 0 : v.lpNorm<Eigen::Infinity>();
+}
+
+}  // namespace
+
+void LoopProjection::start(const BilateralForces& prepared, const std::vector<std::size_t>& held,
+                           const State<double>& x, const Kinematics& k,
+                           Workspace<double>& w) noexcept {
+  forces_.take_factors(prepared);
+  if (held.empty()) return;
+  forces_.loops().evaluate(x, k);
+  forces_.prepare(w, held);
+}
+
+struct LoopProjection::At {
+  const std::vector<std::size_t>& held;
+  State<double>& x;
+  Kinematics& k;
+  Workspace<double>& w;
+};
+
+// size(): what is to become zero. move(): one correction. restore(): takes it back.
+template <class Size, class Move, class Restore>
+void LoopProjection::iterate(const At& at, double rounding, Size&& size, Move&& move,
+                             Restore&& restore) {
+  const auto look = [&] {
+    forward_kinematics(*model_, at.x, at.k);
+    forces_.loops().evaluate(at.x, at.k);
+  };
+  double open = size();
+  bool fresh = false;
+  for (int n = 0; n < kMaxIterations && open > rounding; ++n) {
+    move();
+    look();
+    const double then = size();
+    if (then < 0.5 * open) {
+      open = then;
+      continue;
+    }
+    if (open <= kClosed && then <= open) return;
+    restore();
+    look();
+    if (fresh || open <= kClosed) return;
+    // Rows of a loop that is open by some angle are known to that angle, their squares in G to its
+    // square.
+    forces_.prepare(at.w, at.held, std::max(LoopFactors::kDependent, open * open));
+    fresh = true;
+  }
+}
+
+double LoopProjection::operator()(const std::vector<std::size_t>& held, State<double>& x,
+                                  Kinematics& k, Workspace<double>& w) noexcept {
+  LoopClosures& loops = forces_.loops();
+  loops.evaluate(x, k);
+  if (held != forces_.held()) forces_.prepare(w, held);
+  const At at{held, x, k, w};
+
+  iterate(
+      at, kRounding, [&] { return largest(loops.g()); },
+      [&] {
+        q_before_ = x.q;
+        forces_.correction(loops.g(), shift_);
+        integrate_coordinates(*model_, x.q, shift_, x.q);
+        apply_mimics(*model_, x);
+      },
+      [&] { x.q = q_before_; });
+  double fastest = 1;
+  for (const double v : x.qd) fastest = std::max(fastest, std::abs(v));
+  iterate(
+      at, kRounding * fastest, [&] { return largest(loops.rate()); },
+      [&] {
+        qd_before_ = x.qd;
+        forces_.correction(loops.rate(), shift_);
+        for (std::size_t d = 0; d < model_->nv; ++d) x.qd[d] += shift_[d];
+        for (const std::size_t d : held) x.qd[d] = 0;
+        apply_mimics(*model_, x);
+      },
+      [&] { x.qd = qd_before_; });
+  return largest(loops.g());
+}
+
+}  // namespace twinarm
