@@ -16,6 +16,10 @@ double largest(const Eigen::VectorXd& v) {
   return v.size() == 0 ? 0 : v.lpNorm<Eigen::Infinity>();
 }
 
+void add(const std::vector<double>& shift, double part, std::vector<double>& sum) {
+  for (std::size_t d = 0; d < sum.size(); ++d) sum[d] += part * shift[d];
+}
+
 }  // namespace
 
 void LoopProjection::start(const BilateralForces& prepared, const std::vector<std::size_t>& held,
@@ -67,6 +71,8 @@ double LoopProjection::operator()(const std::vector<std::size_t>& held, State<do
                                   Kinematics& k, Workspace<double>& w) noexcept {
   LoopClosures& loops = forces_.loops();
   loops.evaluate(x, k);
+  std::fill(moved_q_.begin(), moved_q_.end(), 0);
+  std::fill(moved_qd_.begin(), moved_qd_.end(), 0);
   if (held != forces_.held()) forces_.prepare(w, held);
   const At at{held, x, k, w};
 
@@ -77,8 +83,12 @@ double LoopProjection::operator()(const std::vector<std::size_t>& held, State<do
         forces_.correction(loops.g(), shift_);
         integrate_coordinates(*model_, x.q, shift_, x.q);
         apply_mimics(*model_, x);
+        add(shift_, 1, moved_q_);
       },
-      [&] { x.q = q_before_; });
+      [&] {
+        x.q = q_before_;
+        add(shift_, -1, moved_q_);
+      });
   double fastest = 1;
   for (const double v : x.qd) fastest = std::max(fastest, std::abs(v));
   iterate(
@@ -86,11 +96,15 @@ double LoopProjection::operator()(const std::vector<std::size_t>& held, State<do
       [&] {
         qd_before_ = x.qd;
         forces_.correction(loops.rate(), shift_);
-        for (std::size_t d = 0; d < model_->nv; ++d) x.qd[d] += shift_[d];
+        add(shift_, 1, x.qd);
         for (const std::size_t d : held) x.qd[d] = 0;
         apply_mimics(*model_, x);
+        add(shift_, 1, moved_qd_);
       },
-      [&] { x.qd = qd_before_; });
+      [&] {
+        x.qd = qd_before_;
+        add(shift_, -1, moved_qd_);
+      });
   return largest(loops.g());
 }
 

@@ -34,7 +34,9 @@ class LoopProjection {
         forces_(model),
         q_before_(model.nq),
         qd_before_(model.nv),
-        shift_(model.nv) {}
+        shift_(model.nv),
+        moved_q_(model.nv),
+        moved_qd_(model.nv) {}
   void set_loops(LoopClosures loops) { forces_.set_loops(std::move(loops)); }
 
   // The step starts at x, where `prepared` was; `held` velocities stay as they are.
@@ -44,6 +46,10 @@ class LoopProjection {
   // are others than at the start. Returns how far open the widest loop is left, in any row of g.
   double operator()(const std::vector<std::size_t>& held, State<double>& x, Kinematics& k,
                     Workspace<double>& w) noexcept;
+  // By how much the last call did so, by velocity: the part of an integrator's error that it
+  // mended.
+  const std::vector<double>& moved_q() const { return moved_q_; }
+  const std::vector<double>& moved_qd() const { return moved_qd_; }
 
  private:
   struct At;
@@ -52,7 +58,7 @@ class LoopProjection {
 
   const Model<double>* model_;
   BilateralForces forces_;
-  std::vector<double> q_before_, qd_before_, shift_;
+  std::vector<double> q_before_, qd_before_, shift_, moved_q_, moved_qd_;
 };
 
 }  // namespace twinarm
