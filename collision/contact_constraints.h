@@ -15,6 +15,7 @@
 
 #include "collision/collision_world.h"
 #include "solver/constraint_source.h"
+#include "solver/integrator_rewind.h"
 
 namespace twinarm {
 
@@ -49,7 +50,7 @@ struct ContactPoint {
   double normal_velocity = 0;           // at the end of the step, opening [m/s]
 };
 
-class ContactConstraints final : public ConstraintSource {
+class ContactConstraints final : public ConstraintSource, public Rewindable {
  public:
   ContactConstraints(const Model<double>& model, ContactResponse response);
 
@@ -68,6 +69,9 @@ class ContactConstraints final : public ConstraintSource {
   void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
   void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
             std::size_t first) noexcept override;
+
+  void keep() override { kept_ = points_; }
+  void go_back() override { points_ = kept_; }
 
   const std::vector<ContactPoint>& points() const { return points_; }
   // Work of the last step on the bodies [J]: by the normal forces, by friction, by impacts.
@@ -106,7 +110,7 @@ class ContactConstraints final : public ConstraintSource {
   std::vector<Pose> X_WG_;
   std::vector<double> reach_;
   std::vector<Contact> contacts_;
-  std::vector<ContactPoint> points_, last_;  // sorted by (a, b, feature)
+  std::vector<ContactPoint> points_, last_, kept_;  // sorted by (a, b, feature)
   std::vector<double> gap_after_;
   std::vector<char> closing_;
   std::vector<Part> parts_;

@@ -71,7 +71,7 @@ void ConstrainedStep::resolve_impacts(Mechanism& m, double h) {
       trees_.add_to(problem_, nullptr, m.w);
       trees_.gather(m.x.qd, problem_);
       add_sources(frame);
-      add_mimics();
+      add_bilateral(m, frame.phase);
       report_.impact = solver_.solve(problem_);
     };
     solve(false);
@@ -133,6 +133,10 @@ void ConstrainedStep::accelerate(Mechanism& m, double h) {
     if (friction_on_) m.forces.armature[dof] += h * model_->damping[dof];
   }
   aba(*model_, m.x, m.forces, m.w);
+  if (!m.has_loops()) return;
+  m.dynamics.bilateral().loops().evaluate(m.x, m.k);
+  m.dynamics.bilateral().prepare(m.w);
+  m.start_projection();
 }
 
 void ConstrainedStep::resolve_step(Mechanism& m, double h) {
@@ -145,7 +149,7 @@ void ConstrainedStep::resolve_step(Mechanism& m, double h) {
   add_sources(frame);
   const std::size_t friction = problem_.constraints().size();
   add_joint_friction(m, h);
-  add_mimics();
+  add_bilateral(m, frame.phase);
   std::fill(constraint_.begin(), constraint_.end(), 0);
   std::fill(coulomb_.begin(), coulomb_.end(), 0);
   if (problem_.constraints().empty()) return;
@@ -169,6 +173,9 @@ void ConstrainedStep::resolve_step(Mechanism& m, double h) {
     }
   for (std::size_t i = 0; i < mimic_guess_.size(); ++i)
     mimic_guess_[i] = problem_.constraints()[next++].p[0];
+  for (std::size_t row = 0; row < loop_guess_.size(); ++next)
+    for (int r = 0; r < problem_.constraints()[next].rows; ++r)
+      loop_guess_[row++] = problem_.constraints()[next].p[static_cast<std::size_t>(r)];
   aba(*model_, m.x, m.forces, m.w);
   if (friction_on_)
     for (std::size_t dof = 0; dof < model_->nv; ++dof)
@@ -199,6 +206,44 @@ void ConstrainedStep::add_mimics() {
   }
 }
 
+void ConstrainedStep::add_bilateral(Mechanism& m, Phase phase) {
+  add_mimics();
+  if (m.has_loops()) add_loops(m, phase);
+}
+
+// g' = 0; what is left of g = 0 is for Mechanism::refresh().
+void ConstrainedStep::add_loops(Mechanism& m, Phase phase) {
+  LoopClosures& loops = m.dynamics.bilateral().loops();
+  loops.evaluate(m.x, m.k);
+  loop_guess_.resize(loops.rows());
+  for (std::size_t row = 0, count = 0; row < loops.rows(); row += count) {
+    for (count = 1; count < 3 && row + count < loops.rows() &&
+                    loops.loop_of(row + count) == loops.loop_of(row);)
+      ++count;
+    const std::vector<std::size_t>& dofs = loops.dofs_of(row);
+    int a = ImpulseConstraint::no_tree, b = ImpulseConstraint::no_tree;
+    for (const std::size_t dof : dofs) {
+      const int tree = trees_.tree_of_dof(dof);
+      if (a == ImpulseConstraint::no_tree) a = tree;
+      if (tree != a) b = tree;
+    }
+    ImpulseConstraint& c = problem_.add(ImpulseLaw::equal, static_cast<int>(count), a, b);
+    for (std::size_t r = 0; r < count; ++r) {
+      const auto from = static_cast<Eigen::Index>(row + r);
+      c.b[r] = phase == Phase::separate ? 0 : loops.rate()[from];
+      if (phase == Phase::step) c.p[r] = loop_guess_[row + r];
+      for (const std::size_t dof : dofs) {
+        const double entry = loops.J()(from, static_cast<Eigen::Index>(dof));
+        const int tree = trees_.tree_of_dof(dof);
+        const std::size_t n = static_cast<std::size_t>(problem_.size(tree));
+        problem_.J(c, tree == a ? 0 : 1)[r * n + trees_.place(dof)] = entry;
+        // what prescribed joints do is in g' and not in J qd
+        if (phase != Phase::separate) c.b[r] -= entry * m.x.qd[dof];
+      }
+    }
+  }
+}
+
 void ConstrainedStep::separate(Mechanism& m, double h) {
   bool wanted = false;
   for (const ConstraintSource* source : sources_) wanted = source->wants_separation() || wanted;
@@ -207,7 +252,7 @@ void ConstrainedStep::separate(Mechanism& m, double h) {
   trees_.add_to(problem_, nullptr, m.w);
   const ConstraintFrame frame{m.k, trees_, m.x, Phase::separate, h};
   add_sources(frame);
-  add_mimics();
+  add_bilateral(m, frame.phase);
   solver_.solve(problem_);
   trees_.scatter(problem_, shift_);
   integrate_coordinates(*model_, m.x.q, shift_, m.x.q);

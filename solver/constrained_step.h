@@ -37,6 +37,7 @@ class ConstrainedStep {
   explicit ConstrainedStep(const Model<double>& model);
   void add(ConstraintSource& source) { sources_.push_back(&source); }
   bool any() const { return !sources_.empty(); }
+  const std::vector<ConstraintSource*>& sources() const { return sources_; }
   void set_friction(bool on) { friction_on_ = on; }  // damping and Coulomb friction of joints
 
   // From m.x, whose m.k is up to date, and after m.begin_step(h): to the end of the step.
@@ -58,6 +59,8 @@ class ConstrainedStep {
   void hand_out(const ConstraintFrame& frame);
   void add_joint_friction(const Mechanism& m, double h);
   void add_mimics();
+  void add_loops(Mechanism& m, Phase phase);
+  void add_bilateral(Mechanism& m, Phase phase);  // both
   double kinetic_energy(const double* v) const;
   double bounce(std::vector<double>& before);
 
@@ -70,7 +73,7 @@ class ConstrainedStep {
   ConstraintReport report_;
   bool friction_on_ = true;
   std::vector<double> damping_, coulomb_, constraint_, shift_;
-  std::vector<double> friction_guess_, mimic_guess_, before_, plastic_, sum_;
+  std::vector<double> friction_guess_, mimic_guess_, loop_guess_, plastic_, sum_;
 };
 
 }  // namespace twinarm

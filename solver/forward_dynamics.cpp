@@ -11,6 +11,10 @@ namespace {
 
 using Mode = ForwardDynamics::Mode;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+// Where a loop couples dofs that both rub, only a sum of their frictions is determined. A part of
+// the diagonal of B this large makes the problem definite, and shares it out by the least squares;
+// what is held then creeps by as little, and is stopped exactly (make_exact, settle).
+constexpr double kSharing = 1e-10;
 
 Mode mode_of(double v) {
   return v > 0 ? Mode::slides_plus : v < 0 ? Mode::slides_minus : Mode::held;
@@ -21,7 +25,7 @@ Mode mode_of(double v) {
 ForwardDynamics::ForwardDynamics(const Model<double>& model)
     : model_(&model),
       friction_(model),
-      mimics_(model),
+      bilateral_(model),
       mode_(friction_.families().size(), Mode::held),
       f_(mode_.size()),
       f0_(mode_.size()),
@@ -34,10 +38,12 @@ ForwardDynamics::ForwardDynamics(const Model<double>& model)
       damping_(model.nv),
       coulomb_(model.nv),
       mimic_force_(model.nv),
+      loop_force_(model.nv),
       b_(model.nv),
       no_forces_(model.parent.size()) {
   for (const double b : model.damping) has_damping_ = has_damping_ || b != 0;
   unknown_.reserve(mode_.size());
+  at_rest_.reserve(mode_.size());
 }
 
 void ForwardDynamics::set_friction(bool on) {
@@ -68,19 +74,30 @@ void ForwardDynamics::settle(State<double>& x) const {
   }
 }
 
+const std::vector<std::size_t>& ForwardDynamics::at_rest(const State<double>& x) noexcept {
+  at_rest_.clear();
+  if (has_coulomb())
+    for (std::size_t k = 0; k < mode_.size(); ++k)
+      if (mode_[k] == Mode::held && x.qd[families()[k].dof] == 0)
+        at_rest_.push_back(families()[k].dof);
+  return at_rest_;
+}
+
 void ForwardDynamics::run(const State<double>& x, double h, Rule rule, Forces<double>& forces,
                           Workspace<double>& w) noexcept {
   const bool any_friction = friction_on_ && (has_damping_ || has_coulomb());
-  if (!any_friction && !mimics_.any()) return aba(*model_, x, forces, w);
+  if (!any_friction && !bilateral_.any()) return aba(*model_, x, forces, w);
 
   known_torques(x, h, rule, forces);
   std::swap(forces.tau, tau_), std::swap(forces.armature, armature_);
   aba(*model_, x, forces, w);
   std::swap(forces.tau, tau_), std::swap(forces.armature, armature_);
 
-  if (mimics_.any()) mimics_.prepare(w);
   a_ = w.qdd;
-  mimics_.project(a_);
+  if (bilateral_.any()) {
+    bilateral_.prepare(w);
+    bilateral_.project_acceleration(a_);
+  }
   if (has_coulomb()) find_unknown(x, h, rule, w);
   correct(w);
   make_exact(h, w);
@@ -161,7 +178,8 @@ void ForwardDynamics::add_unknown(std::size_t family, Rule rule, Workspace<doubl
   std::fill(b_.begin(), b_.end(), 0);
   b_[of.dof] = 1;
   minv_times(*model_, b_, no_forces_, w);
-  mimics_.project(w.y);
+  const double alone = w.y[of.dof];
+  if (bilateral_.any()) bilateral_.project(w.y);
   const std::size_t r = unknown_.size();
   unknown_.push_back(family);
   is_unknown_[family] = 1;
@@ -172,6 +190,7 @@ void ForwardDynamics::add_unknown(std::size_t family, Rule rule, Workspace<doubl
   box_.rows.push_back(row);
   for (std::size_t s = 0; s <= r; ++s)
     box_.B(r, s) = box_.B(s, r) = B_[unknown_[s] * mode_.size() + r];
+  if (bilateral_.loops().any()) box_.B(r, r) += kSharing * alone;
 }
 
 // What is zero, or a follower's, but for rounding; so that what is held does not creep.
@@ -182,11 +201,11 @@ void ForwardDynamics::make_exact(double h, Workspace<double>& w) const {
   for (const Mimic& m : model_->mimics) w.qdd[m.follower] = m.ratio * w.qdd[m.leader];
 }
 
-// Adds what the friction found and the followers' forces do to what ABA left.
+// Adds what the friction found and the constraints' forces do to what ABA left.
 void ForwardDynamics::correct(Workspace<double>& w) {
   for (std::size_t d = 0; d < model_->nv; ++d) b_[d] = -coulomb_[d];
   std::fill(coulomb_.begin(), coulomb_.end(), 0);
-  bool changed = mimics_.any();
+  bool changed = bilateral_.any();
   if (has_coulomb())
     for (std::size_t k = 0; k < mode_.size(); ++k) {
       friction_.distribute(k, f_[k], coulomb_);
@@ -194,11 +213,13 @@ void ForwardDynamics::correct(Workspace<double>& w) {
     }
   if (!changed) return;
   for (std::size_t d = 0; d < model_->nv; ++d) b_[d] += coulomb_[d];
-  if (mimics_.any()) {
-    mimics_.solve(w.qdd, b_);
+  if (bilateral_.any()) {
+    bilateral_.solve(w.qdd, b_);
     std::fill(mimic_force_.begin(), mimic_force_.end(), 0);
-    mimics_.add_forces(mimic_force_);
-    for (std::size_t d = 0; d < model_->nv; ++d) b_[d] += mimic_force_[d];
+    std::fill(loop_force_.begin(), loop_force_.end(), 0);
+    bilateral_.add_mimic_forces(mimic_force_);
+    bilateral_.add_loop_forces(loop_force_);
+    for (std::size_t d = 0; d < model_->nv; ++d) b_[d] += mimic_force_[d] + loop_force_[d];
   }
   minv_times(*model_, b_, no_forces_, w);
   for (std::size_t d = 0; d < model_->nv; ++d) w.qdd[d] += w.y[d];

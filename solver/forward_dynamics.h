@@ -1,10 +1,12 @@
-// Forward dynamics of all that a Model says: ABA, its joints' friction, and its mimic joints.
+// Forward dynamics of all that a Model says, and of closed loops: ABA, the joints' friction, mimic
+// joints, loop closures.
 //
-//   M qdd = tau - h - b qd + f + A^T lambda,   A qdd = 0,
-// f the Coulomb friction (joint_friction.h), lambda what keeps followers to their leaders
-// (mimic.h). One run of ABA with all friction that is known beforehand, minv_times once for every
-// follower and every dof whose friction is to be found, and once for the correction; a model with
-// neither friction nor mimics costs ABA alone. No allocation after the constructor.
+//   M qdd = tau - h - b qd + f + A^T lambda,   A qdd = -gamma,
+// f the Coulomb friction (joint_friction.h), lambda what keeps followers to their leaders and loops
+// closed (loop_forces.h). One run of ABA with all friction that is known beforehand, minv_times
+// once for every row of A and every dof whose friction is to be found, and once for the correction;
+// a model with neither friction nor constraints costs ABA alone. No allocation after the
+// constructor and set_loops.
 //
 // Where velocity and time come in, there are three rules for f:
 //   now          by qd; a dof at rest sticks, or slips from rest by a qdd != 0
@@ -16,10 +18,11 @@
 //                when the limit is passed (solver/integrator_events.h ends the step there).
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "solver/joint_friction.h"
-#include "solver/mimic.h"
+#include "solver/loop_forces.h"
 #include "solver/model.h"
 #include "solver/workspace.h"
 
@@ -31,7 +34,9 @@ class ForwardDynamics {
   explicit ForwardDynamics(const Model<double>& model);
   // Off: as if no joint had damping or Coulomb friction.
   void set_friction(bool on);
+  void set_loops(LoopClosures loops) { bilateral_.set_loops(std::move(loops)); }
 
+  // Where there are loops: bilateral().loops().evaluate() at x comes first.
   // After each of these w.qdd and w.a are the true accelerations; w.u and w.pA are those of ABA
   // with the friction that is known beforehand. `forces` is lent, and given back as it was.
   void operator()(const State<double>& x, Forces<double>& forces, Workspace<double>& w) noexcept {
@@ -49,6 +54,11 @@ class ForwardDynamics {
   const std::vector<double>& damping_torque() const { return damping_; }
   const std::vector<double>& coulomb_torque() const { return coulomb_; }
   const std::vector<double>& mimic_force() const { return mimic_force_; }
+  const std::vector<double>& loop_force() const { return loop_force_; }
+  // lambda of the loops' rows, which LoopClosures::wrench() takes. Allocates.
+  Eigen::VectorXd loop_lambda() const { return bilateral_.lambda_of_loops(); }
+  const BilateralForces& bilateral() const { return bilateral_; }
+  BilateralForces& bilateral() { return bilateral_; }
 
   // What the last call of the first two found, or as chosen.
   enum class Mode : signed char { slides_minus = -1, held = 0, slides_plus = 1 };
@@ -59,6 +69,8 @@ class ForwardDynamics {
   // How far the held dofs are from slipping, least of all of them, as a part of the whole width of
   // their limits; negative where one should slip. 1 where none is held.
   double slack() const;
+  // The dofs that follow nobody, are at rest, and are held by the last call.
+  const std::vector<std::size_t>& at_rest(const State<double>& x) noexcept;
   // Stops what the last call holds, and what slides against its mode, exactly.
   void settle(State<double>& x) const;
 
@@ -77,7 +89,7 @@ class ForwardDynamics {
   bool has_damping_ = false;
   bool friction_on_ = true;
   CoulombFriction friction_;
-  MimicForces mimics_;
+  BilateralForces bilateral_;
   std::vector<Mode> mode_;      // by family
   std::vector<double> f_, f0_;  // by family: Coulomb friction, and what ABA was given of it
   BoxProblem box_;              // of the families in unknown_, for f - f0
@@ -86,7 +98,8 @@ class ForwardDynamics {
   std::vector<double> B_;  // by family, by unknown: qdd of the one per friction of the other
   std::vector<double> a_;  // by velocity: qdd with the friction that ABA was given
   std::vector<double> tau_, armature_;  // by velocity: what ABA gets in place of forces'
-  std::vector<double> damping_, coulomb_, mimic_force_, b_;
+  std::vector<double> damping_, coulomb_, mimic_force_, loop_force_, b_;
+  std::vector<std::size_t> at_rest_;
   std::vector<Force<double>> no_forces_;
 };
 

@@ -91,6 +91,8 @@ void Dopri5::accept(Mechanism& m, double t) {
     m.dynamics.settle(m.x);
     m.refresh();
     m.accelerate();
+  } else {
+    m.start_projection();
   }
   rk_.first_stage(m);
 }
@@ -105,6 +107,9 @@ double Dopri5::error(const Mechanism& m, double h) {
     const double change = h * rk_.qdd_sum(kErrorWeights, stages, i);
     err = largest(err, scaled(shift, size_[i], size_new_[i]));
     err = largest(err, scaled(change, m.x.qd[i], m.stage.qd[i]));
+    if (!m.has_loops()) continue;  // else the last stage was moved: that was an error too
+    err = largest(err, scaled(m.projection.moved_q()[i], size_[i], size_new_[i]));
+    err = largest(err, scaled(m.projection.moved_qd()[i], m.x.qd[i], m.stage.qd[i]));
   }
   return err;
 }

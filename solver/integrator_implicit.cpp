@@ -62,6 +62,7 @@ void ImplicitStep::prepare(Mechanism& m, Integrator integrator, double h) {
   t_u_ = m.x.t + (integrator == Integrator::implicit_midpoint ? h / 2 : h);
   u_ = m.x.qd;
   known_ = m.x.qd;
+  m.prepare_projection();
   if (integrator != Integrator::trapezoid) return;
   m.accelerate();
   for (std::size_t i = 0; i < known_.size(); ++i) known_[i] += h / 2 * m.w.qdd[i];

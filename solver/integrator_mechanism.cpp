@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "solver/dynamics.h"
+#include "solver/loop_faults.h"
 #include "solver/mimic.h"
 
 namespace twinarm {
@@ -34,7 +36,8 @@ Mechanism::Mechanism(const Model<double>& model_of, State<double> start)
       k_stage(model),
       w(model),
       forces(model),
-      dynamics(model) {
+      dynamics(model),
+      projection(model) {
   refresh();
 }
 
@@ -47,11 +50,43 @@ void Mechanism::refresh() {
   apply_mimics(model, x);
   place(x);
   forward_kinematics(model, x, k);
+  loops_open = close(x, k);
+}
+
+double Mechanism::close(State<double>& at, Kinematics& k_at) {
+  return has_loops() ? projection(dynamics.at_rest(at), at, k_at, w) : 0;
+}
+
+void Mechanism::start(State<double> from) {
+  apply_mimics(model, from);
+  place(from);
+  if (has_loops()) check_loops(model, dynamics.bilateral().loops().loops(), from);
+  x = std::move(from);
+  forward_kinematics(model, x, k);
+  prepare_projection();
+  refresh();
+}
+
+void Mechanism::set_loops(LoopClosures loops) {
+  projection.set_loops(loops);
+  dynamics.set_loops(std::move(loops));
+  prepare_projection();
+  refresh();
+}
+
+void Mechanism::prepare_projection() {
+  if (!has_loops()) return;
+  dynamics.bilateral().loops().evaluate(x, k);
+  forces.clear();
+  aba(model, x, forces, w);
+  dynamics.bilateral().prepare(w);
+  start_projection();
 }
 
 void Mechanism::accelerate_stage() {
   place(stage);
   forward_kinematics(model, stage, k_stage);
+  close(stage, k_stage);
   accelerate(stage, k_stage, Friction::as_chosen, 0);
 }
 
@@ -63,6 +98,7 @@ void Mechanism::accelerate_end(double t) {
 
 void Mechanism::accelerate(const State<double>& at, const Kinematics& k_at, Friction rule,
                            double h) {
+  if (has_loops()) dynamics.bilateral().loops().evaluate(at, k_at);
   forces.clear();
   for (ForceSource* source : sources) source->add_forces(at, k_at, forces);
   switch (rule) {

@@ -8,6 +8,7 @@
 #include "solver/force_source.h"
 #include "solver/forward_dynamics.h"
 #include "solver/kinematics.h"
+#include "solver/loop_projection.h"
 #include "solver/model.h"
 #include "solver/pose.h"
 #include "solver/workspace.h"
@@ -39,7 +40,9 @@ struct Mechanism {
   Kinematics k_stage;
   Workspace<double> w;       // of the last acceleration
   Forces<double> forces;     // likewise
-  ForwardDynamics dynamics;  // likewise: friction and followers' forces
+  ForwardDynamics dynamics;  // likewise: friction, followers' and loops' forces
+  LoopProjection projection;
+  double loops_open = 0;  // at x: the largest row of g that refresh() left
   std::vector<ForceSource*> sources;
   struct Drive {
     std::size_t body;
@@ -51,20 +54,38 @@ struct Mechanism {
     for (ForceSource* source : sources) source->begin_step(k, x.t, h);
   }
   // w.qdd at x, whose k is up to date; Coulomb friction `now` (forward_dynamics.h).
-  void accelerate() { accelerate(x, k, Friction::now, 0); }
+  void accelerate() {
+    accelerate(x, k, Friction::now, 0);
+    start_projection();
+  }
   // The same over a step of h that changes velocities by h qdd: friction at the end of it.
-  void accelerate_over(double h) { accelerate(x, k, Friction::end_of_step, h); }
+  void accelerate_over(double h) {
+    accelerate(x, k, Friction::end_of_step, h);
+    start_projection();
+  }
   // At the stage, and at x where a trial of the step ends: friction as chosen by accelerate(). The
   // drives and kinematics are set first.
   void accelerate_stage();
   void accelerate_end(double t);
-  // Followers to their leaders, drives to where their laws say at x.t, then k.
+  // Followers to their leaders, drives to where their laws say at x.t, loops closed; then k.
   void refresh();
+  // At another state. Throws InputError where loops are open there by more than a small rest.
+  void start(State<double> from);
+  void set_loops(LoopClosures loops);  // closed where the mechanism stands; their rest goes
+  // Loops are projected along the M and J of the last acceleration at x (loop_projection.h). Where
+  // none was asked for, prepare_projection() finds them; where the last stage became x,
+  // start_projection() takes its.
+  void prepare_projection();
+  void start_projection() {
+    if (has_loops()) projection.start(dynamics.bilateral(), dynamics.at_rest(x), x, k, w);
+  }
+  bool has_loops() const { return dynamics.bilateral().loops().any(); }
 
  private:
   enum class Friction { now, end_of_step, as_chosen };
   void accelerate(const State<double>& at, const Kinematics& k_at, Friction rule, double h);
   void place(State<double>& at) const;
+  double close(State<double>& at, Kinematics& k_at);
 };
 
 }  // namespace twinarm

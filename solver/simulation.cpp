@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "solver/loop_faults.h"
 #include "solver/mimic.h"
 
 namespace twinarm {
@@ -39,6 +40,12 @@ void Simulation::add(ConstraintSource& source) {
   constrained_.add(source);
 }
 
+void Simulation::set_loops(std::vector<LoopClosure> loops) {
+  check_loops(model(), loops, m_.x);
+  m_.set_loops(LoopClosures(model(), std::move(loops)));
+  dopri5_.forget();
+}
+
 void Simulation::set_integrator(Integrator integrator) {
   if (constrained_.any() && integrator != Integrator::semi_implicit)
     throw std::invalid_argument("contacts and limits go with the integrator 'semi-implicit' only");
@@ -59,17 +66,22 @@ void Simulation::prescribe(int body, MotionLaw law) {
   const auto i = static_cast<std::size_t>(body);
   if (body <= 0 || body >= model().body_count() || model().joint[i] != JointType::prescribed)
     throw std::invalid_argument("only the body of a prescribed joint moves by a law");
+  const std::vector<Mechanism::Drive> before = m_.drives;
   std::erase_if(m_.drives, [&](const Mechanism::Drive& drive) { return drive.body == i; });
   m_.drives.push_back({i, std::move(law)});
-  m_.refresh();
+  try {
+    m_.start(m_.x);
+  } catch (...) {
+    m_.drives = before;
+    throw;
+  }
   dopri5_.forget();
 }
 
 void Simulation::set_state(State<double> x) {
   if (x.q.size() != model().nq || x.qd.size() != model().nv)
     throw std::invalid_argument("the state is not one of this model");
-  m_.x = std::move(x);
-  m_.refresh();
+  m_.start(std::move(x));
   dopri5_.forget();
 }
 
@@ -88,6 +100,11 @@ State<double> Simulation::side_step(double h, StepReport* report) const {
     if (!memories.back())
       throw std::invalid_argument("a source of forces does not let a step be taken back");
   }
+  for (ConstraintSource* source : constrained_.sources()) {
+    memories.push_back(dynamic_cast<Rewindable*>(source));
+    if (!memories.back())
+      throw std::invalid_argument("a source of constraints does not let a step be taken back");
+  }
   for (Rewindable* memory : memories) memory->keep();
   Simulation aside(*this);
   const StepReport taken = aside.step(h);
@@ -100,6 +117,7 @@ StepReport Simulation::advance(double h, bool one_substep) {
   StepReport report;
   const double t = m_.x.t;
   if (integrator_ == Integrator::semi_implicit_xv) {  // its sources act at the new coordinates
+    m_.prepare_projection();
     drift(m_, shift_, h);
     m_.x.t = t + h;
     m_.refresh();
@@ -129,6 +147,7 @@ StepReport Simulation::advance(double h, bool one_substep) {
   if (integrator_ != Integrator::dopri5) m_.x.t = t + h;
   m_.refresh();
   report.h = m_.x.t - t;
+  report.loops_open = m_.loops_open;
   look_for_bad_numbers(report);
   return report;
 }

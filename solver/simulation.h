@@ -1,7 +1,7 @@
 // One step, in the order that the data flows:
 //
 //   kinematics -> sources (targets, contacts, forces) -> ABA (+ implicit terms, joint friction,
-//   mimics) -> integrate -> report
+//   mimics, loops) -> integrate -> report
 //
 // step() never throws and never allocates. The same inputs give the same bits.
 #pragma once
@@ -31,6 +31,11 @@ class Simulation {
   // Contacts, limits, locks: from now on a step is one of solver/constrained_step.h, which goes
   // with the semi-implicit integrator alone.
   void add(ConstraintSource& source);
+  // Bilateral constraints, in place of those before. Throws InputError with all faults; loops must
+  // be closed where the mechanism stands (close_loops in loop_assembly.h finds such a place).
+  // Velocities that they do not allow go to the nearest that they do, as in an impact. From then
+  // on set_state and prescribe throw likewise where they would open a loop.
+  void set_loops(std::vector<LoopClosure> loops);
   void set_integrator(Integrator integrator);
   void set_tolerance(double tolerance);  // of dopri5, relative and absolute
   // The prescribed joint that carries the body moves by this law, from now on.
@@ -57,7 +62,7 @@ class Simulation {
   const Kinematics& kinematics() const { return m_.k; }        // of state()
   const Workspace<double>& workspace() const { return m_.w; }  // of the last step's last ABA
   const Forces<double>& forces() const { return m_.forces; }   // likewise
-  // Friction and followers' forces, likewise.
+  // Friction, followers' and loops' forces, likewise.
   const ForwardDynamics& dynamics() const { return m_.dynamics; }
   // Where there are constraints: of the last step.
   const ConstrainedStep& constraints() const { return constrained_; }
