@@ -52,7 +52,7 @@ const std::vector<ManifoldPoint>& Manifold::between(const Placed& a, const Place
   // between two corners of its octagon, for one, is deeper.
   double deepest = -1e300;
   for (const ManifoldPoint& point : points_) deepest = std::max(deepest, point.depth);
-  if (deepest < axis.overlap - 1e-9) {
+  if (deepest < axis.overlap - 1e-10) {
     const Vector3 half = axis.n_W * (axis.overlap / 2);
     points_.push_back({p_W + half, p_W - half, axis.overlap, witness_name});
   }

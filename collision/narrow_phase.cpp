@@ -4,7 +4,7 @@
 //   2. polytopes with a radius: GJK distance of the cores by FCL, which is exact when they are
 //   apart;
 //      then all separating axes, which are exact when they overlap; the smaller overlap wins;
-//   3. cylinders: see cylinder_axis.h.
+//   3. cylinders and ellipsoids: see curved_axis.h.
 // Every direction, wherever it comes from, is judged by overlap(n) of the true shapes: an upper
 // bound of the depth for any n. So a wrong answer of FCL can cost optimality, never consistency,
 // and the difference between distance and bound (the duality gap) tells that it happened: then ask
@@ -41,10 +41,10 @@ bool NarrowPhase::nearest(const Placed& a, const Placed& b, double margin, Neare
     return pair.axis.overlap > -margin;
   }
   if (!a.solid.core.exists || !b.solid.core.exists) {
-    return cylinder_.nearest(a, b, margin, pair);
+    return curved_.nearest(a, b, margin, pair);
   }
   const double radii = radii_of(a, b);
-  const CoreDistance cores = distance_of(a, b, Core::whole);
+  const CoreDistance cores = distance_of(a, b);
   Axis best;  // of the cores, until the end
   if (cores.distance > gjk_floor) {
     best.n_W = (cores.p_WB - cores.p_WA).normalized();
@@ -74,13 +74,13 @@ void NarrowPhase::retry(const Placed& a, const Placed& b, NearestPair& pair) {
     if (better.overlap >= pair.axis.overlap) return;
     pair = {better, midway(a, b, better.n_W, 0.5 * (p_a + p_b))};
   };
-  const CoreDistance swapped = distance_of(b, a, Core::whole);
+  const CoreDistance swapped = distance_of(b, a);
   if (swapped.distance > gjk_floor) take(swapped.p_WB, swapped.p_WA);
   for (int k = 0; k < 4; ++k) {
     const Vector3 axis = Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, 0.3).normalized();
     Pose X_WA = a.X_WG;
     X_WA.R = Eigen::AngleAxisd(1e-7 * (k + 1), axis).toRotationMatrix() * X_WA.R;
-    const CoreDistance nudged = distance_of({a.solid, X_WA}, b, Core::whole);
+    const CoreDistance nudged = distance_of({a.solid, X_WA}, b);
     if (nudged.distance > gjk_floor) take(nudged.p_WA, nudged.p_WB);
   }
 }
@@ -89,7 +89,7 @@ NarrowPhase::Result NarrowPhase::contacts(const Placed& a, const Placed& b, doub
   if (is_half_space(a) || is_half_space(b)) {
     const bool a_is_ground = is_half_space(a);
     const Placed& ground = a_is_ground ? a : b;
-    half_space_contacts(ground, a_is_ground ? b : a, margin, feature_, half_space_points_);
+    half_space_contacts(ground, a_is_ground ? b : a, margin, half_space_points_);
     if (a_is_ground) return {outward_W(ground), &half_space_points_};
     for (ManifoldPoint& point : half_space_points_) std::swap(point.p_WA, point.p_WB);
     return {-outward_W(ground), &half_space_points_};
@@ -103,7 +103,7 @@ double NarrowPhase::distance(const Placed& a, const Placed& b) {
   if (is_half_space(a)) return half_space_distance(a, b);
   if (is_half_space(b)) return half_space_distance(b, a);
   if (!round_contact(a, b)) {
-    const CoreDistance cores = distance_of(a, b, Core::whole);
+    const CoreDistance cores = distance_of(a, b);
     if (cores.distance > gjk_floor) {
       const Vector3 n = (cores.p_WB - cores.p_WA).normalized();
       const double radii = radii_of(a, b);

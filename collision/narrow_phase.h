@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "collision/clip.h"
-#include "collision/cylinder_axis.h"
+#include "collision/curved_axis.h"
 #include "collision/manifold.h"
 #include "collision/round_contact.h"
 #include "collision/separating_axis.h"
@@ -35,9 +35,8 @@ class NarrowPhase {
   void retry(const Placed& a, const Placed& b, NearestPair& pair);
 
   SeparatingAxis separating_axis_;
-  CylinderAxis cylinder_;
+  CurvedAxis curved_;
   Manifold manifold_;
-  Feature feature_;
   std::vector<ManifoldPoint> half_space_points_;
 };
 

@@ -45,6 +45,7 @@ struct Make {
   Polytope operator()(const ConvexHull& hull) const { return with_edges(hull); }
   Polytope operator()(const Cylinder&) const { return none(); }
   Polytope operator()(const HalfSpace&) const { return none(); }
+  Polytope operator()(const Ellipsoid&) const { return none(); }
   static Polytope none() {
     Polytope p;
     p.exists = false;

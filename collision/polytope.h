@@ -1,6 +1,6 @@
 // Shapes as polytopes with a radius, which makes one exact narrow phase of most pairs:
 //   sphere = point + r, capsule = segment + r, box and hull = polyhedron + 0,
-// so that depth(A, B) = r_A + r_B - signed distance of the cores. A cylinder is none of these.
+// so that depth(A, B) = r_A + r_B - signed distance of the cores. Cylinders, ellipsoids: patch.h.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ struct Polytope {
   ConvexHull hull;  // of a point or a segment: vertices only
   std::vector<Edge> edges;
   double radius = 0;   // [m]
-  bool exists = true;  // false for cylinder and half-space
+  bool exists = true;  // false for curved shapes and half-spaces
 };
 
 Polytope make_polytope(const Shape& shape);

@@ -27,6 +27,11 @@ Vector3 support_of(const Cylinder& c, const Vector3& d) {
   return {k * d.x(), k * d.y(), std::copysign(c.length / 2, d.z())};
 }
 
+Vector3 support_of(const Ellipsoid& e, const Vector3& d) {
+  const Vector3 scaled = e.semi_axes.cwiseProduct(d);
+  return e.semi_axes.cwiseProduct(scaled) / scaled.norm();
+}
+
 Vector3 support_of(const HalfSpace& h, const Vector3& d) {
   if (d.normalized().dot(h.normal) > 1 - 1e-12) return h.offset * h.normal;
   return d * std::numeric_limits<double>::infinity();
@@ -64,6 +69,13 @@ struct Faults {
     }
     return "";
   }
+  std::string operator()(const Ellipsoid& e) const {
+    for (int i = 0; i < 3; ++i) {
+      const std::string fault = positive("semi-axis", e.semi_axes[i]);
+      if (!fault.empty()) return fault;
+    }
+    return "";
+  }
   std::string operator()(const Capsule& c) const { return round_fault(c.radius, c.length); }
   std::string operator()(const Cylinder& c) const { return round_fault(c.radius, c.length); }
   std::string operator()(const HalfSpace& h) const {
@@ -91,8 +103,8 @@ std::string shape_fault(const Shape& shape) {
 }
 
 std::string shape_name(const Shape& shape) {
-  static const char* const names[] = {"sphere",   "box",        "capsule",
-                                      "cylinder", "half-space", "convex hull"};
+  static const char* const names[] = {"sphere",     "box",         "capsule",  "cylinder",
+                                      "half-space", "convex hull", "ellipsoid"};
   return names[shape.index()];
 }
 

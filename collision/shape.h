@@ -26,12 +26,15 @@ struct Cylinder {
   double radius;  // [m]
   double length;  // [m], along z, centred
 };
+struct Ellipsoid {
+  Vector3 semi_axes;  // half the extents along the axes [m], centred
+};
 struct HalfSpace {
   Vector3 normal = Vector3::UnitZ();  // outward, unit
   double offset = 0;                  // solid where normal . x <= offset [m]
 };
 
-using Shape = std::variant<Sphere, Box, Capsule, Cylinder, HalfSpace, ConvexHull>;
+using Shape = std::variant<Sphere, Box, Capsule, Cylinder, HalfSpace, ConvexHull, Ellipsoid>;
 
 // The point of the shape that lies farthest along `direction` (any length but zero), in G.
 // h(d) = max over x of d . x is attained there. Box: 3 comparisons; hull: a scan of the vertices.

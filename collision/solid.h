@@ -2,6 +2,7 @@
 #pragma once
 
 #include "collision/fcl_query.h"
+#include "collision/patch.h"
 #include "collision/polytope.h"
 #include "collision/shape.h"
 #include "solver/pose.h"
@@ -9,9 +10,11 @@
 namespace twinarm {
 
 struct Solid {
-  explicit Solid(const Shape& s) : shape(s), core(make_polytope(s)), fcl(s, core) {}
+  explicit Solid(const Shape& s)
+      : shape(s), core(make_polytope(s)), patches(make_patches(s, core)), fcl(s, core) {}
   Shape shape;
   Polytope core;
+  Patches patches;
   FclShape fcl;
 };
 
