@@ -25,8 +25,8 @@ namespace {
 
 constexpr double prefer_flat = 1e-12;  // a flat wins over a direction this much better [m]
 constexpr double parallel = 1e-9;      // sine below which two lines have no common normal
-constexpr double same_valley = 0.95;   // cosine
-constexpr int deep_searches = 4;       // valleys that are followed where bodies overlap
+constexpr double same_valley = 0.999;  // cosine
+constexpr int deep_searches = 14;      // valleys that are followed where bodies overlap
 
 struct Range {
   Vector3 low, high;
@@ -151,7 +151,7 @@ void CurvedAxis::try_rounds_on_ridges(const Posed& rounds, const Posed& ridges, 
     for (std::size_t j = 0; j < ridges.ridges.size(); ++j) {
       const Vector3 c = side * (round.p - ridges.ridges[j].start);
       found_.clear();
-      minimise_on_circle({c, round.Q, Matrix3::Zero()}, ridges.along[j], found_);
+      minimise_on_circle({c, round.Q, Matrix3::Zero()}, ridges.along[j], overlaps_, found_);
       for (const Vector3& n : found_) offer_round(n, round, rounds_are_a);
     }
   }

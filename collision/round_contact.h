@@ -8,7 +8,7 @@
 namespace twinarm {
 
 struct NearestPair {
-  Axis axis;    // exact normal from A to B; the overlap includes the radii
+  Axis axis;                      // exact normal from A to B; the overlap includes the radii
   Vector3 p_W = Vector3::Zero();  // midway between the two surfaces
 };
 

@@ -105,7 +105,8 @@ Vector3 minimise_on_sphere(const SupportSum& f, const Vector3& start) {
   return n;
 }
 
-void minimise_on_circle(const SupportSum& f, const Vector3& axis, std::vector<Vector3>& out) {
+void minimise_on_circle(const SupportSum& f, const Vector3& axis, bool is_deep,
+                        std::vector<Vector3>& out) {
   const Vector3 u = axis.unitOrthogonal(), w = axis.cross(u);
   const auto direction = [&](double angle) {
     return Vector3(std::cos(angle) * u + std::sin(angle) * w);
@@ -115,8 +116,9 @@ void minimise_on_circle(const SupportSum& f, const Vector3& axis, std::vector<Ve
     if (across.norm() > 0) out.push_back(-across.normalized());
     return;
   }
-  constexpr int count = 16;
-  std::array<double, count> fan;
+  constexpr int most = 64;
+  const int count = is_deep ? most : 16;
+  std::array<double, most> fan;
   const double spacing = 2 * std::numbers::pi / count;
   for (int k = 0; k < count; ++k) fan[k] = f(direction(spacing * k));
   for (int k = 0; k < count; ++k) {
