@@ -17,12 +17,20 @@
 
 #include "collision/direction.h"
 #include "collision/half_space_contact.h"
+#include "collision/hollow_contact.h"
 
 namespace twinarm {
 namespace {
 
 bool is_half_space(const Placed& body) {
   return std::holds_alternative<HalfSpace>(body.solid.shape);
+}
+
+void swap_roles(std::vector<ManifoldPoint>& points) {
+  for (ManifoldPoint& point : points) {
+    std::swap(point.p_WA, point.p_WB);
+    point.n_W = -point.n_W;
+  }
 }
 
 double radii_of(const Placed& a, const Placed& b) {
@@ -32,7 +40,10 @@ double radii_of(const Placed& a, const Placed& b) {
 }  // namespace
 
 bool is_supported(const Shape& a, const Shape& b) {
-  return !(std::holds_alternative<HalfSpace>(a) && std::holds_alternative<HalfSpace>(b));
+  const auto is_surface = [](const Shape& s) {
+    return std::holds_alternative<HalfSpace>(s) || is_hollow(s);
+  };
+  return !(is_surface(a) && is_surface(b));
 }
 
 bool NarrowPhase::nearest(const Placed& a, const Placed& b, double margin, NearestPair& pair) {
@@ -89,10 +100,15 @@ NarrowPhase::Result NarrowPhase::contacts(const Placed& a, const Placed& b, doub
   if (is_half_space(a) || is_half_space(b)) {
     const bool a_is_ground = is_half_space(a);
     const Placed& ground = a_is_ground ? a : b;
-    half_space_contacts(ground, a_is_ground ? b : a, margin, half_space_points_);
-    if (a_is_ground) return {outward_W(ground), &half_space_points_};
-    for (ManifoldPoint& point : half_space_points_) std::swap(point.p_WA, point.p_WB);
-    return {-outward_W(ground), &half_space_points_};
+    half_space_contacts(ground, a_is_ground ? b : a, margin, points_);
+    if (!a_is_ground) swap_roles(points_);
+    return {a_is_ground ? outward_W(ground) : Vector3(-outward_W(ground)), &points_};
+  }
+  if (is_hollow(a.solid.shape) || is_hollow(b.solid.shape)) {
+    const bool a_is_hollow = is_hollow(a.solid.shape);
+    hollow_contacts(a_is_hollow ? a : b, a_is_hollow ? b : a, margin, points_);
+    if (!a_is_hollow) swap_roles(points_);
+    return {Vector3::Zero(), &points_};
   }
   NearestPair pair;
   if (!nearest(a, b, margin, pair)) return {};
@@ -102,6 +118,8 @@ NarrowPhase::Result NarrowPhase::contacts(const Placed& a, const Placed& b, doub
 double NarrowPhase::distance(const Placed& a, const Placed& b) {
   if (is_half_space(a)) return half_space_distance(a, b);
   if (is_half_space(b)) return half_space_distance(b, a);
+  if (is_hollow(a.solid.shape)) return hollow_distance(a, b);
+  if (is_hollow(b.solid.shape)) return hollow_distance(b, a);
   if (!round_contact(a, b)) {
     const CoreDistance cores = distance_of(a, b);
     if (cores.distance > gjk_floor) {

@@ -12,12 +12,14 @@
 
 namespace twinarm {
 
-// Two half-spaces have no contact that could be listed; all other pairs have.
+// Two surfaces without a body behind them (half-spaces, hollows) have no contacts that could be
+// listed; all other pairs have.
 bool is_supported(const Shape& a, const Shape& b);
 
 class NarrowPhase {
  public:
-  // The normal from A to B, and the contacts with depth > -margin. Empty if there are none.
+  // The normal from A to B (zero where each point has its own), and the contacts with depth >
+  // -margin. Empty if there are none.
   struct Result {
     Vector3 n_W = Vector3::Zero();
     const std::vector<ManifoldPoint>* points = nullptr;  // valid until the next call
@@ -37,7 +39,7 @@ class NarrowPhase {
   SeparatingAxis separating_axis_;
   CurvedAxis curved_;
   Manifold manifold_;
-  std::vector<ManifoldPoint> half_space_points_;
+  std::vector<ManifoldPoint> points_;
 };
 
 }  // namespace twinarm

@@ -46,6 +46,8 @@ struct Make {
   Polytope operator()(const Cylinder&) const { return none(); }
   Polytope operator()(const HalfSpace&) const { return none(); }
   Polytope operator()(const Ellipsoid&) const { return none(); }
+  Polytope operator()(const HollowSphere&) const { return none(); }
+  Polytope operator()(const HollowCylinder&) const { return none(); }
   static Polytope none() {
     Polytope p;
     p.exists = false;

@@ -32,6 +32,14 @@ Vector3 support_of(const Ellipsoid& e, const Vector3& d) {
   return e.semi_axes.cwiseProduct(scaled) / scaled.norm();
 }
 
+Vector3 support_of(const HollowSphere& s, const Vector3& d) {
+  return support_of(Sphere{s.radius}, d);
+}
+
+Vector3 support_of(const HollowCylinder& c, const Vector3& d) {
+  return support_of(Cylinder{c.radius, c.length}, d);
+}
+
 Vector3 support_of(const HalfSpace& h, const Vector3& d) {
   if (d.normalized().dot(h.normal) > 1 - 1e-12) return h.offset * h.normal;
   return d * std::numeric_limits<double>::infinity();
@@ -78,6 +86,8 @@ struct Faults {
   }
   std::string operator()(const Capsule& c) const { return round_fault(c.radius, c.length); }
   std::string operator()(const Cylinder& c) const { return round_fault(c.radius, c.length); }
+  std::string operator()(const HollowSphere& s) const { return positive("radius", s.radius); }
+  std::string operator()(const HollowCylinder& c) const { return round_fault(c.radius, c.length); }
   std::string operator()(const HalfSpace& h) const {
     if (std::abs(h.normal.norm() - 1) < 1e-9 && std::isfinite(h.offset)) return "";
     return "normal has length " + std::to_string(h.normal.norm()) + ", must be 1";
@@ -103,8 +113,9 @@ std::string shape_fault(const Shape& shape) {
 }
 
 std::string shape_name(const Shape& shape) {
-  static const char* const names[] = {"sphere",     "box",         "capsule",  "cylinder",
-                                      "half-space", "convex hull", "ellipsoid"};
+  static const char* const names[] = {"sphere",    "box",           "capsule",
+                                      "cylinder",  "half-space",    "convex hull",
+                                      "ellipsoid", "hollow sphere", "hollow cylinder"};
   return names[shape.index()];
 }
 
