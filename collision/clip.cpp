@@ -183,6 +183,13 @@ int feature_name(int a, int b, int c, int d) {
   return static_cast<int>(hash & 0x7fffffffu);
 }
 
+void swap_roles(std::vector<ManifoldPoint>& points) {
+  for (ManifoldPoint& point : points) {
+    std::swap(point.p_WA, point.p_WB);
+    point.n_W = -point.n_W;
+  }
+}
+
 void support_feature(const Placed& body, const Vector3& n_W, Feature& feature) {
   feature.points.clear();
   feature.labels.clear();

@@ -29,6 +29,9 @@ struct ManifoldPoint {
   Vector3 n_W = Vector3::Zero();  // from A to B, where each point of a pair has its own
 };
 
+// The points of the pair (B, A) from those of (A, B).
+void swap_roles(std::vector<ManifoldPoint>& points);
+
 // Where the two features lie behind each other along n_W (from A to B): the corners of the common
 // area, the ends of the common segment, or the point. May be empty.
 void intersect_features(const Feature& a, const Feature& b, const Vector3& n_W, Feature& scratch,

@@ -150,9 +150,19 @@ void CollisionWorld::find_pairs(std::span<const Pose> X_WG, std::span<const doub
   std::sort(pairs_.begin(), pairs_.end());
 }
 
+NarrowPhase::Result CollisionWorld::narrow(const Placed& a, const Placed& b, double margin) {
+  if (a.solid.surface != nullptr) {
+    return {Vector3::Zero(), &mesh_contact_.contacts(narrow_phase_, a, b, margin)};
+  }
+  if (b.solid.surface == nullptr) return narrow_phase_.contacts(a, b, margin);
+  points_ = mesh_contact_.contacts(narrow_phase_, b, a, margin);
+  swap_roles(points_);
+  return {Vector3::Zero(), &points_};
+}
+
 void CollisionWorld::collide_pair(int a, int b, std::span<const Pose> X_WG, double margin,
                                   std::vector<Contact>& out) {
-  const auto result = narrow_phase_.contacts({solids_[a], X_WG[a]}, {solids_[b], X_WG[b]}, margin);
+  const auto result = narrow({solids_[a], X_WG[a]}, {solids_[b], X_WG[b]}, margin);
   if (result.empty()) return;
   const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(out.size());
   for (const ManifoldPoint& point : *result.points) {
@@ -179,7 +189,14 @@ void CollisionWorld::detect(std::span<const Pose> X_WG, double margin, std::vect
 
 double CollisionWorld::distance(int a, int b, const Pose& X_WA, const Pose& X_WB) {
   assert(is_supported(geometry(a).shape, geometry(b).shape));
-  return narrow_phase_.distance({solids_[a], X_WA}, {solids_[b], X_WB});
+  const Placed placed_a{solids_[a], X_WA}, placed_b{solids_[b], X_WB};
+  if (solids_[a].surface != nullptr) {
+    return mesh_contact_.distance(narrow_phase_, placed_a, placed_b);
+  }
+  if (solids_[b].surface != nullptr) {
+    return mesh_contact_.distance(narrow_phase_, placed_b, placed_a);
+  }
+  return narrow_phase_.distance(placed_a, placed_b);
 }
 
 }  // namespace twinarm

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "collision/broad_phase.h"
+#include "collision/mesh_contact.h"
 #include "collision/narrow_phase.h"
 #include "collision/shape.h"
 #include "collision/solid.h"
@@ -71,6 +72,7 @@ class CollisionWorld {
  private:
   void check_pair(int a, int b) const;
   void find_pairs(std::span<const Pose> X_WG, std::span<const double> margins);
+  NarrowPhase::Result narrow(const Placed& a, const Placed& b, double margin);
   void collide_pair(int a, int b, std::span<const Pose> X_WG, double margin,
                     std::vector<Contact>& out);
 
@@ -81,9 +83,11 @@ class CollisionWorld {
   std::vector<double> margins_;                      // one number spread over all
   BroadPhase broad_phase_;
   NarrowPhase narrow_phase_;
+  MeshContact mesh_contact_;
   std::vector<int> bounded_, half_spaces_;  // ids with and without a bounding box
   std::vector<Aabb> boxes_;                 // of bounded_
   std::vector<std::pair<int, int>> pairs_;
+  std::vector<ManifoldPoint> points_;
 };
 
 }  // namespace twinarm

@@ -24,6 +24,7 @@ namespace twinarm {
 namespace {
 
 constexpr double prefer_flat = 1e-12;  // a flat wins over a direction this much better [m]
+constexpr double missed = 1e-8;        // a guess this much better shows a patch overlooked [m]
 constexpr double parallel = 1e-9;      // sine below which two lines have no common normal
 constexpr double same_valley = 0.999;  // cosine
 constexpr int deep_searches = 14;      // valleys that are followed where bodies overlap
@@ -158,7 +159,7 @@ void CurvedAxis::try_rounds_on_ridges(const Posed& rounds, const Posed& ridges, 
 }
 
 void CurvedAxis::search_sphere(const SupportSum& f, const Patches::Round& round, bool is_of_a) {
-  if (!overlaps_) return offer_round(minimise_on_sphere(f, best_.axis.n_W), round, is_of_a);
+  if (!overlaps_) return offer_round(minimise_on_sphere(f, seed_.axis.n_W), round, is_of_a);
   std::array<Vector3, 14> starts;
   std::size_t count = 0;
   for (int i = 0; i < 3; ++i) {
@@ -168,7 +169,7 @@ void CurvedAxis::search_sphere(const SupportSum& f, const Patches::Round& round,
     }
   }
   if (f.c.norm() > 0) starts[count++] = -f.c.normalized();
-  starts[count++] = best_.axis.n_W;
+  starts[count++] = seed_.axis.n_W;
   const auto end = starts.begin() + static_cast<std::ptrdiff_t>(count);
   std::sort(starts.begin(), end, [&](const auto& x, const auto& y) { return f(x) < f(y); });
   std::array<Vector3, deep_searches> used;
@@ -200,17 +201,19 @@ bool CurvedAxis::nearest(const Placed& a, const Placed& b, double margin, Neares
   const double radii = a.solid.patches.roundness + b.solid.patches.roundness;
   const CoreDistance cores = distance_of(a, b);
   overlaps_ = !(cores.distance > gjk_floor);
-  double reach = cores.distance + gjk_floor;
   if (!overlaps_) {
     offer(cores.p_WB - cores.p_WA, 0);
     if (best_.axis.overlap < -margin) return false;
     best_.p_W = midway(a, b, best_.axis.n_W, 0.5 * (cores.p_WA + cores.p_WB));
+    overlaps_ = has_gap(cores.distance, best_.axis.overlap - radii);
   }
+  if (overlaps_) try_seeds();
+  seed_ = best_;
+  best_ = {};
   try_flats();
-  overlaps_ = overlaps_ || has_gap(cores.distance, best_.axis.overlap - radii);
+  double reach = cores.distance + gjk_floor;
   if (overlaps_) {
-    try_seeds();
-    reach = std::max(reach, best_.axis.overlap - radii);
+    reach = std::max(reach, std::min(seed_.axis.overlap, best_.axis.overlap) - radii);
   }
   reach = reach * (1 + 1e-6) + 1e-9;
   place(a, b, origin_, reach, a_);
@@ -219,6 +222,8 @@ bool CurvedAxis::nearest(const Placed& a, const Placed& b, double margin, Neares
   try_rounds_on_ridges(a_, b_, true);
   try_rounds_on_ridges(b_, a_, false);
   try_rounds();
+  // A first guess is right to its own tolerance only; it wins if the patches were missed.
+  if (seed_.axis.overlap < best_.axis.overlap - missed) best_ = seed_;
   pair = best_;
   return best_.axis.overlap > -margin;
 }

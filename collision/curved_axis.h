@@ -36,7 +36,7 @@ class CurvedAxis {
   const Placed* body_b_ = nullptr;
   Vector3 origin_;
   bool overlaps_ = false;
-  NearestPair best_;
+  NearestPair seed_, best_;
   Posed a_, b_;
   std::vector<Vector3> found_;
 };

@@ -26,13 +26,6 @@ bool is_half_space(const Placed& body) {
   return std::holds_alternative<HalfSpace>(body.solid.shape);
 }
 
-void swap_roles(std::vector<ManifoldPoint>& points) {
-  for (ManifoldPoint& point : points) {
-    std::swap(point.p_WA, point.p_WB);
-    point.n_W = -point.n_W;
-  }
-}
-
 double radii_of(const Placed& a, const Placed& b) {
   return a.solid.core.radius + b.solid.core.radius;
 }
@@ -41,7 +34,8 @@ double radii_of(const Placed& a, const Placed& b) {
 
 bool is_supported(const Shape& a, const Shape& b) {
   const auto is_surface = [](const Shape& s) {
-    return std::holds_alternative<HalfSpace>(s) || is_hollow(s);
+    return std::holds_alternative<HalfSpace>(s) || std::holds_alternative<MeshShape>(s) ||
+           is_hollow(s);
   };
   return !(is_surface(a) && is_surface(b));
 }
@@ -111,7 +105,17 @@ NarrowPhase::Result NarrowPhase::contacts(const Placed& a, const Placed& b, doub
     return {Vector3::Zero(), &points_};
   }
   NearestPair pair;
-  if (!nearest(a, b, margin, pair)) return {};
+  if (const auto closed = round_contact(a, b)) {
+    pair = *closed;
+    if (!(pair.axis.overlap > -margin)) return {};
+  } else {
+    Axis flat;
+    if (!flat_axis_.best(a, b, margin, flat)) return {};
+    if (!flat.n_W.isZero(0) && manifold_.settles(a, b, flat)) {
+      return {flat.n_W, &manifold_.points(flat, margin)};
+    }
+    if (!nearest(a, b, margin, pair)) return {};
+  }
   return {pair.axis.n_W, &manifold_.between(a, b, pair.axis, pair.p_W, margin)};
 }
 

@@ -5,6 +5,7 @@
 
 #include "collision/clip.h"
 #include "collision/curved_axis.h"
+#include "collision/flat_axis.h"
 #include "collision/manifold.h"
 #include "collision/round_contact.h"
 #include "collision/separating_axis.h"
@@ -13,7 +14,7 @@
 namespace twinarm {
 
 // Two surfaces without a body behind them (half-spaces, hollows) have no contacts that could be
-// listed; all other pairs have.
+// listed, nor have two meshes; all other pairs have. Meshes against convex bodies: mesh_contact.h.
 bool is_supported(const Shape& a, const Shape& b);
 
 class NarrowPhase {
@@ -30,12 +31,14 @@ class NarrowPhase {
   // Signed distance: how far the surfaces are apart, or minus the least overlap [m].
   double distance(const Placed& a, const Placed& b);
 
- private:
   // Direction and amount of the least overlap; false if it is certain that they are more than
   // `margin` apart.
   bool nearest(const Placed& a, const Placed& b, double margin, NearestPair& pair);
+
+ private:
   void retry(const Placed& a, const Placed& b, NearestPair& pair);
 
+  FlatAxis flat_axis_;
   SeparatingAxis separating_axis_;
   CurvedAxis curved_;
   Manifold manifold_;

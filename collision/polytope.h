@@ -15,8 +15,14 @@ struct Polytope {
     int v0, v1;  // its ends
     int f0, f1;  // the faces on both sides; -1 for a bare segment
   };
+  struct Slab {  // a face, and the parallel one opposite if there is one
+    Vector3 normal;
+    double low, high;  // solid where low <= normal . x <= high [m]
+    bool is_double;    // false: no face at `low`
+  };
   ConvexHull hull;  // of a point or a segment: vertices only
   std::vector<Edge> edges;
+  std::vector<Slab> slabs;
   double radius = 0;   // [m]
   bool exists = true;  // false for curved shapes and half-spaces
 };

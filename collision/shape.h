@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "collision/convex_hull.h"
+#include "collision/mesh.h"
 #include "solver/pose.h"
 
 namespace twinarm {
@@ -40,9 +41,14 @@ struct HollowCylinder {  // the inside of a tube with open ends
   double radius;         // [m]
   double length;         // [m], along z, centred
 };
+struct MeshShape {
+  TriangleMesh mesh;            // closed, outward; its inside is solid
+  bool is_open = false;         // said to have borders: then touched from both sides
+  double largest_extent = 100;  // a wider mesh is taken for one in millimetres [m]
+};
 
 using Shape = std::variant<Sphere, Box, Capsule, Cylinder, HalfSpace, ConvexHull, Ellipsoid,
-                           HollowSphere, HollowCylinder>;
+                           HollowSphere, HollowCylinder, MeshShape>;
 
 // The point of the shape that lies farthest along `direction` (any length but zero), in G.
 // h(d) = max over x of d . x is attained there. Box: 3 comparisons; hull: a scan of the vertices.
