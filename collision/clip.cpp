@@ -20,11 +20,11 @@ constexpr double on_the_plane = 1e-9;  // [m]
 
 // Beyond this angle to the normal a face is no contact area any more, but its corner is.
 constexpr double min_cosine_of_face = 0.2;
-// A capsule or cylinder whose axis is this near to the contact plane touches with its side.
-constexpr double max_cosine_of_side = 0.05;
-// A cylinder whose cap is this near to the contact plane touches with the cap.
-constexpr double max_sine_of_cap = 0.17;
-constexpr int cap_corners = 8;  // fixed in the body, so that the contacts do not wander
+// Two segments that cross under a larger angle than this touch in one point.
+constexpr double max_sine_of_parallel = 0.05;
+// A cap that is tilted less than this lies flat: its corners are then fixed in the body.
+constexpr double sine_of_flat = 1e-6;
+constexpr int cap_corners = 8;
 constexpr int label_of_clip = 1 << 12;
 
 void segment(const Placed& body, double half, double radius, const Vector3& offset_W, Feature& f) {
@@ -34,26 +34,30 @@ void segment(const Placed& body, double half, double radius, const Vector3& offs
   f.labels = {0, 1};
 }
 
+// The cap or the side, whichever looks more along n. Corner 0 of a tilted cap is the point of its
+// rim that is farthest along n: the true point of contact, a smooth function of the pose. The ends
+// of the side are on the rims, farthest as well.
 void cylinder_feature(const Cylinder& c, const Placed& body, const Vector3& n_W, Feature& f) {
   const Vector3 n = body.X_WG.R.transpose() * n_W;
   const double sine = std::hypot(n.x(), n.y()), side = n.z() < 0 ? -1 : 1;
-  if (sine < max_sine_of_cap) {
-    for (int k = 0; k < cap_corners; ++k) {
-      const double angle = side * 2 * std::numbers::pi * k / cap_corners;
-      f.points.push_back(body.X_WG * Vector3(c.radius * std::cos(angle), c.radius * std::sin(angle),
-                                             side * c.length / 2));
-      f.labels.push_back(k);
-    }
-    f.normal_W = body.X_WG.R.col(2) * side;
-    f.id = side > 0 ? 1 : 2;
-  } else if (std::abs(n.z()) < max_cosine_of_side) {
-    const Vector3 radial(n.x() * c.radius / sine, n.y() * c.radius / sine, 0);
-    segment(body, c.length / 2, c.radius, body.X_WG.R * radial, f);
+  if (sine > std::abs(n.z())) {
+    segment(body, c.length / 2, c.radius,
+            body.X_WG.R * Vector3(n.x() * c.radius / sine, n.y() * c.radius / sine, 0), f);
     f.id = 3;
-  } else {
-    f.points = {body.support_W(n_W)};
-    f.id = 4;
+    return;
   }
+  const bool flat = sine < sine_of_flat;
+  const double x = flat ? c.radius : c.radius * n.x() / sine;
+  const double y = flat ? 0 : c.radius * n.y() / sine;
+  for (int k = 0; k < cap_corners; ++k) {
+    const double angle = side * 2 * std::numbers::pi * k / cap_corners;
+    const double cosine = std::cos(angle), sine_k = std::sin(angle);
+    f.points.push_back(
+        body.X_WG * Vector3(cosine * x - sine_k * y, sine_k * x + cosine * y, side * c.length / 2));
+    f.labels.push_back(k);
+  }
+  f.normal_W = body.X_WG.R.col(2) * side;
+  f.id = side > 0 ? 1 : 2;
 }
 
 // The face with the most corners at the top, and of these the one that is best aligned.
@@ -80,7 +84,8 @@ int best_face(const Placed& body, const Vector3& n, double top, double tolerance
 void polytope_feature(const Placed& body, const Vector3& n_W, Feature& f) {
   const Polytope& core = body.solid.core;
   const Vector3 n = body.X_WG.R.transpose() * n_W;
-  if (std::holds_alternative<Capsule>(body.solid.shape) && std::abs(n.z()) < max_cosine_of_side) {
+  if (std::holds_alternative<Capsule>(body.solid.shape) &&
+      n.z() * n.z() < 0.5) {  // lying more than standing
     segment(body, core.hull.vertices[1].z(), core.radius, core.radius * n_W, f);
     return;
   }
@@ -160,7 +165,7 @@ void intersect_segments(const Feature& a, const Feature& b, const Vector3& n, Fe
                         std::vector<ManifoldPoint>& out) {
   const Vector3 u = a.points[1] - a.points[0], w = b.points[1] - b.points[0];
   const Vector3 cross = u.cross(w);
-  if (cross.norm() > max_cosine_of_side * u.norm() * w.norm()) return;  // they cross: one point
+  if (cross.norm() > max_sine_of_parallel * u.norm() * w.norm()) return;  // they cross: one point
   clip_segment(u, u.dot(a.points[1]), label_of_clip + 1, clipped);
   if (!clipped.points.empty()) clip_segment(-u, -u.dot(a.points[0]), label_of_clip, clipped);
   for (std::size_t i = 0; i < clipped.points.size(); ++i) {
@@ -183,6 +188,13 @@ int feature_name(int a, int b, int c, int d) {
   return static_cast<int>(hash & 0x7fffffffu);
 }
 
+void swap_roles(std::vector<ManifoldPoint>& points) {
+  for (ManifoldPoint& point : points) {
+    std::swap(point.p_WA, point.p_WB);
+    point.n_W = -point.n_W;
+  }
+}
+
 void support_feature(const Placed& body, const Vector3& n_W, Feature& feature) {
   feature.points.clear();
   feature.labels.clear();
@@ -190,6 +202,8 @@ void support_feature(const Placed& body, const Vector3& n_W, Feature& feature) {
   feature.roundness = 0;
   if (const auto* cylinder = std::get_if<Cylinder>(&body.solid.shape)) {
     cylinder_feature(*cylinder, body, n_W, feature);
+  } else if (std::holds_alternative<Ellipsoid>(body.solid.shape)) {
+    feature.points = {body.support_W(n_W)};
   } else {
     polytope_feature(body, n_W, feature);
   }

@@ -23,10 +23,14 @@ struct Feature {
 void support_feature(const Placed& body, const Vector3& n_W, Feature& feature);
 
 struct ManifoldPoint {
-  Vector3 p_WA, p_WB;  // on either surface, one behind the other along the normal [m]
-  double depth;        // (p_WA - p_WB) . n [m]
-  int feature;         // its name
+  Vector3 p_WA, p_WB;             // on either surface, one behind the other along the normal [m]
+  double depth;                   // (p_WA - p_WB) . n [m]
+  int feature;                    // its name
+  Vector3 n_W = Vector3::Zero();  // from A to B, where each point of a pair has its own
 };
+
+// The points of the pair (B, A) from those of (A, B).
+void swap_roles(std::vector<ManifoldPoint>& points);
 
 // Where the two features lie behind each other along n_W (from A to B): the corners of the common
 // area, the ends of the common segment, or the point. May be empty.

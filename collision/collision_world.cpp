@@ -20,15 +20,26 @@ bool is_finite(const Pose& X) {
   return X.R.allFinite() && X.p.allFinite();
 }
 
-// The box of a body, grown by half the margin: two boxes overlap if the bodies can be that near.
+// The box of a body, grown by its margin: two boxes overlap if the bodies can be that near.
 Aabb bounding_box(const Placed& body, double margin) {
   Aabb box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vector3 e = Vector3::Unit(axis);
-    box.high[axis] = body.support_W(e)[axis] + margin / 2;
-    box.low[axis] = body.support_W(-e)[axis] - margin / 2;
+  const Polytope& core = body.solid.core;
+  if (core.exists) {
+    box.low = box.high = body.X_WG * core.hull.vertices[0];
+    for (const Vector3& v : core.hull.vertices) {
+      const Vector3 p = body.X_WG * v;
+      box.low = box.low.cwiseMin(p);
+      box.high = box.high.cwiseMax(p);
+    }
+    margin += core.radius;
+  } else {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3 e = Vector3::Unit(axis);
+      box.high[axis] = body.support_W(e)[axis];
+      box.low[axis] = body.support_W(-e)[axis];
+    }
   }
-  return box;
+  return {box.low.array() - margin, box.high.array() + margin};
 }
 
 }  // namespace
@@ -66,10 +77,11 @@ int CollisionWorld::add(Geometry geometry) {
 
 void CollisionWorld::check_pair(int a, int b) const {
   if (!may_collide(a, b) || is_supported(geometry(a).shape, geometry(b).shape)) return;
-  throw InputError({{"", 0, "geometries '" + geometry(a).name + "' and '" + geometry(b).name + "'",
-                     "a " + shape_name(geometry(a).shape) + " cannot collide with a " +
-                         shape_name(geometry(b).shape),
-                     "keep their groups apart with set_group_filter() before adding them"}});
+  throw InputError(
+      {{"", 0, "geometries '" + geometry(a).name + "' and '" + geometry(b).name + "'",
+        "a " + shape_name(geometry(a).shape) + " cannot collide with a " +
+            shape_name(geometry(b).shape),
+        "keep their groups apart with set_group_filter() before adding them, or fix both"}});
 }
 
 void CollisionWorld::disable_pair(int a, int b) {
@@ -91,8 +103,8 @@ void CollisionWorld::set_group_filter(int group_a, int group_b, bool collide) {
   mask_[group_a] = collide ? mask_[group_a] | bit_b : mask_[group_a] & ~bit_b;
   mask_[group_b] = collide ? mask_[group_b] | bit_a : mask_[group_b] & ~bit_a;
   try {
-    for (std::size_t i = 0; i < half_spaces_.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) check_pair(half_spaces_[j], half_spaces_[i]);
+    for (int i = 0; i < size(); ++i) {
+      for (int j = 0; j < i; ++j) check_pair(j, i);
     }
   } catch (...) {
     mask_ = before;
@@ -102,18 +114,19 @@ void CollisionWorld::set_group_filter(int group_a, int group_b, bool collide) {
 
 bool CollisionWorld::may_collide(int a, int b) const {
   const bool groups = (mask_[geometry(a).group] >> geometry(b).group) & 1u;
-  return groups && a != b &&
+  return groups && a != b && !(geometry(a).is_fixed && geometry(b).is_fixed) &&
          !std::binary_search(disabled_pairs_.begin(), disabled_pairs_.end(),
                              std::pair(std::min(a, b), std::max(a, b)));
 }
 
 // Fills pairs_ with what may touch, ascending.
-void CollisionWorld::find_pairs(std::span<const Pose> X_WG, double margin) {
+void CollisionWorld::find_pairs(std::span<const Pose> X_WG, std::span<const double> margins) {
   boxes_.clear();
   for (int id : bounded_) {
     // What is nowhere goes far away: a box that is not a number would unsettle the whole tree.
     const Aabb nowhere{Vector3::Constant(1e30), Vector3::Constant(1e30)};
-    boxes_.push_back(is_finite(X_WG[id]) ? bounding_box({solids_[id], X_WG[id]}, margin) : nowhere);
+    boxes_.push_back(is_finite(X_WG[id]) ? bounding_box({solids_[id], X_WG[id]}, margins[id])
+                                         : nowhere);
   }
   broad_phase_.overlaps(boxes_, pairs_);
   for (auto& [a, b] : pairs_) {
@@ -122,9 +135,10 @@ void CollisionWorld::find_pairs(std::span<const Pose> X_WG, double margin) {
   }
   for (int ground : half_spaces_) {
     for (int body : bounded_) {
+      if (!may_collide(ground, body)) continue;
       if (!is_finite(X_WG[ground]) || !is_finite(X_WG[body])) continue;
       const Placed half_space{solids_[ground], X_WG[ground]}, other{solids_[body], X_WG[body]};
-      if (half_space_distance(half_space, other) < margin) {
+      if (half_space_distance(half_space, other) < margins[ground] + margins[body]) {
         pairs_.emplace_back(std::min(ground, body), std::max(ground, body));
       }
     }
@@ -136,29 +150,53 @@ void CollisionWorld::find_pairs(std::span<const Pose> X_WG, double margin) {
   std::sort(pairs_.begin(), pairs_.end());
 }
 
+NarrowPhase::Result CollisionWorld::narrow(const Placed& a, const Placed& b, double margin) {
+  if (a.solid.surface != nullptr) {
+    return {Vector3::Zero(), &mesh_contact_.contacts(narrow_phase_, a, b, margin)};
+  }
+  if (b.solid.surface == nullptr) return narrow_phase_.contacts(a, b, margin);
+  points_ = mesh_contact_.contacts(narrow_phase_, b, a, margin);
+  swap_roles(points_);
+  return {Vector3::Zero(), &points_};
+}
+
 void CollisionWorld::collide_pair(int a, int b, std::span<const Pose> X_WG, double margin,
                                   std::vector<Contact>& out) {
-  const auto result = narrow_phase_.contacts({solids_[a], X_WG[a]}, {solids_[b], X_WG[b]}, margin);
+  const auto result = narrow({solids_[a], X_WG[a]}, {solids_[b], X_WG[b]}, margin);
   if (result.empty()) return;
   const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(out.size());
   for (const ManifoldPoint& point : *result.points) {
-    out.push_back({a, b, 0.5 * (point.p_WA + point.p_WB), result.n_W, point.depth, point.feature});
+    const Vector3& n_W = result.n_W.isZero(0) ? point.n_W : result.n_W;
+    out.push_back({a, b, 0.5 * (point.p_WA + point.p_WB), n_W, point.depth, point.feature});
   }
   std::sort(out.begin() + first, out.end(), [](const Contact& x, const Contact& y) {
     return std::tie(x.feature, y.depth) < std::tie(y.feature, x.depth);
   });
 }
 
-void CollisionWorld::detect(std::span<const Pose> X_WG, double margin, std::vector<Contact>& out) {
-  assert(static_cast<int>(X_WG.size()) == size());
+void CollisionWorld::detect(std::span<const Pose> X_WG, std::span<const double> margins,
+                            std::vector<Contact>& out) {
+  assert(static_cast<int>(X_WG.size()) == size() && margins.size() == X_WG.size());
   out.clear();
-  find_pairs(X_WG, margin);
-  for (const auto& [a, b] : pairs_) collide_pair(a, b, X_WG, margin, out);
+  find_pairs(X_WG, margins);
+  for (const auto& [a, b] : pairs_) collide_pair(a, b, X_WG, margins[a] + margins[b], out);
+}
+
+void CollisionWorld::detect(std::span<const Pose> X_WG, double margin, std::vector<Contact>& out) {
+  margins_.assign(X_WG.size(), margin / 2);
+  detect(X_WG, margins_, out);
 }
 
 double CollisionWorld::distance(int a, int b, const Pose& X_WA, const Pose& X_WB) {
   assert(is_supported(geometry(a).shape, geometry(b).shape));
-  return narrow_phase_.distance({solids_[a], X_WA}, {solids_[b], X_WB});
+  const Placed placed_a{solids_[a], X_WA}, placed_b{solids_[b], X_WB};
+  if (solids_[a].surface != nullptr) {
+    return mesh_contact_.distance(narrow_phase_, placed_a, placed_b);
+  }
+  if (solids_[b].surface != nullptr) {
+    return mesh_contact_.distance(narrow_phase_, placed_b, placed_a);
+  }
+  return narrow_phase_.distance(placed_a, placed_b);
 }
 
 }  // namespace twinarm

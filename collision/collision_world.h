@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "collision/broad_phase.h"
+#include "collision/mesh_contact.h"
 #include "collision/narrow_phase.h"
 #include "collision/shape.h"
 #include "collision/solid.h"
@@ -26,7 +27,8 @@ namespace twinarm {
 struct Geometry {
   std::string name;  // for messages
   Shape shape;
-  int group = 0;  // 0 to 31
+  int group = 0;          // 0 to 31
+  bool is_fixed = false;  // never moves: two fixed ones do not collide
 };
 
 struct Contact {
@@ -54,8 +56,13 @@ class CollisionWorld {
   void set_group_filter(int group_a, int group_b, bool collide);
   bool may_collide(int a, int b) const;
 
-  // Contacts with depth > -margin at the poses X_WG[id], ordered by (a, b, feature): a function of
-  // the poses alone. A geometry whose pose is not finite has none.
+  // Contacts with depth > -(margin_a + margin_b) at the poses X_WG[id], ordered by (a, b, feature):
+  // a function of the poses alone. A geometry whose pose is not finite has none. The margin of a
+  // geometry is how far its points may move before the next detection: so nothing fast goes
+  // through a wall between two of them.
+  void detect(std::span<const Pose> X_WG, std::span<const double> margins,
+              std::vector<Contact>& out);
+  // Contacts with depth > -margin.
   void detect(std::span<const Pose> X_WG, double margin, std::vector<Contact>& out);
 
   // Signed distance of two geometries, filtered or not: positive apart, negative minus the least
@@ -64,7 +71,8 @@ class CollisionWorld {
 
  private:
   void check_pair(int a, int b) const;
-  void find_pairs(std::span<const Pose> X_WG, double margin);
+  void find_pairs(std::span<const Pose> X_WG, std::span<const double> margins);
+  NarrowPhase::Result narrow(const Placed& a, const Placed& b, double margin);
   void collide_pair(int a, int b, std::span<const Pose> X_WG, double margin,
                     std::vector<Contact>& out);
 
@@ -72,11 +80,14 @@ class CollisionWorld {
   std::vector<Solid> solids_;
   std::array<std::uint32_t, group_count> mask_;      // bit j of mask i: groups i and j collide
   std::vector<std::pair<int, int>> disabled_pairs_;  // sorted
+  std::vector<double> margins_;                      // one number spread over all
   BroadPhase broad_phase_;
   NarrowPhase narrow_phase_;
+  MeshContact mesh_contact_;
   std::vector<int> bounded_, half_spaces_;  // ids with and without a bounding box
   std::vector<Aabb> boxes_;                 // of bounded_
   std::vector<std::pair<int, int>> pairs_;
+  std::vector<ManifoldPoint> points_;
 };
 
 }  // namespace twinarm

@@ -3,8 +3,8 @@
 
 namespace twinarm {
 
-CoreDistance distance_of(const Placed& a, const Placed& b, Core core) {
-  return core_distance(a.solid.fcl, a.X_WG, b.solid.fcl, b.X_WG, core);
+CoreDistance distance_of(const Placed& a, const Placed& b) {
+  return core_distance(a.solid.fcl, a.X_WG, b.solid.fcl, b.X_WG);
 }
 
 bool has_gap(double distance, double core_overlap) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "collision/polytope.h"
 #include "collision/shape.h"
@@ -10,18 +9,13 @@
 
 namespace twinarm {
 
-// Which body FCL is shown. The radius of spheres and capsules is always taken off (they are a point
-// and a segment); cylinders, whose penetrations FCL gets wrong, can be eroded, in growing sizes.
-enum class Core { whole, eroded_by_a_tenth, by_a_third, by_two_thirds, by_nine_tenths };
-constexpr int core_count = 5;
-
-// FCL's geometry of one shape. Shared and const: may be asked from several threads.
+// FCL's geometry of one shape, without the radius of spheres and capsules (they are a point and a
+// segment). Shared and const: may be asked from several threads.
 class FclShape {
  public:
   FclShape(const Shape& shape, const Polytope& core);
   struct Impl;
   const Impl* impl() const { return impl_.get(); }
-  double erosion(Core core) const;  // how much of the surface is taken off [m]
 
  private:
   std::shared_ptr<const Impl> impl_;
@@ -34,12 +28,7 @@ struct CoreDistance {
 };
 
 // Unsigned distance (GJK). 1-15 us.
-CoreDistance core_distance(const FclShape& a, const Pose& X_WA, const FclShape& b, const Pose& X_WB,
-                           Core core);
-
-// A direction from A to B out of a deep penetration (libccd's MPR). It is often wrong for curved
-// shapes: check it with overlap().
-std::optional<Vector3> penetration_direction(const FclShape& a, const Pose& X_WA, const FclShape& b,
-                                             const Pose& X_WB);
+CoreDistance core_distance(const FclShape& a, const Pose& X_WA, const FclShape& b,
+                           const Pose& X_WB);
 
 }  // namespace twinarm

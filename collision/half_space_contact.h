@@ -17,6 +17,6 @@ double half_space_distance(const Placed& half_space, const Placed& body);
 // Up to four contacts with depth > -margin, for the normal out of the half-space. p_WA is on its
 // surface, p_WB on the body.
 void half_space_contacts(const Placed& half_space, const Placed& body, double margin,
-                         Feature& scratch, std::vector<ManifoldPoint>& out);
+                         std::vector<ManifoldPoint>& out);
 
 }  // namespace twinarm

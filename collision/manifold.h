@@ -12,6 +12,13 @@ constexpr int max_manifold_points = 4;
 
 class Manifold {
  public:
+  // The points where the features along the axis lie behind each other, whatever their depth.
+  const std::vector<ManifoldPoint>& features(const Placed& a, const Placed& b, const Axis& axis);
+  // Finds them, and says whether they prove that no direction has less overlap.
+  bool settles(const Placed& a, const Placed& b, const Axis& axis);
+  // After settles(): up to four of these points with depth > -margin.
+  const std::vector<ManifoldPoint>& points(const Axis& axis, double margin);
+
   // Up to four points along the given axis, with depth > -margin, the deepest among them.
   // `p_W` is a point between the surfaces where they are nearest: it is used where the features
   // have no common area (a rim, crossing edges, a corner).
@@ -19,6 +26,8 @@ class Manifold {
                                             const Vector3& p_W, double margin);
 
  private:
+  double narrowest(const Vector3& n_W) const;
+
   Feature feature_a_, feature_b_, scratch_, clipped_;
   std::vector<ManifoldPoint> points_;
 };

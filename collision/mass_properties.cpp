@@ -17,6 +17,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "collision/mesh_file.h"
@@ -37,13 +38,78 @@ Matrix3 inertia_of(const Matrix3& second_moment) {
   return second_moment.trace() * Matrix3::Identity() - second_moment;
 }
 
+void check_positive(const char* name, double value, const char* unit, const char* remedy) {
+  if (value > 0 && std::isfinite(value)) return;
+  refuse(std::string(name) + " is " + std::to_string(value) + " " + unit + ", must be positive",
+         remedy);
+}
+
+MassProperties centred(double mass, double xx, double yy, double zz) {
+  return {mass, Vector3::Zero(), Matrix3(Vector3(xx, yy, zz).asDiagonal())};
+}
+
+// Textbook inertias about the centre.
+struct OfShape {
+  double density;
+  MassProperties operator()(const Sphere& s) const {
+    return (*this)(Ellipsoid{Vector3::Constant(s.radius)});
+  }
+  MassProperties operator()(const Ellipsoid& e) const {
+    const double m = density * 4.0 / 3.0 * std::numbers::pi * e.semi_axes.prod();
+    const Vector3 q = m / 5 * e.semi_axes.cwiseAbs2();
+    return centred(m, q.y() + q.z(), q.x() + q.z(), q.x() + q.y());
+  }
+  MassProperties operator()(const Box& b) const {
+    const double m = density * b.size.prod();
+    const Vector3 q = m / 12 * b.size.cwiseAbs2();
+    return centred(m, q.y() + q.z(), q.x() + q.z(), q.x() + q.y());
+  }
+  MassProperties operator()(const Cylinder& c) const {
+    const double rr = c.radius * c.radius, m = density * std::numbers::pi * rr * c.length;
+    const double across = m * (rr / 4 + c.length * c.length / 12);
+    return centred(m, across, across, m * rr / 2);
+  }
+  // A cylinder and two half balls, whose centres of mass are 3 r / 8 beyond its ends.
+  MassProperties operator()(const Capsule& c) const {
+    const MassProperties side = (*this)(Cylinder{c.radius, c.length});
+    const MassProperties ball = (*this)(Sphere{c.radius});
+    const double l = c.length, shift = ball.mass * (l * l / 4 + 3 * c.radius * l / 8);
+    return centred(side.mass + ball.mass, side.inertia(0, 0) + ball.inertia(0, 0) + shift,
+                   side.inertia(1, 1) + ball.inertia(1, 1) + shift,
+                   side.inertia(2, 2) + ball.inertia(2, 2));
+  }
+  MassProperties operator()(const ConvexHull& hull) const {
+    return mass_properties(TriangleMesh{hull.vertices, hull.triangles}, density);
+  }
+  MassProperties operator()(const MeshShape& shape) const {
+    return mass_properties(shape.mesh, density);
+  }
+  MassProperties operator()(const HalfSpace&) const { return none("half-space"); }
+  MassProperties operator()(const HollowSphere&) const { return none("hollow sphere"); }
+  MassProperties operator()(const HollowCylinder&) const { return none("hollow cylinder"); }
+  static MassProperties none(const char* name) {
+    refuse(std::string("a ") + name + " encloses no solid", "give the inertia of its body");
+  }
+};
+
 }  // namespace
 
+MassProperties mass_properties(const Shape& shape, double density) {
+  check_positive("density", density, "kg/m^3", "give the density of the material");
+  const std::string fault = shape_fault(shape);
+  if (!fault.empty()) refuse(shape_name(shape) + ": " + fault, "correct the shape");
+  return std::visit(OfShape{density}, shape);
+}
+
+MassProperties with_mass(MassProperties properties, double mass) {
+  check_positive("mass", mass, "kg", "give the mass of the body");
+  properties.inertia *= mass / properties.mass;
+  properties.mass = mass;
+  return properties;
+}
+
 MassProperties mass_properties(const TriangleMesh& mesh, double density) {
-  if (!(density > 0 && std::isfinite(density))) {
-    refuse("density is " + std::to_string(density) + " kg/m^3, must be positive",
-           "give the density of the material");
-  }
+  check_positive("density", density, "kg/m^3", "give the density of the material");
   if (!is_closed(mesh)) {
     refuse("the surface is not closed: an edge has not exactly one triangle on each side",
            "repair the mesh (holes, doubled or flipped triangles), or give the inertia");

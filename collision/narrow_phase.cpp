@@ -4,7 +4,7 @@
 //   2. polytopes with a radius: GJK distance of the cores by FCL, which is exact when they are
 //   apart;
 //      then all separating axes, which are exact when they overlap; the smaller overlap wins;
-//   3. cylinders: see cylinder_axis.h.
+//   3. cylinders and ellipsoids: see curved_axis.h.
 // Every direction, wherever it comes from, is judged by overlap(n) of the true shapes: an upper
 // bound of the depth for any n. So a wrong answer of FCL can cost optimality, never consistency,
 // and the difference between distance and bound (the duality gap) tells that it happened: then ask
@@ -17,6 +17,7 @@
 
 #include "collision/direction.h"
 #include "collision/half_space_contact.h"
+#include "collision/hollow_contact.h"
 
 namespace twinarm {
 namespace {
@@ -32,7 +33,11 @@ double radii_of(const Placed& a, const Placed& b) {
 }  // namespace
 
 bool is_supported(const Shape& a, const Shape& b) {
-  return !(std::holds_alternative<HalfSpace>(a) && std::holds_alternative<HalfSpace>(b));
+  const auto is_surface = [](const Shape& s) {
+    return std::holds_alternative<HalfSpace>(s) || std::holds_alternative<MeshShape>(s) ||
+           is_hollow(s);
+  };
+  return !(is_surface(a) && is_surface(b));
 }
 
 bool NarrowPhase::nearest(const Placed& a, const Placed& b, double margin, NearestPair& pair) {
@@ -41,10 +46,10 @@ bool NarrowPhase::nearest(const Placed& a, const Placed& b, double margin, Neare
     return pair.axis.overlap > -margin;
   }
   if (!a.solid.core.exists || !b.solid.core.exists) {
-    return cylinder_.nearest(a, b, margin, pair);
+    return curved_.nearest(a, b, margin, pair);
   }
   const double radii = radii_of(a, b);
-  const CoreDistance cores = distance_of(a, b, Core::whole);
+  const CoreDistance cores = distance_of(a, b);
   Axis best;  // of the cores, until the end
   if (cores.distance > gjk_floor) {
     best.n_W = (cores.p_WB - cores.p_WA).normalized();
@@ -74,13 +79,13 @@ void NarrowPhase::retry(const Placed& a, const Placed& b, NearestPair& pair) {
     if (better.overlap >= pair.axis.overlap) return;
     pair = {better, midway(a, b, better.n_W, 0.5 * (p_a + p_b))};
   };
-  const CoreDistance swapped = distance_of(b, a, Core::whole);
+  const CoreDistance swapped = distance_of(b, a);
   if (swapped.distance > gjk_floor) take(swapped.p_WB, swapped.p_WA);
   for (int k = 0; k < 4; ++k) {
     const Vector3 axis = Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, 0.3).normalized();
     Pose X_WA = a.X_WG;
     X_WA.R = Eigen::AngleAxisd(1e-7 * (k + 1), axis).toRotationMatrix() * X_WA.R;
-    const CoreDistance nudged = distance_of({a.solid, X_WA}, b, Core::whole);
+    const CoreDistance nudged = distance_of({a.solid, X_WA}, b);
     if (nudged.distance > gjk_floor) take(nudged.p_WA, nudged.p_WB);
   }
 }
@@ -89,21 +94,38 @@ NarrowPhase::Result NarrowPhase::contacts(const Placed& a, const Placed& b, doub
   if (is_half_space(a) || is_half_space(b)) {
     const bool a_is_ground = is_half_space(a);
     const Placed& ground = a_is_ground ? a : b;
-    half_space_contacts(ground, a_is_ground ? b : a, margin, feature_, half_space_points_);
-    if (a_is_ground) return {outward_W(ground), &half_space_points_};
-    for (ManifoldPoint& point : half_space_points_) std::swap(point.p_WA, point.p_WB);
-    return {-outward_W(ground), &half_space_points_};
+    half_space_contacts(ground, a_is_ground ? b : a, margin, points_);
+    if (!a_is_ground) swap_roles(points_);
+    return {a_is_ground ? outward_W(ground) : Vector3(-outward_W(ground)), &points_};
+  }
+  if (is_hollow(a.solid.shape) || is_hollow(b.solid.shape)) {
+    const bool a_is_hollow = is_hollow(a.solid.shape);
+    hollow_contacts(a_is_hollow ? a : b, a_is_hollow ? b : a, margin, points_);
+    if (!a_is_hollow) swap_roles(points_);
+    return {Vector3::Zero(), &points_};
   }
   NearestPair pair;
-  if (!nearest(a, b, margin, pair)) return {};
+  if (const auto closed = round_contact(a, b)) {
+    pair = *closed;
+    if (!(pair.axis.overlap > -margin)) return {};
+  } else {
+    Axis flat;
+    if (!flat_axis_.best(a, b, margin, flat)) return {};
+    if (!flat.n_W.isZero(0) && manifold_.settles(a, b, flat)) {
+      return {flat.n_W, &manifold_.points(flat, margin)};
+    }
+    if (!nearest(a, b, margin, pair)) return {};
+  }
   return {pair.axis.n_W, &manifold_.between(a, b, pair.axis, pair.p_W, margin)};
 }
 
 double NarrowPhase::distance(const Placed& a, const Placed& b) {
   if (is_half_space(a)) return half_space_distance(a, b);
   if (is_half_space(b)) return half_space_distance(b, a);
+  if (is_hollow(a.solid.shape)) return hollow_distance(a, b);
+  if (is_hollow(b.solid.shape)) return hollow_distance(b, a);
   if (!round_contact(a, b)) {
-    const CoreDistance cores = distance_of(a, b, Core::whole);
+    const CoreDistance cores = distance_of(a, b);
     if (cores.distance > gjk_floor) {
       const Vector3 n = (cores.p_WB - cores.p_WA).normalized();
       const double radii = radii_of(a, b);

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "collision/clip.h"
-#include "collision/cylinder_axis.h"
+#include "collision/curved_axis.h"
+#include "collision/flat_axis.h"
 #include "collision/manifold.h"
 #include "collision/round_contact.h"
 #include "collision/separating_axis.h"
@@ -12,12 +13,14 @@
 
 namespace twinarm {
 
-// Two half-spaces have no contact that could be listed; all other pairs have.
+// Two surfaces without a body behind them (half-spaces, hollows) have no contacts that could be
+// listed, nor have two meshes; all other pairs have. Meshes against convex bodies: mesh_contact.h.
 bool is_supported(const Shape& a, const Shape& b);
 
 class NarrowPhase {
  public:
-  // The normal from A to B, and the contacts with depth > -margin. Empty if there are none.
+  // The normal from A to B (zero where each point has its own), and the contacts with depth >
+  // -margin. Empty if there are none.
   struct Result {
     Vector3 n_W = Vector3::Zero();
     const std::vector<ManifoldPoint>* points = nullptr;  // valid until the next call
@@ -28,17 +31,18 @@ class NarrowPhase {
   // Signed distance: how far the surfaces are apart, or minus the least overlap [m].
   double distance(const Placed& a, const Placed& b);
 
- private:
   // Direction and amount of the least overlap; false if it is certain that they are more than
   // `margin` apart.
   bool nearest(const Placed& a, const Placed& b, double margin, NearestPair& pair);
+
+ private:
   void retry(const Placed& a, const Placed& b, NearestPair& pair);
 
+  FlatAxis flat_axis_;
   SeparatingAxis separating_axis_;
-  CylinderAxis cylinder_;
+  CurvedAxis curved_;
   Manifold manifold_;
-  Feature feature_;
-  std::vector<ManifoldPoint> half_space_points_;
+  std::vector<ManifoldPoint> points_;
 };
 
 }  // namespace twinarm

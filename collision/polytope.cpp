@@ -7,6 +7,22 @@
 namespace twinarm {
 namespace {
 
+std::vector<Polytope::Slab> slabs_of(const ConvexHull& hull) {
+  std::vector<Polytope::Slab> slabs;
+  std::vector<bool> is_done(hull.normals.size(), false);
+  for (std::size_t f = 0; f < hull.normals.size(); ++f) {
+    if (is_done[f]) continue;
+    const Vector3& n = hull.normals[f];
+    slabs.push_back({n, 0, hull.offsets[f], false});
+    for (std::size_t g = f + 1; g < hull.normals.size() && !slabs.back().is_double; ++g) {
+      if (hull.normals[g] != -n) continue;
+      slabs.back() = {n, -hull.offsets[g], hull.offsets[f], true};
+      is_done[g] = true;
+    }
+  }
+  return slabs;
+}
+
 // Finds the edges of a polyhedron: each is walked once by either of its two faces.
 Polytope with_edges(ConvexHull hull) {
   Polytope polytope;
@@ -23,6 +39,7 @@ Polytope with_edges(ConvexHull hull) {
       polytope.edges.push_back({edge.first, edge.second, face, twin->second});
     }
   }
+  polytope.slabs = slabs_of(hull);
   polytope.hull = std::move(hull);
   return polytope;
 }
@@ -45,6 +62,10 @@ struct Make {
   Polytope operator()(const ConvexHull& hull) const { return with_edges(hull); }
   Polytope operator()(const Cylinder&) const { return none(); }
   Polytope operator()(const HalfSpace&) const { return none(); }
+  Polytope operator()(const Ellipsoid&) const { return none(); }
+  Polytope operator()(const MeshShape&) const { return none(); }
+  Polytope operator()(const HollowSphere&) const { return none(); }
+  Polytope operator()(const HollowCylinder&) const { return none(); }
   static Polytope none() {
     Polytope p;
     p.exists = false;

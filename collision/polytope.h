@@ -1,6 +1,6 @@
 // Shapes as polytopes with a radius, which makes one exact narrow phase of most pairs:
 //   sphere = point + r, capsule = segment + r, box and hull = polyhedron + 0,
-// so that depth(A, B) = r_A + r_B - signed distance of the cores. A cylinder is none of these.
+// so that depth(A, B) = r_A + r_B - signed distance of the cores. Cylinders, ellipsoids: patch.h.
 #pragma once
 
 #include <vector>
@@ -15,10 +15,16 @@ struct Polytope {
     int v0, v1;  // its ends
     int f0, f1;  // the faces on both sides; -1 for a bare segment
   };
+  struct Slab {  // a face, and the parallel one opposite if there is one
+    Vector3 normal;
+    double low, high;  // solid where low <= normal . x <= high [m]
+    bool is_double;    // false: no face at `low`
+  };
   ConvexHull hull;  // of a point or a segment: vertices only
   std::vector<Edge> edges;
+  std::vector<Slab> slabs;
   double radius = 0;   // [m]
-  bool exists = true;  // false for cylinder and half-space
+  bool exists = true;  // false for curved shapes and half-spaces
 };
 
 Polytope make_polytope(const Shape& shape);

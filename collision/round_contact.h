@@ -8,8 +8,8 @@
 namespace twinarm {
 
 struct NearestPair {
-  Axis axis;    // exact normal from A to B; the overlap includes the radii
-  Vector3 p_W;  // midway between the two surfaces
+  Axis axis;                      // exact normal from A to B; the overlap includes the radii
+  Vector3 p_W = Vector3::Zero();  // midway between the two surfaces
 };
 
 // Empty if there is no closed form for this pair of shapes.

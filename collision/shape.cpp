@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "collision/mesh_fault.h"
+
 namespace twinarm {
 namespace {
 
@@ -27,22 +29,43 @@ Vector3 support_of(const Cylinder& c, const Vector3& d) {
   return {k * d.x(), k * d.y(), std::copysign(c.length / 2, d.z())};
 }
 
+Vector3 support_of(const Ellipsoid& e, const Vector3& d) {
+  const Vector3 scaled = e.semi_axes.cwiseProduct(d);
+  return e.semi_axes.cwiseProduct(scaled) / scaled.norm();
+}
+
+Vector3 support_of(const HollowSphere& s, const Vector3& d) {
+  return support_of(Sphere{s.radius}, d);
+}
+
+Vector3 support_of(const HollowCylinder& c, const Vector3& d) {
+  return support_of(Cylinder{c.radius, c.length}, d);
+}
+
 Vector3 support_of(const HalfSpace& h, const Vector3& d) {
   if (d.normalized().dot(h.normal) > 1 - 1e-12) return h.offset * h.normal;
   return d * std::numeric_limits<double>::infinity();
 }
 
-Vector3 support_of(const ConvexHull& hull, const Vector3& d) {
+Vector3 highest(const std::vector<Vector3>& points, const Vector3& d) {
   std::size_t best = 0;
   double height = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < hull.vertices.size(); ++i) {
-    const double h = hull.vertices[i].dot(d);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double h = points[i].dot(d);
     if (h > height) {
       height = h;
       best = i;
     }
   }
-  return hull.vertices[best];
+  return points[best];
+}
+
+Vector3 support_of(const ConvexHull& hull, const Vector3& d) {
+  return highest(hull.vertices, d);
+}
+
+Vector3 support_of(const MeshShape& shape, const Vector3& d) {
+  return highest(shape.mesh.vertices, d);
 }
 
 std::string positive(const char* name, double value) {
@@ -64,12 +87,22 @@ struct Faults {
     }
     return "";
   }
+  std::string operator()(const Ellipsoid& e) const {
+    for (int i = 0; i < 3; ++i) {
+      const std::string fault = positive("semi-axis", e.semi_axes[i]);
+      if (!fault.empty()) return fault;
+    }
+    return "";
+  }
   std::string operator()(const Capsule& c) const { return round_fault(c.radius, c.length); }
   std::string operator()(const Cylinder& c) const { return round_fault(c.radius, c.length); }
+  std::string operator()(const HollowSphere& s) const { return positive("radius", s.radius); }
+  std::string operator()(const HollowCylinder& c) const { return round_fault(c.radius, c.length); }
   std::string operator()(const HalfSpace& h) const {
     if (std::abs(h.normal.norm() - 1) < 1e-9 && std::isfinite(h.offset)) return "";
     return "normal has length " + std::to_string(h.normal.norm()) + ", must be 1";
   }
+  std::string operator()(const MeshShape& shape) const { return mesh_fault(shape); }
   std::string operator()(const ConvexHull& hull) const {
     if (hull.vertices.size() >= 4 && hull.faces.size() >= 4 &&
         hull.normals.size() == hull.faces.size()) {
@@ -91,8 +124,9 @@ std::string shape_fault(const Shape& shape) {
 }
 
 std::string shape_name(const Shape& shape) {
-  static const char* const names[] = {"sphere",   "box",        "capsule",
-                                      "cylinder", "half-space", "convex hull"};
+  static const char* const names[] = {
+      "sphere",      "box",       "capsule",       "cylinder",        "half-space",
+      "convex hull", "ellipsoid", "hollow sphere", "hollow cylinder", "triangle mesh"};
   return names[shape.index()];
 }
 

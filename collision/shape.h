@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "collision/convex_hull.h"
+#include "collision/mesh.h"
 #include "solver/pose.h"
 
 namespace twinarm {
@@ -26,16 +27,33 @@ struct Cylinder {
   double radius;  // [m]
   double length;  // [m], along z, centred
 };
+struct Ellipsoid {
+  Vector3 semi_axes;  // half the extents along the axes [m], centred
+};
 struct HalfSpace {
   Vector3 normal = Vector3::UnitZ();  // outward, unit
   double offset = 0;                  // solid where normal . x <= offset [m]
 };
+struct HollowSphere {  // the inside: bodies move within
+  double radius;       // [m], centred
+};
+struct HollowCylinder {  // the inside of a tube with open ends
+  double radius;         // [m]
+  double length;         // [m], along z, centred
+};
+struct MeshShape {
+  TriangleMesh mesh;            // closed, outward; its inside is solid
+  bool is_open = false;         // said to have borders: then touched from both sides
+  double largest_extent = 100;  // a wider mesh is taken for one in millimetres [m]
+};
 
-using Shape = std::variant<Sphere, Box, Capsule, Cylinder, HalfSpace, ConvexHull>;
+using Shape = std::variant<Sphere, Box, Capsule, Cylinder, HalfSpace, ConvexHull, Ellipsoid,
+                           HollowSphere, HollowCylinder, MeshShape>;
 
 // The point of the shape that lies farthest along `direction` (any length but zero), in G.
 // h(d) = max over x of d . x is attained there. Box: 3 comparisons; hull: a scan of the vertices.
-// A half-space has none, and gives infinity, except along its own normal.
+// A half-space has none, and gives infinity, except along its own normal. A hollow shape gives that
+// of the solid that would fill it.
 Vector3 support(const Shape& shape, const Vector3& direction);
 
 // What is wrong with the numbers of a shape, empty if nothing: "radius is -1 m, must be positive".

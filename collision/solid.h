@@ -1,17 +1,30 @@
 // A collision shape with all that the narrow phase prepares for it, once.
 #pragma once
 
+#include <memory>
+
 #include "collision/fcl_query.h"
+#include "collision/patch.h"
 #include "collision/polytope.h"
 #include "collision/shape.h"
 #include "solver/pose.h"
 
 namespace twinarm {
 
+struct MeshSurface;
+std::shared_ptr<const MeshSurface> make_mesh_surface(const Shape& shape);
+
 struct Solid {
-  explicit Solid(const Shape& s) : shape(s), core(make_polytope(s)), fcl(s, core) {}
+  explicit Solid(const Shape& s)
+      : shape(s),
+        core(make_polytope(s)),
+        patches(make_patches(s, core)),
+        surface(make_mesh_surface(s)),
+        fcl(s, core) {}
   Shape shape;
   Polytope core;
+  Patches patches;
+  std::shared_ptr<const MeshSurface> surface;  // of a triangle mesh, else null
   FclShape fcl;
 };
 

@@ -85,6 +85,29 @@ double oracle_distance(const Shape& a, const Pose& X_WA, const Shape& b, const P
   return distance - core_radius(a) - core_radius(b);
 }
 
+double sampled_depth(Random& random, const Placed& a, const Placed& b) {
+  std::vector<std::pair<double, Vector3>> tried;
+  for (int k = 0; k < 500; ++k) {
+    const Vector3 n = random.direction();
+    tried.emplace_back(overlap(a, b, n), n);
+  }
+  std::partial_sort(tried.begin(), tried.begin() + 3, tried.end(),
+                    [](const auto& x, const auto& y) { return x.first < y.first; });
+  double least = tried[0].first;
+  for (int k = 0; k < 3; ++k) {
+    auto [value, n] = tried[static_cast<std::size_t>(k)];
+    for (double step = 0.1; step > 1e-6; step *= 0.93) {
+      for (int i = 0; i < 4; ++i) {
+        const Vector3 trial = (n + step * random.direction()).normalized();
+        const double found = overlap(a, b, trial);
+        if (found < value) value = found, n = trial;
+      }
+    }
+    least = std::min(least, value);
+  }
+  return least;
+}
+
 Pose random_pose(Random& random) {
   return {random.rotation(), random.uniform(0, 1) * random.direction()};
 }

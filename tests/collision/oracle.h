@@ -11,6 +11,7 @@
 
 #include "collision/mesh.h"
 #include "collision/shape.h"
+#include "collision/solid.h"
 #include "solver/pose.h"
 
 namespace twinarm::test {
@@ -28,6 +29,10 @@ std::vector<Vector3> core_vertices(const Shape& shape);
 double core_radius(const Shape& shape);
 
 double oracle_distance(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB);
+
+// Least overlap(n) over 500 random directions, the best three of them refined by random steps that
+// shrink. Of any two convex bodies; an upper bound of the depth.
+double sampled_depth(Random& random, const Placed& a, const Placed& b);
 
 // A pose of B in which B is pushed against A along a random direction until their supporting planes
 // there are `gap` apart (negative: overlap).

@@ -4,11 +4,13 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "collision/mesh_file.h"
 #include "solver/fault.h"
@@ -30,6 +32,25 @@ void check_close(const MassProperties& found, const MassProperties& truth, doubl
   CHECK(std::abs(found.mass - truth.mass) < tolerance * truth.mass);
   CHECK((found.com - truth.com).norm() < tolerance * (1 + truth.com.norm()));
   CHECK((found.inertia - truth.inertia).norm() < tolerance * truth.inertia.norm());
+}
+
+// From the definitions of the shapes, not from their supports.
+bool is_inside(const Shape& shape, const Vector3& x) {
+  const double rho = std::hypot(x.x(), x.y());
+  if (const auto* s = std::get_if<Sphere>(&shape)) return x.norm() < s->radius;
+  if (const auto* b = std::get_if<Box>(&shape))
+    return (2 * x.cwiseAbs().array() < b->size.array()).all();
+  if (const auto* e = std::get_if<Ellipsoid>(&shape))
+    return x.cwiseQuotient(e->semi_axes).norm() < 1;
+  if (const auto* c = std::get_if<Cylinder>(&shape))
+    return rho < c->radius && 2 * std::abs(x.z()) < c->length;
+  if (const auto* c = std::get_if<Capsule>(&shape))
+    return std::hypot(rho, std::max(0.0, std::abs(x.z()) - c->length / 2)) < c->radius;
+  const auto& hull = std::get<ConvexHull>(shape);
+  for (std::size_t f = 0; f < hull.normals.size(); ++f) {
+    if (hull.normals[f].dot(x) > hull.offsets[f]) return false;
+  }
+  return true;
 }
 
 // Octahedron, each triangle cut into four `levels` times, all corners on the unit sphere.
@@ -103,6 +124,47 @@ TEST_CASE("a refined sphere converges to the ball with order 2 in the edge lengt
     }
     before = error;
   }
+}
+
+TEST_CASE("every solid shape has the mass and inertia of two million points of it") {
+  const std::vector<Vector3> corners = box_mesh({0.2, 0.3, 0.4}).vertices;
+  Random random(47);
+  for (const Shape& shape :
+       {Shape(Sphere{0.2}), Shape(Box{{0.2, 0.3, 0.4}}), Shape(Capsule{0.1, 0.3}),
+        Shape(Cylinder{0.1, 0.3}), Shape(Ellipsoid{{0.1, 0.2, 0.3}}), Shape(random_hull(random)),
+        Shape(convex_hull(corners))}) {
+    CAPTURE(shape_name(shape));
+    Vector3 half;  // a box around it
+    for (int i = 0; i < 3; ++i) {
+      half[i] =
+          std::max(support(shape, Vector3::Unit(i))[i], -support(shape, -Vector3::Unit(i))[i]);
+    }
+    const int count = 120;  // midpoints of cells: no randomness
+    double inside = 0;
+    Vector3 first = Vector3::Zero();
+    Matrix3 second = Matrix3::Zero();
+    for (int i = 0; i < count * count * count; ++i) {
+      const Eigen::Array3d cell(i % count, i / count % count, i / count / count);
+      const Vector3 x = ((cell + 0.5) / count * 2 - 1) * half.array();
+      if (!is_inside(shape, x)) continue;
+      inside += 1;
+      first += x;
+      second += x * x.transpose();
+    }
+    const double cell = 8 * half.prod() / std::pow(count, 3);
+    const Vector3 com = first / inside;
+    const Matrix3 central = (second - inside * com * com.transpose()) * cell * 700;
+    const MassProperties truth{700 * inside * cell, com,
+                               central.trace() * Matrix3::Identity() - central};
+    const MassProperties found = mass_properties(shape, 700);
+    check_close(found, truth, 2e-3);
+    check_close(with_mass(found, 3), {3, found.com, found.inertia * (3 / found.mass)}, 1e-15);
+  }
+  check_close(mass_properties(Shape(Box{{0.3, 0.5, 0.7}}), 2700),
+              box_properties({0.3, 0.5, 0.7}, 2700), 1e-15);
+  CHECK_THROWS_AS(mass_properties(HalfSpace{}, 1000), InputError);
+  CHECK_THROWS_AS(mass_properties(Sphere{0}, 1000), InputError);
+  CHECK_THROWS_AS(mass_properties(Sphere{1}, -1), InputError);
 }
 
 TEST_CASE("a hollow box is the outer one less the inner one, by mesh and by combine") {

@@ -1,0 +1,123 @@
+// Each near triangle is a thin polytope for the narrow phase of convex bodies; what is special is
+// which normals it may have. A body that lies over a triangle touches it along the triangle's own
+// normal. Beyond a side the normal leans over it, which is real only where the mesh is convex
+// there: the normal must lean out of the neighbour as well. Along flat and hollow edges the
+// neighbour has the contact, so a ball rolls over them and feels nothing. Contacts that two
+// triangles share, on their common edge, are kept once.
+#include "collision/mesh_contact.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "collision/direction.h"
+
+namespace twinarm {
+namespace {
+
+constexpr double lean = 1e-6;              // sine of an angle that counts as leaning
+constexpr double same_point = 1e-9;        // [m]
+constexpr double same_direction = 0.9999;  // cosine
+
+Aabb box_in(const Placed& mesh, const Placed& body, double margin) {
+  const Pose X_MB = mesh.X_WG.inverse() * body.X_WG;
+  Aabb box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 e = Vector3::Unit(axis), d = X_MB.R.transpose() * e;
+    box.high[axis] = (X_MB * support(body.solid.shape, d))[axis] + margin;
+    box.low[axis] = (X_MB * support(body.solid.shape, -d))[axis] - margin;
+  }
+  return box;
+}
+
+// Whether a normal (in the frame of the mesh) may be that of a contact with this triangle.
+bool is_own(const Vector3& n, const Vector3& front, const std::array<MeshSurface::Side, 3>& sides) {
+  if (n.dot(front) < -lean) return false;
+  return std::none_of(sides.begin(), sides.end(), [&](const MeshSurface::Side& side) {
+    return n.dot(side.outward) > lean && n.dot(side.of_neighbour) < -lean;
+  });
+}
+
+}  // namespace
+
+void MeshContact::take(const std::vector<ManifoldPoint>& points, const Vector3& n_W, int t,
+                       double margin) {
+  for (ManifoldPoint point : points) {
+    if (!(point.depth > -margin)) continue;
+    point.n_W = n_W;
+    point.feature = feature_name(t, point.feature, 0, 11);
+    all_.push_back(point);
+  }
+}
+
+void MeshContact::touch_triangle(NarrowPhase& narrow_phase, const Placed& mesh, int t,
+                                 const Placed& body, double margin) {
+  const MeshSurface& surface = *mesh.solid.surface;
+  const Placed triangle{surface.triangles[t], mesh.X_WG};
+  Vector3 n_W = mesh.X_WG.R * surface.normals[t];
+  const Vector3 corner_W = mesh.X_WG * triangle.solid.core.hull.vertices[0];
+  const bool is_behind = n_W.dot(body.X_WG.p - corner_W) < 0;
+  if (is_behind && !surface.is_open) return;
+  if (is_behind) n_W = -n_W;
+  const Axis front{n_W, overlap(triangle, body, n_W)};
+  if (!(front.overlap > -margin)) return;
+  const std::vector<ManifoldPoint>& over = manifold_.features(triangle, body, front);
+  const bool lies_over = std::any_of(over.begin(), over.end(), [&](const ManifoldPoint& point) {
+    return point.depth > front.overlap - same_point;
+  });
+  if (lies_over) return take(over, n_W, t, margin);
+  NearestPair pair;
+  if (!narrow_phase.nearest(triangle, body, margin, pair)) return;
+  const Matrix3 R_MW = mesh.X_WG.R.transpose();
+  if (!is_own(R_MW * pair.axis.n_W, R_MW * n_W, surface.sides[t])) {
+    return take(over, n_W, t, margin);
+  }
+  take(manifold_.between(triangle, body, pair.axis, pair.p_W, margin), pair.axis.n_W, t, margin);
+}
+
+// Direction by direction, deepest first: each point once, four at most.
+void MeshContact::thin_out() {
+  kept_.clear();
+  std::stable_sort(all_.begin(), all_.end(),
+                   [](const auto& x, const auto& y) { return x.depth > y.depth; });
+  while (!all_.empty()) {
+    const Vector3 n = all_.front().n_W;
+    group_.clear();
+    for (const ManifoldPoint& point : all_) {
+      if (point.n_W.dot(n) < same_direction) continue;
+      const bool is_known = std::any_of(group_.begin(), group_.end(), [&](const auto& other) {
+        return (other.p_WA - point.p_WA).norm() < same_point;
+      });
+      if (!is_known) group_.push_back(point);
+    }
+    std::erase_if(all_, [&](const auto& point) { return !(point.n_W.dot(n) < same_direction); });
+    reduce_to_four(n, group_);
+    kept_.insert(kept_.end(), group_.begin(), group_.end());
+  }
+}
+
+const std::vector<ManifoldPoint>& MeshContact::contacts(NarrowPhase& narrow_phase,
+                                                        const Placed& mesh, const Placed& body,
+                                                        double margin) {
+  near_.clear();
+  all_.clear();
+  mesh.solid.surface->find(box_in(mesh, body, margin), near_);
+  for (int t : near_) touch_triangle(narrow_phase, mesh, t, body, margin);
+  thin_out();
+  return kept_;
+}
+
+double MeshContact::distance(NarrowPhase& narrow_phase, const Placed& mesh, const Placed& body) {
+  double deepest = 0;
+  for (const ManifoldPoint& point : contacts(narrow_phase, mesh, body, 0)) {
+    deepest = std::max(deepest, point.depth);
+  }
+  if (deepest > 0) return -deepest;
+  double least = 1e300;
+  for (const Solid& triangle : mesh.solid.surface->triangles) {
+    least = std::min(least, narrow_phase.distance({triangle, mesh.X_WG}, body));
+  }
+  return std::max(least, 0.0);
+}
+
+}  // namespace twinarm

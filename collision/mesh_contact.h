@@ -1,0 +1,33 @@
+// A triangle mesh against a convex body.
+#pragma once
+
+#include <vector>
+
+#include "collision/clip.h"
+#include "collision/mesh_surface.h"
+#include "collision/narrow_phase.h"
+
+namespace twinarm {
+
+class MeshContact {
+ public:
+  // Contacts with depth > -margin, each with its own normal, from the mesh (A) to the body (B). Of
+  // a closed mesh only the sides that face the body's origin count: it is taken to be outside. Up
+  // to four for each direction in which the body touches.
+  const std::vector<ManifoldPoint>& contacts(NarrowPhase& narrow_phase, const Placed& mesh,
+                                             const Placed& body, double margin);
+  // Distance of the nearest triangle, or minus the largest depth [m].
+  double distance(NarrowPhase& narrow_phase, const Placed& mesh, const Placed& body);
+
+ private:
+  void touch_triangle(NarrowPhase& narrow_phase, const Placed& mesh, int t, const Placed& body,
+                      double margin);
+  void take(const std::vector<ManifoldPoint>& points, const Vector3& n_W, int t, double margin);
+  void thin_out();
+
+  Manifold manifold_;
+  std::vector<int> near_;
+  std::vector<ManifoldPoint> all_, group_, kept_;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,321 @@
+// Ellipsoids, discs and hollows in known places.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "collision/collision_world.h"
+#include "solver/fault.h"
+#include "tests/collision/oracle.h"
+
+using namespace twinarm;
+using namespace twinarm::test;
+
+namespace {
+
+Matrix3 turn(double angle, const Vector3& axis) {
+  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
+
+struct Scene {
+  Scene(const Shape& a, const Shape& b) {
+    world.add({"a", a, 0});
+    world.add({"b", b, 0});
+  }
+  const std::vector<Contact>& touch(const Pose& X_WA, const Pose& X_WB, double margin = 1e-3) {
+    world.detect(std::array{X_WA, X_WB}, margin, contacts);
+    return contacts;
+  }
+  const Contact& deepest() const {
+    return *std::max_element(contacts.begin(), contacts.end(),
+                             [](const Contact& x, const Contact& y) { return x.depth < y.depth; });
+  }
+  CollisionWorld world;
+  std::vector<Contact> contacts;
+};
+
+const Pose origin;
+
+// Of a point of the body from the wall, negative inside the hollow.
+double beyond(const Shape& hollow, const Vector3& p, double tolerance = 0) {
+  if (const auto* sphere = std::get_if<HollowSphere>(&hollow)) return p.norm() - sphere->radius;
+  const auto& tube = std::get<HollowCylinder>(hollow);
+  if (std::abs(p.z()) > tube.length / 2 + tolerance) return -1e300;
+  return std::hypot(p.x(), p.y()) - tube.radius;
+}
+
+}  // namespace
+
+TEST_CASE("an ellipsoid touches a half-space where its normal says: x = -Q n / sqrt(n' Q n)") {
+  Random random(41);
+  const Ellipsoid e{{0.2, 0.03, 0.02}};
+  Scene scene(HalfSpace{}, e);
+  double worst = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Matrix3 R = random.rotation();
+    const Matrix3 Q = R * e.semi_axes.cwiseAbs2().asDiagonal() * R.transpose();
+    const double height = std::sqrt(Q(2, 2)), depth = random.uniform(-9e-4, 5e-3);
+    const Vector3 lowest = -Q.col(2) / height;
+    scene.touch(origin, {R, {0.3, -0.2, height - depth}});
+    REQUIRE(scene.contacts.size() == 1);
+    const Vector3 p(0.3 + lowest.x(), -0.2 + lowest.y(), -depth / 2);
+    worst = std::max(
+        {worst, std::abs(scene.contacts[0].depth - depth), (scene.contacts[0].p_WC - p).norm()});
+  }
+  CHECK(worst < 1e-15);
+}
+
+TEST_CASE("ellipsoids with equal semi-axes are spheres, against every shape") {
+  Random random(42);
+  const std::vector<Shape> others = {Sphere{0.06},        Box{{0.2, 0.14, 0.1}},
+                                     Capsule{0.05, 0.2},  Cylinder{0.06, 0.15},
+                                     random_hull(random), Ellipsoid{{0.1, 0.06, 0.04}}};
+  for (const Shape& other : others) {
+    CAPTURE(shape_name(other));
+    Scene round(other, Sphere{0.07}), ellipsoid(other, Ellipsoid{Vector3::Constant(0.07)});
+    double depth = 0, place = 0, normal = 0;
+    for (int k = 0; k < 500; ++k) {
+      const Pose X_WA = random_pose(random);
+      const Pose X_WB =
+          pushed_against(random, other, X_WA, Sphere{0.07}, random.uniform(-0.01, 1e-3));
+      if (round.touch(X_WA, X_WB).empty()) continue;
+      REQUIRE(ellipsoid.touch(X_WA, X_WB).size() == 1);
+      const Contact &x = round.contacts[0], &y = ellipsoid.contacts[0];
+      depth = std::max(depth, std::abs(x.depth - y.depth));
+      place = std::max(place, (x.p_WC - y.p_WC).norm());
+      normal = std::max(normal, (x.n_W - y.n_W).norm());
+    }
+    CHECK(depth < 1e-12);
+    CHECK(place < 1e-7);
+    CHECK(normal < 1e-7);
+  }
+}
+
+TEST_CASE("an ellipsoid's contact moves smoothly: its second differences are of second order") {
+  Random random(43);
+  const Ellipsoid e{{0.11, 0.05, 0.03}};
+  for (const Shape& table : {Shape(Box{{1, 1, 0.2}}), Shape(Ellipsoid{{0.5, 0.6, 0.1}}),
+                             Shape(Cylinder{0.7, 0.2}), Shape(HalfSpace{Vector3::UnitZ(), 0.1})}) {
+    CAPTURE(shape_name(table));
+    Scene scene(table, e);
+    double roughest = 0;
+    for (int k = 0; k < 100; ++k) {
+      const Vector3 axis = random.direction();
+      const Matrix3 R = random.rotation();
+      std::array<Vector3, 3> p;
+      const double step = 1e-4;
+      for (int i = 0; i < 3; ++i) {
+        const Matrix3 Ri = turn(step * i, axis) * R;
+        const double height = (Ri * e.semi_axes.asDiagonal()).row(2).norm();
+        scene.touch(origin, {Ri, {0.01, 0.02, 0.1 + height - 1e-4}}, 1e-2);
+        REQUIRE(scene.contacts.size() == 1);
+        p[static_cast<std::size_t>(i)] = scene.contacts[0].p_WC;
+      }
+      roughest = std::max(roughest, (p[0] - 2 * p[1] + p[2]).norm() / (step * step));
+    }
+    CHECK(roughest < 20);  // [m]: a few times the largest radius of curvature, 0.4 m
+  }
+}
+
+TEST_CASE("a coin on its rim touches at the lowest point of the rim, as it rolls once round") {
+  const double radius = 0.0375, tilt = 10 * std::numbers::pi / 180;
+  for (const double thickness : {1e-3, 1e-5}) {
+    for (const double angle : {tilt, 0.12, 0.01, 1e-4}) {
+      for (const Shape& table :
+           {Shape(HalfSpace{Vector3::UnitZ(), 0.1}), Shape(Box{{1, 1, 0.2}})}) {
+        CAPTURE(shape_name(table));
+        CAPTURE(angle);
+        CAPTURE(thickness);
+        Scene scene(table, Cylinder{radius, thickness});
+        double worst = 0;
+        int name = 0, renamed = 0;
+        for (int k = 0; k < 400; ++k) {
+          const double heading = 2 * std::numbers::pi * k / 400, spin = 0.37 * k;
+          const Matrix3 R = turn(heading, Vector3::UnitZ()) * turn(angle, Vector3::UnitY()) *
+                            turn(spin, Vector3::UnitZ());
+          // Lowest point, of the lower cap: along +x of the heading, and down.
+          const Matrix3 T = turn(heading, Vector3::UnitZ()) * turn(angle, Vector3::UnitY());
+          const Vector3 r = T * Vector3(radius, 0, -thickness / 2);
+          const double depth = 1e-6;
+          const Pose X{R, {0.01, 0.02, 0.1 - depth - r.z()}};
+          scene.touch(origin, X, 1e-5);
+          REQUIRE(!scene.contacts.empty());
+          const Contact& lowest = scene.deepest();
+          const Vector3 p = X.p + r;
+          worst =
+              std::max({worst, std::abs(lowest.depth - depth), (lowest.p_WC - p).head<2>().norm(),
+                        (lowest.n_W - Vector3::UnitZ()).norm()});
+          if (k > 0 && lowest.feature != name) ++renamed;
+          name = lowest.feature;
+          // One point, unless the opposite side of the rim is in reach as well.
+          if (2 * radius * std::sin(angle) * 0.14 > 1.2e-5 && thickness > 1e-4) {
+            CHECK(scene.contacts.size() == 1);
+          }
+        }
+        CHECK(worst < 2e-12 * (1e-2 / angle));  // the direction of the tilt is known to rounding
+        CHECK(renamed == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("a flat coin stands on four points of its rim that turn with it") {
+  for (const Shape& table : {Shape(HalfSpace{Vector3::UnitZ(), 0.1}), Shape(Box{{1, 1, 0.2}})}) {
+    Scene scene(table, Cylinder{0.0375, 1e-3});
+    std::vector<Contact> before;
+    for (int k = 0; k < 100; ++k) {
+      const Matrix3 R =
+          turn(1e-9, Vector3(k % 7 - 3, k % 5 - 2, 0.1)) * turn(1e-3 * k, Vector3::UnitZ());
+      scene.touch(origin, {R, {0.01, 0.02, 0.1 + 0.5e-3 - 1e-7}}, 1e-4);
+      REQUIRE(scene.contacts.size() == 4);
+      for (std::size_t i = 0; i < before.size(); ++i) {
+        CHECK(scene.contacts[i].feature == before[i].feature);
+        CHECK((scene.contacts[i].p_WC - before[i].p_WC).norm() < 1e-4);
+      }
+      before = scene.contacts;
+    }
+  }
+}
+
+TEST_CASE("lying cylinders and capsules roll on two points at the ends of their lines") {
+  const double radius = 0.05, length = 0.2;
+  for (const Shape& table : {Shape(HalfSpace{Vector3::UnitZ(), 0.1}), Shape(Box{{1, 1, 0.2}})}) {
+    for (const Shape& roll : {Shape(Cylinder{radius, length}), Shape(Capsule{radius, length})}) {
+      CAPTURE(shape_name(roll));
+      Scene scene(table, roll);
+      std::vector<int> names;
+      for (int k = 0; k < 200; ++k) {
+        const double heading = 0.4 + 1e-3 * k;
+        const Matrix3 R = turn(heading, Vector3::UnitZ()) *
+                          turn(std::numbers::pi / 2, Vector3::UnitY()) *
+                          turn(0.05 * k, Vector3::UnitZ());
+        const double depth = k % 2 == 0 ? 1e-7 : -1e-7;
+        scene.touch(origin, {R, {0.01, 0, 0.1 + radius - depth}}, 1e-4);
+        REQUIRE(scene.contacts.size() == 2);
+        const Vector3 along(std::cos(heading), std::sin(heading), 0);
+        for (const Contact& c : scene.contacts) {
+          CHECK(std::abs(c.depth - depth) < 1e-12);
+          const double s = (c.p_WC - Vector3(0.01, 0, 0.1)).dot(along);
+          CHECK(std::abs(std::abs(s) - length / 2) < 1e-12);
+        }
+        if (k > 0)
+          CHECK(names == std::vector{scene.contacts[0].feature, scene.contacts[1].feature});
+        names = {scene.contacts[0].feature, scene.contacts[1].feature};
+      }
+    }
+  }
+}
+
+TEST_CASE("within a hollow: the depth is that of the farthest of many points of the body") {
+  Random random(44);
+  const std::vector<Shape> bodies = {Sphere{0.06},        Box{{0.2, 0.14, 0.1}},
+                                     Capsule{0.05, 0.2},  Cylinder{0.06, 0.15},
+                                     random_hull(random), Ellipsoid{{0.11, 0.05, 0.07}}};
+  for (const Shape& hollow : {Shape(HollowSphere{0.5}), Shape(HollowCylinder{0.5, 0.7})}) {
+    for (const Shape& body : bodies) {
+      CAPTURE(shape_name(hollow));
+      CAPTURE(shape_name(body));
+      Scene scene(hollow, body);
+      double too_shallow = 0, too_deep = 0, off_wall = 0;
+      int touched = 0;
+      for (int k = 0; k < 100; ++k) {
+        const Pose X_WH = random_pose(random);
+        Vector3 out = random.direction();
+        if (std::holds_alternative<HollowCylinder>(hollow)) {
+          out.z() = 0;
+          out.normalize();
+          out.z() = random.uniform(-0.9, 0.9);
+        }
+        const Pose X_HB{random.rotation(), random.uniform(0.4, 0.46) * out};
+        double oracle = -1e300;
+        for (int i = 0; i < 4000; ++i) {  // points of the surface
+          const Vector3 x = X_HB * support(body, random.direction());
+          oracle = std::max(oracle, beyond(hollow, x));
+        }
+        const double margin = 1e-2;
+        scene.touch(X_WH, X_WH * X_HB, margin);
+        if (scene.contacts.empty()) {
+          CHECK(oracle < -margin + 1e-12);
+          continue;
+        }
+        ++touched;
+        const Contact& deepest = scene.deepest();
+        // Corners are found by any direction; the points of smooth bodies are a few mm apart; those
+        // of the faces and sides that a mouth of the tube cuts are not sampled at all.
+        const bool is_cut = std::holds_alternative<HollowCylinder>(hollow) &&
+                            std::abs((X_WH.inverse() * deepest.p_WC).z()) > 0.35 - 1e-9;
+        too_shallow = std::max(too_shallow, oracle - deepest.depth);
+        if (!is_cut && oracle > -margin) too_deep = std::max(too_deep, deepest.depth - oracle);
+        for (const Contact& c : scene.contacts) {  // on the wall, normal inward
+          const Vector3 p = X_WH.inverse() * (c.p_WC + 0.5 * c.depth * c.n_W);
+          off_wall = std::max(off_wall, std::abs(beyond(hollow, p, 1e-9)));
+        }
+      }
+      CHECK(touched > 10);
+      CHECK(too_shallow < 1e-12);
+      CHECK(too_deep < 1e-3);
+      CHECK(off_wall < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("a ball in a bowl and in a tube, a roller in a tube: depth and normal in closed form") {
+  Random random(45);
+  Scene bowl(HollowSphere{1}, Sphere{0.1}), tube(HollowCylinder{1, 2}, Sphere{0.1});
+  Scene roller(HollowCylinder{1, 2}, Cylinder{0.1, 0.3}), swapped(Sphere{0.1}, HollowSphere{1});
+  for (int k = 0; k < 500; ++k) {
+    const double depth = random.uniform(-9e-4, 1e-3), angle = random.uniform(-3, 3);
+    const Vector3 out = random.direction(), across(std::cos(angle), std::sin(angle), 0);
+    REQUIRE(bowl.touch(origin, {random.rotation(), (0.9 + depth) * out}).size() == 1);
+    CHECK(std::abs(bowl.contacts[0].depth - depth) < 1e-14);
+    CHECK((bowl.contacts[0].n_W + out).norm() < 1e-14);
+    CHECK((bowl.contacts[0].p_WC - (1 + depth / 2) * out).norm() < 1e-14);
+    REQUIRE(swapped.touch({random.rotation(), (0.9 + depth) * out}, origin).size() == 1);
+    CHECK((swapped.contacts[0].n_W - out).norm() < 1e-14);
+    const Vector3 p = (0.9 + depth) * across + Vector3(0, 0, random.uniform(-0.8, 0.8));
+    REQUIRE(tube.touch(origin, {random.rotation(), p}).size() == 1);
+    CHECK(std::abs(tube.contacts[0].depth - depth) < 1e-14);
+    CHECK((tube.contacts[0].n_W + across).norm() < 1e-14);
+    REQUIRE(roller.touch(origin, {turn(random.uniform(-3, 3), Vector3::UnitZ()), p}).size() == 2);
+    for (const Contact& c : roller.contacts) {
+      CHECK(std::abs(c.depth - depth) < 1e-14);
+      CHECK((c.n_W + across).norm() < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("a long ellipsoid in a bowl rests on both tips; two hollows are refused") {
+  Scene scene(HollowSphere{0.2}, Ellipsoid{{0.19, 0.02, 0.03}});
+  const double height = std::sqrt(0.04 - 0.19 * 0.19);
+  for (const double shift : {0.0, 1e-14, -1e-9, 1e-5}) {
+    CHECK(scene.touch(origin, {Matrix3::Identity(), {shift, 0, -height}}).size() == 2);
+  }
+  CollisionWorld world;
+  world.add({"bowl", HollowSphere{1}, 0});
+  CHECK_THROWS_AS(world.add({"tube", HollowCylinder{1, 1}, 0}), InputError);
+  CHECK_THROWS_AS(world.add({"floor", HalfSpace{}, 0}), InputError);
+  CHECK_THROWS_AS(world.add({"point", Ellipsoid{{0.1, 0, 0.1}}, 0}), InputError);
+}
+
+TEST_CASE("a fast ball sees a thin plate from its own side, before it gets there") {
+  CollisionWorld world;
+  world.add({"plate", Box{{1, 1, 0.005}}, 0, true});
+  world.add({"ball", Sphere{0.005}, 0});
+  world.add({"far", Sphere{0.005}, 0});
+  const std::array margins{0.0, 50 * 1e-3, 1e-4};  // swept in 1 ms at 50 m/s
+  for (const double side : {1.0, -1.0}) {
+    const double gap = 0.04;
+    const std::array<Pose, 3> X{origin, Pose{Matrix3::Identity(), {0.1, 0, side * (gap + 0.0075)}},
+                                Pose{Matrix3::Identity(), {-0.1, 0, side * (gap + 0.0075)}}};
+    std::vector<Contact> contacts;
+    world.detect(X, margins, contacts);
+    REQUIRE(contacts.size() == 1);  // the slow one has none
+    CHECK(contacts[0].b == 1);
+    CHECK((contacts[0].n_W - side * Vector3::UnitZ()).norm() < 1e-14);
+    CHECK(std::abs(contacts[0].depth + gap) < 1e-14);
+  }
+}
