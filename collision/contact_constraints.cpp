@@ -65,7 +65,7 @@ int ContactConstraints::add(const ContactGeometry& geometry) {
   check(s.stiffness > 0 && s.dissipation >= 0, "stiffness or dissipation is not positive",
         "give a positive stiffness, and a dissipation of 0 or more");
   faults.check();
-  const int id = world_.add({geometry.name, geometry.shape, geometry.group});
+  const int id = world_.add({geometry.name, geometry.shape, geometry.group, geometry.body == 0});
   geometries_.push_back(geometry);
   const bool bounded = !std::holds_alternative<HalfSpace>(geometry.shape);
   radius_.push_back(bounded ? geometry.X_LG.p.norm() + half_diagonal(geometry.shape) : 0);
@@ -123,14 +123,12 @@ const ContactPoint* ContactConstraints::last_of(const Contact& contact) const {
 }
 
 void ContactConstraints::begin_step(const Kinematics& k, const State<double>&, double h) noexcept {
-  double margin = 0;
   reach_.resize(geometries_.size());
   for (std::size_t g = 0; g < geometries_.size(); ++g) {
     X_WG_[g] = k.X_WL[static_cast<std::size_t>(geometries_[g].body)] * geometries_[g].X_LG;
     reach_[g] = reach(g, k, h);
-    margin = std::max(margin, 2 * reach_[g]);
   }
-  world_.detect(X_WG_, margin, contacts_);
+  world_.detect(X_WG_, reach_, contacts_);
   std::swap(points_, last_);
   points_.clear();
   work_ = {};

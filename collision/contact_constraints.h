@@ -71,7 +71,7 @@ class ContactConstraints final : public ConstraintSource, public Rewindable {
             std::size_t first) noexcept override;
 
   void keep() override { kept_ = points_; }
-  void go_back() override { points_ = kept_; }
+  void go_back() noexcept override { std::swap(points_, kept_); }
 
   const std::vector<ContactPoint>& points() const { return points_; }
   // Work of the last step on the bodies [J]: by the normal forces, by friction, by impacts.
