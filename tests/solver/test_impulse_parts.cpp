@@ -1,0 +1,109 @@
+// The parts of the impulse solver: the envelope factors, the cone's algebra, the blocks of M.
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <random>
+
+#include "solver/dynamics.h"
+#include "solver/envelope_lu.h"
+#include "solver/model_trees.h"
+#include "solver/second_order_cone.h"
+#include "tests/solver/random_tree.h"
+
+using namespace twinarm;
+using namespace twinarm::testing;
+
+TEST_CASE("envelope factors solve like a dense factorisation, symmetric or not") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const std::vector<std::size_t> first{0, 0, 1, 0, 3, 2, 6, 4};
+  const std::size_t n = first.size();
+  for (const bool symmetric : {true, false}) {
+    EnvelopeLu lu;
+    for (const std::size_t f : first) lu.add_row(f);
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(8, 8);
+    for (std::size_t r = 0; r < n; ++r)
+      for (std::size_t k = first[r]; k <= r; ++k) {
+        const double below = r == k ? 5 : unit(random), above = symmetric ? below : unit(random);
+        *lu.row(r, k) = A(static_cast<int>(r), static_cast<int>(k)) = below;
+        if (k < r) *lu.column(r, k) = A(static_cast<int>(k), static_cast<int>(r)) = above;
+      }
+    Eigen::VectorXd b = Eigen::VectorXd::Random(8), x = b;
+    lu.factorise(symmetric);
+    lu.solve(x.data());
+    CHECK((A * x - b).norm() < 1e-14);
+  }
+}
+
+TEST_CASE("the scaling of a pair in the cone takes both to the same point") {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const auto inside = [&] {
+      ConeVec x{0, unit(random), unit(random)};
+      x[0] = std::hypot(x[1], x[2]) + std::pow(10.0, 3 * unit(random) - 2);
+      return x;
+    };
+    const ConeVec x = inside(), z = inside();
+    const ConeScaling s = nesterov_todd(x, z);
+    const ConeVec back = times(s.W, s.t), W2z = times(s.W2, z);
+    for (int r = 0; r < 3; ++r) {
+      CHECK(back[r] == doctest::Approx(x[r]).epsilon(1e-8));
+      CHECK(W2z[r] == doctest::Approx(x[r]).epsilon(1e-8));
+    }
+    const ConeVec y = jordan_solve(s.t, jordan(s.t, z));
+    for (int r = 0; r < 3; ++r) CHECK(y[r] == doctest::Approx(z[r]).epsilon(1e-7));
+    const ConeVec d{unit(random), unit(random), unit(random)};
+    const double step = cone_step(x, d);
+    if (step > 1e6) continue;  // it never leaves
+    const ConeVec end{x[0] + step * d[0], x[1] + step * d[1], x[2] + step * d[2]};
+    CHECK(std::abs(end[0] - std::hypot(end[1], end[2])) < 1e-9 * (1 + step));
+    const ConeVec before{x[0] + 0.999 * step * d[0], x[1] + 0.999 * step * d[1],
+                         x[2] + 0.999 * step * d[2]};
+    CHECK(before[0] > std::hypot(before[1], before[2]));
+  }
+}
+
+TEST_CASE("the blocks of the trees are the mass matrix, and their rows the Jacobians") {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    const std::vector<JointType> types(all_joint_types.begin(), all_joint_types.end());
+    const Model<double> model = random_tree(random, 2 + static_cast<int>(seed) % 9, types);
+    const State<double> x = random_state(random, model);
+    Workspace<double> w(model);
+    crba(model, x, w);
+    const std::vector<double> M = w.M;
+    kinematics(model, x, w);
+    ModelTrees trees(model);
+    ImpulseProblem problem;
+    trees.add_to(problem, nullptr, w);
+    for (std::size_t a = 0; a < model.nv; ++a)
+      for (std::size_t b = 0; b < model.nv; ++b) {
+        const int t = trees.tree_of_dof(a);
+        const auto n = static_cast<std::size_t>(problem.size(t));
+        const double entry = t == trees.tree_of_dof(b)
+                                 ? problem.M(t)[trees.place(a) * n + trees.place(b)]
+                                 : 0;
+        CHECK(entry == doctest::Approx(M[a * model.nv + b]).epsilon(1e-12).scale(1));
+      }
+    Kinematics k(model);
+    forward_kinematics(model, x, k);
+    for (int body = 1; body < model.body_count(); ++body) {
+      const int t = trees.tree_of(body);
+      if (t == ImpulseConstraint::no_tree) continue;
+      const auto n = static_cast<std::size_t>(problem.size(t));
+      std::vector<double> J(3 * n);
+      const Vector3 p(0.3, -0.2, 0.5);
+      trees.add_point_rows(k, body, p, Matrix3::Identity(), 3, 1, J.data());
+      const Eigen::Matrix3Xd expected = point_jacobian(model, k, body, p);
+      for (std::size_t dof = 0; dof < model.nv; ++dof)
+        for (int r = 0; r < 3; ++r) {
+          const double entry = trees.tree_of_dof(dof) == t
+                                   ? J[static_cast<std::size_t>(r) * n + trees.place(dof)]
+                                   : 0;
+          CHECK(entry == doctest::Approx(expected(r, static_cast<int>(dof))).scale(1));
+        }
+    }
+  }
+}

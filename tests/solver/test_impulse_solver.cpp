@@ -1,0 +1,144 @@
+// The solver of impulses against the laws in their plain form, and against closed forms.
+#include <doctest/doctest.h>
+
+#include "tests/solver/count_allocations.h"
+#include "tests/solver/impulse_problems.h"
+
+using namespace twinarm;
+using namespace twinarm::testing;
+
+namespace {
+
+// One point mass on a plane z = 0, contact rows z, x, y.
+ImpulseProblem point_on_plane(double mu, std::array<double, 3> v) {
+  ImpulseProblem problem;
+  problem.add_tree(3);
+  for (int k = 0; k < 3; ++k) problem.M(0)[4 * k] = 2, problem.v0(0)[k] = v[k];
+  ImpulseConstraint& c = problem.add(ImpulseLaw::coulomb, 3, 0, ImpulseConstraint::no_tree);
+  c.mu = mu;
+  problem.J(c, 0)[2] = problem.J(c, 0)[3] = problem.J(c, 0)[7] = 1;
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("1000 random problems of every law end in velocities and impulses that obey them") {
+  double worst_breach = 0, worst_balance = 0;
+  int unsolved = 0;
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    ImpulseProblem problem = random_problem(seed, 1 + seed % 5, 1 + seed % 9, 100);
+    ImpulseSolver solver;
+    const ImpulseReport report = solver.solve(problem);
+    unsolved += !report.converged;
+    if (!report.converged) continue;
+    worst_balance = std::max(worst_balance, imbalance(problem));
+    for (const ImpulseConstraint& c : problem.constraints())
+      worst_breach = std::max(worst_breach, breach(problem, c));
+  }
+  CHECK(worst_breach < 1e-7);  // residual 5e-9 m/s, impulses of masses up to 100
+  CHECK(worst_balance < 1e-12);
+  CHECK(unsolved == 0);
+}
+
+TEST_CASE("a point that slides stops or slows by mu g, and never lifts") {
+  for (const double mu : {0.0, 0.3, 1.0, 2.0}) {
+    CAPTURE(mu);
+    const double down = 0.1, along = 0.15;
+    ImpulseProblem problem =
+        point_on_plane(mu, {along * std::cos(0.5), along * std::sin(0.5), -down});
+    if (mu == 0) problem.constraints()[0].mu = 1e-12;
+    ImpulseSolver solver;
+    CHECK(solver.solve(problem).converged);
+    const double rest = std::max(0.0, along - mu * down);
+    CHECK(problem.v(0)[0] == doctest::Approx(rest * std::cos(0.5)).epsilon(1e-9));
+    CHECK(problem.v(0)[1] == doctest::Approx(rest * std::sin(0.5)).epsilon(1e-9));
+    CHECK(std::abs(problem.v(0)[2]) < 1e-9);
+    CHECK(problem.constraints()[0].p[0] == doctest::Approx(2 * down).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("what parts feels nothing; a gap may close and no more") {
+  ImpulseProblem parting = point_on_plane(0.5, {1, 0, 0.2});
+  ImpulseSolver solver;
+  solver.solve(parting);
+  CHECK(parting.constraints()[0].p == std::array<double, 3>{0, 0, 0});
+  ImpulseProblem closing = point_on_plane(0.5, {0, 0, -0.2});
+  closing.constraints()[0].b[0] = 0.05;  // gap / h
+  solver.solve(closing);
+  CHECK(closing.v(0)[2] == doctest::Approx(-0.05).epsilon(1e-9));
+}
+
+TEST_CASE("the same contact many times over changes no velocity") {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    CAPTURE(seed);
+    ImpulseProblem once = random_problem(seed, 3, 4, 10, true);
+    ImpulseProblem often = once;
+    for (int copy = 0; copy < 7; ++copy)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const ImpulseConstraint original = often.constraints()[i];
+        ImpulseConstraint& c =
+            often.add(original.law, original.rows, original.tree[0], original.tree[1]);
+        c.mu = original.mu, c.b = original.b;
+        for (int side = 0; side < 2; ++side)
+          if (c.tree[side] != ImpulseConstraint::no_tree)
+            std::copy_n(often.J(original, side), c.rows * often.size(c.tree[side]),
+                        often.J(c, side));
+      }
+    ImpulseSolver solver;
+    REQUIRE(solver.solve(once).converged);
+    REQUIRE(solver.solve(often).converged);
+    // Coulomb's law can have several solutions; with the first as a guess it is to stay.
+    for (std::size_t k = 0; k < once.nv(); ++k)
+      CHECK(often.v(0)[k] == doctest::Approx(once.v(0)[k]).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("a solution as the guess is found to do; the same problem gives the same bits") {
+  ImpulseProblem problem = random_problem(3, 6, 12, 10);
+  ImpulseSolver solver, other;
+  solver.solve(problem);
+  const std::vector<double> v(problem.v(0), problem.v(0) + problem.nv());
+  ImpulseProblem again = random_problem(3, 6, 12, 10);
+  other.solve(again);
+  CHECK(std::equal(v.begin(), v.end(), again.v(0)));
+  ImpulseSolver fresh;
+  CHECK(fresh.solve(problem).solved == 0);
+}
+
+TEST_CASE("islands do not feel one another") {
+  ImpulseProblem both = random_problem(11, 3, 5, 10, true);
+  ImpulseProblem first = both;
+  const std::size_t nv = first.nv();
+  // The same once more beside it, on trees of its own.
+  const std::size_t count = both.constraints().size();
+  for (int t = 0; t < 3; ++t) {
+    const int copy = both.add_tree(both.size(t));
+    std::copy_n(both.M(t), both.size(t) * both.size(t), both.M(copy));
+    std::copy_n(both.v0(t), both.size(t), both.v0(copy));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const ImpulseConstraint original = both.constraints()[i];
+    const auto moved = [](int t) { return t == ImpulseConstraint::no_tree ? t : t + 3; };
+    ImpulseConstraint& c = both.add(original.law, original.rows, moved(original.tree[0]),
+                                    moved(original.tree[1]));
+    c.mu = original.mu, c.b = original.b;
+    for (int side = 0; side < 2; ++side)
+      if (c.tree[side] != ImpulseConstraint::no_tree)
+        std::copy_n(both.J(original, side), c.rows * both.size(c.tree[side]), both.J(c, side));
+  }
+  ImpulseSolver solver;
+  solver.solve(first);
+  solver.solve(both);
+  for (std::size_t k = 0; k < nv; ++k) {
+    CHECK(both.v(0)[k] == first.v(0)[k]);
+    CHECK(both.v(0)[nv + k] == first.v(0)[k]);
+  }
+}
+
+TEST_CASE("a solver that has seen a problem of this size allocates nothing") {
+  ImpulseProblem problem = random_problem(5, 8, 30, 10);
+  ImpulseSolver solver;
+  solver.solve(problem);
+  for (ImpulseConstraint& c : problem.constraints()) c.p = {};
+  CHECK(allocations_in([&] { solver.solve(problem); }) == 0);
+}
