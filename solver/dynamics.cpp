@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <type_traits>
 
 #include "solver/aba.h"
 
@@ -24,10 +23,12 @@ TWINARM_TABLE(generic, Batch<8>)
 #ifdef TWINARM_HAS_LEVELS
 TWINARM_TABLE(v3, double)
 TWINARM_TABLE(v3, float)
+TWINARM_TABLE(v3, Dual<8>)
 TWINARM_TABLE(v3, Batch<4>)
 TWINARM_TABLE(v3, Batch<8>)
 TWINARM_TABLE(v4, double)
 TWINARM_TABLE(v4, float)
+TWINARM_TABLE(v4, Dual<8>)
 TWINARM_TABLE(v4, Batch<4>)
 TWINARM_TABLE(v4, Batch<8>)
 #endif
@@ -71,10 +72,8 @@ template <class S>
 const Passes<S>& passes([[maybe_unused]] Isa isa) {
 #ifdef TWINARM_HAS_LEVELS
   isa = std::min(isa, of_this_processor());
-  if constexpr (!std::is_same_v<S, Dual<8>>) {  // built for generic alone: it takes long to compile
-    if (isa == Isa::v4) return v4::table<S>();
-    if (isa == Isa::v3) return v3::table<S>();
-  }
+  if (isa == Isa::v4) return v4::table<S>();
+  if (isa == Isa::v3) return v3::table<S>();
 #endif
   return generic::table<S>();
 }

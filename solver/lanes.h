@@ -11,6 +11,11 @@ namespace twinarm {
 template <int N>
 struct LanesOf;  // Mask: all bits of a lane, or none
 template <>
+struct LanesOf<2> {
+  typedef double Lanes __attribute__((vector_size(16)));
+  typedef std::int64_t Mask __attribute__((vector_size(16)));
+};
+template <>
 struct LanesOf<4> {
   typedef double Lanes __attribute__((vector_size(32)));
   typedef std::int64_t Mask __attribute__((vector_size(32)));
@@ -20,5 +25,14 @@ struct LanesOf<8> {
   typedef double Lanes __attribute__((vector_size(64)));
   typedef std::int64_t Mask __attribute__((vector_size(64)));
 };
+
+// How many doubles a register holds at the level that a unit is compiled for.
+#if defined(__AVX512F__)
+inline constexpr int kNativeLanes = 8;
+#elif defined(__AVX__)
+inline constexpr int kNativeLanes = 4;
+#else
+inline constexpr int kNativeLanes = 2;
+#endif
 
 }  // namespace twinarm
