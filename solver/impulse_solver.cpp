@@ -9,7 +9,7 @@ namespace twinarm {
 namespace {
 
 constexpr int no_tree = ImpulseConstraint::no_tree;
-constexpr double first_rho = 1e2, largest_rho = 1e5;  // times rho0
+constexpr double first_rho = 1e2, usual_rho = 1e5, largest_rho = 1e7;  // times rho0
 
 }  // namespace
 
@@ -196,9 +196,12 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
     remember(problem.constraints()[i], problem.constraints(), problem.constraints()[i].u,
              problem.constraints()[i].p, memory_[i]);
   int newton = 0, round = 0;
-  for (rho_ratio_ = first_rho; newton < most; rho_ratio_ = std::min(10 * rho_ratio_, largest_rho)) {
+  double last = 0;
+  rho_ratio_ = first_rho;
+  while (newton < most) {
     for (const int i : island.constraints) memory_[i].rho = rho_ratio_ * rho0_[i];
-    newton += solve_round(problem, island, most - newton);
+    const int steps = solve_round(problem, island, most - newton);
+    newton += std::max(1, steps);
     ++round;
     for (const int i : island.constraints) {
       ImpulseConstraint& c = problem.constraints()[i];
@@ -211,6 +214,10 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
       residual = std::max(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
     }
     if (residual <= 0.3 * tolerance) break;
+    // Multipliers that creep while the active laws stay the same need a larger rho.
+    const bool creeps = steps <= 2 && residual > 0.3 * last;
+    if (rho_ratio_ < usual_rho || (creeps && rho_ratio_ < largest_rho)) rho_ratio_ *= 10;
+    last = residual;
   }
   report.rounds = std::max(report.rounds, round);
   report.newton = std::max(report.newton, newton);

@@ -4,61 +4,73 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "solver/impulse_solver.h"
+#include "tests/solver/random_tree.h"
 
 namespace twinarm::testing {
 
-// `trees` bodies of 6 and of 2 dofs with masses up to `ratio` apart, `contacts` laws of all kinds
-// between them or to the world.
-inline ImpulseProblem random_problem(unsigned seed, int trees, int contacts, double ratio,
-                                     bool contacts_only = false) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> unit(-1, 1);
-  ImpulseProblem problem;
-  for (int t = 0; t < trees; ++t) {
-    const int n = t % 3 == 2 ? 2 : 6;
-    problem.add_tree(n);
-    const double mass = std::pow(ratio, 0.5 * (unit(random) + 1));
-    std::vector<double> A(static_cast<std::size_t>(n * n));
-    for (double& a : A) a = unit(random);
-    for (int r = 0; r < n; ++r)
-      for (int k = 0; k < n; ++k) {
-        double sum = r == k ? 0.5 : 0;
-        for (int q = 0; q < n; ++q) sum += A[r * n + q] * A[k * n + q];
-        problem.M(t)[r * n + k] = mass * sum;
-      }
-    for (int k = 0; k < n; ++k) problem.v0(t)[k] = unit(random);
+// A body that moves freely, its twist (angular; linear) at its centre, some 0.3 m in size.
+inline void add_body(ImpulseProblem& problem, Random& random, double mass) {
+  const int tree = problem.add_tree(6);
+  const BodyInertia body = random.inertia();
+  for (int r = 0; r < 3; ++r) {
+    for (int k = 0; k < 3; ++k) problem.M(tree)[6 * r + k] = mass * body.inertia(r, k) / body.mass;
+    problem.M(tree)[7 * (3 + r)] = mass;
   }
-  for (int i = 0; i < contacts; ++i) {
-    const int kind = contacts_only ? 0 : i % 5;
-    const ImpulseLaw law = kind == 1   ? ImpulseLaw::at_least
-                           : kind == 2 ? ImpulseLaw::within
-                           : kind == 3 ? ImpulseLaw::disc
+  for (int k = 0; k < 6; ++k) problem.v0(tree)[k] = random.uniform(-1, 1);
+}
+
+// Adds the velocity along (or about) `axes` of a point at r from the centre to the rows.
+inline void add_rows(ImpulseProblem& problem, const ImpulseConstraint& c, int side,
+                     const Matrix3& axes, const Vector3& r, bool turn) {
+  if (c.tree[side] == ImpulseConstraint::no_tree) return;
+  const double sign = side == 0 ? -1 : 1;
+  for (int row = 0; row < c.rows; ++row) {
+    const Vector3 e = axes.col(row), lever = r.cross(e);
+    for (int k = 0; k < 3; ++k) {
+      problem.J(c, side)[6 * row + k] = sign * (turn ? e[k] : lever[k]);
+      problem.J(c, side)[6 * row + 3 + k] = sign * (turn ? 0 : e[k]);
+    }
+  }
+}
+
+// Free bodies with masses up to `ratio` apart, and laws of all kinds between them or to the world:
+// contacts, limits and dry friction between points, torsional and rolling friction, locks.
+inline ImpulseProblem random_problem(unsigned seed, int bodies, int constraints, double ratio,
+                                     bool contacts_only = false) {
+  Random random(seed);
+  ImpulseProblem problem;
+  for (int t = 0; t < bodies; ++t) add_body(problem, random, std::pow(ratio, random.uniform(0, 1)));
+  Matrix3 axes = Matrix3::Identity();
+  for (int i = 0; i < constraints; ++i) {
+    const int kind = contacts_only ? 0 : i % 5, of = i - i % 5;
+    const ImpulseLaw law = kind == 1   ? ImpulseLaw::disc
+                           : kind == 2 ? ImpulseLaw::at_least
+                           : kind == 3 ? ImpulseLaw::within
                            : kind == 4 ? ImpulseLaw::equal
                                        : ImpulseLaw::coulomb;
-    const int rows = law == ImpulseLaw::coulomb ? 3 : law == ImpulseLaw::disc ? 1 + i % 2 : 1;
-    int a = static_cast<int>(random() % static_cast<unsigned>(trees));
-    int b = static_cast<int>(random() % static_cast<unsigned>(trees + 1)) - 1;
+    const int rows = law == ImpulseLaw::coulomb ? 3 : law == ImpulseLaw::disc ? 1 + of % 2 : 1;
+    int a = random.integer(0, bodies - 1), b = random.integer(-1, bodies - 1);
     if (a == b) b = ImpulseConstraint::no_tree;
+    if (law == ImpulseLaw::disc)  // of the contact before it
+      a = problem.constraints()[of].tree[0], b = problem.constraints()[of].tree[1];
+    else
+      axes = random.rotation();
     ImpulseConstraint& c = problem.add(law, rows, a, b);
     for (int side = 0; side < 2; ++side)
-      if (c.tree[side] != ImpulseConstraint::no_tree)
-        for (int k = 0; k < rows * problem.size(c.tree[side]); ++k)
-          problem.J(c, side)[k] = unit(random);
-    c.mu = 0.1 + 0.7 * std::abs(unit(random));
-    c.low = -0.1 * std::abs(unit(random));
-    c.high = 0.1 * std::abs(unit(random));
-    c.radius = 0.2;
-    c.of = i - i % 5;
-    if (law == ImpulseLaw::coulomb || law == ImpulseLaw::at_least)
-      c.b[0] = 0.2 * std::abs(unit(random));
+      add_rows(problem, c, side, axes, random.vector(0.2), law == ImpulseLaw::disc);
+    c.mu = random.uniform(0.1, 0.9);
+    c.low = -random.uniform(0, 0.1);
+    c.high = random.uniform(0, 0.1);
+    c.radius = 0.005;
+    c.of = of;
+    if (law == ImpulseLaw::coulomb || law == ImpulseLaw::at_least) c.b[0] = random.uniform(0, 0.2);
   }
   return problem;
 }
 
-// The largest breach of a law, as velocity or impulse over a mass of 1.
+// The largest breach of a law, in m/s, N s, or J over 1 + |p|.
 inline double breach(const ImpulseProblem& problem, const ImpulseConstraint& c) {
   const double slip = std::hypot(c.u[1], c.u[2]), hold = std::hypot(c.p[1], c.p[2]);
   double worst = 0;
@@ -90,7 +102,7 @@ inline double breach(const ImpulseProblem& problem, const ImpulseConstraint& c) 
     case ImpulseLaw::compliant:
       break;
   }
-  return worst;
+  return worst / (1 + std::abs(c.p[0]) + hold);
 }
 
 // Largest entry of M (v - v0) - J^T p over the largest of J^T p.

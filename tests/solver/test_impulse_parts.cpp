@@ -82,9 +82,8 @@ TEST_CASE("the blocks of the trees are the mass matrix, and their rows the Jacob
       for (std::size_t b = 0; b < model.nv; ++b) {
         const int t = trees.tree_of_dof(a);
         const auto n = static_cast<std::size_t>(problem.size(t));
-        const double entry = t == trees.tree_of_dof(b)
-                                 ? problem.M(t)[trees.place(a) * n + trees.place(b)]
-                                 : 0;
+        const double entry =
+            t == trees.tree_of_dof(b) ? problem.M(t)[trees.place(a) * n + trees.place(b)] : 0;
         CHECK(entry == doctest::Approx(M[a * model.nv + b]).epsilon(1e-12).scale(1));
       }
     Kinematics k(model);

@@ -1,5 +1,9 @@
 // The solver of impulses against the laws in their plain form, and against closed forms.
+#include "solver/impulse_solver.h"
+
 #include <doctest/doctest.h>
+
+#include <algorithm>
 
 #include "tests/solver/count_allocations.h"
 #include "tests/solver/impulse_problems.h"
@@ -119,8 +123,8 @@ TEST_CASE("islands do not feel one another") {
   for (std::size_t i = 0; i < count; ++i) {
     const ImpulseConstraint original = both.constraints()[i];
     const auto moved = [](int t) { return t == ImpulseConstraint::no_tree ? t : t + 3; };
-    ImpulseConstraint& c = both.add(original.law, original.rows, moved(original.tree[0]),
-                                    moved(original.tree[1]));
+    ImpulseConstraint& c =
+        both.add(original.law, original.rows, moved(original.tree[0]), moved(original.tree[1]));
     c.mu = original.mu, c.b = original.b;
     for (int side = 0; side < 2; ++side)
       if (c.tree[side] != ImpulseConstraint::no_tree)
