@@ -10,7 +10,10 @@ namespace twinarm {
 namespace {
 
 constexpr int kMaxIterations = 20;
-constexpr double kRounding = 2e-15;  // of 1 m or rad, and of the largest velocity
+// Of 1 m or rad, and of the largest velocity: what is not moved any more, and where iterations that
+// stall have come down to rounding. Little, as near a singular place much of a velocity can hide
+// behind a small g'.
+constexpr double kRounding = 5e-16, kStalls = 2e-14;
 
 double largest(const Eigen::VectorXd& v) {
   return v.size() == 0 ? 0 : v.lpNorm<Eigen::Infinity>();
@@ -56,10 +59,11 @@ void LoopProjection::iterate(const At& at, double rounding, Size&& size, Move&& 
       open = then;
       continue;
     }
-    if (open <= kClosed && then <= open) return;
+    const bool stalls = open <= kStalls / kRounding * rounding;
+    if (stalls && then <= open) return;
     restore();
     look();
-    if (fresh || open <= kClosed) return;
+    if (fresh || stalls) return;
     // Rows of a loop that is open by some angle are known to that angle, their squares in G to its
     // square.
     forces_.prepare(at.w, at.held, std::max(LoopFactors::kDependent, open * open));

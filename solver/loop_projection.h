@@ -15,7 +15,9 @@
 //   its full order on it. (With M and J of the last stage p changes from stage to stage by O(h),
 //   and RK4 was seen to fall to order 3.)
 // Only where the iterations do not converge, as J changes too much when a singular place is
-// passed, all are formed anew on the spot.
+// passed, all are formed anew on the spot. At a singular place itself the direction of motion is
+// not determined; steps of fixed size pass over it. dopri5 may take it for an error that shorter
+// steps would lessen, and stop there (StepReport::reached).
 #pragma once
 
 #include <vector>
@@ -26,9 +28,6 @@ namespace twinarm {
 
 class LoopProjection {
  public:
-  // Smaller errors are closed [m, rad; per s]: where iterations stall below it, that is rounding.
-  static constexpr double kClosed = 1e-10;
-
   explicit LoopProjection(const Model<double>& model)
       : model_(&model),
         forces_(model),
