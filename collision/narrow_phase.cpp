@@ -124,7 +124,7 @@ double NarrowPhase::distance(const Placed& a, const Placed& b) {
   if (is_half_space(b)) return half_space_distance(b, a);
   if (is_hollow(a.solid.shape)) return hollow_distance(a, b);
   if (is_hollow(b.solid.shape)) return hollow_distance(b, a);
-  if (!round_contact(a, b)) {
+  if (!round_contact(a, b) && a.solid.core.exists && b.solid.core.exists) {
     const CoreDistance cores = distance_of(a, b);
     if (cores.distance > gjk_floor) {
       const Vector3 n = (cores.p_WB - cores.p_WA).normalized();
