@@ -10,6 +10,7 @@ namespace twinarm {
 namespace {
 
 constexpr double rounding = 1e-12;  // [m]
+constexpr double one_point = 1e-6;  // deepest points nearer to each other are one [m]
 constexpr int witness_name = 1;     // of the nearest point, where no corner is as deep
 
 // Scores that differ by less do not choose: a body at rest trembles by so much, and the same
@@ -134,16 +135,35 @@ Vector3 Manifold::nearest_middle(const Axis& axis, const Vector3& p_W) const {
   return a[0] + u * ((b[0] - a[0]).dot(across) / slant) - half;
 }
 
+// Whether a flat of either feature has the normal n.
+bool Manifold::looks_along(const Vector3& n_W) const {
+  constexpr double cosine = 1 - 1e-12;
+  return (feature_a_.is_polygon() && feature_a_.normal_W.dot(n_W) > cosine) ||
+         (feature_b_.is_polygon() && feature_b_.normal_W.dot(n_W) < -cosine);
+}
+
 const std::vector<ManifoldPoint>& Manifold::between(const Placed& a, const Placed& b,
                                                     const Axis& axis, const Vector3& p_W,
                                                     double margin) {
   features(a, b, axis);
   // The clipped corners are the contact only if one of them is as deep as the pair is; a rim
-  // between two corners of its octagon, for one, is deeper.
-  double deepest = -1e300;
-  for (const ManifoldPoint& point : points_) deepest = std::max(deepest, point.depth);
-  if (deepest < axis.overlap - 1e-10) {
-    const Vector3 half = axis.n_W * (axis.overlap / 2), middle = nearest_middle(axis, p_W);
+  // between two corners of its octagon, for one, is deeper. Where no flat has this normal a single
+  // deepest point is a crossing or a corner in the view along n, on the border of the features:
+  // which of their sides cut it there is a matter of rounding, so it gets one name, and stands
+  // once.
+  const auto is_deepest = [&](const ManifoldPoint& x) { return x.depth > axis.overlap - 1e-10; };
+  const auto first = std::find_if(points_.begin(), points_.end(), is_deepest);
+  const bool found = first != points_.end();
+  const Vector3 half = axis.n_W * (axis.overlap / 2);
+  const Vector3 middle = found ? Vector3(first->p_WA - half) : nearest_middle(axis, p_W);
+  const auto is_there = [&](const ManifoldPoint& x) {
+    return is_deepest(x) && (x.p_WA - half - middle).norm() < one_point;
+  };
+  const bool is_line = std::any_of(points_.begin(), points_.end(), [&](const ManifoldPoint& x) {
+    return is_deepest(x) && !is_there(x);
+  });
+  if (!found || (!is_line && !looks_along(axis.n_W))) {
+    std::erase_if(points_, is_there);
     points_.push_back({middle + half, middle - half, axis.overlap, witness_name});
   }
   return points(axis, margin);
