@@ -10,7 +10,7 @@
 // Every direction, wherever it comes from, is judged by overlap(n) of the true shapes: an upper
 // bound of the depth for any n. So a wrong answer of FCL can cost optimality, never consistency,
 // and the difference between distance and bound (the duality gap) tells that it happened: then ask
-// again. Cost: 0.1 us in closed form, 0.6 us for boxes face on face, 2-20 us
+// again. Cost: 0.1 us in closed form, 0.6 us for boxes face on face, 2-30 us
 // otherwise; hulls with hundreds of vertices 10-100 us.
 #include "collision/narrow_phase.h"
 
