@@ -18,8 +18,10 @@ namespace {
 
 constexpr double on_the_plane = 1e-9;  // [m]
 
-// Beyond this angle to the normal a face is no contact area any more, but its corner is.
-constexpr double min_cosine_of_face = 0.2;
+// A face within this angle of the normal (11 degrees) is an area of contact; where there is none,
+// an edge or a side whose slope is less is a line of contact; else a corner is a point of it.
+constexpr double min_cosine_of_face = 0.98;
+constexpr double max_slope_of_line = 0.2;
 // Two segments that cross under a larger angle than this touch in one point.
 constexpr double max_sine_of_parallel = 0.05;
 // A cap that is tilted less than this lies flat: its corners are then fixed in the body.
@@ -34,16 +36,21 @@ void segment(const Placed& body, double half, double radius, const Vector3& offs
   f.labels = {0, 1};
 }
 
-// The cap or the side, whichever looks more along n. Corner 0 of a tilted cap is the point of its
-// rim that is farthest along n: the true point of contact, a smooth function of the pose. The ends
-// of the side are on the rims, farthest as well.
+// Corner 0 of a tilted cap is the point of its rim that is farthest along n: the true point of
+// contact, a smooth function of the pose. The ends of the side are on the rims, farthest as well.
 void cylinder_feature(const Cylinder& c, const Placed& body, const Vector3& n_W, Feature& f) {
   const Vector3 n = body.X_WG.R.transpose() * n_W;
   const double sine = std::hypot(n.x(), n.y()), side = n.z() < 0 ? -1 : 1;
-  if (sine > std::abs(n.z())) {
+  f.id = side > 0 ? 1 : 2;
+  if (std::abs(n.z()) < max_slope_of_line) {
     segment(body, c.length / 2, c.radius,
             body.X_WG.R * Vector3(n.x() * c.radius / sine, n.y() * c.radius / sine, 0), f);
     f.id = 3;
+    return;
+  }
+  if (std::abs(n.z()) < min_cosine_of_face) {
+    f.points = {body.support_W(n_W)};
+    f.labels = {cap_corners - 1};  // of the side before corner 0: so it keeps the corner's name
     return;
   }
   const bool flat = sine < sine_of_flat;
@@ -57,7 +64,6 @@ void cylinder_feature(const Cylinder& c, const Placed& body, const Vector3& n_W,
     f.labels.push_back(k);
   }
   f.normal_W = body.X_WG.R.col(2) * side;
-  f.id = side > 0 ? 1 : 2;
 }
 
 // The face with the most corners at the top, and of these the one that is best aligned.
@@ -81,28 +87,65 @@ int best_face(const Placed& body, const Vector3& n, double top, double tolerance
   return best;
 }
 
+// The edge at corner `top` that slopes least, or -1.
+int best_edge(const Polytope& core, int top, const Vector3& n) {
+  int best = -1;
+  double least = max_slope_of_line;
+  for (std::size_t e = 0; e < core.edges.size(); ++e) {
+    if (core.edges[e].v0 != top && core.edges[e].v1 != top) continue;
+    const Vector3 along =
+        core.hull.vertices[core.edges[e].v1] - core.hull.vertices[core.edges[e].v0];
+    const double slope = std::abs(along.dot(n)) / along.norm();
+    if (slope < least) {
+      least = slope;
+      best = static_cast<int>(e);
+    }
+  }
+  return best;
+}
+
+int highest_vertex(const ConvexHull& hull, const Vector3& n) {
+  int best = 0;
+  double height = -1e300;
+  for (std::size_t v = 0; v < hull.vertices.size(); ++v) {
+    const double h = hull.vertices[v].dot(n);
+    if (h > height) {
+      height = h;
+      best = static_cast<int>(v);
+    }
+  }
+  return best;
+}
+
 void polytope_feature(const Placed& body, const Vector3& n_W, Feature& f) {
   const Polytope& core = body.solid.core;
+  const ConvexHull& hull = core.hull;
   const Vector3 n = body.X_WG.R.transpose() * n_W;
-  if (std::holds_alternative<Capsule>(body.solid.shape) &&
-      n.z() * n.z() < 0.5) {  // lying more than standing
-    segment(body, core.hull.vertices[1].z(), core.radius, core.radius * n_W, f);
+  const int top = highest_vertex(hull, n);
+  const double tolerance = 1e-9 * (1e-3 + hull.vertices[top].norm());
+  const int face = best_face(body, n, hull.vertices[top].dot(n), tolerance);
+  const int count = static_cast<int>(hull.faces.size());
+  if (face >= 0) {
+    for (int v : hull.faces[face]) {
+      f.points.push_back(body.X_WG * hull.vertices[v]);
+      f.labels.push_back(static_cast<int>(f.labels.size()));
+    }
+    f.normal_W = body.X_WG.R * hull.normals[face];
+    f.id = face;
     return;
   }
-  const Vector3 top = support(body.solid.shape, n);
-  const double tolerance = 1e-9 * (1e-3 + top.norm());
-  const int face = best_face(body, n, top.dot(n), tolerance);
-  if (face < 0) {
-    f.points = {body.X_WG * top};
-    f.id = -1;
-    return;
+  const Vector3 rounding = core.radius * n_W;
+  f.roundness = core.radius;
+  if (const int edge = best_edge(core, top, n); edge >= 0) {
+    f.points = {body.X_WG * hull.vertices[core.edges[edge].v0] + rounding,
+                body.X_WG * hull.vertices[core.edges[edge].v1] + rounding};
+    f.labels = {0, 1};
+    f.id = count + edge;
+  } else {
+    f.points = {body.X_WG * hull.vertices[top] + rounding};
+    f.labels = {0};
+    f.id = count + static_cast<int>(core.edges.size()) + top;
   }
-  for (int v : core.hull.faces[face]) {
-    f.points.push_back(body.X_WG * core.hull.vertices[v]);
-    f.labels.push_back(static_cast<int>(f.labels.size()));
-  }
-  f.normal_W = body.X_WG.R * core.hull.normals[face];
-  f.id = face;
 }
 
 // Cuts away what is beyond the plane side . x = offset. The new side gets the label of the plane.
@@ -174,8 +217,8 @@ void intersect_segments(const Feature& a, const Feature& b, const Vector3& n, Fe
     // Two round sides that are not quite behind each other are farther apart than along n: their
     // centre lines have the gap along n and the shift across it.
     const double along = (p_a - p_b).dot(n), shift = ((p_a - p_b) - n * along).norm();
-    const double radii = a.roundness + b.roundness;
-    const double depth = radii - std::hypot(radii - along, shift);
+    const double apart = a.roundness + b.roundness - along;
+    const double depth = apart > 0 ? along + apart - std::hypot(apart, shift) : along;
     out.push_back({p_b + depth * n, p_b, depth, feature_name(a.id, b.id, clipped.labels[i], 7)});
   }
 }
@@ -204,10 +247,10 @@ void support_feature(const Placed& body, const Vector3& n_W, Feature& feature) {
     cylinder_feature(*cylinder, body, n_W, feature);
   } else if (std::holds_alternative<Ellipsoid>(body.solid.shape)) {
     feature.points = {body.support_W(n_W)};
+    feature.labels = {0};
   } else {
     polytope_feature(body, n_W, feature);
   }
-  if (feature.points.size() == 1) feature.labels = {0};
 }
 
 void intersect_features(const Feature& a, const Feature& b, const Vector3& n_W, Feature& scratch,

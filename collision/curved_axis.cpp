@@ -10,7 +10,7 @@
 // left out first: the two touching points are as far apart as the depth or the distance is. For
 // bodies that are apart that distance is FCL's (GJK), and f is convex. For overlapping ones f may
 // have several minima on the sphere; the search starts from all axes and keeps the best few.
-// Cost: 3-10 us against a box, a few more where deep.
+// Cost where bodies touch: 5-30 us, with a hull of 100 edges up to 0.2 ms.
 #include "collision/curved_axis.h"
 
 #include <Eigen/Geometry>
@@ -26,8 +26,9 @@ namespace {
 constexpr double prefer_flat = 1e-12;  // a flat wins over a direction this much better [m]
 constexpr double missed = 1e-8;        // a guess this much better shows a patch overlooked [m]
 constexpr double parallel = 1e-9;      // sine below which two lines have no common normal
-constexpr double same_valley = 0.999;  // cosine
-constexpr int deep_searches = 14;      // valleys that are followed where bodies overlap
+constexpr double same_valley = 0.95, same_valley_deep = 0.999;  // cosines
+constexpr int shallow_searches = 4, deep_searches = 14;         // valleys that are followed
+constexpr double deep_share = 0.1;
 
 struct Range {
   Vector3 low, high;
@@ -45,6 +46,17 @@ Range range_of(const Placed& body, double reach) {
 
 bool meets(const Range& range, const Vector3& low, const Vector3& high) {
   return (low.array() <= range.high.array()).all() && (high.array() >= range.low.array()).all();
+}
+
+// Least radius of curvature, or half a thickness, of a curved body [m].
+double sharpest(const Placed& body) {
+  if (const auto* c = std::get_if<Cylinder>(&body.solid.shape)) {
+    return std::min(c->radius, c->length / 2);
+  }
+  if (const auto* e = std::get_if<Ellipsoid>(&body.solid.shape)) {
+    return e->semi_axes.minCoeff() * e->semi_axes.minCoeff() / e->semi_axes.maxCoeff();
+  }
+  return 1e300;
 }
 
 Matrix3 turned(const Matrix3& R, const Matrix3& Q) {
@@ -152,7 +164,7 @@ void CurvedAxis::try_rounds_on_ridges(const Posed& rounds, const Posed& ridges, 
     for (std::size_t j = 0; j < ridges.ridges.size(); ++j) {
       const Vector3 c = side * (round.p - ridges.ridges[j].start);
       found_.clear();
-      minimise_on_circle({c, round.Q, Matrix3::Zero()}, ridges.along[j], overlaps_, found_);
+      minimise_on_circle({c, round.Q, Matrix3::Zero()}, ridges.along[j], is_deep_, found_);
       for (const Vector3& n : found_) offer_round(n, round, rounds_are_a);
     }
   }
@@ -174,9 +186,11 @@ void CurvedAxis::search_sphere(const SupportSum& f, const Patches::Round& round,
   std::sort(starts.begin(), end, [&](const auto& x, const auto& y) { return f(x) < f(y); });
   std::array<Vector3, deep_searches> used;
   int searches = 0;
-  for (auto start = starts.begin(); start != end && searches < deep_searches; ++start) {
-    const bool known = std::any_of(used.begin(), used.begin() + searches,
-                                   [&](const Vector3& n) { return n.dot(*start) > same_valley; });
+  for (auto start = starts.begin();
+       start != end && searches < (is_deep_ ? deep_searches : shallow_searches); ++start) {
+    const bool known = std::any_of(used.begin(), used.begin() + searches, [&](const Vector3& n) {
+      return n.dot(*start) > (is_deep_ ? same_valley_deep : same_valley);
+    });
     if (known) continue;
     used[static_cast<std::size_t>(searches++)] = *start;
     offer_round(minimise_on_sphere(f, *start), round, is_of_a);
@@ -191,6 +205,15 @@ void CurvedAxis::try_rounds() {
       search_sphere(f, a_is_corner ? round_b : round_a, !a_is_corner);
     }
   }
+}
+
+void CurvedAxis::try_patches(double reach) {
+  place(*body_a_, *body_b_, origin_, reach, a_);
+  place(*body_b_, *body_a_, origin_, reach, b_);
+  try_ridges();
+  try_rounds_on_ridges(a_, b_, true);
+  try_rounds_on_ridges(b_, a_, false);
+  try_rounds();
 }
 
 bool CurvedAxis::nearest(const Placed& a, const Placed& b, double margin, NearestPair& pair) {
@@ -215,13 +238,13 @@ bool CurvedAxis::nearest(const Placed& a, const Placed& b, double margin, Neares
   if (overlaps_) {
     reach = std::max(reach, std::min(seed_.axis.overlap, best_.axis.overlap) - radii);
   }
-  reach = reach * (1 + 1e-6) + 1e-9;
-  place(a, b, origin_, reach, a_);
-  place(b, a, origin_, reach, b_);
-  try_ridges();
-  try_rounds_on_ridges(a_, b_, true);
-  try_rounds_on_ridges(b_, a_, false);
-  try_rounds();
+  is_deep_ = false;
+  try_patches(reach * (1 + 1e-6) + 1e-9);
+  // Beyond a part of the least radius of curvature minima may lie close together: look closer, now
+  // that the depth is nearly known and leaves fewer patches.
+  const double depth = std::min(seed_.axis.overlap, best_.axis.overlap) - radii;
+  is_deep_ = overlaps_ && depth > deep_share * std::min(sharpest(a), sharpest(b));
+  if (is_deep_) try_patches(depth * (1 + 1e-6) + 1e-9);
   // A first guess is right to its own tolerance only; it wins if the patches were missed.
   if (seed_.axis.overlap < best_.axis.overlap - missed) best_ = seed_;
   pair = best_;

@@ -27,6 +27,7 @@ class CurvedAxis {
   void offer_round(const Vector3& n_W, const Patches::Round& round, bool is_of_a);
   void try_flats();
   void try_seeds();
+  void try_patches(double reach);
   void try_ridges();
   void try_rounds_on_ridges(const Posed& rounds, const Posed& ridges, bool rounds_are_a);
   void try_rounds();
@@ -35,7 +36,7 @@ class CurvedAxis {
   const Placed* body_a_ = nullptr;
   const Placed* body_b_ = nullptr;
   Vector3 origin_;
-  bool overlaps_ = false;
+  bool overlaps_ = false, is_deep_ = false;
   NearestPair seed_, best_;
   Posed a_, b_;
   std::vector<Vector3> found_;

@@ -15,6 +15,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -97,8 +98,9 @@ class Within {
     };
     constexpr int count = 24;
     const double spacing = 2 * std::numbers::pi / count;
-    int part = 0;
-    for (int k = 0; k < count; ++k) {
+    std::array<double, 2> peaks{};
+    int found = 0;
+    for (int k = 0; k < count && found < 2; ++k) {
       double t = spacing * k;
       if (value(t) < value(t - spacing) || value(t) <= value(t + spacing)) continue;
       for (int i = 0; i < 30; ++i) {
@@ -110,10 +112,28 @@ class Within {
         t += step;
         if (std::abs(step) < 1e-15) break;
       }
-      // Named by the side of the ring's middle that it is on: lasts while the body turns.
-      const bool is_far_side = across(ring.at(t)).dot(m) >= 0;
-      add_at(t, is_far_side ? 0 : 1 + part++);
+      peaks[static_cast<std::size_t>(found++)] = t;
     }
+    // Two are told apart by where they are, seen from the middle of the ring: farther out and
+    // farther in, or left and right. That lasts while the body turns.
+    if (found == 2) {
+      const auto bearing = [&](double t) {
+        const Vector3 r = across(ring.at(t)) - m;
+        const Vector3 left = normal_of(ring).cross(m);
+        return std::atan2(r.dot(left), r.dot(m));
+      };
+      const double first = bearing(peaks[0]), second = bearing(peaks[1]);
+      const bool is_in_and_out = std::abs(std::abs(first) - std::abs(second)) > 0.5;
+      if (is_in_and_out ? std::abs(first) > std::abs(second) : first > second) {
+        std::swap(peaks[0], peaks[1]);
+      }
+    }
+    for (int i = 0; i < found; ++i) add_at(peaks[static_cast<std::size_t>(i)], i);
+  }
+
+  // Across which the ring is seen, always the same way round.
+  Vector3 normal_of(const Ring& ring) const {
+    return is_tube_ ? Vector3(Vector3::UnitZ()) : Vector3(ring.u.cross(ring.w));
   }
 
   void add(const Cylinder& c) {

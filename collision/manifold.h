@@ -27,6 +27,8 @@ class Manifold {
 
  private:
   double narrowest(const Vector3& n_W) const;
+  bool looks_along(const Vector3& n_W) const;
+  Vector3 nearest_middle(const Axis& axis, const Vector3& p_W) const;
 
   Feature feature_a_, feature_b_, scratch_, clipped_;
   std::vector<ManifoldPoint> points_;

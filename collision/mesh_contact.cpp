@@ -78,10 +78,13 @@ void MeshContact::touch_triangle(NarrowPhase& narrow_phase, const Placed& mesh, 
 // Direction by direction, deepest first: each point once, four at most.
 void MeshContact::thin_out() {
   kept_.clear();
-  std::stable_sort(all_.begin(), all_.end(),
-                   [](const auto& x, const auto& y) { return x.depth > y.depth; });
   while (!all_.empty()) {
-    const Vector3 n = all_.front().n_W;
+    double deepest = -1e300;
+    for (const ManifoldPoint& point : all_) deepest = std::max(deepest, point.depth);
+    const auto first = std::find_if(all_.begin(), all_.end(), [&](const ManifoldPoint& point) {
+      return point.depth > deepest - same_point;
+    });
+    const Vector3 n = first->n_W;
     group_.clear();
     for (const ManifoldPoint& point : all_) {
       if (point.n_W.dot(n) < same_direction) continue;

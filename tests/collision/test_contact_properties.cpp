@@ -184,9 +184,9 @@ TEST_CASE("every pair: while a body slides along, the names of its contacts pers
     Random random(64);
     Pair pair(a, b);
     int steps = 0, renamed = 0;
-    for (int k = 0; k < 100; ++k) {
+    for (int k = 0; k < 5000 && steps < 1000; ++k) {
       const Pose X_WA = random_pose(random);
-      Pose X_WB = placed_near(random, a, X_WA, b, -1e-4);
+      Pose X_WB = placed_near(random, a, X_WA, b, -1e-3);
       if (pair.touch(X_WA, X_WB).empty()) continue;
       const Vector3 across = pair.deepest().n_W.unitOrthogonal();
       std::set<int> names;
@@ -200,7 +200,7 @@ TEST_CASE("every pair: while a body slides along, the names of its contacts pers
         for (const Contact& c : pair.contacts) names.insert(c.feature);
       }
     }
-    CHECK(steps > 500);
+    CHECK(steps >= 1000);
     CHECK(renamed <= steps / 200);  // where it passes an edge
   });
 }
