@@ -42,7 +42,10 @@ MotionLaw steady(const Pose& X_WB, const BodyMotion& motion) {
 
 class SceneBuilder {
  public:
-  explicit SceneBuilder(const SceneDescription& description) { scene_.description = description; }
+  SceneBuilder(const SceneDescription& description, const ModelOptions& options)
+      : options_(options) {
+    scene_.description = description;
+  }
 
   SceneModel build() {
     builder_.set_gravity(description().gravity);
@@ -82,7 +85,7 @@ class SceneBuilder {
   void add_robots() {
     for (std::size_t r = 0; r < description().robots.size(); ++r) {
       const RobotInScene& robot = description().robots[r];
-      ModelOptions options;
+      ModelOptions options = options_;
       options.floating = robot.floating;
       attempt(robot.line, "robot '" + robot.name + "'", [&] {
         add_robot(builder_, robot.description, options, prefix_of(description(), r), robot.X_WR);
@@ -168,6 +171,7 @@ class SceneBuilder {
     }
   }
 
+  ModelOptions options_;
   SceneModel scene_;
   ModelBuilder builder_;
   FaultList faults_;
@@ -207,8 +211,17 @@ int body_of(const SceneModel& scene, const SceneReference& reference) {
   return body.fixed ? 0 : scene.model.find_body(body.name);
 }
 
-SceneModel build_scene(const SceneDescription& description) {
-  return SceneBuilder(description).build();
+std::pair<int, int> SceneModel::bodies_of_robot(std::size_t robot) const {
+  const auto links = [&](std::size_t r) {
+    return static_cast<int>(description.robots[r].description.links.size());
+  };
+  int first = 1;
+  for (std::size_t r = 0; r < robot; ++r) first += links(r);
+  return {first, first + links(robot) - 1};
+}
+
+SceneModel build_scene(const SceneDescription& description, const ModelOptions& options) {
+  return SceneBuilder(description, options).build();
 }
 
 }  // namespace twinarm

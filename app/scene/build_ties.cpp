@@ -30,16 +30,6 @@ Matrix3 turned_to(const Vector3& axis) {
   return Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), axis).toRotationMatrix();
 }
 
-// The ends of a distance in the world. One point belongs to the world where one of the two is the
-// world, else to a; the other end is then the origin of the other body.
-std::pair<Vector3, Vector3> ends(const ConstraintDescription& given, const SceneConstraint& made,
-                                 const Kinematics& k) {
-  const Vector3 origin_a = k.X_WL[static_cast<std::size_t>(made.a)].p;
-  const Vector3 origin_b = k.X_WL[static_cast<std::size_t>(made.b)].p;
-  if (given.point && !given.point_b && given.b == "world") return {origin_a, *given.point};
-  return {given.point.value_or(origin_a), given.point_b.value_or(origin_b)};
-}
-
 class ConstraintBuilder {
  public:
   explicit ConstraintBuilder(SceneModel& scene) : scene_(scene), k_(scene.model) {
@@ -62,6 +52,25 @@ class ConstraintBuilder {
   }
 
  private:
+  // Of the body that is meant, in the world; a fixed one has no body of its own in the model.
+  Vector3 origin_of(const std::string& name) const {
+    const SceneReference who = *find_reference(scene_.description, name);
+    if (who.body >= 0) {
+      const BodyDescription& body = scene_.description.bodies[static_cast<std::size_t>(who.body)];
+      if (body.fixed) return body.X_WB.p;
+    }
+    return k_.X_WL[static_cast<std::size_t>(body_of(scene_, who))].p;
+  }
+
+  // The ends of a distance in the world. One point belongs to the one of the two that is fixed,
+  // else to a; the other end is then the origin of the other body.
+  std::pair<Vector3, Vector3> ends(const ConstraintDescription& given,
+                                   const SceneConstraint& made) const {
+    const Vector3 origin_a = origin_of(given.a), origin_b = origin_of(given.b);
+    if (given.point && !given.point_b && made.b == 0) return {origin_a, *given.point};
+    return {given.point.value_or(origin_a), given.point_b.value_or(origin_b)};
+  }
+
   void fault(const SceneConstraint& made, std::string rule, std::string remedy) {
     faults_.add({scene_.description.file.string(), made.line, "constraint '" + made.name + "'",
                  std::move(rule), std::move(remedy)});
@@ -77,6 +86,10 @@ class ConstraintBuilder {
     std::tie(made.a, made.iv_a) = body_and_velocity(given.a);
     std::tie(made.b, made.iv_b) = body_and_velocity(given.b);
     made.ratio = given.ratio;
+    const auto q = [&](int body) {
+      return scene_.start.q[scene_.model.iq[static_cast<std::size_t>(body)]];
+    };
+    made.offset = q(made.a) - made.ratio * q(made.b);
   }
 
   void build_joint(const ConstraintDescription& given, SceneConstraint& made) {
@@ -86,7 +99,7 @@ class ConstraintBuilder {
     const Pose& X_WB = k_.X_WL[static_cast<std::size_t>(made.b)];
     if (made.a == made.b) fault(made, "both are the same body", "name two that can move");
     if (given.type == Type::distance) {
-      const auto [p_WA, p_WB] = ends(given, made, k_);
+      const auto [p_WA, p_WB] = ends(given, made);
       made.X_AC = X_WA.inverse() * Pose{Matrix3::Identity(), p_WA};
       made.X_BC = X_WB.inverse() * Pose{Matrix3::Identity(), p_WB};
       made.length = (p_WB - p_WA).norm();

@@ -173,7 +173,7 @@ void SceneReader::read_constraint(const TomlValue& value, std::size_t index) {
     table.missing("point", "give the point that both share, in the world at the start");
   if (constraint.type == Type::hinge)
     table.missing("axis", "give the axis of the hinge, in the world at the start");
-  if (gear) table.missing("ratio", "give the speed of b as a multiple of that of a");
+  if (gear) table.missing("ratio", "give the speed of a as a multiple of that of b");
   if (const auto ratio = table.number("ratio")) {
     constraint.ratio = *ratio;
     if (!gear) table.fault("ratio", "is of a gear", "leave it out");

@@ -109,7 +109,7 @@ struct SceneCouplings::Tie {
   std::unique_ptr<RewindableCoupling> source;
 };
 
-SceneCouplings::SceneCouplings(const SceneModel& scene, double h) {
+SceneCouplings::SceneCouplings(const SceneModel& scene, double h) : scene_(scene) {
   FaultList faults;
   for (const SceneCoupling& coupling : scene.couplings)
     ties_.push_back(std::make_unique<Tie>(scene, coupling, h, faults));
@@ -126,11 +126,53 @@ const Coupling& SceneCouplings::coupling(std::size_t c) const {
   return ties_[c]->source->coupling();
 }
 
-const KvrSample& SceneCouplings::target(std::size_t c, double t) {
+const KvrSample& SceneCouplings::target(std::size_t c, double t, Side side) {
   KinematicRobot& shown = ties_[c]->shown;
-  const double after = 1e-6;  // within the motion that follows
-  shown.begin_step(t, after);
+  shown.begin_step(t, side == Side::after ? 1e-6 : -1e-6);  // within the motion that is meant
   return shown.start();
+}
+
+CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const Kinematics& k,
+                                  Side side) {
+  const SceneCoupling& spec = scene_.couplings[c];
+  const KvrSample& kvr = target(c, x.t, side);
+  const auto i = static_cast<std::size_t>(spec.spring.body);
+  CouplingEnds ends;
+  if (spec.type == CouplingDescription::Type::linear) {
+    const Vector3 p_D = k.position(spec.spring.body, spec.spring.p_L);
+    const Vector3 p_K = kvr.k.position(spec.spring.body, spec.spring.p_L);
+    ends = {p_K - p_D, k.velocity(spec.spring.body, p_D), kvr.k.velocity(spec.spring.body, p_K)};
+  } else if (spec.measure == Measure::world) {
+    ends = {rotation_vector(kvr.k.X_WL[i].R * k.X_WL[i].R.transpose()), k.w_WL[i], kvr.k.w_WL[i]};
+  } else {
+    const std::size_t iq = scene_.model.iq[i], iv = scene_.model.iv[i];
+    ends.offset.x() = kvr.x.q[iq] - x.q[iq];
+    ends.velocity.x() = x.qd[iv];
+    ends.target_velocity.x() = kvr.x.qd[iv];
+  }
+  return ends;
+}
+
+Vector3 SceneCouplings::pull(std::size_t c) const {
+  const SceneCoupling& spec = scene_.couplings[c];
+  const SpringReading& reading = coupling(c).readings()[0];
+  const bool at_joint =
+      spec.type == CouplingDescription::Type::torsional && spec.measure == Measure::joint;
+  return at_joint ? Vector3(reading.size, 0, 0) : reading.pull;
+}
+
+double SceneCouplings::m_star(std::size_t c, double h) const {
+  const SceneCoupling& spec = scene_.couplings[c];
+  const double by_damper = h * spec.spring.b, by_spring = h * h * spec.spring.k;
+  switch (spec.treatment) {
+    case Treatment::explicit_:
+      return 0;
+    case Treatment::semi_implicit:
+      return by_damper;
+    case Treatment::implicit:
+      break;
+  }
+  return by_damper + by_spring;
 }
 
 }  // namespace twinarm

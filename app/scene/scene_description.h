@@ -128,7 +128,7 @@ struct ConstraintDescription {
   Type type = Type::weld;
   std::string a, b;                             // of a gear: "robot/joint"
   std::optional<Vector3> point, point_b, axis;  // world, at the start
-  double ratio = 1;                             // gear: qd of b = ratio * qd of a
+  double ratio = 1;                             // gear: speed of a = ratio * speed of b
 };
 
 enum class ContactLaw { rigid, compliant, event };

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/scene/scene_description.h"
+#include "collision/import/robot_model.h"
 #include "solver/integrator_mechanism.h"
 #include "solver/model.h"
 
@@ -65,7 +66,7 @@ struct SceneConstraint {
   Pose X_AC, X_BC;                 // in link axes; a distance goes between the origins of the two
   double length = 0;               // of a distance, as at the start [m]
   std::size_t iv_a = 0, iv_b = 0;  // of a gear: velocities
-  double ratio = 1;                // of a gear: qd[iv_b] = ratio qd[iv_a]
+  double ratio = 1, offset = 0;    // of a gear: q of a's joint = ratio * (q of b's) + offset
 };
 
 struct SceneModel {
@@ -83,6 +84,8 @@ struct SceneModel {
   std::vector<SceneCoupling> couplings;
   std::vector<SceneConstraint> constraints;
 
+  // The first and the last of its bodies.
+  std::pair<int, int> bodies_of_robot(std::size_t robot) const;
   // Whether any two geometries may touch.
   bool may_touch() const;
   // Of two geometries: geometric mean of frictions, product of restitutions, the larger of the
@@ -90,8 +93,9 @@ struct SceneModel {
   Surface surface_of_pair(int a, int b) const;
 };
 
-// Throws InputError with all faults that reading could not see: meshes without inside, joints that
-// carry no inertia.
-SceneModel build_scene(const SceneDescription& description);
+// `friction` and `armature` of the options count: false leaves them out of all robots. Throws
+// InputError with all faults that reading could not see: meshes without inside, joints that carry
+// no inertia.
+SceneModel build_scene(const SceneDescription& description, const ModelOptions& options = {});
 
 }  // namespace twinarm

@@ -65,6 +65,23 @@ TEST_CASE("scene: constraints hold at the start, at the point and along the axis
   CHECK(wheels.iv_b ==
         scene.model.iv[static_cast<std::size_t>(scene.model.find_joint("right/joint2"))]);
   CHECK(wheels.ratio == -2);
+  CHECK(wheels.offset == doctest::Approx(0.4).epsilon(1e-15));  // q_a = 0.4, q_b = 0
+}
+
+TEST_CASE("scene: a distance begins at origins, and one point alone belongs to what is fixed") {
+  const std::string hook = kTwoArms +
+                           "[[body]]\nname = 'hook'\nfixed = true\nposition = [0, 0, 9]\n"
+                           "shape.sphere.radius = 0.1\n[[constraint]]\ntype = 'distance'\n";
+  const auto length = [&](const std::string& more) {
+    return built(hook + more).constraints[0].length;
+  };
+  const Vector3 ball(1, 2, 3);
+  CHECK(length("a = 'ball'\nb = 'hook'\n") ==
+        doctest::Approx((Vector3(0, 0, 9) - ball).norm()).epsilon(1e-15));
+  CHECK(length("a = 'ball'\nb = 'world'\n") == doctest::Approx(ball.norm()).epsilon(1e-15));
+  CHECK(length("a = 'ball'\nb = 'hook'\npoint = [1, 2, 8]\n") == doctest::Approx(5));
+  CHECK(length("a = 'hook'\nb = 'ball'\npoint = [1, 2, 8]\n") == doctest::Approx(5));
+  CHECK(length("a = 'ball'\nb = 'left/base'\npoint = [3, 4, 0]\n") == doctest::Approx(5));
 }
 
 TEST_CASE("scene: a constraint of the world with itself, or of no length, is told") {
