@@ -100,5 +100,38 @@ TEST_CASE("scenes: the constraints of every scene hold its velocities at the sta
   }
 }
 
+// The lowest point of a body that stands on the plane z = 0, from its origin, world axes.
+Vector3 lowest_point(const ShapeSpec& shape, const Matrix3& R) {
+  const Vector3 down = R.transpose() * -Vector3::UnitZ();
+  if (const auto* ellipsoid = std::get_if<EllipsoidSpec>(&shape)) {
+    const Vector3 scaled = ellipsoid->semi_axes.cwiseProduct(down);
+    return R * ellipsoid->semi_axes.cwiseProduct(scaled) / scaled.norm();
+  }
+  return R * support(collision_shape(shape), down);
+}
+
+TEST_CASE("scenes: coin, rattleback and the ball on the turntable begin by rolling on z = 0") {
+  struct Case {
+    const char *scene, *body, *ground;
+    double slip;  // [m/s]; of the coin: w times half its thickness
+  };
+  for (const Case& c :
+       {Case{"spinning_coin", "coin", "", 1.4e-4}, Case{"rattleback", "stone", "", 1e-12},
+        Case{"turntable", "ball", "table", 1e-12}}) {
+    INFO(c.scene);
+    const SceneModel scene = build_scene(read_scene(kScenes / (std::string(c.scene) + ".toml")));
+    Kinematics k(scene.model);
+    forward_kinematics(scene.model, scene.start, k);
+    const int body = scene.model.find_body(c.body);
+    const auto i = static_cast<std::size_t>(body);
+    const auto shape = std::find_if(scene.geometries.begin(), scene.geometries.end(),
+                                    [&](const SceneGeometry& g) { return g.body == body; });
+    const Vector3 p_WC = k.X_WL[i].p + lowest_point(shape->shape, k.X_WL[i].R);
+    CHECK(std::abs(p_WC.z()) < 1e-12);
+    const int ground = *c.ground ? scene.model.find_body(c.ground) : 0;
+    CHECK((k.velocity(body, p_WC) - k.velocity(ground, p_WC)).norm() < c.slip);
+  }
+}
+
 }  // namespace
 }  // namespace twinarm
