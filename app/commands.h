@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/dynamics/robot_input.h"
+#include "app/find_assets.h"
 #include "app/simulate/simulate_options.h"
 
 namespace twinarm {
@@ -37,8 +38,5 @@ struct DynamicsOptions {
 int run_dynamics(const DynamicsOptions& options);
 
 int run_simulate(const SimulateOptions& options);
-
-// The assets folder: beside the program's build tree, or below the current folder.
-std::filesystem::path find_assets(const std::filesystem::path& given);
 
 }  // namespace twinarm

@@ -1,6 +1,7 @@
-#include <fmt/format.h>
+#include "app/find_assets.h"
 
-#include "app/commands.h"
+#include <vector>
+
 #include "solver/fault.h"
 
 namespace twinarm {

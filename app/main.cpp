@@ -79,8 +79,8 @@ void add_trace(CLI::App& app, TraceOptions& options, std::function<int()>& comma
 }
 
 // What `dynamics` and `simulate` are both given.
-void add_robot_options(CLI::App& command, RobotOptions& options) {
-  command.add_option("model", options.model, "the robot's URDF")->required();
+void add_robot_options(CLI::App& command, RobotOptions& options, const char* model) {
+  command.add_option("model", options.model, model)->required();
   command.add_option("--state", options.state, "JSON file: q, qd, tau, qdd, base, wrenches");
   command.add_option("--gravity", options.gravity,
                      "x,y,z in world axes [m/s^2]; 0,0,-9.81 if not given");
@@ -98,7 +98,7 @@ void add_dynamics(CLI::App& app, DynamicsOptions& options, std::function<int()>&
       "Forward and inverse dynamics, mass matrix, energies of a robot in one state\n\n"
       "Example:  twinarm dynamics assets/robots/puma560/puma560.urdf --state "
       "assets/states/puma_qn.json");
-  add_robot_options(*dynamics, options.robot);
+  add_robot_options(*dynamics, options.robot, "the robot's URDF");
   dynamics->add_flag("--json", options.json, "print one JSON object on stdout");
   dynamics->callback([&] { command = [&] { return run_dynamics(options); }; });
 }
@@ -106,15 +106,17 @@ void add_dynamics(CLI::App& app, DynamicsOptions& options, std::function<int()>&
 void add_simulate(CLI::App& app, SimulateOptions& options, std::function<int()>& command) {
   CLI::App* simulate = app.add_subcommand(
       "simulate",
-      "Let a robot move, under gravity, constant torques and forces\n\n"
+      "Let a robot or a scene move, under gravity, couplings, constant torques and forces\n\n"
       "Example:  twinarm simulate assets/robots/puma560/puma560.urdf --duration 1 --every 0.1");
-  add_robot_options(*simulate, options.robot);
+  add_robot_options(*simulate, options.robot, "the robot's URDF, or a scene in TOML");
   std::string names;
   for (const IntegratorFacts& facts : all_integrators) names += std::string(" ") + facts.name;
-  simulate->add_option("--duration", options.duration, "seconds")->required();
+  simulate->add_option("--duration", options.duration,
+                       "seconds; if not given, as long as the scene says");
   simulate->add_option("--step", options.step,
-                       "seconds; 0.001 if not given; of dopri5 the longest");
-  simulate->add_option("--integrator", options.integrator, "one of" + names)->capture_default_str();
+                       "seconds; 0.001 or the scene's if not given; of dopri5 the longest");
+  simulate->add_option("--integrator", options.integrator,
+                       "semi-implicit or the scene's if not given; one of" + names);
   simulate->add_option("--tolerance", options.tolerance, "of dopri5, relative and absolute");
   simulate->add_option("--every", options.every, "a sample each so many seconds");
   simulate->add_option("--at", options.at, "samples at these times: t1,t2,..");

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solver/fault.h"
+#include "solver/mimic.h"
 
 namespace twinarm {
 
@@ -39,6 +40,15 @@ KinematicRobot::KinematicRobot(const Model<double>& model, const HandSource& han
   difference_.assign(iq_.size(), 0.0);
   for (KvrSample* sample : {&start_, &middle_, &end_})
     sample->x.t = std::numeric_limits<double>::quiet_NaN();
+  set(start_, 0, 1);
+  set(end_, 0, 1);
+}
+
+void KinematicRobot::stand_at(const State<double>& x) {
+  for (KvrSample* sample : {&start_, &middle_, &end_}) {
+    sample->x.q = x.q;
+    sample->x.t = std::numeric_limits<double>::quiet_NaN();
+  }
   set(start_, 0, 1);
   set(end_, 0, 1);
 }
@@ -78,12 +88,14 @@ void KinematicRobot::set(KvrSample& sample, double t, double toward) const {
   sample.x.t = t;
   for (std::size_t j = 0; j < iq_.size(); ++j) {
     put(sample.x.q[iq_[j]], mapping_.robot_angle(hand, j));
-    put(sample.x.qd[iv_[j]], mapping_.robot_rate(hand, j));
+    if (rates_ != KvrRates::none) put(sample.x.qd[iv_[j]], mapping_.robot_rate(hand, j));
   }
   if (gripper_ > 0)
     put(sample.x.q[model_.iq[static_cast<std::size_t>(gripper_)]],
         hand.button ? gripper_closed_ : gripper_open_);
-  if (changed) forward_kinematics(model_, sample.x, sample.k);
+  if (!changed) return;
+  apply_mimics(model_, sample.x);
+  forward_kinematics(model_, sample.x, sample.k);
 }
 
 }  // namespace twinarm

@@ -27,8 +27,9 @@ struct DrivenJoints {
 
 // Where the KVR's velocity comes from.
 enum class KvrRates {
-  from_hand,           // the hand's own rate, one-sided at a corner
-  backward_difference  // (q_n - q_n-1) / h of its angles, zero at first: all that a device gives
+  from_hand,            // the hand's own rate, one-sided at a corner
+  backward_difference,  // (q_n - q_n-1) / h of its angles, zero at first: all that a device gives
+  none                  // zero: dampers then brake the link's own motion
 };
 
 class KinematicRobot {
@@ -37,6 +38,8 @@ class KinematicRobot {
   KinematicRobot(const Model<double>& model, const HandSource& hand, const HandMapping& mapping,
                  const DrivenJoints& joints, KvrRates rates = KvrRates::from_hand);
 
+  // Where the joints stand that the hand does not move; zero at first. Before the first step.
+  void stand_at(const State<double>& x);
   // Looks at the hand for the step [t, t + h]. Asking again for the same step costs nothing.
   void begin_step(double t, double h);
   const KvrSample& start() const { return start_; }

@@ -43,9 +43,10 @@ std::vector<JointComponent> NamedJoint::components() const {
   }
 }
 
-Coordinates::Coordinates(const Model<double>& model, bool floating) : floating_(floating) {
+Coordinates::Coordinates(const Model<double>& model, bool floating, int last)
+    : floating_(floating) {
   std::size_t row = 0;
-  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+  for (std::size_t i = 1; i <= static_cast<std::size_t>(last); ++i) {
     const std::size_t nv = model.dofs(i), iv = model.iv[i];
     const bool follows = std::any_of(model.mimics.begin(), model.mimics.end(),
                                      [&](const Mimic& m) { return nv == 1 && m.follower == iv; });

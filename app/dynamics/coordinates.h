@@ -40,7 +40,10 @@ struct NamedJoint {
 
 class Coordinates {
  public:
-  Coordinates(const Model<double>& model, bool floating);
+  Coordinates(const Model<double>& model, bool floating)
+      : Coordinates(model, floating, model.body_count() - 1) {}
+  // Of the joints of bodies 1 .. last alone; those after them have no joint values to be named.
+  Coordinates(const Model<double>& model, bool floating, int last);
 
   const std::vector<NamedJoint>& all() const { return all_; }  // the base first, where it floats
   bool floating() const { return floating_; }

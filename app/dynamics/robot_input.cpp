@@ -6,25 +6,16 @@
 #include "collision/import/number_text.h"
 #include "collision/import/robot_model.h"
 #include "collision/import/urdf.h"
+#include "solver/kinematics.h"
 
 namespace twinarm {
 namespace {
 
-// What f returns; nothing where it finds faults, which are added to the others.
-template <class F>
-auto attempt(FaultList& faults, F f) -> std::optional<decltype(f())> {
-  try {
-    return f();
-  } catch (const InputError& error) {
-    faults.add(error.faults());
-    return std::nullopt;
-  }
-}
-
 std::optional<RobotDescription> read_model_file(const RobotOptions& options, FaultList& faults) {
   const std::filesystem::path& file = options.model;
   if (file.extension() == ".toml") {
-    faults.add({file.string(), 0, "model", "scenes cannot be run yet", "give a robot's URDF"});
+    faults.add({file.string(), 0, "model", "a scene has no one state of one robot",
+                "give a robot's URDF, or run the scene with `twinarm simulate`"});
     return std::nullopt;
   }
   return attempt(faults, [&] {
@@ -55,14 +46,18 @@ std::vector<double> parse_list(const std::string& option, const std::string& tex
   return values;
 }
 
+std::optional<Vector3> parse_gravity(const std::string& text, FaultList& faults) {
+  const std::vector<double> numbers = parse_list("--gravity", text, faults);
+  if (numbers.size() == 3) return Vector3(numbers.data());
+  if (!numbers.empty())
+    faults.add({"", 0, "--gravity", "has " + std::to_string(numbers.size()) + " numbers",
+                "give three: --gravity 0,0,-9.81"});
+  return std::nullopt;
+}
+
 RobotInput read_robot_input(const RobotOptions& options, FaultList faults) {
-  std::vector<double> gravity{0, 0, -9.81};
-  if (!options.gravity.empty()) {
-    gravity = parse_list("--gravity", options.gravity, faults);
-    if (!gravity.empty() && gravity.size() != 3)
-      faults.add({"", 0, "--gravity", "has " + std::to_string(gravity.size()) + " numbers",
-                  "give three: --gravity 0,0,-9.81"});
-  }
+  std::optional<Vector3> gravity;
+  if (!options.gravity.empty()) gravity = parse_gravity(options.gravity, faults);
   std::optional<JsonValue> json;
   if (!options.state.empty()) json = attempt(faults, [&] { return read_json(options.state); });
   const auto robot = read_model_file(options, faults);
@@ -74,11 +69,11 @@ RobotInput read_robot_input(const RobotOptions& options, FaultList faults) {
   model_options.armature = options.armature;
   auto model = attempt(faults, [&] { return build_model(*robot, model_options); });
   if (!model) faults.check();
-  if (gravity.size() == 3) model->gravity = {gravity[0], gravity[1], gravity[2]};
+  if (gravity) model->gravity = from_eigen(*gravity);
 
   const Coordinates coordinates(*model, options.floating);
-  GivenState state = json ? read_state(*json, options.state, *robot, *model, coordinates, faults)
-                          : default_state(*model, coordinates);
+  GivenState state = default_state(*model, coordinates);
+  if (json) state = read_state(*json, options.state, *robot, *model, coordinates, state, faults);
   faults.check();
   std::vector<std::string> warnings;
   for (const Fault& warning : robot->warnings) warnings.push_back(to_string(warning));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,20 @@ struct RobotInput {
 
 // Throws InputError with all faults: those given, and those of the options, the URDF and the state.
 RobotInput read_robot_input(const RobotOptions& options, FaultList faults = {});
+
+// What f returns; nothing where it finds faults, which are added to the others.
+template <class F>
+auto attempt(FaultList& faults, F f) -> std::optional<decltype(f())> {
+  try {
+    return f();
+  } catch (const InputError& error) {
+    faults.add(error.faults());
+    return std::nullopt;
+  }
+}
+
+// --gravity; nothing, told, where it is not three numbers.
+std::optional<Vector3> parse_gravity(const std::string& text, FaultList& faults);
 
 // Numbers separated by commas, as options have them; adds a fault and returns nothing else.
 std::vector<double> parse_list(const std::string& option, const std::string& text,

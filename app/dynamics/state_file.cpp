@@ -17,13 +17,14 @@ namespace {
 class StateReader {
  public:
   StateReader(const std::filesystem::path& file, const RobotDescription& robot,
-              const Model<double>& model, const Coordinates& coordinates, FaultList& faults)
+              const Model<double>& model, const Coordinates& coordinates, const GivenState& start,
+              FaultList& faults)
       : file_(file.string()),
         robot_(robot),
         model_(model),
         coordinates_(coordinates),
         faults_(faults),
-        state_(default_state(model, coordinates)) {}
+        state_(start) {}
 
   GivenState read(const JsonValue& json) {
     if (!is_object(json, "the state")) return state_;
@@ -260,8 +261,8 @@ GivenState default_state(const Model<double>& model, const Coordinates& coordina
 
 GivenState read_state(const JsonValue& json, const std::filesystem::path& file,
                       const RobotDescription& robot, const Model<double>& model,
-                      const Coordinates& coordinates, FaultList& faults) {
-  return StateReader(file, robot, model, coordinates, faults).read(json);
+                      const Coordinates& coordinates, const GivenState& start, FaultList& faults) {
+  return StateReader(file, robot, model, coordinates, start, faults).read(json);
 }
 
 }  // namespace twinarm

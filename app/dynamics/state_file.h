@@ -31,9 +31,10 @@ struct GivenState {
 // Everything at rest at its identity.
 GivenState default_state(const Model<double>& model, const Coordinates& coordinates);
 
-// Adds all faults of the file to the list; what it returns is of use only if there are none.
+// Adds all faults of the file to the list; what it returns is of use only if there are none. What
+// the file leaves out is as in `start`.
 GivenState read_state(const JsonValue& json, const std::filesystem::path& file,
                       const RobotDescription& robot, const Model<double>& model,
-                      const Coordinates& coordinates, FaultList& faults);
+                      const Coordinates& coordinates, const GivenState& start, FaultList& faults);
 
 }  // namespace twinarm

@@ -30,7 +30,7 @@ class PatientProgress {
   std::optional<Progress> bar_;
 };
 
-std::unique_ptr<RunOutput> output_of(const SimulateOptions& options, const RobotInput& input,
+std::unique_ptr<RunOutput> output_of(const SimulateOptions& options, const SimulateInput& input,
                                      const RunPlan& plan) {
   if (options.json) return json_output(input, plan);
   if (options.csv) return csv_output(input);
@@ -41,9 +41,9 @@ std::unique_ptr<RunOutput> output_of(const SimulateOptions& options, const Robot
 
 int run_simulate(const SimulateOptions& options) {
   constexpr int kStopped = 3;
-  FaultList faults;
-  const RunPlan plan = plan_run(options, faults);
-  const RobotInput input = read_robot_input(options.robot, faults);
+  const SimulatePlan prepared = prepare_simulation(options);
+  const SimulateInput& input = prepared.input;
+  const RunPlan& plan = prepared.run;
   const std::unique_ptr<RunOutput> output = output_of(options, input, plan);
 
   RunResult result;

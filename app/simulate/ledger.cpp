@@ -25,10 +25,15 @@ double dot(const Eigen::VectorXd& rows, const NamedJoint& joint,
 }  // namespace
 
 Ledger::Ledger(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
-               Integrator integrator)
-    : input_(input), wrenches_(wrenches), k_(input.model), start_(input.state.x), now_(start_) {
+               SceneCouplings* couplings, Integrator integrator)
+    : input_(input),
+      wrenches_(wrenches),
+      couplings_(couplings),
+      k_(input.model),
+      start_(input.state.x),
+      now_(start_) {
   find_rows(integrator);
-  power_now_ = powers(start_);
+  power_now_ = powers(start_, Side::after);
 }
 
 void Ledger::find_rows(Integrator integrator) {
@@ -50,6 +55,10 @@ void Ledger::find_rows(Integrator integrator) {
   }
   for (const Friction& f : damped_) integrals_.push_back({"joint/" + f.joint + "/damping"});
   for (const Friction& f : rubbing_) integrals_.push_back({"joint/" + f.joint + "/friction"});
+  for (std::size_t c = 0; c < coupling_count(); ++c)
+    for (const char* part : {"/spring", "/damper", "/hand_on_damper"})
+      integrals_.push_back({"coupling/" + couplings_->spec(c).name + part});
+  implicit_.assign(coupling_count(), 0);
 
   const int order = facts_of(integrator).order;
   weights_ = {0.5, 0.5};
@@ -62,13 +71,13 @@ void Ledger::find_rows(Integrator integrator) {
   weights_ = {1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12};
 }
 
-std::vector<double> Ledger::powers(const State<double>& x) const {
+std::vector<double> Ledger::powers(const State<double>& x, Side side) const {
   std::vector<double> powers;
   for (const Actuator& actuator : actuators_)
     if (!actuator.is_exact)
       powers.push_back(
           dot(input_.state.tau, *actuator.joint, from_solver(*actuator.joint, x, x.qd)));
-  if (!wrenches_.empty()) forward_kinematics(input_.model, x, k_);
+  if (!wrenches_.empty() || couplings_) forward_kinematics(input_.model, x, k_);
   for (const GivenWrench& wrench : wrenches_) powers.push_back(wrench.power(k_));
   const Model<double>& model = input_.model;
   for (const Friction& f : damped_) {
@@ -82,6 +91,15 @@ std::vector<double> Ledger::powers(const State<double>& x) const {
       sum -= x.qd[i] > 0 ? model.coulomb_plus[i] * x.qd[i] : -model.coulomb_minus[i] * x.qd[i];
     powers.push_back(sum);
   }
+  for (std::size_t c = 0; c < coupling_count(); ++c) {
+    const SceneCoupling& spec = couplings_->spec(c);
+    const CouplingEnds ends = couplings_->ends(c, x, k_, side);
+    const Vector3 damped = spec.absolute_damper ? Vector3(Vector3::Zero()) : ends.target_velocity;
+    const Vector3 spring = spec.spring.k * ends.offset;
+    const Vector3 damper = spec.spring.b * (damped - ends.velocity);
+    powers.insert(powers.end(), {spring.dot(ends.target_velocity), damper.dot(ends.velocity),
+                                 damper.dot(damped)});
+  }
   return powers;
 }
 
@@ -94,10 +112,42 @@ void Ledger::add_step(double h, const std::vector<State<double>>& inner, const S
     for (std::size_t i = 0; i < integrals_.size(); ++i) integrals_[i].work += weight * h * power[i];
   };
   add(power_now_, weights_.front());
-  for (std::size_t s = 0; s < inner.size(); ++s) add(powers(inner[s]), weights_[s + 1]);
-  power_now_ = powers(end);
+  for (std::size_t s = 0; s < inner.size(); ++s)
+    add(powers(inner[s], Side::after), weights_[s + 1]);
+  power_now_ = powers(end, Side::before);
   add(power_now_, weights_.back());
+  if (couplings_) power_now_ = powers(end, Side::after);
+  add_implicit(h, end);
   now_ = end;
+}
+
+// (pull h - m* (v' - v)) . (v + v')/2, less what spring and damper have already.
+void Ledger::add_implicit(double h, const State<double>& end) {
+  for (std::size_t c = 0; c < coupling_count(); ++c) {
+    const double m_star = couplings_->m_star(c, h);
+    if (m_star == 0) continue;
+    forward_kinematics(input_.model, now_, k_);
+    const CouplingEnds before = couplings_->ends(c, now_, k_);
+    forward_kinematics(input_.model, end, k_);
+    const CouplingEnds after = couplings_->ends(c, end, k_);
+    const Vector3 mean = 0.5 * (before.velocity + after.velocity);
+    implicit_[c] +=
+        (h * couplings_->pull(c) - m_star * (after.velocity - before.velocity)).dot(mean);
+  }
+}
+
+double Ledger::elastic_energy(std::size_t c, const State<double>& x) const {
+  forward_kinematics(input_.model, x, k_);
+  return 0.5 * couplings_->spec(c).spring.k * couplings_->ends(c, x, k_).offset.squaredNorm();
+}
+
+std::vector<LedgerRow> Ledger::hand() const {
+  std::vector<LedgerRow> rows;
+  const std::size_t first = integrals_.size() - 3 * coupling_count();
+  for (std::size_t c = 0; c < coupling_count(); ++c)
+    rows.push_back({couplings_->spec(c).name,
+                    integrals_[first + 3 * c].work + integrals_[first + 3 * c + 2].work});
+  return rows;
 }
 
 std::vector<LedgerRow> Ledger::rows() const {
@@ -115,7 +165,17 @@ std::vector<LedgerRow> Ledger::rows() const {
     for (std::size_t c = 0; c < joint.nq; ++c) way[c] -= start_.q[joint.iq + c];
     rows.push_back({"actuator/" + joint.name, dot(input_.state.tau, joint, way)});
   }
-  rows.insert(rows.end(), integral, integrals_.end());
+  const auto couplings = integrals_.end() - static_cast<std::ptrdiff_t>(3 * coupling_count());
+  rows.insert(rows.end(), integral, couplings);
+  for (std::size_t c = 0; c < coupling_count(); ++c) {
+    const auto hand = couplings + static_cast<std::ptrdiff_t>(3 * c), damper = hand + 1;
+    const double spring = hand->work - (elastic_energy(c, now_) - elastic_energy(c, start_));
+    rows.push_back({hand->name, spring});
+    rows.push_back(*damper);
+    if (couplings_->spec(c).treatment == Treatment::explicit_) continue;
+    rows.push_back({"coupling/" + couplings_->spec(c).name + "/implicit",
+                    implicit_[c] - spring - damper->work});
+  }
   double rest = kinetic_energy(model, now_) - kinetic_energy(model, start_);
   for (const LedgerRow& row : rows) rest -= row.work;
   rows.push_back({"numerical", rest});

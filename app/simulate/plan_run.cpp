@@ -9,7 +9,6 @@
 namespace twinarm {
 namespace {
 
-constexpr double kDefaultStep = 0.001;
 constexpr double kMostSteps = 1e10, kMostSamples = 1e7;
 
 bool is_positive(double value) {
@@ -41,7 +40,7 @@ void choose_integrator(const SimulateOptions& options, RunPlan& plan, FaultList&
   for (const IntegratorFacts& facts : all_integrators) names.emplace_back(facts.name);
   if (const auto found = find_integrator(options.integrator))
     plan.integrator = *found;
-  else
+  else if (!options.integrator.empty())
     faults.add({"", 0, "--integrator", "there is no '" + options.integrator + "'",
                 name_remedy(options.integrator, names, "integrators")});
   if (!options.tolerance) return;
@@ -50,18 +49,22 @@ void choose_integrator(const SimulateOptions& options, RunPlan& plan, FaultList&
     faults.add({"", 0, "--tolerance", "must be positive, is " + number_text(plan.tolerance), ""});
   if (!plan.is_adaptive())
     faults.add({"", 0, "--tolerance",
-                "'" + options.integrator + "' has steps of fixed size, and no tolerance",
+                "'" + std::string(integrator_name(plan.integrator)) +
+                    "' has steps of fixed size, and no tolerance",
                 "give --step, or --integrator dopri5"});
 }
 
 }  // namespace
 
-RunPlan plan_run(const SimulateOptions& options, FaultList& faults) {
+RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults, FaultList& faults) {
   RunPlan plan;
+  plan.integrator = defaults.integrator;
   choose_integrator(options, plan, faults);
-  plan.duration = options.duration;
+  const std::optional<double> duration = options.duration ? options.duration : defaults.duration;
+  if (!duration) faults.add({"", 0, "--duration", "is missing", "give --duration SECONDS"});
+  plan.duration = duration.value_or(1);
   plan.step_is_given = options.step.has_value();
-  plan.step = options.step.value_or(plan.is_adaptive() ? plan.duration : kDefaultStep);
+  plan.step = options.step.value_or(plan.is_adaptive() ? plan.duration : defaults.step);
   const auto positive = [&](const char* option, double value) {
     if (!is_positive(value))
       faults.add(

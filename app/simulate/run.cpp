@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/simulate/add_contacts.h"
 #include "collision/import/number_text.h"
 
 namespace twinarm {
@@ -93,21 +94,28 @@ PostMortem examine(const StepReport& report, const Model<double>& model, const S
 
 class Run {
  public:
-  Run(const RobotInput& input, const RunPlan& plan, const RunWatch& watch)
-      : input_(input),
+  Run(const SimulateInput& simulated, const RunPlan& plan, const RunWatch& watch)
+      : input_(simulated.robot),
         plan_(plan),
         watch_(watch),
-        sim_(input.model, input.state.x),
-        torques_(input.model, input.coordinates, input.state.tau),
-        limits_(input, result_.warnings) {
-    Kinematics start(input.model);
-    forward_kinematics(input.model, input.state.x, start);
-    for (const Wrench& wrench : input.state.wrenches) wrenches_.emplace_back(wrench, start);
+        sim_(input_.model, input_.state.x),
+        torques_(input_.model, input_.coordinates, input_.state.tau),
+        limits_(input_, result_.warnings) {
+    Kinematics start(input_.model);
+    forward_kinematics(input_.model, input_.state.x, start);
+    for (const Wrench& wrench : input_.state.wrenches) wrenches_.emplace_back(wrench, start);
     sim_.add(torques_);
     for (GivenWrench& wrench : wrenches_) sim_.add(wrench);
+    if (simulated.scene) {
+      for (std::size_t c = 0; c < simulated.couplings->size(); ++c)
+        sim_.add(simulated.couplings->source(c));
+      for (const SceneMotion& motion : simulated.scene->motions)
+        sim_.prescribe(motion.body, motion.law);
+      add_contacts(*simulated.scene, sim_);
+    }
     sim_.set_integrator(plan.integrator);
     if (plan.is_adaptive()) sim_.set_tolerance(plan.tolerance);
-    ledger_.emplace(input, wrenches_, plan.integrator);
+    ledger_.emplace(input_, wrenches_, simulated.couplings.get(), plan.integrator);
   }
 
   RunResult run() {
@@ -123,6 +131,7 @@ class Run {
           fmt::format("in {} of {} steps the equation of the step was not solved to rounding",
                       unsolved_, result_.steps));
     result_.ledger = ledger_->rows();
+    result_.hand = ledger_->hand();
     return std::move(result_);
   }
 
@@ -205,7 +214,7 @@ class Run {
 
 }  // namespace
 
-RunResult run_plan(const RobotInput& input, const RunPlan& plan, const RunWatch& watch) {
+RunResult run_plan(const SimulateInput& input, const RunPlan& plan, const RunWatch& watch) {
   return Run(input, plan, watch).run();
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/dynamics/robot_input.h"
 #include "app/simulate/ledger.h"
+#include "app/simulate/simulate_input.h"
 #include "app/simulate/simulate_options.h"
 #include "solver/simulation.h"
 
@@ -26,6 +26,7 @@ struct RunResult {
   long steps = 0;
   double end = 0;  // [s]; where the run stopped by itself: the last good time
   std::vector<LedgerRow> ledger;
+  std::vector<LedgerRow> hand;  // of the kinematic sides of couplings; outside the sum
   std::vector<std::string> warnings;
   std::optional<PostMortem> post_mortem;
 };
@@ -37,6 +38,6 @@ struct RunWatch {
 
 // Samples between two points of the grid are reached by a side step from the earlier one; the run
 // is the same, whatever is sampled.
-RunResult run_plan(const RobotInput& input, const RunPlan& plan, const RunWatch& watch);
+RunResult run_plan(const SimulateInput& input, const RunPlan& plan, const RunWatch& watch);
 
 }  // namespace twinarm

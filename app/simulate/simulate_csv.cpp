@@ -76,8 +76,8 @@ class CsvOutput : public RunOutput {
 
 }  // namespace
 
-std::unique_ptr<RunOutput> csv_output(const RobotInput& input) {
-  return std::make_unique<CsvOutput>(input);
+std::unique_ptr<RunOutput> csv_output(const SimulateInput& input) {
+  return std::make_unique<CsvOutput>(input.robot);
 }
 
 }  // namespace twinarm

@@ -9,9 +9,10 @@ namespace {
 
 class JsonOutput : public RunOutput {
  public:
-  JsonOutput(const RobotInput& input, const RunPlan& plan) : input_(input), k_(input.model) {
+  JsonOutput(const SimulateInput& simulated, const RunPlan& plan)
+      : input_(simulated.robot), simulated_(simulated), k_(input_.model) {
     json_.begin_object();
-    json_.key("joints").texts(input.coordinates.names());
+    json_.key("joints").texts(input_.coordinates.names());
     json_.key("integrator").text(integrator_name(plan.integrator));
     if (plan.is_adaptive()) {
       plan.step_is_given ? json_.key("step").number(plan.step) : json_.key("step").null();
@@ -31,6 +32,7 @@ class JsonOutput : public RunOutput {
     write_velocities(json_.key("qd"), coordinates, x);
     if (coordinates.floating()) write_base(json_.key("base"), coordinates, x);
     write_links(json_.key("links"), input_.model, k_);
+    if (simulated_.couplings) write_targets(t);
     json_.key("kinetic_energy").number(kinetic_energy(input_.model, x));
     json_.key("potential_energy").number(potential_energy(input_.model, x));
     json_.end_object();
@@ -42,6 +44,11 @@ class JsonOutput : public RunOutput {
     json_.key("ledger").begin_object();
     for (const LedgerRow& row : result.ledger) json_.key(row.name).number(row.work);
     json_.end_object();
+    if (simulated_.couplings) {
+      json_.key("hand").begin_object();
+      for (const LedgerRow& row : result.hand) json_.key(row.name).number(row.work);
+      json_.end_object();
+    }
     json_.key("steps").count(result.steps);
     if (result.post_mortem) write(*result.post_mortem);
     std::vector<std::string> warnings = input_.warnings;
@@ -52,6 +59,39 @@ class JsonOutput : public RunOutput {
   }
 
  private:
+  // The kinematic side of each coupling: joints of its robot, and the end of the spring.
+  void write_targets(double t) {
+    json_.key("targets").begin_object();
+    for (std::size_t c = 0; c < simulated_.couplings->size(); ++c) {
+      const SceneCoupling& spec = simulated_.couplings->spec(c);
+      const KvrSample& kvr = simulated_.couplings->target(c, t);
+      const auto body = static_cast<std::size_t>(spec.spring.body);
+      json_.key(spec.name).begin_object();
+      write_joints("q", spec, [&](const NamedJoint& j) { return coordinates_of(j, kvr.x); });
+      write_joints("qd", spec,
+                   [&](const NamedJoint& j) { return from_solver(j, kvr.x, kvr.x.qd); });
+      const Vector3 p = kvr.k.position(spec.spring.body, spec.spring.p_L);
+      json_.key("position").vector(p);
+      json_.key("orientation").vector(quaternion_of(kvr.k.X_WL[body].R));
+      json_.key("linear_velocity").vector(kvr.k.velocity(spec.spring.body, p));
+      json_.key("angular_velocity").vector(kvr.k.w_WL[body]);
+      json_.end_object();
+    }
+    json_.end_object();
+  }
+  template <class Values>
+  void write_joints(const char* key, const SceneCoupling& spec, Values values) {
+    const auto [first, last] = simulated_.scene->bodies_of_robot(spec.robot);
+    json_.key(key).begin_object();
+    for (std::size_t j = input_.coordinates.first_joint(); j < input_.coordinates.all().size();
+         ++j) {
+      const NamedJoint& joint = input_.coordinates.all()[j];
+      const auto body = static_cast<int>(joint.body);
+      if (body >= first && body <= last) json_.key(joint.name).number_or_list(values(joint));
+    }
+    json_.end_object();
+  }
+
   void write(const PostMortem& found) {
     json_.key("post_mortem").begin_object();
     json_.key("time").number(found.time);
@@ -65,13 +105,14 @@ class JsonOutput : public RunOutput {
   }
 
   const RobotInput& input_;
+  const SimulateInput& simulated_;
   Kinematics k_;
   JsonWriter json_;
 };
 
 }  // namespace
 
-std::unique_ptr<RunOutput> json_output(const RobotInput& input, const RunPlan& plan) {
+std::unique_ptr<RunOutput> json_output(const SimulateInput& input, const RunPlan& plan) {
   return std::make_unique<JsonOutput>(input, plan);
 }
 

@@ -13,13 +13,19 @@ namespace twinarm {
 
 struct SimulateOptions {
   RobotOptions robot;
-  double duration = 0;                       // [s]
-  std::optional<double> step;                // [s]; left out: 0.001
-  std::string integrator = "semi-implicit";  // by its name in solver/integrator.h
-  std::optional<double> tolerance;           // of dopri5, relative and absolute
-  std::optional<double> every;               // a sample each so many seconds
-  std::string at;                            // samples at these times, "t1,t2,.."
+  // Left out: as the scene says, else 0.001 s and semi-implicit; there is no other duration.
+  std::optional<double> duration, step;  // [s]
+  std::string integrator;                // by its name in solver/integrator.h; may be empty
+  std::optional<double> tolerance;       // of dopri5, relative and absolute
+  std::optional<double> every;           // a sample each so many seconds
+  std::string at;                        // samples at these times, "t1,t2,.."
   bool json = false, csv = false;
+};
+
+struct RunDefaults {
+  std::optional<double> duration;
+  double step = 0.001;
+  Integrator integrator = Integrator::semi_implicit;
 };
 
 struct RunPlan {
@@ -33,6 +39,6 @@ struct RunPlan {
 };
 
 // Adds all faults of the options to the list.
-RunPlan plan_run(const SimulateOptions& options, FaultList& faults);
+RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults, FaultList& faults);
 
 }  // namespace twinarm

@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 
-#include "app/dynamics/robot_input.h"
 #include "app/simulate/run.h"
 #include "app/simulate/simulate_options.h"
 
@@ -19,8 +18,8 @@ class RunOutput {
 
 // They print to stdout: JSON and the table at the end, CSV as the rows come. The arguments must
 // outlive them.
-std::unique_ptr<RunOutput> json_output(const RobotInput& input, const RunPlan& plan);
-std::unique_ptr<RunOutput> csv_output(const RobotInput& input);
-std::unique_ptr<RunOutput> table_output(const RobotInput& input, const RunPlan& plan);
+std::unique_ptr<RunOutput> json_output(const SimulateInput& input, const RunPlan& plan);
+std::unique_ptr<RunOutput> csv_output(const SimulateInput& input);
+std::unique_ptr<RunOutput> table_output(const SimulateInput& input, const RunPlan& plan);
 
 }  // namespace twinarm

@@ -1,22 +1,32 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/dynamics/robot_table.h"
 #include "app/simulate/simulate_output.h"
 #include "app/text_table.h"
 #include "solver/energy.h"
+#include "solver/kinematics.h"
 
 namespace twinarm {
 namespace {
 
 class TableOutput : public RunOutput {
  public:
-  TableOutput(const RobotInput& input, const RunPlan& plan)
-      : input_(input), plan_(plan), samples_(headings(input.coordinates)) {}
+  TableOutput(const SimulateInput& input, const RunPlan& plan)
+      : input_(input.robot),
+        plan_(plan),
+        first_body_(input.scene ? input.scene->robot_bodies + 1 : input_.model.body_count()),
+        samples_(headings()),
+        k_(input_.model) {}
 
   void sample(double t, const State<double>& x) override {
     std::vector<std::string> row{cell(t)};
     for (const NamedJoint& joint : input_.coordinates.all())
       for (const double q : coordinates_of(joint, x)) row.push_back(cell(q));
+    forward_kinematics(input_.model, x, k_);
+    for (int body = first_body_; body < end_of_bodies(); ++body)
+      for (const double p : k_.X_WL[static_cast<std::size_t>(body)].p) row.push_back(cell(p));
     const double kinetic = kinetic_energy(input_.model, x);
     const double potential = potential_energy(input_.model, x);
     for (const double energy : {kinetic, potential, kinetic + potential})
@@ -47,25 +57,34 @@ class TableOutput : public RunOutput {
   }
 
  private:
-  static std::vector<std::string> headings(const Coordinates& coordinates) {
+  // Of the bodies of a scene the first few have columns.
+  int end_of_bodies() const { return std::min(input_.model.body_count(), first_body_ + 3); }
+
+  std::vector<std::string> headings() const {
+    const Coordinates& coordinates = input_.coordinates;
     std::vector<std::string> names{"t [s]"};
     for (const NamedJoint& joint : coordinates.all())
       for (const JointComponent& c : joint.components())
         names.push_back(component_name(coordinates, joint, c) + (c.is_quaternion ? " [1]"
                                                                  : c.is_angle    ? " [rad]"
                                                                                  : " [m]"));
+    for (int body = first_body_; body < end_of_bodies(); ++body)
+      for (const char* axis : {"/x [m]", "/y [m]", "/z [m]"})
+        names.push_back(input_.model.body_name[static_cast<std::size_t>(body)] + axis);
     names.insert(names.end(), {"kinetic [J]", "potential [J]", "sum [J]"});
     return names;
   }
 
   const RobotInput& input_;
   const RunPlan& plan_;
+  int first_body_;  // of the scene's own, after its robots
   TextTable samples_;
+  Kinematics k_;
 };
 
 }  // namespace
 
-std::unique_ptr<RunOutput> table_output(const RobotInput& input, const RunPlan& plan) {
+std::unique_ptr<RunOutput> table_output(const SimulateInput& input, const RunPlan& plan) {
   return std::make_unique<TableOutput>(input, plan);
 }
 

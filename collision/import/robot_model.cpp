@@ -146,24 +146,30 @@ std::string root_joint_name(const RobotDescription& robot, bool floating) {
   return name;
 }
 
-Model<double> build_model(const RobotDescription& description, const ModelOptions& options) {
+void add_robot(ModelBuilder& builder, const RobotDescription& description,
+               const ModelOptions& options, const std::string& prefix, const Pose& X_WR) {
   const Weighted weighted(description, options);
   const RobotDescription& robot = weighted.robot();
-  ModelBuilder builder;
   std::map<std::string, int> body;  // of the links that are added already
-  body[robot.root] = builder.add_body(robot.root, 0, root_joint_name(robot, options.floating),
-                                      options.floating ? JointType::free : JointType::fixed, {},
-                                      Vector3::UnitZ(), weighted.inertia(robot.root));
+  body[robot.root] = builder.add_body(
+      prefix + robot.root, 0, prefix + root_joint_name(robot, options.floating),
+      options.floating ? JointType::free : JointType::fixed, options.floating ? Pose{} : X_WR,
+      Vector3::UnitZ(), weighted.inertia(robot.root));
   for (const std::size_t j : joints_from_root(robot)) {
     const JointDescription& joint = robot.joints[j];
-    body[joint.child] =
-        builder.add_body(joint.child, body[joint.parent], joint.name, type_of(joint), joint.X_PJ(),
-                         joint.axis, weighted.inertia(joint.child), properties_of(joint));
+    body[joint.child] = builder.add_body(
+        prefix + joint.child, body[joint.parent], prefix + joint.name, type_of(joint), joint.X_PJ(),
+        joint.axis, weighted.inertia(joint.child), properties_of(joint));
   }
   for (const JointDescription& joint : robot.joints)
     if (joint.mimic)
-      builder.add_mimic(joint.name, joint.mimic->joint, joint.mimic->multiplier,
+      builder.add_mimic(prefix + joint.name, prefix + joint.mimic->joint, joint.mimic->multiplier,
                         joint.mimic->offset);
+}
+
+Model<double> build_model(const RobotDescription& robot, const ModelOptions& options) {
+  ModelBuilder builder;
+  add_robot(builder, robot, options, "", {});
   return build(builder, robot);
 }
 

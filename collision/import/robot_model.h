@@ -27,7 +27,7 @@ struct ModelOptions {
   bool friction = true;  // false: as if no joint had damping or Coulomb friction
 };
 
-// The root link is always the first body after the world.
+// The root link is always the first body after the world (of a robot alone in its model).
 inline constexpr int kRootBody = 1;
 
 // The joint that carries the root link: "base" where it floats, "<root>_on_world" where it stands,
@@ -37,6 +37,12 @@ std::string root_joint_name(const RobotDescription& robot, bool floating);
 // The robot must have passed check_robot. Throws InputError, with the lines of the description, for
 // what the solver cannot carry: a joint that moves nothing of mass or inertia.
 Model<double> build_model(const RobotDescription& robot, const ModelOptions& options = {});
+
+// One robot among others in a model: `prefix` comes before the names of its links and joints, and
+// its root link stands at X_WR (or is placed by the state, where it floats). The builder knows no
+// lines: what build() finds later comes without.
+void add_robot(ModelBuilder& builder, const RobotDescription& robot, const ModelOptions& options,
+               const std::string& prefix, const Pose& X_WR);
 
 BodyInertia plus_point_mass(const BodyInertia& body, const Vector3& p, double mass);
 

@@ -82,7 +82,7 @@ class Faults(RobotCommand):
         self.told(self.errors(self.ARM, "--gravity", "0,0,down"), ["--gravity", "down"])
         self.told(self.errors(self.ARM, "--gravity", "0,0,nan"), ["--gravity", "nan"])
         self.told(self.errors(self.ARM, "--speed"), ["--speed"])
-        self.told(self.errors("scene.toml"), ["scene.toml", "scenes"])
+        self.told(self.errors("scene.toml"), ["scene.toml", "a scene"])
 
 
 if __name__ == "__main__":

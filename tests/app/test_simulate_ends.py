@@ -156,7 +156,6 @@ class Ends(RobotCommand):
         self.assertTrue(self.errors(PENDULUM))
 
     def test_what_comes_later_is_refused(self):
-        self.assertIn("scenes", self.errors("scene.toml", "--duration", 1)[0])
         for option in ("--limits", "--record"):
             self.assertIn(option, self.errors(PENDULUM, "--duration", 1, option)[0])
 

@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+
+#include "app/nearest_name.h"
+#include "app/scene/scene_reader.h"
+#include "collision/import/number_text.h"
+#include "collision/import/urdf.h"
+
+namespace twinarm {
+namespace {
+
+using Type = JointDescription::Type;
+
+// The first of the four numbers of a quaternion among a joint's coordinates; -1: it has none.
+int first_of_quaternion(Type type) {
+  return type == Type::spherical ? 0 : type == Type::floating ? 3 : -1;
+}
+
+std::size_t coordinate_count(const JointDescription& joint) {
+  return static_cast<std::size_t>(joint.dofs()) + (first_of_quaternion(joint.type) < 0 ? 0 : 1);
+}
+
+std::vector<std::string> moving_joints(const RobotDescription& robot) {
+  std::vector<std::string> names;
+  for (const JointDescription& joint : robot.joints)
+    if (joint.dofs() > 0 && !joint.mimic) names.push_back(joint.name);
+  return names;
+}
+
+// Length 1 to the digits that were typed; false where it is not.
+bool normalise(double* q) {
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  if (!(std::abs(length - 1) <= 1e-6)) return false;
+  for (int c = 0; c < 4; ++c) q[c] /= length;
+  return true;
+}
+
+}  // namespace
+
+JointValueMap SceneReader::read_joints(SceneTable& table, const char* key,
+                                       const RobotDescription& robot, bool velocities) {
+  JointValueMap found;
+  const TomlValue* list = table.table(key);
+  if (!list) return found;
+  SceneTable joints = open(*list, table.where() + ", " + key);
+  for (const TomlValue& value : list->members) {
+    const std::string& name = value.key;
+    const auto joint = std::find_if(robot.joints.begin(), robot.joints.end(),
+                                    [&](const JointDescription& j) { return j.name == name; });
+    if (joint == robot.joints.end()) {
+      joints.fault(name, "there is no such joint",
+                   name_remedy(name, moving_joints(robot), "joints"));
+    } else if (joint->mimic || joint->dofs() == 0) {
+      joints.fault(name,
+                   joint->mimic ? "it follows joint '" + joint->mimic->joint + "'"
+                                : "it is fixed, and has no coordinate",
+                   "leave it out");
+    } else {
+      const std::size_t count =
+          velocities ? static_cast<std::size_t>(joint->dofs()) : coordinate_count(*joint);
+      std::optional<std::vector<double>> numbers;
+      if (count > 1)
+        numbers = joints.numbers(name, count);
+      else if (const auto number = joints.number(name))
+        numbers = {*number};
+      if (!numbers) continue;
+      const int first = velocities ? -1 : first_of_quaternion(joint->type);
+      if (first >= 0 && !normalise(numbers->data() + first))
+        joints.fault(name, "a quaternion (w, x, y, z) has length 1", "divide it by its length");
+      found[name] = {*numbers, value.line};
+    }
+  }
+  return found;
+}
+
+void SceneReader::read_robot(const TomlValue& value) {
+  SceneTable table = open(value, "robot");
+  RobotInScene robot;
+  robot.line = table.line();
+  robot.name = read_name(table, "robot");
+  robot.collide = table.flag("collide").value_or(true);
+  robot.surface = read_surface(table);
+  robot.X_WR = read_pose(table);
+  if (const auto base = table.choice("base", {"fixed", "floating"})) robot.floating = *base == 1;
+  for (const auto& [key, velocity] : {std::pair{"linear_velocity", &robot.linear_velocity},
+                                      std::pair{"angular_velocity", &robot.angular_velocity}}) {
+    *velocity = table.vector(key).value_or(Vector3::Zero());
+    if (!robot.floating && !velocity->isZero(0))
+      table.fault(key, "the robot stands on the world", "give base = \"floating\"");
+  }
+
+  table.missing("model", "give model = \"robots/.../robot.urdf\"");
+  bool readable = false;
+  if (const auto model = table.text("model"))
+    if (const auto urdf = find_file(table, "model", *model)) {
+      UrdfOptions options;
+      if (!robot.collide) options.geometry = UrdfOptions::Geometry::optional;
+      try {
+        robot.description = read_urdf(*urdf, options);
+        readable = true;
+        for (const Fault& warning : robot.description.warnings)
+          scene.warnings.push_back(to_string(warning));
+      } catch (const InputError& error) {
+        faults.add(error.faults());
+      }
+    }
+  if (readable) {
+    robot.q = read_joints(table, "q", robot.description, false);
+    robot.qd = read_joints(table, "qd", robot.description, true);
+  } else {
+    table.find("q");
+    table.find("qd");
+  }
+  table.done();
+  scene.robots.push_back(std::move(robot));
+}
+
+}  // namespace twinarm

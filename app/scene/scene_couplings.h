@@ -1,0 +1,56 @@
+// The couplings of a scene at work: each with a hand, a kinematic robot and its springs.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/scene/scene_model.h"
+#include "coupling/coupling.h"
+#include "coupling/hand.h"
+#include "coupling/kinematic_robot.h"
+#include "solver/integrator_rewind.h"
+#include "solver/simulation.h"
+
+namespace twinarm {
+
+// A spring-damper as it stands in one state. Linear: the points of the link in both robots.
+// Torsional: rotation vectors in the world; at a joint its coordinate, in the first component.
+struct CouplingEnds {
+  Vector3 offset = Vector3::Zero();    // of the target, from the link [m, rad]
+  Vector3 velocity = Vector3::Zero();  // of the link
+  Vector3 target_velocity = Vector3::Zero();
+};
+
+class SceneCouplings {
+ public:
+  // For steps of h [s]. The scene must outlive it. Throws InputError with all faults: a trace that
+  // cannot be read, a device (there is none without the lab), a rate that is no part of the steps.
+  SceneCouplings(const SceneModel& scene, double h);
+  SceneCouplings(const SceneCouplings&) = delete;
+  SceneCouplings& operator=(const SceneCouplings&) = delete;
+  ~SceneCouplings();
+
+  std::size_t size() const { return ties_.size(); }
+  ForceSource& source(std::size_t c);             // for Simulation::add; Rewindable
+  const Coupling& coupling(std::size_t c) const;  // its readings are of the last evaluation
+  // The kinematic side at a time, with the velocity of the motion after or before it: they differ
+  // at a corner. Not that of the source: asking does not change the run. Valid until the next call.
+  enum class Side { after, before };
+  const KvrSample& target(std::size_t c, double t, Side side = Side::after);
+  // The DVR at x and its kinematics k, at the time x.t.
+  CouplingEnds ends(std::size_t c, const State<double>& x, const Kinematics& k,
+                    Side side = Side::after);
+  // The pull of the last evaluation, in the same components.
+  Vector3 pull(std::size_t c) const;
+  // The weightless mass that the treatment adds in a step of h (docs/coupling.md).
+  double m_star(std::size_t c, double h) const;
+  const SceneCoupling& spec(std::size_t c) const { return scene_.couplings[c]; }
+
+ private:
+  struct Tie;
+  const SceneModel& scene_;
+  std::vector<std::unique_ptr<Tie>> ties_;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,151 @@
+// What a scene file says, as plain data: robots, bodies, obstacles, couplings, constraints.
+//
+// SI units, radians; vectors and positions in world axes unless a comment says otherwise. Defaults
+// stand here and nowhere else. Each item remembers its line, so that whoever refuses it later can
+// still say where it stands. docs/scenes.md tells users the same.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "collision/import/robot_description.h"
+#include "coupling/coupling.h"
+#include "solver/force_source.h"
+#include "solver/integrator.h"
+#include "solver/pose.h"
+
+namespace twinarm {
+
+// Shapes in their own frame G, centred; lengths along z. The four that URDF has are its structs.
+struct HalfSpaceSpec {
+  Vector3 normal = Vector3::UnitZ();  // outward, unit
+  double offset = 0;                  // solid where normal . x <= offset [m]
+};
+struct EllipsoidSpec {
+  Vector3 semi_axes = Vector3::Ones();
+};
+struct HollowSphereSpec {  // touched from inside
+  double radius = 1;
+};
+struct HollowCylinderSpec {  // touched from inside, open at both ends
+  double radius = 1;
+  double length = 1;
+};
+struct MeshSpec {
+  MeshGeometry mesh;
+  bool convex = true;  // its convex hull is meant
+};
+using ShapeSpec =
+    std::variant<BoxGeometry, SphereGeometry, CapsuleGeometry, CylinderGeometry, HalfSpaceSpec,
+                 EllipsoidSpec, HollowSphereSpec, HollowCylinderSpec, MeshSpec>;
+
+struct Surface {
+  double friction = 0.5;          // Coulomb; a pair takes the geometric mean
+  double restitution = 0;         // 0 to 1; a pair takes the product
+  double torsional_friction = 0;  // against turning about the normal [m]
+  double rolling_friction = 0;    // [m]
+};
+
+struct BodyMotion {                   // constant
+  Vector3 linear = Vector3::Zero();   // of the body's origin [m/s]
+  Vector3 angular = Vector3::Zero();  // [rad/s]
+};
+
+struct BodyDescription {
+  std::string name;
+  int line = 0;
+  bool fixed = false;
+  std::optional<BodyMotion> motion;  // it moves so, whatever pushes
+  ShapeSpec shape;
+  std::optional<double> mass, density;  // of a free body exactly one [kg, kg/m^3]
+  std::optional<Vector3> com;           // body axes; left out: the centre of the solid shape
+  std::optional<Matrix3> inertia;       // about the com, body axes; left out: of the solid shape
+  Pose X_WB;                            // at the start
+  Vector3 linear_velocity = Vector3::Zero();  // of the body's origin
+  Vector3 angular_velocity = Vector3::Zero();
+  Surface surface;
+  int group = 0;  // bodies of one group other than 0 do not touch one another
+
+  bool is_free() const { return !fixed && !motion; }
+};
+
+struct JointValues {
+  std::vector<double> values;
+  int line = 0;
+};
+using JointValueMap = std::map<std::string, JointValues>;  // by joint name, as in a state file
+
+struct RobotInScene {
+  std::string name;
+  int line = 0;
+  RobotDescription description;
+  bool floating = false;
+  Pose X_WR;  // of the root link, at the start
+  Vector3 linear_velocity = Vector3::Zero(), angular_velocity = Vector3::Zero();  // floating only
+  JointValueMap q, qd;
+  Surface surface;
+  bool collide = true;  // false: nothing touches it
+};
+
+// Names in pairs and constraints: a body, "robot/link", "world"; in a pair also a robot: all of it.
+struct PairDescription {
+  std::string a, b;
+  int line = 0;
+  std::optional<double> friction, restitution;  // in place of what the surfaces give
+  std::optional<bool> collide;                  // false: they pass through each other
+};
+
+struct CouplingTarget {
+  enum class Kind { start, state, paper, trace, device };
+  Kind kind = Kind::start;
+  JointValueMap q;              // of a state
+  std::filesystem::path trace;  // CSV of a hand
+};
+
+struct CouplingDescription {
+  enum class Type { linear, torsional };
+  std::string name;
+  int line = 0;
+  Type type = Type::linear;
+  std::string robot, link;
+  Vector3 point = Vector3::Zero();   // link axes; linear only
+  Measure measure = Measure::world;  // torsional only
+  double stiffness = 0, damping = 0;
+  Treatment treatment = Treatment::implicit;
+  bool absolute_damper = false;  // against the link's own velocity, and not that of the target
+  double rate = 0;               // [Hz] at which the force is computed; 0: every step
+  CouplingTarget target;
+};
+
+struct ConstraintDescription {
+  enum class Type { weld, ball, hinge, distance, gear };
+  std::string name;
+  int line = 0;
+  Type type = Type::weld;
+  std::string a, b;                             // of a gear: "robot/joint"
+  std::optional<Vector3> point, point_b, axis;  // world, at the start
+  double ratio = 1;                             // gear: speed of a = ratio * speed of b
+};
+
+enum class ContactLaw { rigid, compliant, event };
+
+struct SceneDescription {
+  std::filesystem::path file;
+  Vector3 gravity{0, 0, -9.81};
+  double step = 0.001;  // [s]
+  ContactLaw contact = ContactLaw::rigid;
+  std::optional<Integrator> integrator;
+  std::optional<double> duration;  // [s], where the command line gives none
+  std::vector<RobotInScene> robots;
+  std::vector<BodyDescription> bodies;
+  std::vector<PairDescription> pairs;
+  std::vector<CouplingDescription> couplings;
+  std::vector<ConstraintDescription> constraints;
+  std::vector<std::string> warnings;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,101 @@
+// A scene as the physics has it: one model that holds all robots and bodies, the state at the
+// start, and lists of what touches, what moves by itself, what is coupled and what is constrained.
+//
+// Bodies of the model: first the links of the robots, in the order of the scene, then the bodies
+// that are not fixed. A free body stands on a free joint, whose frame is the user's body frame (a
+// centre of mass elsewhere is in the inertia); one of prescribed motion on a prescribed joint.
+// Fixed obstacles are geometry of body 0, the world.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/scene/scene_description.h"
+#include "collision/import/robot_model.h"
+#include "solver/integrator_mechanism.h"
+#include "solver/model.h"
+
+namespace twinarm {
+
+struct SceneGeometry : Surface {
+  std::string name;  // of the link or body that it belongs to, as in samples
+  int body = 0;      // of the model
+  Pose X_LG;         // in the link's frame; of a fixed obstacle in the world
+  ShapeSpec shape;
+  int group = 0;
+};
+
+// Takes the place of what the surfaces of a pair give.
+struct PairRule {
+  std::vector<int> a, b;  // geometries, ascending
+  std::optional<double> friction, restitution;
+};
+
+struct SceneMotion {
+  int body = 0;  // on a prescribed joint
+  MotionLaw law;
+};
+
+struct SceneCoupling {
+  std::string name;
+  int line = 0;
+  CouplingDescription::Type type = CouplingDescription::Type::linear;
+  Spring spring;
+  Measure measure = Measure::world;
+  Treatment treatment = Treatment::implicit;
+  bool absolute_damper = false;
+  double rate = 0;  // [Hz]; 0: every step
+  // The kinematic side: a second copy of the whole model, of which the hand moves joints of this
+  // robot; the others stand as in `rest`.
+  CouplingTarget::Kind target = CouplingTarget::Kind::start;
+  std::size_t robot = 0;
+  State<double> rest;
+  std::vector<std::string> turned;  // joints of the model that the hand turns, at most three
+  std::filesystem::path trace;
+};
+
+// The frames C of both coincide at the start: origin at the point, z along the axis.
+struct SceneConstraint {
+  using Type = ConstraintDescription::Type;
+  std::string name;
+  int line = 0;
+  Type type = Type::weld;
+  int a = 0, b = 0;                // bodies; of a gear those that the joints carry
+  Pose X_AC, X_BC;                 // in link axes; a distance goes between the origins of the two
+  double length = 0;               // of a distance, as at the start [m]
+  std::size_t iv_a = 0, iv_b = 0;  // of a gear: velocities
+  double ratio = 1, offset = 0;    // of a gear: q of a's joint = ratio * (q of b's) + offset
+};
+
+struct SceneModel {
+  SceneDescription description;
+  Model<double> model;
+  State<double> start;
+  int robot_bodies = 0;  // bodies 1 .. robot_bodies are links of robots
+  std::vector<SceneGeometry> geometries;
+  // Pairs of geometries (a < b, ascending) that never touch: of one rigid piece, neighbours in a
+  // robot, neither of them moved by forces, held together by a constraint, of one group, or so told
+  // by [[pair]].
+  std::vector<std::pair<int, int>> apart;
+  std::vector<PairRule> pairs;  // the last that fits counts
+  std::vector<SceneMotion> motions;
+  std::vector<SceneCoupling> couplings;
+  std::vector<SceneConstraint> constraints;
+
+  // The first and the last of its bodies.
+  std::pair<int, int> bodies_of_robot(std::size_t robot) const;
+  // Whether any two geometries may touch.
+  bool may_touch() const;
+  // Of two geometries: geometric mean of frictions, product of restitutions, the larger of the
+  // torsional and rolling ones, unless a rule says otherwise.
+  Surface surface_of_pair(int a, int b) const;
+};
+
+// `friction` and `armature` of the options count: false leaves them out of all robots. Throws
+// InputError with all faults that reading could not see: meshes without inside, joints that carry
+// no inertia.
+SceneModel build_scene(const SceneDescription& description, const ModelOptions& options = {});
+
+}  // namespace twinarm

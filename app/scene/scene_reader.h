@@ -1,0 +1,42 @@
+// The parts of read_scene. Only app/scene/read_*.cpp include it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/scene/scene_description.h"
+#include "app/scene/scene_table.h"
+
+namespace twinarm {
+
+struct SceneReader {
+  std::filesystem::path path;
+  std::string file;  // the same, for faults
+  FaultList faults;
+  SceneDescription scene;
+
+  void read(const TomlValue& root);
+
+  void read_robot(const TomlValue& table);
+  void read_body(const TomlValue& table);
+  void read_pair(const TomlValue& table);
+  void read_coupling(const TomlValue& table, std::size_t index);
+  void read_constraint(const TomlValue& table, std::size_t index);
+
+  SceneTable open(const TomlValue& table, std::string where) {
+    return SceneTable(table, std::move(where), file, faults);
+  }
+  // Required, without a stroke, taken by nobody else; the table's faults bear it from then on.
+  std::string read_name(SceneTable& table, const char* kind);
+  Surface read_surface(SceneTable& table);
+  Pose read_pose(SceneTable& table);
+  JointValueMap read_joints(SceneTable& table, const char* key, const RobotDescription& robot,
+                            bool velocities);
+  std::optional<ShapeSpec> read_shape(SceneTable& body);
+  // Absolute, relative to the scene, or below assets/; a fault where it is nowhere.
+  std::optional<std::filesystem::path> find_file(SceneTable& table, const std::string& key,
+                                                 const std::string& name);
+};
+
+}  // namespace twinarm

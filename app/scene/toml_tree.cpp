@@ -1,0 +1,81 @@
+#include "app/scene/toml_tree.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+#include "collision/import/number_text.h"
+#include "solver/fault.h"
+
+namespace twinarm {
+namespace {
+
+TomlValue value_of(const toml::node& node) {
+  TomlValue value;
+  value.line = static_cast<int>(node.source().begin.line);
+  value.kind = TomlValue::Kind::other;
+  if (const toml::table* table = node.as_table()) {
+    value.kind = TomlValue::Kind::table;
+    for (const auto& [key, member] : *table) {
+      value.members.push_back(value_of(member));
+      value.members.back().key = std::string(key.str());
+    }
+    // toml++ sorts keys by name; faults are told in the order of the file.
+    std::stable_sort(value.members.begin(), value.members.end(),
+                     [](const TomlValue& a, const TomlValue& b) { return a.line < b.line; });
+  } else if (const toml::array* array = node.as_array()) {
+    value.kind = TomlValue::Kind::list;
+    for (const toml::node& item : *array) value.items.push_back(value_of(item));
+  } else if (node.is_boolean()) {
+    value.kind = TomlValue::Kind::boolean;
+    value.number = node.value_or(false) ? 1 : 0;
+  } else if (node.is_number()) {
+    value.kind = TomlValue::Kind::number;
+    value.number = node.value_or(0.0);
+  } else if (node.is_string()) {
+    value.kind = TomlValue::Kind::text;
+    value.text = node.value_or(std::string());
+  }
+  return value;
+}
+
+}  // namespace
+
+const TomlValue* TomlValue::find(const std::string& name) const {
+  for (const TomlValue& member : members)
+    if (member.key == name) return &member;
+  return nullptr;
+}
+
+std::string describe(const TomlValue& value) {
+  switch (value.kind) {
+    case TomlValue::Kind::boolean:
+      return value.number != 0 ? "true" : "false";
+    case TomlValue::Kind::number:
+      return number_text(value.number);
+    case TomlValue::Kind::text:
+      return "the text '" + value.text + "'";
+    case TomlValue::Kind::list:
+      return "a list of " + std::to_string(value.items.size());
+    case TomlValue::Kind::table:
+      return "a table";
+    case TomlValue::Kind::other:
+      break;
+  }
+  return "a date or time";
+}
+
+TomlValue read_toml(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    throw InputError({{file.string(), 0, "", "the file does not exist", "check the path"}});
+  try {
+    return value_of(toml::parse_file(file.string()));
+  } catch (const toml::parse_error& error) {
+    throw InputError(
+        {{file.string(), static_cast<int>(error.source().begin.line), "",
+          "not well-formed TOML: " + std::string(error.description()), "mend this line"}});
+  }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,293 @@
+#!/usr/bin/env python3
+"""`twinarm simulate SCENE.toml`: free flight, several robots, couplings, what is refused.
+
+    test_scene_command.py PATH/TO/twinarm
+"""
+import json
+import math
+import os
+import subprocess
+import sys
+import unittest
+
+import robot_command
+from robot_command import ROOT, RobotCommand, add, joint, link, robot, scale
+
+BALL = """
+[[body]]
+name = "ball"
+shape = { sphere = { radius = 0.1 } }
+mass = 2
+position = [0, 0, 1]
+linear_velocity = [1, 2, 3]
+angular_velocity = [0, 0, 4]
+"""
+# A rod about a vertical axis: I = 0.5 about the hinge, no gravity in its direction.
+INERTIA = 0.5
+HINGE = robot('<link name="base"/>', link("rod", 1, (0, 0, 0), (1, 0, 0, 1, 0, INERTIA)),
+              joint("hinge", "continuous", "base", "rod"))
+
+
+def arm(name, more=""):
+    return f'[[robot]]\nname = "{name}"\nmodel = "test.urdf"\n{more}\n'
+
+
+def coupling(more, kind="torsional", measure='measure = "joint"'):
+    return (f'[[coupling]]\nname = "pull"\ntype = "{kind}"\n{measure}\nlink = "rod"\n'
+            f'{more}\n')
+
+
+class Scenes(RobotCommand):
+    command = "simulate"
+
+    def simulate(self, scene, *options, urdf=HINGE, state=None):
+        (self.folder / "test.urdf").write_text(urdf)
+        file = self.folder / "scene.toml"
+        file.write_text(scene)
+        arguments = [robot_command.PROGRAM, "simulate", file, *options, "--json"]
+        if state is not None:
+            (self.folder / "state.json").write_text(json.dumps(state))
+            arguments += ["--state", self.folder / "state.json"]
+        return subprocess.run([*map(str, arguments)], capture_output=True, text=True, timeout=60,
+                              cwd=ROOT)
+
+    def run_scene(self, scene, *options, **more):
+        result = self.simulate(scene, *options, **more)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def refusals(self, scene, *options, **more):
+        result = self.simulate(scene, *options, **more)
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        return [f'{e["line"]}: {e["where"]}: {e["rule"]}' for e in
+                json.loads(result.stdout)["errors"]]
+
+    def balanced(self, answer):
+        first, last = answer["samples"][0], answer["samples"][-1]
+        change = last["kinetic_energy"] - first["kinetic_energy"]
+        self.close(sum(answer["ledger"].values()), change, 1e-12)
+        return change
+
+
+class FreeFlight(Scenes):
+    def test_a_thrown_ball_flies_on_its_parabola(self):
+        answer = self.run_scene(BALL, "--duration", 0.5, "--integrator", "rk4")
+        self.assertEqual((answer["joints"], answer["step"], answer["contacts"]), ([], 0.001, 0))
+        ball, t = answer["samples"][-1]["links"]["ball"], 0.5
+        self.close(ball["position"], add([0, 0, 1], scale(t, [1, 2, 3]),
+                                         [0, 0, -9.81 * t * t / 2]), 1e-12)
+        self.close(ball["angular_velocity"], [0, 0, 4], 1e-12)
+        self.close(ball["rotation"][0], [math.cos(2), -math.sin(2), 0], 1e-12)
+        self.assertEqual(answer["samples"][0]["q"], {})
+        self.balanced(answer)
+        self.close(answer["ledger"]["numerical"], 0, 1e-12)
+
+    def test_the_scene_gives_duration_step_and_integrator_and_options_outrank_it(self):
+        head = 'duration = 0.25\nstep = 0.05\nintegrator = "verlet"\ngravity = [0, 0, -1]\n'
+        answer = self.run_scene(head + BALL)
+        self.assertEqual((answer["integrator"], answer["step"], answer["steps"]),
+                         ("verlet", 0.05, 5))
+        self.close(answer["samples"][-1]["links"]["ball"]["linear_velocity"], [1, 2, 2.75])
+        answer = self.run_scene(head + BALL, "--duration", 1, "--step", 0.1, "--integrator", "rk4",
+                                "--gravity", "0,0,-2")
+        self.assertEqual((answer["integrator"], answer["step"], answer["steps"]), ("rk4", 0.1, 10))
+        self.close(answer["samples"][-1]["links"]["ball"]["linear_velocity"], [1, 2, 1])
+
+    def test_a_moved_body_goes_its_way_and_weighs_nothing(self):
+        answer = self.run_scene(BALL.replace("mass = 2", "motion = { linear = [1, 0, 0], "
+                                             "angular = [0, 0, 2] }")
+                                .replace("linear_velocity = [1, 2, 3]", "")
+                                .replace("angular_velocity = [0, 0, 4]", ""), "--duration", 0.5)
+        ball = answer["samples"][-1]["links"]["ball"]
+        self.close(ball["position"], [0.5, 0, 1], 1e-12)
+        self.close(ball["rotation"][0], [math.cos(1), -math.sin(1), 0], 1e-12)
+        self.assertEqual(answer["samples"][-1]["kinetic_energy"], 0)
+
+    def test_each_of_several_robots_moves_as_it_would_alone(self):
+        swing = robot('<link name="base"/>', link("rod"),
+                      joint("hinge", "continuous", "base", "rod", axis="0 1 0"))
+        off = "collide = false"
+        both = self.run_scene(arm("a", off + "\nq = { hinge = 0.3 }") +
+                              arm("b", off + "\nposition = [0, 5, 0]\nqd = { hinge = -2 }") + BALL,
+                              "--duration", 0.3, urdf=swing)
+        self.assertEqual(both["joints"], ["a/hinge", "b/hinge"])
+        for name, state in (("a", {"q": {"hinge": 0.3}}), ("b", {"qd": {"hinge": -2}})):
+            alone = self.answer(swing, "--duration", 0.3, state=state)["samples"][-1]
+            sample = both["samples"][-1]
+            self.close(sample["q"][name + "/hinge"], alone["q"]["hinge"], 1e-12)
+            self.close(sample["qd"][name + "/hinge"], alone["qd"]["hinge"], 1e-12)
+            self.close(sample["links"][name + "/rod"]["rotation"],
+                       alone["links"]["rod"]["rotation"], 1e-12)
+        self.assertEqual(sorted(both["samples"][0]["links"]),
+                         ["a/base", "a/rod", "b/base", "b/rod", "ball"])
+
+    def test_a_floating_robot_alone_has_its_base_as_in_a_state_file(self):
+        urdf = robot(link("body", 2, (0, 0, 0), (1, 0, 0, 1, 0, 1)))
+        answer = self.run_scene(arm("r", 'base = "floating"\nposition = [1, 0, 0]\n'
+                                         "linear_velocity = [0, 3, 0]"),
+                                "--duration", 1, "--integrator", "rk4", urdf=urdf)
+        self.close(answer["samples"][-1]["base"]["position"], [1, 3, -9.81 / 2], 1e-12)
+
+    def test_a_state_file_changes_the_start_and_pushes_bodies(self):
+        state = {"q": {"hinge": 0.7},
+                 "wrenches": [{"link": "ball", "point": [0, 0, 1], "force": [4, 0, 0]}]}
+        answer = self.run_scene(arm("r", "qd = { hinge = 0.5 }") + BALL, "--duration", 1,
+                                "--integrator", "rk4", state=state)
+        self.close(answer["samples"][0]["q"]["hinge"], 0.7)
+        self.close(answer["samples"][-1]["q"]["hinge"], 1.2, 1e-12)
+        self.close(answer["samples"][-1]["links"]["ball"]["linear_velocity"][0], 3, 1e-12)
+        self.close(answer["ledger"]["wrench/0"], 4 * 2, 1e-10)
+
+    def test_the_table_shows_where_the_bodies_are(self):
+        (self.folder / "scene.toml").write_text(BALL)
+        result = subprocess.run([robot_command.PROGRAM, "simulate", self.folder / "scene.toml",
+                                 "--duration", "1"], capture_output=True, text=True, timeout=60)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("ball/x [m]", result.stdout)
+
+
+class Couplings(Scenes):
+    def test_an_implicit_spring_on_one_joint_is_backward_euler(self):
+        k, b, h = 3e4, 20.0, 0.01
+        answer = self.run_scene(arm("r", "q = { hinge = 0.1 }") +
+                                coupling(f"stiffness = {k}\ndamping = {b}\n"
+                                         "target = { q = { hinge = -0.2 } }"),
+                                "--duration", 0.2, "--step", h, "--every", h)
+        x, v = 0.1, 0.0
+        for sample in answer["samples"][1:]:
+            v = (v + h * k / INERTIA * (-0.2 - x)) / (1 + h * b / INERTIA + h * h * k / INERTIA)
+            x += h * v
+            self.close([sample["q"]["hinge"], sample["qd"]["hinge"]], [x, v], 1e-12)
+            self.assertEqual(sample["targets"]["pull"]["q"], {"hinge": -0.2})
+
+    def test_the_ledger_tells_spring_from_damper_from_the_price_of_the_treatment(self):
+        text = (arm("r", "q = { hinge = 0.1 }") +
+                coupling("stiffness = 800\ndamping = 3\ntarget = { q = { hinge = 0 } }\n"
+                         'treatment = "TREATMENT"'))
+        exact = self.run_scene(text.replace("TREATMENT", "explicit"), "--duration", 0.3,
+                               "--integrator", "dopri5", "--tolerance", 1e-12)
+        change = self.balanced(exact)
+        rows, end = exact["ledger"], exact["samples"][-1]
+        self.close(rows["coupling/pull/spring"],
+                   400 * (0.1 ** 2 - end["q"]["hinge"] ** 2), 1e-10)
+        self.close(rows["numerical"], 0, 1e-9)
+        self.assertLess(rows["coupling/pull/damper"], 0)
+        self.assertNotIn("coupling/pull/implicit", rows)
+        self.assertEqual(exact["hand"], {"pull": 0})
+        self.assertGreater(abs(change), 0.01)
+        for treatment in ("implicit", "semi-implicit"):
+            answer = self.run_scene(text.replace("TREATMENT", treatment), "--duration", 0.3)
+            self.balanced(answer)
+            rows, end = answer["ledger"], answer["samples"][-1]
+            # On one joint without other forces all that happens is the coupling's doing.
+            self.close(rows["numerical"], 0, 1e-12)
+            self.close(rows["coupling/pull/spring"],
+                       400 * (0.1 ** 2 - end["q"]["hinge"] ** 2), 1e-10)
+            if treatment == "implicit":  # both at the end of the step: backward Euler only takes
+                lost, x, v, h = 0.0, 0.1, 0.0, 0.001
+                for _ in range(300):
+                    dv = -h * (800 * x + (3 + 800 * h) * v) / (INERTIA + 3 * h + 800 * h * h)
+                    v += dv
+                    x += h * v
+                    lost += INERTIA * dv * dv / 2 + 800 * (h * v) ** 2 / 2
+                self.close(rows["coupling/pull/implicit"], -lost - 3 * h * v * v / 2, 1e-12)
+
+    def test_the_hand_puts_in_what_spring_and_damper_and_robot_take(self):
+        # At an even speed of the target: hand = the robot's and the spring's energy and the losses.
+        (self.folder / "hand.csv").write_text(
+            "t[s],theta1[rad],theta2[rad],theta3[rad],theta4[rad],theta5[rad],theta6[rad]\n"
+            "0,0,0,0,0,0,0\n10,5,0,0,0,0,0\n")
+        answer = self.run_scene(arm("r") + coupling('stiffness = 50\ndamping = 1\n'
+                                                    'treatment = "explicit"\ntarget = "hand.csv"'),
+                                "--duration", 0.7, "--integrator", "rk4")
+        last = answer["samples"][-1]
+        self.close(last["targets"]["pull"]["q"]["hinge"], 0.7, 1e-12)  # gain 2 of theta1
+        e, de = 0.7 - last["q"]["hinge"], 1 - last["qd"]["hinge"]
+        a = 1 / INERTIA  # e'' + a e' + 50 a e = 0, e(0) = 0, e'(0) = 1
+        w = math.sqrt(50 * a - a * a / 4)
+        self.close(e, math.exp(-a * 0.35) * math.sin(w * 0.7) / w, 1e-8)
+        rows = answer["ledger"]
+        work = rows["coupling/pull/spring"] + rows["coupling/pull/damper"]
+        self.close(rows["numerical"], 0, 1e-8)
+        # Power of hand + power on the robot = -(d/dt) of the spring's energy - b de^2.
+        lost = answer["hand"]["pull"] - work - 25 * e * e
+        n = 20000
+        times = [(i + 0.5) * 0.7 / n for i in range(n)]
+        rates = [math.exp(-a * t / 2) * (math.cos(w * t) - a / (2 * w) * math.sin(w * t))
+                 for t in times]
+        self.close(lost, sum(r * r for r in rates) * 0.7 / n, 1e-6)
+        self.close(de, math.exp(-a * 0.35) * (math.cos(w * 0.7) - a / (2 * w) * math.sin(w * 0.7)),
+                   1e-8)
+
+    def test_samples_between_the_steps_do_not_change_a_run_with_a_held_force(self):
+        text = (arm("r", "q = { hinge = 0.5 }") +
+                coupling('stiffness = 40\ndamping = 2\nrate = 100\n'
+                         'target = { q = { hinge = 0 } }'))
+        plain = self.run_scene(text, "--duration", 0.5)
+        asked = self.run_scene(text, "--duration", 0.5, "--at", "0.00123,0.0155,0.25004,0.5")
+        self.assertEqual(asked["samples"][-1], plain["samples"][-1])
+        self.assertEqual(asked["ledger"], plain["ledger"])
+
+    def test_the_papers_motion_moves_the_target_of_the_s103(self):
+        text = ('[[robot]]\nname = "arm"\nmodel = "robots/s103/s103.urdf"\ncollide = false\n'
+                'q = { joint1 = 1.5707963267948966, joint2 = -0.7853981633974483 }\n'
+                '[[coupling]]\ntype = "linear"\nlink = "arm1"\npoint = [0.25, 0, 0.365]\n'
+                'stiffness = 20000\ndamping = 2000\ntarget = "paper"\n'
+                '[[coupling]]\ntype = "linear"\nlink = "arm2"\npoint = [0.35, 0, 0.1]\n'
+                'stiffness = 20000\ndamping = 2000\ntarget = "paper"\n')
+        answer = self.run_scene(text, "--duration", 1, "--at", "0.25,1")
+        sample = answer["samples"][0]
+        target = sample["targets"]["coupling1"]
+        self.close([target["q"]["joint1"], target["q"]["joint2"]], [math.pi / 4, -math.pi / 8])
+        self.close([target["qd"]["joint1"], target["qd"]["joint2"]], [-math.pi, math.pi / 2])
+        # The arm is not far behind.
+        self.assertLess(abs(sample["q"]["joint1"] - math.pi / 4), 0.05)
+        a, b = math.pi / 4, math.pi / 4 - math.pi / 8
+        self.close(target["position"][:2], [0.25 * math.cos(a) + 0.35 * math.cos(b),
+                                            0.25 * math.sin(a) + 0.35 * math.sin(b)], 1e-12)
+        self.assertGreater(answer["hand"]["coupling0"], 0)
+
+
+class Refused(Scenes):
+    def test_bodies_that_can_touch_and_constraints_are_refused(self):
+        found = self.refusals(BALL + BALL.replace("ball", "other"), "--duration", 1)
+        self.assertEqual(len(found), 1)
+        self.assertIn("contacts are not computed yet", found[0])
+        found = self.refusals(BALL + '[[constraint]]\ntype = "distance"\na = "ball"\nb = "world"\n',
+                              "--duration", 1)
+        self.assertEqual(found, ["9: constraint 'constraint0': constraints are not computed yet"])
+        for name in ("box_stack", "cradle"):
+            result = self.run_it(f"assets/scenes/{name}.toml")
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("contacts are not computed yet", result.stderr)
+            self.assertEqual(result.stdout, "")
+
+    def test_faults_of_options_and_scene_are_told_together(self):
+        found = self.refusals("step = -1\n" + BALL, "--floating", "--strict", "--gravity", "1,2",
+                              "--every", -1, "--integrator", "rk5", "--duration", 1)
+        for part in ("1: scene, step", "--floating", "--strict", "--gravity", "--every",
+                     "--integrator"):
+            self.assertTrue(any(part in text for text in found), (part, found))
+
+    def test_a_missing_duration_is_told(self):
+        self.assertEqual(self.refusals(BALL), ["0: --duration: is missing"])
+
+    def test_an_implicit_coupling_takes_the_semi_implicit_integrators_only(self):
+        text = arm("r") + coupling("stiffness = 1")
+        found = self.refusals(text, "--duration", 1, "--integrator", "rk4")
+        self.assertEqual(len(found), 1)
+        self.assertIn("5: coupling 'pull'", found[0])
+        for name in ("semi-implicit", "semi-implicit-xv"):
+            self.run_scene(text, "--duration", 0.1, "--integrator", name)
+
+    def test_dynamics_takes_no_scene(self):
+        (self.folder / "scene.toml").write_text(BALL)
+        result = subprocess.run([robot_command.PROGRAM, "dynamics", self.folder / "scene.toml"],
+                                capture_output=True, text=True, timeout=60)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("twinarm simulate", result.stderr)
+
+
+if __name__ == "__main__":
+    robot_command.PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()

@@ -1,0 +1,41 @@
+// What the tests of app/scene share: scenes written as text.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include "app/scene/read_scene.h"
+#include "app/scene/scene_model.h"
+#include "tests/import/helpers.h"
+
+namespace twinarm {
+
+inline SceneDescription scene_of(const std::string& text) {
+  const TemporaryFolder folder;
+  return read_scene(folder.write("test.toml", text));
+}
+
+inline std::vector<Fault> scene_faults(const std::string& text) {
+  return faults_of([&] { scene_of(text); });
+}
+
+// The one fault; its line, and a part of what it says.
+inline void check_fault(const std::string& text, int line, const std::string& part) {
+  INFO(text);
+  const std::vector<Fault> faults = scene_faults(text);
+  std::string all;
+  for (const Fault& fault : faults) all += to_string(fault) + "\n";
+  INFO(all);
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].line == line);
+  CHECK(faults[0].file.find("test.toml") != std::string::npos);
+  CHECK(to_string(faults[0]).find(part) != std::string::npos);
+}
+
+inline bool close(const Matrix3& a, const Matrix3& b, double tolerance = 1e-14) {
+  return (a - b).cwiseAbs().maxCoeff() <= tolerance * std::max(1.0, b.cwiseAbs().maxCoeff());
+}
+inline bool close(const Vector3& a, const Vector3& b, double tolerance = 1e-14) {
+  return (a - b).cwiseAbs().maxCoeff() <= tolerance * std::max(1.0, b.cwiseAbs().maxCoeff());
+}
+
+}  // namespace twinarm
