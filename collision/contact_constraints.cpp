@@ -11,25 +11,8 @@ namespace {
 
 constexpr double kSlowestBounce = 1e-3;  // [m/s]
 constexpr double kTouching = 1e-6;       // takes part in an impact of others [m]
-constexpr double kClosed = 1e-9;      // a gap that counts as closed: rest does not chase rounding
-constexpr double kSlop = 1e-6;        // penetration that is let be [m]
-constexpr double kLeastReach = 5e-4;  // [m]
-constexpr double kFastestSeparation = 0.5, kSeparationPart = 0.2;  // [m/s], of the depth per step
-constexpr double kSamePoint = 0.01;                                // [m]
-constexpr double kBristleRatio = 1;  // tangential over normal stiffness
-
-Matrix3 axes_of(const Vector3& n) {
-  Matrix3 axes;
-  axes.col(0) = n;
-  axes.col(1) = n.unitOrthogonal();
-  axes.col(2) = n.cross(axes.col(1));
-  return axes;
-}
-
-// The gap that may close within a step, as a velocity.
-double closing_speed(const Contact& contact, double h) {
-  return std::max(0.0, -contact.depth - kClosed) / h;
-}
+constexpr double kLeastReach = 5e-4;     // [m]
+constexpr double kSamePoint = 0.01;      // [m]
 
 double half_diagonal(const Shape& shape) {
   Vector3 extent;
@@ -43,12 +26,16 @@ double half_diagonal(const Shape& shape) {
 
 ContactConstraints::ContactConstraints(const Model<double>& model, ContactResponse response)
     : model_(&model), response_(response) {
-  for (const JointType type : model.joint)
-    has_drives_ = has_drives_ || type == JointType::prescribed;
+  is_immovable_.assign(model.parent.size(), 1);
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    has_drives_ = has_drives_ || model.joint[i] == JointType::prescribed;
+    is_immovable_[i] =
+        is_immovable_[static_cast<std::size_t>(model.parent[i])] && model.dofs(i) == 0;
+  }
 }
 
 int ContactConstraints::add(const ContactGeometry& geometry) {
-  const Surface& s = geometry.surface;
+  const ContactSurface& s = geometry.surface;
   FaultList faults;
   const std::string where = "geometry '" + geometry.name + "'";
   const auto check = [&](bool good, const char* what, const char* remedy) {
@@ -91,7 +78,7 @@ double ContactConstraints::reach(std::size_t geometry, const Kinematics& k, doub
 ContactPoint ContactConstraints::start(const Contact& contact) const {
   ContactPoint point;
   point.contact = contact;
-  const Surface &a = geometry(contact.a).surface, &b = geometry(contact.b).surface;
+  const ContactSurface &a = geometry(contact.a).surface, &b = geometry(contact.b).surface;
   point.friction = std::sqrt(a.friction * b.friction);
   point.restitution = a.restitution * b.restitution;
   for (const PairRule& rule : rules_)
@@ -131,17 +118,11 @@ void ContactConstraints::begin_step(const Kinematics& k, const State<double>&, d
   world_.detect(X_WG_, reach_, contacts_);
   std::swap(points_, last_);
   points_.clear();
-  work_ = {};
   for (const Contact& contact : contacts_)
     if (geometry(contact.a).body != 0 || geometry(contact.b).body != 0)
       points_.push_back(start(contact));
   gap_after_.assign(points_.size(), 0);
   closing_.assign(points_.size(), 0);
-}
-
-// Velocity of b's point against a's.
-Vector3 ContactConstraints::approach(const Contact& c, const Kinematics& k) const {
-  return k.velocity(geometry(c.b).body, c.p_WC) - k.velocity(geometry(c.a).body, c.p_WC);
 }
 
 bool ContactConstraints::closes(const ConstraintFrame& frame) noexcept {
@@ -170,100 +151,6 @@ void ContactConstraints::add(const ConstraintFrame& frame, ImpulseProblem& probl
       add_contact(frame, i, problem);
 }
 
-void ContactConstraints::add_contact(const ConstraintFrame& frame, std::size_t i,
-                                     ImpulseProblem& problem) {
-  const ContactPoint& point = points_[i];
-  const Contact& contact = point.contact;
-  const int a = geometry(contact.a).body, b = geometry(contact.b).body;
-  int tree_a = frame.trees.tree_of(a), tree_b = frame.trees.tree_of(b);
-  if (tree_a == ImpulseConstraint::no_tree && tree_b == ImpulseConstraint::no_tree) return;
-  const bool one_tree = tree_a == tree_b;  // two links of one robot
-  if (one_tree) tree_b = ImpulseConstraint::no_tree;
-  const bool separate = frame.phase == Phase::separate;
-  const bool soft = response_ == ContactResponse::compliant;
-  const bool smooth = !soft && point.friction <= 0;
-  const int rows = separate || smooth ? 1 : 3;
-  const Matrix3 axes = axes_of(contact.n_W);
-  parts_.push_back({i, problem.constraints().size(), 0});
-  ImpulseConstraint& c = problem.add(rows == 1 ? ImpulseLaw::at_least
-                                     : soft    ? ImpulseLaw::compliant
-                                               : ImpulseLaw::coulomb,
-                                     rows, tree_a, tree_b);
-  frame.trees.add_point_rows(frame.k, a, contact.p_WC, axes, rows, -1, problem.J(c, 0));
-  frame.trees.add_point_rows(frame.k, b, contact.p_WC, axes, rows, 1,
-                             problem.J(c, one_tree ? 0 : 1));
-  c.mu = point.friction;
-  if (separate) {
-    const double gap = gap_after_[i], h = frame.h;
-    c.b[0] = gap >= 0 ? gap
-                      : std::max(std::min(0.0, kSeparationPart * (gap + kSlop)),
-                                 -kFastestSeparation * h);
-    return;
-  }
-  const Vector3 u = axes.transpose() * approach(contact, frame.k);
-  if (has_drives_) {  // what moves by a law is not in J
-    problem.velocity(c, problem.v0(0), c.b);
-    for (int r = 0; r < rows; ++r) c.b[r] = u[r] - c.b[r];
-  }
-  if (frame.phase == Phase::impact) {
-    if (closing_[i] && !frame.plastic) c.b[0] += point.restitution * u[0];
-    return;
-  }
-  if (soft)
-    set_compliance(i, frame.h, axes, c);
-  else
-    c.b[0] += closing_speed(contact, frame.h);
-  const Vector3 guess = axes.transpose() * point.force_W * frame.h;
-  for (int r = 0; r < rows; ++r) c.p[r] = guess[r];
-  add_friction_couples(frame, i, axes, problem);
-}
-
-// Two surfaces in series.
-void ContactConstraints::set_compliance(std::size_t i, double h, const Matrix3& axes,
-                                        ImpulseConstraint& c) const {
-  const ContactPoint& point = points_[i];
-  const Surface &a = geometry(point.contact.a).surface, &b = geometry(point.contact.b).surface;
-  c.h = h;
-  c.k = a.stiffness * b.stiffness / (a.stiffness + b.stiffness);
-  c.c = 0.5 * (a.dissipation + b.dissipation);
-  c.depth = point.contact.depth;
-  c.k_t = kBristleRatio * c.k;
-  c.b_t = c.k_t * c.c * std::max(0.0, c.depth);
-  c.anchor = {axes.col(1).dot(point.anchor_W), axes.col(2).dot(point.anchor_W)};
-}
-
-void ContactConstraints::add_friction_couples(const ConstraintFrame& frame, std::size_t i,
-                                              const Matrix3& axes, ImpulseProblem& problem) {
-  const Contact& contact = points_[i].contact;
-  const Surface &a = geometry(contact.a).surface, &b = geometry(contact.b).surface;
-  const int of = static_cast<int>(parts_.back().row);
-  const auto add_couple = [&](double radius, const Matrix3& about, int rows) {
-    if (radius <= 0) return;
-    const auto tree = problem.constraints()[parts_.back().row].tree;
-    const bool one_tree = frame.trees.tree_of(geometry(contact.a).body) ==
-                          frame.trees.tree_of(geometry(contact.b).body);
-    ImpulseConstraint& c = problem.add(ImpulseLaw::disc, rows, tree[0], tree[1]);
-    c.radius = radius;
-    c.of = of;
-    const int body_a = geometry(contact.a).body, body_b = geometry(contact.b).body;
-    frame.trees.add_turn_rows(frame.k, body_a, about, rows, -1, problem.J(c, 0));
-    frame.trees.add_turn_rows(frame.k, body_b, about, rows, 1, problem.J(c, one_tree ? 0 : 1));
-    if (has_drives_) {
-      const Vector3 w = about.transpose() * (frame.k.w_WL[static_cast<std::size_t>(body_b)] -
-                                             frame.k.w_WL[static_cast<std::size_t>(body_a)]);
-      problem.velocity(c, problem.v0(0), c.b);
-      for (int r = 0; r < rows; ++r) c.b[r] = w[r] - c.b[r];
-    }
-    const Vector3 guess = about.transpose() * points_[i].couple_W * frame.h;
-    for (int r = 0; r < rows; ++r) c.p[r] = guess[r];
-    ++parts_.back().extra;
-  };
-  Matrix3 across;
-  across << axes.col(1), axes.col(2), axes.col(0);
-  add_couple(std::max(a.torsional, b.torsional), axes, 1);
-  add_couple(std::max(a.rolling, b.rolling), across, 2);
-}
-
 void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem& problem,
                               std::size_t) noexcept {
   if (frame.phase == Phase::separate) return;
@@ -272,14 +159,14 @@ void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem
   for (const Part& part : parts_) {
     const ImpulseConstraint& c = problem.constraints()[part.row];
     ContactPoint& point = points_[part.point];
-    const Matrix3 axes = axes_of(point.contact.n_W);
+    const Matrix3 axes = contact_axes(point.contact.n_W);
     const Vector3 p(c.p[0], c.p[1], c.p[2]);
+    const Vector3 before = axes.transpose() * approach(point.contact, frame.k);
     point.impulse_W += axes * p;
     if (frame.phase == Phase::impact) {
-      const Vector3 before = axes.transpose() * approach(point.contact, frame.k);
       std::array<double, 3> after;
       problem.velocity(c, problem.v(0), after);
-      for (int r = 0; r < 3; ++r) work_.impact += 0.5 * p[r] * (before[r] + after[r]);
+      for (int r = 0; r < 3; ++r) point.impact_work += 0.5 * p[r] * (before[r] + after[r]);
       continue;
     }
     point.force_W = axes * p / frame.h;
@@ -287,8 +174,10 @@ void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem
         c.u[0] - (c.law == ImpulseLaw::compliant ? 0 : closing_speed(point.contact, frame.h));
     point.normal_velocity = u_n;
     gap_after_[part.point] = -point.contact.depth + frame.h * u_n;
-    work_.normal += p[0] * u_n;
-    work_.friction += p[1] * c.u[1] + p[2] * c.u[2];
+    // Over the mean of the velocities before and after; of what rests that is nothing.
+    const bool hits = p[0] > 0 && before[0] < -kSlowestBounce && u_n > before[0];
+    (hits ? point.impact_work : point.normal_work) += 0.5 * p[0] * (before[0] + u_n);
+    point.friction_work += 0.5 * (p[1] * (before[1] + c.u[1]) + p[2] * (before[2] + c.u[2]));
     if (c.law == ImpulseLaw::compliant) {  // what the force says of the bristles; slipping sets it
       const double stiff = c.h * c.k_t, damp = c.h * c.b_t;
       Vector3 anchor = Vector3::Zero();
@@ -300,7 +189,7 @@ void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem
           problem.constraints()[part.row + static_cast<std::size_t>(e)];
       for (int r = 0; r < couple.rows; ++r) {
         point.couple_W += axes.col(couple.rows == 1 ? 0 : r + 1) * couple.p[r] / frame.h;
-        work_.friction += couple.p[r] * couple.u[r];
+        point.friction_work += couple.p[r] * couple.u[r];
       }
     }
   }

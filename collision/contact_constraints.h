@@ -10,6 +10,7 @@
 // nothing tunnels, whatever its speed.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ namespace twinarm {
 
 enum class ContactResponse { rigid, compliant };
 
-struct Surface {
+struct ContactSurface {
   double friction = 0.5;   // a pair takes the geometric mean
   double restitution = 0;  // a pair takes the product
   double torsional = 0;    // radius of the patch that resists a turn about the normal [m]
@@ -35,7 +36,7 @@ struct ContactGeometry {
   int body = 0;      // of the model; 0: fixed in the world
   Pose X_LG;         // in the axes of its link
   Shape shape;
-  Surface surface;
+  ContactSurface surface;
   int group = 0;  // CollisionWorld::set_group_filter
 };
 
@@ -48,7 +49,17 @@ struct ContactPoint {
   Vector3 couple_W = Vector3::Zero();   // on b: torsional and rolling friction [N m]
   Vector3 anchor_W = Vector3::Zero();   // compliant: how far the bristles are bent [m]
   double normal_velocity = 0;           // at the end of the step, opening [m/s]
+  double normal_work = 0, friction_work = 0, impact_work = 0;  // of the step, on both [J]
 };
+
+// The normal and two directions across it, as columns.
+inline Matrix3 contact_axes(const Vector3& n) {
+  Matrix3 axes;
+  axes.col(0) = n;
+  axes.col(1) = n.unitOrthogonal();
+  axes.col(2) = n.cross(axes.col(1));
+  return axes;
+}
 
 class ContactConstraints final : public ConstraintSource, public Rewindable {
  public:
@@ -74,13 +85,15 @@ class ContactConstraints final : public ConstraintSource, public Rewindable {
   void go_back() noexcept override { std::swap(points_, kept_); }
 
   const std::vector<ContactPoint>& points() const { return points_; }
-  // Work of the last step on the bodies [J]: by the normal forces, by friction, by impacts.
-  struct Work {
-    double normal = 0, friction = 0, impact = 0;
-  };
-  const Work& work() const { return work_; }
+
+  // A gap that counts as closed, so that rest does not chase rounding; penetration that is let be.
+  static constexpr double kClosed = 1e-9, kSlop = 1e-6;  // [m]
 
  private:
+  // The gap that may close within a step, as a velocity.
+  static double closing_speed(const Contact& contact, double h) {
+    return std::max(0.0, -contact.depth - kClosed) / h;
+  }
   struct PairRule {
     int a, b;
     double friction, restitution;
@@ -94,7 +107,10 @@ class ContactConstraints final : public ConstraintSource, public Rewindable {
   double reach(std::size_t geometry, const Kinematics& k, double h) const;
   ContactPoint start(const Contact& contact) const;
   const ContactPoint* last_of(const Contact& contact) const;
+  Vector3 point_on(const Contact& contact, int body) const;
   Vector3 approach(const Contact& contact, const Kinematics& k) const;
+  double bounce_speed(std::size_t point, double u, const ConstraintFrame& frame,
+                      const ImpulseProblem& problem, const ImpulseConstraint& c) const;
   void add_contact(const ConstraintFrame& frame, std::size_t point, ImpulseProblem& problem);
   void add_friction_couples(const ConstraintFrame& frame, std::size_t point, const Matrix3& axes,
                             ImpulseProblem& problem);
@@ -103,6 +119,7 @@ class ContactConstraints final : public ConstraintSource, public Rewindable {
   const Model<double>* model_;
   ContactResponse response_;
   bool has_drives_ = false;
+  std::vector<char> is_immovable_;  // by body: neither forces nor impulses move it
   CollisionWorld world_;
   std::vector<ContactGeometry> geometries_;
   std::vector<double> radius_;  // by geometry: of a ball about its link's origin [m]
@@ -114,7 +131,6 @@ class ContactConstraints final : public ConstraintSource, public Rewindable {
   std::vector<double> gap_after_;
   std::vector<char> closing_;
   std::vector<Part> parts_;
-  Work work_;
 };
 
 }  // namespace twinarm

@@ -21,12 +21,13 @@ ConstrainedStep::ConstrainedStep(const Model<double>& model)
 void ConstrainedStep::step(Mechanism& m, double h, StepReport& report) {
   report_ = {};
   for (ConstraintSource* source : sources_) source->begin_step(m.k, m.x, h);
-  resolve_impacts(m, h);
   m.begin_step(h);
+  resolve_impacts(m, h);
   accelerate(m, h);
   resolve_step(m, h);
+  before_ = m.x.qd;
   kick(m, h);
-  drift(m, shift_, h);
+  move(m, h);
   separate(m, h);
   report.converged = report_.step.converged && report_.impact.converged;
   report.rounds = report_.step.rounds;
@@ -63,12 +64,17 @@ void ConstrainedStep::resolve_impacts(Mechanism& m, double h) {
     bool closes = false;
     for (ConstraintSource* source : sources_) closes = source->closes(frame) || closes;
     if (!closes) break;
-    if (report_.impacts == 0) kinematics(*model_, m.x, m.w);  // Xup, S_
-
+    if (report_.impacts == 0) {
+      accelerate(m, h);
+      acceleration_ = m.w.qdd;
+    }
     const auto solve = [&](bool plastic) {
       frame.plastic = plastic;
       problem_.clear();
       trees_.add_to(problem_, nullptr, m.w);
+      trees_.gather(acceleration_, problem_);
+      sum_.assign(problem_.v0(0), problem_.v0(0) + problem_.nv());
+      frame.acceleration = sum_.data();
       trees_.gather(m.x.qd, problem_);
       add_sources(frame);
       add_bilateral(m, frame.phase);
@@ -77,14 +83,13 @@ void ConstrainedStep::resolve_impacts(Mechanism& m, double h) {
     solve(false);
     const double before = kinetic_energy(problem_.v0(0));
     double after = kinetic_energy(problem_.v(0));
-    if (after > before * (1 + 1e-12)) {
-      plastic_.assign(problem_.v(0), problem_.v(0) + problem_.nv());
-      sum_.clear();
+    if (after > before) {
+      elastic_.assign(problem_.v(0), problem_.v(0) + problem_.nv());
+      elastic_p_.clear();
       for (const ImpulseConstraint& c : problem_.constraints())
-        sum_.insert(sum_.end(), c.p.begin(), c.p.end());
+        elastic_p_.insert(elastic_p_.end(), c.p.begin(), c.p.end());
       solve(true);
-      after = bounce(plastic_);
-      report_.limited = true;
+      after = bounce();
     }
     report_.impact_loss += before - after;
     hand_out(frame);  // with the kinematics before
@@ -93,19 +98,19 @@ void ConstrainedStep::resolve_impacts(Mechanism& m, double h) {
   }
 }
 
-// From the plastic solution, which the problem holds, towards the elastic one (`elastic` its
-// velocities, sum_ its impulses) as far as the energy before allows. Impulses of both lie in convex
-// cones, so the mixture does. Returns the energy after.
-double ConstrainedStep::bounce(std::vector<double>& elastic) {
+// From the plastic solution, which the problem holds, towards the elastic one (elastic_ its
+// velocities, elastic_p_ its impulses) as far as the energy before allows. Impulses of both lie in
+// convex cones, so the mixture does. Returns the energy after.
+double ConstrainedStep::bounce() {
   double* v = problem_.v(0);
   const std::size_t nv = problem_.nv();
   const double before = kinetic_energy(problem_.v0(0)), plastic = kinetic_energy(v);
-  for (std::size_t k = 0; k < nv; ++k) elastic[k] -= v[k];
-  const double square = kinetic_energy(elastic.data());
+  for (std::size_t k = 0; k < nv; ++k) elastic_[k] -= v[k];
+  const double square = kinetic_energy(elastic_.data());
   double cross = 0;  // d/ds of the energy at s = 0
   for (int t = 0; t < problem_.tree_count(); ++t) {
     const int n = problem_.size(t);
-    const double *M = problem_.M(t), *a = problem_.v(t), *b = elastic.data() + problem_.first(t);
+    const double *M = problem_.M(t), *a = problem_.v(t), *b = elastic_.data() + problem_.first(t);
     for (int r = 0; r < n; ++r)
       for (int k = 0; k < n; ++k) cross += a[r] * M[r * n + k] * b[k];
   }
@@ -113,11 +118,11 @@ double ConstrainedStep::bounce(std::vector<double>& elastic) {
   const double room = std::max(0.0, before - plastic);
   const double root = std::sqrt(cross * cross + 4 * square * room);
   const double s = std::clamp(2 * room / (cross + root), 0.0, 1.0);
-  for (std::size_t k = 0; k < nv; ++k) v[k] += s * elastic[k];
+  for (std::size_t k = 0; k < nv; ++k) v[k] += s * elastic_[k];
   for (std::size_t i = 0; i < problem_.constraints().size(); ++i)
     for (std::size_t r = 0; r < 3; ++r) {
       double& p = problem_.constraints()[i].p[r];
-      p += s * (sum_[3 * i + r] - p);
+      p += s * (elastic_p_[3 * i + r] - p);
     }
   return kinetic_energy(v);
 }
@@ -204,6 +209,30 @@ void ConstrainedStep::add_mimics() {
     problem_.J(c, a == b ? 0 : 1)[trees_.place(mimic.leader)] -= mimic.ratio;
     c.p[0] = mimic_guess_[i];
   }
+}
+
+// A free body that nothing but gravity acts on moves by the mean of its velocities: so its fall and
+// its energy are exact, and a bouncing ball keeps its height.
+void ConstrainedStep::move(Mechanism& m, double h) {
+  for (std::size_t dof = 0; dof < model_->nv; ++dof) shift_[dof] = h * m.x.qd[dof];
+  flies_.assign(static_cast<std::size_t>(trees_.count()), 1);
+  for (const ImpulseConstraint& c : problem_.constraints())
+    if (c.p != std::array<double, 3>{})
+      for (const int tree : c.tree)
+        if (tree != ImpulseConstraint::no_tree) flies_[static_cast<std::size_t>(tree)] = 0;
+  for (std::size_t i = 1; i < model_->parent.size(); ++i) {
+    const int tree = trees_.tree_of(static_cast<int>(i));
+    if (model_->joint[i] != JointType::free || tree == ImpulseConstraint::no_tree ||
+        problem_.size(tree) != 6 || !flies_[static_cast<std::size_t>(tree)])
+      continue;
+    const Force<double>& f = m.forces.f_ext[i];
+    bool pushed = dot(f.n, f.n) + dot(f.f, f.f) > 0 || m.forces.has_impedance;
+    for (std::size_t dof = model_->iv[i]; dof < model_->iv[i] + 6; ++dof)
+      pushed = pushed || m.forces.tau[dof] != 0 || m.forces.armature[dof] != 0;
+    for (std::size_t dof = model_->iv[i]; !pushed && dof < model_->iv[i] + 6; ++dof)
+      shift_[dof] = 0.5 * h * (before_[dof] + m.x.qd[dof]);
+  }
+  integrate_coordinates(*model_, m.x.q, shift_, m.x.q);
 }
 
 void ConstrainedStep::add_bilateral(Mechanism& m, Phase phase) {

@@ -6,7 +6,7 @@
 //              part at once (Newton's law, simultaneous), those with a gap between in sequence.
 //   velocity   v* = v+ + h ABA(q, v+, forces);   M' (v' - v*) = J^T p,  where gaps g may close:
 //              u' >= -g/h. M' has the implicit terms that ABA solved with.
-//   position   q' = q + h v'
+//   position   q' = q + h v'; of a body that flies under gravity alone q + h (v + v')/2
 //   separate   what penetrates by more than a slop is moved apart by the smallest motion in the
 //   norm
 //              of M; velocities do not feel it.
@@ -29,7 +29,6 @@ struct ConstraintReport {
   int impacts = 0;  // passes of the first phase
   ImpulseReport step, impact;
   double impact_loss = 0;  // kinetic energy that impacts took [J]
-  bool limited = false;    // an impact was taken back to keep the energy
 };
 
 class ConstrainedStep {
@@ -54,6 +53,7 @@ class ConstrainedStep {
   void resolve_impacts(Mechanism& m, double h);
   void accelerate(Mechanism& m, double h);
   void resolve_step(Mechanism& m, double h);
+  void move(Mechanism& m, double h);
   void separate(Mechanism& m, double h);
   void add_sources(const ConstraintFrame& frame);
   void hand_out(const ConstraintFrame& frame);
@@ -62,7 +62,7 @@ class ConstrainedStep {
   void add_loops(Mechanism& m, Phase phase);
   void add_bilateral(Mechanism& m, Phase phase);  // both
   double kinetic_energy(const double* v) const;
-  double bounce(std::vector<double>& before);
+  double bounce();
 
   const Model<double>* model_;
   ModelTrees trees_;
@@ -72,8 +72,11 @@ class ConstrainedStep {
   ImpulseSolver solver_;
   ConstraintReport report_;
   bool friction_on_ = true;
+  std::vector<char> flies_;     // by tree
+  std::vector<double> before_;  // by velocity: those at the start of the second phase
   std::vector<double> damping_, coulomb_, constraint_, shift_;
-  std::vector<double> friction_guess_, mimic_guess_, loop_guess_, plastic_, sum_;
+  std::vector<double> friction_guess_, mimic_guess_, loop_guess_, sum_, acceleration_, elastic_,
+      elastic_p_;
 };
 
 }  // namespace twinarm

@@ -27,6 +27,8 @@ struct ConstraintFrame {
   Phase phase;
   double h;              // [s]
   bool plastic = false;  // impact: as if every restitution were 0
+  // impact: accelerations that go on until the gap is closed, in the order of the trees
+  const double* acceleration = nullptr;
 };
 
 class ConstraintSource {

@@ -45,7 +45,7 @@ void SceneReader::read(const TomlValue& root) {
   scene.step = table.positive("step").value_or(scene.step);
   scene.duration = table.positive("duration");
   if (const auto law = table.choice("contact", {"rigid", "compliant", "event"}))
-    scene.contact = static_cast<ContactLaw>(*law);
+    scene.contact = static_cast<ContactMode>(*law);
   std::vector<std::string> integrators;
   for (const IntegratorFacts& facts : all_integrators) integrators.emplace_back(facts.name);
   if (const auto chosen = table.choice("integrator", integrators))

@@ -131,13 +131,13 @@ struct ConstraintDescription {
   double ratio = 1;                             // gear: speed of a = ratio * speed of b
 };
 
-enum class ContactLaw { rigid, compliant, event };
+enum class ContactMode { rigid, compliant, event };
 
 struct SceneDescription {
   std::filesystem::path file;
   Vector3 gravity{0, 0, -9.81};
   double step = 0.001;  // [s]
-  ContactLaw contact = ContactLaw::rigid;
+  ContactMode contact = ContactMode::rigid;
   std::optional<Integrator> integrator;
   std::optional<double> duration;  // [s], where the command line gives none
   std::vector<RobotInScene> robots;

@@ -1,18 +1,145 @@
 #include "app/simulate/add_contacts.h"
 
-namespace twinarm {
+#include <algorithm>
 
-void check_contacts(const SceneModel& scene, FaultList& faults) {
-  const std::string file = scene.description.file.string();
-  if (scene.may_touch())
-    faults.add({file, 0, "scene", "its bodies can touch, and contacts are not computed yet",
-                "keep them apart: collide = false in [[robot]] or [[pair]], or one group"});
-  for (const SceneConstraint& constraint : scene.constraints)
-    faults.add({file, constraint.line, "constraint '" + constraint.name + "'",
-                "constraints are not computed yet", "leave it out"});
+#include "app/scene/scene_names.h"
+#include "app/scene/scene_shapes.h"
+
+namespace twinarm {
+namespace {
+
+LoopClosure closure_of(const SceneConstraint& c) {
+  using Type = SceneConstraint::Type;
+  const LoopType type = c.type == Type::weld       ? LoopType::weld
+                        : c.type == Type::ball     ? LoopType::ball
+                        : c.type == Type::hinge    ? LoopType::hinge
+                        : c.type == Type::distance ? LoopType::distance
+                                                   : LoopType::gear;
+  return {c.name, type, c.a, c.b, c.X_AC, c.X_BC, c.length, c.ratio, c.offset};
 }
 
-// >>> The solver of contacts and constraints is plugged in here. <<<
-void add_contacts(const SceneModel&, Simulation&) {}
+bool has_limits(const SceneModel& scene) {
+  for (const auto& robot : scene.description.robots)
+    for (const JointDescription& joint : robot.description.joints)
+      if (joint.is_limited()) return true;
+  return false;
+}
+
+}  // namespace
+
+void check_contacts(const SceneModel& scene, Integrator integrator, FaultList& faults) {
+  const std::string file = scene.description.file.string();
+  if (scene.description.contact == ContactMode::event)
+    faults.add({file, 0, "contact", "impact times cannot be located yet",
+                "write contact = \"rigid\", or \"compliant\""});
+  if ((scene.may_touch() || has_limits(scene)) && integrator != Integrator::semi_implicit)
+    faults.add({file, 0, "integrator",
+                std::string("contacts and joint limits go with the semi-implicit integrator, not "
+                            "with ") +
+                    integrator_name(integrator),
+                "give --integrator semi-implicit, or keep the bodies apart with groups"});
+}
+
+SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : scene_(scene) {
+  std::vector<LoopClosure> loops;
+  for (const SceneConstraint& constraint : scene.constraints)
+    loops.push_back(closure_of(constraint));
+  if (!loops.empty()) simulation.set_loops(std::move(loops));
+  if (scene.may_touch()) {
+    contacts_.emplace(scene.model, scene.description.contact == ContactMode::compliant
+                                       ? ContactResponse::compliant
+                                       : ContactResponse::rigid);
+    add_geometries();
+    add_rules();
+    look_at_start(simulation);
+    simulation.add(*contacts_);
+  }
+  if (has_limits(scene)) {
+    limits_.emplace(scene.model);
+    add_limits();
+    simulation.add(*limits_);
+  }
+}
+
+void SceneContacts::add_geometries() {
+  // Pairs that never touch must be known before a geometry comes in that could not touch another.
+  for (const SceneGeometry& g : scene_.geometries) {
+    ContactSurface surface;
+    surface.friction = g.friction;
+    surface.restitution = g.restitution;
+    surface.torsional = g.torsional_friction;
+    surface.rolling = g.rolling_friction;
+    contacts_->add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
+  }
+  for (const auto& [a, b] : scene_.apart) contacts_->never(a, b);
+}
+
+void SceneContacts::add_rules() {
+  for (const PairRule& rule : scene_.pairs)
+    for (const int a : rule.a)
+      for (const int b : rule.b) {
+        const Surface pair = scene_.surface_of_pair(a, b);
+        contacts_->set_pair(a, b, pair.friction, pair.restitution);
+      }
+}
+
+void SceneContacts::add_limits() {
+  for (std::size_t r = 0; r < scene_.description.robots.size(); ++r)
+    for (const JointDescription& joint : scene_.description.robots[r].description.joints) {
+      const int body = scene_.model.find_joint(name_in_scene(scene_.description, r, joint.name));
+      if (joint.is_limited() && body > 0) limits_->add(body, joint.lower, joint.upper);
+    }
+  limit_work_.assign(limits_->limits().size(), 0);
+}
+
+void SceneContacts::look_at_start(const Simulation& simulation) {
+  contacts_->begin_step(simulation.kinematics(), simulation.state(), 0);
+  for (const ContactPoint& point : contacts_->points())
+    deepest_at_start_ = std::max(deepest_at_start_, point.contact.depth);
+}
+
+void SceneContacts::add_step() {
+  if (limits_)
+    for (std::size_t i = 0; i < limit_work_.size(); ++i)
+      limit_work_[i] += limits_->limits()[i].work;
+  if (!contacts_) return;
+  for (const ContactPoint& point : contacts_->points()) {
+    const std::pair key(point.contact.a, point.contact.b);
+    auto pair = std::lower_bound(pairs_.begin(), pairs_.end(), key, [](const PairWork& w, auto ab) {
+      return std::pair(w.a, w.b) < ab;
+    });
+    if (pair == pairs_.end() || std::pair(pair->a, pair->b) != key)
+      pair = pairs_.insert(pair, {key.first, key.second});
+    pair->normal += point.normal_work;
+    pair->friction += point.friction_work;
+    pair->impact += point.impact_work;
+  }
+}
+
+std::vector<LedgerRow> SceneContacts::rows() const {
+  std::vector<LedgerRow> rows;
+  const auto add = [&](const std::string& name, double work) {
+    if (work != 0) rows.push_back({name, work});
+  };
+  for (std::size_t i = 0; i < limit_work_.size(); ++i) {
+    const auto body = static_cast<std::size_t>(limits_->limits()[i].body);
+    add("joint/" + scene_.model.joint_name[body] + "/limit", limit_work_[i]);
+  }
+  for (const PairWork& pair : pairs_) {
+    const std::string name =
+        "contact/" + contacts_->geometry(pair.a).name + "-" + contacts_->geometry(pair.b).name;
+    add(name + "/normal", pair.normal);
+    add(name + "/friction", pair.friction);
+    add(name + "/impact", pair.impact);
+  }
+  return rows;
+}
+
+int SceneContacts::contact_count() const {
+  if (!contacts_) return 0;
+  return static_cast<int>(
+      std::count_if(contacts_->points().begin(), contacts_->points().end(),
+                    [](const ContactPoint& point) { return !point.force_W.isZero(0); }));
+}
 
 }  // namespace twinarm

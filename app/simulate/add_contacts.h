@@ -1,17 +1,49 @@
-// Where contacts and constraints come into a run. They are not computed yet: until they are, a
-// scene that needs them is refused.
+// Contacts, loop closures and joint limits of a scene: into the simulation, and their work.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "app/scene/scene_model.h"
+#include "app/simulate/ledger.h"
+#include "collision/contact_constraints.h"
 #include "solver/fault.h"
+#include "solver/joint_limits.h"
 #include "solver/simulation.h"
 
 namespace twinarm {
 
-// What this program cannot compute of the scene.
-void check_contacts(const SceneModel& scene, FaultList& faults);
+// What this program cannot compute of the scene, with that integrator.
+void check_contacts(const SceneModel& scene, Integrator integrator, FaultList& faults);
 
-// Puts contacts and constraints into the simulation, before its first step.
-void add_contacts(const SceneModel& scene, Simulation& simulation);
+class SceneContacts {
+ public:
+  // Both must outlive it. Throws InputError for loops that are open at the start.
+  SceneContacts(const SceneModel& scene, Simulation& simulation);
+  // After each step.
+  void add_step();
+  // `contact/A-B/normal|friction|impact` and `joint/NAME/limit`: what did any work.
+  std::vector<LedgerRow> rows() const;
+  int contact_count() const;  // points that press, at the last step
+  double deepest_at_start() const { return deepest_at_start_; }  // [m]
+
+ private:
+  struct PairWork {
+    int a, b;
+    double normal = 0, friction = 0, impact = 0;
+  };
+  void add_geometries();
+  void add_rules();
+  void add_limits();
+  void look_at_start(const Simulation& simulation);
+
+  const SceneModel& scene_;
+  std::optional<ContactConstraints> contacts_;
+  std::optional<JointLimits> limits_;
+  std::vector<PairWork> pairs_;  // ascending
+  std::vector<double> limit_work_;
+  double deepest_at_start_ = 0;
+};
 
 }  // namespace twinarm

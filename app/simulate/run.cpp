@@ -12,6 +12,8 @@ namespace {
 
 // Two times within this part of a step are the same one.
 constexpr double kSameTime = 1e-9;
+// Bodies that stand deeper in one another at the start are told of [m].
+constexpr double kDeepStart = 1e-4;
 
 // The times t = n step, the last one `duration`.
 class Grid {
@@ -37,7 +39,9 @@ class Grid {
 // Notes the first time at which a joint stands beyond its limits, which do not act.
 class LimitWatch {
  public:
-  LimitWatch(const RobotInput& input, std::vector<std::string>& warnings) : warnings_(warnings) {
+  LimitWatch(const RobotInput& input, bool limits_act, std::vector<std::string>& warnings)
+      : warnings_(warnings) {
+    if (limits_act) return;
     for (const JointDescription& joint : input.robot.joints) {
       const int body = input.model.find_joint(joint.name);
       if (joint.is_limited() && body > 0)
@@ -100,7 +104,7 @@ class Run {
         watch_(watch),
         sim_(input_.model, input_.state.x),
         torques_(input_.model, input_.coordinates, input_.state.tau),
-        limits_(input_, result_.warnings) {
+        limits_(input_, simulated.scene != nullptr, result_.warnings) {
     Kinematics start(input_.model);
     forward_kinematics(input_.model, input_.state.x, start);
     for (const Wrench& wrench : input_.state.wrenches) wrenches_.emplace_back(wrench, start);
@@ -111,9 +115,16 @@ class Run {
         sim_.add(simulated.couplings->source(c));
       for (const SceneMotion& motion : simulated.scene->motions)
         sim_.prescribe(motion.body, motion.law);
-      add_contacts(*simulated.scene, sim_);
     }
     sim_.set_integrator(plan.integrator);
+    if (simulated.scene) {
+      contacts_.emplace(*simulated.scene, sim_);
+      if (contacts_->deepest_at_start() > kDeepStart)
+        result_.warnings.push_back(fmt::format(
+            "bodies stand {} m deep in one another at the start: they are moved apart, no faster "
+            "than 0.5 m/s",
+            short_number_text(contacts_->deepest_at_start())));
+    }
     if (plan.is_adaptive()) sim_.set_tolerance(plan.tolerance);
     ledger_.emplace(input_, wrenches_, simulated.couplings.get(), plan.integrator);
   }
@@ -131,11 +142,19 @@ class Run {
           fmt::format("in {} of {} steps the equation of the step was not solved to rounding",
                       unsolved_, result_.steps));
     result_.ledger = ledger_->rows();
+    if (contacts_) add_contact_rows();
     result_.hand = ledger_->hand();
     return std::move(result_);
   }
 
  private:
+  // Before the last row, `numerical`, which is what is left.
+  void add_contact_rows() {
+    std::vector<LedgerRow> rows = contacts_->rows();
+    for (const LedgerRow& row : rows) result_.ledger.back().work -= row.work;
+    result_.ledger.insert(result_.ledger.end() - 1, rows.begin(), rows.end());
+    result_.contacts = contacts_->contact_count();
+  }
   void run_grid() {
     const Grid grid(plan_);
     for (long n = 0; n < grid.steps(); ++n) {
@@ -182,6 +201,7 @@ class Run {
     for (const double part : ledger_->inner_nodes())
       inner_.push_back(before_->side_step(part * report.h));
     ledger_->add_step(report.h, inner_, sim_.state());
+    if (contacts_) contacts_->add_step();
     result_.end = t_next;
     limits_.look(t_next, sim_.state());
     watch_.tick(t_next);
@@ -206,6 +226,7 @@ class Run {
   std::vector<GivenWrench> wrenches_;
   LimitWatch limits_;
   std::optional<Ledger> ledger_;
+  std::optional<SceneContacts> contacts_;
   std::optional<Simulation> before_;  // the run at the start of the step
   std::vector<State<double>> inner_;
   std::size_t next_ = 0;  // sample

@@ -28,6 +28,7 @@ struct RunResult {
   std::vector<LedgerRow> ledger;
   std::vector<LedgerRow> hand;  // of the kinematic sides of couplings; outside the sum
   std::vector<std::string> warnings;
+  int contacts = 0;  // points that press, at the last step
   std::optional<PostMortem> post_mortem;
 };
 

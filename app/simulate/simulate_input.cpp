@@ -63,7 +63,7 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
   if (!scene) faults.check();
   const SceneModel& made = **scene;
   check_treatments(made, plan, faults);
-  check_contacts(made, faults);
+  check_contacts(made, plan.integrator, faults);
 
   const bool floating = description.robots.size() == 1 && description.robots[0].floating;
   const Coordinates coordinates(made.model, floating, made.robot_bodies);

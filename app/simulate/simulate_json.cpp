@@ -40,7 +40,7 @@ class JsonOutput : public RunOutput {
 
   void end(const RunResult& result) override {
     json_.end_array();
-    json_.key("contacts").count(0);
+    json_.key("contacts").count(result.contacts);
     json_.key("ledger").begin_object();
     for (const LedgerRow& row : result.ledger) json_.key(row.name).number(row.work);
     json_.end_object();

@@ -19,7 +19,7 @@ TEST_CASE("scene: what is left out has its default") {
   const SceneDescription scene = scene_of(body_with(""));
   CHECK(scene.gravity == Vector3(0, 0, -9.81));
   CHECK(scene.step == 0.001);
-  CHECK(scene.contact == ContactLaw::rigid);
+  CHECK(scene.contact == ContactMode::rigid);
   CHECK(!scene.integrator);
   CHECK(!scene.duration);
   REQUIRE(scene.bodies.size() == 1);
