@@ -161,23 +161,29 @@ void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem
     ContactPoint& point = points_[part.point];
     const Matrix3 axes = contact_axes(point.contact.n_W);
     const Vector3 p(c.p[0], c.p[1], c.p[2]);
-    const Vector3 before = axes.transpose() * approach(point.contact, frame.k);
     point.impulse_W += axes * p;
+    // Work on what moves freely: over J v alone, without what moves by a law.
+    std::array<double, 3> before, after;
+    problem.velocity(c, problem.v(0), after);
     if (frame.phase == Phase::impact) {
-      std::array<double, 3> after;
-      problem.velocity(c, problem.v(0), after);
-      for (int r = 0; r < 3; ++r) point.impact_work += 0.5 * p[r] * (before[r] + after[r]);
+      problem.velocity(c, problem.v0(0), before);
+      for (std::size_t r = 0; r < 3; ++r)
+        point.impact_work += 0.5 * c.p[r] * (before[r] + after[r]);
       continue;
     }
+    const bool soft = c.law == ImpulseLaw::compliant;
+    const double closing = soft ? 0 : closing_speed(point.contact, frame.h);
+    const Vector3 start = axes.transpose() * approach(point.contact, frame.k);
+    for (std::size_t r = 0; r < 3; ++r)
+      before[r] = start[static_cast<int>(r)] - c.b[r] + (r == 0 ? closing : 0);
     point.force_W = axes * p / frame.h;
-    const double u_n =
-        c.u[0] - (c.law == ImpulseLaw::compliant ? 0 : closing_speed(point.contact, frame.h));
-    point.normal_velocity = u_n;
+    const double u_n = c.u[0] - closing;
+    point.velocity_W = axes * Vector3(u_n, c.u[1], c.u[2]);
     gap_after_[part.point] = -point.contact.depth + frame.h * u_n;
     // Over the mean of the velocities before and after; of what rests that is nothing.
-    const bool hits = p[0] > 0 && before[0] < -kSlowestBounce && u_n > before[0];
-    (hits ? point.impact_work : point.normal_work) += 0.5 * p[0] * (before[0] + u_n);
-    point.friction_work += 0.5 * (p[1] * (before[1] + c.u[1]) + p[2] * (before[2] + c.u[2]));
+    const bool hits = c.p[0] > 0 && start[0] < -kSlowestBounce && u_n > start[0];
+    (hits ? point.impact_work : point.normal_work) += 0.5 * c.p[0] * (before[0] + after[0]);
+    for (const std::size_t r : {1, 2}) point.friction_work += 0.5 * c.p[r] * (before[r] + after[r]);
     if (c.law == ImpulseLaw::compliant) {  // what the force says of the bristles; slipping sets it
       const double stiff = c.h * c.k_t, damp = c.h * c.b_t;
       Vector3 anchor = Vector3::Zero();
@@ -189,7 +195,7 @@ void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem
           problem.constraints()[part.row + static_cast<std::size_t>(e)];
       for (int r = 0; r < couple.rows; ++r) {
         point.couple_W += axes.col(couple.rows == 1 ? 0 : r + 1) * couple.p[r] / frame.h;
-        point.friction_work += couple.p[r] * couple.u[r];
+        point.friction_work += couple.p[r] * (couple.u[r] - couple.b[r]);
       }
     }
   }

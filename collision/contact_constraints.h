@@ -44,11 +44,11 @@ struct ContactGeometry {
 struct ContactPoint {
   Contact contact;  // at the start of the step
   double friction = 0, restitution = 0;
-  Vector3 impulse_W = Vector3::Zero();  // on b, over the step, impacts included [N s]
-  Vector3 force_W = Vector3::Zero();    // on b, without impacts [N]
-  Vector3 couple_W = Vector3::Zero();   // on b: torsional and rolling friction [N m]
-  Vector3 anchor_W = Vector3::Zero();   // compliant: how far the bristles are bent [m]
-  double normal_velocity = 0;           // at the end of the step, opening [m/s]
+  Vector3 impulse_W = Vector3::Zero();   // on b, over the step, impacts included [N s]
+  Vector3 force_W = Vector3::Zero();     // on b, without impacts [N]
+  Vector3 couple_W = Vector3::Zero();    // on b: torsional and rolling friction [N m]
+  Vector3 anchor_W = Vector3::Zero();    // compliant: how far the bristles are bent [m]
+  Vector3 velocity_W = Vector3::Zero();  // of b against a, at the end of the step [m/s]
   double normal_work = 0, friction_work = 0, impact_work = 0;  // of the step, on both [J]
 };
 

@@ -21,8 +21,8 @@ namespace twinarm {
 namespace {
 
 constexpr int no_tree = ImpulseConstraint::no_tree;
-constexpr double least_centering = 0.05, poor_step = 0.5, stuck_step = 0.05;
-constexpr int most_iterations = 50, most_stuck = 3;
+constexpr double poor_step = 0.5, stuck_step = 0.05;
+constexpr int most_iterations = 60, most_stuck = 3;
 
 bool is_cone(const ImpulseConstraint& c) {
   return c.law == ImpulseLaw::at_least || c.law == ImpulseLaw::coulomb;
@@ -36,7 +36,8 @@ Vec scaled(const ImpulseConstraint& c, const Vec& a) {  // T a
 
 }  // namespace
 
-int ImpulseSolver::approach_centrally(ImpulseProblem& problem, const Island& island) {
+int ImpulseSolver::approach_centrally(ImpulseProblem& problem, const Island& island,
+                                      double least_centering) {
   begin_centrally(problem, island);
   rho_ratio_ = 1e4;
   double step = 1, best = std::numeric_limits<double>::infinity();

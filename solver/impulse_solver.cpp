@@ -10,6 +10,7 @@ namespace {
 
 constexpr int no_tree = ImpulseConstraint::no_tree;
 constexpr double first_rho = 1e2, usual_rho = 1e5, largest_rho = 1e7;  // times rho0
+constexpr double centerings[] = {0.1, 0.3, 0.7};  // of one attempt after the other
 
 }  // namespace
 
@@ -176,14 +177,20 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
   };
   run_rounds(problem, island, quick_newton, report);
   judge();
-  if (best > accepted) {
-    report.interior = std::max(report.interior, approach_centrally(problem, island));
+  for (const double centering : centerings) {
+    if (best <= accepted) break;
+    report.interior = std::max(report.interior, approach_centrally(problem, island, centering));
     judge();
-  }
-  if (best > accepted) {
-    for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
+    if (best <= accepted) break;
     settle(problem, island);
     run_rounds(problem, island, most_newton, report);
+    judge();
+  }
+  // What neither can solve (friction beyond Painleve's bound) is at least brought near, so that
+  // nothing falls through.
+  constexpr int most_descents = 300;
+  for (int k = 0; k < most_descents && best > accepted; ++k) {
+    relax(problem, island);
     judge();
   }
   for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];

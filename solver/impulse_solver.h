@@ -65,7 +65,7 @@ class ImpulseSolver {
   void assemble(const ImpulseProblem& problem, const Island& island);
   void add_row(std::size_t row, std::size_t column, const double* values, int n, double factor);
   void move(ImpulseProblem& problem, const Island& island, double step);
-  int approach_centrally(ImpulseProblem& problem, const Island& island);
+  int approach_centrally(ImpulseProblem& problem, const Island& island, double least_centering);
   void begin_centrally(ImpulseProblem& problem, const Island& island);
   double measure_centrally(ImpulseProblem& problem, const Island& island, double& residual);
   double direct_centrally(ImpulseProblem& problem, const Island& island, double s, bool correct);

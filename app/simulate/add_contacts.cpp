@@ -27,15 +27,18 @@ bool has_limits(const SceneModel& scene) {
 
 }  // namespace
 
+bool limits_act(const SceneModel& scene, Integrator integrator) {
+  return integrator == Integrator::semi_implicit && has_limits(scene);
+}
+
 void check_contacts(const SceneModel& scene, Integrator integrator, FaultList& faults) {
   const std::string file = scene.description.file.string();
   if (scene.description.contact == ContactMode::event)
     faults.add({file, 0, "contact", "impact times cannot be located yet",
                 "write contact = \"rigid\", or \"compliant\""});
-  if ((scene.may_touch() || has_limits(scene)) && integrator != Integrator::semi_implicit)
+  if (scene.may_touch() && integrator != Integrator::semi_implicit)
     faults.add({file, 0, "integrator",
-                std::string("contacts and joint limits go with the semi-implicit integrator, not "
-                            "with ") +
+                std::string("contacts go with the semi-implicit integrator, not with ") +
                     integrator_name(integrator),
                 "give --integrator semi-implicit, or keep the bodies apart with groups"});
 }
@@ -54,7 +57,7 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
     look_at_start(simulation);
     simulation.add(*contacts_);
   }
-  if (has_limits(scene)) {
+  if (limits_act(scene, simulation.integrator())) {
     limits_.emplace(scene.model);
     add_limits();
     simulation.add(*limits_);

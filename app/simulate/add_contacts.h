@@ -17,6 +17,9 @@ namespace twinarm {
 // What this program cannot compute of the scene, with that integrator.
 void check_contacts(const SceneModel& scene, Integrator integrator, FaultList& faults);
 
+// Position limits go with the semi-implicit integrator alone; with others a run warns of them.
+bool limits_act(const SceneModel& scene, Integrator integrator);
+
 class SceneContacts {
  public:
   // Both must outlive it. Throws InputError for loops that are open at the start.

@@ -104,7 +104,8 @@ class Run {
         watch_(watch),
         sim_(input_.model, input_.state.x),
         torques_(input_.model, input_.coordinates, input_.state.tau),
-        limits_(input_, simulated.scene != nullptr, result_.warnings) {
+        limits_(input_, simulated.scene && limits_act(*simulated.scene, plan.integrator),
+                result_.warnings) {
     Kinematics start(input_.model);
     forward_kinematics(input_.model, input_.state.x, start);
     for (const Wrench& wrench : input_.state.wrenches) wrenches_.emplace_back(wrench, start);
