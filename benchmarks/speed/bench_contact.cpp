@@ -20,7 +20,7 @@ constexpr const char* usage =
   --models       default: all three
   --engines      default: all of this build (--list prints their names)
   --repetitions  of the whole run, default 3; engines take turns every 50 steps
-  --quick        one repetition of the first 100 steps: to see that it runs
+  --quick        one repetition of the first 50 steps: to see that it runs
 
 Example: bench_contact --models pyr55 --engines "twinarm double,bullet"
 Exit codes: 0 done; 2 bad option.
@@ -132,7 +132,7 @@ void repeat(ContactEngines& engines, const ContactScene& scene, std::vector<Row>
 
 std::vector<Row> measure(const Options& options, const std::string& model) {
   ContactScene scene = contact_scene(model);
-  if (options.quick) scene.steps = 2 * turn;
+  if (options.quick) scene.steps = turn;
   ContactEngines engines = all_contact_engines();
   std::erase_if(engines, [&](const auto& engine) {
     return !options.engines.empty() &&
