@@ -20,7 +20,6 @@
 namespace twinarm {
 namespace {
 
-constexpr int no_tree = ImpulseConstraint::no_tree;
 constexpr double poor_step = 0.5, stuck_step = 0.05;
 constexpr int most_iterations = 60, most_stuck = 3;
 
@@ -51,7 +50,7 @@ int ImpulseSolver::approach_centrally(ImpulseProblem& problem, const Island& isl
       for (const int i : island.constraints) kept_[i] = p_[i];
     }
     if (residual <= tolerance) break;
-    assemble(problem, island);
+    assemble(problem, island, false);
     matrix_.factorise(false);
     const double affine = std::min(1.0, direct_centrally(problem, island, 0, false));
     double after = 0;
@@ -115,7 +114,7 @@ double ImpulseSolver::measure_centrally(ImpulseProblem& problem, const Island& i
     if (is_cone(c)) {
       c.p = scaled(c, x_[i]);
       sum += cone_dot(x_[i], z_[i]);
-      const double slip = std::hypot(c.u[1], c.u[2]);
+      const double slip = std::sqrt(c.u[1] * c.u[1] + c.u[2] * c.u[2]);
       const Vec exact = scaled(c, {c.u[0] + shift_of(c, c.u), c.u[1], c.u[2]});
       for (int r = 0; r < 3; ++r) r_z_[i][r] = exact[r] - z_[i][r];
       lift_[i] = {0, 0};

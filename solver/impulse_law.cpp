@@ -8,6 +8,12 @@ namespace {
 
 enum { xx, xy, xz, yx, yy, yz, zx, zy, zz };
 
+// Not std::hypot: these are velocities and impulses, whose squares are far from overflow, and what
+// underflows is at rest.
+double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
+
 // A symmetric 2 x 2 on rows first, first + 1 of D.
 void set_pair(Mat& D, int first, double aa, double ab, double bb) {
   const int at = first * 4;
@@ -17,9 +23,9 @@ void set_pair(Mat& D, int first, double aa, double ab, double bb) {
 // The vector of rows first .. first + count, made no longer than `radius`; D is P' there.
 void clip_to_disc(int first, int count, double radius, Vec& p, Mat& D) {
   const double x = p[first], y = count > 1 ? p[first + 1] : 0;
-  const double length = std::hypot(x, y);
-  if (length <= radius) return set_pair(D, first, 1, 0, count > 1 ? 1 : 0);
-  const double scale = radius / length, dx = x / length, dy = y / length;
+  const double norm = length(x, y);
+  if (norm <= radius) return set_pair(D, first, 1, 0, count > 1 ? 1 : 0);
+  const double scale = radius / norm, dx = x / norm, dy = y / norm;
   p[first] = scale * x;
   if (count > 1) p[first + 1] = scale * y;
   // Slipping: only a turn of the vector changes the answer; in one dimension nothing does.
@@ -29,7 +35,7 @@ void clip_to_disc(int first, int count, double radius, Vec& p, Mat& D) {
 
 // Coulomb's cone |p_t| <= mu p_n, nearest point.
 void project_on_cone(double mu, Vec& p, Mat& D) {
-  const double t = std::hypot(p[1], p[2]);
+  const double t = length(p[1], p[2]);
   D = {};
   if (t <= mu * p[0]) {
     D[xx] = D[yy] = D[zz] = 1;
@@ -92,7 +98,7 @@ Vec shifted(const ImpulseConstraint& c, double shift, const Vec& u) {
 }
 
 double slip(const Vec& u) {
-  return std::hypot(u[1], u[2]);
+  return length(u[1], u[2]);
 }
 
 }  // namespace

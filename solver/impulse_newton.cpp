@@ -2,22 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/impulse_blocks.h"
 #include "solver/impulse_solver.h"
 
 namespace twinarm {
 namespace {
 
 constexpr int no_tree = ImpulseConstraint::no_tree;
-
-// D J, where J is rows x n
-void times(const Mat& D, const double* J, int rows, int n, double* out) {
-  for (int r = 0; r < rows; ++r)
-    for (int k = 0; k < n; ++k) {
-      double sum = 0;
-      for (int s = 0; s < rows; ++s) sum += D[r * 3 + s] * J[s * n + k];
-      out[r * n + k] = sum;
-    }
-}
 
 double dot(const Vec& a, const Vec& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -160,7 +151,7 @@ ImpulseSolver::Gradient ImpulseSolver::balance(const ImpulseProblem& problem,
 // dv_ = -(M + J^T D J)^-1 rhs_
 void ImpulseSolver::find_direction(const ImpulseProblem& problem, const Island& island,
                                    bool symmetric) {
-  assemble(problem, island);
+  assemble(problem, island, symmetric);
   matrix_.factorise(symmetric);
   matrix_.solve(rhs_.data());
   for (const int t : island.trees)
@@ -169,48 +160,55 @@ void ImpulseSolver::find_direction(const ImpulseProblem& problem, const Island& 
           -rhs_[row_[t] + static_cast<std::size_t>(k)];
 }
 
-void ImpulseSolver::assemble(const ImpulseProblem& problem, const Island& island) {
+// M + J^T D J; if symmetric, without what is above the diagonal.
+void ImpulseSolver::assemble(const ImpulseProblem& problem, const Island& island, bool symmetric) {
   matrix_.set_zero();
   for (const int t : island.trees) {
+    const std::size_t at = row_[t];
     const int n = problem.size(t);
     const double* M = problem.M(t);
     for (int r = 0; r < n; ++r)
-      add_row(row_[t] + static_cast<std::size_t>(r), row_[t], M + r * n, n, 1);
+      for (int k = 0; k <= r; ++k) {
+        const std::size_t row = at + static_cast<std::size_t>(r);
+        matrix_.row(row, at)[k] += M[r * n + k];
+        if (!symmetric && k < r) matrix_.column(row, at)[k] += M[r * n + k];
+      }
   }
   for (const int i : island.constraints) {
     const ImpulseConstraint& c = problem.constraints()[i];
     for (int side = 0; side < 2; ++side) {
-      const int t = c.tree[side];
-      if (t == no_tree) continue;
-      const int n = problem.size(t);
+      if (c.tree[side] == no_tree) continue;
+      const int n = problem.size(c.tree[side]);
       DJ_.resize(std::max(DJ_.size(), static_cast<std::size_t>(3 * n)));
-      times(D_[i], problem.J(c, side), c.rows, n, DJ_.data());
-      for (int other = 0; other < 2; ++other) {
-        const int s = c.tree[other];
-        if (s == no_tree) continue;
-        const int m = problem.size(s);
-        const double* J = problem.J(c, other);
-        for (int q = 0; q < c.rows; ++q)
-          for (int r = 0; r < m; ++r)
-            if (J[q * m + r] != 0)
-              add_row(row_[s] + static_cast<std::size_t>(r), row_[t], DJ_.data() + q * n, n,
-                      J[q * m + r]);
-      }
+      with_shape(c.rows, n, [&](auto rows, auto size) {
+        product(D_[i].data(), problem.J(c, side), rows, size, DJ_.data());
+      });
+      for (int other = 0; other < 2; ++other)
+        if (c.tree[other] != no_tree) add_block(problem, c, other, side, symmetric);
     }
   }
 }
 
-// Adds factor * values to the row of the matrix, from the given column on.
-void ImpulseSolver::add_row(std::size_t row, std::size_t column, const double* values, int n,
-                            double factor) {
-  const auto count = static_cast<std::size_t>(n);
-  const std::size_t below = column > row ? 0 : std::min(count, row + 1 - column);
-  if (below > 0) {
-    double* out = matrix_.row(row, column);
-    for (std::size_t k = 0; k < below; ++k) out[k] += factor * values[k];
-  }
-  for (std::size_t k = below; k < count; ++k)
-    *matrix_.column(column + k, row) += factor * values[k];
+// J_s^T (D J)_t, s and t the trees of the two sides; what is above the diagonal lies by columns.
+void ImpulseSolver::add_block(const ImpulseProblem& problem, const ImpulseConstraint& c, int side_s,
+                              int side_t, bool symmetric) {
+  const int s = c.tree[side_s], t = c.tree[side_t];
+  const std::size_t row = row_[s], column = row_[t];
+  if (symmetric && row < column) return;
+  const double *J = problem.J(c, side_s), *DJ = DJ_.data();
+  const auto place = [](std::size_t from, int k) { return from + static_cast<std::size_t>(k); };
+  const auto below = [&](int k) { return matrix_.row(place(row, k), column); };
+  const auto above = [&](int k) { return matrix_.column(place(column, k), row); };
+  with_shapes(c.rows, problem.size(s), problem.size(t), [&](auto rows, auto m, auto n) {
+    if (row > column) {
+      add_product_rows(J, m, DJ, n, rows, below, [&](int) { return n; });
+    } else if (row < column) {
+      add_product_rows(DJ, n, J, m, rows, above, [&](int) { return m; });
+    } else {
+      add_product_rows(J, m, DJ, n, rows, below, [](int r) { return r + 1; });
+      if (!symmetric) add_product_rows(DJ, n, J, m, rows, above, [](int k) { return k; });
+    }
+  });
 }
 
 // Where the slope along dv is zero, near enough; the slope only rises.

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "solver/impulse_blocks.h"
+
 namespace twinarm {
 
 void ImpulseProblem::clear() {
@@ -27,11 +29,13 @@ ImpulseConstraint& ImpulseProblem::add(ImpulseLaw law, int rows, int tree_a, int
   c.law = law;
   c.rows = rows;
   c.tree = {tree_a, tree_b};
+  std::size_t end = J_.size();
   for (int side = 0; side < 2; ++side) {
-    c.J[side] = J_.size();
+    c.J[side] = end;
     if (c.tree[side] != ImpulseConstraint::no_tree)
-      J_.resize(J_.size() + static_cast<std::size_t>(rows * size_[c.tree[side]]), 0.0);
+      end += static_cast<std::size_t>(rows * size_[c.tree[side]]);
   }
+  J_.resize(end, 0.0);
   return c;
 }
 
@@ -41,11 +45,9 @@ void ImpulseProblem::velocity(const ImpulseConstraint& c, const double* v,
   for (int side = 0; side < 2; ++side) {
     const int tree = c.tree[side];
     if (tree == ImpulseConstraint::no_tree) continue;
-    const int n = size_[tree];
-    const double* J_side = J(c, side);
     const double* v_tree = v + first_[tree];
-    for (int r = 0; r < c.rows; ++r)
-      for (int k = 0; k < n; ++k) u[r] += J_side[r * n + k] * v_tree[k];
+    with_shape(c.rows, size_[tree],
+               [&](auto rows, auto n) { add_product(J(c, side), rows, n, v_tree, u.data()); });
   }
 }
 
@@ -54,11 +56,10 @@ void ImpulseProblem::add_transpose(const ImpulseConstraint& c, const std::array<
   for (int side = 0; side < 2; ++side) {
     const int tree = c.tree[side];
     if (tree == ImpulseConstraint::no_tree) continue;
-    const int n = size_[tree];
-    const double* J_side = J(c, side);
     double* f_tree = f + first_[tree];
-    for (int r = 0; r < c.rows; ++r)
-      for (int k = 0; k < n; ++k) f_tree[k] += J_side[r * n + k] * p[r];
+    with_shape(c.rows, size_[tree], [&](auto rows, auto n) {
+      add_transposed_product(J(c, side), rows, n, p.data(), f_tree);
+    });
   }
 }
 

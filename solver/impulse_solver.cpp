@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "solver/impulse_blocks.h"
+
 namespace twinarm {
 namespace {
 
@@ -60,30 +62,14 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
 
 void ImpulseSolver::factorise_trees(const ImpulseProblem& problem) {
   factors_.resize(problem.blocks_size());
-  for (int t = 0; t < problem.tree_count(); ++t) {
-    const int n = problem.size(t);
-    const double* A = problem.M(t);
-    double* L = factors_.data() + problem.block(t);
-    for (int r = 0; r < n; ++r)
-      for (int j = 0; j <= r; ++j) {
-        double rest = A[r * n + j];
-        for (int k = 0; k < j; ++k) rest -= L[r * n + k] * L[j * n + k];
-        L[r * n + j] = j < r ? rest * L[j * n + j] : 1 / std::sqrt(rest);
-      }
-  }
+  for (int t = 0; t < problem.tree_count(); ++t)
+    with_size(problem.size(t),
+              [&](auto n) { cholesky(problem.M(t), n, factors_.data() + problem.block(t)); });
 }
 
 void ImpulseSolver::solve_tree(const ImpulseProblem& problem, int tree, double* f) const {
-  const int n = problem.size(tree);
-  const double* L = factors_.data() + problem.block(tree);
-  for (int r = 0; r < n; ++r) {
-    for (int k = 0; k < r; ++k) f[r] -= L[r * n + k] * f[k];
-    f[r] *= L[r * n + r];
-  }
-  for (int r = n; r-- > 0;) {
-    f[r] *= L[r * n + r];
-    for (int k = 0; k < r; ++k) f[k] -= L[r * n + k] * f[r];
-  }
+  with_size(problem.size(tree),
+            [&](auto n) { solve_cholesky(factors_.data() + problem.block(tree), n, f); });
 }
 
 // Union by constraints; islands in the order of their first tree, members ascending.

@@ -62,8 +62,9 @@ class ImpulseSolver {
   Gradient gradient(ImpulseProblem& problem, const Island& island, Shift shift);
   Gradient balance(const ImpulseProblem& problem, const Island& island);
   void find_direction(const ImpulseProblem& problem, const Island& island, bool symmetric);
-  void assemble(const ImpulseProblem& problem, const Island& island);
-  void add_row(std::size_t row, std::size_t column, const double* values, int n, double factor);
+  void assemble(const ImpulseProblem& problem, const Island& island, bool symmetric);
+  void add_block(const ImpulseProblem& problem, const ImpulseConstraint& c, int side_s, int side_t,
+                 bool symmetric);
   void move(ImpulseProblem& problem, const Island& island, double step);
   int approach_centrally(ImpulseProblem& problem, const Island& island, double least_centering);
   void begin_centrally(ImpulseProblem& problem, const Island& island);

@@ -11,7 +11,8 @@ Kinematics::Kinematics(const Model<double>& model)
       R_WB(model.parent.size(), Matrix3::Identity()),
       a_bias(model.parent.size()),
       v_(model.parent.size()),
-      subspace_(Workspace<double>(model).S_) {}
+      subspace_(Workspace<double>(model).S_),
+      columns_(model.nv, {Vector3::Zero(), Vector3::Zero()}) {}
 
 Vector3 Kinematics::position(int body, const Vector3& p_L) const {
   return X_WL[static_cast<std::size_t>(body)] * p_L;
@@ -40,6 +41,11 @@ void forward_kinematics(const Model<double>& model, const State<double>& x, Kine
       k.X_WL[i].R = k.R_WB[i] * to_eigen(model.turn[i]);
       k.w_WL[i] = k.R_WB[i] * to_eigen(k.v_[i].w);
       k.v_WLo[i] = k.R_WB[i] * to_eigen(k.v_[i].v);
+      for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof) {
+        const Motion<double>& s = k.subspace_[dof];
+        k.columns_[dof] = {k.R_WB[i].lazyProduct(to_eigen(s.w)),
+                           k.R_WB[i].lazyProduct(to_eigen(s.v))};
+      }
     });
   }
 }

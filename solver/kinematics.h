@@ -30,6 +30,10 @@ struct Kinematics {
   friend void for_each_dof_below(const Model<double>&, const Kinematics&, int, F&&);
   std::vector<Motion<double>> v_;         // spatial velocities, body axes
   std::vector<Motion<double>> subspace_;  // columns of S by velocity, body axes
+  struct Column {
+    Vector3 w, v;
+  };
+  std::vector<Column> columns_;  // the same in world axes: contacts ask for them many times
 };
 
 // Fills all of k, in O(n).
@@ -58,10 +62,8 @@ template <class F>
 void for_each_dof_below(const Model<double>& model, const Kinematics& k, int body, F&& f) {
   for (int b = body; b > 0; b = model.parent[static_cast<std::size_t>(b)]) {
     const auto i = static_cast<std::size_t>(b);
-    for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof) {
-      const Motion<double>& s = k.subspace_[dof];
-      f(dof, Vector3(k.R_WB[i] * to_eigen(s.w)), Vector3(k.R_WB[i] * to_eigen(s.v)), k.X_WL[i].p);
-    }
+    for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof)
+      f(dof, k.columns_[dof].w, k.columns_[dof].v, k.X_WL[i].p);
   }
 }
 

@@ -14,7 +14,7 @@ using ConeMat = std::array<double, 9>;  // row by row
 
 // x_0^2 - |x_1|^2, without the cancellation near the boundary.
 inline double cone_det(const ConeVec& x) {
-  const double t = std::hypot(x[1], x[2]);
+  const double t = std::sqrt(x[1] * x[1] + x[2] * x[2]);
   return (x[0] - t) * (x[0] + t);
 }
 inline double cone_dot(const ConeVec& x, const ConeVec& y) {

@@ -28,8 +28,7 @@ inline constexpr std::array<NamedAlgorithm, 5> algorithms = {{{Algorithm::forwar
                                                               {Algorithm::kinematics, "fk"},
                                                               {Algorithm::step, "step"}}};
 
-inline constexpr double step_length = 1e-3;       // [s]
-inline constexpr double standard_gravity = 9.81;  // [m/s^2], along -z of the world
+inline constexpr double step_length = 1e-3;  // [s]
 
 // Written so that what is timed is the algorithm and the handing over of q, v, tau in the engine's
 // own coordinates, which a user of the engine pays as well; the conversion into them is not timed.

@@ -12,6 +12,8 @@ namespace twinarm::speed {
 using Numbers3 = std::array<double, 3>;
 using Numbers9 = std::array<double, 9>;  // a 3x3 matrix, row by row
 
+inline constexpr double standard_gravity = 9.81;  // [m/s^2], along -z of the world
+
 // A rigid link on a revolute joint, or, where the mechanism floats and it is the first, a free one.
 struct Link {
   int parent;         // index of another link, before this one; -1: the world

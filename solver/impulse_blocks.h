@@ -1,0 +1,112 @@
+// Products with the blocks of impulse_problem.h. A contact has three rows and a free body six
+// velocities; where the compiler knows both numbers, it unrolls the loops and needs half the time
+// or less. All other shapes run through the same text with numbers that are known at run time; sums
+// are taken in the same order.
+#pragma once
+
+#include <cmath>
+#include <type_traits>
+
+namespace twinarm {
+
+// f(n), with n a constant where it is that of a free body.
+template <class F>
+void with_size(int n, F&& f) {
+  if (n == 6)
+    f(std::integral_constant<int, 6>{});
+  else
+    f(n);
+}
+
+// f(rows, n), both constants where it is a contact of a free body.
+template <class F>
+void with_shape(int rows, int n, F&& f) {
+  if (rows == 3 && n == 6)
+    f(std::integral_constant<int, 3>{}, std::integral_constant<int, 6>{});
+  else
+    f(rows, n);
+}
+
+// f(rows, m, n): all constants where it is a contact of two free bodies.
+template <class F>
+void with_shapes(int rows, int m, int n, F&& f) {
+  if (rows == 3 && m == 6 && n == 6)
+    f(std::integral_constant<int, 3>{}, std::integral_constant<int, 6>{},
+      std::integral_constant<int, 6>{});
+  else
+    f(rows, m, n);
+}
+
+// D J, where D is the upper left of a 3 x 3 matrix.
+template <class Rows, class N>
+inline void product(const double* __restrict D, const double* __restrict J, Rows rows, N n,
+                    double* __restrict out) {
+  for (int r = 0; r < rows; ++r)
+    for (int k = 0; k < n; ++k) {
+      double sum = 0;
+      for (int s = 0; s < rows; ++s) sum += D[r * 3 + s] * J[s * n + k];
+      out[r * n + k] = sum;
+    }
+}
+
+// The first width(r) entries of row r of A^T B, of each r < m, are added to what is at to(r).
+// A is rows x m, B is rows x n.
+template <class Rows, class M, class N, class To, class Width>
+inline void add_product_rows(const double* __restrict A, M m, const double* __restrict B, N n,
+                             Rows rows, To&& to, Width&& width) {
+  for (int r = 0; r < m; ++r) {
+    double* __restrict out = to(r);
+    const int w = width(r);
+    for (int k = 0; k < w; ++k) {
+      double sum = 0;
+      for (int q = 0; q < rows; ++q) sum += A[q * m + r] * B[q * n + k];
+      out[k] += sum;
+    }
+  }
+}
+
+// u += J v
+template <class Rows, class N>
+inline void add_product(const double* J, Rows rows, N n, const double* v, double* u) {
+  double sum[3] = {};
+  for (int k = 0; k < n; ++k)
+    for (int r = 0; r < rows; ++r) sum[r] += J[r * n + k] * v[k];
+  for (int r = 0; r < rows; ++r) u[r] += sum[r];
+}
+
+// f += J^T p
+template <class Rows, class N>
+inline void add_transposed_product(const double* __restrict J, Rows rows, N n, const double* p,
+                                   double* __restrict f) {
+  for (int k = 0; k < n; ++k) {
+    double sum = 0;
+    for (int r = 0; r < rows; ++r) sum += J[r * n + k] * p[r];
+    f[k] += sum;
+  }
+}
+
+// b to (L L^T)^-1 b, with 1 / l_rr on the diagonal.
+template <class N>
+inline void solve_cholesky(const double* __restrict L, N n, double* __restrict b) {
+  for (int r = 0; r < n; ++r) {
+    for (int k = 0; k < r; ++k) b[r] -= L[r * n + k] * b[k];
+    b[r] *= L[r * n + r];
+  }
+  for (int r = n; r-- > 0;) {
+    b[r] *= L[r * n + r];
+    for (int k = 0; k < r; ++k) b[k] -= L[r * n + k] * b[r];
+  }
+}
+
+// L of the symmetric A, with 1 / l_rr on the diagonal.
+template <class N>
+inline void cholesky(const double* __restrict A, N n, double* __restrict L) {
+  for (int r = 0; r < n; ++r)
+    for (int j = 0; j <= r; ++j) {
+      double rest = A[r * n + j];
+      for (int k = 0; k < j; ++k) rest -= L[r * n + k] * L[j * n + k];
+      L[r * n + j] = j < r ? rest * L[j * n + j] : 1 / std::sqrt(rest);
+    }
+}
+
+}  // namespace twinarm
