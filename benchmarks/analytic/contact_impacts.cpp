@@ -28,32 +28,38 @@ constexpr std::array kSpeeds = {4.42944691807002, 3.543557534456016, 2.834846027
                                 2.26787682205185, 1.81430145764148};
 
 // An impact lies at the end of the step that reverses the velocity.
-CaseResult bounce_times() {
+double time_error(double h) {
   ContactScene scene;
   const int ball = add_falling_ball(scene, 0.8);
   double error = 0;
   std::size_t impacts = 0;
   for (double before = 0; impacts < kTimes.size() && scene.t() < kZeno;) {
-    scene.step(kStep);
+    scene.step(h);
     const double now = scene.v(ball).z();
     if (before < 0 && now > 0) error = std::max(error, std::abs(scene.t() - kTimes[impacts++]));
     before = now;
   }
-  return {impacts == kTimes.size() ? error : NAN};
+  return impacts == kTimes.size() ? error : NAN;
+}
+CaseResult bounce_times() {
+  return with_order(time_error, kStep);
 }
 
-CaseResult bounce_speeds() {
+double speed_error(double h) {
   ContactScene scene;
   const int ball = add_falling_ball(scene, 0.8);
   double error = 0;
   std::size_t impacts = 0;
   for (double before = 0; impacts < kSpeeds.size() && scene.t() < kZeno;) {
-    scene.step(kStep);
+    scene.step(h);
     const double now = scene.v(ball).z();
     if (before < 0 && now > 0) error = std::max(error, relative(-before, kSpeeds[impacts++]));
     before = now;
   }
-  return {impacts == kSpeeds.size() ? error : NAN};
+  return impacts == kSpeeds.size() ? error : NAN;
+}
+CaseResult bounce_speeds() {
+  return with_order(speed_error, kStep);
 }
 
 CaseResult rest_after_bounces() {

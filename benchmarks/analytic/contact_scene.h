@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "benchmarks/analytic/analytic_case.h"
 #include "collision/contact_constraints.h"
 #include "solver/model_builder.h"
 #include "solver/simulation.h"
@@ -108,6 +109,12 @@ double threshold(double low, double high, double within, Outcome&& outcome) {
     (outcome(middle) ? high : low) = middle;
   }
   return 0.5 * (low + high);
+}
+
+// A case whose error falls with the step: its error at h, and the order from h to h / 4.
+inline CaseResult with_order(double (*error)(double h), double h) {
+  const double coarse = error(h), fine = error(h / 4);
+  return {coarse, {}, std::log(coarse / fine) / std::log(4)};
 }
 
 inline double relative(double value, double reference) {

@@ -103,7 +103,7 @@ CaseResult curb_speed() {
 
 // Housner: leaning by 0.1 rad it falls back, and goes on about the other edge. What is left of the
 // energy of the turn is what lifts it: m g R (cos(alpha - lean) - cos alpha), before and after.
-CaseResult rocking() {
+double rocking_error(double h) {
   constexpr double kLean = 0.1;
   ContactScene scene;
   scene.add_floor(surface(1));
@@ -114,12 +114,15 @@ CaseResult rocking() {
   scene.start();
   double back = 0;  // the furthest lean to the other side
   while (scene.t() < 0.3) {
-    scene.step(kStep);
+    scene.step(h);
     back = std::max(back, -scene.R(number)(0, 2));
   }
   const double alpha = std::atan(kWidth / kHeight);
   const auto lift = [&](double lean) { return std::cos(alpha - lean) - std::cos(alpha); };
-  return {relative(lift(std::asin(back)) / lift(kLean), 0.629013079667063)};
+  return relative(lift(std::asin(back)) / lift(kLean), 0.629013079667063);
+}
+CaseResult rocking() {
+  return with_order(rocking_error, kStep);
 }
 
 }  // namespace
