@@ -86,7 +86,7 @@ CaseResult bounce_energy() {
 
 CaseResult two_balls() {
   ContactScene scene(Vector3::Zero());
-  const Surface s = surface(0, std::sqrt(0.6));
+  const ContactSurface s = surface(0, std::sqrt(0.6));
   const int a = scene.add({Sphere{kRadius}, s, 1, {0, 0, 0}, {2, 0, 0}});
   const int b = scene.add({Sphere{kRadius}, s, 3, {0.25, 0, 0}});
   scene.start();
@@ -101,7 +101,7 @@ struct Row {
 // Newton's cradle of five, the first one at 1 m/s.
 Row cradle(double restitution, double gap) {
   ContactScene scene(Vector3::Zero());
-  const Surface s = surface(0, std::sqrt(restitution));
+  const ContactSurface s = surface(0, std::sqrt(restitution));
   for (int i = 0; i < 5; ++i)
     scene.add({Sphere{kRadius}, s, 1, {i * (2 * kRadius + gap), 0, 0}, {i == 0 ? 1.0 : 0.0, 0, 0}});
   scene.start();

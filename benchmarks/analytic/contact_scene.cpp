@@ -20,12 +20,12 @@ int ContactScene::add(const Body& body) {
   return count_;
 }
 
-void ContactScene::add_fixed(const Shape& shape, const Surface& surface, const Pose& X_WG) {
+void ContactScene::add_fixed(const Shape& shape, const ContactSurface& surface, const Pose& X_WG) {
   fixed_.push_back({shape, surface, X_WG, 0});
 }
 
 // About the z axis of its frame.
-void ContactScene::add_turning(const Shape& shape, const Surface& surface, const Pose& X_WG,
+void ContactScene::add_turning(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
                                double rate) {
   const std::string name = std::to_string(++count_);
   builder_.add_body(name, 0, "joint " + name, JointType::prescribed, {}, Vector3::UnitZ(), {});

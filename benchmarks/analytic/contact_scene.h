@@ -22,8 +22,8 @@ inline Vector3 tilted_gravity(double angle) {
 inline Matrix3 turn_about(const Vector3& axis, double angle) {
   return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
 }
-inline Surface surface(double friction, double restitution = 0) {
-  Surface s;
+inline ContactSurface surface(double friction, double restitution = 0) {
+  ContactSurface s;
   s.friction = friction, s.restitution = restitution;
   return s;
 }
@@ -34,7 +34,7 @@ class ContactScene {
  public:
   struct Body {
     Shape shape;
-    Surface surface{};
+    ContactSurface surface{};
     double mass = 1;
     Vector3 p = Vector3::Zero();  // of the centre of mass [m]
     Vector3 v = Vector3::Zero();  // of it [m/s]
@@ -50,9 +50,10 @@ class ContactScene {
   ContactScene& operator=(const ContactScene&) = delete;
 
   int add(const Body& body);
-  void add_fixed(const Shape& shape, const Surface& surface, const Pose& X_WG = {});
-  void add_floor(const Surface& surface) { add_fixed(HalfSpace{}, surface); }
-  void add_turning(const Shape& shape, const Surface& surface, const Pose& X_WG, double rate);
+  void add_fixed(const Shape& shape, const ContactSurface& surface, const Pose& X_WG = {});
+  void add_floor(const ContactSurface& surface) { add_fixed(HalfSpace{}, surface); }
+  void add_turning(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
+                   double rate);
   void start();
 
   bool step(double h);  // false where it was not finite or not solved
@@ -80,7 +81,7 @@ class ContactScene {
 
   struct Fixed {
     Shape shape;
-    Surface surface;
+    ContactSurface surface;
     Pose X_WG;
     int body;  // 0, or the turning one
   };
