@@ -112,10 +112,14 @@ double threshold(double low, double high, double within, Outcome&& outcome) {
   return 0.5 * (low + high);
 }
 
-// A case whose error falls with the step: its error at h, and the order from h to h / 4.
+// A case whose error falls with the step: its error at h, and the order from h to h / 4 where the
+// error is more than rounding.
 inline CaseResult with_order(double (*error)(double h), double h) {
-  const double coarse = error(h), fine = error(h / 4);
-  return {coarse, {}, std::log(coarse / fine) / std::log(4)};
+  constexpr double kRounding = 1e-9;
+  CaseResult result{error(h)};
+  const double fine = error(h / 4);
+  if (fine > kRounding) result.order = std::log(result.error / fine) / std::log(4);
+  return result;
 }
 
 inline double relative(double value, double reference) {
