@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/dynamics/robot_input.h"
 #include "app/find_assets.h"
@@ -38,5 +39,12 @@ struct DynamicsOptions {
 int run_dynamics(const DynamicsOptions& options);
 
 int run_simulate(const SimulateOptions& options);
+
+struct CompareOptions {
+  std::vector<std::string> cases;
+  std::string group;
+  bool json = false;
+};
+int run_compare(const CompareOptions& options);  // 1 where a case falls short
 
 }  // namespace twinarm

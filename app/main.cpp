@@ -125,6 +125,17 @@ void add_simulate(CLI::App& app, SimulateOptions& options, std::function<int()>&
   simulate->callback([&] { command = [&] { return run_simulate(options); }; });
 }
 
+void add_compare(CLI::App& app, CompareOptions& options, std::function<int()>& command) {
+  CLI::App* compare =
+      app.add_subcommand("compare",
+                         "Run cases whose outcome is known, and tell how far off this solver is\n\n"
+                         "Example:  twinarm compare E1 E2-creep --group loops");
+  compare->add_option("case", options.cases, "names; E1 also means all of E1-..; all if not given");
+  compare->add_option("--group", options.group, "all cases of contact, or of loops");
+  compare->add_flag("--json", options.json, "print one JSON object on stdout");
+  compare->callback([&] { command = [&] { return run_compare(options); }; });
+}
+
 // The first word, where it is meant to be a command and is none.
 void check_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
@@ -142,12 +153,14 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   DynamicsOptions dynamics;
   SimulateOptions simulate;
+  CompareOptions compare;
   StudyOptions study;
   TraceOptions trace;
   std::string recipe;
   std::function<int()> command;
   add_dynamics(app, dynamics, command);
   add_simulate(app, simulate, command);
+  add_compare(app, compare, command);
   add_study(app, study, command);
   add_make_robot(app, recipe, command);
   add_trace(app, trace, command);

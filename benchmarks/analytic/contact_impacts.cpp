@@ -1,0 +1,204 @@
+// Impacts: the bouncing ball (E1), balls in a row (E6), an oblique impact with friction (E16).
+//
+// Newton's law of impact, for all bodies that touch at once; balls with gaps hit one after another.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "benchmarks/analytic/contact_cases.h"
+#include "benchmarks/analytic/contact_scene.h"
+
+namespace twinarm::contact_cases {
+namespace {
+
+constexpr double kStep = 1e-3, kRadius = 0.1;
+constexpr double kZeno = 4.063712768871578;  // t1 (1 + e) / (1 - e)
+
+// A ball that falls from 1 m onto the floor.
+int add_falling_ball(ContactScene& scene, double restitution) {
+  scene.add_floor(surface(0, restitution));
+  const int ball = scene.add({Sphere{kRadius}, surface(0, 1), 1, {0, 0, 1 + kRadius}});
+  scene.start();
+  return ball;
+}
+
+constexpr std::array kTimes = {0.4515236409857309, 1.1739614665629,   1.751911727024636,
+                               2.214271935394024,  2.584160102089535, 2.880070635445944};
+constexpr std::array kSpeeds = {4.42944691807002, 3.543557534456016, 2.834846027564813,
+                                2.26787682205185, 1.81430145764148};
+
+// When and how fast the ball reaches the floor: from where it stands before the step that turns it
+// round, in free fall.
+struct Bounces {
+  double time_error = NAN, speed_error = NAN;
+};
+Bounces bounce(double h) {
+  ContactScene scene;
+  const int ball = add_falling_ball(scene, 0.8);
+  Bounces errors{0, 0};
+  std::size_t impacts = 0;
+  while (impacts < kTimes.size() && scene.t() < kZeno) {
+    const double t = scene.t(), v = scene.v(ball).z(), gap = scene.p(ball).z() - kRadius;
+    scene.step(h);
+    if (v >= 0 || scene.v(ball).z() <= 0) continue;
+    const double speed = std::sqrt(v * v + 2 * kGravity * std::max(0.0, gap));
+    const double time = t + (speed + v) / kGravity;
+    errors.time_error = std::max(errors.time_error, std::abs(time - kTimes[impacts]));
+    if (impacts < kSpeeds.size())
+      errors.speed_error = std::max(errors.speed_error, relative(speed, kSpeeds[impacts]));
+    ++impacts;
+  }
+  return impacts == kTimes.size() ? errors : Bounces{};
+}
+CaseResult bounce_times() {
+  return with_order([](double h) { return bounce(h).time_error; }, kStep);
+}
+CaseResult bounce_speeds() {
+  return with_order([](double h) { return bounce(h).speed_error; }, kStep);
+}
+
+CaseResult rest_after_bounces() {
+  ContactScene scene;
+  const int ball = add_falling_ball(scene, 0.8);
+  double fastest = 0;
+  while (scene.t() < 6) {
+    scene.step(kStep);
+    if (scene.t() > kZeno) fastest = std::max(fastest, scene.v(ball).norm());
+  }
+  return {fastest};
+}
+
+CaseResult bounce_energy() {
+  double rise = 0;
+  for (const double e : {0.0, 0.3, 0.5, 0.8, 0.95, 1.0}) {
+    ContactScene scene;
+    add_falling_ball(scene, e);
+    scene.run(5, kStep);
+    rise = std::max(rise, scene.rise());
+  }
+  return {rise};
+}
+
+CaseResult two_balls() {
+  ContactScene scene(Vector3::Zero());
+  const ContactSurface s = surface(0, std::sqrt(0.6));
+  const int a = scene.add({Sphere{kRadius}, s, 1, {0, 0, 0}, {2, 0, 0}});
+  const int b = scene.add({Sphere{kRadius}, s, 3, {0.25, 0, 0}});
+  scene.start();
+  scene.run(0.2, kStep);
+  return {std::max(relative(scene.v(a).x(), -0.4), relative(scene.v(b).x(), 0.8))};
+}
+
+struct Row {
+  std::array<double, 5> v{};  // after all impacts
+  double momentum = 0, rise = 0;
+};
+// Newton's cradle of five, the first one at 1 m/s.
+Row cradle(double restitution, double gap) {
+  ContactScene scene(Vector3::Zero());
+  const ContactSurface s = surface(0, std::sqrt(restitution));
+  for (int i = 0; i < 5; ++i)
+    scene.add({Sphere{kRadius}, s, 1, {i * (2 * kRadius + gap), 0, 0}, {i == 0 ? 1.0 : 0.0, 0, 0}});
+  scene.start();
+  Row row;
+  for (int n = 0; n < 500; ++n) {
+    scene.step(kStep);
+    double sum = 0;
+    for (int i = 0; i < 5; ++i) sum += scene.v(i + 1).x();
+    row.momentum = std::max(row.momentum, std::abs(sum - 1));
+  }
+  for (int i = 0; i < 5; ++i) row.v[static_cast<std::size_t>(i)] = scene.v(i + 1).x();
+  row.rise = scene.rise();
+  return row;
+}
+CaseResult cradle_elastic() {
+  double error = 0;
+  for (const double gap : {1e-4, 1e-3}) {
+    const Row row = cradle(1, gap);
+    for (std::size_t i = 0; i < 5; ++i)
+      error = std::max(error, std::abs(row.v[i] - (i == 4 ? 1 : 0)));
+  }
+  return {error};
+}
+CaseResult cradle_lossy() {
+  return {relative(cradle(0.9, 1e-3).v[4], 0.81450625)};
+}
+CaseResult cradle_momentum() {
+  double error = 0;
+  for (const double e : {0.0, 0.5, 0.9, 1.0})
+    for (const double gap : {0.0, 1e-4, 1e-3}) error = std::max(error, cradle(e, gap).momentum);
+  return {error};
+}
+CaseResult cradle_energy() {
+  double error = 0;
+  for (const double e : {0.0, 0.5, 0.9, 1.0})
+    for (const double gap : {0.0, 1e-4, 1e-3}) error = std::max(error, cradle(e, gap).rise);
+  return {error};
+}
+// Three balls that touch from the start, all in one impact: (-1/3, 2/3, 2/3).
+CaseResult touching_balls() {
+  ContactScene scene(Vector3::Zero());
+  for (int i = 0; i < 3; ++i)
+    scene.add(
+        {Sphere{kRadius}, surface(0, 1), 1, {i * 2 * kRadius, 0, 0}, {i == 0 ? 1.0 : 0.0, 0, 0}});
+  scene.start();
+  scene.run(0.1, kStep);
+  return {std::max({relative(scene.v(1).x(), -1 / 3.0), relative(scene.v(2).x(), 2 / 3.0),
+                    relative(scene.v(3).x(), 2 / 3.0)})};
+}
+
+// A sphere at (2, -3) m/s, e = 0.8: below mu = 0.1058 it slips throughout, else it ends rolling.
+// T0 from where it touches; with a flight before the error is that of the step.
+CaseResult oblique_from(double gap) {
+  double error = 0;
+  for (const double mu : {0.05, 0.2}) {
+    ContactScene scene(Vector3::Zero());
+    scene.add_floor(surface(mu, 0.8));
+    const int ball =
+        scene.add({Sphere{kRadius}, surface(mu, 1), 1, {0, 0, kRadius + gap}, {2, 0, -3}});
+    scene.start();
+    scene.run(0.1, kStep);
+    const double vt = mu == 0.05 ? 1.73 : 10 / 7.0, rim = mu == 0.05 ? 0.675 : 10 / 7.0;
+    error = std::max({error, relative(scene.v(ball).x(), vt), relative(scene.v(ball).z(), 2.4),
+                      relative(kRadius * scene.w(ball).y(), rim)});
+  }
+  return {error};
+}
+CaseResult oblique() {
+  return oblique_from(0);
+}
+CaseResult oblique_flight() {
+  return oblique_from(0.1);
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> impacts() {
+  const char* group = "contact";
+  return {
+      {"E1-times", group, "ball from 1 m, e = 0.8: times of six impacts [s]; closed form", kStep,
+       bounce_times},
+      {"E1-speeds", group, "speeds before five impacts [relative]; closed form", 1e-3,
+       bounce_speeds},
+      {"E1-rest", group, "after the last impact at 4.0637 s the ball rests [m/s]", 1e-6,
+       rest_after_bounces},
+      {"E1-energy", group, "energy rises for no e from 0 to 1 [of the kinetic]", 1e-12,
+       bounce_energy},
+      {"E6-two", group, "1 and 3 kg, 2 m/s, e = 0.6: -0.4 and 0.8 m/s [relative]", 1e-3, two_balls},
+      {"E6-cradle", group, "five balls with gaps, e = 1: the last one leaves [m/s]", 1e-3,
+       cradle_elastic},
+      {"E6-lossy", group, "the same, e = 0.9: last ball ((1 + e)/2)^4 [relative]", 1e-3,
+       cradle_lossy},
+      {"E6-touching", group, "three touching balls, e = 1: -1/3, 2/3, 2/3 [relative]", 1e-3,
+       touching_balls},
+      {"E6-momentum", group, "momentum of all cradles [of the first ball's]", 1e-12,
+       cradle_momentum},
+      {"E6-energy", group, "energy of all cradles never grows [of the kinetic]", 1e-12,
+       cradle_energy},
+      {"E16", group, "oblique impact of a sphere, slipping and sticking [relative]", 1e-12,
+       oblique},
+      {"E16-flight", group, "the same, coming from 0.1 m above [relative]", 1e-3, oblique_flight},
+  };
+}
+
+}  // namespace twinarm::contact_cases

@@ -1,0 +1,94 @@
+// Painleve's rod (E7): a uniform rod of 1 m slides on its lower end, which leads. From mu = (k^2 +
+// cos^2) / (sin cos), k^2 = 1/3, the normal force would have to pull: no force does it, only an
+// impulse.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "benchmarks/analytic/contact_cases.h"
+#include "benchmarks/analytic/contact_scene.h"
+#include "solver/dynamics.h"
+
+namespace twinarm::contact_cases {
+namespace {
+
+constexpr double kStep = 1e-3, kLength = 1, kRadius = 1e-3;
+constexpr double kSteep = 1.107148717794090;  // cos^2 = 1/5 [rad]
+
+// From the lower end up: (cos, 0, sin). It moves along -x.
+int add_rod(ContactScene& scene, double angle, double mu, double speed) {
+  scene.add_floor(surface(mu));
+  const Vector3 up(std::cos(angle), 0, std::sin(angle));
+  ContactScene::Body rod{Capsule{kRadius, kLength}, surface(mu), 1};
+  rod.R = turn_about(Vector3::UnitY(), std::numbers::pi / 2 - angle);
+  rod.p = 0.5 * kLength * up + Vector3(0, 0, kRadius);
+  rod.v = {-speed, 0, 0};
+  rod.inertia = Vector3(1 / 12.0, 1 / 12.0, 1e-6).asDiagonal();
+  const int body = scene.add(rod);
+  scene.start();
+  return body;
+}
+
+// Where n . J M^-1 J^T (n + mu x) changes its sign, by this solver's Jacobian and mass matrix.
+double critical_friction(double angle) {
+  ContactScene scene;
+  const int rod = add_rod(scene, angle, 0, 0);
+  const Model<double>& model = scene.model();
+  const State<double>& x = scene.simulation().state();
+  Workspace<double> w(model);
+  crba(model, x, w);
+  const auto nv = static_cast<Eigen::Index>(model.nv);
+  const Eigen::MatrixXd M = Eigen::Map<const Eigen::MatrixXd>(w.M.data(), nv, nv);
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  const Vector3 end = k.X_WL[static_cast<std::size_t>(rod)] * Vector3(0, 0, -0.5 * kLength);
+  const Eigen::MatrixXd J = point_jacobian(model, k, rod, end);
+  const Eigen::Matrix3d A = J * M.ldlt().solve(J.transpose());
+  return -A(2, 2) / A(2, 0);
+}
+CaseResult threshold_of_sign() {
+  constexpr std::array angles{std::numbers::pi / 3, kSteep};
+  constexpr std::array critical{1.347150628109127, 4 / 3.0};
+  double error = 0;
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    error = std::max(error, relative(critical_friction(angles[i]), critical[i]));
+  return {error};
+}
+
+// For each mu: every step is finite and solved, energy does not rise, the end does not sink; below
+// the critical mu it slides on smoothly.
+CaseResult slides_or_jams() {
+  int broken = 0;
+  for (const double mu : {0.3, 0.8, 1.2, 1.3, 1.4, 2.0, 5.0}) {
+    ContactScene scene;
+    const int rod = add_rod(scene, kSteep, mu, 2);
+    double lowest = 0;
+    for (int n = 0; n < 1000; ++n) {
+      const double before = scene.v(rod).x();
+      broken += !scene.step(kStep);
+      if (n < 20 && mu < 4 / 3.0) broken += std::abs(scene.v(rod).x() - before) > 0.5;
+      const Vector3 axis = scene.R(rod).col(2);
+      lowest = std::min(lowest, scene.p(rod).z() - 0.5 * kLength * std::abs(axis.z()) - kRadius);
+    }
+    broken += lowest < -1e-4;
+    broken += scene.rise() > 1e-9;
+    broken += !std::isfinite(scene.energy());
+  }
+  return {static_cast<double>(broken)};
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> painleve() {
+  const char* group = "contact";
+  return {
+      {"E7-sign", group, "Painleve's rod: mu where the normal force changes sign [relative]", 1e-12,
+       threshold_of_sign},
+      {"E7-rod", group, "sliding on both sides of it: finite, solved, losing energy [faults]", 0,
+       slides_or_jams},
+  };
+}
+
+}  // namespace twinarm::contact_cases

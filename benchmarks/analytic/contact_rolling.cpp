@@ -1,0 +1,204 @@
+// Rolling: sphere, disc and hoop on an incline of 20 degrees (E4); in a bowl, in a trough, on a
+// turntable and in an upright tube (E12).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "benchmarks/analytic/contact_cases.h"
+#include "benchmarks/analytic/contact_scene.h"
+
+namespace twinarm::contact_cases {
+namespace {
+
+constexpr double kStep = 1e-3, kRadius = 0.1;
+constexpr double kDegree = std::numbers::pi / 180, kIncline = 20 * kDegree;
+const Matrix3 kAxisAlongY = turn_about(Vector3::UnitX(), std::numbers::pi / 2);
+
+// Inertia over m R^2, acceleration where it rolls, least friction for that.
+struct Roller {
+  double inertia, acceleration, least_friction;
+};
+constexpr Roller kSphere{0.4, 2.396584004303436, 0.1039914955046292};
+constexpr Roller kDisc{0.5, 2.236811737349874, 0.1213234114220675};
+constexpr Roller kHoop{1.0, 1.677608803012405, 0.1819851171331012};
+constexpr std::array kRollers{kSphere, kDisc, kHoop};
+
+struct AfterASecond {
+  double v, rim, friction;  // after a second: speed, R times spin, friction force
+};
+AfterASecond roll(const Roller& roller, double mu, double radius = kRadius,
+                  double incline = kIncline) {
+  ContactScene scene(tilted_gravity(incline));
+  scene.add_floor(surface(mu));
+  ContactScene::Body body{Sphere{radius}, surface(mu), 1, {0, 0, radius}};
+  body.inertia = roller.inertia * radius * radius * Matrix3::Identity();
+  if (roller.inertia != kSphere.inertia) body.shape = Cylinder{radius, 0.1}, body.R = kAxisAlongY;
+  const int number = scene.add(body);
+  scene.start();
+  scene.run(1, kStep);
+  return {scene.v(number).x(), radius * scene.w(number).y(), -scene.force(number).x()};
+}
+
+CaseResult rolling_speeds() {
+  double error = 0;
+  for (const Roller& roller : kRollers) {
+    const AfterASecond end = roll(roller, 0.5);
+    error = std::max(
+        {error, relative(end.v, roller.acceleration), relative(end.rim, roller.acceleration)});
+  }
+  return {error};
+}
+CaseResult rolling_friction() {
+  return {relative(roll(kSphere, 0.5).friction, 0.9586336017213744)};
+}
+CaseResult least_friction() {
+  double error = 0;
+  for (const Roller& roller : kRollers) {
+    const double limit = threshold(0.05, 0.25, 1e-5, [&](double mu) {
+      const AfterASecond end = roll(roller, mu);
+      return end.v - end.rim < 1e-6;
+    });
+    error = std::max(error, std::abs(limit - roller.least_friction));
+  }
+  return {error};
+}
+CaseResult slipping() {
+  const AfterASecond end = roll(kSphere, 0.05);
+  return {std::max(relative(end.v, 2.894298375529322), relative(end.rim, 1.15229807623872))};
+}
+CaseResult small_sphere() {
+  return {std::abs(roll(kSphere, 0.5, 0.05, 15 * kDegree).v - 1.813582023182663)};
+}
+
+// Angular frequency of small swings, from the times at which `reading` passes zero; 0.02 rad wide.
+template <class Reading>
+double frequency(ContactScene& scene, double duration, Reading&& reading) {
+  double before = reading(), first = 0, last = 0;
+  int passes = 0;
+  while (scene.t() < duration) {
+    scene.step(kStep);
+    const double now = reading();
+    if (before * now < 0) {
+      last = scene.t() - kStep * now / (now - before);
+      if (passes++ == 0) first = last;
+    }
+    before = now;
+  }
+  return (passes - 1) * std::numbers::pi / (last - first);
+}
+
+CaseResult bowl(const Shape& hollow, const Shape& shape, double reference) {
+  constexpr double kAngle = 0.02, kArm = 1 - kRadius;
+  const Matrix3 R =
+      std::holds_alternative<HollowCylinder>(hollow) ? kAxisAlongY : Matrix3(Matrix3::Identity());
+  ContactScene scene;
+  scene.add_fixed(hollow, surface(1), {R, Vector3::Zero()});
+  const int body = scene.add(
+      {shape, surface(1), 1, {kArm * std::sin(kAngle), 0, -kArm * std::cos(kAngle)}, {}, {}, R});
+  scene.start();
+  const double found = frequency(scene, 12, [&] { return scene.p(body).x(); });
+  return {relative(found, reference)};
+}
+CaseResult sphere_in_bowl() {
+  return bowl(HollowSphere{1}, Sphere{kRadius}, 2.79028928352);
+}
+CaseResult sphere_in_trough() {
+  return bowl(HollowCylinder{1, 1}, Sphere{kRadius}, 2.79028928352);
+}
+CaseResult cylinder_in_trough() {
+  return bowl(HollowCylinder{1, 1}, Cylinder{kRadius, 0.3}, 2.69567554922);
+}
+
+// Starts with the table's own velocity there, W x r_0, and without spin. From v' = (2/7) W x v the
+// centre circles at 2/7 of the table's rate, about r_0 - (7/2) r_0.
+struct Circle {
+  double period, astray;  // [s], [of the radius]
+};
+Circle turntable(double h) {
+  constexpr double W = 2, kStart = 0.2;
+  ContactScene scene;
+  scene.add_turning(Cylinder{3, 0.2}, surface(1), {Matrix3::Identity(), {0, 0, -0.1}}, W);
+  ContactScene::Body ball{Sphere{kRadius}, surface(1), 1, {kStart, 0, kRadius}};
+  ball.v = {0, W * kStart, 0};
+  const int body = scene.add(ball);
+  scene.start();
+  double turned = 0, error = 0;
+  Vector3 last = ball.v;
+  while (turned < 2 * std::numbers::pi && scene.t() < 15) {
+    scene.step(h);
+    const Vector3 v = scene.v(body);
+    turned += std::atan2(last.x() * v.y() - last.y() * v.x(), last.x() * v.x() + last.y() * v.y());
+    last = v;
+    const double angle = 2 / 7.0 * W * scene.t();
+    const Vector3 wanted(kStart * (3.5 * std::cos(angle) - 2.5), kStart * 3.5 * std::sin(angle),
+                         kRadius);
+    error = std::max(error, (scene.p(body) - wanted).norm() / (3.5 * kStart));
+  }
+  return {scene.t() * 2 * std::numbers::pi / turned, error};
+}
+CaseResult turntable_period() {
+  return with_order([](double h) { return relative(turntable(h).period, 3.5 * std::numbers::pi); },
+                    kStep);
+}
+CaseResult turntable_circle() {
+  return with_order([](double h) { return turntable(h).astray; }, kStep);
+}
+
+// Rolls round in an upright tube, fast enough not to slip: it does not sink but goes up and down at
+// sqrt(2/7) of the rate at which it goes round.
+CaseResult upright_tube() {
+  constexpr double kArm = 0.5 - kRadius, kRate = 12;
+  ContactScene scene;
+  scene.add_fixed(HollowCylinder{0.5, 4}, surface(2));
+  ContactScene::Body ball{Sphere{kRadius}, surface(2), 1, {kArm, 0, 0}};
+  ball.v = {0, kArm * kRate, 0};
+  ball.w = {0, 0, -kArm * kRate / kRadius};
+  const int body = scene.add(ball);
+  scene.start();
+  double turned = 0;
+  Vector3 last = scene.p(body);
+  const double found = frequency(scene, 6, [&] {
+    const Vector3 p = scene.p(body);
+    turned += std::atan2(last.x() * p.y() - last.y() * p.x(), last.x() * p.x() + last.y() * p.y());
+    last = p;
+    return scene.v(body).z();
+  });
+  return {relative(found / (turned / scene.t()), std::sqrt(2 / 7.0))};
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> rolling() {
+  const char* group = "contact";
+  return {
+      {"E4-speeds", group, "sphere, disc, hoop on 20 degrees: 5/7, 2/3, 1/2 g sin [relative]", 1e-3,
+       rolling_speeds},
+      {"E4-friction", group, "friction on the rolling sphere: 0.95863 N [relative]", 1e-3,
+       rolling_friction},
+      {"E4-threshold", group, "least mu that lets each of them roll: 2/7, 1/3, 1/2 tan", 1e-3,
+       least_friction},
+      {"E4-slip", group, "mu = 0.05: speed and spin of the sphere after 1 s [relative]", 1e-3,
+       slipping},
+      {"E4-small", group, "R = 0.05 m on 15 degrees: speed after 1 s [m/s]", 5.5e-4, small_sphere},
+  };
+}
+
+std::vector<AnalyticCase> hollows() {
+  const char* group = "contact";
+  return {
+      {"E12-bowl", group, "sphere in a bowl: sqrt(5 g/(7 (R - r))) [relative]", 1e-3,
+       sphere_in_bowl},
+      {"E12-trough", group, "sphere in a trough: the same [relative]", 1e-3, sphere_in_trough},
+      {"E12-cylinder", group, "cylinder in a trough: sqrt(2 g/(3 (R - r))) [relative]", 1e-3,
+       cylinder_in_trough},
+      {"E12-turntable", group, "ball on a turntable: its circle takes 7/2 turns [relative]", 1e-3,
+       turntable_period},
+      {"E12-circle", group, "the same: place within one circle [of its radius]", 1e-3,
+       turntable_circle},
+      {"E12-tube", group, "ball in an upright tube: up and down at sqrt(2/7) [relative]", 1e-3,
+       upright_tube},
+  };
+}
+
+}  // namespace twinarm::contact_cases

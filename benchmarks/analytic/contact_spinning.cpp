@@ -1,0 +1,134 @@
+// Bodies that spin on a floor: coin (E8), tippe-top (E9), rattleback (E10).
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "benchmarks/analytic/contact_cases.h"
+#include "benchmarks/analytic/contact_scene.h"
+
+namespace twinarm::contact_cases {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// A thin disc that rolls round on its rim, leaning by 10 degrees, its centre at rest:
+// W^2 = 4 g / (R sin a); its angular velocity W sin a points from the contact to the centre.
+CaseResult spin_coin(double h) {
+  constexpr double R = 0.0375, kThick = 1e-5, kLean = 10 * kDegree;
+  const double rate = std::sqrt(4 * kGravity * std::sin(kLean) / R);
+  ContactScene scene;
+  scene.add_floor(surface(1));
+  ContactScene::Body disc{Cylinder{R, kThick}, surface(1), 0.01};
+  disc.R = turn_about(Vector3::UnitY(), kLean);
+  disc.p = {0, 0, R * std::sin(kLean) + 0.5 * kThick * std::cos(kLean)};
+  disc.w = -rate * disc.R.col(0);
+  disc.inertia = 0.01 * R * R * Vector3(0.25, 0.25, 0.5).asDiagonal().toDenseMatrix();
+  const int body = scene.add(disc);
+  scene.start();
+  double astray = 0;
+  while (scene.t() < 1) {
+    scene.step(h);
+    astray = std::max(astray, (scene.p(body) - disc.p).norm() / R);
+  }
+  return {astray, scene.drift()};
+}
+CaseResult coin() {
+  CaseResult result = with_order([](double h) { return spin_coin(h).error; }, 1e-3);
+  result.energy_drift = spin_coin(1e-3).energy_drift;
+  return result;
+}
+
+// A sphere whose centre of mass lies 3 mm below its middle, leaning by 0.1 rad. Spun about the
+// vertical it turns over.
+struct Top {
+  double jellett = 0, lowest_cosine = 1;
+};
+Top tippe_top() {
+  constexpr double R = 0.015, kOffset = 0.003, kMass = 0.006, kStep = 1e-4;
+  ContactScene scene;
+  scene.add_floor(surface(0.1));
+  ContactScene::Body top{Sphere{R}, surface(0.1), kMass};
+  top.shape_at = {0, 0, kOffset};
+  const Vector3 moments = 0.4 * kMass * R * R * Vector3(1, 1, 1);
+  top.inertia = moments.asDiagonal();
+  top.R = turn_about(Vector3::UnitY(), 0.1);
+  top.p = Vector3(0, 0, R) - top.R * top.shape_at;
+  top.w = {0, 0, 155};
+  const int body = scene.add(top);
+  scene.start();
+  const auto jellett = [&] {
+    const Matrix3 turn = scene.R(body);
+    const Vector3 L = turn * moments.asDiagonal() * turn.transpose() * scene.w(body);
+    return -L.dot(turn * top.shape_at - R * Vector3::UnitZ());
+  };
+  const double start = jellett();
+  Top result;
+  while (scene.t() < 4) {
+    scene.step(kStep);
+    result.jellett = std::max(result.jellett, relative(jellett(), start));
+    result.lowest_cosine = std::min(result.lowest_cosine, scene.R(body)(2, 2));
+  }
+  return result;
+}
+CaseResult jellett() {
+  return {tippe_top().jellett};
+}
+CaseResult turns_over() {
+  return {tippe_top().lowest_cosine < -0.9 ? 0.0 : 1.0};
+}
+
+// An ellipsoid whose principal axes of inertia lie askew to those of its shape. Rolls from a spin
+// about its own z axis, leaning by half a degree.
+struct Rattle {
+  double reversal = INFINITY, drift = 0;  // first time at which the spin has turned round [s]
+};
+Rattle rattleback(double spin, double duration) {
+  constexpr double kLean = 0.5 * kDegree, kStep = 1e-4;
+  const Vector3 semi(0.2, 0.03, 0.02);
+  ContactScene scene;
+  scene.add_floor(surface(1));
+  ContactScene::Body stone{Ellipsoid{semi}, surface(1), 1};
+  stone.shape_at = {0, 0, 0.01};
+  stone.inertia << 2e-4, -2e-5, 0, -2e-5, 1.6e-3, 0, 0, 0, 1.7e-3;
+  stone.R = turn_about(Vector3::UnitX(), kLean);
+  const Vector3 n = stone.R.transpose().col(2);
+  const Vector3 squares = semi.cwiseProduct(semi);
+  const Vector3 reach = squares.cwiseProduct(n) / std::sqrt(n.dot(squares.cwiseProduct(n)));
+  const Vector3 to_contact = stone.R * (stone.shape_at - reach);
+  stone.p = {0, 0, -to_contact.z()};
+  stone.w = spin * stone.R.col(2);
+  stone.v = -stone.w.cross(to_contact);
+  const int body = scene.add(stone);
+  scene.start();
+  Rattle result;
+  while (scene.t() < duration && std::isinf(result.reversal)) {
+    scene.step(kStep);
+    if (scene.w(body).z() * spin < 0) result.reversal = scene.t();
+  }
+  result.drift = scene.drift();
+  return result;
+}
+CaseResult reversal() {
+  const Rattle stone = rattleback(-5, 10);
+  return {relative(stone.reversal, 4.156), stone.drift};
+}
+CaseResult no_reversal() {
+  return {std::isinf(rattleback(5, 20).reversal) ? 0.0 : 1.0};
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> spinning() {
+  const char* group = "contact";
+  return {
+      {"E8", group, "spinning coin at 10 degrees: its centre stays for 1 s [of R]", 1e-3, coin},
+      {"E9-jellett", group, "tippe-top, 0.1 ms: Jellett's integral over 4 s [relative]", 1e-4,
+       jellett},
+      {"E9-over", group, "and it turns over [faults]", 0, turns_over},
+      {"E10-time", group, "rattleback, 0.1 ms: -5 rad/s turns round at 4.156 s [relative]", 0.05,
+       reversal},
+      {"E10-other", group, "+5 rad/s does not turn round in 20 s [faults]", 0, no_reversal},
+  };
+}
+
+}  // namespace twinarm::contact_cases

@@ -1,0 +1,84 @@
+// Stacks at rest (E11): ten boxes, and one that is a hundred times heavier on top of a light one.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "benchmarks/analytic/contact_cases.h"
+#include "benchmarks/analytic/contact_scene.h"
+
+namespace twinarm::contact_cases {
+namespace {
+
+constexpr double kStep = 1e-3, kEdge = 0.2;
+
+struct Standing {
+  double force = 0;               // largest error under a box [relative]
+  double sideways = 0, sunk = 0;  // how far a box ever was from its place [m]
+};
+// Cubes of these masses from below, each up to 1 cm off the middle, for a time. Forces count once
+// each box has got its own, from the tenth step on.
+Standing stand(const std::vector<double>& masses, double duration) {
+  ContactScene scene;
+  scene.add_floor(surface(0.5));
+  const int count = static_cast<int>(masses.size());
+  std::vector<double> load(masses.size());  // on the lower face
+  double above = 0;
+  for (std::size_t i = masses.size(); i-- > 0;) load[i] = (above += masses[i]) * kGravity;
+  std::vector<Vector3> places;
+  for (int i = 0; i < count; ++i) {
+    places.emplace_back(0.01 * std::sin(3 * i), 0.01 * std::cos(2 * i), (i + 0.5) * kEdge);
+    scene.add({Box{Vector3::Constant(kEdge)}, surface(0.5), masses[static_cast<std::size_t>(i)],
+               places.back()});
+  }
+  scene.start();
+  Standing result;
+  for (long n = 0; n < std::lround(duration / kStep); ++n) {
+    scene.step(kStep);
+    std::vector<double> below(masses.size(), 0);
+    for (const ContactPoint& point : scene.contacts().points()) {
+      const int a = scene.contacts().geometry(point.contact.a).body;
+      const int b = scene.contacts().geometry(point.contact.b).body;
+      below[static_cast<std::size_t>(std::max(a, b) - 1)] += std::abs(point.force_W.z());
+    }
+    for (int i = 0; i < count; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const Vector3 moved = scene.p(i + 1) - places[k];
+      result.sideways = std::max(result.sideways, std::hypot(moved.x(), moved.y()));
+      result.sunk = std::max(result.sunk, std::abs(moved.z()));
+      if (n >= 10) result.force = std::max(result.force, relative(below[k], load[k]));
+    }
+  }
+  return scene.ok() ? result : Standing{NAN, NAN, NAN};
+}
+const Standing& ten_boxes() {  // 10 s, run once
+  static const Standing result = stand(std::vector<double>(10, 1.0), 10);
+  return result;
+}
+
+CaseResult forces() {
+  return {ten_boxes().force};
+}
+CaseResult sideways() {
+  return {ten_boxes().sideways};
+}
+CaseResult sinking() {
+  return {ten_boxes().sunk};
+}
+CaseResult heavy_on_light() {
+  return {stand({1, 100}, 2).force};
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> stacks() {
+  const char* group = "contact";
+  return {
+      {"E11-forces", group, "ten boxes: force under box i is (n - i + 1) m g [relative]", 1e-6,
+       forces},
+      {"E11-drift", group, "the same: how far they slide in 10 s [m]", 1e-5, sideways},
+      {"E11-sinking", group, "and how far they sink [m]", 1e-4, sinking},
+      {"E11-heavy", group, "100 kg on 1 kg: forces [relative]", 1e-6, heavy_on_light},
+  };
+}
+
+}  // namespace twinarm::contact_cases

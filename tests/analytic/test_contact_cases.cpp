@@ -1,0 +1,32 @@
+// Every case of the list (benchmarks/analytic/analytic_case.h) against its reference.
+#include <doctest/doctest.h>
+
+#include <set>
+#include <string>
+
+#include "benchmarks/analytic/analytic_case.h"
+
+using namespace twinarm;
+
+TEST_CASE("analytic cases: names are unique, groups and references are told") {
+  std::set<std::string> names;
+  for (const AnalyticCase& c : analytic_cases()) {
+    CAPTURE(std::string(c.name));
+    CHECK(names.insert(c.name).second);
+    CHECK_FALSE(std::string(c.group).empty());
+    CHECK_FALSE(std::string(c.reference).empty());
+    CHECK(c.tolerance >= 0);
+  }
+  CHECK(names.size() > 50);
+}
+
+// The loops have tests of their own, which ask for more (tests/solver/test_loop_motion.cpp).
+TEST_CASE("analytic cases: every case of contact keeps its tolerance") {
+  for (const AnalyticCase& c : analytic_cases()) {
+    if (std::string(c.group) != "contact") continue;
+    CAPTURE(std::string(c.name));
+    CAPTURE(std::string(c.reference));
+    const CaseResult result = c.run();
+    CHECK(result.error <= c.tolerance);
+  }
+}

@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""`twinarm compare`: what it runs, what it tells, how it ends.
+
+    test_compare_command.py PATH/TO/twinarm
+"""
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+PROGRAM = ""
+
+
+def run(*arguments, timeout=120):
+    return subprocess.run([PROGRAM, "compare", *arguments], capture_output=True, text=True,
+                          timeout=timeout)
+
+
+class Compare(unittest.TestCase):
+    def answer(self, *arguments):
+        result = run(*arguments, "--json")
+        self.assertEqual(result.stderr, "")
+        answer = json.loads(result.stdout)
+        self.assertEqual(result.returncode, 1 if answer["failed"] else 0)
+        self.assertEqual(answer["passed"] + answer["failed"], len(answer["cases"]))
+        self.assertEqual(sum(c["pass"] for c in answer["cases"]), answer["passed"])
+        return answer
+
+    def test_a_case_has_all_its_keys_and_passes_where_its_error_is_within_the_tolerance(self):
+        answer = self.answer("D7", "E6-momentum", "E2-creep")
+        self.assertEqual([c["name"] for c in answer["cases"]], ["D7", "E6-momentum", "E2-creep"])
+        self.assertEqual(list(answer), ["cases", "passed", "failed", "skipped"])
+        for case in answer["cases"]:
+            self.assertEqual(list(case), ["name", "group", "error", "tolerance", "pass", "order",
+                                          "energy_drift", "reference", "seconds"])
+            self.assertEqual(case["pass"], case["error"] <= case["tolerance"])
+            self.assertGreaterEqual(case["seconds"], 0)
+        self.assertEqual(answer["skipped"], [])
+
+    def test_a_short_name_means_all_that_it_begins(self):
+        names = [c["name"] for c in self.answer("E6")["cases"]]
+        self.assertIn("E6-two", names)
+        self.assertTrue(all(name.startswith("E6-") for name in names), names)
+
+    def test_a_group_and_names_add_up_and_energy_is_told_where_it_is_kept(self):
+        answer = self.answer("E6-two", "--group", "loops")
+        self.assertEqual({c["group"] for c in answer["cases"]}, {"loops", "contact"})
+        self.assertEqual([c["name"] for c in answer["cases"] if c["group"] == "contact"],
+                         ["E6-two"])
+        loops = {c["name"]: c for c in answer["cases"]}
+        self.assertLess(loops["D4"]["energy_drift"], 1e-8)
+        self.assertIsNone(loops["D3"]["energy_drift"])  # a motor drives it
+
+    def test_people_get_a_table_with_a_row_for_each_and_the_sums(self):
+        result = run("E6-two", "D7")
+        rows = result.stdout.splitlines()
+        self.assertEqual(rows[0].split(), ["case", "error", "tolerance", "seconds"])
+        self.assertEqual([row.split()[0] for row in rows[1:3]], ["D7", "E6-two"])
+        self.assertEqual([row.split()[3] for row in rows[1:3]], ["pass", "pass"])
+        self.assertEqual(rows[-1], "2 passed, 0 failed")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+
+    def test_all_unknown_names_are_told_at_once_with_the_nearest_and_nothing_runs(self):
+        result = run("E6-tow", "D7", "D77", "--group", "lops", "--json")
+        self.assertEqual(result.returncode, 2)
+        errors = json.loads(result.stdout)["errors"]
+        self.assertEqual(len(errors), 3, errors)
+        self.assertIn("E6-two", errors[0]["remedy"])
+        self.assertIn("loops", errors[2]["remedy"])
+        self.assertEqual(len(result.stderr.splitlines()), 3)
+
+    def test_ctrl_c_ends_it_with_130_and_no_half_answer(self):
+        process = subprocess.Popen([PROGRAM, "compare", "--json"], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, out), (130, ""), err)
+        self.assertIn("interrupted", err)
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
