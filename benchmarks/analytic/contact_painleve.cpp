@@ -86,7 +86,7 @@ std::vector<AnalyticCase> painleve() {
   return {
       {"E7-sign", group, "Painleve's rod: mu where the normal force changes sign [relative]", 1e-12,
        threshold_of_sign},
-      {"E7-rod", group, "sliding on both sides of it: finite, solved, losing energy [faults]", 0,
+      {"E7-rod", group, "Painleve's rod, mu 0.3 to 5: finite, solved, losing energy [faults]", 0,
        slides_or_jams},
   };
 }

@@ -124,10 +124,11 @@ std::vector<AnalyticCase> spinning() {
       {"E8", group, "spinning coin at 10 degrees: its centre stays for 1 s [of R]", 1e-3, coin},
       {"E9-jellett", group, "tippe-top, 0.1 ms: Jellett's integral over 4 s [relative]", 1e-4,
        jellett},
-      {"E9-over", group, "and it turns over [faults]", 0, turns_over},
+      {"E9-over", group, "tippe-top: it turns over [faults]", 0, turns_over},
       {"E10-time", group, "rattleback, 0.1 ms: -5 rad/s turns round at 4.156 s [relative]", 0.05,
        reversal},
-      {"E10-other", group, "+5 rad/s does not turn round in 20 s [faults]", 0, no_reversal},
+      {"E10-other", group, "rattleback: +5 rad/s does not turn round in 20 s [faults]", 0,
+       no_reversal},
   };
 }
 

@@ -75,9 +75,10 @@ std::vector<AnalyticCase> stacks() {
   return {
       {"E11-forces", group, "ten boxes: force under box i is (n - i + 1) m g [relative]", 1e-6,
        forces},
-      {"E11-drift", group, "the same: how far they slide in 10 s [m]", 1e-5, sideways},
-      {"E11-sinking", group, "and how far they sink [m]", 1e-4, sinking},
-      {"E11-heavy", group, "100 kg on 1 kg: forces [relative]", 1e-6, heavy_on_light},
+      {"E11-drift", group, "ten boxes: how far they slide in 10 s [m]", 1e-5, sideways},
+      {"E11-sinking", group, "ten boxes: how far they sink in 10 s [m]", 1e-4, sinking},
+      {"E11-heavy", group, "a box of 100 kg on one of 1 kg: forces [relative]", 1e-6,
+       heavy_on_light},
   };
 }
 
