@@ -85,7 +85,7 @@ struct Run {
         contacts(model, ContactResponse::rigid),
         watch(contacts) {
     const Box box{{box_edge, box_edge, box_edge}};
-    Surface surface;
+    ContactSurface surface;
     surface.friction = contact_friction;
     if (scene.has_arm()) {
       const Push push;
