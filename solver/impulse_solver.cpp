@@ -174,7 +174,8 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
   }
   // What neither can solve (friction beyond Painleve's bound) is at least brought near, so that
   // nothing falls through.
-  constexpr int most_descents = 300;
+  const auto most_descents =
+      static_cast<int>(std::clamp<std::size_t>(30000 / island.constraints.size(), 300, 5000));
   for (int k = 0; k < most_descents && best > accepted; ++k) {
     relax(problem, island);
     judge();
