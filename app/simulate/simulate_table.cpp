@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "app/dynamics/robot_table.h"
 #include "app/simulate/simulate_output.h"
@@ -10,6 +12,25 @@
 
 namespace twinarm {
 namespace {
+
+// Rows of many contacts are summed by kind: the JSON has them all.
+std::vector<LedgerRow> shortened(const std::vector<LedgerRow>& rows) {
+  constexpr std::ptrdiff_t most_contacts = 12;
+  const auto is_contact = [](const LedgerRow& row) { return row.name.starts_with("contact/"); };
+  if (std::count_if(rows.begin(), rows.end(), is_contact) <= most_contacts) return rows;
+  std::vector<LedgerRow> out;
+  for (const LedgerRow& row : rows) {
+    const std::string kind = "contact, all/" + row.name.substr(row.name.rfind('/') + 1);
+    const auto same = std::find_if(out.begin(), out.end(), [&](const LedgerRow& o) {
+      return is_contact(row) && o.name == kind;
+    });
+    if (same != out.end())
+      same->work += row.work;
+    else
+      out.push_back({is_contact(row) ? kind : row.name, row.work});
+  }
+  return out;
+}
 
 class TableOutput : public RunOutput {
  public:
@@ -42,12 +63,13 @@ class TableOutput : public RunOutput {
                integrator_name(plan_.integrator), steps, samples_.str());
     TextTable ledger({"work on the bodies, 0 to " + cell(result.end) + " s", "[J]"});
     double sum = 0;
-    for (const LedgerRow& row : result.ledger) {
+    for (const LedgerRow& row : shortened(result.ledger)) {
       ledger.add({row.name, cell(row.work)});
       sum += row.work;
     }
     ledger.add({"change of kinetic energy", cell(sum)});
     fmt::print("{}", ledger.str());
+    if (result.contacts > 0) fmt::print("\n{} contact points press at the end\n", result.contacts);
     const char* space = "\n";
     for (const auto* warnings : {&input_.warnings, &result.warnings})
       for (const std::string& warning : *warnings) {
