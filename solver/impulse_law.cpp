@@ -122,17 +122,20 @@ void respond(const ImpulseConstraint& c, const LawMemory& memory, Shift shift, c
 double law_residual(const ImpulseConstraint& c, const LawMemory& memory, double rho, const Vec& u,
                     const Vec& p) {
   Vec again{};
-  Mat unused;
+  Mat D{};
   if (c.law == ImpulseLaw::compliant) {
-    respond_softly(c, c.mu * p[0], u, again, unused);
+    respond_softly(c, c.mu * p[0], u, again, D);
   } else {
-    const Vec ut = shifted(c, c.mu * slip(u), u);
+    const Vec ut = shifted(c, shift_of(c, u), u);
     for (int r = 0; r < c.rows; ++r) again[r] = p[r] - rho * ut[r];
-    project(c, memory.radius, again, unused);
+    project(c, memory.radius, again, D);
+    D = {};
   }
+  // A stiff spring makes much of a velocity that is hardly wrong: its own stiffness counts to rho.
   double largest = 0;
-  for (int r = 0; r < c.rows; ++r) largest = std::max(largest, std::abs(p[r] - again[r]));
-  return largest / rho;
+  for (int r = 0; r < c.rows; ++r)
+    largest = std::max(largest, std::abs(p[r] - again[r]) / (rho + D[4 * r]));
+  return largest;
 }
 
 double shift_of(const ImpulseConstraint& c, const Vec& u) {

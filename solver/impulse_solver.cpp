@@ -135,13 +135,17 @@ double ImpulseSolver::settle(ImpulseProblem& problem, const Island& island) {
 // rest, and would add up.
 double ImpulseSolver::relax(ImpulseProblem& problem, const Island& island) {
   constexpr double part = 0.125;  // of rho0: up to eight contacts of a body share its inertia
-  Mat unused;
   for (const int i : island.constraints) {
     ImpulseConstraint& c = problem.constraints()[i];
     remember(c, problem.constraints(), c.u, c.p, memory_[i]);
     memory_[i].rho = part * rho0_[i];
-    respond(c, memory_[i], Shift::held, c.u, p_[i], unused);
-    c.p = p_[i];
+    respond(c, memory_[i], Shift::held, c.u, p_[i], D_[i]);
+    if (c.law != ImpulseLaw::compliant) {
+      c.p = p_[i];
+    } else {  // what the spring asks for, less what it gives way meanwhile
+      for (int r = 0; r < 3; ++r)
+        c.p[r] += part * (p_[i][r] - c.p[r]) / (1 + D_[i][4 * r] / rho0_[i]);
+    }
   }
   return settle(problem, island);
 }

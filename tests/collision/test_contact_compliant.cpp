@@ -1,0 +1,75 @@
+// The compliant response: springs and bristles in place of rigid surfaces, at any stiffness.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/collision/contact_scene.h"
+
+using namespace twinarm;
+using namespace twinarm::testing;
+
+namespace {
+
+ContactSurface soft(double stiffness, double friction) {
+  ContactSurface s;
+  s.stiffness = 2 * stiffness;  // two alike in series
+  s.friction = friction;
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("a ball rests m g / k deep, whatever the stiffness") {
+  for (const double k : {1e3, 1e5, 1e8, 1e11}) {
+    CAPTURE(k);
+    ContactScene scene(ContactResponse::compliant);
+    scene.floor(soft(k, 0.5));
+    const int ball = scene.body(Sphere{0.1}, 2, soft(k, 0.5), {{0, 0, 0.1}});
+    scene.begin();
+    int refused = 0;
+    for (int n = 0; n < 8000; ++n) refused += !scene.simulation().step(1e-3).ok();
+    CHECK(refused == 0);
+    CHECK(0.1 - scene.position(ball).z() == doctest::Approx(2 * 9.81 / k).epsilon(1e-6));
+  }
+}
+
+TEST_CASE(
+    "a block on a slope of 30 degrees sticks without creeping, or slides with g (sin - mu cos)") {
+  for (const double mu : {0.6, 0.5}) {
+    CAPTURE(mu);
+    ContactScene scene(ContactResponse::compliant);
+    const double angle = std::acos(-1) / 6;
+    scene.set_gravity({9.81 * std::sin(angle), 0, -9.81 * std::cos(angle)});
+    scene.floor(soft(1e6, mu));
+    const int block = scene.body(Box{{0.2, 0.2, 0.1}}, 2, soft(1e6, mu), {{0, 0, 0.05}});
+    scene.begin();
+    scene.run(1e-3, 2000);
+    const double x = scene.position(block).x(), v = scene.velocity(block).x();
+    scene.run(1e-3, 1000);
+    if (mu > std::tan(angle))
+      CHECK(std::abs(scene.position(block).x() - x) < 1e-9);
+    else
+      CHECK(scene.velocity(block).x() - v ==
+            doctest::Approx(9.81 * (std::sin(angle) - mu * std::cos(angle))).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("no bounce is higher than the one before") {
+  for (const double k : {1e4, 1e6}) {
+    ContactScene scene(ContactResponse::compliant);
+    scene.floor(soft(k, 0));
+    const int ball = scene.body(Sphere{0.1}, 1, soft(k, 0), {{0, 0, 0.6}});
+    scene.begin();
+    double top = 0.6, height = 0, before = -1;
+    for (int n = 0; n < 4000; ++n) {
+      scene.run(1e-3, 1);
+      const double v = scene.velocity(ball).z();
+      if (before > 1e-6 && v <= 0) {  // at rest it trembles by rounding
+        CHECK(scene.position(ball).z() < top);
+        top = scene.position(ball).z();
+      }
+      height = std::max(height, scene.position(ball).z()), before = v;
+    }
+    CHECK(height <= 0.6);
+  }
+}
