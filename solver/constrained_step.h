@@ -7,9 +7,9 @@
 //   velocity   v* = v+ + h ABA(q, v+, forces);   M' (v' - v*) = J^T p,  where gaps g may close:
 //              u' >= -g/h. M' has the implicit terms that ABA solved with.
 //   position   q' = q + h v'; of a body that flies under gravity alone q + h (v + v')/2
-//   separate   what penetrates by more than a slop is moved apart by the smallest motion in the
-//   norm
-//              of M; velocities do not feel it.
+//   separate   what penetrates by more than a slop is moved apart,
+//              by the smallest motion in the norm of M;
+//              velocities do not feel it.
 // No step gains energy from its impulses. In an impact Newton's law with friction can (Kane and
 // Levinson 1985): then v+ is taken back towards the plastic one, which cannot, until it does not.
 // In the second phase p u' <= 0, as gaps only close.
@@ -26,9 +26,9 @@
 namespace twinarm {
 
 struct ConstraintReport {
-  int impacts = 0;  // passes of the first phase
-  ImpulseReport step, impact;
-  double impact_loss = 0;  // kinetic energy that impacts took [J]
+  int impacts = 0;             // passes of the first phase
+  ImpulseReport step, impact;  // impact: the worst of its passes
+  double impact_loss = 0;      // kinetic energy that impacts took [J]
 };
 
 class ConstrainedStep {
@@ -39,7 +39,7 @@ class ConstrainedStep {
   const std::vector<ConstraintSource*>& sources() const { return sources_; }
   void set_friction(bool on) { friction_on_ = on; }  // damping and Coulomb friction of joints
 
-  // From m.x, whose m.k is up to date, and after m.begin_step(h): to the end of the step.
+  // From m.x, whose m.k is up to date, to the end of the step; begins it for all sources.
   void step(Mechanism& m, double h, StepReport& report);
 
   const ConstraintReport& report() const { return report_; }

@@ -33,7 +33,7 @@ void respond(const ImpulseConstraint& c, const LawMemory& memory, Shift shift, c
              Mat& D);
 
 // How far p is from obeying the law at u, with the same for rho = 1/g: |p - P_K(p - rho ut)| / rho
-// [m/s]; of a compliant contact what is left of its friction's bound.
+// [m/s]; of a compliant contact p less what its springs and bristles give, over rho and stiffness.
 double law_residual(const ImpulseConstraint& c, const LawMemory& memory, double rho, const Vec& u,
                     const Vec& p);
 

@@ -8,11 +8,11 @@
 //   M + J^T D J,    D = -dp/du,
 // whose blocks follow the contacts between trees (as in Castro, Permenter and Han 2022, where a
 // compliance stands in place of the rounds). Redundant contacts do no harm, since M alone makes the
-// matrix positive. A larger rho needs fewer rounds; beyond 1e8 of the inertia rounding eats that.
-// First of all the guess is tried: what has come to rest costs one check. A solution that had to
-// stop a motion is no good guess for the step after, so that one is solved too.
-//
-// Islands (trees joined by constraints) are solved one by one. Deterministic.
+// matrix positive. A round ends with Newton steps whose shift follows u, as long as they come
+// nearer. First of all the guess is tried: what has come to rest costs one check. A solution that
+// had to stop a motion is no good guess for the step after, so that one is solved too. Where the
+// rounds do not end soon, impulse_interior.cpp finds a start for them; the best p of all that is
+// tried counts. Islands (trees joined by constraints) are solved one by one. Deterministic.
 #pragma once
 
 #include <vector>

@@ -10,11 +10,11 @@
 // C is a frame on link a and another one on link b; where the loop is closed the two agree, in
 // what the type asks for. Rows and their multipliers lambda, J^T lambda being the force:
 //   ball      3  origins of C_a and C_b, in the axes of C_a      [m]    force on a at C_b [N]
-//   hinge     5  ball, and z of C_b has no x, y in C_a           [rad]  couple on a about x, y [N
-//   m] weld      6  ball, and the axes of C_a and C_b agree         [rad]  couple on a [N m]
-//   distance  1  |p_Ca - p_Cb| - length                          [m]    force that drives them
-//   apart gear      1  q_a - ratio q_b - offset, joints of one dof     [rad, m]    torque on joint
-//   a locked    1  q_a - offset, a joint of one dof                [rad, m]    torque on joint a
+//   hinge     5  ball, and z of C_b has no x, y in C_a     [rad]     couple on a about x, y [N m]
+//   weld      6  ball, and the axes of C_a and C_b agree   [rad]     couple on a [N m]
+//   distance  1  |p_Ca - p_Cb| - length                    [m]       force that drives them apart
+//   gear      1  q_a - ratio q_b - offset, one dof each    [rad, m]  torque on joint a
+//   locked    1  q_a - offset, a joint of one dof          [rad, m]  torque on joint a
 // Rows hold the dofs between a and b alone; what both share drops out. Cost O(depth) a loop; no
 // allocation after the constructor.
 #pragma once

@@ -9,8 +9,8 @@
 // whole step, for two reasons:
 // - There the loops are closed, and G has its true rank. Of an open redundant loop the rows are
 //   independent, by as much as it is open; nothing may be solved with that.
-// - With p the projection, the stages of a Runge-Kutta method look at f(p(q, qd)). For one p that
-// is
+// - With p the projection, the stages of a Runge-Kutta method look at f(p(q, qd)). For one p
+//   that is
 //   one smooth vector field around the closed states, which agrees with f on them: the method has
 //   its full order on it. (With M and J of the last stage p changes from stage to stage by O(h),
 //   and RK4 was seen to fall to order 3.)

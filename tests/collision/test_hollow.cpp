@@ -11,32 +11,12 @@
 #include "collision/collision_world.h"
 #include "solver/fault.h"
 #include "tests/collision/oracle.h"
+#include "tests/collision/pair_scene.h"
 
 using namespace twinarm;
 using namespace twinarm::test;
 
 namespace {
-
-Matrix3 turn(double angle, const Vector3& axis) {
-  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-}
-
-struct Scene {
-  Scene(const Shape& a, const Shape& b) {
-    world.add({"a", a, 0});
-    world.add({"b", b, 0});
-  }
-  const std::vector<Contact>& touch(const Pose& X_WA, const Pose& X_WB, double margin = 1e-3) {
-    world.detect(std::array{X_WA, X_WB}, margin, contacts);
-    return contacts;
-  }
-  const Contact& deepest() const {
-    return *std::max_element(contacts.begin(), contacts.end(),
-                             [](const Contact& x, const Contact& y) { return x.depth < y.depth; });
-  }
-  CollisionWorld world;
-  std::vector<Contact> contacts;
-};
 
 const Pose origin;
 
@@ -59,7 +39,7 @@ TEST_CASE("within a hollow: the depth is that of the farthest of many points of 
     for (const Shape& body : bodies) {
       CAPTURE(shape_name(hollow));
       CAPTURE(shape_name(body));
-      Scene scene(hollow, body);
+      PairScene scene(hollow, body);
       double too_shallow = 0, too_deep = 0, off_wall = 0;
       int touched = 0;
       for (int k = 0; k < 100; ++k) {
@@ -102,8 +82,8 @@ TEST_CASE("within a hollow: the depth is that of the farthest of many points of 
 
 TEST_CASE("a ball in a bowl and in a tube, a roller in a tube: depth and normal in closed form") {
   Random random(45);
-  Scene bowl(HollowSphere{1}, Sphere{0.1}), tube(HollowCylinder{1, 2}, Sphere{0.1});
-  Scene roller(HollowCylinder{1, 2}, Cylinder{0.1, 0.3}), swapped(Sphere{0.1}, HollowSphere{1});
+  PairScene bowl(HollowSphere{1}, Sphere{0.1}), tube(HollowCylinder{1, 2}, Sphere{0.1});
+  PairScene roller(HollowCylinder{1, 2}, Cylinder{0.1, 0.3}), swapped(Sphere{0.1}, HollowSphere{1});
   for (int k = 0; k < 500; ++k) {
     const double depth = random.uniform(-9e-4, 1e-3), angle = random.uniform(-3, 3);
     const Vector3 out = random.direction(), across(std::cos(angle), std::sin(angle), 0);
@@ -130,7 +110,7 @@ TEST_CASE("a shaft through a short tube touches at its mouths") {
   for (const Shape& shaft :
        {Shape(Capsule{0.02, 1}), Shape(Cylinder{0.02, 1}), Shape(Box{{0.04, 0.04, 1}})}) {
     CAPTURE(shape_name(shaft));
-    Scene scene(HollowCylinder{0.1, 0.2}, shaft);
+    PairScene scene(HollowCylinder{0.1, 0.2}, shaft);
     for (int k = 0; k < 50; ++k) {
       const double angle = std::holds_alternative<Box>(shaft) ? 0 : 0.1 * k;
       // A box has its edge there, at half its diagonal.
@@ -149,7 +129,7 @@ TEST_CASE("a shaft through a short tube touches at its mouths") {
 }
 
 TEST_CASE("a long ellipsoid in a bowl rests on both tips; two hollows are refused") {
-  Scene scene(HollowSphere{0.2}, Ellipsoid{{0.19, 0.02, 0.03}});
+  PairScene scene(HollowSphere{0.2}, Ellipsoid{{0.19, 0.02, 0.03}});
   const double height = std::sqrt(0.04 - 0.19 * 0.19);
   for (const double shift : {0.0, 1e-14, -1e-9, 1e-5}) {
     CHECK(scene.touch(origin, {Matrix3::Identity(), {shift, 0, -height}}).size() == 2);

@@ -10,32 +10,12 @@
 
 #include "collision/collision_world.h"
 #include "tests/collision/oracle.h"
+#include "tests/collision/pair_scene.h"
 
 using namespace twinarm;
 using namespace twinarm::test;
 
 namespace {
-
-Matrix3 turn(double angle, const Vector3& axis) {
-  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-}
-
-struct Scene {
-  Scene(const Shape& a, const Shape& b) {
-    world.add({"a", a, 0});
-    world.add({"b", b, 0});
-  }
-  const std::vector<Contact>& touch(const Pose& X_WA, const Pose& X_WB, double margin = 1e-3) {
-    world.detect(std::array{X_WA, X_WB}, margin, contacts);
-    return contacts;
-  }
-  const Contact& deepest() const {
-    return *std::max_element(contacts.begin(), contacts.end(),
-                             [](const Contact& x, const Contact& y) { return x.depth < y.depth; });
-  }
-  CollisionWorld world;
-  std::vector<Contact> contacts;
-};
 
 const Pose origin;
 
@@ -44,7 +24,7 @@ const Pose origin;
 TEST_CASE("an ellipsoid touches a half-space where its normal says: x = -Q n / sqrt(n' Q n)") {
   Random random(41);
   const Ellipsoid e{{0.2, 0.03, 0.02}};
-  Scene scene(HalfSpace{}, e);
+  PairScene scene(HalfSpace{}, e);
   double worst = 0;
   for (int k = 0; k < 2000; ++k) {
     const Matrix3 R = random.rotation();
@@ -67,7 +47,7 @@ TEST_CASE("ellipsoids with equal semi-axes are spheres, against every shape") {
                                      random_hull(random), Ellipsoid{{0.1, 0.06, 0.04}}};
   for (const Shape& other : others) {
     CAPTURE(shape_name(other));
-    Scene round(other, Sphere{0.07}), ellipsoid(other, Ellipsoid{Vector3::Constant(0.07)});
+    PairScene round(other, Sphere{0.07}), ellipsoid(other, Ellipsoid{Vector3::Constant(0.07)});
     double depth = 0, place = 0, normal = 0;
     for (int k = 0; k < 500; ++k) {
       const Pose X_WA = random_pose(random);
@@ -92,7 +72,7 @@ TEST_CASE("an ellipsoid's contact moves smoothly: its second differences are of 
   for (const Shape& table : {Shape(Box{{1, 1, 0.2}}), Shape(Ellipsoid{{0.5, 0.6, 0.1}}),
                              Shape(Cylinder{0.7, 0.2}), Shape(HalfSpace{Vector3::UnitZ(), 0.1})}) {
     CAPTURE(shape_name(table));
-    Scene scene(table, e);
+    PairScene scene(table, e);
     double roughest = 0;
     for (int k = 0; k < 100; ++k) {
       const Vector3 axis = random.direction();
@@ -121,7 +101,7 @@ TEST_CASE("a coin on its rim touches at the lowest point of the rim, as it rolls
         CAPTURE(shape_name(table));
         CAPTURE(angle);
         CAPTURE(thickness);
-        Scene scene(table, Cylinder{radius, thickness});
+        PairScene scene(table, Cylinder{radius, thickness});
         double worst = 0;
         int name = 0, renamed = 0;
         for (int k = 0; k < 400; ++k) {
@@ -156,7 +136,7 @@ TEST_CASE("a coin on its rim touches at the lowest point of the rim, as it rolls
 
 TEST_CASE("a flat coin stands on four points of its rim that turn with it") {
   for (const Shape& table : {Shape(HalfSpace{Vector3::UnitZ(), 0.1}), Shape(Box{{1, 1, 0.2}})}) {
-    Scene scene(table, Cylinder{0.0375, 1e-3});
+    PairScene scene(table, Cylinder{0.0375, 1e-3});
     std::vector<Contact> before;
     for (int k = 0; k < 100; ++k) {
       const Matrix3 R =
@@ -177,7 +157,7 @@ TEST_CASE("lying cylinders and capsules roll on two points at the ends of their 
   for (const Shape& table : {Shape(HalfSpace{Vector3::UnitZ(), 0.1}), Shape(Box{{1, 1, 0.2}})}) {
     for (const Shape& roll : {Shape(Cylinder{radius, length}), Shape(Capsule{radius, length})}) {
       CAPTURE(shape_name(roll));
-      Scene scene(table, roll);
+      PairScene scene(table, roll);
       std::vector<int> names;
       for (int k = 0; k < 200; ++k) {
         const double heading = 0.4 + 1e-3 * k;
