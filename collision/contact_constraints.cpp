@@ -88,6 +88,7 @@ ContactPoint ContactConstraints::start(const Contact& contact) const {
     point.force_W = before->force_W;
     point.couple_W = before->couple_W;
     point.anchor_W = before->anchor_W;
+    point.is_held = before->is_held;
   }
   return point;
 }
@@ -127,13 +128,15 @@ void ContactConstraints::begin_step(const Kinematics& k, const State<double>&, d
 
 bool ContactConstraints::closes(const ConstraintFrame& frame) noexcept {
   if (response_ == ContactResponse::compliant) return false;
+  const bool located = frame.phase == Phase::hit;
   bool any = false;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const ContactPoint& p = points_[i];
     closing_[i] = 0;
-    if (p.restitution <= 0) continue;
+    if (p.restitution <= 0 && !located) continue;  // those are for the second phase
     const double u = p.contact.n_W.dot(approach(p.contact, frame.k));
-    closing_[i] = u < -kSlowestBounce && frame.h * u < p.contact.depth;
+    closing_[i] = located ? u < -kRest && p.contact.depth >= -kClosed
+                          : u < -kSlowestBounce && frame.h * u < p.contact.depth;
     any = any || closing_[i];
   }
   return any;
@@ -147,58 +150,96 @@ bool ContactConstraints::wants_separation() const noexcept {
 void ContactConstraints::add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept {
   parts_.clear();
   for (std::size_t i = 0; i < points_.size(); ++i)
-    if (frame.phase != Phase::impact || closing_[i] || points_[i].contact.depth > -kTouching)
-      add_contact(frame, i, problem);
+    if (takes_part(frame, i)) add_contact(frame, i, problem);
+}
+
+bool ContactConstraints::takes_part(const ConstraintFrame& frame, std::size_t i) const {
+  switch (frame.phase) {
+    case Phase::impact:
+      return closing_[i] || points_[i].contact.depth > -kTouching;
+    case Phase::hit:
+      return points_[i].contact.depth >= -kClosed;
+    case Phase::flow:
+      return points_[i].is_held;
+    default:
+      return true;
+  }
+}
+
+// Those of pairs that have worked before are found, others come in.
+ContactWork& ContactConstraints::work_of(const Contact& contact) {
+  const std::pair pair(contact.a, contact.b);
+  auto w = std::lower_bound(work_.begin(), work_.end(), pair, [](const ContactWork& work, auto ab) {
+    return std::pair(work.a, work.b) < ab;
+  });
+  if (w == work_.end() || std::pair(w->a, w->b) != pair)
+    w = work_.insert(w, {contact.a, contact.b});
+  return *w;
 }
 
 void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem& problem,
                               std::size_t) noexcept {
   if (frame.phase == Phase::separate) return;
-  if (frame.phase == Phase::step)
+  const bool jumps = frame.phase == Phase::impact || frame.phase == Phase::hit;
+  if (!jumps)
     for (ContactPoint& point : points_) point.force_W = point.couple_W = Vector3::Zero();
+  if (frame.phase == Phase::flow) modes_.clear();
   for (const Part& part : parts_) {
     const ImpulseConstraint& c = problem.constraints()[part.row];
     ContactPoint& point = points_[part.point];
     const Matrix3 axes = contact_axes(point.contact.n_W);
-    const Vector3 p(c.p[0], c.p[1], c.p[2]);
-    point.impulse_W += axes * p;
-    // Work on what moves freely: over J v alone, without what moves by a law.
-    std::array<double, 3> before, after;
-    problem.velocity(c, problem.v(0), after);
-    if (frame.phase == Phase::impact) {
+    point.impulse_W += axes * Vector3(c.p[0], c.p[1], c.p[2]);
+    if (jumps) {
+      // Work on what moves freely: over J v alone, without what moves by a law.
+      std::array<double, 3> before, after;
+      problem.velocity(c, problem.v(0), after);
       problem.velocity(c, problem.v0(0), before);
       for (std::size_t r = 0; r < 3; ++r)
-        point.impact_work += 0.5 * c.p[r] * (before[r] + after[r]);
-      continue;
-    }
-    const bool soft = c.law == ImpulseLaw::compliant;
-    const double closing = soft ? 0 : closing_speed(point.contact, frame.h);
-    const Vector3 start = axes.transpose() * approach(point.contact, frame.k);
-    for (std::size_t r = 0; r < 3; ++r)
-      before[r] = start[static_cast<int>(r)] - c.b[r] + (r == 0 ? closing : 0);
-    point.force_W = axes * p / frame.h;
-    const double u_n = c.u[0] - closing;
-    point.velocity_W = axes * Vector3(u_n, c.u[1], c.u[2]);
-    gap_after_[part.point] = -point.contact.depth + frame.h * u_n;
-    // Over the mean of the velocities before and after; of what rests that is nothing.
-    const bool hits = c.p[0] > 0 && start[0] < -kSlowestBounce && u_n > start[0];
-    (hits ? point.impact_work : point.normal_work) += 0.5 * c.p[0] * (before[0] + after[0]);
-    for (const std::size_t r : {1, 2}) point.friction_work += 0.5 * c.p[r] * (before[r] + after[r]);
-    if (c.law == ImpulseLaw::compliant) {  // what the force says of the bristles; slipping sets it
-      const double stiff = c.h * c.k_t, damp = c.h * c.b_t;
-      Vector3 anchor = Vector3::Zero();
-      for (int r = 1; r < 3; ++r) anchor += axes.col(r) * (-(p[r] + damp * c.u[r]) / stiff);
-      point.anchor_W = anchor;
-    }
-    for (int e = 1; e <= part.extra; ++e) {
-      const ImpulseConstraint& couple =
-          problem.constraints()[part.row + static_cast<std::size_t>(e)];
-      for (int r = 0; r < couple.rows; ++r) {
-        point.couple_W += axes.col(couple.rows == 1 ? 0 : r + 1) * couple.p[r] / frame.h;
-        point.friction_work += couple.p[r] * (couple.u[r] - couple.b[r]);
-      }
+        work_of(point.contact).impact += 0.5 * c.p[r] * (before[r] + after[r]);
+    } else {
+      take_step(frame, problem, part, axes);
     }
   }
+}
+
+// Of the second phase: forces, what the gap becomes, and work, over the mean of the velocities
+// before and after; of what rests that is nothing.
+void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulseProblem& problem,
+                                   const Part& part, const Matrix3& axes) {
+  const ImpulseConstraint& c = problem.constraints()[part.row];
+  ContactPoint& point = points_[part.point];
+  const Vector3 p(c.p[0], c.p[1], c.p[2]);
+  const double closing = may_close(frame, point);
+  const Vector3 start = axes.transpose() * approach(point.contact, frame.k);
+  std::array<double, 3> before, after;
+  problem.velocity(c, problem.v(0), after);
+  for (std::size_t r = 0; r < 3; ++r)
+    before[r] = start[static_cast<int>(r)] - c.b[r] + (r == 0 ? closing : 0);
+  point.force_W = axes * p / frame.h;
+  const double u_n = c.u[0] - closing;
+  point.velocity_W = axes * Vector3(u_n, c.u[1], c.u[2]);
+  gap_after_[part.point] = -point.contact.depth + frame.h * u_n;
+  const double normal = 0.5 * c.p[0] * (before[0] + after[0]);
+  double friction = 0;
+  for (const std::size_t r : {1, 2}) friction += 0.5 * c.p[r] * (before[r] + after[r]);
+  if (c.law == ImpulseLaw::compliant) {  // what the force says of the bristles; slipping sets it
+    const double stiff = c.h * c.k_t, damp = c.h * c.b_t;
+    Vector3 anchor = Vector3::Zero();
+    for (int r = 1; r < 3; ++r) anchor += axes.col(r) * (-(p[r] + damp * c.u[r]) / stiff);
+    point.anchor_W = anchor;
+  }
+  for (int e = 1; e <= part.extra; ++e) {
+    const ImpulseConstraint& couple = problem.constraints()[part.row + static_cast<std::size_t>(e)];
+    for (int r = 0; r < couple.rows; ++r) {
+      point.couple_W += axes.col(couple.rows == 1 ? 0 : r + 1) * couple.p[r] / frame.h;
+      friction += couple.p[r] * (couple.u[r] - couple.b[r]);
+    }
+  }
+  if (frame.phase == Phase::flow) return take_flow(point, c, normal, friction);
+  ContactWork& work = work_of(point.contact);
+  const bool hits = c.p[0] > 0 && start[0] < -kSlowestBounce && u_n > start[0];
+  (hits ? work.impact : work.normal) += normal;
+  work.friction += friction;
 }
 
 }  // namespace twinarm

@@ -10,12 +10,13 @@
 // nothing tunnels, whatever its speed.
 #pragma once
 
-#include <algorithm>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "collision/collision_world.h"
-#include "solver/constraint_source.h"
+#include "solver/event_source.h"
 #include "solver/integrator_rewind.h"
 
 namespace twinarm {
@@ -49,7 +50,13 @@ struct ContactPoint {
   Vector3 couple_W = Vector3::Zero();    // on b: torsional and rolling friction [N m]
   Vector3 anchor_W = Vector3::Zero();    // compliant: how far the bristles are bent [m]
   Vector3 velocity_W = Vector3::Zero();  // of b against a, at the end of the step [m/s]
-  double normal_work = 0, friction_work = 0, impact_work = 0;  // of the step, on both [J]
+  bool is_held = false;                  // event_source.h
+};
+
+// Of all points of two geometries, on what they belong to [J].
+struct ContactWork {
+  int a, b;
+  double normal = 0, friction = 0, impact = 0;
 };
 
 // The normal and two directions across it, as columns.
@@ -61,7 +68,7 @@ inline Matrix3 contact_axes(const Vector3& n) {
   return axes;
 }
 
-class ContactConstraints final : public ConstraintSource, public Rewindable {
+class ContactConstraints final : public EventSource, public Rewindable {
  public:
   ContactConstraints(const Model<double>& model, ContactResponse response);
 
@@ -81,19 +88,24 @@ class ContactConstraints final : public ConstraintSource, public Rewindable {
   void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
             std::size_t first) noexcept override;
 
-  void keep() override { kept_ = points_; }
-  void go_back() noexcept override { std::swap(points_, kept_); }
+  // contact_events.cpp
+  void hold(const ConstraintFrame& frame) noexcept override;
+  void hold_again() noexcept override;
+  void look(const ConstraintFrame& frame, Nearest& nearest) const noexcept override;
+  void modes(std::vector<char>& modes) const noexcept override;
+  std::span<double> works() noexcept override { return flow_works_; }
+  void count_works() noexcept override;
+
+  void keep() override { kept_ = {points_, work_}; }
+  void go_back() noexcept override;
 
   const std::vector<ContactPoint>& points() const { return points_; }
+  // Of all steps so far, ascending by (a, b).
+  const std::vector<ContactWork>& work() const { return work_; }
 
-  // A gap that counts as closed, so that rest does not chase rounding; penetration that is let be.
-  static constexpr double kClosed = 1e-9, kSlop = 1e-6;  // [m]
+  static constexpr double kSlop = 1e-6;  // penetration that is let be [m]
 
  private:
-  // The gap that may close within a step, as a velocity.
-  static double closing_speed(const Contact& contact, double h) {
-    return std::max(0.0, -contact.depth - kClosed) / h;
-  }
   struct PairRule {
     int a, b;
     double friction, restitution;
@@ -103,7 +115,10 @@ class ContactConstraints final : public ConstraintSource, public Rewindable {
     std::size_t row;  // of its constraint
     int extra;        // constraints for torsional and rolling friction behind it
   };
-  void place(const Kinematics& k);
+  struct Kept {
+    std::vector<ContactPoint> points;
+    std::vector<ContactWork> work;
+  };
   double reach(std::size_t geometry, const Kinematics& k, double h) const;
   ContactPoint start(const Contact& contact) const;
   const ContactPoint* last_of(const Contact& contact) const;
@@ -111,6 +126,13 @@ class ContactConstraints final : public ConstraintSource, public Rewindable {
   Vector3 approach(const Contact& contact, const Kinematics& k) const;
   double bounce_speed(std::size_t point, double u, const ConstraintFrame& frame,
                       const ImpulseProblem& problem, const ImpulseConstraint& c) const;
+  ContactWork& work_of(const Contact& contact);
+  void take_step(const ConstraintFrame& frame, const ImpulseProblem& problem, const Part& part,
+                 const Matrix3& axes);
+  void take_flow(const ContactPoint& point, const ImpulseConstraint& c, double normal,
+                 double friction);
+  double may_close(const ConstraintFrame& frame, const ContactPoint& point) const;
+  bool takes_part(const ConstraintFrame& frame, std::size_t point) const;
   void add_contact(const ConstraintFrame& frame, std::size_t point, ImpulseProblem& problem);
   void add_friction_couples(const ConstraintFrame& frame, std::size_t point, const Matrix3& axes,
                             ImpulseProblem& problem);
@@ -119,6 +141,7 @@ class ContactConstraints final : public ConstraintSource, public Rewindable {
   const Model<double>* model_;
   ContactResponse response_;
   bool has_drives_ = false;
+  bool locates_ = false;            // hold() was called: steps locate their events
   std::vector<char> is_immovable_;  // by body: neither forces nor impulses move it
   CollisionWorld world_;
   std::vector<ContactGeometry> geometries_;
@@ -127,7 +150,12 @@ class ContactConstraints final : public ConstraintSource, public Rewindable {
   std::vector<Pose> X_WG_;
   std::vector<double> reach_;
   std::vector<Contact> contacts_;
-  std::vector<ContactPoint> points_, last_, kept_;  // sorted by (a, b, feature)
+  std::vector<ContactPoint> points_, last_, held_;  // sorted by (a, b, feature)
+  Kept kept_;
+  std::vector<ContactWork> work_;
+  std::vector<std::pair<int, int>> held_pairs_;  // ascending
+  std::vector<double> flow_works_;               // normal and friction of each
+  std::vector<char> modes_;                      // of the held, after a flow
   std::vector<double> gap_after_;
   std::vector<char> closing_;
   std::vector<Part> parts_;

@@ -14,10 +14,10 @@ constexpr double kBristleRatio = 1;  // tangential over normal stiffness
 
 // Where forces act on the body (a's or b's): midway between the surfaces, so that both feel them in
 // one point; but against something that does not move on the body's own surface, for that is where
-// it will touch.
+// it will touch. (Where events are located also below it by a hair, so that the motion is smooth.)
 Vector3 ContactConstraints::point_on(const Contact& c, int body) const {
   const int a = geometry(c.a).body, b = geometry(c.b).body;
-  const double gap = std::max(0.0, -c.depth);
+  const double gap = locates_ ? -c.depth : std::max(0.0, -c.depth);
   if (body == b && is_immovable_[static_cast<std::size_t>(a)]) return c.p_WC + 0.5 * gap * c.n_W;
   if (body == a && is_immovable_[static_cast<std::size_t>(b)]) return c.p_WC - 0.5 * gap * c.n_W;
   return c.p_WC;
@@ -36,11 +36,22 @@ double ContactConstraints::bounce_speed(std::size_t i, double u, const Constrain
                                         const ImpulseProblem& problem,
                                         const ImpulseConstraint& c) const {
   const ContactPoint& point = points_[i];
+  if (frame.phase == Phase::hit) return point.restitution * std::abs(u);
   std::array<double, 3> acceleration;
   problem.velocity(c, frame.acceleration, acceleration);
   const double e = point.restitution, gap = std::max(0.0, -point.contact.depth);
   const double square = e * e * u * u + 2 * (1 - e * e) * acceleration[0] * gap;
   return std::min(std::sqrt(std::max(0.0, square)), std::abs(u));
+}
+
+// How fast the gap may close: in a step by what is left of it, in a smooth piece not at all but for
+// the rest that integration leaves.
+double ContactConstraints::may_close(const ConstraintFrame& frame,
+                                     const ContactPoint& point) const {
+  const double gap = -point.contact.depth;
+  if (frame.phase == Phase::flow) return kGapRate * gap;
+  if (response_ == ContactResponse::compliant) return 0;
+  return std::max(0.0, gap - kClosed) / frame.h;
 }
 
 void ContactConstraints::add_contact(const ConstraintFrame& frame, std::size_t i,
@@ -75,17 +86,15 @@ void ContactConstraints::add_contact(const ConstraintFrame& frame, std::size_t i
   }
   const Vector3 u = axes.transpose() * approach(contact, frame.k);
   if (has_drives_) {  // what moves by a law is not in J
-    problem.velocity(c, problem.v0(0), c.b);
+    problem.velocity(c, frame.v, c.b);
     for (int r = 0; r < rows; ++r) c.b[r] = u[r] - c.b[r];
   }
-  if (frame.phase == Phase::impact) {
+  if (frame.phase == Phase::impact || frame.phase == Phase::hit) {
     if (closing_[i] && !frame.plastic) c.b[0] -= bounce_speed(i, u[0], frame, problem, c);
     return;
   }
-  if (soft)
-    set_compliance(i, frame.h, axes, c);
-  else
-    c.b[0] += closing_speed(contact, frame.h);
+  if (soft) set_compliance(i, frame.h, axes, c);
+  c.b[0] += may_close(frame, point);
   const Vector3 guess = axes.transpose() * point.force_W * frame.h;
   for (int r = 0; r < rows; ++r) c.p[r] = guess[r];
   add_friction_couples(frame, i, axes, problem);
@@ -125,7 +134,7 @@ void ContactConstraints::add_friction_couples(const ConstraintFrame& frame, std:
     if (has_drives_) {
       const Vector3 w = about.transpose() * (frame.k.w_WL[static_cast<std::size_t>(body_b)] -
                                              frame.k.w_WL[static_cast<std::size_t>(body_a)]);
-      problem.velocity(c, problem.v0(0), c.b);
+      problem.velocity(c, frame.v, c.b);
       for (int r = 0; r < rows; ++r) c.b[r] = w[r] - c.b[r];
     }
     const Vector3 guess = about.transpose() * points_[i].couple_W * frame.h;

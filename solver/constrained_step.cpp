@@ -29,10 +29,10 @@ ConstrainedStep::ConstrainedStep(const Model<double>& model)
       mimic_guess_(model.mimics.size()) {}
 
 void ConstrainedStep::step(Mechanism& m, double h, StepReport& report) {
-  report_ = {};
-  for (ConstraintSource* source : sources_) source->begin_step(m.k, m.x, h);
+  start_report();
+  begin_sources(m, h);
   m.begin_step(h);
-  resolve_impacts(m, h);
+  resolve_impacts(m, h, Phase::impact);
   accelerate(m, h);
   resolve_step(m, h);
   before_ = m.x.qd;
@@ -44,12 +44,35 @@ void ConstrainedStep::step(Mechanism& m, double h, StepReport& report) {
   report.iterations = report_.step.newton;
 }
 
+void ConstrainedStep::begin_sources(const Mechanism& m, double h) {
+  for (ConstraintSource* source : sources_) source->begin_step(m.k, m.x, h);
+}
+
+bool ConstrainedStep::hit(Mechanism& m) {
+  return resolve_impacts(m, 0, Phase::hit) > 0;
+}
+
+void ConstrainedStep::flow(Mechanism& m, double h) {
+  accelerate(m, h);
+  if (solve_step(m, h, Phase::flow))
+    trees_.scatter(problem_, m.x.qd);
+  else
+    kick(m, h);
+}
+
 void ConstrainedStep::add_sources(const ConstraintFrame& frame) {
   first_.clear();
   for (ConstraintSource* source : sources_) {
     first_.push_back(problem_.constraints().size());
     source->add(frame, problem_);
   }
+}
+
+// v0 of the problem, before anything is added to it.
+void ConstrainedStep::keep_velocities(ConstraintFrame& frame) {
+  if (problem_.nv() == 0) return;
+  velocity_.assign(problem_.v0(0), problem_.v0(0) + problem_.nv());
+  frame.v = velocity_.data();
 }
 
 void ConstrainedStep::hand_out(const ConstraintFrame& frame) {
@@ -68,13 +91,14 @@ double ConstrainedStep::kinetic_energy(const double* v) const {
   return 0.5 * twice;
 }
 
-void ConstrainedStep::resolve_impacts(Mechanism& m, double h) {
-  for (; report_.impacts < most_impacts; ++report_.impacts) {
-    ConstraintFrame frame{m.k, trees_, m.x, Phase::impact, h};
+int ConstrainedStep::resolve_impacts(Mechanism& m, double h, Phase phase) {
+  int passes = 0;
+  for (; passes < most_impacts; ++passes, ++report_.impacts) {
+    ConstraintFrame frame{m.k, trees_, m.x, phase, h};
     bool closes = false;
     for (ConstraintSource* source : sources_) closes = source->closes(frame) || closes;
     if (!closes) break;
-    if (report_.impacts == 0) {
+    if (passes == 0) {
       accelerate(m, h);
       acceleration_ = m.w.qdd;
     }
@@ -86,6 +110,7 @@ void ConstrainedStep::resolve_impacts(Mechanism& m, double h) {
       sum_.assign(problem_.v0(0), problem_.v0(0) + problem_.nv());
       frame.acceleration = sum_.data();
       trees_.gather(m.x.qd, problem_);
+      keep_velocities(frame);
       add_sources(frame);
       add_bilateral(m, frame.phase);
       return solver_.solve(problem_);
@@ -107,6 +132,7 @@ void ConstrainedStep::resolve_impacts(Mechanism& m, double h) {
     trees_.scatter(problem_, m.x.qd);
     forward_kinematics(*model_, m.x, m.k);
   }
+  return passes;
 }
 
 // From the plastic solution, which the problem holds, towards the elastic one (elastic_ its
@@ -155,20 +181,23 @@ void ConstrainedStep::accelerate(Mechanism& m, double h) {
   m.start_projection();
 }
 
-void ConstrainedStep::resolve_step(Mechanism& m, double h) {
+// The velocities at the end of the step, in problem_, and the constraints' forces; false where
+// there are none.
+bool ConstrainedStep::solve_step(Mechanism& m, double h, Phase phase) {
   problem_.clear();
   trees_.add_to(problem_, &m.forces, m.w);
   trees_.gather(m.x.qd, problem_);
+  ConstraintFrame frame{m.k, trees_, m.x, phase, h};
+  keep_velocities(frame);
   for (std::size_t dof = 0; dof < model_->nv; ++dof)
     problem_.v0(trees_.tree_of_dof(dof))[trees_.place(dof)] += h * m.w.qdd[dof];
-  const ConstraintFrame frame{m.k, trees_, m.x, Phase::step, h};
   add_sources(frame);
   const std::size_t friction = problem_.constraints().size();
   add_joint_friction(m, h);
   add_bilateral(m, frame.phase);
   std::fill(constraint_.begin(), constraint_.end(), 0);
   std::fill(coulomb_.begin(), coulomb_.end(), 0);
-  if (problem_.constraints().empty()) return;
+  if (problem_.constraints().empty()) return false;
   report_.step = solver_.solve(problem_);
   hand_out(frame);
 
@@ -192,6 +221,11 @@ void ConstrainedStep::resolve_step(Mechanism& m, double h) {
   for (std::size_t row = 0; row < loop_guess_.size(); ++next)
     for (int r = 0; r < problem_.constraints()[next].rows; ++r)
       loop_guess_[row++] = problem_.constraints()[next].p[static_cast<std::size_t>(r)];
+  return true;
+}
+
+void ConstrainedStep::resolve_step(Mechanism& m, double h) {
+  if (!solve_step(m, h, Phase::step)) return;
   aba(*model_, m.x, m.forces, m.w);
   if (friction_on_)
     for (std::size_t dof = 0; dof < model_->nv; ++dof)
@@ -271,7 +305,7 @@ void ConstrainedStep::add_loops(Mechanism& m, Phase phase) {
     for (std::size_t r = 0; r < count; ++r) {
       const auto from = static_cast<Eigen::Index>(row + r);
       c.b[r] = phase == Phase::separate ? 0 : loops.rate()[from];
-      if (phase == Phase::step) c.p[r] = loop_guess_[row + r];
+      if (phase == Phase::step || phase == Phase::flow) c.p[r] = loop_guess_[row + r];
       for (const std::size_t dof : dofs) {
         const double entry = loops.J()(from, static_cast<Eigen::Index>(dof));
         const int tree = trees_.tree_of_dof(dof);

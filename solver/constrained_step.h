@@ -42,6 +42,17 @@ class ConstrainedStep {
   // From m.x, whose m.k is up to date, to the end of the step; begins it for all sources.
   void step(Mechanism& m, double h, StepReport& report);
 
+  // The parts that event_step.h puts together, from m.x with m.k up to date. Velocities alone move.
+  void start_report() { report_ = {}; }
+  void begin_sources(const Mechanism& m, double h);
+  bool hit(Mechanism& m);             // what touches and closes now; false where nothing does
+  void flow(Mechanism& m, double h);  // by forces and what is held, over h
+  // Both solved to this residual; aims at the other [m/s].
+  void set_accuracy(double accepted, double tolerance) {
+    solver_.accepted = accepted, solver_.tolerance = tolerance;
+  }
+  const ModelTrees& trees() const { return trees_; }
+
   const ConstraintReport& report() const { return report_; }
   const std::vector<double>& damping_torque() const { return damping_; }  // of the last step
   const std::vector<double>& coulomb_torque() const { return coulomb_; }
@@ -50,12 +61,14 @@ class ConstrainedStep {
 
  private:
   static constexpr int most_impacts = 50;
-  void resolve_impacts(Mechanism& m, double h);
+  int resolve_impacts(Mechanism& m, double h, Phase phase);
   void accelerate(Mechanism& m, double h);
+  bool solve_step(Mechanism& m, double h, Phase phase);
   void resolve_step(Mechanism& m, double h);
   void move(Mechanism& m, double h);
   void separate(Mechanism& m, double h);
   void add_sources(const ConstraintFrame& frame);
+  void keep_velocities(ConstraintFrame& frame);
   void hand_out(const ConstraintFrame& frame);
   void add_joint_friction(const Mechanism& m, double h);
   void add_mimics();
@@ -75,8 +88,8 @@ class ConstrainedStep {
   std::vector<char> flies_;     // by tree
   std::vector<double> before_;  // by velocity: those at the start of the second phase
   std::vector<double> damping_, coulomb_, constraint_, shift_;
-  std::vector<double> friction_guess_, mimic_guess_, loop_guess_, sum_, acceleration_, elastic_,
-      elastic_p_;
+  std::vector<double> friction_guess_, mimic_guess_, loop_guess_, sum_, acceleration_, velocity_,
+      elastic_, elastic_p_;
 };
 
 }  // namespace twinarm

@@ -5,6 +5,7 @@
 //   closes          before impacts: does anything hit within this step, at these velocities?
 //   add, take       Phase::impact, as often as something closes; Phase::step once;
 //                   Phase::separate if one of them wants_separation
+// A step that locates its events in time asks for more: event_source.h.
 // None of them may throw or allocate once warm.
 #pragma once
 
@@ -17,7 +18,10 @@ namespace twinarm {
 enum class Phase {
   impact,   // velocities jump: v0 are those before
   step,     // v0 are those at the end of the step without the impulses
-  separate  // v0 = 0, and v is a small motion [m, rad]: what penetrates is pushed apart
+  separate,  // v0 = 0, and v is a small motion [m, rad]: what penetrates is pushed apart
+  // of event_step.h alone:
+  hit,  // as impact, of what touches now
+  flow  // as step, of what is held; no gap may close
 };
 
 struct ConstraintFrame {
@@ -27,6 +31,7 @@ struct ConstraintFrame {
   Phase phase;
   double h;              // [s]
   bool plastic = false;  // impact: as if every restitution were 0
+  const double* v = nullptr;  // velocities of x, in the order of the trees
   // impact: accelerations that go on until the gap is closed, in the order of the trees
   const double* acceleration = nullptr;
 };

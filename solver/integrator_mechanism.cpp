@@ -46,10 +46,14 @@ void Mechanism::place(State<double>& at) const {
     store_motion(drive.law(at.t), at.q.data() + model.iq[drive.body]);
 }
 
-void Mechanism::refresh() {
+void Mechanism::place_and_look() {
   apply_mimics(model, x);
   place(x);
   forward_kinematics(model, x, k);
+}
+
+void Mechanism::refresh() {
+  place_and_look();
   loops_open = close(x, k);
 }
 

@@ -69,6 +69,8 @@ struct Mechanism {
   void accelerate_end(double t);
   // Followers to their leaders, drives to where their laws say at x.t, loops closed; then k.
   void refresh();
+  // The same, but loops as they are.
+  void place_and_look();
   // At another state. Throws InputError where loops are open there by more than a small rest.
   void start(State<double> from);
   void set_loops(LoopClosures loops);  // closed where the mechanism stands; their rest goes

@@ -7,8 +7,8 @@
 namespace twinarm {
 namespace {
 
-constexpr double kClosed = 1e-10, kSlop = 1e-9;  // [rad, m]
-constexpr double kSeparationPart = 0.2;          // of the rest beyond the limit, in each step
+constexpr double kSlop = 1e-9, kLeastReach = 1e-3;  // [rad, m]
+constexpr double kSeparationPart = 0.2;             // of the rest beyond the limit, in each step
 
 }  // namespace
 
@@ -24,13 +24,12 @@ void JointLimits::add(int body, double lower, double upper) {
 void JointLimits::begin_step(const Kinematics&, const State<double>& x, double h) noexcept {
   rows_.clear();
   for (std::size_t i = 0; i < limits_.size(); ++i) {
-    Limit& limit = limits_[i];
+    const Limit& limit = limits_[i];
     const auto body = static_cast<std::size_t>(limit.body);
     const double q = x.q[model_->iq[body]],
-                 reach = 2 * h * std::abs(x.qd[model_->iv[body]]) + 1e4 * h * h;
-    if (q - limit.lower < reach) rows_.push_back({i, 1, q - limit.lower, 0});
-    if (limit.upper - q < reach) rows_.push_back({i, -1, limit.upper - q, 0});
-    limit.work = 0;
+                 reach = 2 * h * std::abs(x.qd[model_->iv[body]]) + 1e4 * h * h + kLeastReach;
+    if (q - limit.lower < reach) rows_.push_back({i, 1, q - limit.lower});
+    if (limit.upper - q < reach) rows_.push_back({i, -1, limit.upper - q});
   }
 }
 
@@ -40,6 +39,7 @@ bool JointLimits::wants_separation() const noexcept {
 
 void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept {
   for (const Row& row : rows_) {
+    if (!takes_part(frame, row)) continue;
     const std::size_t dof = model_->iv[static_cast<std::size_t>(limits_[row.limit].body)];
     ImpulseConstraint& c = problem.add(ImpulseLaw::at_least, 1, frame.trees.tree_of_dof(dof),
                                        ImpulseConstraint::no_tree);
@@ -52,6 +52,12 @@ void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noe
         c.b[0] = std::max(0.0, row.gap - kClosed) / frame.h;
         c.p[0] = std::max(0.0, row.sign * limits_[row.limit].force * frame.h);
         break;
+      case Phase::hit:
+        break;
+      case Phase::flow:
+        c.b[0] = kGapRate * row.gap;
+        c.p[0] = std::max(0.0, row.sign * limits_[row.limit].force * frame.h);
+        break;
       case Phase::separate:
         c.b[0] = row.after >= 0 ? row.after : std::min(0.0, kSeparationPart * (row.after + kSlop));
         break;
@@ -62,20 +68,27 @@ void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noe
 void JointLimits::take(const ConstraintFrame& frame, const ImpulseProblem& problem,
                        std::size_t first) noexcept {
   if (frame.phase == Phase::separate) return;
-  if (frame.phase == Phase::step)
+  const bool jumps = frame.phase == Phase::impact || frame.phase == Phase::hit;
+  if (!jumps)
     for (Limit& limit : limits_) limit.force = 0;
   for (Row& row : rows_) {
+    if (!takes_part(frame, row)) continue;
     const ImpulseConstraint& c = problem.constraints()[first++];
     Limit& limit = limits_[row.limit];
     const double u = c.u[0] - c.b[0];  // away from the limit, at the end
-    if (frame.phase == Phase::step) {
-      limit.force += row.sign * c.p[0] / frame.h;
-      row.after = row.gap + frame.h * u;
-      limit.work += c.p[0] * u;
-    } else {
-      const std::size_t dof = model_->iv[static_cast<std::size_t>(limit.body)];
-      limit.work += 0.5 * c.p[0] * (u + row.sign * frame.x.qd[dof]);
+    if (jumps) {
+      limit.work += 0.5 * c.p[0] * (u + speed(row, frame.x));
+      continue;
     }
+    limit.force += row.sign * c.p[0] / frame.h;
+    row.after = row.gap + frame.h * u;
+    row.opens = c.u[0] > kMoves;
+    if (frame.phase == Phase::step)
+      limit.work += c.p[0] * u;
+    else
+      for (std::size_t i = 0; i < held_.size(); ++i)
+        if (held_[i].limit == row.limit && held_[i].sign == row.sign)
+          flow_works_[i] += 0.5 * c.p[0] * (u + speed(row, frame.x));
   }
 }
 

@@ -4,18 +4,18 @@
 
 #include <vector>
 
-#include "solver/constraint_source.h"
+#include "solver/event_source.h"
 #include "solver/integrator_rewind.h"
 
 namespace twinarm {
 
-class JointLimits final : public ConstraintSource, public Rewindable {
+class JointLimits final : public EventSource, public Rewindable {
  public:
   struct Limit {
     int body;             // that the joint carries
     double lower, upper;  // infinite where there is none
     double force = 0;     // of the last step, positive at the lower limit [N m, N]
-    double work = 0;      // of the last step, on the joint [J]
+    double work = 0;      // of all steps so far, on the joint [J]
   };
 
   explicit JointLimits(const Model<double>& model) : model_(&model) {}
@@ -28,6 +28,15 @@ class JointLimits final : public ConstraintSource, public Rewindable {
   void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
   void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
             std::size_t first) noexcept override;
+  // joint_limits_events.cpp
+  bool closes(const ConstraintFrame& frame) noexcept override;
+  void hold(const ConstraintFrame& frame) noexcept override;
+  void hold_again() noexcept override;
+  void look(const ConstraintFrame& frame, Nearest& nearest) const noexcept override;
+  void modes(std::vector<char>& modes) const noexcept override;
+  std::span<double> works() noexcept override { return flow_works_; }
+  void count_works() noexcept override;
+
   void keep() override { kept_ = limits_; }
   void go_back() noexcept override { std::swap(limits_, kept_); }
 
@@ -35,11 +44,21 @@ class JointLimits final : public ConstraintSource, public Rewindable {
   struct Row {
     std::size_t limit;
     double sign;  // +1: velocities away from the lower limit are positive, -1: from the upper
-    double gap, after;
+    double gap, after = 0;
+    bool opens = false;
   };
+  struct Held {
+    std::size_t limit;
+    double sign;
+  };
+  bool takes_part(const ConstraintFrame& frame, const Row& row) const;
+  bool is_held(const Row& row) const;
+  double speed(const Row& row, const State<double>& x) const;
   const Model<double>* model_;
   std::vector<Limit> limits_, kept_;
   std::vector<Row> rows_;  // that can be reached in this step
+  std::vector<Held> held_;
+  std::vector<double> flow_works_;  // of each held
 };
 
 }  // namespace twinarm

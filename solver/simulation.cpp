@@ -11,6 +11,17 @@
 namespace twinarm {
 namespace {
 
+void check_located(const ForceSource& source) {
+  if (source.needs_semi_implicit())
+    throw std::invalid_argument(
+        "implicit spring-dampers do not go with steps that locate their events");
+}
+
+void check_located(ConstraintSource& source) {
+  if (!dynamic_cast<EventSource*>(&source))
+    throw std::invalid_argument("a source of constraints cannot have its events located");
+}
+
 void check(const ForceSource& source, Integrator integrator) {
   if (source.needs_semi_implicit() && !facts_of(integrator).implicit_force)
     throw std::invalid_argument(
@@ -31,13 +42,22 @@ Simulation::Simulation(const Model<double>& model, State<double> start)
 
 void Simulation::add(ForceSource& source) {
   check(source, integrator_);
+  if (located_) check_located(source);
   m_.sources.push_back(&source);
 }
 
 void Simulation::add(ConstraintSource& source) {
   if (integrator_ != Integrator::semi_implicit)
     throw std::invalid_argument("contacts and limits go with the integrator 'semi-implicit' only");
+  if (located_) check_located(source);
   constrained_.add(source);
+}
+
+void Simulation::locate_events() {
+  for (const ForceSource* source : m_.sources) check_located(*source);
+  for (ConstraintSource* source : constrained_.sources()) check_located(*source);
+  located_.emplace(model());
+  located_->set_tolerance(tolerance_);
 }
 
 void Simulation::set_loops(std::vector<LoopClosure> loops) {
@@ -58,6 +78,8 @@ void Simulation::set_integrator(Integrator integrator) {
 void Simulation::set_tolerance(double tolerance) {
   if (!(tolerance > 0) || !std::isfinite(tolerance))
     throw std::invalid_argument("a tolerance is a positive number");
+  tolerance_ = tolerance;
+  if (located_) located_->set_tolerance(tolerance);
   dopri5_.set_tolerance(tolerance);
   dopri5_.forget();
 }
@@ -123,10 +145,14 @@ StepReport Simulation::advance(double h, bool one_substep) {
     m_.refresh();
   }
   if (constrained_.any()) {
-    constrained_.step(m_, h, report);
-    m_.x.t = t + h;
-    m_.refresh();
-    report.h = h;
+    if (located_) {
+      located_->step(constrained_, m_, h, report);
+    } else {
+      constrained_.step(m_, h, report);
+      m_.x.t = t + h;
+      m_.refresh();
+    }
+    report.h = m_.x.t - t;
     look_for_bad_numbers(report);
     return report;
   }

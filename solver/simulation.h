@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/constrained_step.h"
+#include "solver/event_step.h"
 #include "solver/force_source.h"
 #include "solver/integrator.h"
 #include "solver/integrator_dopri5.h"
@@ -31,6 +32,10 @@ class Simulation {
   // Contacts, limits, locks: from now on a step is one of solver/constrained_step.h, which goes
   // with the semi-implicit integrator alone.
   void add(ConstraintSource& source);
+  // Constrained steps locate their events in time and are of high order between them
+  // (solver/event_step.h), at set_tolerance(). Throws std::invalid_argument where a source is
+  // implicit in the step, or is no EventSource.
+  void locate_events();
   // Bilateral constraints, in place of those before. Throws InputError with all faults; loops must
   // be closed where the mechanism stands (close_loops in loop_assembly.h finds such a place).
   // Velocities that they do not allow go to the nearest that they do, as in an impact. From then
@@ -77,11 +82,13 @@ class Simulation {
 
   Mechanism m_;
   Integrator integrator_ = Integrator::semi_implicit;
+  double tolerance_ = 1e-10;
   std::vector<double> shift_;
   RungeKutta rk_;
   Dopri5 dopri5_;
   FrictionEvents events_;
   ConstrainedStep constrained_;
+  std::optional<EventStep> located_;
   std::optional<ImplicitStep> implicit_;  // nv x nv numbers: only where the integrator needs it
 };
 

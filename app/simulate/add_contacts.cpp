@@ -4,6 +4,7 @@
 
 #include "app/scene/scene_names.h"
 #include "app/scene/scene_shapes.h"
+#include "collision/import/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -31,11 +32,18 @@ bool limits_act(const SceneModel& scene, Integrator integrator) {
   return integrator == Integrator::semi_implicit && has_limits(scene);
 }
 
+bool locates_events(const SceneModel& scene) {
+  return scene.description.contact == ContactMode::event;
+}
+
 void check_contacts(const SceneModel& scene, Integrator integrator, FaultList& faults) {
   const std::string file = scene.description.file.string();
   if (scene.description.contact == ContactMode::event)
-    faults.add({file, 0, "contact", "impact times cannot be located yet",
-                "write contact = \"rigid\", or \"compliant\""});
+    for (const SceneCoupling& coupling : scene.couplings)
+      if (coupling.treatment != Treatment::explicit_)
+        faults.add({file, coupling.line, "coupling '" + coupling.name + "'",
+                    "its treatment does not go with contact = \"event\"",
+                    "give treatment = \"explicit\", or contact = \"rigid\""});
   if (scene.may_touch() && integrator != Integrator::semi_implicit)
     faults.add({file, 0, "integrator",
                 std::string("contacts go with the semi-implicit integrator, not with ") +
@@ -62,6 +70,13 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
     add_limits();
     simulation.add(*limits_);
   }
+  if (!locates_events(scene) || !(contacts_ || limits_)) return;
+  if (deepest_at_start_ > ContactConstraints::kSlop)
+    throw InputError(
+        {{scene.description.file.string(), 0, "contact",
+          "bodies stand " + number_text(deepest_at_start_) + " m deep in one another at the start",
+          "move them apart, or let contact = \"rigid\" do it"}});
+  simulation.locate_events();
 }
 
 void SceneContacts::add_geometries() {
@@ -92,7 +107,6 @@ void SceneContacts::add_limits() {
       const int body = scene_.model.find_joint(name_in_scene(scene_.description, r, joint.name));
       if (joint.is_limited() && body > 0) limits_->add(body, joint.lower, joint.upper);
     }
-  limit_work_.assign(limits_->limits().size(), 0);
 }
 
 void SceneContacts::look_at_start(const Simulation& simulation) {
@@ -101,34 +115,18 @@ void SceneContacts::look_at_start(const Simulation& simulation) {
     deepest_at_start_ = std::max(deepest_at_start_, point.contact.depth);
 }
 
-void SceneContacts::add_step() {
-  if (limits_)
-    for (std::size_t i = 0; i < limit_work_.size(); ++i)
-      limit_work_[i] += limits_->limits()[i].work;
-  if (!contacts_) return;
-  for (const ContactPoint& point : contacts_->points()) {
-    const std::pair key(point.contact.a, point.contact.b);
-    auto pair = std::lower_bound(pairs_.begin(), pairs_.end(), key, [](const PairWork& w, auto ab) {
-      return std::pair(w.a, w.b) < ab;
-    });
-    if (pair == pairs_.end() || std::pair(pair->a, pair->b) != key)
-      pair = pairs_.insert(pair, {key.first, key.second});
-    pair->normal += point.normal_work;
-    pair->friction += point.friction_work;
-    pair->impact += point.impact_work;
-  }
-}
-
 std::vector<LedgerRow> SceneContacts::rows() const {
   std::vector<LedgerRow> rows;
   const auto add = [&](const std::string& name, double work) {
     if (work != 0) rows.push_back({name, work});
   };
-  for (std::size_t i = 0; i < limit_work_.size(); ++i) {
-    const auto body = static_cast<std::size_t>(limits_->limits()[i].body);
-    add("joint/" + scene_.model.joint_name[body] + "/limit", limit_work_[i]);
-  }
-  for (const PairWork& pair : pairs_) {
+  if (limits_)
+    for (const JointLimits::Limit& limit : limits_->limits()) {
+      const auto body = static_cast<std::size_t>(limit.body);
+      add("joint/" + scene_.model.joint_name[body] + "/limit", limit.work);
+    }
+  if (!contacts_) return rows;
+  for (const ContactWork& pair : contacts_->work()) {
     const std::string name =
         "contact/" + contacts_->geometry(pair.a).name + "-" + contacts_->geometry(pair.b).name;
     add(name + "/normal", pair.normal);

@@ -20,22 +20,19 @@ void check_contacts(const SceneModel& scene, Integrator integrator, FaultList& f
 // Position limits go with the semi-implicit integrator alone; with others a run warns of them.
 bool limits_act(const SceneModel& scene, Integrator integrator);
 
+// contact = "event": steps locate their events in time, and are adaptive between them.
+bool locates_events(const SceneModel& scene);
+
 class SceneContacts {
  public:
   // Both must outlive it. Throws InputError for loops that are open at the start.
   SceneContacts(const SceneModel& scene, Simulation& simulation);
-  // After each step.
-  void add_step();
   // `contact/A-B/normal|friction|impact` and `joint/NAME/limit`: what did any work.
   std::vector<LedgerRow> rows() const;
   int contact_count() const;  // points that press, at the last step
   double deepest_at_start() const { return deepest_at_start_; }  // [m]
 
  private:
-  struct PairWork {
-    int a, b;
-    double normal = 0, friction = 0, impact = 0;
-  };
   void add_geometries();
   void add_rules();
   void add_limits();
@@ -44,8 +41,6 @@ class SceneContacts {
   const SceneModel& scene_;
   std::optional<ContactConstraints> contacts_;
   std::optional<JointLimits> limits_;
-  std::vector<PairWork> pairs_;  // ascending
-  std::vector<double> limit_work_;
   double deepest_at_start_ = 0;
 };
 

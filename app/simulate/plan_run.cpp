@@ -47,7 +47,7 @@ void choose_integrator(const SimulateOptions& options, RunPlan& plan, FaultList&
   plan.tolerance = *options.tolerance;
   if (!is_positive(plan.tolerance))
     faults.add({"", 0, "--tolerance", "must be positive, is " + number_text(plan.tolerance), ""});
-  if (!plan.is_adaptive())
+  if (!plan.has_tolerance())
     faults.add({"", 0, "--tolerance",
                 "'" + std::string(integrator_name(plan.integrator)) +
                     "' has steps of fixed size, and no tolerance",
@@ -59,6 +59,7 @@ void choose_integrator(const SimulateOptions& options, RunPlan& plan, FaultList&
 RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults, FaultList& faults) {
   RunPlan plan;
   plan.integrator = defaults.integrator;
+  plan.locates_events = defaults.locates_events;
   choose_integrator(options, plan, faults);
   const std::optional<double> duration = options.duration ? options.duration : defaults.duration;
   if (!duration) faults.add({"", 0, "--duration", "is missing", "give --duration SECONDS"});

@@ -126,8 +126,9 @@ class Run {
             "than 0.5 m/s",
             short_number_text(contacts_->deepest_at_start())));
     }
-    if (plan.is_adaptive()) sim_.set_tolerance(plan.tolerance);
-    ledger_.emplace(input_, wrenches_, simulated.couplings.get(), plan.integrator);
+    if (plan.has_tolerance()) sim_.set_tolerance(plan.tolerance);
+    ledger_.emplace(input_, wrenches_, simulated.couplings.get(),
+                    plan.locates_events ? Integrator::dopri5 : plan.integrator);
   }
 
   RunResult run() {
@@ -202,7 +203,6 @@ class Run {
     for (const double part : ledger_->inner_nodes())
       inner_.push_back(before_->side_step(part * report.h));
     ledger_->add_step(report.h, inner_, sim_.state());
-    if (contacts_) contacts_->add_step();
     result_.end = t_next;
     limits_.look(t_next, sim_.state());
     watch_.tick(t_next);

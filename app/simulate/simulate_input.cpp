@@ -11,7 +11,8 @@ namespace twinarm {
 namespace {
 
 RunDefaults defaults_of(const SceneDescription& scene) {
-  return {scene.duration, scene.step, scene.integrator.value_or(Integrator::semi_implicit)};
+  return {scene.duration, scene.step, scene.integrator.value_or(Integrator::semi_implicit),
+          scene.contact == ContactMode::event};
 }
 
 void refuse_robot_options(const RobotOptions& options, FaultList& faults) {

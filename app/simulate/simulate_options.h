@@ -16,7 +16,7 @@ struct SimulateOptions {
   // Left out: as the scene says, else 0.001 s and semi-implicit; there is no other duration.
   std::optional<double> duration, step;  // [s]
   std::string integrator;                // by its name in solver/integrator.h; may be empty
-  std::optional<double> tolerance;       // of dopri5, relative and absolute
+  std::optional<double> tolerance;       // of dopri5 and located events, relative and absolute
   std::optional<double> every;           // a sample each so many seconds
   std::string at;                        // samples at these times, "t1,t2,.."
   bool json = false, csv = false;
@@ -26,6 +26,7 @@ struct RunDefaults {
   std::optional<double> duration;
   double step = 0.001;
   Integrator integrator = Integrator::semi_implicit;
+  bool locates_events = false;
 };
 
 struct RunPlan {
@@ -34,8 +35,10 @@ struct RunPlan {
   double step = 0;  // of dopri5 the longest substep
   bool step_is_given = false;
   double tolerance = 1e-9;
-  std::vector<double> times;  // of samples, ascending
+  bool locates_events = false;  // in each step
+  std::vector<double> times;    // of samples, ascending
   bool is_adaptive() const { return integrator == Integrator::dopri5; }
+  bool has_tolerance() const { return is_adaptive() || locates_events; }
 };
 
 // Adds all faults of the options to the list.

@@ -55,6 +55,8 @@ class ContactScene {
   void add_turning(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
                    double rate);
   void start();
+  // From now on steps of any length, whose events are located in time.
+  void locate_events() { simulation_->locate_events(); }
 
   bool step(double h);  // false where it was not finite or not solved
   void run(double duration, double h);

@@ -13,7 +13,9 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 // A thin disc that rolls round on its rim, leaning by 10 degrees, its centre at rest:
 // W^2 = 4 g / (R sin a); its angular velocity W sin a points from the contact to the centre.
-CaseResult spin_coin(double h) {
+// Rolling so fast in a curve, it loses energy in first order of a fixed step; so events are
+// located.
+CaseResult coin() {
   constexpr double R = 0.0375, kThick = 1e-5, kLean = 10 * kDegree;
   const double rate = std::sqrt(4 * kGravity * std::sin(kLean) / R);
   ContactScene scene;
@@ -25,19 +27,14 @@ CaseResult spin_coin(double h) {
   disc.inertia = 0.01 * R * R * Vector3(0.25, 0.25, 0.5).asDiagonal().toDenseMatrix();
   const int body = scene.add(disc);
   scene.start();
+  scene.locate_events();
   double astray = 0;
   while (scene.t() < 1) {
-    scene.step(h);
+    scene.step(1e-3);
     astray = std::max(astray, (scene.p(body) - disc.p).norm() / R);
   }
   return {astray, scene.drift()};
 }
-CaseResult coin() {
-  CaseResult result = with_order([](double h) { return spin_coin(h).error; }, 1e-3);
-  result.energy_drift = spin_coin(1e-3).energy_drift;
-  return result;
-}
-
 // A sphere whose centre of mass lies 3 mm below its middle, leaning by 0.1 rad. Spun about the
 // vertical it turns over.
 struct Top {
@@ -121,7 +118,8 @@ CaseResult no_reversal() {
 std::vector<AnalyticCase> spinning() {
   const char* group = "contact";
   return {
-      {"E8", group, "spinning coin at 10 degrees: its centre stays for 1 s [of R]", 1e-3, coin},
+      {"E8", group, "spinning coin at 10 degrees, events located: its centre stays [of R]", 1e-3,
+       coin},
       {"E9-jellett", group, "tippe-top, 0.1 ms: Jellett's integral over 4 s [relative]", 1e-4,
        jellett},
       {"E9-over", group, "tippe-top: it turns over [faults]", 0, turns_over},

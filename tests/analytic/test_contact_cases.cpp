@@ -18,11 +18,6 @@ struct KnownMiss {
   const char* limit;
 };
 constexpr KnownMiss known_misses[] = {
-    {"E1-times", 8e-3, "a bounce happens at the start of its step, each up to a step early"},
-    {"E2-return", 2e-3, "q' = q + h v' in contact is of first order"},
-    {"E3-rocking", 4.5e-2, "a plastic impact takes two steps: the gap closes, then it stops"},
-    {"E8", 0.2, "rolling on a rim loses energy in first order of h"},
-    {"E12-circle", 3e-3, "rolling spirals in first order of h"},
     {"E16", 5e-12, "the residual that the impulse solver aims at"},
 };
 const KnownMiss* known_miss(const std::string& name) {

@@ -1,0 +1,68 @@
+// Contacts in steps that locate their events in time (solver/event_source.h).
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "collision/contact_constraints.h"
+
+namespace twinarm {
+void ContactConstraints::hold(const ConstraintFrame& frame) noexcept {
+  locates_ = true;
+  held_pairs_.clear();
+  for (ContactPoint& p : points_) {
+    const double u = p.contact.n_W.dot(approach(p.contact, frame.k));
+    p.is_held = p.contact.depth >= -kClosed && u <= kRest;
+    const std::pair pair(p.contact.a, p.contact.b);
+    if (p.is_held && (held_pairs_.empty() || held_pairs_.back() != pair))
+      held_pairs_.push_back(pair);
+  }
+  held_ = points_;
+  flow_works_.assign(2 * held_pairs_.size(), 0);
+}
+
+void ContactConstraints::hold_again() noexcept {
+  points_ = held_;
+  std::fill(flow_works_.begin(), flow_works_.end(), 0);
+}
+
+void ContactConstraints::look(const ConstraintFrame& frame, Nearest& nearest) const noexcept {
+  for (const ContactPoint& p : points_) {
+    if (p.is_held) continue;
+    const double gap = -p.contact.depth;
+    const double u = p.contact.n_W.dot(approach(p.contact, frame.k));
+    const bool closes = u < -kRest;
+    if (closes) nearest.time = std::min(nearest.time, std::max(0.0, gap) / -u);
+    const bool passed = gap < -10 * kClosed;
+    if ((closes || passed) && gap < nearest.gap) nearest.gap = gap, nearest.closes = closes;
+  }
+}
+
+void ContactConstraints::take_flow(const ContactPoint& point, const ImpulseConstraint& c,
+                                   double normal, double friction) {
+  const bool moves = c.rows > 1 && std::hypot(c.u[1], c.u[2]) > kMoves;
+  modes_.push_back(c.u[0] > kMoves ? Mode::opens : moves ? Mode::slides : Mode::rests);
+  const auto pair = std::lower_bound(held_pairs_.begin(), held_pairs_.end(),
+                                     std::pair(point.contact.a, point.contact.b));
+  const auto at = 2 * static_cast<std::size_t>(pair - held_pairs_.begin());
+  flow_works_[at] += normal, flow_works_[at + 1] += friction;
+}
+
+void ContactConstraints::modes(std::vector<char>& modes) const noexcept {
+  modes.insert(modes.end(), modes_.begin(), modes_.end());
+}
+
+void ContactConstraints::count_works() noexcept {
+  for (std::size_t i = 0; i < held_pairs_.size(); ++i) {
+    Contact contact{};
+    contact.a = held_pairs_[i].first, contact.b = held_pairs_[i].second;
+    ContactWork& work = work_of(contact);
+    work.normal += flow_works_[2 * i], work.friction += flow_works_[2 * i + 1];
+  }
+}
+
+void ContactConstraints::go_back() noexcept {
+  std::swap(points_, kept_.points);
+  std::swap(work_, kept_.work);
+}
+
+}  // namespace twinarm
