@@ -19,6 +19,7 @@
 #include <cmath>
 
 #include "collision/direction.h"
+#include "collision/gjk.h"
 
 namespace twinarm {
 namespace {
@@ -222,10 +223,10 @@ bool CurvedAxis::nearest(const Placed& a, const Placed& b, double margin, Neares
   origin_ = a.X_WG.p;
   best_ = {};
   const double radii = a.solid.patches.roundness + b.solid.patches.roundness;
-  const CoreDistance cores = distance_of(a, b);
+  const CoreDistance cores = core_distance(a, b, margin + radii);
   overlaps_ = !(cores.distance > gjk_floor);
   if (!overlaps_) {
-    offer(cores.p_WB - cores.p_WA, 0);
+    offer(cores.n_W, 0);
     if (best_.axis.overlap < -margin) return false;
     best_.p_W = midway(a, b, best_.axis.n_W, 0.5 * (cores.p_WA + cores.p_WB));
     overlaps_ = has_gap(cores.distance, best_.axis.overlap - radii);
