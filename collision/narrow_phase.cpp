@@ -3,14 +3,12 @@
 //      sphere-cylinder;
 //   2. the best face normal, if the contact area along it proves that no other direction has less
 //      overlap (manifold.cpp): bodies that rest on each other end here, without GJK;
-//   3. polytopes with a radius: GJK distance of the cores by FCL, which is exact when they are
-//      apart; then all separating axes, which are exact when they overlap; the smaller overlap
-//      wins;
+//   3. polytopes with a radius: GJK distance of the cores, which settles those that are well apart;
+//      else all separating axes, which are exact when they overlap; the smaller overlap wins;
 //   4. cylinders and ellipsoids: see curved_axis.h.
 // Every direction, wherever it comes from, is judged by overlap(n) of the true shapes: an upper
-// bound of the depth for any n. So a wrong answer of FCL can cost optimality, never consistency,
-// and the difference between distance and bound (the duality gap) tells that it happened: then ask
-// again. Cost: 0.1 us in closed form, 0.6 us for boxes face on face, 2-30 us
+// bound of the depth for any n. So a search that ends early can cost optimality, never consistency,
+// and the difference between distance and bound (the duality gap) tells that it happened. Cost: 0.1 us in closed form, 0.6 us for boxes face on face, 2-30 us
 // otherwise; hulls with hundreds of vertices 10-100 us.
 #include "collision/narrow_phase.h"
 
