@@ -8,7 +8,7 @@
 // Every direction found is judged by overlap(n) of the whole bodies, an upper bound of the depth
 // for any n; a pair of patches that does not face n loses there. What cannot carry the optimum is
 // left out first: the two touching points are as far apart as the depth or the distance is. For
-// bodies that are apart that distance is FCL's (GJK), and f is convex. For overlapping ones f may
+// bodies that are apart that distance is known (gjk.h), and f is convex. For overlapping ones f may
 // have several minima on the sphere; the search starts from all axes and keeps the best few.
 // Cost where bodies touch: 5-30 us, with a hull of 100 edges up to 0.2 ms.
 #include "collision/curved_axis.h"
@@ -17,8 +17,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "collision/direction.h"
+#include "collision/gjk.h"
 
 namespace twinarm {
 namespace {
@@ -27,8 +29,8 @@ constexpr double prefer_flat = 1e-12;  // a flat wins over a direction this much
 constexpr double missed = 1e-8;        // a guess this much better shows a patch overlooked [m]
 constexpr double parallel = 1e-9;      // sine below which two lines have no common normal
 constexpr double same_valley = 0.95, same_valley_deep = 0.999;  // cosines
-constexpr int shallow_searches = 4, deep_searches = 14;         // valleys that are followed
-constexpr double deep_share = 0.1;
+constexpr int shallow_searches = 4, deep_searches = 18;         // valleys that are followed
+constexpr double deep_share = 0.02;
 
 struct Range {
   Vector3 low, high;
@@ -57,6 +59,44 @@ double sharpest(const Placed& body) {
     return e->semi_axes.minCoeff() * e->semi_axes.minCoeff() / e->semi_axes.maxCoeff();
   }
   return 1e300;
+}
+
+// Directions from which the sphere is searched.
+struct Starts {
+  std::array<Vector3, 42> n;
+  std::size_t count = 0;
+  void add(const Vector3& direction) {
+    const double length = direction.norm();
+    if (length > parallel) n[count++] = direction / length;
+  }
+};
+
+void add_axes(const Matrix3& R, Starts& starts) {
+  for (int i = 0; i < 3; ++i) {
+    starts.add(R.col(i));
+    starts.add(-R.col(i));
+  }
+}
+
+// Along the axis of a cylinder the height of its rim has a kink, which may be a minimum and hide
+// others next to it: begin round it as well, and between two of them.
+void add_round_kinks(const Placed& a, const Placed& b, Starts& starts) {
+  constexpr double aside = 0.12;  // [rad]
+  bool any = false;
+  for (const Placed* body : {&a, &b}) {
+    if (!std::holds_alternative<Cylinder>(body->solid.shape)) continue;
+    any = true;
+    for (int k = 0; k < 12; ++k) {
+      const double angle = std::numbers::pi / 3 * k, side = k < 6 ? 1 : -1;
+      starts.add(body->X_WG.R * Vector3(aside * std::cos(angle), aside * std::sin(angle), side));
+    }
+  }
+  if (!any) return;
+  const Vector3 z_a = a.X_WG.R.col(2), z_b = b.X_WG.R.col(2);
+  for (const Vector3& between : {Vector3(z_a + z_b), Vector3(z_a - z_b)}) {
+    starts.add(between);
+    starts.add(-between);
+  }
 }
 
 Matrix3 turned(const Matrix3& R, const Matrix3& Q) {
@@ -172,21 +212,17 @@ void CurvedAxis::try_rounds_on_ridges(const Posed& rounds, const Posed& ridges, 
 
 void CurvedAxis::search_sphere(const SupportSum& f, const Patches::Round& round, bool is_of_a) {
   if (!overlaps_) return offer_round(minimise_on_sphere(f, seed_.axis.n_W), round, is_of_a);
-  std::array<Vector3, 14> starts;
-  std::size_t count = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (const double sign : {1.0, -1.0}) {
-      starts[count++] = sign * body_a_->X_WG.R.col(i);
-      starts[count++] = sign * body_b_->X_WG.R.col(i);
-    }
-  }
-  if (f.c.norm() > 0) starts[count++] = -f.c.normalized();
-  starts[count++] = seed_.axis.n_W;
-  const auto end = starts.begin() + static_cast<std::ptrdiff_t>(count);
-  std::sort(starts.begin(), end, [&](const auto& x, const auto& y) { return f(x) < f(y); });
+  Starts starts;
+  add_axes(body_a_->X_WG.R, starts);
+  add_axes(body_b_->X_WG.R, starts);
+  if (is_deep_) add_round_kinks(*body_a_, *body_b_, starts);
+  if (f.c.norm() > 0) starts.add(-f.c);
+  starts.add(seed_.axis.n_W);
+  const auto end = starts.n.begin() + static_cast<std::ptrdiff_t>(starts.count);
+  std::sort(starts.n.begin(), end, [&](const auto& x, const auto& y) { return f(x) < f(y); });
   std::array<Vector3, deep_searches> used;
   int searches = 0;
-  for (auto start = starts.begin();
+  for (auto start = starts.n.begin();
        start != end && searches < (is_deep_ ? deep_searches : shallow_searches); ++start) {
     const bool known = std::any_of(used.begin(), used.begin() + searches, [&](const Vector3& n) {
       return n.dot(*start) > (is_deep_ ? same_valley_deep : same_valley);
@@ -222,10 +258,10 @@ bool CurvedAxis::nearest(const Placed& a, const Placed& b, double margin, Neares
   origin_ = a.X_WG.p;
   best_ = {};
   const double radii = a.solid.patches.roundness + b.solid.patches.roundness;
-  const CoreDistance cores = distance_of(a, b);
+  const CoreDistance cores = core_distance(a, b, margin + radii);
   overlaps_ = !(cores.distance > gjk_floor);
   if (!overlaps_) {
-    offer(cores.p_WB - cores.p_WA, 0);
+    offer(cores.n_W, 0);
     if (best_.axis.overlap < -margin) return false;
     best_.p_W = midway(a, b, best_.axis.n_W, 0.5 * (cores.p_WA + cores.p_WB));
     overlaps_ = has_gap(cores.distance, best_.axis.overlap - radii);

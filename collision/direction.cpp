@@ -3,10 +3,6 @@
 
 namespace twinarm {
 
-CoreDistance distance_of(const Placed& a, const Placed& b) {
-  return core_distance(a.solid.fcl, a.X_WG, b.solid.fcl, b.X_WG);
-}
-
 bool has_gap(double distance, double core_overlap) {
   return distance + core_overlap > 1e-8 + 1e-6 * distance;
 }

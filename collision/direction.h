@@ -5,11 +5,7 @@
 
 namespace twinarm {
 
-constexpr double gjk_floor = 1e-9;  // nearer than this, nearest points give no direction [m]
-
-CoreDistance distance_of(const Placed& a, const Placed& b);
-
-// Whether a distance that FCL found and the bound from its direction differ by more than rounding:
+// Whether a distance that was found and the bound from its direction differ by more than rounding:
 // for the true nearest points, distance = -overlap(n).
 bool has_gap(double distance, double core_overlap);
 

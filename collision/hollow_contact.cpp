@@ -222,8 +222,9 @@ void hollow_contacts(const Placed& hollow, const Placed& body, double margin,
   reduce_to_four(mean.norm() > 0.1 ? Vector3(mean.normalized()) : out[0].n_W, out);
 }
 
-double hollow_distance(const Placed& hollow, const Placed& body) {
-  std::vector<ManifoldPoint> points;
+double hollow_distance(const Placed& hollow, const Placed& body,
+                       std::vector<ManifoldPoint>& points) {
+  points.clear();
   Within(hollow, body, 1e300, points).add_body(body);
   double distance = 1e300;
   for (const ManifoldPoint& point : points) distance = std::min(distance, -point.depth);

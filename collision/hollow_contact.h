@@ -17,7 +17,8 @@ void hollow_contacts(const Placed& hollow, const Placed& body, double margin,
                      std::vector<ManifoldPoint>& out);
 
 // Signed distance: how far the body is from the wall, negative where it has passed it; infinite for
-// a body that is all beyond the mouths of a tube [m].
-double hollow_distance(const Placed& hollow, const Placed& body);
+// a body that is all beyond the mouths of a tube [m]. `scratch` keeps its memory from call to call.
+double hollow_distance(const Placed& hollow, const Placed& body,
+                       std::vector<ManifoldPoint>& scratch);
 
 }  // namespace twinarm

@@ -36,8 +36,6 @@ class NarrowPhase {
   bool nearest(const Placed& a, const Placed& b, double margin, NearestPair& pair);
 
  private:
-  void retry(const Placed& a, const Placed& b, NearestPair& pair);
-
   FlatAxis flat_axis_;
   SeparatingAxis separating_axis_;
   CurvedAxis curved_;

@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "collision/fcl_query.h"
 #include "collision/patch.h"
 #include "collision/polytope.h"
 #include "collision/shape.h"
@@ -19,13 +18,11 @@ struct Solid {
       : shape(s),
         core(make_polytope(s)),
         patches(make_patches(s, core)),
-        surface(make_mesh_surface(s)),
-        fcl(s, core) {}
+        surface(make_mesh_surface(s)) {}
   Shape shape;
   Polytope core;
   Patches patches;
   std::shared_ptr<const MeshSurface> surface;  // of a triangle mesh, else null
-  FclShape fcl;
 };
 
 // A solid where it stands in this step. Cheap to copy; does not own.

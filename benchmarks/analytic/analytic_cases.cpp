@@ -10,7 +10,7 @@ const std::vector<AnalyticCase>& analytic_cases() {
     using namespace contact_cases;
     std::vector<AnalyticCase> cases;
     for (const auto& family : {loop_runs(), impacts(), sliding(), toppling(), rolling(), painleve(),
-                               spinning(), stacks(), hollows()})
+                               spinning(), stacks(), hollows(), arches(), wedges(), rod_impacts()})
       cases.insert(cases.end(), family.begin(), family.end());
     return cases;
   }();

@@ -11,13 +11,16 @@
 
 namespace twinarm::contact_cases {
 
-std::vector<AnalyticCase> impacts();   // E1, E6, E16
-std::vector<AnalyticCase> sliding();   // E2, E5
-std::vector<AnalyticCase> toppling();  // E3
-std::vector<AnalyticCase> rolling();   // E4
-std::vector<AnalyticCase> hollows();   // E12
-std::vector<AnalyticCase> painleve();  // E7
-std::vector<AnalyticCase> spinning();  // E8, E9, E10
-std::vector<AnalyticCase> stacks();    // E11
+std::vector<AnalyticCase> impacts();      // E1, E6, E16
+std::vector<AnalyticCase> sliding();      // E2, E5
+std::vector<AnalyticCase> toppling();     // E3
+std::vector<AnalyticCase> rolling();      // E4
+std::vector<AnalyticCase> hollows();      // E12
+std::vector<AnalyticCase> painleve();     // E7
+std::vector<AnalyticCase> spinning();     // E8, E9, E10
+std::vector<AnalyticCase> stacks();       // E11
+std::vector<AnalyticCase> arches();       // E13
+std::vector<AnalyticCase> wedges();       // E14
+std::vector<AnalyticCase> rod_impacts();  // E17
 
 }  // namespace twinarm::contact_cases

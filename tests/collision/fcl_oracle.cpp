@@ -5,7 +5,7 @@
 // Points and segments are `Convex` with one and two vertices, for which GJK ends at the exact
 // feature; a tiny sphere would leave an error of its radius.
 // A is put at the origin, so that the answer does not lose digits far from it.
-#include "collision/fcl_query.h"
+#include "tests/collision/fcl_oracle.h"
 
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/convex.h>
@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace twinarm {
+namespace twinarm::test {
 
 using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
 
@@ -62,13 +62,13 @@ FclShape::FclShape(const Shape& shape, const Polytope& core) {
   impl_ = std::make_shared<const Impl>(std::move(impl));
 }
 
-CoreDistance core_distance(const FclShape& a, const Pose& X_WA, const FclShape& b,
-                           const Pose& X_WB) {
+FclDistance core_distance(const FclShape& a, const Pose& X_WA, const FclShape& b,
+                          const Pose& X_WB) {
   fcl::DistanceRequestd request(/*enable_nearest_points=*/true, /*enable_signed_distance=*/false);
   request.gjk_solver_type = fcl::GST_LIBCCD;
   request.distance_tolerance = distance_tolerance;
   fcl::DistanceResultd result;
-  CoreDistance answer;
+  FclDistance answer;
   try {
     fcl::distance(a.impl()->geometry.get(), fcl::Transform3d::Identity(), b.impl()->geometry.get(),
                   transform_of(X_WA.inverse() * X_WB), request, result);
@@ -82,4 +82,4 @@ CoreDistance core_distance(const FclShape& a, const Pose& X_WA, const FclShape& 
   return answer;
 }
 
-}  // namespace twinarm
+}  // namespace twinarm::test

@@ -1,4 +1,4 @@
-// The narrow-phase questions that are put to FCL, and no others.
+// FCL's distance of two cores (collision/gjk.h), as a second opinion.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 #include "collision/shape.h"
 #include "solver/pose.h"
 
-namespace twinarm {
+namespace twinarm::test {
 
 // FCL's geometry of one shape, without the radius of spheres and capsules (they are a point and a
 // segment). Shared and const: may be asked from several threads.
@@ -21,14 +21,13 @@ class FclShape {
   std::shared_ptr<const Impl> impl_;
 };
 
-struct CoreDistance {
+struct FclDistance {
   double distance = 0;             // between the cores; 0 where they overlap, or FCL failed [m]
   Vector3 p_WA = Vector3::Zero();  // nearest points
   Vector3 p_WB = Vector3::Zero();
 };
 
 // Unsigned distance (GJK). 1-15 us.
-CoreDistance core_distance(const FclShape& a, const Pose& X_WA, const FclShape& b,
-                           const Pose& X_WB);
+FclDistance core_distance(const FclShape& a, const Pose& X_WA, const FclShape& b, const Pose& X_WB);
 
-}  // namespace twinarm
+}  // namespace twinarm::test
