@@ -51,7 +51,7 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
     if (fails || (again && residual > 0.1 * tolerance)) {
       solve_island(problem, islands_[i], report);
       residual = settle(problem, islands_[i]);
-      if (residual <= accepted && islands_[i].constraints.size() <= few)
+      if (islands_[i].constraints.size() <= few || !(residual <= accepted))
         residual = polish(problem, islands_[i], residual);
     } else if (residual > tolerance) {
       residual = relax(problem, islands_[i]);
@@ -236,7 +236,7 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
 double ImpulseSolver::polish(ImpulseProblem& problem, const Island& island, double residual) {
   constexpr int most = 3;
   rho_ratio_ = first_rho;
-  for (int k = 0; k < most; ++k) {
+  for (int k = 0; k < most && residual > 0.01 * tolerance; ++k) {
     for (const int i : island.constraints) {
       const ImpulseConstraint& c = problem.constraints()[i];
       remember(c, problem.constraints(), c.u, c.p, memory_[i]);

@@ -11,8 +11,10 @@
 // matrix positive. A round ends with Newton steps whose shift follows u, as long as they come
 // nearer. First of all the guess is tried: what has come to rest costs one check. A solution that
 // had to stop a motion is no good guess for the step after, so that one is solved too. Where the
-// rounds do not end soon, impulse_interior.cpp finds a start for them; the best p of all that is
-// tried counts. Islands (trees joined by constraints) are solved one by one. Deterministic.
+// rounds do not end soon, impulse_interior.cpp finds a start for them, and where that fails too,
+// impulse_path.cpp; the best p of all that is tried counts. A small island gets one more Newton
+// step or two, down to rounding. Islands (trees joined by constraints) are solved one by one.
+// Deterministic.
 #pragma once
 
 #include <vector>

@@ -23,7 +23,6 @@ constexpr KnownMiss known_misses[] = {
     {"E3-rocking", 4.5e-2, "a plastic impact takes two steps: the gap closes, then it stops"},
     {"E8", 0.2, "rolling on a rim loses energy in first order of h"},
     {"E12-circle", 3e-3, "rolling spirals in first order of h"},
-    {"E16", 5e-12, "the residual that the impulse solver aims at"},
 };
 const KnownMiss* known_miss(const std::string& name) {
   for (const KnownMiss& miss : known_misses)
