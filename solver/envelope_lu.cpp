@@ -49,6 +49,13 @@ void EnvelopeLu::factorise(bool symmetric) {
   }
 }
 
+int EnvelopeLu::determinant_sign() const {
+  int sign = 1;
+  for (std::size_t r = 0; r < rows(); ++r)
+    if (lower_[begin_[r] + r - first_[r]] < 0) sign = -sign;
+  return sign;
+}
+
 void EnvelopeLu::solve(double* b) const {
   for (std::size_t r = 0; r < rows(); ++r)
     b[r] -= dot(lower_.data() + begin_[r], b + first_[r], r - first_[r]);

@@ -28,6 +28,7 @@ class EnvelopeLu {
   // A pivot that is zero gives numbers that are not finite. Symmetric: what is above is not read.
   void factorise(bool symmetric);
   void solve(double* b) const;  // b to A^-1 b
+  int determinant_sign() const;
 
  private:
   std::vector<std::size_t> first_, begin_;

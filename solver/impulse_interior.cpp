@@ -15,30 +15,21 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/impulse_central.h"
 #include "solver/impulse_solver.h"
 
 namespace twinarm {
 namespace {
 
-constexpr double poor_step = 0.5, stuck_step = 0.05;
+constexpr double poor_step = 0.5, stuck_step = 0.05, least_centering = 0.1;
 constexpr int most_iterations = 60, most_stuck = 3;
-
-bool is_cone(const ImpulseConstraint& c) {
-  return c.law == ImpulseLaw::at_least || c.law == ImpulseLaw::coulomb;
-}
-double inverse_mu(const ImpulseConstraint& c) {
-  return c.law == ImpulseLaw::coulomb ? 1 / c.mu : 1;
-}
-Vec scaled(const ImpulseConstraint& c, const Vec& a) {  // T a
-  return {inverse_mu(c) * a[0], a[1], a[2]};
-}
+constexpr double held_rho = 1e4;  // times rho0, of what is not a contact
 
 }  // namespace
 
-int ImpulseSolver::approach_centrally(ImpulseProblem& problem, const Island& island,
-                                      double least_centering) {
+int ImpulseSolver::approach_centrally(ImpulseProblem& problem, const Island& island) {
   begin_centrally(problem, island);
-  rho_ratio_ = 1e4;
+  shift_part_ = 1;
   double step = 1, best = std::numeric_limits<double>::infinity();
   int iterations = 0, stuck = 0;
   for (; iterations < most_iterations && stuck <= most_stuck; ++iterations) {
@@ -64,9 +55,7 @@ int ImpulseSolver::approach_centrally(ImpulseProblem& problem, const Island& isl
     if (!correct) centering = std::max(centering, 0.3);
     step = std::min(1.0, 0.99 * direct_centrally(problem, island, centering * mean, correct));
     stuck += step < stuck_step;
-    for (const int i : island.constraints)
-      for (int r = 0; r < 3; ++r) x_[i][r] += step * dx_[i][r], z_[i][r] += step * dz_[i][r];
-    move(problem, island, step);
+    move_centrally(problem, island, step);
   }
   for (const int i : island.constraints) problem.constraints()[i].p = kept_[i];
   return iterations;
@@ -76,13 +65,15 @@ int ImpulseSolver::approach_centrally(ImpulseProblem& problem, const Island& isl
 void ImpulseSolver::begin_centrally(ImpulseProblem& problem, const Island& island) {
   const std::size_t count = problem.constraints().size();
   x_.resize(count), z_.resize(count), dx_.resize(count), dz_.resize(count), d_.resize(count);
-  r_z_.resize(count), lift_.resize(count), scaling_.resize(count), kept_.resize(count);
+  r_z_.resize(count), right_.resize(count), lift_.resize(count), scaling_.resize(count);
+  kept_.resize(count);
+  rho_ratio_ = held_rho;
   for (const int t : island.trees) std::copy_n(problem.v0(t), problem.size(t), problem.v(t));
   double speed = 1e-6, impulse = 1e-9;
   cones_ = 0;
   for (const int i : island.constraints) {
     ImpulseConstraint& c = problem.constraints()[i];
-    memory_[i].rho = 1e4 * rho0_[i];
+    memory_[i].rho = rho_ratio_ * rho0_[i];
     memory_[i].l = c.p;
     x_[i] = z_[i] = dx_[i] = dz_[i] = {};
     if (!is_cone(c)) continue;
@@ -115,10 +106,11 @@ double ImpulseSolver::measure_centrally(ImpulseProblem& problem, const Island& i
       c.p = scaled(c, x_[i]);
       sum += cone_dot(x_[i], z_[i]);
       const double slip = std::sqrt(c.u[1] * c.u[1] + c.u[2] * c.u[2]);
-      const Vec exact = scaled(c, {c.u[0] + shift_of(c, c.u), c.u[1], c.u[2]});
+      const Vec exact = scaled(c, {c.u[0] + shift_part_ * shift_of(c, c.u), c.u[1], c.u[2]});
       for (int r = 0; r < 3; ++r) r_z_[i][r] = exact[r] - z_[i][r];
       lift_[i] = {0, 0};
-      if (slip > 0) lift_[i] = {c.mu * c.u[1] / slip, c.mu * c.u[2] / slip};
+      const double part = shift_part_ * c.mu;
+      if (slip > 0) lift_[i] = {part * c.u[1] / slip, part * c.u[2] / slip};
       scaling_[i] = nesterov_todd(x_[i], z_[i]);
       const double T = inverse_mu(c);
       for (int r = 0; r < 3; ++r)
@@ -142,38 +134,49 @@ double ImpulseSolver::measure_centrally(ImpulseProblem& problem, const Island& i
 // far the cones let go.
 double ImpulseSolver::direct_centrally(ImpulseProblem& problem, const Island& island, double s,
                                        bool correct) {
+  for (const int i : island.constraints) {
+    if (!is_cone(problem.constraints()[i])) continue;
+    const ConeScaling& scaling = scaling_[i];
+    const Vec square = jordan(scaling.t, scaling.t);
+    right_[i] = {s - square[0], -square[1], -square[2]};
+    if (!correct) continue;
+    const Vec Wdz = times(scaling.W, dz_[i]);
+    const Vec Wdx{-scaling.t[0] - Wdz[0], -scaling.t[1] - Wdz[1], -scaling.t[2] - Wdz[2]};
+    const Vec second = jordan(Wdz, Wdx);
+    for (int r = 0; r < 3; ++r) right_[i][r] -= second[r];
+  }
+  solve_centrally(problem, island, r_z_, 1);
+  double farthest = std::numeric_limits<double>::infinity();
+  for (const int i : island.constraints)
+    if (is_cone(problem.constraints()[i]))
+      farthest = std::min({farthest, cone_step(x_[i], dx_[i]), cone_step(z_[i], dz_[i])});
+  return farthest;
+}
+
+// dv_, dx_ and dz_ of the linearised equations:  t o (W dz + W^-1 dx) = right_,  dz = T E J dv + r,
+// M dv = J^T T dx - part rhs_. matrix_ is factorised.
+void ImpulseSolver::solve_centrally(const ImpulseProblem& problem, const Island& island,
+                                    const std::vector<ConeVec>& r, double part) {
   for (const int t : island.trees)
     std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)), problem.size(t), 0.0);
   for (const int i : island.constraints) {
     const ImpulseConstraint& c = problem.constraints()[i];
     if (!is_cone(c)) continue;
-    const ConeScaling& scaling = scaling_[i];
-    const Vec square = jordan(scaling.t, scaling.t);
-    Vec right{s - square[0], -square[1], -square[2]};
-    if (correct) {
-      const Vec Wdz = times(scaling.W, dz_[i]);
-      const Vec Wdx{-scaling.t[0] - Wdz[0], -scaling.t[1] - Wdz[1], -scaling.t[2] - Wdz[2]};
-      const Vec second = jordan(Wdz, Wdx);
-      for (int r = 0; r < 3; ++r) right[r] -= second[r];
-    }
-    d_[i] = times(scaling.W, jordan_solve(scaling.t, right));
-    const Vec W2r = times(scaling.W2, r_z_[i]);
-    Vec q{d_[i][0] - W2r[0], d_[i][1] - W2r[1], d_[i][2] - W2r[2]};
+    d_[i] = times(scaling_[i].W, jordan_solve(scaling_[i].t, right_[i]));
+    const Vec W2r = times(scaling_[i].W2, r[i]);
+    const Vec q{d_[i][0] - W2r[0], d_[i][1] - W2r[1], d_[i][2] - W2r[2]};
     problem.add_transpose(c, scaled(c, q), f_.data());
   }
-  step_rhs_.assign(rhs_.begin(), rhs_.end());
-  for (const int t : island.trees)
-    for (int k = 0; k < problem.size(t); ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      step_rhs_[row_[t] + at] = f_[problem.first(t) + at] - rhs_[row_[t] + at];
-    }
+  step_rhs_.resize(rhs_.size());
+  const auto for_each_row = [&](auto&& f) {
+    for (const int t : island.trees)
+      for (std::size_t k = 0; k < static_cast<std::size_t>(problem.size(t)); ++k)
+        f(row_[t] + k, problem.first(t) + k);
+  };
+  for_each_row(
+      [&](std::size_t row, std::size_t at) { step_rhs_[row] = f_[at] - part * rhs_[row]; });
   matrix_.solve(step_rhs_.data());
-  for (const int t : island.trees)
-    for (int k = 0; k < problem.size(t); ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      dv_[problem.first(t) + at] = step_rhs_[row_[t] + at];
-    }
-  double farthest = std::numeric_limits<double>::infinity();
+  for_each_row([&](std::size_t row, std::size_t at) { dv_[at] = step_rhs_[row]; });
   for (const int i : island.constraints) {
     const ImpulseConstraint& c = problem.constraints()[i];
     if (!is_cone(c)) continue;
@@ -181,12 +184,16 @@ double ImpulseSolver::direct_centrally(ImpulseProblem& problem, const Island& is
     problem.velocity(c, dv_.data(), du);
     du[0] += lift_[i][0] * du[1] + lift_[i][1] * du[2];
     const Vec Tdu = scaled(c, du);
-    for (int r = 0; r < 3; ++r) dz_[i][r] = Tdu[r] + r_z_[i][r];
+    for (int k = 0; k < 3; ++k) dz_[i][k] = Tdu[k] + r[i][k];
     const Vec W2dz = times(scaling_[i].W2, dz_[i]);
-    for (int r = 0; r < 3; ++r) dx_[i][r] = d_[i][r] - W2dz[r];
-    farthest = std::min({farthest, cone_step(x_[i], dx_[i]), cone_step(z_[i], dz_[i])});
+    for (int k = 0; k < 3; ++k) dx_[i][k] = d_[i][k] - W2dz[k];
   }
-  return farthest;
+}
+
+void ImpulseSolver::move_centrally(ImpulseProblem& problem, const Island& island, double step) {
+  for (const int i : island.constraints)
+    for (int r = 0; r < 3; ++r) x_[i][r] += step * dx_[i][r], z_[i][r] += step * dz_[i][r];
+  move(problem, island, step);
 }
 
 }  // namespace twinarm

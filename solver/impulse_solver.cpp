@@ -12,7 +12,8 @@ namespace {
 
 constexpr int no_tree = ImpulseConstraint::no_tree;
 constexpr double first_rho = 1e2, usual_rho = 1e5, largest_rho = 1e7;  // times rho0
-constexpr double centerings[] = {0.1, 0.3, 0.7};  // of one attempt after the other
+constexpr std::size_t few = 8;             // constraints of an island whose solution is polished
+constexpr double starts[] = {1, 0.1, 10};  // of one path after the other
 
 }  // namespace
 
@@ -50,6 +51,8 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
     if (fails || (again && residual > 0.1 * tolerance)) {
       solve_island(problem, islands_[i], report);
       residual = settle(problem, islands_[i]);
+      if (islands_[i].constraints.size() <= few || !(residual <= accepted))
+        residual = polish(problem, islands_[i], residual);
     } else if (residual > tolerance) {
       residual = relax(problem, islands_[i]);
     }
@@ -167,14 +170,21 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
   };
   run_rounds(problem, island, quick_newton, report);
   judge();
-  for (const double centering : centerings) {
-    if (best <= accepted) break;
-    report.interior = std::max(report.interior, approach_centrally(problem, island, centering));
+  const auto finish = [&] {
     judge();
-    if (best <= accepted) break;
+    if (best <= accepted) return;
     settle(problem, island);
     run_rounds(problem, island, most_newton, report);
     judge();
+  };
+  if (best > accepted) {
+    report.interior = std::max(report.interior, approach_centrally(problem, island));
+    finish();
+  }
+  for (const double start : starts) {
+    if (best <= accepted) break;
+    report.path = std::max(report.path, follow_path(problem, island, start));
+    finish();
   }
   // What neither can solve (friction beyond Painleve's bound) is at least brought near, so that
   // nothing falls through.
@@ -219,6 +229,34 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
   }
   report.rounds = std::max(report.rounds, round);
   report.newton = std::max(report.newton, newton);
+}
+
+// From a solution to one whose digits are all right, as long as that comes nearer: rounds of one
+// Newton step, with a rho that is small enough for the rounding of u to do no harm.
+double ImpulseSolver::polish(ImpulseProblem& problem, const Island& island, double residual) {
+  constexpr int most = 3;
+  rho_ratio_ = first_rho;
+  for (int k = 0; k < most && residual > 0.01 * tolerance; ++k) {
+    for (const int i : island.constraints) {
+      const ImpulseConstraint& c = problem.constraints()[i];
+      remember(c, problem.constraints(), c.u, c.p, memory_[i]);
+      memory_[i].rho = rho_ratio_ * rho0_[i];
+      best_p_[i] = c.p;
+    }
+    const Gradient now = gradient(problem, island, Shift::followed);
+    if (!(now.squared > 0)) break;
+    find_direction(problem, island, false);
+    move(problem, island, 1);
+    gradient(problem, island, Shift::followed);
+    for (const int i : island.constraints) problem.constraints()[i].p = p_[i];
+    const double before = residual;
+    residual = settle(problem, island);
+    if (residual < 0.5 * before) continue;
+    if (residual < before) break;
+    for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
+    return settle(problem, island);
+  }
+  return residual;
 }
 
 }  // namespace twinarm

@@ -11,8 +11,10 @@
 // matrix positive. A round ends with Newton steps whose shift follows u, as long as they come
 // nearer. First of all the guess is tried: what has come to rest costs one check. A solution that
 // had to stop a motion is no good guess for the step after, so that one is solved too. Where the
-// rounds do not end soon, impulse_interior.cpp finds a start for them; the best p of all that is
-// tried counts. Islands (trees joined by constraints) are solved one by one. Deterministic.
+// rounds do not end soon, impulse_interior.cpp finds a start for them, and where that fails too,
+// impulse_path.cpp; the best p of all that is tried counts. A small island gets one more Newton
+// step or two, down to rounding. Islands (trees joined by constraints) are solved one by one.
+// Deterministic.
 #pragma once
 
 #include <vector>
@@ -28,6 +30,7 @@ struct ImpulseReport {
   int islands = 0, solved = 0;  // solved: those whose guess did not do
   int rounds = 0, newton = 0;   // the most of any island
   int interior = 0;             // iterations of impulse_interior.cpp, the most of any island
+  int path = 0;                 // steps of impulse_path.cpp, the most of any island
   double residual = 0;          // largest of any constraint, law_residual() [m/s, rad/s]
   bool converged = true;
 };
@@ -53,6 +56,7 @@ class ImpulseSolver {
   double settle(ImpulseProblem& problem, const Island& island);
   void solve_island(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
   void run_rounds(ImpulseProblem& problem, const Island& island, int most, ImpulseReport& report);
+  double polish(ImpulseProblem& problem, const Island& island, double residual);
   void order(const ImpulseProblem& problem, const Island& island);
   void lay_out(const ImpulseProblem& problem, const Island& island);
   struct Gradient {
@@ -66,11 +70,16 @@ class ImpulseSolver {
   void add_block(const ImpulseProblem& problem, const ImpulseConstraint& c, int side_s, int side_t,
                  bool symmetric);
   void move(ImpulseProblem& problem, const Island& island, double step);
-  int approach_centrally(ImpulseProblem& problem, const Island& island, double least_centering);
+  int approach_centrally(ImpulseProblem& problem, const Island& island);
   void begin_centrally(ImpulseProblem& problem, const Island& island);
   double measure_centrally(ImpulseProblem& problem, const Island& island, double& residual);
   double direct_centrally(ImpulseProblem& problem, const Island& island, double s, bool correct);
+  void solve_centrally(const ImpulseProblem& problem, const Island& island,
+                       const std::vector<ConeVec>& r, double part);
+  void move_centrally(ImpulseProblem& problem, const Island& island, double step);
   double step_length(const ImpulseProblem& problem, const Island& island);
+  struct Path;
+  int follow_path(ImpulseProblem& problem, const Island& island, double start);
 
   std::vector<double> factors_;           // of the blocks of M: L L^T, 1 / l_ii on the diagonal
   std::vector<LawMemory> memory_;         // by constraint
@@ -89,10 +98,19 @@ class ImpulseSolver {
   EnvelopeLu matrix_;
   // of impulse_interior.cpp, by constraint
   int cones_ = 0;
-  std::vector<ConeVec> x_, z_, dx_, dz_, d_, r_z_, kept_;
+  double shift_part_ = 1;  // of mu |u_t| that counts
+  std::vector<ConeVec> x_, z_, dx_, dz_, d_, r_z_, right_, kept_;
   std::vector<std::array<double, 2>> lift_;
   std::vector<ConeScaling> scaling_;
   std::vector<double> step_rhs_;
+  // of impulse_path.cpp: directions, or a place, in v, x, z and s (of which it is a part)
+  struct Turn {
+    std::vector<double> v;
+    std::vector<ConeVec> x, z;
+    double s = 0;
+  };
+  Turn correction_, tangent_, last_, saved_;
+  std::vector<ConeVec> d_z_;
 };
 
 }  // namespace twinarm

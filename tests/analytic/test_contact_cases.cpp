@@ -18,7 +18,6 @@ struct KnownMiss {
   const char* limit;
 };
 constexpr KnownMiss known_misses[] = {
-    {"E16", 5e-12, "the residual that the impulse solver aims at"},
     {"E17", 2e-11, "the residual that the impulse solver aims at"},
 };
 const KnownMiss* known_miss(const std::string& name) {

@@ -62,25 +62,24 @@ Force<double> momentum_of(const Simulation& simulation) {
 
 }  // namespace
 
-// One step of this run stays at 4.5e-8 m/s: four points of one face with gaps about the nanometre
-// that counts as closed, loaded by spin; which of them lets go is decided in steps that creep.
-constexpr unsigned kHardSeed = 527;
+// In this run four points of one face have gaps that differ by tenths of a nanometre, and the face
+// is loaded by spin: which point lets go decides how the others share the load.
+constexpr unsigned hard_seed = 527;
 
-TEST_CASE("the hardest of the random runs stays within 1e-7 m/s of its laws") {
-  ContactScene scene = thrown_together(kHardSeed, kHardSeed % 2 == 0);
+TEST_CASE("a face of which one point lets go by less than a micrometre a second obeys its laws") {
+  ContactScene scene = thrown_together(hard_seed, hard_seed % 2 == 0);
   double worst_residual = 0;
   for (int n = 0; n < 150; ++n) {
     scene.run(2e-3, 1);
     worst_residual = std::max(worst_residual, scene.report().step.residual);
   }
-  CHECK(worst_residual < 1e-7);
+  CHECK(worst_residual <= 1e-8);
 }
 
 TEST_CASE("1000 random runs: cones are obeyed, and no contact does positive work") {
   double worst_residual = 0, most_work = 0;
   int unsolved = 0;
   for (unsigned seed = 0; seed < 1000; ++seed) {
-    if (seed == kHardSeed) continue;
     ContactScene scene = thrown_together(seed, seed % 2 == 0);
     const double energy = std::abs(scene.energy()) + 1;
     for (int n = 0; n < 150; ++n) {
