@@ -30,6 +30,7 @@ class SceneContacts {
   std::vector<LedgerRow> rows() const;
   int contact_count() const;  // points that press, at the last step
   double deepest_at_start() const { return deepest_at_start_; }  // [m]
+  const std::string& deepest_pair() const { return deepest_pair_; }
 
  private:
   struct PairWork {
@@ -47,6 +48,7 @@ class SceneContacts {
   std::vector<PairWork> pairs_;  // ascending
   std::vector<double> limit_work_;
   double deepest_at_start_ = 0;
+  std::string deepest_pair_;
 };
 
 }  // namespace twinarm
