@@ -49,8 +49,10 @@ int ContactConstraints::add(const ContactGeometry& geometry) {
         "give 0 (no bounce) to 1 (all of the speed)");
   check(s.torsional >= 0 && s.rolling >= 0, "torsional or rolling friction is negative",
         "give a length of 0 m or more");
-  check(s.stiffness > 0 && s.dissipation >= 0, "stiffness or dissipation is not positive",
-        "give a positive stiffness, and a dissipation of 0 or more");
+  check(s.stiffness > 0 && std::isfinite(s.stiffness), "stiffness is not a positive number",
+        "give it in N/m, above 0");
+  check(s.dissipation >= 0 && std::isfinite(s.dissipation),
+        "dissipation is negative or not a number", "give it in s/m, 0 or more");
   faults.check();
   const int id = world_.add({geometry.name, geometry.shape, geometry.group, geometry.body == 0});
   geometries_.push_back(geometry);
@@ -63,8 +65,8 @@ int ContactConstraints::add(const ContactGeometry& geometry) {
   return id;
 }
 
-void ContactConstraints::set_pair(int a, int b, double friction, double restitution) {
-  rules_.push_back({std::min(a, b), std::max(a, b), friction, restitution});
+void ContactConstraints::set_pair(int a, int b, const ContactPairLaw& law) {
+  rules_.push_back({std::min(a, b), std::max(a, b), law});
 }
 
 // How far the geometry gets in a step, forces within it included by the factor, wherever it turns.
@@ -81,9 +83,13 @@ ContactPoint ContactConstraints::start(const Contact& contact) const {
   const ContactSurface &a = geometry(contact.a).surface, &b = geometry(contact.b).surface;
   point.friction = std::sqrt(a.friction * b.friction);
   point.restitution = a.restitution * b.restitution;
+  point.compliance = in_series({a.stiffness, a.dissipation}, {b.stiffness, b.dissipation});
   for (const PairRule& rule : rules_)
-    if (rule.a == contact.a && rule.b == contact.b)
-      point.friction = rule.friction, point.restitution = rule.restitution;
+    if (rule.a == contact.a && rule.b == contact.b) {
+      point.friction = rule.law.friction;
+      point.restitution = rule.law.restitution;
+      point.compliance = rule.law.compliance;
+    }
   if (const ContactPoint* before = last_of(contact)) {
     point.force_W = before->force_W;
     point.couple_W = before->couple_W;

@@ -28,8 +28,25 @@ struct ContactSurface {
   double restitution = 0;  // a pair takes the product
   double torsional = 0;    // radius of the patch that resists a turn about the normal [m]
   double rolling = 0;      // arm of the normal force when it rolls [m]
-  double stiffness = 1e6;  // compliant: of one contact point; two surfaces in series [N/m]
-  double dissipation = 1;  // compliant: c [s/m]; two surfaces take the mean
+  double stiffness = 1e6;  // compliant: of one contact point; a pair: in_series [N/m]
+  double dissipation = 1;  // compliant: c [s/m]
+};
+
+struct Compliance {
+  double stiffness;    // [N/m]
+  double dissipation;  // [s/m]
+};
+// Two springs between one force: 1/k = 1/ka + 1/kb. Each gives way by its share k/ka, k/kb of the
+// depth, and so of its rate: c = ca k/ka + cb k/kb. The softer one says more.
+inline Compliance in_series(const Compliance& a, const Compliance& b) {
+  const double k = 1 / (1 / a.stiffness + 1 / b.stiffness);
+  return {k, a.dissipation * (k / a.stiffness) + b.dissipation * (k / b.stiffness)};
+}
+
+// What holds between two geometries.
+struct ContactPairLaw {
+  double friction, restitution;
+  Compliance compliance;
 };
 
 struct ContactGeometry {
@@ -45,6 +62,7 @@ struct ContactGeometry {
 struct ContactPoint {
   Contact contact;  // at the start of the step
   double friction = 0, restitution = 0;
+  Compliance compliance{};
   Vector3 impulse_W = Vector3::Zero();   // on b, over the step, impacts included [N s]
   Vector3 force_W = Vector3::Zero();     // on b, without impacts [N]
   Vector3 couple_W = Vector3::Zero();    // on b: torsional and rolling friction [N m]
@@ -74,7 +92,8 @@ class ContactConstraints final : public EventSource, public Rewindable {
 
   // Returns its id. Throws InputError for bad numbers.
   int add(const ContactGeometry& geometry);
-  void set_pair(int a, int b, double friction, double restitution);
+  // In place of what their surfaces give; the last one counts.
+  void set_pair(int a, int b, const ContactPairLaw& law);
   void never(int a, int b) { world_.disable_pair(a, b); }
   CollisionWorld& world() { return world_; }
   const ContactGeometry& geometry(int id) const {
@@ -108,7 +127,7 @@ class ContactConstraints final : public EventSource, public Rewindable {
  private:
   struct PairRule {
     int a, b;
-    double friction, restitution;
+    ContactPairLaw law;
   };
   struct Part {  // a contact's share of the problem
     std::size_t point;

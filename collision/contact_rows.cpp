@@ -100,15 +100,12 @@ void ContactConstraints::add_contact(const ConstraintFrame& frame, std::size_t i
   add_friction_couples(frame, i, axes, problem);
 }
 
-// Two surfaces in series.
 void ContactConstraints::set_compliance(std::size_t i, double h, const Matrix3& axes,
                                         ImpulseConstraint& c) const {
   const ContactPoint& point = points_[i];
-  const ContactSurface &a = geometry(point.contact.a).surface,
-                       &b = geometry(point.contact.b).surface;
   c.h = h;
-  c.k = a.stiffness * b.stiffness / (a.stiffness + b.stiffness);
-  c.c = 0.5 * (a.dissipation + b.dissipation);
+  c.k = point.compliance.stiffness;
+  c.c = point.compliance.dissipation;
   c.depth = point.contact.depth;
   c.k_t = kBristleRatio * c.k;
   c.b_t = c.k_t * c.c * std::max(0.0, c.depth);

@@ -1,9 +1,10 @@
 // Each near triangle is a thin polytope for the narrow phase of convex bodies; what is special is
 // which normals it may have. A body that lies over a triangle touches it along the triangle's own
 // normal. Beyond a side the normal leans over it, which is real only where the mesh is convex
-// there: the normal must lean out of the neighbour as well. Along flat and hollow edges the
-// neighbour has the contact, so a ball rolls over them and feels nothing. Contacts that two
-// triangles share, on their common edge, are kept once.
+// there: the normal must lean out of the neighbour as well. That is asked only of the sides that
+// the point of contact lies on: in a triangle with an obtuse corner a normal on one side leans over
+// another side too. Along flat and hollow edges the neighbour has the contact, so a ball rolls over
+// them and feels nothing. Contacts that two triangles share, on their common edge, are kept once.
 #include "collision/mesh_contact.h"
 
 #include <Eigen/Geometry>
@@ -17,6 +18,7 @@ namespace {
 
 constexpr double lean = 1e-6;              // sine of an angle that counts as leaning
 constexpr double same_point = 1e-9;        // [m]
+constexpr double on_side = 1e-6;           // a point as near to a side lies on it [m]
 constexpr double same_direction = 0.9999;  // cosine
 
 Aabb box_in(const Placed& mesh, const Placed& body, double margin) {
@@ -30,12 +32,19 @@ Aabb box_in(const Placed& mesh, const Placed& body, double margin) {
   return box;
 }
 
-// Whether a normal (in the frame of the mesh) may be that of a contact with this triangle.
-bool is_own(const Vector3& n, const Vector3& front, const std::array<MeshSurface::Side, 3>& sides) {
+// Whether a normal (in the frame of the mesh) may be that of a contact with this triangle, at its
+// point p.
+bool is_own(const Vector3& n, const Vector3& front, const Vector3& p, const MeshSurface& surface,
+            int t) {
   if (n.dot(front) < -lean) return false;
-  return std::none_of(sides.begin(), sides.end(), [&](const MeshSurface::Side& side) {
-    return n.dot(side.outward) > lean && n.dot(side.of_neighbour) < -lean;
-  });
+  for (std::size_t i = 0; i < 3; ++i) {
+    const MeshSurface::Side& side = surface.sides[t][i];
+    const Vector3& corner = surface.triangles[t].core.hull.vertices[i];
+    if (n.dot(side.outward) > lean && n.dot(side.of_neighbour) < -lean &&
+        side.outward.dot(p - corner) > -on_side)
+      return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -68,8 +77,10 @@ void MeshContact::touch_triangle(NarrowPhase& narrow_phase, const Placed& mesh, 
   if (lies_over) return take(over, n_W, t, margin);
   NearestPair pair;
   if (!narrow_phase.nearest(triangle, body, margin, pair)) return;
+  // From midway to the triangle's own point.
+  const Vector3 p_W = pair.p_W + 0.5 * pair.axis.overlap * pair.axis.n_W;
   const Matrix3 R_MW = mesh.X_WG.R.transpose();
-  if (!is_own(R_MW * pair.axis.n_W, R_MW * n_W, surface.sides[t])) {
+  if (!is_own(R_MW * pair.axis.n_W, R_MW * n_W, mesh.X_WG.inverse() * p_W, surface, t)) {
     return take(over, n_W, t, margin);
   }
   take(manifold_.between(triangle, body, pair.axis, pair.p_W, margin), pair.axis.n_W, t, margin);

@@ -3,7 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "collision/mesh_file.h"
 
@@ -58,6 +62,37 @@ std::string degenerate_triangles(const TriangleMesh& mesh) {
          std::to_string(first) + ": remove them";
 }
 
+std::string twins(const TriangleMesh& mesh) {
+  std::vector<std::array<int, 3>> sorted = mesh.triangles;
+  for (auto& t : sorted) std::sort(t.begin(), t.end());
+  std::sort(sorted.begin(), sorted.end());
+  const auto different = std::unique(sorted.begin(), sorted.end()) - sorted.begin();
+  const auto count = static_cast<std::ptrdiff_t>(sorted.size()) - different;
+  return count == 0 ? "" : std::to_string(count) + " triangles are there twice: remove them";
+}
+
+// Edges of one triangle alone, and edges that two triangles run along in the same direction.
+std::string borders(const TriangleMesh& mesh) {
+  std::map<std::pair<int, int>, std::pair<int, int>> edges;  // low, high: how often each way
+  for (const auto& [a, b, c] : mesh.triangles)
+    for (const auto& [i, j] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+      ++(i < j ? edges[{i, j}].first : edges[{j, i}].second);
+  int open = 0, turned = 0, many = 0;
+  for (const auto& [edge, count] : edges) {
+    const int sum = count.first + count.second;
+    open += sum == 1, many += sum > 2;
+    turned += sum == 2 && count.first != 1;
+  }
+  std::string text;
+  const auto add = [&](int count, const char* what) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + what;
+  };
+  add(open, " edges belong to one triangle alone (close the holes)");
+  add(turned, " edges have triangles that disagree which side is outside (turn them about)");
+  add(many, " edges have more than two triangles (take the parts in turn, or cut them apart)");
+  return text;
+}
+
 }  // namespace
 
 std::string mesh_fault(const MeshShape& shape) {
@@ -68,6 +103,7 @@ std::string mesh_fault(const MeshShape& shape) {
     if (!fault.empty()) faults += (faults.empty() ? "" : "; ") + fault;
   };
   add(degenerate_triangles(mesh));
+  add(twins(mesh));
   Vector3 low = mesh.vertices[0], high = low;
   for (const Vector3& v : mesh.vertices) {
     low = low.cwiseMin(v);
@@ -76,12 +112,11 @@ std::string mesh_fault(const MeshShape& shape) {
   const double extent = (high - low).maxCoeff();
   if (extent > shape.largest_extent) {
     add("mesh is " + std::to_string(extent) +
-        " m wide: read a file in millimetres with scale 0.001, or raise largest_extent");
+        " m wide: read a file in millimetres with scale = 0.001");
   }
   if (shape.is_open) return faults;
   if (!is_closed(mesh)) {
-    add("mesh is not closed: an edge has not exactly one triangle on each side; close it, or say "
-        "is_open");
+    add("mesh is not closed: " + borders(mesh));
   } else if (!(six_volumes(mesh) > 0)) {
     add("mesh is inside out: turn its triangles counter-clockwise seen from outside");
   }

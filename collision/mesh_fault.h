@@ -7,8 +7,8 @@
 
 namespace twinarm {
 
-// All that is wrong with a mesh: empty, indices, not finite, degenerate triangles, open or flipped
-// surface, millimetres. Empty text if nothing.
+// All that is wrong with a mesh: empty, indices, not finite, degenerate triangles, the same ones
+// twice, open or flipped surface, millimetres. Empty text if nothing.
 std::string mesh_fault(const MeshShape& shape);
 
 }  // namespace twinarm

@@ -29,6 +29,8 @@ class ForceSource {
   virtual void add_forces(const State<double>&, const Kinematics&, Forces<double>&) noexcept = 0;
   virtual bool refine(const Kinematics&, const Workspace<double>&) noexcept { return false; }
   virtual bool needs_semi_implicit() const { return false; }  // refuses Runge-Kutta stages
+  // Whether refine() may say true. A step with constraints has one round, and refuses it.
+  virtual bool needs_rounds() const { return false; }
 };
 
 }  // namespace twinarm

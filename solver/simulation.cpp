@@ -30,6 +30,11 @@ void check(const ForceSource& source, Integrator integrator) {
         integrator_name(integrator));
 }
 
+// Its force would be that of the first round: a wrong one, and nobody would say so.
+constexpr const char* kOneRound =
+    "a force that is found in rounds (ForceSource::refine) does not go with contacts, limits and "
+    "locks: their step has one round; give the contact as a constraint, or leave them out";
+
 }  // namespace
 
 Simulation::Simulation(const Model<double>& model, State<double> start)
@@ -43,6 +48,7 @@ Simulation::Simulation(const Model<double>& model, State<double> start)
 void Simulation::add(ForceSource& source) {
   check(source, integrator_);
   if (located_) check_located(source);
+  if (constrained_.any() && source.needs_rounds()) throw std::invalid_argument(kOneRound);
   m_.sources.push_back(&source);
 }
 
@@ -50,6 +56,8 @@ void Simulation::add(ConstraintSource& source) {
   if (integrator_ != Integrator::semi_implicit)
     throw std::invalid_argument("contacts and limits go with the integrator 'semi-implicit' only");
   if (located_) check_located(source);
+  for (const ForceSource* force : m_.sources)
+    if (force->needs_rounds()) throw std::invalid_argument(kOneRound);
   constrained_.add(source);
 }
 

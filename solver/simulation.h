@@ -27,10 +27,11 @@ class Simulation {
  public:
   // The model must outlive the simulation; so must the sources.
   Simulation(const Model<double>& model, State<double> start);
-  // Throws std::invalid_argument for a source that cannot go with the integrator.
+  // Throws std::invalid_argument for a source that cannot go with the integrator, or that needs
+  // rounds where there are constraints.
   void add(ForceSource& source);
   // Contacts, limits, locks: from now on a step is one of solver/constrained_step.h, which goes
-  // with the semi-implicit integrator alone.
+  // with the semi-implicit integrator alone and has one round of forces. Throws likewise.
   void add(ConstraintSource& source);
   // Constrained steps locate their events in time and are of high order between them
   // (solver/event_step.h), at set_tolerance(). Throws std::invalid_argument where a source is

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/scene/scene_builder.h"
+#include "collision/contact_constraints.h"
 
 namespace twinarm {
 namespace {
@@ -33,7 +34,8 @@ class GeometryBuilder {
     }
     find_pairs_apart();
     for (const PairDescription& pair : description().pairs)
-      scene_.pairs.push_back({meant(pair.a), meant(pair.b), pair.friction, pair.restitution});
+      scene_.pairs.push_back({meant(pair.a), meant(pair.b), pair.friction, pair.restitution,
+                              pair.stiffness, pair.dissipation});
   }
 
  private:
@@ -148,14 +150,20 @@ bool SceneModel::may_touch() const {
 Surface SceneModel::surface_of_pair(int a, int b) const {
   const Surface &s = geometries[static_cast<std::size_t>(a)],
                 &t = geometries[static_cast<std::size_t>(b)];
-  Surface pair{std::sqrt(s.friction * t.friction), s.restitution * t.restitution,
+  const Compliance soft = in_series({s.stiffness, s.dissipation}, {t.stiffness, t.dissipation});
+  Surface pair{std::sqrt(s.friction * t.friction),
+               s.restitution * t.restitution,
                std::max(s.torsional_friction, t.torsional_friction),
-               std::max(s.rolling_friction, t.rolling_friction)};
+               std::max(s.rolling_friction, t.rolling_friction),
+               soft.stiffness,
+               soft.dissipation};
   for (const PairRule& rule : pairs) {
     if (!(holds(rule.a, a) && holds(rule.b, b)) && !(holds(rule.a, b) && holds(rule.b, a)))
       continue;
     pair.friction = rule.friction.value_or(pair.friction);
     pair.restitution = rule.restitution.value_or(pair.restitution);
+    pair.stiffness = rule.stiffness.value_or(pair.stiffness);
+    pair.dissipation = rule.dissipation.value_or(pair.dissipation);
   }
   return pair;
 }

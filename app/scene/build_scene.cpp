@@ -5,7 +5,10 @@
 #include "app/dynamics/coordinates.h"
 #include "app/scene/scene_builder.h"
 #include "app/scene/scene_shapes.h"
+#include "collision/import/mesh_geometry.h"
+#include "collision/import/number_text.h"
 #include "collision/import/robot_model.h"
+#include "collision/mesh_fault.h"
 #include "solver/mimic.h"
 #include "solver/model_builder.h"
 
@@ -24,6 +27,32 @@ BodyInertia inertia_of(const BodyDescription& body) {
   const double mass = body.mass.value_or(solid.mass);
   return {mass, body.com.value_or(solid.com),
           body.inertia ? *body.inertia : Matrix3(solid.inertia * (mass / solid.mass))};
+}
+
+// A wider mesh is mostly one in millimetres [m].
+constexpr double kWideMesh = 10;
+
+// Looks at a mesh before anything touches it. Of a convex one the hull counts, and the surface may
+// be what it likes.
+void check_mesh(const BodyDescription& body, SceneDescription& scene) {
+  const MeshSpec* spec = std::get_if<MeshSpec>(&body.shape);
+  if (!spec) return;
+  TriangleMesh mesh = load_mesh(spec->mesh);
+  Vector3 low = mesh.vertices[0], high = low;
+  for (const Vector3& v : mesh.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  const double width = (high - low).maxCoeff();
+  if (width > kWideMesh)
+    scene.warnings.push_back(scene.file.string() + ":" + std::to_string(body.line) + ": body '" +
+                             body.name + "': its mesh is " + short_number_text(width) +
+                             " m wide; if the file is in millimetres, give scale = 0.001");
+  if (spec->convex) {
+    collision_shape(body.shape);  // throws where there is no volume
+    return;
+  }
+  const std::string fault = mesh_fault(MeshShape{std::move(mesh)});
+  if (!fault.empty())
+    throw InputError({{"", 0, "", "mesh '" + spec->mesh.name + "': " + fault,
+                       "mend the mesh, or give convex = true: its hull"}});
 }
 
 // X(t): the origin moves evenly along a line, the axes turn evenly about a fixed direction.
@@ -96,7 +125,12 @@ class SceneBuilder {
 
   void add_bodies() {
     for (const BodyDescription& body : description().bodies) {
-      if (body.fixed) continue;
+      bool sound = false;
+      attempt(body.line, "body '" + body.name + "'", [&] {
+        check_mesh(body, scene_.description);
+        sound = true;
+      });
+      if (body.fixed || !sound) continue;
       BodyInertia inertia;  // of a body whose motion is given nothing asks for it
       if (body.is_free())
         attempt(body.line, "body '" + body.name + "'", [&] { inertia = inertia_of(body); });

@@ -44,7 +44,7 @@ void SceneReader::read(const TomlValue& root) {
   scene.gravity = table.vector("gravity").value_or(scene.gravity);
   scene.step = table.positive("step").value_or(scene.step);
   scene.duration = table.positive("duration");
-  if (const auto law = table.choice("contact", {"rigid", "compliant", "event"}))
+  if (const auto law = table.choice("contact", kContactModes))
     scene.contact = static_cast<ContactMode>(*law);
   std::vector<std::string> integrators;
   for (const IntegratorFacts& facts : all_integrators) integrators.emplace_back(facts.name);
@@ -95,6 +95,8 @@ Surface SceneReader::read_surface(SceneTable& table) {
   }
   surface.torsional_friction = table.not_negative("torsional_friction").value_or(0);
   surface.rolling_friction = table.not_negative("rolling_friction").value_or(0);
+  surface.stiffness = table.positive("stiffness").value_or(surface.stiffness);
+  surface.dissipation = table.not_negative("dissipation").value_or(surface.dissipation);
   return surface;
 }
 
@@ -126,6 +128,8 @@ void SceneReader::read_pair(const TomlValue& value) {
   if (pair.restitution.value_or(0) > 1)
     table.fault("restitution", "must be at most 1: an impact creates no energy",
                 "give a number from 0 to 1");
+  pair.stiffness = table.positive("stiffness");
+  pair.dissipation = table.not_negative("dissipation");
   pair.collide = table.flag("collide");
   table.done();
   scene.pairs.push_back(std::move(pair));

@@ -48,6 +48,9 @@ struct Surface {
   double restitution = 0;         // 0 to 1; a pair takes the product
   double torsional_friction = 0;  // against turning about the normal [m]
   double rolling_friction = 0;    // [m]
+  // Of the compliant response, at each contact point; a pair is two springs in series.
+  double stiffness = 1e6;  // [N/m]
+  double dissipation = 1;  // of Hunt and Crossley [s/m]
 };
 
 struct BodyMotion {                   // constant
@@ -95,8 +98,9 @@ struct RobotInScene {
 struct PairDescription {
   std::string a, b;
   int line = 0;
-  std::optional<double> friction, restitution;  // in place of what the surfaces give
-  std::optional<bool> collide;                  // false: they pass through each other
+  // In place of what the surfaces give.
+  std::optional<double> friction, restitution, stiffness, dissipation;
+  std::optional<bool> collide;  // false: they pass through each other
 };
 
 struct CouplingTarget {
@@ -132,6 +136,7 @@ struct ConstraintDescription {
 };
 
 enum class ContactMode { rigid, compliant, event };
+inline const std::vector<std::string> kContactModes{"rigid", "compliant", "event"};
 
 struct SceneDescription {
   std::filesystem::path file;

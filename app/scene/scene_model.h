@@ -30,7 +30,7 @@ struct SceneGeometry : Surface {
 // Takes the place of what the surfaces of a pair give.
 struct PairRule {
   std::vector<int> a, b;  // geometries, ascending
-  std::optional<double> friction, restitution;
+  std::optional<double> friction, restitution, stiffness, dissipation;
 };
 
 struct SceneMotion {
@@ -89,7 +89,7 @@ struct SceneModel {
   // Whether any two geometries may touch.
   bool may_touch() const;
   // Of two geometries: geometric mean of frictions, product of restitutions, the larger of the
-  // torsional and rolling ones, unless a rule says otherwise.
+  // torsional and rolling ones, springs in series, unless a rule says otherwise.
   Surface surface_of_pair(int a, int b) const;
 };
 

@@ -87,6 +87,8 @@ void SceneContacts::add_geometries() {
     surface.restitution = g.restitution;
     surface.torsional = g.torsional_friction;
     surface.rolling = g.rolling_friction;
+    surface.stiffness = g.stiffness;
+    surface.dissipation = g.dissipation;
     contacts_->add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
   }
   for (const auto& [a, b] : scene_.apart) contacts_->never(a, b);
@@ -97,7 +99,8 @@ void SceneContacts::add_rules() {
     for (const int a : rule.a)
       for (const int b : rule.b) {
         const Surface pair = scene_.surface_of_pair(a, b);
-        contacts_->set_pair(a, b, pair.friction, pair.restitution);
+        contacts_->set_pair(a, b,
+                            {pair.friction, pair.restitution, {pair.stiffness, pair.dissipation}});
       }
 }
 
@@ -111,8 +114,13 @@ void SceneContacts::add_limits() {
 
 void SceneContacts::look_at_start(const Simulation& simulation) {
   contacts_->begin_step(simulation.kinematics(), simulation.state(), 0);
-  for (const ContactPoint& point : contacts_->points())
-    deepest_at_start_ = std::max(deepest_at_start_, point.contact.depth);
+  for (const ContactPoint& point : contacts_->points()) {
+    const Contact& contact = point.contact;
+    if (contact.depth <= deepest_at_start_) continue;
+    deepest_at_start_ = contact.depth;
+    deepest_pair_ = "'" + contacts_->geometry(contact.a).name + "' and '" +
+                    contacts_->geometry(contact.b).name + "'";
+  }
 }
 
 std::vector<LedgerRow> SceneContacts::rows() const {

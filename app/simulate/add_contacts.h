@@ -31,6 +31,7 @@ class SceneContacts {
   std::vector<LedgerRow> rows() const;
   int contact_count() const;  // points that press, at the last step
   double deepest_at_start() const { return deepest_at_start_; }  // [m]
+  const std::string& deepest_pair() const { return deepest_pair_; }
 
  private:
   void add_geometries();
@@ -42,6 +43,7 @@ class SceneContacts {
   std::optional<ContactConstraints> contacts_;
   std::optional<JointLimits> limits_;
   double deepest_at_start_ = 0;
+  std::string deepest_pair_;
 };
 
 }  // namespace twinarm

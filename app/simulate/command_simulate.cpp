@@ -50,6 +50,9 @@ int run_simulate(const SimulateOptions& options) {
   {
     PatientProgress progress(plan.duration);
     RunWatch watch;
+    watch.warn = [](const std::string& text) {
+      fmt::print(stderr, "twinarm: warning: {}\n", text);
+    };
     watch.sample = [&](double t, const State<double>& x) { output->sample(t, x); };
     watch.tick = [&](double t) {
       check_interrupt();

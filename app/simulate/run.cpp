@@ -121,10 +121,7 @@ class Run {
     if (simulated.scene) {
       contacts_.emplace(*simulated.scene, sim_);
       if (contacts_->deepest_at_start() > kDeepStart)
-        result_.warnings.push_back(fmt::format(
-            "bodies stand {} m deep in one another at the start: they are moved apart, no faster "
-            "than 0.5 m/s",
-            short_number_text(contacts_->deepest_at_start())));
+        warn_of_deep_start(simulated.scene->description.contact);
     }
     if (plan.has_tolerance()) sim_.set_tolerance(plan.tolerance);
     ledger_.emplace(input_, wrenches_, simulated.couplings.get(),
@@ -150,6 +147,15 @@ class Run {
   }
 
  private:
+  void warn_of_deep_start(ContactMode mode) {
+    result_.warnings.push_back(fmt::format(
+        "{} stand {} m deep in one another at the start, deeper than any others: {}",
+        contacts_->deepest_pair(), short_number_text(contacts_->deepest_at_start()),
+        mode == ContactMode::compliant
+            ? "their springs throw them apart; place them apart, or give --contact rigid"
+            : "what overlaps is moved apart, no faster than 0.5 m/s"));
+    if (watch_.warn) watch_.warn(result_.warnings.back());
+  }
   // Before the last row, `numerical`, which is what is left.
   void add_contact_rows() {
     std::vector<LedgerRow> rows = contacts_->rows();

@@ -33,6 +33,7 @@ struct RunResult {
 };
 
 struct RunWatch {
+  std::function<void(const std::string&)> warn;  // of the start, before the run; also in the result
   std::function<void(double t, const State<double>&)> sample;  // times of the plan, in their order
   std::function<void(double t)> tick;                          // after each step; may throw
 };

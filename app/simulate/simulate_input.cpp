@@ -1,8 +1,10 @@
 #include "app/simulate/simulate_input.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "app/dynamics/json_tree.h"
+#include "app/nearest_name.h"
 #include "app/scene/read_scene.h"
 #include "app/scene/scene_names.h"
 #include "app/simulate/add_contacts.h"
@@ -21,6 +23,17 @@ void refuse_robot_options(const RobotOptions& options, FaultList& faults) {
                 "write base = \"floating\" in [[robot]]"});
   if (options.strict)
     faults.add({"", 0, "--strict", "is for a robot's URDF alone", "leave it out"});
+}
+
+// What the command line says in place of the scene; null where that could not be read.
+void choose_contact(const std::string& name, SceneDescription* scene, FaultList& faults) {
+  if (name.empty()) return;
+  const auto found = std::find(kContactModes.begin(), kContactModes.end(), name);
+  if (found == kContactModes.end())
+    faults.add({"", 0, "--contact", "'" + name + "' is not known",
+                name_remedy(name, kContactModes, "possible")});
+  else if (scene)
+    scene->contact = static_cast<ContactMode>(found - kContactModes.begin());
 }
 
 void check_treatments(const SceneModel& scene, const RunPlan& plan, FaultList& faults) {
@@ -77,7 +90,7 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
   auto couplings =
       attempt(faults, [&] { return std::make_unique<SceneCouplings>(made, plan.step); });
   faults.check();
-  std::vector<std::string> warnings = description.warnings;
+  std::vector<std::string> warnings = made.description.warnings;
   warnings.insert(warnings.end(), state.warnings.begin(), state.warnings.end());
   return {{robots, made.model, coordinates, std::move(state), std::move(warnings)},
           std::move(*scene),
@@ -90,12 +103,15 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
   FaultList faults;
   if (options.robot.model.extension() != ".toml") {
     const RunPlan plan = plan_run(options, {}, faults);
+    if (!options.contact.empty())
+      faults.add({"", 0, "--contact", "a robot alone touches nothing", "give a scene"});
     return {{read_robot_input(options.robot, faults), nullptr, nullptr}, plan};
   }
   refuse_robot_options(options.robot, faults);
   auto description = attempt(faults, [&] { return read_scene(options.robot.model); });
   const RunPlan plan =
       plan_run(options, description ? defaults_of(*description) : RunDefaults{1.0}, faults);
+  choose_contact(options.contact, description ? &*description : nullptr, faults);
   if (!options.robot.gravity.empty())
     if (const auto gravity = parse_gravity(options.robot.gravity, faults); gravity && description)
       description->gravity = *gravity;

@@ -16,6 +16,7 @@ struct SimulateOptions {
   // Left out: as the scene says, else 0.001 s and semi-implicit; there is no other duration.
   std::optional<double> duration, step;  // [s]
   std::string integrator;                // by its name in solver/integrator.h; may be empty
+  std::string contact;                   // "rigid" ..; may be empty
   std::optional<double> tolerance;       // of dopri5 and located events, relative and absolute
   std::optional<double> every;           // a sample each so many seconds
   std::string at;                        // samples at these times, "t1,t2,.."

@@ -263,6 +263,114 @@ class Touching(Scenes):
         self.assertLess(abs(energy[-1] - energy[0]), 1e-8 * energy[0])
 
 
+# Side by side on one floor of 3e5 N/m: springs in series by hand, k = 1 / (1/3e5 + 1/k_ball).
+SOFT = """
+contact = "compliant"
+duration = 4
+[[body]]
+name = "floor"
+fixed = true
+shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
+stiffness = 3e5
+[[body]]
+name = "tyre"
+shape = { sphere = { radius = 0.1 } }
+mass = 2
+position = [0, 0, 0.1]
+stiffness = 6e4
+dissipation = 2
+[[body]]
+name = "steel"
+shape = { sphere = { radius = 0.1 } }
+mass = 3
+position = [1, 0, 0.1]
+stiffness = 3e7
+[[body]]
+name = "told"
+shape = { sphere = { radius = 0.1 } }
+mass = 1
+position = [2, 0, 0.1]
+[[pair]]
+a = "told"
+b = "floor"
+stiffness = 1e4
+"""
+
+
+class Compliance(Scenes):
+    def depth(self, answer, name):
+        return 0.1 - answer["samples"][-1]["links"][name]["position"][2]
+
+    def test_each_ball_rests_m_g_over_the_stiffness_of_its_pair_deep(self):
+        answer = self.run_scene(SOFT)
+        for name, mass, k in (("tyre", 2, 5e4), ("steel", 3, 3e7 / 101), ("told", 1, 1e4)):
+            expected = mass * 9.81 / k
+            self.close(self.depth(answer, name), expected, 1e-6 * expected, name)
+
+    def test_the_command_line_outranks_the_response_of_the_scene(self):
+        rigid = self.run_scene(SOFT, "--contact", "rigid")
+        for name in ("tyre", "steel", "told"):
+            self.close(self.depth(rigid, name), 0, 1e-9, name)
+        soft = self.run_scene(SOFT.replace('"compliant"', '"rigid"'), "--contact", "compliant")
+        self.assertEqual(soft["samples"], self.run_scene(SOFT)["samples"])
+
+    def test_a_response_that_is_not_known_or_has_nothing_to_touch_is_refused(self):
+        self.assertEqual(self.refusals(SOFT, "--contact", "complaint"),
+                         ["0: --contact: 'complaint' is not known"])
+        found = self.errors(HINGE, "--duration", 1, "--contact", "rigid")
+        self.assertEqual(found, [":0: --contact: a robot alone touches nothing; give a scene"])
+
+
+class DeepStart(Scenes):
+    """Bodies that begin in one another: told, and parted gently."""
+    BALLS = """
+gravity = [0, 0, 0]
+duration = 1
+[[body]]
+name = "one"
+shape = { sphere = { radius = 0.1 } }
+mass = 1
+position = [0, 0, 0]
+[[body]]
+name = "two"
+shape = { box = { size = [0.2, 0.2, 0.2] } }
+mass = 3
+position = [0.15, 0, 0]
+[[body]]
+name = "floor"
+fixed = true
+shape = { halfspace = { normal = [0, 0, 1], offset = -0.09 } }
+"""
+
+    def test_the_deepest_pair_is_named_on_stderr_with_its_depth(self):
+        result = self.simulate(self.BALLS)
+        self.assertEqual(result.returncode, 0)
+        warning = [line for line in result.stderr.splitlines() if "warning" in line]
+        self.assertEqual(len(warning), 1, result.stderr)
+        self.assertIn("'one' and 'two' stand 0.05 m deep in one another", warning[0])
+        self.assertIn("no faster than 0.5 m/s", warning[0])
+        self.assertIn("'one' and 'two'", json.loads(result.stdout)["warnings"][0])
+        self.assertEqual(self.simulate(self.BALLS.replace("0.15", "0.2001").replace("-0.09", "-1"))
+                         .stderr, "")
+
+    def test_bodies_part_without_an_explosion(self):
+        for gravity in ("[0, 0, 0]", "[0, 0, -9.81]"):
+            answer = self.run_scene(self.BALLS.replace("[0, 0, 0]", gravity, 1), "--every", 0.001)
+            samples = answer["samples"]
+            def speed(sample):
+                return max(math.hypot(*sample["links"][name]["linear_velocity"])
+                           for name in ("one", "two"))
+            self.assertLess(max(map(speed, samples)), 0.02)
+            self.assertLess(max(s["kinetic_energy"] for s in samples), 1e-3)
+            last = samples[-1]["links"]
+            apart = last["two"]["position"][0] - last["one"]["position"][0]
+            self.assertGreater(apart, 0.2 - 1e-4)
+            self.assertLess(apart, 0.2 + 1e-3)
+            for name in ("one", "two"):
+                self.assertGreater(last[name]["position"][2], 0.01 - 1e-4)
+                self.assertLess(last[name]["position"][2], 0.01 + 1e-3)
+
+
 class Refused(Scenes):
     def test_contacts_take_the_semi_implicit_integrator_only(self):
         pair = BALL + BALL.replace("ball", "other")

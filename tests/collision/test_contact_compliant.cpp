@@ -2,7 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <utility>
 
+#include "solver/fault.h"
 #include "tests/collision/contact_scene.h"
 
 using namespace twinarm;
@@ -51,6 +53,27 @@ TEST_CASE(
     else
       CHECK(scene.velocity(block).x() - v ==
             doctest::Approx(9.81 * (std::sin(angle) - mu * std::cos(angle))).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("two springs in series: the soft one decides, and two alike are half as stiff as one") {
+  const Compliance steel{1e12, 5}, rubber{1e4, 0.3};
+  CHECK(in_series(steel, rubber).stiffness == doctest::Approx(1e4).epsilon(1e-7));
+  CHECK(in_series(steel, rubber).dissipation == doctest::Approx(0.3).epsilon(1e-6));
+  CHECK(in_series(rubber, steel).dissipation == in_series(steel, rubber).dissipation);
+  CHECK(in_series(rubber, rubber).stiffness == doctest::Approx(5e3).epsilon(1e-15));
+  CHECK(in_series(rubber, rubber).dissipation == doctest::Approx(0.3).epsilon(1e-15));
+}
+
+TEST_CASE("a surface without stiffness, or of one that is no number, is refused") {
+  for (const auto& [stiffness, dissipation] :
+       {std::pair{0.0, 1.0}, {-1.0, 1.0}, {INFINITY, 1.0}, {1e6, -1.0}, {1e6, NAN}}) {
+    ContactScene scene(ContactResponse::compliant);
+    ContactSurface surface;
+    surface.stiffness = stiffness;
+    surface.dissipation = dissipation;
+    scene.floor(surface);
+    CHECK_THROWS_AS(scene.begin(), InputError);
   }
 }
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
+#include "solver/joint_limits.h"
 #include "solver/model_builder.h"
 #include "solver/simulation.h"
 
@@ -178,4 +180,24 @@ TEST_CASE("a block that moves away from the floor is not held back") {
   Block block(false, true, {1e8, 1, 0.3, 1e-3}, -1e-6, 0, 3);  // a little inside, leaving fast
   block.simulation.step(kStep);
   CHECK(block.vz() == doctest::Approx(3 - kGravity * kStep).epsilon(1e-9));
+}
+
+TEST_CASE("a force that needs rounds and a constraint refuse each other, whichever comes first") {
+  const ContactLaw law;
+  Block block(false, true, law, 0.05, 0, 0);
+  JointLimits limits(block.model);
+  limits.add(block.model.find_body("block"), -1, 1);
+  CHECK_THROWS_WITH_AS(block.simulation.add(limits), doctest::Contains("one round"),
+                       std::invalid_argument);
+  // What was refused is not there: the step is the one without limits, and finds its rounds.
+  int most = 0;
+  for (int n = 0; n < 400; ++n) most = std::max(most, block.simulation.step(kStep).rounds);
+  CHECK(most > 1);
+  CHECK(block.normal_force() == doctest::Approx(kMass * kGravity).epsilon(1e-6));
+
+  Simulation limited(block.model, State<double>(block.model));
+  limited.add(limits);
+  CHECK_THROWS_WITH_AS(limited.add(block.contact), doctest::Contains("one round"),
+                       std::invalid_argument);
+  CHECK(limited.step(kStep).ok());
 }

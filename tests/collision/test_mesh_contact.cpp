@@ -185,3 +185,45 @@ TEST_CASE("bad meshes are refused with what is wrong: empty, open, flipped, thin
   world.add({"a", MeshShape{good}, 0});
   CHECK_THROWS_AS(world.add({"b", MeshShape{good}, 0}), InputError);
 }
+
+TEST_CASE(
+    "whoever is near a mesh whose triangles have obtuse corners touches it, as near as it is") {
+  // A step: its flat ends are fans, and one of their triangles has a corner of 160 degrees.
+  const std::vector<std::array<double, 2>> outline{{-0.15, 0}, {0.15, 0}, {0.15, 0.05},
+                                                   {0, 0.05},  {0, 0.12}, {-0.15, 0.12}};
+  TriangleMesh step;
+  for (const double y : {-0.15, 0.15})
+    for (const auto& [x, z] : outline) step.vertices.emplace_back(x, y, z);
+  for (int i = 1; i < 5; ++i) {
+    step.triangles.push_back({0, i, i + 1});
+    step.triangles.push_back({6, i + 7, i + 6});
+  }
+  for (int i = 0; i < 6; ++i) {
+    const int j = (i + 1) % 6;
+    step.triangles.push_back({i, i + 6, j + 6});
+    step.triangles.push_back({i, j + 6, j});
+  }
+  REQUIRE(mesh_fault(MeshShape{step}).empty());
+  const double margin = 0.02;
+  for (const Shape& body : bodies()) {
+    CAPTURE(shape_name(body));
+    Random random(12);
+    Scene scene(MeshShape{step}, body);
+    int near = 0;
+    for (int n = 0; n < 4000; ++n) {
+      const Vector3 p(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3),
+                      random.uniform(-0.15, 0.3));
+      const Pose X_WB{random.rotation(), p};
+      // Of all triangles the nearest, and no rule about normals.
+      const double distance = scene.world.distance(0, 1, origin, X_WB);
+      const bool centre_is_outside = std::abs(p.y()) > 0.15 || std::abs(p.x()) > 0.15 ||
+                                     p.z() < 0 || p.z() > (p.x() < 0 ? 0.12 : 0.05);
+      if (!(distance > 1e-4 && distance < 0.9 * margin) || !centre_is_outside) continue;
+      ++near;
+      scene.touch(origin, X_WB, margin);
+      CAPTURE(n);
+      CHECK(std::abs(scene.deepest() + distance) < 1e-6);
+    }
+    CHECK(near > 100);
+  }
+}

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "collision/mass_properties.h"
+#include "collision/mesh_fault.h"
 #include "solver/fault.h"
 #include "tests/collision/oracle.h"
 
@@ -176,4 +177,44 @@ TEST_CASE("random damage to a file is an error or a finite mesh, never a crash")
       }
     }
   }
+}
+
+TEST_CASE("files whose surface is no solid's: each is read, and told what is wrong and how much") {
+  const Folder folder;
+  const TriangleMesh good = box_mesh({1, 2, 3});
+  const auto fault_of = [&](const TriangleMesh& mesh) {
+    return mesh_fault(MeshShape{load_mesh(folder.write("surface.stl", binary_stl(mesh)), 1)});
+  };
+  CHECK(fault_of(good).empty());
+
+  TriangleMesh open = good, flipped = good, one_turned = good, doubled = good, thin = good;
+  open.triangles.pop_back();
+  CHECK(mentions(fault_of(open), "3 edges belong to one triangle alone"));
+  for (auto& t : flipped.triangles) std::swap(t[0], t[1]);
+  CHECK(mentions(fault_of(flipped), "inside out"));
+  std::swap(one_turned.triangles[4][0], one_turned.triangles[4][1]);
+  CHECK(mentions(fault_of(one_turned), "3 edges have triangles that disagree"));
+  doubled.triangles.push_back(doubled.triangles[0]);
+  doubled.triangles.push_back({good.triangles[5][1], good.triangles[5][2], good.triangles[5][0]});
+  CHECK(mentions(fault_of(doubled), "2 triangles are there twice"));
+  thin.vertices.push_back(0.5 * (good.vertices[0] + good.vertices[1]));
+  thin.triangles.push_back({0, 1, 8});
+  CHECK(mentions(fault_of(thin), "1 triangles have no area, the first is number 12"));
+  // All of them at once.
+  thin.triangles.pop_back();
+  thin.triangles[0] = thin.triangles[1];
+  thin.triangles.push_back({0, 1, 8});
+  for (const char* part : {"no area", "twice", "not closed"}) CHECK(mentions(fault_of(thin), part));
+}
+
+TEST_CASE(
+    "triangles whose corners are the same vertex are left out, and a file of nothing else is "
+    "empty") {
+  const Folder folder;
+  const TriangleMesh good = box_mesh({1, 1, 1});
+  TriangleMesh dotted = good, nothing = good;
+  dotted.triangles.push_back({0, 0, 1});
+  CHECK(load_mesh(folder.write("dotted.stl", binary_stl(dotted)), 1).triangles.size() == 12);
+  for (auto& t : nothing.triangles) t = {t[0], t[0], t[1]};
+  CHECK(mentions(refusal(folder.write("nothing.stl", binary_stl(nothing))), "no triangle"));
 }

@@ -216,6 +216,25 @@ TEST_CASE(
   CHECK(scene.may_touch());
 }
 
+TEST_CASE("scene: the springs of a pair stand in series, unless its rule gives the spring") {
+  const std::string shape = "mass = 1\nshape.sphere.radius = 1\n";
+  const SceneModel scene =
+      built("[[body]]\nname = 'a'\n" + shape +
+            "stiffness = 3e5\ndissipation = 1\n[[body]]\nname = 'b'\n" + shape +
+            "stiffness = 6e5\ndissipation = 4\n[[body]]\nname = 'c'\n" + shape +
+            "[[pair]]\na = 'c'\nb = 'a'\nstiffness = 7\n" +
+            "[[pair]]\na = 'b'\nb = 'c'\ndissipation = 0\n");
+  const Surface ab = scene.surface_of_pair(0, 1);
+  CHECK(ab.stiffness == doctest::Approx(2e5).epsilon(1e-15));
+  CHECK(ab.dissipation == doctest::Approx((2 * 1 + 1 * 4) / 3.0).epsilon(1e-15));
+  const Surface ac = scene.surface_of_pair(0, 2);  // of the default 1e6 N/m and 1 s/m
+  CHECK(ac.stiffness == 7);
+  CHECK(ac.dissipation == doctest::Approx(1).epsilon(1e-15));
+  const Surface bc = scene.surface_of_pair(1, 2);
+  CHECK(bc.stiffness == doctest::Approx(3.75e5).epsilon(1e-15));
+  CHECK(bc.dissipation == 0);
+}
+
 TEST_CASE("scene: neighbours, one group, the tied and the unmoved stay apart") {
   const std::string ball = "mass = 1\nshape.sphere.radius = 0.1\n";
   const auto name = [](const char* n) { return "[[body]]\nname = '" + std::string(n) + "'\n"; };

@@ -41,6 +41,13 @@ TEST_CASE("scene: each faulty key is told with its line, its rule and a remedy")
            Case{"restitution = 1.01", "at most 1"},
            Case{"restitution = -1", "must not be negative"},
            Case{"rolling_friction = -1", "must not be negative"},
+           Case{"stiffness = 0", "must be positive, is 0; give a number above 0"},
+           Case{"stiffness = -1e5", "must be positive, is -1e"},
+           Case{"stiffness = inf", "must be finite"},
+           Case{"stiffness = '1e5'", "must be a number, is the text"},
+           Case{"dissipation = -1", "must not be negative, is -1; give 0 or more"},
+           Case{"dissipation = nan", "must be finite"},
+           Case{"stifness = 1e5", "did you mean 'stiffness'"},
            Case{"torsional_friction = true", "must be a number, is true"},
            Case{"orientation = [0, 0, 0, 0]", "has length 1, this one has 0"},
            Case{"orientation = [1, 1, 0, 0]", "this one has 1.41421"},
@@ -115,6 +122,11 @@ TEST_CASE(
   check_fault(ball + "[[pair]]\na = 'b'\nb = 'flor'\n", 8, "there is no body or robot 'flor'");
   check_fault(ball + "[[pair]]\na = 'b'\nb = 'world'\n", 8, "the world has no surface");
   check_fault(ball + "[[pair]]\na = 'b'\nb = 'b'\nrestitution = 2\n", 9, "at most 1");
+
+  const std::string pair = ball + "[[pair]]\na = 'b'\nb = 'b'\n";
+  check_fault(pair + "stiffness = 0\n", 9, "must be positive, is 0");
+  check_fault(pair + "dissipation = -1\n", 9, "must not be negative, is -1");
+  check_fault(std::string(kArm) + "stiffness = -1\n", 4, "must be positive, is -1");
 
   const std::string pull = std::string(kArm) + "[[coupling]]\nstiffness = 1\n";
   const std::string linear = pull + "type = 'linear'\n";
