@@ -8,6 +8,7 @@
 #pragma once
 
 #include "solver/isa.h"
+#include "solver/sines.h"
 #include "solver/slice.h"
 #include "solver/trace.h"
 #include "solver/workspace.h"
@@ -21,16 +22,18 @@ template <class S, class Trace = NoTrace>
   forget(w.v), forget(w.c), forget(w.IA), forget(w.pA), forget(w.a), forget(w.qdd);
   w.v[0] = {};
   w.a[0] = {{}, -model.gravity};  // gravity as an upward acceleration of the base
+  sin_cos_ahead(x.q, w.sin, w.cos);
 
   // pass 1, base to tips: velocities, velocity-product terms, inertias and bias forces of each body
   for (std::size_t i = 1; i < n_bodies; ++i) {
     visit_joint(model, i, [&](auto joint) {
       const auto p = static_cast<std::size_t>(model.parent[i]);
-      const S *q = x.q.data() + model.iq[i], *qd = x.qd.data() + model.iv[i];
+      const std::size_t iq = model.iq[i];
+      const S *q = x.q.data() + iq, *qd = x.qd.data() + model.iv[i];
       const auto S_i = joint.subspace(q);
       const auto vJ = joint_velocity(joint, S_i, q, qd);
 
-      w.Xup[i] = joint.XJ(q) * model.Xtree[i];
+      w.Xup[i] = joint_transform(joint, q, w.sin.data() + iq, w.cos.data() + iq) * model.Xtree[i];
       w.v[i] = w.Xup[i] * w.v[p] + vJ;
       w.c[i] = crm(w.v[i], vJ) + joint.cJ(q, qd);
       w.IA[i] = model.I[i];

@@ -6,6 +6,7 @@
 // name in the list at the bottom. Each struct states
 //   nq, nv            numbers in q and in qd
 //   XJ(q)             from the joint's frame in the parent to the child's frame
+//   XJ(of_q)          the same by sine and cosine of q, where q is one angle (only if it is hot)
 //   S(q)              motion subspace, and S_is_constant
 //   vJ, cJ            where they are not S qd and 0: velocity, and apparent derivative of S qd
 //   identity(q)       writes the q at which the frames coincide
@@ -60,6 +61,7 @@ struct FixedJoint : VectorJoint<S, 0>, ConstantSubspace<S, NoAxes> {
 template <class S>
 struct RevoluteJoint : VectorJoint<S, 1>, ConstantSubspace<S, AxisZ> {
   static TurnZ<S> XJ(const S* q) { return TurnZ<S>(q[0]); }
+  static TurnZ<S> XJ(const SinCos<S>& of_q) { return TurnZ<S>(of_q); }
 };
 
 // Shifts along z.
@@ -194,6 +196,14 @@ auto joint_velocity(const Joint& joint, const Subspace& subspace, const S* q, co
     for (std::size_t k = 0; k < Joint::nv; ++k) rate[k] = qd[k];
     return times(subspace, rate);
   }
+}
+
+// XJ(q), with the sine and cosine of q[0] where they were computed ahead (solver/sines.h).
+template <class Joint, class S>
+auto joint_transform(const Joint& joint, const S* q, const S* sin, const S* cos) {
+  if constexpr (takes_sines_ahead<S> && requires { joint.XJ(SinCos<S>{}); })
+    if (std::abs(q[0]) <= kPolynomialRange) return joint.XJ(SinCos<S>{*sin, *cos});
+  return joint.XJ(q);
 }
 
 // What is listed here exists everywhere: builder, passes, contract tests.

@@ -9,11 +9,8 @@ namespace twinarm {
 template <class S>
 struct TurnZ {
   S c, s;
-  explicit TurnZ(const S& angle) {
-    const SinCos<S> both = sin_cos(angle);
-    c = both.cos;
-    s = both.sin;
-  }
+  explicit TurnZ(const SinCos<S>& both) : c(both.cos), s(both.sin) {}
+  explicit TurnZ(const S& angle) : TurnZ(sin_cos(angle)) {}
   Mat3<S> E() const { return {{c, s, S(0)}, {-s, c, S(0)}, {S(0), S(0), S(1)}}; }
   friend Transform<S> operator*(const TurnZ& a, const Transform<S>& X) {
     return {{a.c * X.E.r0 + a.s * X.E.r1, a.c * X.E.r1 - a.s * X.E.r0, X.E.r2}, X.r};

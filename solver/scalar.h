@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 namespace twinarm {
 
@@ -76,6 +77,10 @@ SinCos<T> sin_cos_polynomial(const T& x) {
 }
 
 inline constexpr double kPolynomialRange = 200;  // [rad]
+
+// Whether the polynomials are worth evaluating side by side for many numbers (solver/sines.h).
+template <class S>
+inline constexpr bool takes_sines_ahead = std::is_same_v<S, double>;
 
 inline SinCos<double> sin_cos(double x) {
   if (std::abs(x) <= kPolynomialRange) return sin_cos_polynomial<double, std::int64_t>(x);

@@ -51,6 +51,8 @@ void forget([[maybe_unused]] std::vector<T>& field) {
 
 template <class S>
 struct Workspace {
+  // ahead of pass 1, in aba() of doubles alone (solver/sines.h)
+  std::vector<S> sin, cos;  // by coordinate
   // pass 1 (base to tips)
   std::vector<Motion<S>> S_;      // columns of the motion subspaces, by velocity
   std::vector<Transform<S>> Xup;  // XJ Xtree: from the parent's frame to the body's
@@ -81,7 +83,9 @@ struct Workspace {
   std::vector<std::size_t> iD;  // where D of body i begins
 
   explicit Workspace(const Model<S>& model)
-      : S_(model.nv),
+      : sin(model.nq),
+        cos(model.nq),
+        S_(model.nv),
         Xup(n(model)),
         v(n(model)),
         c(n(model)),
