@@ -52,7 +52,7 @@ std::vector<CompareRow> run_cases(const std::vector<const AnalyticCase*>& cases,
   for (const AnalyticCase* test : cases) {
     tick(rows.size());
     const Clock::time_point start = Clock::now();
-    const CaseResult result = test->run();
+    const CaseResult result = run_case(*test);
     rows.push_back({test, result, std::chrono::duration<double>(Clock::now() - start).count()});
   }
   tick(rows.size());
