@@ -13,15 +13,12 @@ const std::vector<AnalyticCase>& analytic_cases() {
     using namespace smooth_cases;
     std::vector<AnalyticCase> cases;
     for (const auto& family : {
-             symmetric_body(),
-             loop_runs(),
-             impacts(),
-             sliding(),
-             toppling(),
-             rolling(),
-             painleve(),
-             spinning(),
-             stacks(),
+             symmetric_body(),  asymmetric_body(), heavy_top(),
+             floating_tree(),   pendulum(),        compound_pendulum(),
+             sliding_joints(),  oscillators(),     spherical_pendulum(),
+             universal_joint(), loop_runs(),       impacts(),
+             sliding(),         toppling(),        rolling(),
+             painleve(),        spinning(),        stacks(),
              hollows(),
          })
       cases.insert(cases.end(), family.begin(), family.end());

@@ -198,18 +198,21 @@ double mutant_error(const TrajectoryCase& c) {
 }
 
 std::optional<double> observed_order(const TrajectoryCase& c, const Lane& lane) {
-  if (!c.has_steps() || lane.integrator == Integrator::dopri5) return {};
-  const double rounding = 1e-11 * largest_reference(c);
+  if (!c.takes_lanes() || lane.integrator == Integrator::dopri5) return {};
+  const double rounding = 1e-12 * largest_reference(c);
   std::vector<double> error;
   double h = lane.step;
-  for (int i = 0; i < 8 && error.size() < 3; ++i, h *= 2) {
+  for (int i = 0; i < 9; ++i, h *= 2) {
     CaseScene scene = c.scene();
     scene.conserves = false;  // nobody asks for its energy
-    const double one = measure(c, std::move(scene), {lane.integrator, h, 0}, nullptr).error;
-    if (one > rounding) error.push_back(one);
+    error.push_back(measure(c, std::move(scene), {lane.integrator, h, 0}, nullptr).error);
+    if (i < 2 || !(error[error.size() - 3] > rounding)) continue;
+    const double* e = &error[error.size() - 3];
+    const double fine = std::log2(e[1] / e[0]), coarse = std::log2(e[2] / e[1]);
+    // Least squares through three points at equal distances.
+    if (fine > 0.5 && std::abs(fine - coarse) < 0.3) return (fine + coarse) / 2;
   }
-  if (error.size() < 3) return {};
-  return std::log2(error[2] / error[0]) / 2;  // least squares through three equidistant points
+  return {};
 }
 
 }  // namespace twinarm

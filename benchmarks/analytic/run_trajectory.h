@@ -27,8 +27,8 @@ LaneResult run_lane(const TrajectoryCase& c, const Lane& lane,
 double mutant_error(const TrajectoryCase& c);
 
 // By how much, in powers of two, the error falls when the step halves: the slope through the three
-// smallest of the steps h, 2h, 4h .. whose error is not rounding (1e-11 of the largest reading).
-// Nothing where fewer have one, and for dopri5.
+// smallest of the steps h, 2h, 4h .. whose error is above rounding (1e-12 of the largest reading)
+// and whose two slopes agree to 0.3. Nothing where no three do, and for dopri5.
 std::optional<double> observed_order(const TrajectoryCase& c, const Lane& lane);
 
 }  // namespace twinarm

@@ -10,6 +10,8 @@ namespace twinarm::special {
 Jacobi jacobi(long double u, long double m) {
   Jacobi j{};
   j.sn = boost::math::jacobi_elliptic(std::sqrt(m), u, &j.cn, &j.dn);
+  // The library's dn is 0/0 where cn = 0, and loses all digits of a small one there.
+  j.dn = std::sqrt(1 - m + m * j.cn * j.cn);
   return j;
 }
 

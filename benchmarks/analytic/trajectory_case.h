@@ -76,8 +76,11 @@ struct TrajectoryCase {
   CaseMeasure measure = largest_difference;
   void (*mutant)(CaseScene&) = more_gravity;  // with this mistake the error is above the tolerance
   CaseEvents events{};
+  bool of_its_lane =
+      false;  // the reference is what a scheme gives at its step: no lane but its own
 
   bool has_steps() const { return events.count > 0 || times.back() > 0; }
+  bool takes_lanes() const { return has_steps() && !of_its_lane; }
 };
 
 }  // namespace twinarm

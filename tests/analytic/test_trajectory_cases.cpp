@@ -25,7 +25,9 @@ void for_each_trajectory(F&& f) {
 
 TEST_CASE("known motions: every case keeps its tolerance") {
   for_each_trajectory([](const AnalyticCase& c, const TrajectoryCase& motion) {
-    CHECK(run_lane(motion, motion.lane).error <= c.tolerance);
+    const LaneResult result = run_lane(motion, motion.lane);
+    CAPTURE(result.seconds);
+    CHECK(result.error <= c.tolerance);
   });
 }
 
