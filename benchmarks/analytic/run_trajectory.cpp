@@ -75,7 +75,7 @@ class Run {
   }
 
   std::optional<double> energy_drift() const {
-    if (!scene_.conserves || !(most_kinetic_ > 0)) return {};
+    if (!scene_.conserves || !case_.has_steps() || !(most_kinetic_ > 0)) return {};
     return strayed_ / most_kinetic_;
   }
 
