@@ -6,6 +6,9 @@
 
 #include "benchmarks/analytic/smooth_cases.h"
 #include "benchmarks/analytic/smooth_parts.h"
+#include "solver/dynamics.h"
+#include "solver/energy.h"
+#include "solver/world.h"
 
 namespace twinarm::smooth_cases {
 namespace {
@@ -46,6 +49,27 @@ TrajectoryCase motion() {
           .mutant = more_inertia};
 }
 
+// In one state: kinetic energy, |H|, and the angle between the axis and H.
+TrajectoryCase at_start() {
+  TrajectoryCase c = motion();
+  c.times = {0};
+  c.readings = {"kinetic energy [J]", "|H| [N m s]", "angle of e3 to H [rad]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    Workspace<double> w(model);
+    kinematics(model, x, w);
+    const Vec3<double> H = momentum(model, w).n;
+    return CaseReadings{kinetic_energy(model, x), std::sqrt(dot(H, H)),
+                        std::atan2(std::hypot(H.x, H.y), H.z)};
+  };
+  c.reference = [](double) {
+    const double across = I1 * kRate.x(), along = I3 * kRate.z();
+    return CaseReadings{(across * kRate.x() + along * kRate.z()) / 2, std::hypot(across, along),
+                        std::atan2(across, along)};
+  };
+  c.measure = relative_each;
+  return c;
+}
+
 }  // namespace
 
 std::vector<AnalyticCase> symmetric_body() {
@@ -55,6 +79,11 @@ std::vector<AnalyticCase> symmetric_body() {
       trajectory_case("A1", "free-body",
                       "symmetric body: attitude [rad], rate [rad/s], 10 s; closed form", 1e-8,
                       motion()),
+      trajectory_case(
+          "A1-start", "free-body",
+          "0.33 J, |H| = 0.12806248474865697 N m s, 38.659808254090091 degrees from the "
+          "axis [relative]",
+          1e-12, at_start()),
       trajectory_case("A1-adaptive", "free-body", "the same, dopri5 with a tolerance of 1e-12",
                       1e-10, adaptive),
   };
