@@ -120,10 +120,9 @@ LaneResult measure(const TrajectoryCase& c, CaseScene scene, const Lane& lane,
   const Clock::time_point start = Clock::now();
   LaneResult result;
   Run run(c, scene, lane, recording);
-  // std::max would lose what is not a number.
   const auto judge = [&](const CaseReadings& seen, double argument) {
     const double error = c.measure(seen, c.reference(argument));
-    if (!(error <= result.error)) result.error = error;
+    result.error = worse(result.error, error);
   };
   const auto all = [&] {
     for (const double t : c.times) {
@@ -162,9 +161,9 @@ double largest_reference(const TrajectoryCase& c) {
 }  // namespace
 
 double largest_difference(const CaseReadings& seen, const CaseReadings& exact) {
-  double error = seen.size() == exact.size() ? 0 : kNothing;
-  for (std::size_t i = 0; i < seen.size() && i < exact.size(); ++i)
-    if (const double one = std::abs(seen[i] - exact[i]); !(one <= error)) error = one;
+  if (seen.size() != exact.size()) return kNothing;
+  double error = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) error = worse(error, std::abs(seen[i] - exact[i]));
   return error;
 }
 
