@@ -43,6 +43,8 @@ int run_simulate(const SimulateOptions& options);
 struct CompareOptions {
   std::vector<std::string> cases;
   std::string group;
+  std::vector<std::string> integrators;
+  std::vector<double> steps;
   bool json = false;
 };
 int run_compare(const CompareOptions& options);  // 1 where a case falls short

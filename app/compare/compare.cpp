@@ -1,61 +1,88 @@
 #include "app/compare/compare.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
-
-#include "app/nearest_name.h"
-#include "solver/fault.h"
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
 
 namespace twinarm {
 namespace {
 
-bool means(const std::string& asked, const AnalyticCase& c) {
-  const std::string name = c.name;
-  return name == asked || name.rfind(asked + "-", 0) == 0;
+CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& lanes) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  CompareRow row{&test, run_case(test), 0, {}};
+  row.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  if (test.trajectory && test.trajectory->takes_lanes())
+    for (const Lane& lane : lanes)
+      row.lanes.push_back(
+          {lane, run_lane(*test.trajectory, lane), observed_order(*test.trajectory, lane)});
+  return row;
+}
+
+// What the threads share, under one lock.
+struct Work {
+  std::mutex lock{};
+  std::condition_variable news{};
+  std::size_t next = 0, done = 0;
+  bool stopped = false;
+  std::exception_ptr failure{};
+};
+
+void work_off(const std::vector<const AnalyticCase*>& cases, const std::vector<Lane>& lanes,
+              Work& work, std::vector<CompareRow>& rows) {
+  std::unique_lock held(work.lock);
+  while (!work.stopped && work.next < cases.size()) {
+    const std::size_t mine = work.next++;
+    held.unlock();
+    CompareRow row{};
+    std::exception_ptr failure;
+    try {
+      row = run_one(*cases[mine], lanes);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    held.lock();
+    rows[mine] = std::move(row);
+    ++work.done;
+    if (failure) work.failure = failure, work.stopped = true;
+    work.news.notify_one();
+  }
 }
 
 }  // namespace
 
-std::vector<const AnalyticCase*> select_cases(const std::vector<std::string>& names,
-                                              const std::string& group) {
-  const std::vector<AnalyticCase>& all = analytic_cases();
-  std::vector<std::string> known, groups;
-  for (const AnalyticCase& c : all) {
-    known.push_back(c.name);
-    if (std::find(groups.begin(), groups.end(), c.group) == groups.end()) groups.push_back(c.group);
-  }
-  FaultList faults;
-  for (const std::string& name : names)
-    if (std::none_of(all.begin(), all.end(), [&](const auto& c) { return means(name, c); }))
-      faults.add({"", 0, "command line", fmt::format("there is no case '{}'", name),
-                  name_remedy(name, known, "cases")});
-  if (!group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
-    faults.add({"", 0, "--group", fmt::format("there is no group '{}'", group),
-                name_remedy(group, groups, "groups")});
-  faults.check();
-
-  std::vector<const AnalyticCase*> chosen;
-  for (const AnalyticCase& c : all) {
-    const bool named = std::any_of(names.begin(), names.end(),
-                                   [&](const std::string& name) { return means(name, c); });
-    if (named || group == c.group || (names.empty() && group.empty())) chosen.push_back(&c);
-  }
-  return chosen;
-}
-
 std::vector<CompareRow> run_cases(const std::vector<const AnalyticCase*>& cases,
-                                  const std::function<void(std::size_t)>& tick) {
-  using Clock = std::chrono::steady_clock;
-  std::vector<CompareRow> rows;
-  for (const AnalyticCase* test : cases) {
-    tick(rows.size());
-    const Clock::time_point start = Clock::now();
-    const CaseResult result = test->run();
-    rows.push_back({test, result, std::chrono::duration<double>(Clock::now() - start).count()});
+                                  const std::vector<Lane>& lanes,
+                                  const std::function<void(std::size_t, const char*)>& tick) {
+  std::vector<CompareRow> rows(cases.size());
+  Work work;
+  std::vector<std::thread> threads;
+  const std::size_t count = std::thread::hardware_concurrency() > 1 ? 2 : 1;
+  for (std::size_t i = 0; i < count; ++i)
+    threads.emplace_back([&] { work_off(cases, lanes, work, rows); });
+
+  std::exception_ptr failure;
+  try {
+    std::unique_lock held(work.lock);
+    while (work.done < cases.size() && !work.stopped) {
+      const std::size_t done = work.done;
+      held.unlock();
+      tick(done, cases[std::min(done, cases.size() - 1)]->name);
+      held.lock();
+      work.news.wait_for(held, std::chrono::milliseconds(100),
+                         [&] { return work.done > done || work.stopped; });
+    }
+  } catch (...) {
+    failure = std::current_exception();
+    const std::lock_guard held(work.lock);
+    work.stopped = true;
   }
-  tick(rows.size());
+  for (std::thread& thread : threads) thread.join();
+  if (!failure) failure = work.failure;
+  if (failure) std::rethrow_exception(failure);
   return rows;
 }
 

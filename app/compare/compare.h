@@ -1,4 +1,5 @@
-// The analytic cases that were asked for, run one after another.
+// The analytic cases that were asked for, run two at a time; each by itself, so that their order
+// changes no bit.
 #pragma once
 
 #include <functional>
@@ -6,30 +7,53 @@
 #include <vector>
 
 #include "benchmarks/analytic/analytic_case.h"
+#include "benchmarks/analytic/run_trajectory.h"
+#include "solver/fault.h"
 
 namespace twinarm {
 
+struct LaneRow {
+  Lane lane;
+  LaneResult result;
+  std::optional<double> order;
+};
 struct CompareRow {
   const AnalyticCase* test;
   CaseResult result;
   double seconds;
+  std::vector<LaneRow> lanes;  // those that were asked for; none for a case that takes none
+};
+
+struct CaseSelection {
+  std::vector<const AnalyticCase*> cases;
+  std::vector<const SkippedCase*> skipped;
 };
 
 // Those of these names, and all of the group (empty: none); all there are where both are empty.
-// "E1" also stands for all that begin with "E1-". Throws InputError with all names that nothing
-// has.
-std::vector<const AnalyticCase*> select_cases(const std::vector<std::string>& names,
-                                              const std::string& group);
+// "E1" also stands for all that begin with "E1-", "E" for E1, E2 .., and a name may be a group's.
+// All names that nothing has are faults.
+CaseSelection select_cases(const std::vector<std::string>& names, const std::string& group,
+                           FaultList& faults);
 
-// `tick` is called before each case with its place in the list; it may throw.
+// Every integrator with every step; rk4 and 1 ms where only one of them is given; dopri5 once, with
+// a tolerance of 1e-10. All that are no integrators or steps are faults.
+std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
+                             const std::vector<double>& steps, FaultList& faults);
+std::string lane_name(const Lane& lane);  // "rk4 0.001"
+
+// Cases are judged in their own lane; the others are beside it. `tick` is called every now and then
+// with how many are done and one that is not; it may throw, after which no further case begins.
 std::vector<CompareRow> run_cases(const std::vector<const AnalyticCase*>& cases,
-                                  const std::function<void(std::size_t)>& tick);
+                                  const std::vector<Lane>& lanes,
+                                  const std::function<void(std::size_t, const char*)>& tick);
 
 // How many fell short.
 std::size_t failures(const std::vector<CompareRow>& rows);
 
 // For people: a table, and what fell short below it. For programs: one JSON object.
-std::string compare_table(const std::vector<CompareRow>& rows);
-std::string compare_json(const std::vector<CompareRow>& rows);
+std::string compare_table(const std::vector<CompareRow>& rows, const std::vector<Lane>& lanes,
+                          const std::vector<const SkippedCase*>& skipped);
+std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<Lane>& lanes,
+                         const std::vector<const SkippedCase*>& skipped);
 
 }  // namespace twinarm

@@ -1,12 +1,16 @@
 // Cases whose outcome is known, as one list: the test loops over it, `twinarm compare` shows it.
 //
-// Each case runs this project's solver and measures ONE number, its error, in the unit of its
+// Each case measures ONE number with this project's solver, its error, in the unit of its
 // tolerance. References are closed forms or come from computations in extended precision that share
-// nothing with the solver (docs/cases.md).
+// nothing with the solver (docs/cases.md). Two kinds: a motion that is known (trajectory), which
+// any integrator can be tried on; and all else, an experiment of its own (run).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
+
+#include "benchmarks/analytic/trajectory_case.h"
 
 namespace twinarm {
 
@@ -22,8 +26,18 @@ struct AnalyticCase {
   const char* group;      // "contact", "loops"
   const char* reference;  // what is measured, with its unit, against what
   double tolerance;       // the case passes where error <= tolerance; 0: nothing may be broken
-  CaseResult (*run)();
+  CaseResult (*run)();    // null: a trajectory
+  std::shared_ptr<const TrajectoryCase> trajectory{};
 };
+
+inline AnalyticCase trajectory_case(const char* name, const char* group, const char* reference,
+                                    double tolerance, TrajectoryCase trajectory) {
+  return {name,      group,   reference,
+          tolerance, nullptr, std::make_shared<const TrajectoryCase>(std::move(trajectory))};
+}
+
+// The case as it is judged: a trajectory in its own lane, and with its order of convergence.
+CaseResult run_case(const AnalyticCase& c);
 
 inline bool passes(const AnalyticCase& c, const CaseResult& result) {
   return result.error <= c.tolerance;
@@ -31,5 +45,11 @@ inline bool passes(const AnalyticCase& c, const CaseResult& result) {
 
 // All of them, in the order of docs/cases.md. Names are unique.
 const std::vector<AnalyticCase>& analytic_cases();
+
+// What is not run, and why: listed, never counted as passed.
+struct SkippedCase {
+  const char *name, *group, *why;
+};
+const std::vector<SkippedCase>& skipped_cases();
 
 }  // namespace twinarm

@@ -1,6 +1,8 @@
 #include "benchmarks/analytic/analytic_case.h"
 #include "benchmarks/analytic/contact_cases.h"
 #include "benchmarks/analytic/loop_runs.h"
+#include "benchmarks/analytic/run_trajectory.h"
+#include "benchmarks/analytic/smooth_cases.h"
 
 namespace twinarm {
 
@@ -8,13 +10,43 @@ namespace twinarm {
 const std::vector<AnalyticCase>& analytic_cases() {
   static const std::vector<AnalyticCase> all = [] {
     using namespace contact_cases;
+    using namespace smooth_cases;
     std::vector<AnalyticCase> cases;
-    for (const auto& family : {loop_runs(), impacts(), sliding(), toppling(), rolling(), painleve(),
-                               spinning(), stacks(), hollows(), arches(), wedges(), rod_impacts()})
+    for (const auto& family : {
+             symmetric_body(),  asymmetric_body(), heavy_top(),
+             floating_tree(),   pendulum(),        compound_pendulum(),
+             sliding_joints(),  oscillators(),     spherical_pendulum(),
+             universal_joint(), loop_runs(),       impacts(),
+             sliding(),         toppling(),        rolling(),
+             painleve(),        spinning(),        stacks(),
+             hollows(),         arches(),          wedges(),
+             rod_impacts(),
+         })
       cases.insert(cases.end(), family.begin(), family.end());
     return cases;
   }();
   return all;
+}
+
+const std::vector<SkippedCase>& skipped_cases() {
+  static const std::vector<SkippedCase> all = {
+      {"D8", "loops",
+       "the rectangular Bricard: neither its data nor reference values are published; see D4"},
+      {"E14-capstan", "contact", "optional: friction of a belt needs a rope of many contacts"},
+      {"E15", "contact", "optional: a silo needs many thousand grains"},
+      {"F5", "robots",
+       "the iiwa's parameters are those of a URDF that is not part of this program"},
+      {"H1-anymal", "engines", "the model of the robot is not part of this program"},
+      {"H2", "engines", "the models of hand and humanoid are not published with the numbers"},
+      {"H3", "engines", "a list of what other engines test, not a case"},
+  };
+  return all;
+}
+
+CaseResult run_case(const AnalyticCase& c) {
+  if (!c.trajectory) return c.run();
+  const LaneResult result = run_lane(*c.trajectory, c.trajectory->lane);
+  return {result.error, result.energy_drift, observed_order(*c.trajectory, c.trajectory->lane)};
 }
 
 }  // namespace twinarm

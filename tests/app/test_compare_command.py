@@ -57,11 +57,58 @@ class Compare(unittest.TestCase):
     def test_people_get_a_table_with_a_row_for_each_and_the_sums(self):
         result = run("E6-two", "D7")
         rows = result.stdout.splitlines()
-        self.assertEqual(rows[0].split(), ["case", "error", "tolerance", "seconds"])
+        self.assertEqual(rows[0].split(), ["case", "error", "tolerance", "order", "energy",
+                                           "seconds"])
         self.assertEqual([row.split()[0] for row in rows[1:3]], ["D7", "E6-two"])
         self.assertEqual([row.split()[3] for row in rows[1:3]], ["pass", "pass"])
         self.assertEqual(rows[-1], "2 passed, 0 failed")
         self.assertEqual((result.returncode, result.stderr), (0, ""))
+
+    def test_a_letter_and_the_name_of_a_group_stand_for_all_of_it(self):
+        by_letter = self.answer("A")
+        self.assertEqual({c["group"] for c in by_letter["cases"]}, {"free-body"})
+        self.assertEqual([c["name"] for c in by_letter["cases"]],
+                         [c["name"] for c in self.answer("free-body")["cases"]])
+        self.assertTrue(all(c["pass"] for c in by_letter["cases"]))
+
+    def test_a_known_motion_tells_its_order_and_other_integrators_stand_beside(self):
+        answer = self.answer("A2", "B9-free", "D7", "--integrator", "verlet,dopri5",
+                             "--step", "0.002,0.001")
+        rows = {c["name"]: c for c in answer["cases"]}
+        self.assertAlmostEqual(rows["A2"]["order"], 4, delta=0.1)
+        self.assertLess(rows["A2"]["energy_drift"], 1e-12)
+        self.assertIsNone(rows["B9-free"]["order"])  # exact but for rounding
+        self.assertEqual(rows["D7"]["lanes"], [])
+        lanes = rows["A2"]["lanes"]
+        self.assertEqual([(lane["integrator"], lane["step"], lane["tolerance"]) for lane in lanes],
+                         [("verlet", 0.002, None), ("verlet", 0.001, None),
+                          ("dopri5", None, 1e-10)])
+        self.assertAlmostEqual(lanes[0]["error"] / lanes[1]["error"], 4, delta=0.1)
+        self.assertAlmostEqual(lanes[0]["order"], 2, delta=0.1)
+        table = run("A2", "D7", "--integrator", "verlet", "--step", "0.002").stdout.splitlines()
+        self.assertIn("verlet 0.002", table[0])
+        self.assertEqual([row.split()[-1] for row in table if row.startswith("D7")], ["-"])
+
+    def test_the_outcome_of_a_case_does_not_depend_on_what_runs_beside_it(self):
+        together = {c["name"]: c for c in self.answer("A", "B2", "D7")["cases"]}
+        for name in ("A1", "A5-momentum", "B2-over"):
+            alone = self.answer(name)["cases"][0]
+            del alone["seconds"]
+            self.assertEqual(alone, {k: together[name][k] for k in alone})
+
+    def test_what_is_not_run_is_listed_with_the_reason_and_never_counted(self):
+        answer = self.answer("F5", "D7")
+        self.assertEqual([c["name"] for c in answer["cases"]], ["D7"])
+        self.assertEqual([c["name"] for c in answer["skipped"]], ["F5"])
+        self.assertGreater(len(answer["skipped"][0]["why"]), 10)
+        self.assertEqual(run("F5", "D7").stdout.splitlines()[-1], "1 passed, 0 failed, 1 skipped")
+
+    def test_wrong_lanes_are_told_together_with_wrong_names(self):
+        result = run("A11", "--integrator", "rk5", "--step", "0,0.1", "--json")
+        errors = json.loads(result.stdout)["errors"]
+        self.assertEqual((result.returncode, len(errors)), (2, 3), errors)
+        self.assertIn("A1", errors[0]["remedy"])
+        self.assertIn("rk4", errors[1]["remedy"])
 
     def test_all_unknown_names_are_told_at_once_with_the_nearest_and_nothing_runs(self):
         result = run("E6-tow", "D7", "D77", "--group", "lops", "--json")

@@ -45,6 +45,7 @@ LIBRARIES = {
                {"benchmarks/speed/contact_bullet.cpp", "benchmarks/speed/engine_bullet.cpp"}),
     "DART": (r"dart/", {"benchmarks/speed/engine_dart.cpp"}),
     "Simbody": (r"SimTK", {"benchmarks/speed/engine_simbody.cpp"}),
+    "Boost": (r"boost/", {"benchmarks/analytic/special_functions.cpp"}),
     "NLopt": (r"nlopt", {"app/study/minimise.cpp"}),
     "OpenGL": (r"GL/", {"app/render/draw_mesh.cpp", "app/render/gl_context.cpp",
                         "app/render/gl_objects.cpp", "app/render/overlay.cpp",

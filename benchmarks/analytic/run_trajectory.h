@@ -1,0 +1,34 @@
+// Runs a TrajectoryCase in any lane.
+#pragma once
+
+#include <optional>
+
+#include "benchmarks/analytic/trajectory_case.h"
+
+namespace twinarm {
+
+struct LaneResult {
+  double error = 0;  // largest measure of all times; not a number where the run stopped by itself
+  std::optional<double> energy_drift{};  // max |E - E0| over the largest kinetic energy
+  double seconds = 0;
+};
+
+// A run to look at: a point at the start and after every step.
+struct TrajectoryPoint {
+  double t;
+  CaseReadings seen;
+  double energy;  // kinetic, of gravity, of the sources [J]
+};
+
+LaneResult run_lane(const TrajectoryCase& c, const Lane& lane,
+                    std::vector<TrajectoryPoint>* recording = nullptr);
+
+// The same with the case's mistake in it, in its own lane.
+double mutant_error(const TrajectoryCase& c);
+
+// By how much, in powers of two, the error falls when the step halves: the slope through the three
+// smallest of the steps h, 2h, 4h .. whose error is above rounding (1e-12 of the largest reading)
+// and whose two slopes agree to 0.3. Nothing where no three do, and for dopri5.
+std::optional<double> observed_order(const TrajectoryCase& c, const Lane& lane);
+
+}  // namespace twinarm

@@ -1,0 +1,64 @@
+// The worked example of docs/cases.md, "How to add a case": 2 kg hang on a spring of 50 N/m, are
+// held where it is slack, and let go. With w^2 = k / m,
+//   z = -(g / w^2) (1 - cos w t).
+// A case of the list would stand in benchmarks/analytic/ as it stands here, down to its last line.
+#include <cmath>
+
+#include "benchmarks/analytic/smooth_cases.h"
+#include "benchmarks/analytic/smooth_parts.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+
+constexpr double kMass = 2, kStiffness = 50;
+
+CaseScene scene() {
+  const BodyInertia mass{kMass, Vector3::Zero(), Matrix3::Identity()};
+  CaseScene s = at_rest(one_body(JointType::prismatic, Vector3::UnitZ(), mass));
+  s.sources = {std::make_shared<JointEffort>([](double, double z) { return -kStiffness * z; })};
+  // Without this line the energy would be that of motion and gravity alone, and seem to drift.
+  s.stored = [](const State<double>& x) { return kStiffness / 2 * x.q[0] * x.q[0]; };
+  return s;
+}
+
+CaseReadings reference(double t) {
+  const double w = std::sqrt(kStiffness / kMass), sag = kGravity / (w * w);
+  return {-sag * (1 - std::cos(w * t)), -sag * w * std::sin(w * t)};
+}
+
+TrajectoryCase motion() {
+  return {.statement =
+              "2 kg are let go on a slack spring of 50 N/m: <p>z = &minus;g/w<sup>2</sup> "
+              "(1 &minus; cos wt), w<sup>2</sup> = k/m</p>",
+          .scene = scene,
+          .times = {1, 2, 10},
+          .readings = {"z [m]", "speed [m/s]"},
+          .observe = joint_state(),
+          .reference = reference};
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> hanging_mass() {
+  return {trajectory_case("X1", "joints", "let go on a spring: z [m], speed [m/s], 10 s", 1e-8,
+                          motion())};
+}
+
+}  // namespace twinarm::smooth_cases
+
+// In benchmarks/ the file ends here; the tests that loop over the list do the rest.
+#include <doctest/doctest.h>
+
+#include "benchmarks/analytic/run_trajectory.h"
+
+TEST_CASE("the example of a case: it keeps its tolerance and energy, its mistake does not") {
+  using namespace twinarm;
+  const AnalyticCase example = smooth_cases::hanging_mass()[0];
+  const CaseResult result = run_case(example);
+  CHECK(passes(example, result));
+  CHECK(result.energy_drift.value_or(1) < 1e-9);
+  CHECK(std::abs(result.order.value_or(0) - 4) < 0.1);
+  CHECK(mutant_error(*example.trajectory) > example.tolerance);
+}

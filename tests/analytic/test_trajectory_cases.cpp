@@ -1,0 +1,111 @@
+// The known motions of the list (benchmarks/analytic/trajectory_case.h): all at once.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "benchmarks/analytic/analytic_case.h"
+#include "benchmarks/analytic/run_trajectory.h"
+
+using namespace twinarm;
+
+namespace {
+
+template <class F>
+void for_each_trajectory(F&& f) {
+  for (const AnalyticCase& c : analytic_cases()) {
+    if (!c.trajectory) continue;
+    CAPTURE(std::string(c.name));
+    CAPTURE(std::string(c.reference));
+    f(c, *c.trajectory);
+  }
+}
+
+const AnalyticCase& find(const std::string& name) {
+  for (const AnalyticCase& c : analytic_cases())
+    if (name == c.name) return c;
+  FAIL("there is no case " << name);
+  throw 0;
+}
+
+}  // namespace
+
+TEST_CASE("known motions: every case keeps its tolerance") {
+  for_each_trajectory([](const AnalyticCase& c, const TrajectoryCase& motion) {
+    const LaneResult result = run_lane(motion, motion.lane);
+    CAPTURE(result.seconds);
+    CHECK(result.error <= c.tolerance);
+  });
+}
+
+TEST_CASE("known motions: a mistake of 0.1 % in gravity or inertia fails every case") {
+  for_each_trajectory([](const AnalyticCase& c, const TrajectoryCase& motion) {
+    const double error = mutant_error(motion);
+    CHECK(std::isfinite(error));
+    CHECK(error > c.tolerance);
+  });
+}
+
+TEST_CASE("known motions: what is seen has a name each, and the times ascend") {
+  for_each_trajectory([](const AnalyticCase&, const TrajectoryCase& motion) {
+    const CaseScene scene = motion.scene();
+    const std::size_t seen = motion.observe(scene.model, scene.start).size();
+    CHECK(seen == motion.readings.size());
+    const bool has_events = motion.events.count > 0;
+    CHECK(motion.times.empty() == has_events);
+    const double first = has_events ? 1 : motion.times[0];
+    CHECK(motion.reference(first).size() == seen + (has_events ? 1 : 0));
+    for (std::size_t i = 1; i < motion.times.size(); ++i)
+      CHECK(motion.times[i] > motion.times[i - 1]);
+    CHECK(std::string(motion.statement).size() > 20);
+  });
+}
+
+TEST_CASE("known motions: times between two steps are met to the order of the scheme") {
+  for (const auto& [integrator, factor] :
+       {std::pair{Integrator::rk4, 16.0}, {Integrator::verlet, 4.0}}) {
+    const TrajectoryCase& swing = *find("B2").trajectory;  // times of whole seconds
+    const double coarse = run_lane(swing, {integrator, 0.0124, 0}).error;
+    const double fine = run_lane(swing, {integrator, 0.0062, 0}).error;
+    CHECK(std::abs(coarse / fine / factor - 1) < 0.1);
+    const double order = observed_order(swing, {integrator, 0.0031, 0}).value_or(0);
+    CHECK(std::abs(order - std::log2(factor)) < 0.1);
+  }
+}
+
+TEST_CASE("known motions: no event, a reading too few or not a number are no success") {
+  TrajectoryCase swing = *find("B1-90").trajectory;
+  swing.events.until = 1;
+  CHECK(std::isnan(run_lane(swing, swing.lane).error));
+  TrajectoryCase fewer = *find("B2").trajectory;
+  fewer.observe = [](const Model<double>&, const State<double>& x) { return x.q; };
+  CHECK(std::isnan(run_lane(fewer, fewer.lane).error));
+  fewer.observe = [](const Model<double>&, const State<double>& x) {
+    return CaseReadings{std::nan(""), x.qd[0]};
+  };
+  CHECK(std::isnan(run_lane(fewer, fewer.lane).error));
+}
+
+TEST_CASE("known motions: a recording has the start and every step, with the energy") {
+  const TrajectoryCase& swing = *find("B2").trajectory;
+  std::vector<TrajectoryPoint> points;
+  const LaneResult result = run_lane(swing, {Integrator::euler, 0.01, 0}, &points);
+  REQUIRE(points.size() == 1001);
+  CHECK(points.back().t == 10);
+  double strayed = 0;
+  for (const TrajectoryPoint& p : points)
+    strayed = std::max(strayed, std::abs(p.energy - points[0].energy));
+  // The pendulum gets energy from Euler's method: by more than its kinetic energy was at first.
+  CHECK(result.energy_drift.value_or(0) > 0.1);
+  CHECK(strayed > 1);
+}
+
+TEST_CASE("known motions: what is not run is listed by a name that no case has, and says why") {
+  for (const SkippedCase& skipped : skipped_cases()) {
+    CAPTURE(std::string(skipped.name));
+    CHECK(std::string(skipped.why).size() > 10);
+    for (const AnalyticCase& c : analytic_cases()) CHECK(std::string(c.name) != skipped.name);
+  }
+}
