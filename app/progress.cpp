@@ -8,10 +8,11 @@
 
 namespace twinarm {
 
-using Clock = std::chrono::steady_clock;
-
 Progress::Progress(bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()), drawn_(start_) {}
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(std::chrono::steady_clock::now()),
+      drawn_(start_) {}
 
 Progress::~Progress() {
   finish();
@@ -31,7 +32,9 @@ void Progress::stage(const std::string& name, double weight) {
 
 void Progress::advance(double fraction_of_stage) {
   fraction_ = std::clamp(fraction_of_stage, 0.0, 1.0);
-  if (!quiet_ && terminal_ && Clock::now() - drawn_ > std::chrono::milliseconds(100)) draw();
+  if (!quiet_ && terminal_ &&
+      std::chrono::steady_clock::now() - drawn_ > std::chrono::milliseconds(100))
+    draw();
 }
 
 void Progress::finish() {
@@ -41,7 +44,7 @@ void Progress::finish() {
 }
 
 void Progress::draw() {
-  drawn_ = Clock::now();
+  drawn_ = std::chrono::steady_clock::now();
   const double done = std::clamp(done_ + weight_ * fraction_, 0.0, 1.0);
   const double elapsed = std::chrono::duration<double>(drawn_ - start_).count();
   constexpr int width = 28;

@@ -13,7 +13,7 @@ namespace twinarm {
 namespace {
 
 // A cap that is tilted less than this lies flat: its points are then fixed in the body.
-constexpr double sine_of_flat = 1e-6;
+constexpr double sine_of_flat_cap = 1e-6;
 
 // Points of a cylinder that may lie on the plane below it. `d` is down, in the body. Standing: the
 // lowest point of the lower rim and three more, at quarter turns from it. Lying: the lowest points
@@ -21,7 +21,7 @@ constexpr double sine_of_flat = 1e-6;
 template <class Add>
 void add_rim_points(const Cylinder& c, const Vector3& d, Add add) {
   const double sine = std::hypot(d.x(), d.y()), z = std::copysign(c.length / 2, d.z());
-  const bool flat = sine < sine_of_flat;
+  const bool flat = sine < sine_of_flat_cap;
   const double x = flat ? c.radius : c.radius * d.x() / sine;
   const double y = flat ? 0 : c.radius * d.y() / sine;
   const int name = z > 0 ? 0 : 4;

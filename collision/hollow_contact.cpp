@@ -24,7 +24,8 @@
 namespace twinarm {
 namespace {
 
-constexpr double flat = 1e-6;  // a ring whose points are equally far to this share is all in touch
+// A ring whose points are equally far to this share is all in touch.
+constexpr double equally_far = 1e-6;
 
 struct Ring {
   Vector3 m, u, w;
@@ -89,7 +90,8 @@ class Within {
       const Vector3 x = ring.at(t);
       if (is_there(x)) add_point(x, 0, name + part);
     };
-    if (swing < flat * (u.squaredNorm() + w.squaredNorm())) {  // all round: four, fixed in the body
+    if (swing < equally_far * (u.squaredNorm() + w.squaredNorm())) {
+      // All round: four, fixed in the body.
       for (int k = 0; k < 4; ++k) add_at(0.5 * std::numbers::pi * k, k);
       return;
     }

@@ -20,7 +20,8 @@
 namespace twinarm {
 namespace {
 
-constexpr double parallel = 1e-7;  // sine below which the cross product of two edges says nothing
+constexpr double sine_of_parallel_edges =
+    1e-7;  // sine below which the cross product of two edges says nothing
 
 double highest(const std::vector<Vector3>& points, const Vector3& n) {
   double h = -1e300;
@@ -94,7 +95,7 @@ void SeparatingAxis::try_edges(const Polytope& a, const Polytope& b, Axis& best)
       if (!is_difference_face(ea, da, eb, db, a_, b_)) continue;
       Vector3 n = da.cross(db);
       const double length = n.norm();
-      if (length < parallel * da.norm() * db.norm()) continue;
+      if (length < sine_of_parallel_edges * da.norm() * db.norm()) continue;
       n /= length;
       for (const double sign : {1.0, -1.0}) {
         // Cheap first: along n the overlap is no less than that of these two edges.

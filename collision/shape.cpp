@@ -47,7 +47,7 @@ Vector3 support_of(const HalfSpace& h, const Vector3& d) {
   return d * std::numeric_limits<double>::infinity();
 }
 
-Vector3 highest(const std::vector<Vector3>& points, const Vector3& d) {
+Vector3 highest_vertex(const std::vector<Vector3>& points, const Vector3& d) {
   std::size_t best = 0;
   double height = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -61,11 +61,11 @@ Vector3 highest(const std::vector<Vector3>& points, const Vector3& d) {
 }
 
 Vector3 support_of(const ConvexHull& hull, const Vector3& d) {
-  return highest(hull.vertices, d);
+  return highest_vertex(hull.vertices, d);
 }
 
 Vector3 support_of(const MeshShape& shape, const Vector3& d) {
-  return highest(shape.mesh.vertices, d);
+  return highest_vertex(shape.mesh.vertices, d);
 }
 
 std::string positive(const char* name, double value) {

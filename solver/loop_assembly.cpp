@@ -13,7 +13,7 @@ namespace twinarm {
 namespace {
 
 constexpr int kMaxSteps = 200;
-constexpr double kRounding = 1e-15;
+constexpr double kAssemblyRounding = 1e-15;
 // The longest step in any velocity's direction: Newton's far away point anywhere [rad, m].
 constexpr double kLongest = 0.5;
 
@@ -35,7 +35,7 @@ class Assembly {
 
   State<double> run() {
     double open = look(x_);
-    for (int n = 0; n < kMaxSteps && open > kRounding; ++n) {
+    for (int n = 0; n < kMaxSteps && open > kAssemblyRounding; ++n) {
       // Of rows that are open by some angle, what is below its square is not known.
       prepare(std::max(LoopFactors::kDependent, std::min(1e-4, open * open)));
       forces_.correction(forces_.loops().g(), shift_);

@@ -12,13 +12,13 @@ using Eigen::Index;
 // Entries of J that are smaller than this part of the velocities that they are the difference of
 // are rounding. They are made zero, so that a row that moves nothing (out of the plane of a planar
 // mechanism) is empty, and is not taken for a small but true one.
-constexpr double kRounding = 1e-9;
+constexpr double kEntryRounding = 1e-9;
 
 Index index(std::size_t i) {
   return static_cast<Index>(i);
 }
 double cleaned(double entry, double size) {
-  return std::abs(entry) <= kRounding * size ? 0 : entry;
+  return std::abs(entry) <= kEntryRounding * size ? 0 : entry;
 }
 std::size_t last_shared_body(const Model<double>& model, int a, int b) {
   while (a != b) (a > b ? a : b) = model.parent[static_cast<std::size_t>(a > b ? a : b)];

@@ -9,11 +9,11 @@
 namespace twinarm {
 namespace {
 
-constexpr int kMaxIterations = 20;
+constexpr int kMaxProjections = 20;
 // Of 1 m or rad, and of the largest velocity: what is not moved any more, and where iterations that
 // stall have come down to rounding. Little, as near a singular place much of a velocity can hide
 // behind a small g'.
-constexpr double kRounding = 5e-16, kStalls = 2e-14;
+constexpr double kProjectionRounding = 5e-16, kStalls = 2e-14;
 
 double largest(const Eigen::VectorXd& v) {
   return v.size() == 0 ? 0 : v.lpNorm<Eigen::Infinity>();
@@ -51,7 +51,7 @@ void LoopProjection::iterate(const At& at, double rounding, Size&& size, Move&& 
   };
   double open = size();
   bool fresh = false;
-  for (int n = 0; n < kMaxIterations && open > rounding; ++n) {
+  for (int n = 0; n < kMaxProjections && open > rounding; ++n) {
     move();
     look();
     const double then = size();
@@ -59,7 +59,7 @@ void LoopProjection::iterate(const At& at, double rounding, Size&& size, Move&& 
       open = then;
       continue;
     }
-    const bool stalls = open <= kStalls / kRounding * rounding;
+    const bool stalls = open <= kStalls / kProjectionRounding * rounding;
     if (stalls && then <= open) return;
     restore();
     look();
@@ -81,7 +81,7 @@ double LoopProjection::operator()(const std::vector<std::size_t>& held, State<do
   const At at{held, x, k, w};
 
   iterate(
-      at, kRounding, [&] { return largest(loops.g()); },
+      at, kProjectionRounding, [&] { return largest(loops.g()); },
       [&] {
         q_before_ = x.q;
         forces_.correction(loops.g(), shift_);
@@ -96,7 +96,7 @@ double LoopProjection::operator()(const std::vector<std::size_t>& held, State<do
   double fastest = 1;
   for (const double v : x.qd) fastest = std::max(fastest, std::abs(v));
   iterate(
-      at, kRounding * fastest, [&] { return largest(loops.rate()); },
+      at, kProjectionRounding * fastest, [&] { return largest(loops.rate()); },
       [&] {
         qd_before_ = x.qd;
         forces_.correction(loops.rate(), shift_);

@@ -7,8 +7,6 @@
 namespace twinarm {
 namespace {
 
-using Type = ConstraintDescription::Type;
-
 // Joints that the hand turns: the robot's first three of one degree of freedom.
 std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot) {
   std::vector<std::string> names;
@@ -42,7 +40,7 @@ class ConstraintBuilder {
       made.name = given.name;
       made.line = given.line;
       made.type = given.type;
-      if (given.type == Type::gear)
+      if (given.type == ConstraintDescription::Type::gear)
         build_gear(given, made);
       else
         build_joint(given, made);
@@ -98,7 +96,7 @@ class ConstraintBuilder {
     const Pose& X_WA = k_.X_WL[static_cast<std::size_t>(made.a)];
     const Pose& X_WB = k_.X_WL[static_cast<std::size_t>(made.b)];
     if (made.a == made.b) fault(made, "both are the same body", "name two that can move");
-    if (given.type == Type::distance) {
+    if (given.type == ConstraintDescription::Type::distance) {
       const auto [p_WA, p_WB] = ends(given, made);
       made.X_AC = X_WA.inverse() * Pose{Matrix3::Identity(), p_WA};
       made.X_BC = X_WB.inverse() * Pose{Matrix3::Identity(), p_WB};

@@ -9,11 +9,11 @@
 namespace twinarm {
 namespace {
 
-using Type = JointDescription::Type;
-
 // The first of the four numbers of a quaternion among a joint's coordinates; -1: it has none.
-int first_of_quaternion(Type type) {
-  return type == Type::spherical ? 0 : type == Type::floating ? 3 : -1;
+int first_of_quaternion(JointDescription::Type type) {
+  return type == JointDescription::Type::spherical  ? 0
+         : type == JointDescription::Type::floating ? 3
+                                                    : -1;
 }
 
 std::size_t coordinate_count(const JointDescription& joint) {

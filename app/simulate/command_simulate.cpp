@@ -46,7 +46,7 @@ int run_simulate(const SimulateOptions& options) {
   const RunPlan& plan = prepared.run;
   const std::unique_ptr<RunOutput> output = output_of(options, input, plan);
 
-  RunResult result;
+  SimulateResult result;
   {
     PatientProgress progress(plan.duration);
     RunWatch watch;

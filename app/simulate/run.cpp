@@ -128,7 +128,7 @@ class Run {
                     plan.locates_events ? Integrator::dopri5 : plan.integrator);
   }
 
-  RunResult run() {
+  SimulateResult run() {
     limits_.look(0, sim_.state());
     if (plan_.is_adaptive())
       run_adaptive();
@@ -227,7 +227,7 @@ class Run {
   const RobotInput& input_;
   const RunPlan& plan_;
   const RunWatch& watch_;
-  RunResult result_;
+  SimulateResult result_;
   Simulation sim_;
   GivenTorques torques_;
   std::vector<GivenWrench> wrenches_;
@@ -242,7 +242,7 @@ class Run {
 
 }  // namespace
 
-RunResult run_plan(const SimulateInput& input, const RunPlan& plan, const RunWatch& watch) {
+SimulateResult run_plan(const SimulateInput& input, const RunPlan& plan, const RunWatch& watch) {
   return Run(input, plan, watch).run();
 }
 

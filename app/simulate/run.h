@@ -22,7 +22,7 @@ struct PostMortem {
   std::string fastest_joint;  // in the last good state: mostly the one that ran away
 };
 
-struct RunResult {
+struct SimulateResult {
   long steps = 0;
   double end = 0;  // [s]; where the run stopped by itself: the last good time
   std::vector<LedgerRow> ledger;
@@ -40,6 +40,6 @@ struct RunWatch {
 
 // Samples between two points of the grid are reached by a side step from the earlier one; the run
 // is the same, whatever is sampled.
-RunResult run_plan(const SimulateInput& input, const RunPlan& plan, const RunWatch& watch);
+SimulateResult run_plan(const SimulateInput& input, const RunPlan& plan, const RunWatch& watch);
 
 }  // namespace twinarm

@@ -63,7 +63,7 @@ class CsvOutput : public RunOutput {
   }
 
   // The ledger has no place in a table of samples.
-  void end(const RunResult& result) override {
+  void end(const SimulateResult& result) override {
     std::fflush(stdout);
     for (const auto* warnings : {&input_.warnings, &result.warnings})
       for (const std::string& warning : *warnings) fmt::print(stderr, "warning: {}\n", warning);

@@ -38,7 +38,7 @@ class JsonOutput : public RunOutput {
     json_.end_object();
   }
 
-  void end(const RunResult& result) override {
+  void end(const SimulateResult& result) override {
     json_.end_array();
     json_.key("contacts").count(result.contacts);
     json_.key("ledger").begin_object();

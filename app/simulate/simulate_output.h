@@ -13,7 +13,7 @@ class RunOutput {
  public:
   virtual ~RunOutput() = default;
   virtual void sample(double t, const State<double>& x) = 0;
-  virtual void end(const RunResult& result) = 0;
+  virtual void end(const SimulateResult& result) = 0;
 };
 
 // They print to stdout: JSON and the table at the end, CSV as the rows come. The arguments must

@@ -55,7 +55,7 @@ class TableOutput : public RunOutput {
     samples_.add(std::move(row));
   }
 
-  void end(const RunResult& result) override {
+  void end(const SimulateResult& result) override {
     const std::string steps = plan_.is_adaptive()
                                   ? fmt::format("tolerance {}", cell(plan_.tolerance))
                                   : fmt::format("step {} s", cell(plan_.step));

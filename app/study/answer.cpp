@@ -12,9 +12,6 @@ namespace {
 
 using Pair = std::array<double, 2>;
 
-std::string words(const Pair& p) {
-  return fmt::format("{:.3g}/{:.3g}", p[0], p[1]);
-}
 double worst(const Pair& p) {
   return std::max(p[0], p[1]);
 }

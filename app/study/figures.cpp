@@ -30,7 +30,7 @@ constexpr LawStyle kFitLaws[] = {{"world-", "E3 world (−)", palette::torsional
 
 std::string line_style(const LawStyle& law) {
   return fmt::format("with linespoints lw 2 dt {} pt {} ps 0.75 lc '{}' title {}", law.dash,
-                     law.point, law.colour, quoted(law.words));
+                     law.point, law.colour, in_quotes(law.words));
 }
 
 // "60, 120, ..." as tics of a logarithmic rate axis; crowded neighbours are left without a number.
@@ -42,7 +42,7 @@ std::string rate_axis(std::vector<double> rates) {
   for (double rate : rates) {
     const bool apart = rate > 1.18 * last;
     tics += fmt::format("{}{} {:g}", tics.empty() ? "" : ", ",
-                        quoted(apart ? fmt::format("{:g}", rate) : ""), rate);
+                        in_quotes(apart ? fmt::format("{:g}", rate) : ""), rate);
     if (apart) last = rate;
   }
   return fmt::format("set logscale x\nset xrange [{}:{}]\nset xtics ({})\n", rates.front() / 1.12,
@@ -175,13 +175,13 @@ void draw_ablations(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
     const double row = rows - static_cast<double>(i);
     const std::string name =
         runs[i]->spec.title.empty() ? law_of(runs[i]->spec.name) : runs[i]->spec.title;
-    tics += fmt::format("{}{} {}", i ? ", " : "", quoted(name), row);
+    tics += fmt::format("{}{} {}", i ? ", " : "", in_quotes(name), row);
     for (std::size_t j = 0; j < 2; ++j) {
       const double size = runs[i]->stable ? runs[i]->max_deg[j] : 1.05 * high;
       x[j].push_back(size);
       y[j].push_back(row + (j == 0 ? 0.19 : -0.19));
       labels += fmt::format("set label {} at {},{} left offset 0.5,0 font ',11'\n",
-                            quoted(runs[i]->stable ? fmt::format("{:.1f}", size) : "unstable"),
+                            in_quotes(runs[i]->stable ? fmt::format("{:.1f}", size) : "unstable"),
                             size, y[j].back());
     }
   }

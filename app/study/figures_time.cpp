@@ -3,14 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/study/figures_detail.h"
 
 namespace twinarm {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 std::vector<double> in_degrees(const std::vector<double>& radians) {
   std::vector<double> degrees(radians);
@@ -35,7 +32,7 @@ std::string panel(int index, const std::string& label, double duration) {
   return fmt::format("set tmargin at screen {}\nset bmargin at screen {}\n", top, bottom) +
          "set lmargin at screen 0.085\nset rmargin at screen 0.985\n" +
          fmt::format("set xrange [0:{}]\nset ylabel {} offset 0.8,0 textcolor '#333333'\n",
-                     duration, quoted(label)) +
+                     duration, in_quotes(label)) +
          (index == 0 ? "set format x ''\nunset xlabel\n"
                        "set key at screen 0.985,0.99 right top horizontal\n"
                      : "set format x '%g'\nset xlabel 'time [s]' offset 0,0.3 textcolor '#333333'\n"
@@ -203,7 +200,7 @@ std::string obstacle_column(Gnuplot& gnuplot, const ObstacleRun& run, double lef
                            "set label 9 {} at graph 0,1.0 offset 0,2.4 font ',15' "
                            "textcolor '#111111'\n"
                            "set key at graph 1,1.01 right bottom horizontal\n",
-                           quoted(run.name + " coupling"))
+                           in_quotes(run.name + " coupling"))
                      : "unset label 9\nunset key\n";
     script += p + 1 == panels.size()
                   ? "set format x '%g'\nset xlabel 'time [s]' offset 0,0.3 textcolor '#333333'\n"
@@ -211,7 +208,7 @@ std::string obstacle_column(Gnuplot& gnuplot, const ObstacleRun& run, double lef
     script += fmt::format(
         "set label 7 {} at graph 0,1.0 offset 0,0.7 font ',12' textcolor "
         "'#333333'\n",
-        quoted(panels[p].label));
+        in_quotes(panels[p].label));
     script += panels[p].before + "plot " + panels[p].plots + "\n";
   }
   return script;

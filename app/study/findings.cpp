@@ -12,13 +12,15 @@
 #include "app/study/variants.h"
 
 namespace twinarm {
+
+std::string words(const std::array<double, 2>& p) {
+  return fmt::format("{:.3g}/{:.3g}", p[0], p[1]);
+}
+
 namespace {
 
 using Pair = std::array<double, 2>;
 
-std::string words(const Pair& p) {
-  return fmt::format("{:.3g}/{:.3g}", p[0], p[1]);
-}
 bool near(double measured, double predicted, double relative) {
   return std::abs(measured - predicted) <= relative * std::abs(predicted);
 }

@@ -84,7 +84,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 
 }  // namespace
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   std::string doubled = text;
   replace_all(doubled, "'", "''");
   return "'" + doubled + "'";
@@ -115,7 +115,7 @@ std::string Gnuplot::data(const std::vector<std::vector<double>>& columns) {
   if (rows == 0) fmt::format_to(std::back_inserter(text), "NaN NaN\n");
   const std::string name = fmt::format("data{}.txt", ++files_);
   write_whole_file(temporary_ / name, fmt::to_string(text));
-  return quoted(name);
+  return in_quotes(name);
 }
 
 std::string Gnuplot::curve(const std::vector<double>& x, const std::vector<double>& y) {

@@ -44,6 +44,6 @@ class Gnuplot {
 };
 
 // Text in a script: in single quotes, inner ones doubled.
-std::string quoted(const std::string& text);
+std::string in_quotes(const std::string& text);
 
 }  // namespace twinarm

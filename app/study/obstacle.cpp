@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/study/variants.h"
 #include "collision/contact_force.h"
@@ -13,8 +12,6 @@
 
 namespace twinarm {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // Every collision hull of the links outward of the base, and the box.
 void add_geometry(const StudyInputs& inputs, const Model<double>& model, ContactForce& contact) {

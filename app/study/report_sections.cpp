@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace twinarm {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kNear = 0.15;  // of a published number
 
 const RunResult* find(const StudyResults& results, const std::string& name) {

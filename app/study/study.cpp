@@ -144,11 +144,11 @@ int run_study(const StudyOptions& options) {
   results.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_report(results, options.out);
   const std::filesystem::path report = options.out / "report.html";
-  const std::string json = study_json(results, report.string());
-  write_whole_file(options.out / "study.json", json + "\n");
+  const std::string as_json = study_json(results, report.string());
+  write_whole_file(options.out / "study.json", as_json + "\n");
   progress.finish();
   if (options.json)
-    fmt::print("{}\n", json);
+    fmt::print("{}\n", as_json);
   else
     tell_people(results, report);
   return 0;

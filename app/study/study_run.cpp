@@ -7,8 +7,6 @@
 namespace twinarm {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 // A system of KVR, DVR, studied coupling, auxiliary couplings and joint stops.
 TrackingSeries track(const StudyRobot& robot, const HandSource& hand, const RunSpec& spec) {
   TrackingSetup setup;

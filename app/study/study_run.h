@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "coupling/tracking.h"
 
 namespace twinarm {
+
+constexpr double kDegree = std::numbers::pi / 180;
 
 // Gains of the studied coupling: on the links of joints 1 and 2.
 struct Gains {

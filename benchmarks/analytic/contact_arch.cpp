@@ -21,7 +21,7 @@
 namespace twinarm::contact_cases {
 namespace {
 
-constexpr double kStep = 1e-3, kMeanRadius = 1, kDepth = 0.3, kDensity = 1000;
+constexpr double kMeanRadius = 1, kDepth = 0.3, kDensity = 1000;
 constexpr int kStones = 20;                                      // even: a joint at the crown
 constexpr double kHalfAngle = std::numbers::pi / (2 * kStones);  // of a stone
 

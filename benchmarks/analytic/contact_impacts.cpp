@@ -11,13 +11,13 @@
 namespace twinarm::contact_cases {
 namespace {
 
-constexpr double kStep = 1e-3, kRadius = 0.1;
+constexpr double kBallRadius = 0.1;
 constexpr double kZeno = 4.063712768871578;  // t1 (1 + e) / (1 - e)
 
 // A ball that falls from 1 m onto the floor.
 int add_falling_ball(ContactScene& scene, double restitution) {
   scene.add_floor(surface(0, restitution));
-  const int ball = scene.add({Sphere{kRadius}, surface(0, 1), 1, {0, 0, 1 + kRadius}});
+  const int ball = scene.add({Sphere{kBallRadius}, surface(0, 1), 1, {0, 0, 1 + kBallRadius}});
   scene.start();
   return ball;
 }
@@ -39,7 +39,7 @@ Bounces bounce(bool located) {
   Bounces errors{0, 0};
   std::size_t impacts = 0;
   while (impacts < kTimes.size() && scene.t() < kZeno) {
-    const double t = scene.t(), v = scene.v(ball).z(), gap = scene.p(ball).z() - kRadius;
+    const double t = scene.t(), v = scene.v(ball).z(), gap = scene.p(ball).z() - kBallRadius;
     scene.step(kStep);
     if (v >= 0 || scene.v(ball).z() <= 0) continue;
     const double speed = std::sqrt(v * v + 2 * kGravity * std::max(0.0, gap));
@@ -91,8 +91,8 @@ CaseResult bounce_energy() {
 CaseResult two_balls() {
   ContactScene scene(Vector3::Zero());
   const ContactSurface s = surface(0, std::sqrt(0.6));
-  const int a = scene.add({Sphere{kRadius}, s, 1, {0, 0, 0}, {2, 0, 0}});
-  const int b = scene.add({Sphere{kRadius}, s, 3, {0.25, 0, 0}});
+  const int a = scene.add({Sphere{kBallRadius}, s, 1, {0, 0, 0}, {2, 0, 0}});
+  const int b = scene.add({Sphere{kBallRadius}, s, 3, {0.25, 0, 0}});
   scene.start();
   scene.run(0.2, kStep);
   return {std::max(relative(scene.v(a).x(), -0.4), relative(scene.v(b).x(), 0.8))};
@@ -107,7 +107,11 @@ Row cradle(double restitution, double gap) {
   ContactScene scene(Vector3::Zero());
   const ContactSurface s = surface(0, std::sqrt(restitution));
   for (int i = 0; i < 5; ++i)
-    scene.add({Sphere{kRadius}, s, 1, {i * (2 * kRadius + gap), 0, 0}, {i == 0 ? 1.0 : 0.0, 0, 0}});
+    scene.add({Sphere{kBallRadius},
+               s,
+               1,
+               {i * (2 * kBallRadius + gap), 0, 0},
+               {i == 0 ? 1.0 : 0.0, 0, 0}});
   scene.start();
   Row row;
   for (int n = 0; n < 500; ++n) {
@@ -148,8 +152,11 @@ CaseResult cradle_energy() {
 CaseResult touching_balls() {
   ContactScene scene(Vector3::Zero());
   for (int i = 0; i < 3; ++i)
-    scene.add(
-        {Sphere{kRadius}, surface(0, 1), 1, {i * 2 * kRadius, 0, 0}, {i == 0 ? 1.0 : 0.0, 0, 0}});
+    scene.add({Sphere{kBallRadius},
+               surface(0, 1),
+               1,
+               {i * 2 * kBallRadius, 0, 0},
+               {i == 0 ? 1.0 : 0.0, 0, 0}});
   scene.start();
   scene.run(0.1, kStep);
   return {std::max({relative(scene.v(1).x(), -1 / 3.0), relative(scene.v(2).x(), 2 / 3.0),
@@ -164,12 +171,12 @@ CaseResult oblique_from(double gap) {
     ContactScene scene(Vector3::Zero());
     scene.add_floor(surface(mu, 0.8));
     const int ball =
-        scene.add({Sphere{kRadius}, surface(mu, 1), 1, {0, 0, kRadius + gap}, {2, 0, -3}});
+        scene.add({Sphere{kBallRadius}, surface(mu, 1), 1, {0, 0, kBallRadius + gap}, {2, 0, -3}});
     scene.start();
     scene.run(0.1, kStep);
     const double vt = mu == 0.05 ? 1.73 : 10 / 7.0, rim = mu == 0.05 ? 0.675 : 10 / 7.0;
     const Vector3 wanted(vt, 2.4, rim);
-    const Vector3 found(scene.v(ball).x(), scene.v(ball).z(), kRadius * scene.w(ball).y());
+    const Vector3 found(scene.v(ball).x(), scene.v(ball).z(), kBallRadius * scene.w(ball).y());
     error = std::max(error, (found - wanted).cwiseAbs().maxCoeff() / 2.4);
   }
   return {error};

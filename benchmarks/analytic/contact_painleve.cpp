@@ -14,16 +14,16 @@
 namespace twinarm::contact_cases {
 namespace {
 
-constexpr double kStep = 1e-3, kLength = 1, kRadius = 1e-3;
+constexpr double kLength = 1, kRodRadius = 1e-3;
 constexpr double kSteep = 1.107148717794090;  // cos^2 = 1/5 [rad]
 
 // From the lower end up: (cos, 0, sin). It moves along -x.
 int add_rod(ContactScene& scene, double angle, double mu, double speed) {
   scene.add_floor(surface(mu));
   const Vector3 up(std::cos(angle), 0, std::sin(angle));
-  ContactScene::Body rod{Capsule{kRadius, kLength}, surface(mu), 1};
+  ContactScene::Body rod{Capsule{kRodRadius, kLength}, surface(mu), 1};
   rod.R = turn_about(Vector3::UnitY(), std::numbers::pi / 2 - angle);
-  rod.p = 0.5 * kLength * up + Vector3(0, 0, kRadius);
+  rod.p = 0.5 * kLength * up + Vector3(0, 0, kRodRadius);
   rod.v = {-speed, 0, 0};
   rod.inertia = Vector3(1 / 12.0, 1 / 12.0, 1e-6).asDiagonal();
   const int body = scene.add(rod);
@@ -70,7 +70,7 @@ CaseResult slides_or_jams() {
       broken += !scene.step(kStep);
       if (n < 20 && mu < 4 / 3.0) broken += std::abs(scene.v(rod).x() - before) > 0.5;
       const Vector3 axis = scene.R(rod).col(2);
-      lowest = std::min(lowest, scene.p(rod).z() - 0.5 * kLength * std::abs(axis.z()) - kRadius);
+      lowest = std::min(lowest, scene.p(rod).z() - 0.5 * kLength * std::abs(axis.z()) - kRodRadius);
     }
     broken += lowest < -1e-4;
     broken += scene.rise() > 1e-9;

@@ -11,8 +11,8 @@
 namespace twinarm::contact_cases {
 namespace {
 
-constexpr double kStep = 1e-3, kRadius = 0.1;
-constexpr double kDegree = std::numbers::pi / 180, kIncline = 20 * kDegree;
+constexpr double kRadius = 0.1;
+constexpr double kRollerIncline = 20 * kDegree;
 const Matrix3 kAxisAlongY = turn_about(Vector3::UnitX(), std::numbers::pi / 2);
 
 // Inertia over m R^2, acceleration where it rolls, least friction for that.
@@ -28,7 +28,7 @@ struct AfterASecond {
   double v, rim, friction;  // after a second: speed, R times spin, friction force
 };
 AfterASecond roll(const Roller& roller, double mu, double radius = kRadius,
-                  double incline = kIncline) {
+                  double incline = kRollerIncline) {
   ContactScene scene(tilted_gravity(incline));
   scene.add_floor(surface(mu));
   ContactScene::Body body{Sphere{radius}, surface(mu), 1, {0, 0, radius}};
@@ -115,7 +115,6 @@ CaseResult cylinder_in_trough() {
 struct Circle {
   double period, astray;  // [s], [of the radius]
 };
-enum class Steps { fixed, located };
 Circle turntable(double h, Steps steps = Steps::fixed) {
   constexpr double W = 2, kStart = 0.2;
   ContactScene scene;

@@ -15,7 +15,7 @@
 namespace twinarm::contact_cases {
 namespace {
 
-constexpr double kStep = 1e-3, kLength = 1, kInertia = 1 / 12.0, kSpeed = 2, kRestitution = 0.5;
+constexpr double kLength = 1, kInertia = 1 / 12.0, kSpeed = 2, kRestitution = 0.5;
 
 // Pointed ends, so that it touches in the very end.
 Shape needle() {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,9 @@
 namespace twinarm {
 
 constexpr double kGravity = 9.81;
+enum class Steps { fixed, located };
+constexpr double kStep = 1e-3;  // of the cases that name no other [s]
+constexpr double kDegree = std::numbers::pi / 180;
 
 // A body on the incline x: gravity is turned instead of the floor, which stays z = 0. [rad]
 inline Vector3 tilted_gravity(double angle) {

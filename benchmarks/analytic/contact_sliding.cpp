@@ -10,7 +10,7 @@
 namespace twinarm::contact_cases {
 namespace {
 
-constexpr double kStep = 1e-3, kIncline = std::numbers::pi / 6;
+constexpr double kIncline = std::numbers::pi / 6;
 constexpr double kSlide = 0.6571453944373284;  // g (sin 30 - 0.5 cos 30) [m/s^2]
 
 // A cube of 2 kg, 0.2 m wide, on an incline whose x points downhill.
@@ -61,7 +61,6 @@ CaseResult slide_place() {
 struct Return {
   double time = 0, distance = 0, speed = 0;
 };
-enum class Steps { fixed, located };
 Return push_up(Steps steps) {
   ContactScene scene(tilted_gravity(kIncline));
   const int block = add_block(scene, 0.5, {-3, 0, 0});
@@ -126,7 +125,7 @@ CaseResult headings() {
   return {spread};
 }
 
-CaseResult least_friction() {
+CaseResult least_friction_to_hold() {
   const double limit = threshold(0.4, 0.8, 1e-5, [](double mu) {
     ContactScene scene(tilted_gravity(kIncline));
     const int block = add_block(scene, mu);
@@ -189,7 +188,8 @@ std::vector<AnalyticCase> sliding() {
        stopping},
       {"E2-headings", group, "stops alike at headings of 0, 15, 30, 45 degrees [relative]", 1e-3,
        headings},
-      {"E2-threshold", group, "least mu that holds on 30 degrees: tan 30", 1e-3, least_friction},
+      {"E2-threshold", group, "least mu that holds on 30 degrees: tan 30", 1e-3,
+       least_friction_to_hold},
       {"E5-time", group, "billiard ball: end of sliding [s]; closed form", kStep, billiard_time},
       {"E5-speed", group, "billiard ball: speed, spin, loss; with top spin [relative]", 1e-3,
        billiard_speed},

@@ -9,8 +9,6 @@
 namespace twinarm::contact_cases {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 // A thin disc that rolls round on its rim, leaning by 10 degrees, its centre at rest:
 // W^2 = 4 g / (R sin a); its angular velocity W sin a points from the contact to the centre.
 // Rolling so fast in a curve, it loses energy in first order of a fixed step; so events are
@@ -41,7 +39,7 @@ struct Top {
   double jellett = 0, lowest_cosine = 1;
 };
 Top tippe_top() {
-  constexpr double R = 0.015, kOffset = 0.003, kMass = 0.006, kStep = 1e-4;
+  constexpr double R = 0.015, kOffset = 0.003, kMass = 0.006, kFineStep = 1e-4;
   ContactScene scene;
   scene.add_floor(surface(0.1));
   ContactScene::Body top{Sphere{R}, surface(0.1), kMass};
@@ -61,7 +59,7 @@ Top tippe_top() {
   const double start = jellett();
   Top result;
   while (scene.t() < 4) {
-    scene.step(kStep);
+    scene.step(kFineStep);
     result.jellett = std::max(result.jellett, relative(jellett(), start));
     result.lowest_cosine = std::min(result.lowest_cosine, scene.R(body)(2, 2));
   }
@@ -80,7 +78,7 @@ struct Rattle {
   double reversal = INFINITY, drift = 0;  // first time at which the spin has turned round [s]
 };
 Rattle rattleback(double spin, double duration) {
-  constexpr double kLean = 0.5 * kDegree, kStep = 1e-4;
+  constexpr double kLean = 0.5 * kDegree, kFineStep = 1e-4;
   const Vector3 semi(0.2, 0.03, 0.02);
   ContactScene scene;
   scene.add_floor(surface(1));
@@ -99,7 +97,7 @@ Rattle rattleback(double spin, double duration) {
   scene.start();
   Rattle result;
   while (scene.t() < duration && std::isinf(result.reversal)) {
-    scene.step(kStep);
+    scene.step(kFineStep);
     if (scene.w(body).z() * spin < 0) result.reversal = scene.t();
   }
   result.drift = scene.drift();

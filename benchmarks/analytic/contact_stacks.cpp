@@ -9,7 +9,7 @@
 namespace twinarm::contact_cases {
 namespace {
 
-constexpr double kStep = 1e-3, kEdge = 0.2;
+constexpr double kEdge = 0.2;
 
 struct Standing {
   double force = 0;               // largest error under a box [relative]

@@ -9,8 +9,7 @@
 namespace twinarm::contact_cases {
 namespace {
 
-constexpr double kStep = 1e-3, kWidth = 0.2, kHeight = 0.5, kMass = 1;
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kWidth = 0.2, kHeight = 0.5, kMass = 1;
 
 ContactScene::Body block(double mu) {
   return {Box{{kWidth, 0.3, kHeight}}, surface(mu), kMass, {0, 0, kHeight / 2}};

@@ -26,8 +26,8 @@ Example: bench_contact --models pyr55 --engines "twinarm double,bullet"
 Exit codes: 0 done; 2 bad option.
 )";
 
-constexpr int turn = 50;       // steps of one engine, before the next one's turn
-constexpr int settling = 300;  // steps; from then on the piles are at rest
+constexpr int steps_of_a_turn = 50;  // steps of one engine, before the next one's turn
+constexpr int settling = 300;        // steps; from then on the piles are at rest
 constexpr double ns_per_s = 1e9;
 
 struct Options {
@@ -116,10 +116,10 @@ void observe(ContactEngine& engine, const ContactScene& scene, Row& row) {
 void repeat(ContactEngines& engines, const ContactScene& scene, std::vector<Row>& rows) {
   std::vector<double> first(engines.size()), then(engines.size());
   for (const auto& engine : engines) engine->load(scene);
-  for (int step = 0; step < scene.steps; step += turn)
+  for (int step = 0; step < scene.steps; step += steps_of_a_turn)
     for (std::size_t i = 0; i < engines.size(); ++i) {
       const double start = thread_seconds();
-      for (int k = 0; k < turn; ++k) engines[i]->step();
+      for (int k = 0; k < steps_of_a_turn; ++k) engines[i]->step();
       (step < settling ? first : then)[i] += thread_seconds() - start;
     }
   const int early = std::min(settling, scene.steps);
@@ -132,7 +132,7 @@ void repeat(ContactEngines& engines, const ContactScene& scene, std::vector<Row>
 
 std::vector<Row> measure(const Options& options, const std::string& model) {
   ContactScene scene = contact_scene(model);
-  if (options.quick) scene.steps = turn;
+  if (options.quick) scene.steps = steps_of_a_turn;
   ContactEngines engines = all_contact_engines();
   std::erase_if(engines, [&](const auto& engine) {
     return !options.engines.empty() &&

@@ -10,6 +10,8 @@
 
 namespace twinarm::test {
 
+inline const Pose origin;
+
 inline Matrix3 turn(double angle, const Vector3& axis) {
   return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
 }

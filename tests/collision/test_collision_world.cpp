@@ -14,15 +14,12 @@
 
 #include "solver/fault.h"
 #include "tests/collision/oracle.h"
+#include "tests/collision/pair_scene.h"
 
 using namespace twinarm;
 using namespace twinarm::test;
 
 namespace {
-
-Matrix3 turn(double angle, const Vector3& axis) {
-  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-}
 
 std::vector<Contact> touch(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB,
                            double margin = 1e-3) {
@@ -33,8 +30,6 @@ std::vector<Contact> touch(const Shape& a, const Pose& X_WA, const Shape& b, con
   world.detect(std::array{X_WA, X_WB}, margin, contacts);
   return contacts;
 }
-
-const Pose origin;
 
 std::vector<Shape> things_to_put_down() {
   Random random(8);

@@ -17,7 +17,7 @@ using namespace twinarm::test;
 
 namespace {
 
-constexpr double margin = 5e-3;
+constexpr double kMargin = 5e-3;
 
 // One of each alternative of Shape, at its index.
 std::vector<Shape> every_shape() {
@@ -46,7 +46,7 @@ struct Pair {
     world.add({"b", b, 0});
   }
   const std::vector<Contact>& touch(const Pose& X_WA, const Pose& X_WB) {
-    world.detect(std::array{X_WA, X_WB}, margin, contacts);
+    world.detect(std::array{X_WA, X_WB}, kMargin, contacts);
     return contacts;
   }
   const Contact& deepest() const {

@@ -12,7 +12,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-Model<double> two_arms() {
+Model<double> long_arms() {
   const auto rod = [](double m, double l) {
     const double I = m * l * l / 12;
     return BodyInertia{m, {l / 2, 0, 0}, Vector3(0.1 * I, I, I).asDiagonal()};
@@ -56,7 +56,7 @@ double deepest_on_the_way(const Model<double>& model, double friction, double sp
 
 TEST_CASE(
     "an arm that is whipped against a post with friction enters it by less than a millimetre") {
-  const Model<double> model = two_arms();
+  const Model<double> model = long_arms();
   double worst = 0;
   for (double speed : {3.0, 6.0, 12.0})
     for (double q2 = -2; q2 <= 2; q2 += 0.25)

@@ -18,8 +18,6 @@ using namespace twinarm::test;
 
 namespace {
 
-const Pose origin;
-
 // Of a point of the body from the wall, negative inside the hollow.
 double beyond(const Shape& hollow, const Vector3& p, double tolerance = 0) {
   if (const auto* sphere = std::get_if<HollowSphere>(&hollow)) return p.norm() - sphere->radius;

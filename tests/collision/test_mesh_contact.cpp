@@ -11,13 +11,12 @@
 #include "collision/mesh_fault.h"
 #include "solver/fault.h"
 #include "tests/collision/oracle.h"
+#include "tests/collision/pair_scene.h"
 
 using namespace twinarm;
 using namespace twinarm::test;
 
 namespace {
-
-const Pose origin;
 
 // A square of n x n cells, two triangles each, at z = height(x, y).
 template <class Height>

@@ -16,7 +16,7 @@ using namespace twinarm::test;
 
 namespace {
 
-constexpr double margin = 0.01;
+constexpr double kWideMargin = 0.01;
 
 std::vector<Shape> bounded_shapes() {
   Random random(7);
@@ -38,14 +38,14 @@ bool has_curved(const Shape& a, const Shape& b) {
          is_ellipsoid(a) || is_ellipsoid(b);
 }
 
-struct Pair {
-  Pair(const Shape& a, const Shape& b) {
+struct BoundedPair {
+  BoundedPair(const Shape& a, const Shape& b) {
     world.add({"a", a, 0});
     world.add({"b", b, 0});
   }
   const std::vector<Contact>& detect(const Pose& X_WA, const Pose& X_WB) {
     const std::array<Pose, 2> poses{X_WA, X_WB};
-    world.detect(poses, margin, contacts);
+    world.detect(poses, kWideMargin, contacts);
     return contacts;
   }
   double deepest() const {
@@ -64,7 +64,7 @@ struct Worst {
 };
 
 template <class Visit>
-void for_all_pairs(Visit visit) {
+void for_bounded_pairs(Visit visit) {
   const std::vector<Shape> shapes = bounded_shapes();
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     for (std::size_t j = i; j < shapes.size(); ++j) {
@@ -84,11 +84,11 @@ Pose nudged(Random& random, const Pose& X, double shift, double turn) {
 
 TEST_CASE(
     "polytope pairs: distance, depth and existence of contacts agree with the oracle to 1e-8") {
-  for_all_pairs([](const Shape& a, const Shape& b) {
+  for_bounded_pairs([](const Shape& a, const Shape& b) {
     const bool round = core_vertices(a).size() + core_vertices(b).size() <= 4;  // no volume
     if (has_curved(a, b) || round) return;
     Random random(11);
-    Pair pair(a, b);
+    BoundedPair pair(a, b);
     Worst distance, depth;
     int wrong = 0;
     for (int k = 0; k < 400; ++k) {
@@ -96,7 +96,7 @@ TEST_CASE(
       const Pose X_WB = pushed_against(random, a, X_WA, b, random.uniform(-0.06, 0.02));
       const double truth = oracle_distance(a, X_WA, b, X_WB);
       distance.see(std::abs(pair.world.distance(0, 1, X_WA, X_WB) - truth));
-      if (pair.detect(X_WA, X_WB).empty() != (truth >= margin)) ++wrong;
+      if (pair.detect(X_WA, X_WB).empty() != (truth >= kWideMargin)) ++wrong;
       if (!pair.contacts.empty()) depth.see(std::abs(pair.deepest() + truth));
     }
     CHECK(distance.value < 1e-8);
@@ -108,7 +108,7 @@ TEST_CASE(
 TEST_CASE("capsule-capsule: distance and depth agree with a search over one centre line to 1e-8") {
   Random random(13);
   const Capsule a{0.05, 0.2}, b{0.03, 0.3};
-  Pair pair(a, b);
+  BoundedPair pair(a, b);
   Worst distance, depth;
   for (int k = 0; k < 5000; ++k) {
     const Pose X_WA = random_pose(random);
@@ -134,10 +134,10 @@ TEST_CASE("capsule-capsule: distance and depth agree with a search over one cent
 }
 
 TEST_CASE("cylinder pairs: distance agrees with a 48-gon prism, depth is an upper bound near it") {
-  for_all_pairs([](const Shape& a, const Shape& b) {
+  for_bounded_pairs([](const Shape& a, const Shape& b) {
     if (!has_curved(a, b) || is_ellipsoid(a) || is_ellipsoid(b)) return;
     Random random(17);
-    Pair pair(a, b);
+    BoundedPair pair(a, b);
     Worst apart, too_shallow, too_deep;
     for (int k = 0; k < 40; ++k) {
       const Pose X_WA = random_pose(random);
@@ -159,9 +159,9 @@ TEST_CASE("cylinder pairs: distance agrees with a 48-gon prism, depth is an uppe
 }
 
 TEST_CASE("moving b by the depth along the normal parts the bodies") {
-  for_all_pairs([](const Shape& a, const Shape& b) {
+  for_bounded_pairs([](const Shape& a, const Shape& b) {
     Random random(19);
-    Pair pair(a, b);
+    BoundedPair pair(a, b);
     Worst length;
     int still_touching = 0, wrong_way = 0;
     for (int k = 0; k < 1000; ++k) {
@@ -183,9 +183,9 @@ TEST_CASE("moving b by the depth along the normal parts the bodies") {
 }
 
 TEST_CASE("swapping the roles flips the normal and keeps depths and places") {
-  for_all_pairs([](const Shape& a, const Shape& b) {
+  for_bounded_pairs([](const Shape& a, const Shape& b) {
     Random random(23);
-    Pair ab(a, b), ba(b, a);
+    BoundedPair ab(a, b), ba(b, a);
     Worst depth, normal;
     for (int k = 0; k < 500; ++k) {
       const Pose X_WA = random_pose(random);
@@ -201,9 +201,9 @@ TEST_CASE("swapping the roles flips the normal and keeps depths and places") {
 }
 
 TEST_CASE("the depth changes by no more than the bodies move") {
-  for_all_pairs([](const Shape& a, const Shape& b) {
+  for_bounded_pairs([](const Shape& a, const Shape& b) {
     Random random(29);
-    Pair pair(a, b);
+    BoundedPair pair(a, b);
     Worst excess;
     const double step = 1e-5, reach = 0.25;  // [m]: no point of these bodies is farther out
     for (int k = 0; k < 200; ++k) {
@@ -213,8 +213,8 @@ TEST_CASE("the depth changes by no more than the bodies move") {
       for (int i = 0; i < 20; ++i) {
         X_WB = nudged(random, X_WB, step, step / reach);
         pair.detect(X_WA, X_WB);
-        const double now = pair.contacts.empty() ? -margin : pair.deepest();
-        if (i > 0 && before > -margin && now > -margin)
+        const double now = pair.contacts.empty() ? -kWideMargin : pair.deepest();
+        if (i > 0 && before > -kWideMargin && now > -kWideMargin)
           excess.see(std::abs(now - before) - 2 * step);
         before = now;
       }
@@ -224,11 +224,11 @@ TEST_CASE("the depth changes by no more than the bodies move") {
 }
 
 TEST_CASE("poses turned by exact right angles, touching, are no special case") {
-  for_all_pairs([](const Shape& a, const Shape& b) {
+  for_bounded_pairs([](const Shape& a, const Shape& b) {
     const bool round = core_vertices(a).size() + core_vertices(b).size() <= 4;
     if (has_curved(a, b) || round) return;
     Random random(31);
-    Pair pair(a, b);
+    BoundedPair pair(a, b);
     Worst distance;
     const auto quarter = [&] {
       Matrix3 R = Matrix3::Identity();
@@ -251,10 +251,10 @@ TEST_CASE("poses turned by exact right angles, touching, are no special case") {
 }
 
 TEST_CASE("curved pairs: no direction, sampled and refined, has less overlap than the normal") {
-  for_all_pairs([](const Shape& a, const Shape& b) {
+  for_bounded_pairs([](const Shape& a, const Shape& b) {
     if (!has_curved(a, b)) return;
     Random random(37);
-    Pair pair(a, b);
+    BoundedPair pair(a, b);
     const Solid solid_a(a), solid_b(b);
     Worst along_normal, beaten;
     for (int k = 0; k < 200; ++k) {

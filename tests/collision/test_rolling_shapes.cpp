@@ -15,12 +15,6 @@
 using namespace twinarm;
 using namespace twinarm::test;
 
-namespace {
-
-const Pose origin;
-
-}  // namespace
-
 TEST_CASE("an ellipsoid touches a half-space where its normal says: x = -Q n / sqrt(n' Q n)") {
   Random random(41);
   const Ellipsoid e{{0.2, 0.03, 0.02}};

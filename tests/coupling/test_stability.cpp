@@ -13,7 +13,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-constexpr double kInertia = 0.7, kStep = 0.01, kSmall = 1e-9;
+constexpr double kHingeInertia = 0.7, kFrame = 0.01, kSmall = 1e-9;
 constexpr int kHeld = 20;  // steps of the integrator in one held step
 
 struct Stepper {
@@ -85,10 +85,11 @@ bool grows(const Stepper& stepper, const Model<double>& model, std::vector<std::
 bool grows(Scheme scheme, CouplingSpec::Type type, double alpha, double beta) {
   const JointType joint =
       type == CouplingSpec::Type::linear ? JointType::prismatic : JointType::revolute;
-  const std::vector<Spring> springs{
-      {"spring", 1, Vector3::Zero(), alpha * kInertia / (kStep * kStep), beta * kInertia / kStep}};
-  return grows(stepper_of(scheme, type, springs), one_joint(joint, kInertia), {"joint1"}, kStep,
-               scheme == Scheme::hold || scheme == Scheme::hold_difference ? 800 : 4000);
+  const std::vector<Spring> springs{{"spring", 1, Vector3::Zero(),
+                                     alpha * kHingeInertia / (kFrame * kFrame),
+                                     beta * kHingeInertia / kFrame}};
+  return grows(stepper_of(scheme, type, springs), one_joint(joint, kHingeInertia), {"joint1"},
+               kFrame, scheme == Scheme::hold || scheme == Scheme::hold_difference ? 800 : 4000);
 }
 
 // Where `stable` changes between a stable and an unstable value.
@@ -176,11 +177,12 @@ std::vector<double> turning_points(Damper damper, double sign, double zeta) {
   spec.printed = true;
   spec.options.damper = damper;
   spec.options.damping_sign = sign;
-  spec.springs = {{"spring", 1, Vector3::Zero(), kInertia * w * w, 2 * zeta * w * kInertia}};
+  spec.springs = {
+      {"spring", 1, Vector3::Zero(), kHingeInertia * w * w, 2 * zeta * w * kHingeInertia}};
   SteadyHand hand;
   hand.angle[0] = e0;
   hand.rate[0] = speed;
-  const Model<double> model = one_joint(JointType::revolute, kInertia);
+  const Model<double> model = one_joint(JointType::revolute, kHingeInertia);
   Coupled system(model, hand, {"joint1"}, spec, state_of(model, {0}, {speed}));
   std::vector<double> points;
   double before = e0, now = e0;

@@ -118,14 +118,14 @@ TEST_CASE("the same recipe makes the same bytes") {
   CHECK(text_of(folder.path() / "collision" / "body.stl") == hull);
 }
 
-struct Spoilt {
+struct SpoiltRecipe {
   const char* from;
   const char* to;
   int line;
   const char* words;
 };
 
-const Spoilt kOneLine[] = {
+const SpoiltRecipe kSpoiltRecipes[] = {
     {"name = \"cube\"", "name = \"a/b\"", 1, "name of a file"},
     {"mesh_scale = 0.001", "mesh_scale = -1", 2, "'mesh_scale' must be positive"},
     {"mesh_scale = 0.001", "mesh_scale = 0.001\nmesh_scal = 1", 3, "'mesh_scal' is not known"},
@@ -153,7 +153,7 @@ const Spoilt kOneLine[] = {
 
 TEST_CASE("a spoilt line of a recipe gives a fault with file and line") {
   const CubeFolder folder;
-  for (const Spoilt& spoilt : kOneLine) {
+  for (const SpoiltRecipe& spoilt : kSpoiltRecipes) {
     INFO(spoilt.from, " -> ", spoilt.to);
     const fs::path file = folder.recipe(replaced(kCube, spoilt.from, spoilt.to));
     const std::vector<Fault> faults = faults_of([&] { read_recipe(file); });

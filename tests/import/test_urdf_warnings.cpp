@@ -17,7 +17,7 @@ struct Odd {
   const char* words;  // in the warning
 };
 
-const Odd kOneLine[] = {
+const Odd kOddLines[] = {
     {"</robot>", "<gazebo/><gazebo reference=\"arm1\"><mu1>1</mu1></gazebo></robot>", 20,
      "<gazebo> has no effect here (the first of 2)"},
     {"</robot>", "<transmission name=\"t\"><type>x</type></transmission></robot>", 20,
@@ -55,7 +55,7 @@ const Odd kOneLine[] = {
 
 TEST_CASE("what is odd in a URDF gives one warning with file, line and remedy, and is read") {
   const TemporaryFolder folder;
-  for (const Odd& odd : kOneLine) {
+  for (const Odd& odd : kOddLines) {
     INFO(odd.from, " -> ", odd.to);
     const fs::path file = folder.write("arm.urdf", replaced(kGoodArm, odd.from, odd.to));
     const RobotDescription robot = read_urdf(file);

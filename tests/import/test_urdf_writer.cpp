@@ -10,6 +10,8 @@
 namespace twinarm {
 namespace {
 
+using Type = JointDescription::Type;
+
 // Doubles with all their bits in use, of both signs and many magnitudes; fixed seed.
 class Numbers {
  public:
@@ -60,7 +62,6 @@ RobotDescription random_robot(const fs::path& mesh) {
   RobotDescription robot;
   robot.name = "random";
   robot.root = "link0";
-  using Type = JointDescription::Type;
   const Type types[] = {Type::revolute,  Type::continuous,  Type::prismatic, Type::floating,
                         Type::fixed,     Type::planar,      Type::screw,     Type::screw,
                         Type::universal, Type::cylindrical, Type::spherical};

@@ -14,7 +14,7 @@ namespace twinarm {
 namespace {
 
 const fs::path kWild = fs::path(TWINARM_SOURCE_DIR) / "tests" / "import" / "wild";
-constexpr UrdfOptions kDynamics{UrdfOptions::Geometry::optional, false};
+constexpr UrdfOptions kWithoutMeshes{UrdfOptions::Geometry::optional, false};
 
 struct Expected {
   const char* name;
@@ -95,7 +95,7 @@ const Expected kExpected[] = {
      "laser",
      {-0.3, 0, 0.7725}}};
 
-RobotDescription wild(const std::string& name, const UrdfOptions& options = kDynamics) {
+RobotDescription wild(const std::string& name, const UrdfOptions& options = kWithoutMeshes) {
   return read_urdf(kWild / (name + ".urdf"), options);
 }
 
@@ -204,7 +204,7 @@ TEST_CASE("files in the wild: written and read again they are the same to the la
   for (const Expected& e : kExpected) {
     const RobotDescription robot = wild(e.name);
     write_urdf(robot, folder.path() / "out.urdf");
-    check_same(read_urdf(folder.path() / "out.urdf", kDynamics), robot, 0.0);
+    check_same(read_urdf(folder.path() / "out.urdf", kWithoutMeshes), robot, 0.0);
   }
 }
 

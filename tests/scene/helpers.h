@@ -14,6 +14,10 @@ inline SceneDescription scene_of(const std::string& text) {
   return read_scene(folder.write("test.toml", text));
 }
 
+inline SceneModel built(const std::string& text) {
+  return build_scene(scene_of(text));
+}
+
 inline std::vector<Fault> scene_faults(const std::string& text) {
   return faults_of([&] { scene_of(text); });
 }

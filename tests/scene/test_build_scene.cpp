@@ -14,9 +14,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-SceneModel built(const std::string& text) {
-  return build_scene(scene_of(text));
-}
 int body(const SceneModel& scene, const std::string& name) {
   const int found = scene.model.find_body(name);
   REQUIRE(found > 0);
@@ -24,18 +21,18 @@ int body(const SceneModel& scene, const std::string& name) {
 }
 
 // Spatial inertia of a body as the model has it: mass, com, inertia about the com.
-struct Solid {
+struct Inertial {
   double mass;
   Vector3 com;
   Matrix3 inertia;
 };
-Solid solid_of(const SceneModel& scene, const std::string& name) {
+Inertial inertial_of(const SceneModel& scene, const std::string& name) {
   // A free body at the identity: M = [I_o, m [c]x; m [c]x^T, m 1] in (w, v).
   const Model<double>& model = scene.model;
   const State<double> still(model);
   const Eigen::MatrixXd M = mass_matrix(model, still);
   const auto iv = static_cast<Eigen::Index>(model.iv[static_cast<std::size_t>(body(scene, name))]);
-  Solid solid;
+  Inertial solid;
   solid.mass = M(iv + 3, iv + 3);
   const Matrix3 mc = M.block<3, 3>(iv, iv + 3);
   solid.com = Vector3(mc(2, 1), mc(0, 2), mc(1, 0)) / solid.mass;
@@ -78,11 +75,11 @@ TEST_CASE("scene: a free body has the inertia of its uniform solid, scaled to it
     INFO(c.shape);
     const std::string head = "[[body]]\nname = 'b'\nshape = { " + std::string(c.shape) + " }\n";
     const double tolerance = std::string(c.shape).find("caps") == 0 ? 1e-9 : 1e-14;
-    const Solid by_mass = solid_of(built(head + "mass = 2.5\n"), "b");
+    const Inertial by_mass = inertial_of(built(head + "mass = 2.5\n"), "b");
     CHECK(by_mass.mass == doctest::Approx(2.5).epsilon(1e-15));
     CHECK(close(by_mass.inertia, 2.5 * c.per_mass, tolerance));
     CHECK(by_mass.com.isZero(1e-15));
-    const Solid by_density = solid_of(built(head + "density = 700\n"), "b");
+    const Inertial by_density = inertial_of(built(head + "density = 700\n"), "b");
     CHECK(by_density.mass == doctest::Approx(700 * c.volume).epsilon(tolerance));
     CHECK(close(by_density.inertia / by_density.mass, c.per_mass, tolerance));
   }
@@ -97,7 +94,7 @@ TEST_CASE("scene: a mesh is the solid of its hull, in metres after its scale") {
   const auto file = folder.write("test.toml",
                                  "[[body]]\nname = 'b'\nmass = 3\n"
                                  "shape = { mesh = { file = 'corner.obj', scale = 0.001 } }\n");
-  const Solid solid = solid_of(build_scene(read_scene(file)), "b");
+  const Inertial solid = inertial_of(build_scene(read_scene(file)), "b");
   CHECK(close(solid.com, Vector3::Constant(0.25), 1e-6));
   Matrix3 per_mass = Matrix3::Constant(1.0 / 80);
   per_mass.diagonal().setConstant(3.0 / 40);
@@ -108,7 +105,7 @@ TEST_CASE("scene: a given inertia and centre of mass are taken as they are") {
   const SceneModel scene = built(
       "[[body]]\nname = 'b'\nshape.sphere.radius = 1\nmass = 2\ncom = [0.1, 0.2, 0.3]\n"
       "inertia = [0.4, 0.5, 0.6, 0.01, 0.02, 0.03]\nposition = [1, 2, 3]\n");
-  const Solid solid = solid_of(scene, "b");
+  const Inertial solid = inertial_of(scene, "b");
   CHECK(close(solid.com, Vector3(0.1, 0.2, 0.3)));
   Matrix3 I;
   I << 0.4, 0.01, 0.02, 0.01, 0.5, 0.03, 0.02, 0.03, 0.6;

@@ -17,10 +17,6 @@ const std::string kTwoArms =
     "[[body]]\nname = 'ball'\nmass = 1\nshape.sphere.radius = 0.1\nposition = [1, 2, 3]\n"
     "orientation = [0.6, 0, 0.8, 0]\n";
 
-SceneModel built(const std::string& text) {
-  return build_scene(scene_of(text));
-}
-
 TEST_CASE("scene: constraints hold at the start, at the point and along the axis that were given") {
   const SceneModel scene = built(
       kTwoArms +

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 #include "solver/model_builder.h"
 #include "solver/simulation.h"
 
 namespace twinarm::testing {
+
+constexpr double kRight = std::numbers::pi / 2;
 
 // A point mass on a massless rod of 1 m, hinge along y; it hangs on -z at angle 0.
 inline Model<double> pendulum() {
@@ -31,13 +34,18 @@ inline State<double> run(const Model<double>& model, const State<double>& start,
   return simulation.state();
 }
 
-// The pendulum released at (q, qd), after `time`.
-inline State<double> swing(double q, double qd, Integrator integrator, double h, double time) {
-  const Model<double> model = pendulum();
+// Of one joint.
+inline State<double> state_at(const Model<double>& model, double q, double qd) {
   State<double> x(model);
   x.q[0] = q;
   x.qd[0] = qd;
-  return run(model, x, integrator, h, std::lround(time / h));
+  return x;
+}
+
+// The pendulum released at (q, qd), after `time`.
+inline State<double> swing(double q, double qd, Integrator integrator, double h, double time) {
+  const Model<double> model = pendulum();
+  return run(model, state_at(model, q, qd), integrator, h, std::lround(time / h));
 }
 
 }  // namespace twinarm::testing

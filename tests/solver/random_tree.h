@@ -113,11 +113,13 @@ inline State<double> random_state(Random& random, const Model<double>& model) {
   return x;
 }
 
+inline const std::vector<JointType> kAllJoints{all_joint_types.begin(), all_joint_types.end()};
+
 // Every list of joint types that the contract tests run over: each type alone, and all mixed.
 inline std::vector<std::vector<JointType>> lists_of_types() {
   std::vector<std::vector<JointType>> lists;
   for (const JointType type : all_joint_types) lists.push_back({type});
-  lists.push_back({all_joint_types.begin(), all_joint_types.end()});
+  lists.push_back(kAllJoints);
   return lists;
 }
 

@@ -12,7 +12,7 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double g = 9.81;
+constexpr double kGravity = 9.81;
 const Vector3 kX = Vector3::UnitX(), kY = Vector3::UnitY(), kZ = Vector3::UnitZ();
 
 // Relative to the larger of the two; the first decimal place that differs is the 12th at the least.
@@ -47,7 +47,7 @@ TEST_CASE("B4: a nut falls along its screw at m g p / (I + m p^2), and turns as 
                     {}, screw)});
     const State<double> x(model);
     const double qdd = qdd_of(model, x)[0];
-    CHECK(equal(qdd, -hand * m * g * p / (I + m * p * p)));
+    CHECK(equal(qdd, -hand * m * kGravity * p / (I + m * p * p)));
     CHECK(equal(std::abs(qdd), 6.1825971606954312));
     CHECK(equal(hand * p * qdd, -0.098399089927059503));
     CHECK(std::abs(qdd_of(model, x, {hand * 0.31226199834629865})[0]) < 1e-14);  // holds it
@@ -64,7 +64,7 @@ TEST_CASE("B9: cylindrical, planar and free joints fall and turn as if each dof 
   const Model<double> cylinder = build({body(0, JointType::cylindrical, kZ, drum)});
   const std::vector<double> qdd = qdd_of(cylinder, State<double>(cylinder), {0.3, 0});
   CHECK(equal(qdd[0], 15));
-  CHECK(equal(qdd[1], -g));
+  CHECK(equal(qdd[1], -kGravity));
 
   // On a plane inclined by 20 degrees whose x points down the slope.
   const Model<double> plane =
@@ -73,7 +73,7 @@ TEST_CASE("B9: cylindrical, planar and free joints fall and turn as if each dof 
   x.q = {0.4, -2, 0.7};
   x.qd = {1, 2, 3};
   const std::vector<double> slide = qdd_of(plane, x);
-  CHECK(equal(slide[0], g * std::sin(20 * pi / 180)));
+  CHECK(equal(slide[0], kGravity * std::sin(20 * pi / 180)));
   CHECK(equal(slide[0], 2 * (18.098479227111646 - 3) / 9));  // of x(3 s) with v = 1 m/s
   CHECK(equal(slide[1], 0));
   CHECK(equal(slide[2], 0));
@@ -89,7 +89,7 @@ TEST_CASE("B9: cylindrical, planar and free joints fall and turn as if each dof 
   CHECK(equal(fall[2], 0));
   CHECK(equal(fall[3], 0));
   CHECK(equal(fall[4], 0));
-  CHECK(equal(fall[5], -g));
+  CHECK(equal(fall[5], -kGravity));
 }
 
 TEST_CASE("B8: Hooke's joint turns its output shaft by tan(out) = tan(in) / cos(angle)") {
@@ -153,7 +153,7 @@ TEST_CASE("B7: the spherical pendulum's equations of motion, on a ball joint and
   const Vector3 r(std::sin(theta), 0, -std::cos(theta));
   const Vector3 v = Vector3(0, 0, phi_rate).cross(r);
   // The bob's acceleration: gravity and a tension along -r that keeps |r| = 1.
-  const Vector3 weight(0, 0, -g);
+  const Vector3 weight(0, 0, -kGravity);
   const Vector3 a = weight - (weight.dot(r) + v.squaredNorm()) * r;
   CHECK(v.y() == doctest::Approx(2 * std::sin(theta)).epsilon(1e-15));
 
@@ -185,14 +185,15 @@ TEST_CASE("B7: the spherical pendulum's equations of motion, on a ball joint and
   // Lagrange for r = (-sin q2, sin q1 cos q2, -cos q1 cos q2):
   //   cos q2 q1'' - 2 sin q2 q1' q2' = -g sin q1,  q2'' + sin q2 cos q2 q1'^2 = -g cos q1 sin q2
   CHECK(equal(qdd[0], 0));
-  CHECK(equal(qdd[1],
-              -std::sin(-theta) * std::cos(theta) * y.qd[0] * y.qd[0] - g * std::sin(-theta)));
+  CHECK(equal(qdd[1], -std::sin(-theta) * std::cos(theta) * y.qd[0] * y.qd[0] -
+                          kGravity * std::sin(-theta)));
   y.q = {0.4, -0.9};
   y.qd = {1.3, -0.6};
   const std::vector<double> moving = qdd_of(hooke, y);
-  CHECK(equal(moving[0], (2 * std::sin(-0.9) * 1.3 * -0.6 - g * std::sin(0.4)) / std::cos(-0.9)));
-  CHECK(equal(moving[1],
-              -std::sin(-0.9) * std::cos(-0.9) * 1.3 * 1.3 - g * std::cos(0.4) * std::sin(-0.9)));
+  CHECK(equal(moving[0],
+              (2 * std::sin(-0.9) * 1.3 * -0.6 - kGravity * std::sin(0.4)) / std::cos(-0.9)));
+  CHECK(equal(moving[1], -std::sin(-0.9) * std::cos(-0.9) * 1.3 * 1.3 -
+                             kGravity * std::cos(0.4) * std::sin(-0.9)));
 }
 
 TEST_CASE("B3: a rod let go from the horizontal starts at 3 g / 2 L, its hinge bears a quarter") {
@@ -203,16 +204,16 @@ TEST_CASE("B3: a rod let go from the horizontal starts at 3 g / 2 L, its hinge b
   State<double> x(model);
   x.q[0] = pi / 2;
   const std::vector<double> qdd = qdd_of(model, x);
-  CHECK(equal(qdd[0], -1.5 * g / L));
+  CHECK(equal(qdd[0], -1.5 * kGravity / L));
   Workspace<double> w(model);
   rnea(model, x, qdd, std::vector<Force<double>>(2), w);
   CHECK(equal(w.f[0].f.x, 0));
-  CHECK(equal(w.f[0].f.z, m * g / 4));
+  CHECK(equal(w.f[0].f.z, m * kGravity / 4));
   // At the bottom it hangs on 5/2 m g.
   x.q[0] = 0;
   x.qd[0] = 5.4249423960075373;
   rnea(model, x, qdd_of(model, x), std::vector<Force<double>>(2), w);
-  CHECK(equal(w.f[0].f.z, 2.5 * m * g));
+  CHECK(equal(w.f[0].f.z, 2.5 * m * kGravity));
 }
 
 TEST_CASE("F2: the planar two-link arm's mass matrix and Coriolis terms") {

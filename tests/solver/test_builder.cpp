@@ -14,7 +14,7 @@ using namespace twinarm;
 
 namespace {
 
-const Vector3 kZ = Vector3::UnitZ();
+const Vector3 kAxis = Vector3::UnitZ();
 const BodyInertia kBody{2, {0.1, 0, 0}, Vector3(0.3, 0.2, 0.4).asDiagonal()};
 const BodyInertia kNothing;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -22,7 +22,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // A good builder with one good body; bodies are added to it.
 ModelBuilder started() {
   ModelBuilder builder;
-  builder.add_body("arm", 0, "shoulder", JointType::revolute, {}, kZ, kBody);
+  builder.add_body("arm", 0, "shoulder", JointType::revolute, {}, kAxis, kBody);
   return builder;
 }
 std::vector<Fault> faults_of(const ModelBuilder& builder) {
@@ -48,7 +48,7 @@ bool only_fault(const ModelBuilder& builder, const std::string& where, const std
   return faults.size() == 1 && tells(faults, where, words);
 }
 ModelBuilder with(const BodyInertia& inertia, const JointProperties& properties = {},
-                  JointType type = JointType::revolute, const Vector3& axis = kZ) {
+                  JointType type = JointType::revolute, const Vector3& axis = kAxis) {
   ModelBuilder builder = started();
   builder.add_body("hand", 1, "wrist", type, {}, axis, inertia, properties);
   return builder;
@@ -59,24 +59,24 @@ ModelBuilder with(const BodyInertia& inertia, const JointProperties& properties 
 TEST_CASE("a parent must be a body that was added before") {
   for (const int parent : {-1, 2, 7}) {
     ModelBuilder builder = started();
-    builder.add_body("hand", parent, "wrist", JointType::revolute, {}, kZ, kBody);
+    builder.add_body("hand", parent, "wrist", JointType::revolute, {}, kAxis, kBody);
     CHECK(only_fault(builder, "link 'hand'", "parent"));
   }
 }
 
 TEST_CASE("links and joints have names of their own") {
   ModelBuilder same_link = started();
-  same_link.add_body("arm", 1, "wrist", JointType::revolute, {}, kZ, kBody);
+  same_link.add_body("arm", 1, "wrist", JointType::revolute, {}, kAxis, kBody);
   CHECK(only_fault(same_link, "link 'arm'", "the name is taken already"));
   ModelBuilder same_joint = started();
-  same_joint.add_body("hand", 1, "shoulder", JointType::revolute, {}, kZ, kBody);
+  same_joint.add_body("hand", 1, "shoulder", JointType::revolute, {}, kAxis, kBody);
   CHECK(only_fault(same_joint, "joint 'shoulder'", "the name is taken already"));
 }
 
 TEST_CASE("a link may be called world, and is found before the base") {
   ModelBuilder builder;
-  builder.add_body("world", 0, "stand", JointType::fixed, {}, kZ, kBody);
-  builder.add_body("arm", 1, "shoulder", JointType::revolute, {}, kZ, kBody);
+  builder.add_body("world", 0, "stand", JointType::fixed, {}, kAxis, kBody);
+  builder.add_body("arm", 1, "shoulder", JointType::revolute, {}, kAxis, kBody);
   const Model<double> model = builder.build();
   CHECK(model.find_body("world") == 1);
   CHECK(model.find_body("arm") == 2);
@@ -154,7 +154,7 @@ TEST_CASE("a joint that moves nothing is refused, by name") {
       CHECK(only_fault(tip, "joint 'wrist'", "no inertia in its direction"));
   }
   // A point mass does not resist turning about itself, nor about a line through it.
-  const BodyInertia point{1, Vector3::Zero(), Matrix3::Zero()}, below{1, -kZ, Matrix3::Zero()};
+  const BodyInertia point{1, Vector3::Zero(), Matrix3::Zero()}, below{1, -kAxis, Matrix3::Zero()};
   CHECK(only_fault(with(point), "joint 'wrist'", "no inertia"));
   CHECK(only_fault(with(below), "joint 'wrist'", "no inertia"));
   CHECK(only_fault(with(below, {}, JointType::spherical), "joint 'wrist'", "no inertia"));
@@ -170,15 +170,16 @@ TEST_CASE("links without inertia may carry others, unless two hinges turn about 
   ModelBuilder wrist = started();  // three hinges in a row, only the last link has inertia
   wrist.add_body("a", 1, "roll", JointType::revolute, {}, Vector3::UnitX(), kNothing);
   wrist.add_body("b", 2, "pitch", JointType::revolute, {}, Vector3::UnitY(), kNothing);
-  wrist.add_body("c", 3, "yaw", JointType::revolute, {}, kZ, kBody);
+  wrist.add_body("c", 3, "yaw", JointType::revolute, {}, kAxis, kBody);
   CHECK(faults_of(wrist).empty());
   ModelBuilder doubled = started();
-  doubled.add_body("a", 1, "inner", JointType::revolute, {}, kZ, kNothing);
-  doubled.add_body("b", 2, "outer", JointType::revolute, {}, kZ, kBody);
+  doubled.add_body("a", 1, "inner", JointType::revolute, {}, kAxis, kNothing);
+  doubled.add_body("b", 2, "outer", JointType::revolute, {}, kAxis, kBody);
   CHECK(tells(faults_of(doubled), "joint 'inner'", "no inertia in its direction"));
   ModelBuilder far = started();  // the same hinges side by side are a crank: fine
-  far.add_body("a", 1, "inner", JointType::revolute, {}, kZ, kNothing);
-  far.add_body("b", 2, "outer", JointType::revolute, {Matrix3::Identity(), {0.3, 0, 0}}, kZ, kBody);
+  far.add_body("a", 1, "inner", JointType::revolute, {}, kAxis, kNothing);
+  far.add_body("b", 2, "outer", JointType::revolute, {Matrix3::Identity(), {0.3, 0, 0}}, kAxis,
+               kBody);
   CHECK(faults_of(far).empty());
 }
 
@@ -208,16 +209,16 @@ TEST_CASE("the body's z is the joint's axis, by the shortest turn, for axes of a
     const Model<double> model = with(kBody, {}, JointType::revolute, axis).build();
     const Matrix3 R_LB = to_eigen(model.turn[2]).transpose();
     const Vector3 a = axis.normalized();
-    CHECK((R_LB * kZ - a).norm() < 4e-16);
+    CHECK((R_LB * kAxis - a).norm() < 4e-16);
     CHECK((R_LB.transpose() * R_LB - Matrix3::Identity()).norm() < 1e-15);
     CHECK(R_LB.determinant() == doctest::Approx(1).epsilon(1e-15));
     // Shortest: the turn's axis is normal to z and to a, so it leaves z x a as it is.
-    const Vector3 normal = kZ.cross(a);
+    const Vector3 normal = kAxis.cross(a);
     CHECK((R_LB * normal - normal).norm() <= 1e-15 * normal.norm() + 1e-300);
   }
   const Model<double> along = started().build();
   CHECK(to_eigen(along.turn[1]) == Matrix3(Matrix3::Identity()));
-  const Model<double> against = with(kBody, {}, JointType::revolute, -kZ).build();
+  const Model<double> against = with(kBody, {}, JointType::revolute, -kAxis).build();
   CHECK(to_eigen(against.turn[2]) == Matrix3(Vector3(1, -1, -1).asDiagonal()));
 }
 

@@ -8,8 +8,10 @@
 #include "solver/forward_dynamics.h"
 #include "solver/model_builder.h"
 #include "solver/simulation.h"
+#include "tests/solver/pendulum.h"
 
 using namespace twinarm;
+using namespace twinarm::testing;
 
 namespace {
 
@@ -25,12 +27,6 @@ JointProperties coulomb(double plus, double minus) {
   p.coulomb_plus = plus;
   p.coulomb_minus = minus;
   return p;
-}
-State<double> at(const Model<double>& model, double q, double qd) {
-  State<double> x(model);
-  x.q[0] = q;
-  x.qd[0] = qd;
-  return x;
 }
 
 template <class Law>
@@ -70,7 +66,7 @@ TEST_CASE(
   const Model<double> model = slider(2, {0, 0, -1}, p);
   for (const Integrator integrator : {Integrator::semi_implicit, Integrator::semi_implicit_xv})
     for (const double h : {0.01, 10.0}) {
-      Simulation simulation(model, at(model, 0, 3));
+      Simulation simulation(model, state_at(model, 0, 3));
       simulation.set_integrator(integrator);
       double v = 3;
       for (int n = 0; n < 50; ++n) {
@@ -93,7 +89,7 @@ TEST_CASE(
     const long steps = facts.integrator == Integrator::dopri5 ? 1 : crude ? 31400 : 314;
     const double tolerance = crude ? 1e-4 : facts.order > 2 ? 1e-10 : 1e-6;
     const double h = std::numbers::pi / 10 / static_cast<double>(steps);  // 1 ms
-    Simulation simulation(model, at(model, 0.097, 0));
+    Simulation simulation(model, state_at(model, 0.097, 0));
     simulation.add(spring);
     simulation.set_integrator(facts.integrator);
     simulation.set_tolerance(1e-12);
@@ -119,7 +115,7 @@ TEST_CASE("a block that friction can hold comes to rest on its incline and stays
       slider(1, {std::cos(tilt), 0, -std::sin(tilt)}, coulomb(friction, 0.1));
   for (const IntegratorFacts& facts : all_integrators) {
     CAPTURE(std::string(facts.name));
-    Simulation simulation(model, at(model, 0, 0.7));
+    Simulation simulation(model, state_at(model, 0, 0.7));
     simulation.set_integrator(facts.integrator);
     const double slows = 0.2 * 9.81 * std::sin(tilt), stops = 0.7 / slows;
     while (simulation.state().t < stops + 0.01) CHECK(simulation.step(0.01).ok());
@@ -168,7 +164,7 @@ TEST_CASE("a joint that sticks is a fixed joint to the rest of the arm") {
   const Model<double> rubs = arm(JointType::revolute, 100), fixed = arm(JointType::fixed, 0);
   for (const IntegratorFacts& facts : all_integrators) {
     CAPTURE(std::string(facts.name));
-    Simulation a(rubs, at(rubs, 1, 0)), b(fixed, at(fixed, 1, 0));
+    Simulation a(rubs, state_at(rubs, 1, 0)), b(fixed, state_at(fixed, 1, 0));
     a.set_integrator(facts.integrator);
     b.set_integrator(facts.integrator);
     for (int n = 0; n < 300; ++n) {

@@ -8,6 +8,7 @@
 #include "solver/forward_dynamics.h"
 #include "solver/model_builder.h"
 #include "solver/simulation.h"
+#include "tests/solver/eigen_vectors.h"
 #include "tests/solver/friction_oracle.h"
 #include "tests/solver/random_tree.h"
 
@@ -35,10 +36,6 @@ Model<double> rubbing_chain(Random& random, int n) {
   }
   return builder.build();
 }
-template <class T>
-VectorXd vector_of(const std::vector<T>& v) {
-  return Eigen::Map<const VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
-}
 MatrixXd mass_matrix(const Model<double>& model, const State<double>& x) {
   Workspace<double> w(model);
   crba(model, x, w);
@@ -49,9 +46,6 @@ VectorXd bias(const Model<double>& model, const State<double>& x) {
   Workspace<double> w(model);
   rnea(model, x, std::vector<double>(model.nv), Forces<double>(model).f_ext, w);
   return vector_of(w.tau);
-}
-constexpr Eigen::Index index(std::size_t i) {
-  return static_cast<Eigen::Index>(i);
 }
 
 }  // namespace

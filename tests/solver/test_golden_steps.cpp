@@ -16,7 +16,6 @@ using namespace twinarm::testing;
 
 namespace {
 
-constexpr double kRight = std::numbers::pi / 2;
 constexpr double kExactAngle = -1.4050273115247991;  // t = 1 s, released at 90 degrees
 
 struct Golden {

@@ -16,7 +16,6 @@ using namespace twinarm::testing;
 
 namespace {
 
-constexpr double kRight = std::numbers::pi / 2;
 #ifdef NDEBUG
 constexpr int kManySteps = 1000000;
 #else
@@ -40,12 +39,6 @@ Model<double> wheel() {
   builder.add_body("wheel", 0, "axle", JointType::revolute, {}, Vector3::UnitZ(),
                    {1.0, Vector3::Zero(), Matrix3::Identity()});
   return builder.build();
-}
-State<double> at(const Model<double>& model, double q, double qd) {
-  State<double> x(model);
-  x.q[0] = q;
-  x.qd[0] = qd;
-  return x;
 }
 
 }  // namespace
@@ -104,7 +97,7 @@ TEST_CASE("a pendulum on the separatrix nears the top as 4 atan(exp(w t)) - pi")
 
 TEST_CASE("a pendulum under dopri5 of 1e-12 stays on the elliptic functions to 1e-10 for 10 s") {
   const Model<double> model = pendulum();
-  Simulation simulation(model, at(model, kRight, 0));
+  Simulation simulation(model, state_at(model, kRight, 0));
   simulation.set_integrator(Integrator::dopri5);
   simulation.set_tolerance(1e-12);
   CHECK(simulation.step(10).ok());
@@ -118,7 +111,7 @@ TEST_CASE("an oscillator: both semi-implicit methods keep x'^2 + w^2 x^2 -+ h w^
   const double w2 = 9, h = 0.05;
   for (const Integrator integrator : {Integrator::semi_implicit, Integrator::semi_implicit_xv}) {
     HingeTorque spring([&](double q, double) { return -w2 * q; });
-    Simulation simulation(model, at(model, 1, 0.5));
+    Simulation simulation(model, state_at(model, 1, 0.5));
     simulation.add(spring);
     simulation.set_integrator(integrator);
     const double sign = integrator == Integrator::semi_implicit ? -1 : 1;
@@ -143,7 +136,7 @@ TEST_CASE("a pendulum's energy has no trend over 1e6 steps of the symplectic met
   for (const Integrator integrator :
        {Integrator::semi_implicit, Integrator::semi_implicit_xv, Integrator::verlet}) {
     CAPTURE(std::string(integrator_name(integrator)));
-    Simulation simulation(model, at(model, kRight, 0));
+    Simulation simulation(model, state_at(model, kRight, 0));
     simulation.set_integrator(integrator);
     double first = 0, last = 0, weight = 0, worst = 0;
     for (int n = 0; n < kSteps; ++n) {
@@ -206,7 +199,7 @@ TEST_CASE("the implicit methods meet their own recurrences on a spring of w h = 
     if (!facts.solves) continue;
     CAPTURE(std::string(facts.name));
     HingeTorque spring([&](double q, double qd) { return -k * q - b * qd; });
-    Simulation simulation(model, at(model, 1e-3, 0));
+    Simulation simulation(model, state_at(model, 1e-3, 0));
     simulation.add(spring);
     simulation.set_integrator(facts.integrator);
     double x = 1e-3, v = 0;
@@ -236,7 +229,7 @@ TEST_CASE("an implicit step whose equation has no solution says that it did not 
     CAPTURE(std::string(facts.name));
     // A torque that jumps across what would be needed: no velocity solves the step.
     HingeTorque dry([](double, double qd) { return qd > 0.001 ? -100.0 : 50.0; });
-    Simulation simulation(model, at(model, 0, 0));
+    Simulation simulation(model, state_at(model, 0, 0));
     simulation.add(dry);
     simulation.set_integrator(facts.integrator);
     const StepReport report = simulation.step(0.01);
@@ -250,7 +243,7 @@ TEST_CASE("an implicit step whose equation has no solution says that it did not 
 TEST_CASE("dopri5 says where no step is short enough, and stands before that time") {
   const Model<double> model = wheel();
   HingeTorque runaway([](double, double qd) { return qd * qd; });  // qd = 1 / (1 - t)
-  Simulation simulation(model, at(model, 0, 1));
+  Simulation simulation(model, state_at(model, 0, 1));
   simulation.add(runaway);
   simulation.set_integrator(Integrator::dopri5);
   const StepReport report = simulation.step(2);
@@ -263,7 +256,7 @@ TEST_CASE("dopri5 says where no step is short enough, and stands before that tim
 TEST_CASE("dopri5 by substeps gives the same bits as in one step, and each within its limit") {
   const Model<double> model = pendulum();
   const auto start = [&] {
-    Simulation simulation(model, at(model, kRight, 0));
+    Simulation simulation(model, state_at(model, kRight, 0));
     simulation.set_integrator(Integrator::dopri5);
     simulation.set_tolerance(1e-8);
     return simulation;

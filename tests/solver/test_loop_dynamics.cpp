@@ -9,6 +9,7 @@
 #include "solver/dynamics.h"
 #include "solver/mimic.h"
 #include "solver/simulation.h"
+#include "tests/solver/eigen_vectors.h"
 #include "tests/solver/random_tree.h"
 
 using namespace twinarm;
@@ -19,13 +20,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-VectorXd vector_of(const std::vector<double>& v) {
-  return Eigen::Map<const VectorXd>(v.data(), static_cast<Index>(v.size()));
-}
-double largest(const VectorXd& v) {
-  return v.size() == 0 ? 0 : v.lpNorm<Eigen::Infinity>();
-}
 
 // Of a mechanism with loops at a state: what ForwardDynamics finds, and the dense answer.
 struct Both {

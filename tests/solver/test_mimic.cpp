@@ -10,6 +10,7 @@
 #include "solver/mimic.h"
 #include "solver/model_builder.h"
 #include "solver/simulation.h"
+#include "tests/solver/eigen_vectors.h"
 #include "tests/solver/friction_oracle.h"
 #include "tests/solver/random_tree.h"
 
@@ -20,15 +21,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-constexpr Eigen::Index index(std::size_t i) {
-  return static_cast<Eigen::Index>(i);
-}
-VectorXd vector_of(const std::vector<double>& v) {
-  return Eigen::Map<const VectorXd>(v.data(), index(v.size()));
-}
-double largest(const VectorXd& v) {
-  return v.lpNorm<Eigen::Infinity>();
-}
 
 // A tree of six hinges and slides; joint 3 follows 1, 5 follows 2, 6 follows 5 and so 2.
 Model<double> tree(Random& random, double friction) {

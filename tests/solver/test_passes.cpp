@@ -12,8 +12,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-const std::vector<JointType> kAll{all_joint_types.begin(), all_joint_types.end()};
-
 // M, h = C(q, qd, f_ext) and qdd in the passes' own scalar.
 template <class S>
 struct Dynamics {
@@ -75,7 +73,7 @@ TEST_CASE("rnea gives back the torques that aba was given, on 1000 random trees 
   Random random(1);
   double worst = 0;
   for (int n = 0; n < 1000; ++n) {
-    const Packed<double> p(random, build(uneven_bodies(random, random.integer(1, 50), kAll)));
+    const Packed<double> p(random, build(uneven_bodies(random, random.integer(1, 50), kAllJoints)));
     for (const Isa isa : levels_of<double>())
       worst = std::max(worst, round_trip(p, passes<double>(isa)));
   }
@@ -126,7 +124,8 @@ TEST_CASE("aba agrees with M^-1 (tau - h) up to 50 bodies within the condition o
   Random random(4);
   double worst = 0;
   for (int n = 0; n < 150; ++n) {
-    const Packed<double> p(random, build(uneven_bodies(random, random.integer(13, 50), kAll)));
+    const Packed<double> p(random,
+                           build(uneven_bodies(random, random.integer(13, 50), kAllJoints)));
     for (const Isa isa : levels_of<double>())
       worst = std::max(worst, against_dense(p, passes<double>(isa)).in_roundings);
   }

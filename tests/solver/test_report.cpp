@@ -12,7 +12,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-struct Torque final : ForceSource {
+struct ConstantTorque final : ForceSource {
   std::size_t velocity = 0;
   double value = 0;
   bool implicit = false;
@@ -37,7 +37,7 @@ Model<double> chain(int n) {
 TEST_CASE("a torque that is not a number is reported with the joint it acts on") {
   const Model<double> model = chain(5);
   for (int joint = 1; joint <= 5; ++joint) {
-    Torque torque;
+    ConstantTorque torque;
     torque.velocity = model.iv[static_cast<std::size_t>(joint)];
     torque.value = std::numeric_limits<double>::quiet_NaN();
     Simulation simulation(model, State<double>(model));
@@ -51,7 +51,7 @@ TEST_CASE("a torque that is not a number is reported with the joint it acts on")
 
 TEST_CASE("a source that is refused does not act") {
   const Model<double> model = chain(1);
-  Torque torque;
+  ConstantTorque torque;
   torque.implicit = true;
   torque.value = 1;
   Simulation simulation(model, State<double>(model));

@@ -31,7 +31,6 @@ std::vector<double> angles(double limit) {
     }
   return all;
 }
-const std::vector<JointType> kAll{all_joint_types.begin(), all_joint_types.end()};
 
 }  // namespace
 
@@ -168,7 +167,7 @@ TEST_CASE_TEMPLATE("a lane far out or not finite leaves the others as they are, 
   Random random(5);
   const double odd_ones[] = {250, -3e5, HUGE_VAL, std::nan("")};
   for (int n = 0; n < 200; ++n) {
-    Packed<S> p(random, random_tree(random, random.integer(2, 8), kAll));
+    Packed<S> p(random, random_tree(random, random.integer(2, 8), kAllJoints));
     if (p.model.nv == 0) continue;
     const int odd = random.integer(0, Scalar<S>::lanes - 1);
     for (const Isa isa : levels_of<S>()) {
@@ -193,7 +192,7 @@ TEST_CASE("the level can be capped, and none is above the processor's best") {
 
 TEST_CASE("a model in another scalar is the same model") {
   Random random(6);
-  std::vector<TreeBody> bodies = uneven_bodies(random, 12, kAll);
+  std::vector<TreeBody> bodies = uneven_bodies(random, 12, kAllJoints);
   for (TreeBody& b : bodies) {
     b.properties.damping = random.uniform(0, 1);
     b.properties.coulomb_plus = random.uniform(0, 1);

@@ -71,7 +71,7 @@ std::vector<double>& kept() {
   return numbers;
 }
 
-struct Implicit final : ForceSource {
+struct ImplicitArmature final : ForceSource {
   void add_forces(const State<double>&, const Kinematics&,
                   Forces<double>& forces) noexcept override {
     forces.armature[0] += 1;
@@ -256,7 +256,7 @@ TEST_CASE("a source that is implicit goes with the semi-implicit methods, whiche
   const Tree tree(random, 2, false, {0, 0, -9.81});
   for (const IntegratorFacts& facts : all_integrators) {
     CAPTURE(std::string(facts.name));
-    Implicit source;
+    ImplicitArmature source;
     Simulation source_last(tree.model, State<double>(tree.model));
     source_last.set_integrator(facts.integrator);
     Simulation source_first(tree.model, State<double>(tree.model));

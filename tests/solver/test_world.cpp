@@ -16,8 +16,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-const std::vector<JointType> kAll{all_joint_types.begin(), all_joint_types.end()};
-
 // A point of the last body, in body axes; and from the body's origin to it in world axes.
 struct Point {
   std::size_t body;
@@ -104,7 +102,7 @@ TEST_CASE("points, their velocities, classical accelerations and Jacobians are w
 TEST_CASE("the Jacobians for Eigen are those of the passes, in link axes") {
   Random random(2);
   for (int n = 0; n < 50; ++n) {
-    MovingTree t(random, random.integer(1, 6), kAll);
+    MovingTree t(random, random.integer(1, 6), kAllJoints);
     const Point p(random, t);
     kinematics(t.model, t.x, t.w);
     std::vector<Motion<double>> J(t.model.nv);
