@@ -95,6 +95,7 @@ ContactPoint ContactConstraints::start(const Contact& contact) const {
     point.couple_W = before->couple_W;
     point.anchor_W = before->anchor_W;
     point.is_held = before->is_held;
+    point.slip_W = before->slip_W;
   }
   return point;
 }

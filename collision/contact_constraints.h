@@ -69,6 +69,7 @@ struct ContactPoint {
   Vector3 anchor_W = Vector3::Zero();    // compliant: how far the bristles are bent [m]
   Vector3 velocity_W = Vector3::Zero();  // of b against a, at the end of the step [m/s]
   bool is_held = false;                  // event_source.h
+  Vector3 slip_W = Vector3::Zero();      // of what is held: at the start of the piece [m/s]
 };
 
 // Of all points of two geometries, on what they belong to [J].

@@ -21,9 +21,9 @@ constexpr double sine_of_flat_cap = 1e-6;
 template <class Add>
 void add_rim_points(const Cylinder& c, const Vector3& d, Add add) {
   const double sine = std::hypot(d.x(), d.y()), z = std::copysign(c.length / 2, d.z());
-  const bool flat = sine < sine_of_flat_cap;
-  const double x = flat ? c.radius : c.radius * d.x() / sine;
-  const double y = flat ? 0 : c.radius * d.y() / sine;
+  const bool lies_flat = sine < sine_of_flat_cap;
+  const double x = lies_flat ? c.radius : c.radius * d.x() / sine;
+  const double y = lies_flat ? 0 : c.radius * d.y() / sine;
   const int name = z > 0 ? 0 : 4;
   add(Vector3(x, y, z), name);
   if (sine > std::abs(d.z())) {

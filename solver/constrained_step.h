@@ -47,9 +47,9 @@ class ConstrainedStep {
   void begin_sources(const Mechanism& m, double h);
   bool hit(Mechanism& m);             // what touches and closes now; false where nothing does
   void flow(Mechanism& m, double h);  // by forces and what is held, over h
-  // Both solved to this residual; aims at the other [m/s].
-  void set_accuracy(double accepted, double tolerance) {
-    solver_.accepted = accepted, solver_.tolerance = tolerance;
+  // Residuals [m/s]: of a guess and of a solution that will do, and what a solution aims at.
+  void set_accuracy(double good_guess, double accepted, double aim) {
+    solver_.good_guess = good_guess, solver_.accepted = accepted, solver_.tolerance = aim;
   }
   const ModelTrees& trees() const { return trees_; }
 

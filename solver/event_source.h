@@ -38,8 +38,9 @@ class EventSource : public ConstraintSource {
   virtual void look(const ConstraintFrame& frame, Nearest& nearest) const noexcept = 0;
 
   // After a solution in Phase::flow: what each held one does, appended. They agree all through a
-  // smooth piece.
-  enum Mode : char { rests, slides, opens };
+  // smooth piece. What slides at its start, but then stands or slides the other way, turns: that is
+  // never smooth.
+  enum Mode : char { rests, slides, opens, turns };
   virtual void modes(std::vector<char>& modes) const noexcept = 0;
 
   // Work since hold_again() of each held one, some numbers each, for the stepper to extrapolate

@@ -9,8 +9,9 @@
 namespace twinarm {
 namespace {
 
-constexpr double kShortest = 1e-11;                // of a piece that must be good [s]
-constexpr double kAccepted = 1e-13, kAim = 1e-14;  // residual of the impulses [m/s]
+constexpr double kShortest = 1e-11;  // of a piece that must be good [s]
+// Residuals of the impulses [m/s]: extrapolation multiplies what they leave by some hundreds.
+constexpr double kGoodGuess = 1e-14, kAccepted = 1e-11, kAim = 1e-13;
 constexpr int kMostPieces = 1'000'000;  // in one step: no run goes on for ever in silence
 constexpr double kFar = 1;              // stands for a gap that is not there [m]
 
@@ -20,7 +21,7 @@ void EventStep::step(ConstrainedStep& constrained, Mechanism& m, double h, StepR
   sources_.clear();
   for (ConstraintSource* source : constrained.sources())
     sources_.push_back(static_cast<EventSource*>(source));
-  constrained.set_accuracy(kAccepted, kAim);
+  constrained.set_accuracy(kGoodGuess, kAccepted, kAim);
   constrained.start_report();
   m.begin_step(h);
   const double t_end = m.x.t + h;
@@ -158,7 +159,9 @@ bool EventStep::run_column(ConstrainedStep& constrained, Mechanism& m, double s,
     modes_now_.clear();
     for (EventSource* source : sources_) source->modes(modes_now_);
     if (n == 1) modes_ = modes_now_;
-    if (modes_now_ != modes_) return false;
+    const bool turns =
+        std::count(modes_now_.begin(), modes_now_.end(), EventSource::Mode::turns) > 0;
+    if (turns || modes_now_ != modes_) return false;
   }
   values_ = theta_;
   values_.insert(values_.end(), m.x.qd.begin(), m.x.qd.end());

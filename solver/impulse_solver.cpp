@@ -47,7 +47,7 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
   for (std::size_t i = 0; i < island_count_; ++i) {
     double residual = settle(problem, islands_[i]);
     char& again = solve_again_[static_cast<std::size_t>(islands_[i].trees.front())];
-    const bool fails = !(residual <= accepted);
+    const bool fails = !(residual <= good_guess);
     if (fails || (again && residual > 0.1 * tolerance)) {
       solve_island(problem, islands_[i], report);
       residual = settle(problem, islands_[i]);

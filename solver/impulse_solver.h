@@ -37,7 +37,8 @@ struct ImpulseReport {
 
 class ImpulseSolver {
  public:
-  double accepted = 5e-9;    // residual of a guess, or of a solution, that will do [m/s]
+  double good_guess = 5e-9;  // residual of a guess that will do [m/s]
+  double accepted = 5e-9;    // residual of a solution that will do [m/s]
   double tolerance = 1e-10;  // residual that a solution aims at [m/s]
   int quick_newton = 12;     // steps before the start of impulse_interior.cpp is asked for
   int most_newton = 200;     // steps in all

@@ -15,14 +15,14 @@
 namespace twinarm::contact_cases {
 namespace {
 
-constexpr double kLength = 1, kInertia = 1 / 12.0, kSpeed = 2, kRestitution = 0.5;
+constexpr double kRodLength = 1, kRodInertia = 1 / 12.0, kSpeed = 2, kRestitution = 0.5;
 
 // Pointed ends, so that it touches in the very end.
 Shape needle() {
   constexpr double kThin = 1e-3;
   std::vector<Vector3> tips;
   for (const double side : {1.0, -1.0}) {
-    tips.emplace_back(0, 0, side * kLength / 2);
+    tips.emplace_back(0, 0, side * kRodLength / 2);
     tips.emplace_back(side * kThin, 0, 0);
     tips.emplace_back(0, side * kThin, 0);
   }
@@ -31,19 +31,19 @@ Shape needle() {
 
 struct Motion {
   double vx, vz, w;  // of the centre of mass; about y
-  double kinetic() const { return 0.5 * (vx * vx + vz * vz + kInertia * w * w); }
+  double kinetic() const { return 0.5 * (vx * vx + vz * vz + kRodInertia * w * w); }
 };
 
 // Its end lies s to the left of its middle and s below; n and t are responses of the end to an
 // impulse up, up and sideways.
 Motion closed_form(double mu) {
-  const double s = kLength / 2 * std::sqrt(0.5);
-  const double n = 1 + s * s / kInertia, t = s * s / kInertia;
+  const double s = kRodLength / 2 * std::sqrt(0.5);
+  const double n = 1 + s * s / kRodInertia, t = s * s / kRodInertia;
   const double gain = (1 + kRestitution) * kSpeed;  // of the end's velocity, upwards
   const bool sticks = mu > t / n;
   const double up = sticks ? gain * n / (n * n - t * t) : gain / (n - mu * t);
   const double side = sticks ? up * t / n : mu * up;
-  return {side, -kSpeed + up, s * (up - side) / kInertia};
+  return {side, -kSpeed + up, s * (up - side) / kRodInertia};
 }
 
 // Leaning from the upright by an angle, with a velocity along x beside that down.
@@ -52,9 +52,9 @@ Motion simulated(double mu, double restitution, double lean, double along) {
   scene.add_floor(surface(mu, restitution));
   ContactScene::Body rod{needle(), surface(mu, 1), 1};
   rod.R = turn_about(Vector3::UnitY(), lean);
-  rod.p = rod.R * Vector3(0, 0, kLength / 2);
+  rod.p = rod.R * Vector3(0, 0, kRodLength / 2);
   rod.v = {along, 0, -kSpeed};
-  rod.inertia = Vector3(kInertia, kInertia, 1e-6).asDiagonal();
+  rod.inertia = Vector3(kRodInertia, kRodInertia, 1e-6).asDiagonal();
   const int body = scene.add(rod);
   scene.start();
   scene.step(kStep);
@@ -68,7 +68,7 @@ CaseResult velocities() {
     const Motion wanted = closed_form(mu);
     const Motion found = simulated(mu, kRestitution, std::numbers::pi / 4, 0);
     error = std::max({error, std::abs(found.vx - wanted.vx), std::abs(found.vz - wanted.vz),
-                      std::abs(found.w - wanted.w) * kLength / 2});
+                      std::abs(found.w - wanted.w) * kRodLength / 2});
   }
   return {error / kSpeed};
 }

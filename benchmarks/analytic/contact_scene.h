@@ -8,16 +8,15 @@
 #include <vector>
 
 #include "benchmarks/analytic/analytic_case.h"
+#include "benchmarks/analytic/case_constants.h"
 #include "collision/contact_constraints.h"
 #include "solver/model_builder.h"
 #include "solver/simulation.h"
 
 namespace twinarm {
 
-constexpr double kGravity = 9.81;
 enum class Steps { fixed, located };
 constexpr double kStep = 1e-3;  // of the cases that name no other [s]
-constexpr double kDegree = std::numbers::pi / 180;
 
 // A body on the incline x: gravity is turned instead of the floor, which stays z = 0. [rad]
 inline Vector3 tilted_gravity(double angle) {

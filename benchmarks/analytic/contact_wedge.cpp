@@ -14,7 +14,7 @@
 namespace twinarm::contact_cases {
 namespace {
 
-constexpr double kPress = 100, kDegree = std::numbers::pi / 180;
+constexpr double kPress = 100;
 constexpr double kHalfHeight = 0.1, kHalfWidth = 0.1, kHalfDepth = 0.1;  // at half the height [m]
 
 // A prism across y: x from `left` at the height z to `right`, each a line in z.

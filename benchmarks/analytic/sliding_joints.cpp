@@ -16,12 +16,12 @@ namespace {
 
 using namespace smooth_parts;
 
-constexpr double kPitch = 0.1 / (2 * std::numbers::pi), kMass = 2, kInertia = 0.05;
+constexpr double kPitch = 0.1 / (2 * std::numbers::pi), kSlidingMass = 2, kScrewInertia = 0.05;
 
 // Its axis points down: gravity turns it forward.
 CaseScene screw(double damping) {
   return at_rest(one_body(JointType::screw, -Vector3::UnitZ(),
-                          {kMass, Vector3::Zero(), kInertia * Matrix3::Identity()},
+                          {kSlidingMass, Vector3::Zero(), kScrewInertia * Matrix3::Identity()},
                           {kPitch, 0, damping}));
 }
 
@@ -40,8 +40,9 @@ TrajectoryCase screw_at_rest() {
               },
           .reference =
               [](double) {
-                const double qdd = kMass * kGravity * kPitch / (kInertia + kMass * kPitch * kPitch);
-                return CaseReadings{qdd, kPitch * qdd, kMass * kGravity * kPitch};
+                const double qdd = kSlidingMass * kGravity * kPitch /
+                                   (kScrewInertia + kSlidingMass * kPitch * kPitch);
+                return CaseReadings{qdd, kPitch * qdd, kSlidingMass * kGravity * kPitch};
               },
           .measure = relative_each};
 }
@@ -58,7 +59,7 @@ TrajectoryCase screw_terminal() {
     const double rest = evaluate(model, x).qdd[0], fast = evaluate(model, moving).qdd[0];
     return CaseReadings{32 * rest / (rest - fast)};
   };
-  c.reference = [](double) { return CaseReadings{kMass * kGravity * kPitch / 0.01}; };
+  c.reference = [](double) { return CaseReadings{kSlidingMass * kGravity * kPitch / 0.01}; };
   return c;
 }
 TrajectoryCase screw_motion() {
@@ -75,8 +76,8 @@ TrajectoryCase screw_motion() {
   c.readings = {"rate [rad/s]"};
   c.observe = [](const Model<double>&, const State<double>& x) { return x.qd; };
   c.reference = [](double t) {
-    const double T = (kInertia + kMass * kPitch * kPitch) / 0.01;
-    return CaseReadings{kMass * kGravity * kPitch / 0.01 * -std::expm1(-t / T)};
+    const double T = (kScrewInertia + kSlidingMass * kPitch * kPitch) / 0.01;
+    return CaseReadings{kSlidingMass * kGravity * kPitch / 0.01 * -std::expm1(-t / T)};
   };
   c.measure = largest_difference;
   return c;

@@ -3,15 +3,13 @@
 
 #include <Eigen/Geometry>
 
+#include "benchmarks/analytic/case_constants.h"
 #include "benchmarks/analytic/trajectory_case.h"
 #include "solver/integrator_rewind.h"
 #include "solver/model_builder.h"
 #include "solver/workspace.h"
 
 namespace twinarm::smooth_parts {
-
-inline constexpr double kGravity = 9.81;
-inline constexpr double kDegree = 0.017453292519943295769;
 
 // ---- mechanisms ----
 

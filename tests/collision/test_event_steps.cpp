@@ -1,9 +1,10 @@
 // Steps that locate impacts, and the ends of sliding and rest, in time (solver/event_step.h).
+#include <doctest/doctest.h>
 #include <cmath>
+
 #include <initializer_list>
 #include <stdexcept>
 
-#include "doctest/doctest.h"
 #include "solver/joint_limits.h"
 #include "tests/collision/contact_scene.h"
 #include "tests/solver/count_allocations.h"
@@ -13,9 +14,9 @@ using namespace twinarm::testing;
 
 namespace {
 
-constexpr double g = 9.81, kRadius = 0.1;
+constexpr double kG = 9.81, kEventBall = 0.1;
 
-ContactSurface surface(double friction, double restitution = 0) {
+ContactSurface rubbing(double friction, double restitution = 0) {
   ContactSurface s;
   s.friction = friction, s.restitution = restitution;
   return s;
@@ -23,9 +24,9 @@ ContactSurface surface(double friction, double restitution = 0) {
 
 // Falls from 1 m.
 int falling_ball(ContactScene& scene, double restitution) {
-  scene.set_gravity({0, 0, -g});
-  scene.floor(surface(0, restitution));
-  const int ball = scene.body(Sphere{kRadius}, 1, surface(0, 1), {{0, 0, 1 + kRadius}});
+  scene.set_gravity({0, 0, -kG});
+  scene.floor(rubbing(0, restitution));
+  const int ball = scene.body(Sphere{kEventBall}, 1, rubbing(0, 1), {{0, 0, 1 + kEventBall}});
   scene.begin().locate_events();
   return ball;
 }
@@ -35,14 +36,14 @@ struct Flight {
   double z, v;
 };
 Flight bounced(double e, double t) {
-  double v = std::sqrt(2 * g), impact = v / g;
-  if (t < impact) return {1 - g * t * t / 2, -g * t};
-  for (v *= e; t > impact + 2 * v / g; v *= e) impact += 2 * v / g;
+  double v = std::sqrt(2 * kG), impact = v / kG;
+  if (t < impact) return {1 - kG * t * t / 2, -kG * t};
+  for (v *= e; t > impact + 2 * v / kG; v *= e) impact += 2 * v / kG;
   const double since = t - impact;
-  return {v * since - g * since * since / 2, v - g * since};
+  return {v * since - kG * since * since / 2, v - kG * since};
 }
 
-void run(Simulation& simulation, double duration, double h) {
+void run_well(Simulation& simulation, double duration, double h) {
   const long steps = std::lround(duration / h);
   for (long n = 0; n < steps; ++n) CHECK(simulation.step(h).ok());
 }
@@ -60,7 +61,7 @@ TEST_CASE("event steps: a bouncing ball is where it should be, whatever the step
       for (int n = 1; n * h < 1.3; ++n) {  // before the last impact with e = 0.5, at 1.35 s
         CHECK(scene.simulation().step(h).ok());
         const Flight wanted = bounced(e, scene.simulation().state().t);
-        worst = std::max({worst, std::abs(scene.position(ball).z() - kRadius - wanted.z),
+        worst = std::max({worst, std::abs(scene.position(ball).z() - kEventBall - wanted.z),
                           std::abs(scene.velocity(ball).z() - wanted.v)});
       }
       CHECK(worst < 1e-9);
@@ -70,13 +71,13 @@ TEST_CASE("event steps: a bouncing ball is where it should be, whatever the step
 TEST_CASE("event steps: through the point where impacts accumulate a ball comes to rest") {
   ContactScene scene;
   const int ball = falling_ball(scene, 0.8);
-  run(scene.simulation(), 4, 0.01);
+  run_well(scene.simulation(), 4, 0.01);
   CHECK(scene.velocity(ball).norm() > 1e-2);
-  run(scene.simulation(), 0.07, 0.01);  // all impacts are over at 4.0637 s
+  run_well(scene.simulation(), 0.07, 0.01);  // all impacts are over at 4.0637 s
   for (int n = 0; n < 100; ++n) {
     CHECK(scene.simulation().step(0.01).ok());
     CHECK(scene.velocity(ball).norm() < 1e-9);
-    CHECK(std::abs(scene.position(ball).z() - kRadius) < 1e-9);
+    CHECK(std::abs(scene.position(ball).z() - kEventBall) < 1e-9);
   }
 }
 
@@ -84,21 +85,21 @@ TEST_CASE("event steps: with e = 1 no energy is lost in many impacts") {
   ContactScene scene;
   falling_ball(scene, 1);
   const double before = scene.energy();
-  run(scene.simulation(), 10, 0.05);
+  run_well(scene.simulation(), 10, 0.05);
   CHECK(std::abs(scene.energy() - before) < 1e-9 * before);
 }
 
 TEST_CASE("event steps: sliding ends where friction says, to 1e-9") {
   ContactScene scene;
-  scene.set_gravity({0, 0, -g});
-  scene.floor(surface(0.4));
+  scene.set_gravity({0, 0, -kG});
+  scene.floor(rubbing(0.4));
   const Vector3 along = Vector3(0.6, 0.8, 0);
-  const int block = scene.body(Box{{0.4, 0.4, 0.2}}, 2, surface(0.4), {{0, 0, 0.1}, 3 * along});
+  const int block = scene.body(Box{{0.4, 0.4, 0.2}}, 2, rubbing(0.4), {{0, 0, 0.1}, 3 * along});
   scene.begin().locate_events();
   const double start = scene.energy();
-  run(scene.simulation(), 1, 0.05);  // it stops at 0.7645 s
+  run_well(scene.simulation(), 1, 0.05);  // it stops at 0.7645 s
   const Vector3 moved = scene.position(block) - Vector3(0, 0, 0.1);
-  CHECK((moved - 9 / (2 * 0.4 * g) * along).norm() < 1e-9);
+  CHECK((moved - 9 / (2 * 0.4 * kG) * along).norm() < 1e-9);
   CHECK(scene.velocity(block).norm() < 1e-9);
   REQUIRE(scene.contacts().work().size() == 1);
   const ContactWork& work = scene.contacts().work()[0];
@@ -108,13 +109,13 @@ TEST_CASE("event steps: sliding ends where friction says, to 1e-9") {
 
 TEST_CASE("event steps: a ball that slides begins to roll, and loses 2/7 of its energy") {
   ContactScene scene;
-  scene.set_gravity({0, 0, -g});
-  scene.floor(surface(0.2));
-  const int ball = scene.body(Sphere{kRadius}, 1, surface(0.2), {{0, 0, kRadius}, {2, 0, 0}});
+  scene.set_gravity({0, 0, -kG});
+  scene.floor(rubbing(0.2));
+  const int ball = scene.body(Sphere{kEventBall}, 1, rubbing(0.2), {{0, 0, kEventBall}, {2, 0, 0}});
   scene.begin().locate_events();
-  run(scene.simulation(), 1, 0.05);
-  const double t = 2 * 2 / (7 * 0.2 * g);  // when the sliding ends
-  const double x = 2 * t - 0.1 * g * t * t + 10 / 7.0 * (1 - t);
+  run_well(scene.simulation(), 1, 0.05);
+  const double t = 2 * 2 / (7 * 0.2 * kG);  // when the sliding ends
+  const double x = 2 * t - 0.1 * kG * t * t + 10 / 7.0 * (1 - t);
   CHECK(std::abs(scene.velocity(ball).x() - 10 / 7.0) < 1e-9);
   CHECK(std::abs(scene.position(ball).x() - x) < 1e-9);
   CHECK(scene.contacts().work()[0].friction == doctest::Approx(-2 * 2 / 7.0).epsilon(1e-8));
@@ -122,7 +123,7 @@ TEST_CASE("event steps: a ball that slides begins to roll, and loses 2/7 of its 
 
 TEST_CASE("event steps: a hinge falls onto its limit, stops there, and is held by the torque") {
   ModelBuilder builder;
-  builder.set_gravity({0, 0, -g});
+  builder.set_gravity({0, 0, -kG});
   builder.add_body("arm", 0, "joint", JointType::revolute, {}, Vector3::UnitY(),
                    {2, {0.3, 0, 0}, Vector3(0.01, 0.02, 0.02).asDiagonal()});
   const Model<double> model = builder.build();
@@ -132,25 +133,25 @@ TEST_CASE("event steps: a hinge falls onto its limit, stops there, and is held b
   limits.add(1, -1, 0.5);
   simulation.add(limits);
   simulation.locate_events();
-  run(simulation, 2, 0.1);
+  run_well(simulation, 2, 0.1);
   CHECK(std::abs(simulation.state().q[0] - 0.5) < 1e-9);
   CHECK(std::abs(simulation.state().qd[0]) < 1e-9);
-  CHECK(limits.limits()[0].force == doctest::Approx(-2 * g * 0.3 * std::cos(0.5)).epsilon(1e-9));
+  CHECK(limits.limits()[0].force == doctest::Approx(-2 * kG * 0.3 * std::cos(0.5)).epsilon(1e-9));
   // it takes all that gravity has given
-  CHECK(limits.limits()[0].work == doctest::Approx(-2 * g * 0.3 * std::sin(0.5)).epsilon(1e-9));
+  CHECK(limits.limits()[0].work == doctest::Approx(-2 * kG * 0.3 * std::sin(0.5)).epsilon(1e-9));
 }
 
 TEST_CASE("event steps: a smaller tolerance means a smaller error") {
   const auto error = [](double tolerance) {  // a ball in a trough, rolling: its energy
     ContactScene scene;
-    scene.set_gravity({0, 0, -g});
-    scene.obstacle(HollowSphere{1}, surface(1));
-    scene.body(Sphere{kRadius}, 1, surface(1), {{0.5, 0, -std::sqrt(0.81 - 0.25)}});
+    scene.set_gravity({0, 0, -kG});
+    scene.obstacle(HollowSphere{1}, rubbing(1));
+    scene.body(Sphere{kEventBall}, 1, rubbing(1), {{0.5, 0, -std::sqrt(0.81 - 0.25)}});
     Simulation& simulation = scene.begin();
     simulation.set_tolerance(tolerance);
     simulation.locate_events();
     const double before = scene.energy();
-    run(simulation, 2, 0.2);
+    run_well(simulation, 2, 0.2);
     return std::abs(scene.energy() - before);
   };
   const double coarse = error(1e-4), fine = error(1e-10);
@@ -161,7 +162,7 @@ TEST_CASE("event steps: a smaller tolerance means a smaller error") {
 TEST_CASE("event steps: a step that is looked at beforehand changes nothing, and comes true") {
   ContactScene scene;
   falling_ball(scene, 0.8);
-  run(scene.simulation(), 1, 0.1);
+  run_well(scene.simulation(), 1, 0.1);
   const State<double> before = scene.simulation().state();
   const State<double> ahead = scene.simulation().side_step(0.3);
   CHECK(scene.simulation().state().q == before.q);
@@ -173,13 +174,13 @@ TEST_CASE("event steps: a step that is looked at beforehand changes nothing, and
 
 TEST_CASE("event steps: nothing is taken from the heap once they are warm") {
   ContactScene scene;
-  scene.set_gravity({0, 0, -g});
-  scene.floor(surface(0.3, 0.9));
-  scene.body(Sphere{kRadius}, 1, surface(0.3, 1), {{0, 0, 0.3}, {1, 0, 0}});
-  scene.body(Box{{0.2, 0.2, 0.2}}, 1, surface(0.3), {{2, 0, 0.1}, {0.5, 0, 0}});
+  scene.set_gravity({0, 0, -kG});
+  scene.floor(rubbing(0.3, 0.9));
+  scene.body(Sphere{kEventBall}, 1, rubbing(0.3, 1), {{0, 0, 0.3}, {1, 0, 0}});
+  scene.body(Box{{0.2, 0.2, 0.2}}, 1, rubbing(0.3), {{2, 0, 0.1}, {0.5, 0, 0}});
   Simulation& simulation = scene.begin();
   simulation.locate_events();
-  run(simulation, 1.5, 0.01);
+  run_well(simulation, 1.5, 0.01);
   CHECK(allocations_in([&] {
           for (int n = 0; n < 20; ++n) simulation.step(0.01);
         }) == 0);
@@ -191,12 +192,12 @@ TEST_CASE("event steps: what is implicit in the step is refused, whichever comes
     bool needs_semi_implicit() const override { return true; }
   } source;
   ContactScene scene;
-  scene.body(Sphere{kRadius}, 1, surface(0), {});
+  scene.body(Sphere{kEventBall}, 1, rubbing(0), {});
   Simulation& simulation = scene.begin();
   simulation.locate_events();
   CHECK_THROWS_AS(simulation.add(source), std::invalid_argument);
   ContactScene other;
-  other.body(Sphere{kRadius}, 1, surface(0), {});
+  other.body(Sphere{kEventBall}, 1, rubbing(0), {});
   other.begin().add(source);
   CHECK_THROWS_AS(other.simulation().locate_events(), std::invalid_argument);
 }
