@@ -83,7 +83,8 @@ Matrix6 LinkAxes::show(const ArticulatedInertia<double>& a) const {
 Matrix6 LinkAxes::show(const Transform<double>&) const {
   const Matrix3 E = turn_from_parent();
   const Vector3 r = shift_from_parent();
-  const Matrix3 cross = (Matrix3() << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0).finished();
+  const Matrix3 cross =
+      (Matrix3() << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0).finished();
   Matrix6 X = Matrix6::Zero();
   X.topLeftCorner<3, 3>() = X.bottomRightCorner<3, 3>() = E;
   X.bottomLeftCorner<3, 3>() = -E * cross;

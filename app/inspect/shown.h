@@ -4,8 +4,8 @@
 //   motion, force   R_LB of both parts            inertia   R_LB of each 3 x 3 block
 //   transform       R_LB E R_BL of the parent; its shift in the parent's link axes
 //   joint values    as on the command line: a floating joint has (v; w) in the axes of its frame in
-//                   the parent, where the solver has (w in the child's axes; v). T is orthogonal, so
-//                   S T, U T, T^T D T, T^T u, T^T qdd.
+//                   the parent, where the solver has (w in the child's axes; v). T is orthogonal,
+//                   so S T, U T, T^T D T, T^T u, T^T qdd.
 #pragma once
 
 #include <Eigen/Core>
