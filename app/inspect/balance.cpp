@@ -36,9 +36,10 @@ NamedWrench gravity_on(const Inspection& in, std::size_t i) {
   return {"gravity", in.model.I[i].m * g, h.cross(g)};
 }
 
+// A root link has no joint of its own: it stands on the world, or floats.
 std::string joint_label(const Inspection& in, std::size_t i) {
   const std::string& name = in.model.joint_name[i];
-  return name.empty() ? in.model.body_name[i] : name;
+  return name.empty() ? "base" : name;
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 // The pages for people: each equation of table 7.1, with the numbers put in.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "app/inspect/command/inspect_output.h"
 #include "app/inspect/command/sheet.h"
 #include "app/text_table.h"
@@ -16,10 +20,16 @@ std::string name_of_number(const Eigen::VectorXd& v) {
   return text + ")";
 }
 
+// In brackets where a minus stands before it.
+std::string subtracted(double value, double scale) {
+  const std::string text = short_number(value, scale);
+  return text[0] == '-' ? "(" + text + ")" : text;
+}
+
 class Pages {
  public:
   Pages(const Inspection& in, const InspectView& view, const std::vector<Check>& checks)
-      : in_(in), view_(view), checks_(checks) {}
+      : in_(in), view_(view), checks_(checks), second_(subtree_errors(in)) {}
 
   std::string write() {
     sheet_.line(view_.title);
@@ -164,11 +174,27 @@ class Pages {
                      "felt at the joint: ancestors locked, descendants free", "");
       sheet_.matrix(D);
     }
+    sheet_.line(
+        fmt::format("      the same by the mass matrix, but for {:.1e} of it", second_.D[i]));
     const Eigen::VectorXd tau = axes.joint(in_.forces.tau), u = axes.joint(in_.w.u);
     const Eigen::VectorXd bias = S.transpose() * axes.show(in_.w.pA[i]);
-    sheet_.heading(fmt::format("u = tau - S^T pA = {} - {} = {}", name_of_number(tau),
-                               name_of_number(bias), name_of_number(u)),
-                   "left to accelerate the joint", unit_of(i, "N m", "N"));
+    write_difference("u = tau - S^T pA", {"tau", "S^T pA", "u"}, {tau, bias, u},
+                     "left to accelerate the joint", unit_of(i, "N m", "N"));
+  }
+
+  // With one degree of freedom in one line, else one line each.
+  void write_difference(const std::string& equation, const std::array<const char*, 3>& names,
+                        const std::array<Eigen::VectorXd, 3>& v, const char* meaning,
+                        const char* unit) {
+    if (v[0].size() == 1) {
+      const double size = std::max(std::abs(v[0][0]), std::abs(v[1][0]));
+      return sheet_.heading(fmt::format("{} = {} - {} = {}", equation, short_number(v[0][0], size),
+                                        subtracted(v[1][0], size), short_number(v[2][0], size)),
+                            meaning, unit);
+    }
+    sheet_.heading(equation, meaning, unit);
+    for (std::size_t k = 0; k < 3; ++k)
+      sheet_.line(fmt::format("      {:<16}{}", names[k], name_of_number(v[k])));
   }
 
   void write_handed_on(std::size_t i, const LinkAxes& axes) {
@@ -198,11 +224,18 @@ class Pages {
       const Eigen::MatrixXd U = axes.columns(in_.w.U), D = axes.square(in_.w.D);
       const Eigen::VectorXd u = axes.joint(in_.w.u), qdd = axes.joint(in_.w.qdd);
       const Eigen::VectorXd felt = U.transpose() * axes.show(before);
-      sheet_.heading(axes.nv() == 1 ? fmt::format("qdd = D^-1 (u - U^T a') = ({} - {}) / {} = {}",
-                                                  name_of_number(u), name_of_number(felt),
-                                                  short_number(D(0, 0)), name_of_number(qdd))
-                                    : "qdd = D^-1 (u - U^T a') = " + name_of_number(qdd),
-                     "acceleration of the joint", unit_of(i, "rad/s^2", "m/s^2"));
+      const char* meaning = "acceleration of the joint";
+      if (axes.nv() == 1) {
+        const double size = std::max(std::abs(u[0]), std::abs(felt[0]));
+        sheet_.heading(
+            fmt::format("qdd = D^-1 (u - U^T a') = ({} - {}) / {} = {}", short_number(u[0], size),
+                        subtracted(felt[0], size), short_number(D(0, 0)), name_of_number(qdd)),
+            meaning, unit_of(i, "rad/s^2", "m/s^2"));
+      } else {
+        sheet_.heading("qdd = D^-1 (u - U^T a')", meaning, "");
+        sheet_.line(fmt::format("      {:<16}{}", "U^T a'", name_of_number(felt)));
+        sheet_.line(fmt::format("      {:<16}{}", "qdd", name_of_number(qdd)));
+      }
     }
     sheet_.heading("a = a' + S qdd", "spatial acceleration, with gravity as -g of the base", "");
     sheet_.sum({{"a'", axes.show(before)}, {"S qdd", axes.show(in_.w.a[i] - before)}}, "a",
@@ -220,8 +253,9 @@ class Pages {
     for (const std::size_t body : view_.bodies) {
       const BodyBalance balance = balance_of(in_, body, view_.axes);
       sheet_.line("\n" + in_.model.body_name[body]);
+      const Vector6 size = Vector6::Constant(balance.largest);
       for (const NamedWrench& wrench : balance.wrenches)
-        sheet_.row(wrench.source, (Vector6() << wrench.force, wrench.torque).finished());
+        sheet_.row(wrench.source, (Vector6() << wrench.force, wrench.torque).finished(), size);
       sheet_.line(fmt::format("      they sum to zero, but for {:.1e} of the largest, {}",
                               balance.residual, short_number(balance.largest)));
       for (const JointBalance& joint : joint_balances(in_))
@@ -229,6 +263,7 @@ class Pages {
     }
   }
   void write_joint_balance(const JointBalance& joint) {
+    if (joint.torques.size() == 1) return;  // nobody pulls at it
     std::string text = "      at its joint";
     if (in_.model.dofs(joint.body) > 1)
       text += fmt::format(" [{}]", joint.dof - in_.model.iv[joint.body] + 1);
@@ -255,6 +290,7 @@ class Pages {
   const Inspection& in_;
   const InspectView& view_;
   const std::vector<Check>& checks_;
+  SubtreeErrors second_;  // by body
   Sheet sheet_;
 };
 

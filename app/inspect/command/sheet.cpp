@@ -20,7 +20,7 @@ std::string short_number(double value, double scale) {
   constexpr double kRounding = 1e-13;
   if (std::abs(value) <= kRounding * scale) return "0";
   std::string text = fmt::format("{:.5g}", value);
-  if (text.find('e') != std::string::npos) text = fmt::format("{:.4g}", value);
+  if (text.find('e') != std::string::npos || text.size() > 10) text = fmt::format("{:.4g}", value);
   return text;
 }
 
@@ -38,9 +38,8 @@ void Sheet::heading(std::string_view equation, std::string_view meaning, std::st
     line(fmt::format("  {}\n{:>{}}", equation, note, kWidth));
 }
 
-void Sheet::row(std::string_view label, const Vector6& six) {
-  // Turning and shifting parts have units of their own, and so sizes of their own.
-  const double turn = scale_of(six.head<3>()), shift = scale_of(six.tail<3>());
+void Sheet::row(std::string_view label, const Vector6& six, const Vector6& size) {
+  const double turn = scale_of(size.head<3>()), shift = scale_of(size.tail<3>());
   std::string text = fmt::format("      {:<{}}", label, kLabel);
   for (Eigen::Index k = 0; k < 6; ++k) {
     if (k == 3) text += "  |";
@@ -51,9 +50,11 @@ void Sheet::row(std::string_view label, const Vector6& six) {
 
 void Sheet::sum(const std::vector<std::pair<std::string, Vector6>>& terms, std::string_view name,
                 const Vector6& total) {
-  for (const auto& [label, value] : terms) row(label, value);
+  Vector6 size = total.cwiseAbs();
+  for (const auto& term : terms) size = size.cwiseMax(term.second.cwiseAbs());
+  for (const auto& [label, value] : terms) row(label, value, size);
   if (terms.size() > 1) line(std::string(6 + kLabel, ' ') + std::string(6 * kColumn + 3, '-'));
-  row(name, total);
+  row(name, total, size);
 }
 
 void Sheet::matrix(const Eigen::MatrixXd& m) {

@@ -21,7 +21,9 @@ class Sheet {
   // An equation to the left, what it is and its unit to the right.
   void heading(std::string_view equation, std::string_view meaning, std::string_view unit);
   // label   a  b  c | d  e  f
-  void row(std::string_view label, const Vector6& six);
+  void row(std::string_view label, const Vector6& six) { row(label, six, six); }
+  // What is rounding beside `size` is 0; turning and shifting parts have sizes of their own.
+  void row(std::string_view label, const Vector6& six, const Vector6& size);
   // Terms, a line, and what they add up to. One term alone is not repeated.
   void sum(const std::vector<std::pair<std::string, Vector6>>& terms, std::string_view name,
            const Vector6& total);
