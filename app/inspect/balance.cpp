@@ -85,7 +85,9 @@ BodyBalance balance_of(const Inspection& in, std::size_t body, BalanceAxes axes)
 std::vector<JointBalance> joint_balances(const Inspection& in) {
   std::vector<JointBalance> all;
   for (std::size_t i = 1; i < in.body_count(); ++i) {
+    if (in.model.dofs(i) == 0) continue;
     const Force<double> f = joint_force(in, i);
+    const double on_body = balance_of(in, i).largest;
     for (std::size_t dof = in.model.iv[i]; dof < in.model.iv[i] + in.model.dofs(i); ++dof) {
       JointBalance balance;
       balance.body = i;
@@ -105,7 +107,7 @@ std::vector<JointBalance> joint_balances(const Inspection& in) {
       const Force<double>& pA = in.w.pA[i];
       const double size =
           std::sqrt(std::max({dot(f.n, f.n), dot(f.f, f.f), dot(pA.n, pA.n), dot(pA.f, pA.f)}));
-      balance.largest = std::max(balance.largest, size);
+      balance.largest = std::max({balance.largest, size, on_body});
       balance.residual = sum == 0 ? 0 : std::abs(sum) / balance.largest;
       all.push_back(std::move(balance));
     }

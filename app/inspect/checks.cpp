@@ -46,16 +46,16 @@ std::vector<Check> run_checks(const Inspection& in, const CheckTolerances& toler
   const double algebra = tolerances.algebra;
   add("v", "rate of the poses, by dual numbers", velocity_errors(in), algebra);
   add("D", "mass matrix: ancestors locked, descendants free", subtree.D, algebra);
-  add("U", "wrench for a unit acceleration of the joint then (CRBA, RNEA)", subtree.U, algebra);
+  add("U", "wrench of a unit acceleration then (CRBA, RNEA)", subtree.U, algebra);
   add("pA", "wrench where the body does not accelerate (CRBA, RNEA)", subtree.pA, algebra);
   add("u", "force left at the joint then (CRBA, RNEA)", subtree.u, algebra);
   add("qdd", "M qdd + h = tau (CRBA, RNEA)", whole.qdd, algebra);
   add("a", "accelerations by RNEA with the qdd found", whole.a, algebra);
   add("tau", "torques back from RNEA with the qdd found", whole.tau, algebra);
-  add("f", "wrench through each joint: IA a + pA against RNEA", whole.f, algebra);
-  add("balance", "wrenches on each body and its inertia sum to zero", balance_errors(in), algebra);
-  add("momentum", "rate of each body's momentum, by differences, against its wrenches",
-      momentum_errors(in), tolerances.momentum);
+  add("f", "wrenches through joints: IA a + pA, RNEA", whole.f, algebra);
+  add("balance", "wrenches on each body sum to zero", balance_errors(in), algebra);
+  add("momentum", "rate of each body's momentum, by differences", momentum_errors(in),
+      tolerances.momentum);
   return checks;
 }
 

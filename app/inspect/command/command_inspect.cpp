@@ -51,8 +51,7 @@ void read_bodies(const InspectOptions& options, const Model<double>& model, Insp
 // Of a scene: what is inspected is what the step did.
 Check step_check(const Inspection& in, const std::vector<double>& qdd_of_step) {
   constexpr double kTolerance = 1e-9;  // of what the impulse solver leaves
-  Check check{"step", "accelerations of the step itself, all forces by their names", 0, kTolerance,
-              ""};
+  Check check{"step", "the step's own accelerations, forces by name", 0, kTolerance, ""};
   const Vector3 g = to_eigen(in.model.gravity);
   double size = std::max(g.norm(), 1e-300);
   for (const double qdd : qdd_of_step) size = std::max(size, std::abs(qdd));
@@ -70,8 +69,7 @@ Check step_check(const Inspection& in, const std::vector<double>& qdd_of_step) {
 std::string title_of(const RobotInput& input, const Inspection& in, const InspectOptions& options) {
   const Vec3<double>& g = in.model.gravity;
   return fmt::format(
-      "{}: {} bodies that move, {} degrees of freedom; gravity ({:g}, {:g}, {:g}) "
-      "m/s^2; {}",
+      "{}: {} bodies that move, {} degrees of freedom; gravity ({:g}, {:g}, {:g}) m/s^2\n{}",
       input.robot.name, in.body_count() - 1, in.model.nv, g.x, g.y, g.z,
       options.robot.state.empty() ? "at its start, no state file"
                                   : "state " + options.robot.state.string());

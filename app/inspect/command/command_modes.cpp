@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/dynamics/robot_table.h"
+#include "app/inspect/command/sheet.h"
 #include "app/inspect/linear_system.h"
 #include "app/json_writer.h"
 #include "app/simulate/given_forces.h"
@@ -146,6 +147,33 @@ const char* word_for(const Mode& mode) {
   return mode.eigenvalue.imag() > 0 ? "swings" : "decays";
 }
 
+constexpr std::size_t kModesInTable = 7;
+
+std::string shape_table(const RobotInput& input, const Found& found, std::size_t first) {
+  const std::vector<std::string> names = row_names(input.coordinates);
+  const std::size_t last = std::min(first + kModesInTable, found.modes.size());
+  std::vector<std::string> headings{"joint"};
+  for (std::size_t k = first; k < last; ++k) headings.push_back("mode " + std::to_string(k + 1));
+  TextTable table(headings);
+  for (std::size_t row = 0; row < names.size(); ++row) {
+    std::vector<std::string> line{names[row]};
+    for (std::size_t k = first; k < last; ++k) {
+      const Mode& mode = found.modes[k];
+      const auto r = static_cast<Eigen::Index>(row);
+      const double re = shape_of(input, found.system, mode.shape.real())[r];
+      const double im = shape_of(input, found.system, mode.shape.imag())[r];
+      const double size = std::hypot(re, im), degrees = 180 / std::numbers::pi * std::atan2(im, re);
+      if (size < 5e-5)
+        line.emplace_back("0");
+      else
+        line.push_back(std::abs(im) < 1e-6 * size ? fmt::format("{:.4f}", re)
+                                                  : fmt::format("{:.3f}/{:.0f}", size, degrees));
+    }
+    table.add(line);
+  }
+  return table.str();
+}
+
 std::string modes_table(const RobotInput& input, const Found& found) {
   std::string text = fmt::format("{}: small motions about {}\n\n", input.robot.name,
                                  "the state: x' = A x + B tau, x = exp(lambda t)");
@@ -163,26 +191,10 @@ std::string modes_table(const RobotInput& input, const Found& found) {
                word_for(mode)});
   }
   text +=
-      table.str() + "\nshapes, the largest part 1 (where parts are out of phase: size, angle):\n";
-  const std::vector<std::string> names = row_names(input.coordinates);
-  std::vector<std::string> headings{"joint"};
-  for (std::size_t k = 0; k < found.modes.size(); ++k)
-    headings.push_back("mode " + std::to_string(k + 1));
-  TextTable shapes(headings);
-  for (std::size_t row = 0; row < names.size(); ++row) {
-    std::vector<std::string> line{names[row]};
-    for (const Mode& mode : found.modes) {
-      const auto r = static_cast<Eigen::Index>(row);
-      const double re = shape_of(input, found.system, mode.shape.real())[r];
-      const double im = shape_of(input, found.system, mode.shape.imag())[r];
-      const double size = std::hypot(re, im), degrees = 180 / std::numbers::pi * std::atan2(im, re);
-      line.push_back(std::abs(im) < 1e-6 ? fmt::format("{:.4f}", re + 0.0)
-                                         : fmt::format("{:.4f}, {:.0f} deg", size, degrees));
-    }
-    shapes.add(line);
-  }
-  text += shapes.str();
-  for (const std::string& warning : found.warnings) text += "\nwarning: " + warning;
+      table.str() + "\nshapes, the largest part 1 (where parts are out of phase: size/degrees):\n";
+  for (std::size_t first = 0; first < found.modes.size(); first += kModesInTable)
+    text += shape_table(input, found, first) + "\n";
+  for (const std::string& warning : found.warnings) text += wrapped("warning: " + warning) + "\n";
   return text;
 }
 

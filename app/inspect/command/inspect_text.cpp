@@ -39,7 +39,7 @@ class Pages {
     for (const int pass : view_.passes) write_pass(pass);
     write_balances();
     write_checks();
-    for (const std::string& warning : view_.warnings) sheet_.line("warning: " + warning);
+    for (const std::string& warning : view_.warnings) sheet_.line(wrapped("warning: " + warning));
     return sheet_.str();
   }
 
@@ -263,7 +263,10 @@ class Pages {
     }
   }
   void write_joint_balance(const JointBalance& joint) {
-    if (joint.torques.size() == 1) return;  // nobody pulls at it
+    double pull = 0;
+    for (const JointBalance::Torque& torque : joint.torques)
+      pull = std::max(pull, std::abs(torque.value));
+    if (pull <= 1e-13 * joint.largest) return;  // nobody pulls at it
     std::string text = "      at its joint";
     if (in_.model.dofs(joint.body) > 1)
       text += fmt::format(" [{}]", joint.dof - in_.model.iv[joint.body] + 1);

@@ -24,6 +24,22 @@ std::string short_number(double value, double scale) {
   return text;
 }
 
+std::string wrapped(std::string_view text) {
+  std::string lines;
+  std::size_t used = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    if (used > 0 && used + 1 + end - begin > kWidth)
+      lines += "\n  ", used = 2;
+    else if (used > 0)
+      lines += ' ', ++used;
+    lines += text.substr(begin, end - begin);
+    used += end - begin;
+    begin = end + 1;
+  }
+  return lines;
+}
+
 void Sheet::rule(char c) {
   line(std::string(kWidth, c));
 }

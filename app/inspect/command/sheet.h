@@ -14,6 +14,9 @@ namespace twinarm {
 // Five digits, four where there is an exponent; what is below 1e-13 of `scale` is 0.
 std::string short_number(double value, double scale = 1);
 
+// Broken at blanks, to lines that fit.
+std::string wrapped(std::string_view text);
+
 class Sheet {
  public:
   void line(std::string_view text) { text_ += std::string(text) + "\n"; }
