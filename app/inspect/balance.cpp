@@ -42,6 +42,18 @@ std::string joint_label(const Inspection& in, std::size_t i) {
   return name.empty() ? "base" : name;
 }
 
+// Of the body and all that hangs on it [N]. What falls freely carries nothing, but its numbers are
+// differences of such loads.
+double carried_weight(const Inspection& in, std::size_t i) {
+  double mass = 0;
+  for (std::size_t j = i; j < in.body_count(); ++j) {
+    std::size_t ancestor = j;
+    while (ancestor > i) ancestor = in.parent(ancestor);
+    if (ancestor == i) mass += in.model.I[j].m;
+  }
+  return mass * to_eigen(in.model.gravity).norm();
+}
+
 }  // namespace
 
 Force<double> joint_force(const Inspection& in, std::size_t i) {
@@ -78,7 +90,8 @@ BodyBalance balance_of(const Inspection& in, std::size_t body, BalanceAxes axes)
                                 wrench.torque.lpNorm<Eigen::Infinity>()});
   }
   const double rest = std::max(force.lpNorm<Eigen::Infinity>(), torque.lpNorm<Eigen::Infinity>());
-  balance.residual = rest == 0 ? 0 : rest / balance.largest;
+  constexpr double kRounding = 1e-14;
+  balance.residual = rest <= kRounding * carried_weight(in, body) ? 0 : rest / balance.largest;
   return balance;
 }
 
@@ -87,7 +100,7 @@ std::vector<JointBalance> joint_balances(const Inspection& in) {
   for (std::size_t i = 1; i < in.body_count(); ++i) {
     if (in.model.dofs(i) == 0) continue;
     const Force<double> f = joint_force(in, i);
-    const double on_body = balance_of(in, i).largest;
+    const double carried = carried_weight(in, i);
     for (std::size_t dof = in.model.iv[i]; dof < in.model.iv[i] + in.model.dofs(i); ++dof) {
       JointBalance balance;
       balance.body = i;
@@ -107,7 +120,7 @@ std::vector<JointBalance> joint_balances(const Inspection& in) {
       const Force<double>& pA = in.w.pA[i];
       const double size =
           std::sqrt(std::max({dot(f.n, f.n), dot(f.f, f.f), dot(pA.n, pA.n), dot(pA.f, pA.f)}));
-      balance.largest = std::max({balance.largest, size, on_body});
+      balance.largest = std::max({balance.largest, size, carried});
       balance.residual = sum == 0 ? 0 : std::abs(sum) / balance.largest;
       all.push_back(std::move(balance));
     }

@@ -22,7 +22,9 @@ struct BodyBalance {
   std::size_t body = 0;
   std::vector<NamedWrench> wrenches;  // "inertia" last
   double largest = 0;                 // of all numbers [N, N m]
-  double residual = 0;                // the largest number of the sum, as a part of `largest`
+  // The largest number of the sum, as a part of `largest`; 0 where it is rounding beside the weight
+  // of what hangs on the body (which falls freely then).
+  double residual = 0;
 };
 
 enum class BalanceAxes { world, link };
