@@ -90,8 +90,8 @@ BodyBalance balance_of(const Inspection& in, std::size_t body, BalanceAxes axes)
                                 wrench.torque.lpNorm<Eigen::Infinity>()});
   }
   const double rest = std::max(force.lpNorm<Eigen::Infinity>(), torque.lpNorm<Eigen::Infinity>());
-  constexpr double kRounding = 1e-14;
-  balance.residual = rest <= kRounding * carried_weight(in, body) ? 0 : rest / balance.largest;
+  const double size = std::max(balance.largest, carried_weight(in, body));
+  balance.residual = rest == 0 ? 0 : rest / size;
   return balance;
 }
 

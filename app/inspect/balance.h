@@ -22,8 +22,8 @@ struct BodyBalance {
   std::size_t body = 0;
   std::vector<NamedWrench> wrenches;  // "inertia" last
   double largest = 0;                 // of all numbers [N, N m]
-  // The largest number of the sum, as a part of `largest`; 0 where it is rounding beside the weight
-  // of what hangs on the body (which falls freely then).
+  // The largest number of the sum, as a part of `largest`; of what falls freely, as a part of the
+  // weight that hangs on the body.
   double residual = 0;
 };
 
