@@ -57,3 +57,36 @@ TEST_CASE(
   }
   for (const auto& [name, error] : worst) MESSAGE(name, ": ", error);
 }
+
+TEST_CASE("a number that is off by 1e-8 is found by the check of its name") {
+  Random random(21);
+  const Model<double> model = random_tree(random, 4, {JointType::revolute});
+  const State<double> x = random_state(random, model);
+  const Inspection good(model, x, random_actors(random, model, false));
+  const auto fails = [&](const char* name, auto spoil) {
+    CAPTURE(name);
+    Inspection bad = good;
+    spoil(bad.w);
+    bool found = false;
+    for (const Check& check : run_checks(bad))
+      if (check.name == name) {
+        CHECK_FALSE(check.pass());
+        CHECK(check.worst.size() > 0);
+        found = true;
+      }
+    CHECK(found);
+  };
+  constexpr double kOff = 1 + 1e-8;
+  using W = Workspace<double>;
+  fails("v", [&](W& w) { w.v[2].w = kOff * w.v[2].w; });
+  fails("D", [&](W& w) { w.D[1] *= kOff; });
+  fails("U", [&](W& w) { w.U[1] = kOff * w.U[1]; });
+  fails("pA", [&](W& w) { w.pA[2] = kOff * w.pA[2]; });
+  fails("u", [&](W& w) { w.u[1] += 1e-6; });
+  fails("qdd", [&](W& w) { w.qdd[1] += 1e-6; });
+  fails("a", [&](W& w) { w.a[2].v.x += 1e-6; });
+  fails("tau", [&](W& w) { w.qdd[1] += 1e-6; });
+  fails("f", [&](W& w) { w.IA[2].I.xx += 1e-6; });
+  fails("balance", [&](W& w) { w.pA[2].f.x += 1e-6; });
+  fails("momentum", [&](W& w) { w.qdd[1] += 1e-5; });
+}
