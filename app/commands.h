@@ -38,6 +38,21 @@ struct DynamicsOptions {
 };
 int run_dynamics(const DynamicsOptions& options);
 
+struct InspectOptions {
+  RobotOptions robot;
+  std::vector<std::string> passes, bodies;  // none: all
+  std::string axes = "world";               // of the wrenches: world or link
+  std::optional<double> step;               // of a scene [s]; left out: the scene's
+  bool json = false;
+};
+int run_inspect(const InspectOptions& options);  // 1 where a check falls short
+
+struct ModesOptions {
+  RobotOptions robot;
+  bool json = false;
+};
+int run_modes(const ModesOptions& options);
+
 int run_simulate(const SimulateOptions& options);
 
 struct CompareOptions {

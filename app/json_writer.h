@@ -22,6 +22,7 @@ class JsonWriter {
   void number(double value);
   void count(long value);
   void text(std::string_view value);
+  void boolean(bool value) { write(value ? "true" : "false"); }
   void null() { write("null"); }
 
   // A matrix is a list of its rows, a vector a list of numbers.

@@ -103,6 +103,33 @@ void add_dynamics(CLI::App& app, DynamicsOptions& options, std::function<int()>&
   dynamics->callback([&] { command = [&] { return run_dynamics(options); }; });
 }
 
+void add_inspect(CLI::App& app, InspectOptions& options, std::function<int()>& command) {
+  CLI::App* inspect = app.add_subcommand(
+      "inspect",
+      "The passes of the articulated-body algorithm with their numbers, every wrench on every "
+      "body, and checks by second ways\n\n"
+      "Example:  twinarm inspect assets/robots/s103/s103.urdf --body arm2");
+  add_robot_options(*inspect, options.robot, "the robot's URDF, or a scene in TOML");
+  inspect->add_option("--pass", options.passes, "1, 2 or 3; all if not given");
+  inspect->add_option("--body", options.bodies, "names of links and bodies; all if not given");
+  inspect->add_option("--axes", options.axes, "of the wrenches: world or link")
+      ->capture_default_str();
+  inspect->add_option("--step", options.step, "of a scene: seconds; the scene's if not given");
+  inspect->add_flag("--json", options.json, "print one JSON object on stdout");
+  inspect->callback([&] { command = [&] { return run_inspect(options); }; });
+}
+
+void add_modes(CLI::App& app, ModesOptions& options, std::function<int()>& command) {
+  CLI::App* modes = app.add_subcommand(
+      "modes",
+      "Frequencies, damping and shapes of small motions about a state, couplings of a scene "
+      "included\n\n"
+      "Example:  twinarm modes assets/robots/puma560/puma560.urdf");
+  add_robot_options(*modes, options.robot, "the robot's URDF, or a scene in TOML");
+  modes->add_flag("--json", options.json, "print one JSON object on stdout");
+  modes->callback([&] { command = [&] { return run_modes(options); }; });
+}
+
 void add_simulate(CLI::App& app, SimulateOptions& options, std::function<int()>& command) {
   CLI::App* simulate = app.add_subcommand(
       "simulate",
@@ -167,6 +194,8 @@ int main(int argc, char** argv) {
   CLI::App app{"twinarm: a glass-box multibody laboratory\n\nExample:  twinarm study"};
   app.require_subcommand(1);
   DynamicsOptions dynamics;
+  InspectOptions inspect;
+  ModesOptions modes;
   SimulateOptions simulate;
   CompareOptions compare;
   StudyOptions study;
@@ -174,6 +203,8 @@ int main(int argc, char** argv) {
   std::string recipe;
   std::function<int()> command;
   add_dynamics(app, dynamics, command);
+  add_inspect(app, inspect, command);
+  add_modes(app, modes, command);
   add_simulate(app, simulate, command);
   add_compare(app, compare, command);
   add_study(app, study, command);

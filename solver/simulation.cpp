@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "solver/first_bad.h"
 #include "solver/loop_faults.h"
 #include "solver/mimic.h"
 
@@ -212,39 +213,20 @@ void Simulation::look_for_bad_numbers(StepReport& report) const {
   if (sum == 0) return;
 
   report.finite = false;
-  const Workspace<double>& w = m_.w;
-  const auto bad = [](const Vec3<double>& v) { return !(v.x * 0 + v.y * 0 + v.z * 0 == 0); };
-  const auto any_bad = [](const std::vector<double>& all, std::size_t first, std::size_t count) {
-    bool any = false;
-    for (std::size_t c = first; c < first + count; ++c) any = any || !std::isfinite(all[c]);
-    return any;
-  };
-  const std::size_t n = model().parent.size();
-  const auto look = [&](const char* field, bool from_tips, auto is_bad) {
-    for (std::size_t step = 1; step < n && !report.bad_field; ++step) {
-      const std::size_t i = from_tips ? n - step : step;
-      if (!is_bad(i)) continue;
-      report.bad_field = field;
-      report.bad_body = static_cast<int>(i);
-    }
-  };
-  look("tau", false, [&](std::size_t i) {
-    bool any = false;
-    visit_joint(model(), i,
-                [&](auto joint) { any = any_bad(m_.forces.tau, model().iv[i], joint.nv); });
-    return any;
-  });
-  look("f_ext", false,
-       [&](std::size_t i) { return bad(m_.forces.f_ext[i].n) || bad(m_.forces.f_ext[i].f); });
-  look("v", false, [&](std::size_t i) { return bad(w.v[i].w) || bad(w.v[i].v); });
-  look("c", false, [&](std::size_t i) { return bad(w.c[i].w) || bad(w.c[i].v); });
-  look("pA", true, [&](std::size_t i) { return bad(w.pA[i].n) || bad(w.pA[i].f); });
-  look("a", false, [&](std::size_t i) { return bad(w.a[i].w) || bad(w.a[i].v); });
-  look("q", false, [&](std::size_t i) {
-    bool any = false;
-    visit_joint(model(), i, [&](auto joint) { any = any_bad(m_.x.q, model().iq[i], joint.nq); });
-    return any;
-  });
+  const BadQuantity bad = first_bad_quantity(model(), m_.forces, m_.w);
+  if (bad.body != 0) {
+    report.bad_field = bad.name;
+    report.bad_body = static_cast<int>(bad.body);
+    return;
+  }
+  for (std::size_t i = 1; i < model().parent.size() && !report.bad_field; ++i)
+    visit_joint(model(), i, [&](auto joint) {
+      for (std::size_t c = model().iq[i]; c < model().iq[i] + joint.nq; ++c)
+        if (!std::isfinite(m_.x.q[c])) {
+          report.bad_field = "q";
+          report.bad_body = static_cast<int>(i);
+        }
+    });
 }
 
 }  // namespace twinarm

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "solver/quantity.h"
 #include "solver/spatial.h"
 
 namespace twinarm {
@@ -23,6 +24,17 @@ struct FullTrace {
   void felt(std::size_t i, const Inertia& Ia_i, const Force<S>& pa_i) {
     Ia[i] = ArticulatedInertia<S>(Ia_i);
     pa[i] = pa_i;
+  }
+  // As Workspace::describe().
+  template <class Visitor>
+  void describe(Visitor&& visit) const {
+    using By = Quantity::By;
+    visit({"Ia", 2, By::body, "inertia that the parent feels through the joint", "kg m^2, kg m, kg",
+           "Ia = IA - U D^-1 U^T, table 7.1"},
+          Ia);
+    visit({"pa", 2, By::body, "force that the parent feels through the joint", "N m; N",
+           "pa = pA + Ia c + U D^-1 u, table 7.1"},
+          pa);
   }
 };
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/model.h"
+#include "solver/quantity.h"
 
 namespace twinarm {
 
@@ -37,6 +38,24 @@ struct Forces {
   void add_impedance(std::size_t body, const ArticulatedInertia<S>& inertia) {
     impedance[body] += inertia;
     has_impedance = true;
+  }
+
+  // Calls visit(Quantity, field) for each field.
+  template <class Visitor>
+  void describe(Visitor&& visit) const {
+    using By = Quantity::By;
+    visit({"tau", 0, By::velocity, "force at the joint: actuator, friction, springs", "N m; N",
+           "input"},
+          tau);
+    visit({"f_ext", 0, By::body, "wrench on the body from outside, gravity not counted", "N m; N",
+           "input"},
+          f_ext);
+    visit({"armature", 0, By::velocity, "rotor-like inertia of implicit springs and dampers",
+           "kg m^2; kg", "input, added to D"},
+          armature);
+    visit({"impedance", 0, By::body, "weightless inertia of implicit springs and dampers",
+           "kg m^2, kg m, kg", "input, added to IA"},
+          impedance);
   }
 };
 
@@ -118,7 +137,58 @@ struct Workspace {
     D_factors.resize(size);
   }
 
+  // Calls visit(Quantity, field) for what aba() leaves, in the order in which it is written. What
+  // other algorithms leave is theirs; D_factors is D again.
+  template <class Visitor>
+  void describe(Visitor&& visit) const {
+    describe_motion(visit);
+    describe_inertias(visit);
+    using By = Quantity::By;
+    visit({"qdd", 3, By::velocity, "acceleration of the joint", "rad/s^2; m/s^2",
+           "qdd = D^-1 (u - U^T (Xup a_p + c)), table 7.1"},
+          qdd);
+    visit({"a", 3, By::body, "spatial acceleration; gravity as an upward one of the base",
+           "rad/s^2; m/s^2", "a = Xup a_p + c + S qdd, table 7.1"},
+          a);
+  }
+
  private:
+  template <class Visitor>
+  void describe_motion(Visitor& visit) const {
+    using By = Quantity::By;
+    visit({"S", 1, By::velocity, "motion subspace: how the joint lets the body move", "1",
+           "section 3.5, table 4.1"},
+          S_);
+    visit({"Xup", 1, By::body, "transform from the parent's axes and origin to the body's", "1; m",
+           "Xup = XJ Xtree, table 7.1; (2.24)"},
+          Xup);
+    visit({"v", 1, By::body, "spatial velocity: turn, and velocity of the origin", "rad/s; m/s",
+           "v = Xup v_p + S qd, table 7.1"},
+          v);
+    visit({"c", 1, By::body, "acceleration that the velocities alone cause", "rad/s^2; m/s^2",
+           "c = cJ + v x S qd, table 7.1"},
+          c);
+  }
+  template <class Visitor>
+  void describe_inertias(Visitor& visit) const {
+    using By = Quantity::By;
+    visit({"IA", 2, By::body, "articulated-body inertia: the body with all that hangs on it",
+           "kg m^2, kg m, kg", "IA = I + sum of X^T Ia X, table 7.1; (7.22)"},
+          IA);
+    visit({"pA", 2, By::body, "force that it takes to give the body no acceleration", "N m; N",
+           "pA = v x* I v - f_ext + sum of X^T pa, table 7.1"},
+          pA);
+    visit({"U", 2, By::velocity, "force that a unit acceleration of the joint takes",
+           "kg m^2, kg m; kg m, kg", "U = IA S, table 7.1"},
+          U);
+    visit({"D", 2, By::square, "inertia felt at the joint: ancestors locked, descendants free",
+           "kg m^2; kg", "D = S^T U + armature, table 7.1"},
+          D);
+    visit({"u", 2, By::velocity, "force left at the joint to accelerate it", "N m; N",
+           "u = tau - S^T pA, table 7.1"},
+          u);
+  }
+
   static std::size_t n(const Model<S>& model) { return model.parent.size(); }
 };
 

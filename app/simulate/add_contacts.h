@@ -32,6 +32,9 @@ class SceneContacts {
   int contact_count() const;  // points that press, at the last step
   double deepest_at_start() const { return deepest_at_start_; }  // [m]
   const std::string& deepest_pair() const { return deepest_pair_; }
+  // Of the last step; null where nothing may touch, and where no joint is limited.
+  const ContactConstraints* contacts() const { return contacts_ ? &*contacts_ : nullptr; }
+  const JointLimits* limits() const { return limits_ ? &*limits_ : nullptr; }
 
  private:
   void add_geometries();

@@ -54,9 +54,8 @@ LIBRARIES = {
     "FreeType": (r"ft2build|freetype/", {"app/render/lettering.cpp"}),
     "PNG": (r"png\.h", {"app/render/image.cpp"}),
 }
-# A part of the program that is a library of its own, so that tests can look at it.
-LIBRARY_OF_APP = "app/scene/"
-TESTS_OF_LIBRARY = "tests/scene/"
+# Parts of the program that are libraries of their own, so that tests can look at them.
+TESTS_OF_LIBRARY = {"tests/scene/": "app/scene/", "tests/inspect/": "app/inspect/"}
 
 # Headers that show an outside library. Each is of use inside its own folder only.
 INNER_HEADERS = {"collision/import/recipe_toml.h", "app/render/gl_table.h",
@@ -87,7 +86,8 @@ class Includes(unittest.TestCase):
             room = path.split("/")[0]
             for bracket, name in includes:
                 other = name.split("/")[0]
-                if path.startswith(TESTS_OF_LIBRARY) and name.startswith(LIBRARY_OF_APP):
+                if any(path.startswith(tests) and name.startswith(library)
+                       for tests, library in TESTS_OF_LIBRARY.items()):
                     continue
                 if bracket == '"' and other not in ARROWS[room]:
                     wrong.append(f'{path} includes "{name}"')

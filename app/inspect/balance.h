@@ -1,0 +1,50 @@
+// Free-body view: every wrench on a body, about one point, that sum to zero.
+//
+//   gravity + through its joint + through its children's joints + applied + inertia = 0
+// The wrench through joint i is what ABA has of it, f_i = IA_i a_i + pA_i; inertia is Newton's and
+// Euler's in three dimensions, from the acceleration of the centre of mass. So the sum is a test of
+// the passes, and not zero by the way it is made.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/inspect/inspection.h"
+
+namespace twinarm {
+
+struct NamedWrench {
+  std::string source;
+  Vector3 force, torque;  // the torque is about the link's origin
+};
+
+struct BodyBalance {
+  std::size_t body = 0;
+  std::vector<NamedWrench> wrenches;  // "inertia" last
+  double largest = 0;                 // of all numbers [N, N m]
+  // The largest number of the sum, as a part of `largest`; of what falls freely, as a part of the
+  // weight that hangs on the body.
+  double residual = 0;
+};
+
+enum class BalanceAxes { world, link };
+BodyBalance balance_of(const Inspection& in, std::size_t body,
+                       BalanceAxes axes = BalanceAxes::world);
+
+// At one degree of freedom of a joint: what pulls at it, the rotor's inertia, and what it hands on
+// to the body, S^T f with the sign that makes the sum zero.
+struct JointBalance {
+  std::size_t body = 0, dof = 0;
+  struct Torque {
+    std::string source;
+    double value;  // [N m, N]
+  };
+  std::vector<Torque> torques;
+  double largest = 0, residual = 0;
+};
+std::vector<JointBalance> joint_balances(const Inspection& in);
+
+// The wrench through joint i, as the parent exerts it: IA a + pA, body axes.
+Force<double> joint_force(const Inspection& in, std::size_t i);
+
+}  // namespace twinarm

@@ -1,0 +1,125 @@
+#include <algorithm>
+
+#include "app/inspect/command/inspect_output.h"
+#include "app/inspect/shown.h"
+#include "app/json_writer.h"
+
+namespace twinarm {
+namespace {
+
+std::vector<double> list_of(const Eigen::MatrixXd& column) {
+  return {column.data(), column.data() + column.size()};
+}
+
+// A number alone; six numbers; a list of columns where a joint has several; else a matrix by rows.
+void write_value(JsonWriter& json, const Shown& shown) {
+  using By = Quantity::By;
+  const Eigen::MatrixXd& m = shown.value;
+  if (m.cols() == 1) return json.number_or_list(list_of(m));
+  if (shown.quantity.by != By::velocity) return json.matrix(m);
+  json.begin_array();
+  for (Eigen::Index c = 0; c < m.cols(); ++c) json.vector(m.col(c));
+  json.end_array();
+}
+
+void write_passes(JsonWriter& json, const Inspection& in, const InspectView& view) {
+  json.begin_array();
+  for (const int pass : view.passes) {
+    std::vector<std::size_t> order = view.bodies;
+    if (pass == 2) order.assign(view.bodies.rbegin(), view.bodies.rend());
+    for (const std::size_t body : order) {
+      json.begin_object();
+      json.key("pass").count(pass);
+      json.key("body").text(in.model.body_name[body]);
+      json.key("joint").text(in.model.joint_name[body]);
+      json.key("quantities").begin_array();
+      for (const Shown& shown : shown_quantities(in, pass, body)) {
+        json.begin_object();
+        json.key("name").text(shown.quantity.name);
+        json.key("meaning").text(shown.quantity.meaning);
+        json.key("unit").text(shown.quantity.unit);
+        json.key("frame").text(shown.frame);
+        json.key("equation").text(shown.quantity.equation);
+        write_value(json.key("value"), shown);
+        json.end_object();
+      }
+      json.end_array();
+      json.end_object();
+    }
+  }
+  json.end_array();
+}
+
+void write_balances(JsonWriter& json, const Inspection& in, const InspectView& view) {
+  json.begin_array();
+  for (const std::size_t body : view.bodies) {
+    const BodyBalance balance = balance_of(in, body, view.axes);
+    json.begin_object();
+    json.key("body").text(in.model.body_name[body]);
+    json.key("wrenches").begin_array();
+    for (const NamedWrench& wrench : balance.wrenches) {
+      json.begin_object();
+      json.key("source").text(wrench.source);
+      json.key("force").vector(wrench.force);
+      json.key("torque").vector(wrench.torque);
+      json.end_object();
+    }
+    json.end_array();
+    json.key("largest").number(balance.largest);
+    json.key("residual").number(balance.residual);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+void write_joints(JsonWriter& json, const Inspection& in, const InspectView& view) {
+  json.begin_array();
+  for (const JointBalance& joint : joint_balances(in)) {
+    if (std::find(view.bodies.begin(), view.bodies.end(), joint.body) == view.bodies.end())
+      continue;
+    json.begin_object();
+    json.key("joint").text(in.model.joint_name[joint.body]);
+    json.key("component").count(static_cast<long>(joint.dof - in.model.iv[joint.body]));
+    json.key("torques").begin_array();
+    for (const JointBalance::Torque& torque : joint.torques) {
+      json.begin_object();
+      json.key("source").text(torque.source);
+      json.key("value").number(torque.value);
+      json.end_object();
+    }
+    json.end_array();
+    json.key("residual").number(joint.residual);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+}  // namespace
+
+std::string inspect_json(const Inspection& in, const InspectView& view,
+                         const std::vector<Check>& checks) {
+  JsonWriter json;
+  json.begin_object();
+  write_passes(json.key("passes"), in, view);
+  write_balances(json.key("balance"), in, view);
+  write_joints(json.key("joint_balance"), in, view);
+  json.key("checks").begin_array();
+  for (const Check& check : checks) {
+    json.begin_object();
+    json.key("name").text(check.name);
+    json.key("meaning").text(check.meaning);
+    json.key("error").number(check.error);
+    json.key("tolerance").number(check.tolerance);
+    json.key("body").text(check.worst);
+    json.key("pass");
+    json.boolean(check.pass());
+    json.end_object();
+  }
+  json.end_array();
+  json.key("axes").text(view.axes == BalanceAxes::world ? "world" : "link");
+  json.key("warnings").texts(view.warnings);
+  json.end_object();
+  return json.str();
+}
+
+}  // namespace twinarm

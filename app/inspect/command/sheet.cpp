@@ -1,0 +1,89 @@
+#include "app/inspect/command/sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace twinarm {
+namespace {
+
+constexpr std::size_t kWidth = 98, kColumn = 11, kLabel = 16;
+
+double scale_of(const Eigen::MatrixXd& m) {
+  return m.size() == 0 ? 1 : std::max(m.lpNorm<Eigen::Infinity>(), 1e-300);
+}
+
+}  // namespace
+
+std::string short_number(double value, double scale) {
+  constexpr double kRounding = 1e-13;
+  if (std::abs(value) <= kRounding * scale) return "0";
+  std::string text = fmt::format("{:.5g}", value);
+  if (text.find('e') != std::string::npos || text.size() > 10) text = fmt::format("{:.4g}", value);
+  return text;
+}
+
+std::string wrapped(std::string_view text) {
+  std::string lines;
+  std::size_t used = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    if (used > 0 && used + 1 + end - begin > kWidth)
+      lines += "\n  ", used = 2;
+    else if (used > 0)
+      lines += ' ', ++used;
+    lines += text.substr(begin, end - begin);
+    used += end - begin;
+    begin = end + 1;
+  }
+  return lines;
+}
+
+void Sheet::rule(char c) {
+  line(std::string(kWidth, c));
+}
+
+void Sheet::heading(std::string_view equation, std::string_view meaning, std::string_view unit) {
+  const std::string note =
+      unit.empty() ? std::string(meaning) : fmt::format("{} [{}]", meaning, unit);
+  const std::size_t used = 2 + equation.size();
+  if (used + 2 + note.size() <= kWidth)
+    line(fmt::format("  {}{:>{}}", equation, note, kWidth - used));
+  else
+    line(fmt::format("  {}\n{:>{}}", equation, note, kWidth));
+}
+
+void Sheet::row(std::string_view label, const Vector6& six, const Vector6& size) {
+  const double turn = scale_of(size.head<3>()), shift = scale_of(size.tail<3>());
+  std::string text = fmt::format("      {:<{}}", label, kLabel);
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    if (k == 3) text += "  |";
+    text += fmt::format("{:>{}}", short_number(six[k], k < 3 ? turn : shift), kColumn);
+  }
+  line(text);
+}
+
+void Sheet::sum(const std::vector<std::pair<std::string, Vector6>>& terms, std::string_view name,
+                const Vector6& total) {
+  Vector6 size = total.cwiseAbs();
+  for (const auto& term : terms) size = size.cwiseMax(term.second.cwiseAbs());
+  for (const auto& [label, value] : terms) row(label, value, size);
+  if (terms.size() > 1) line(std::string(6 + kLabel, ' ') + std::string(6 * kColumn + 3, '-'));
+  row(name, total, size);
+}
+
+void Sheet::matrix(const Eigen::MatrixXd& m) {
+  const double scale = scale_of(m);
+  for (Eigen::Index r = 0; r < m.rows(); ++r) {
+    std::string text(6 + kLabel, ' ');
+    for (Eigen::Index c = 0; c < m.cols(); ++c) {
+      if (m.cols() == 6 && c == 3) text += "  |";
+      text += fmt::format("{:>{}}", short_number(m(r, c), scale), kColumn);
+    }
+    line(text);
+    if (m.rows() == 6 && m.cols() == 6 && r == 2) line("");
+  }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,40 @@
+// Lines of numbers for people: spatial vectors as rows, inertias as matrices, sums term by term.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/inspect/shown.h"
+
+namespace twinarm {
+
+// Five digits, four where there is an exponent; what is below 1e-13 of `scale` is 0.
+std::string short_number(double value, double scale = 1);
+
+// Broken at blanks, to lines that fit.
+std::string wrapped(std::string_view text);
+
+class Sheet {
+ public:
+  void line(std::string_view text) { text_ += std::string(text) + "\n"; }
+  void rule(char c);
+  // An equation to the left, what it is and its unit to the right.
+  void heading(std::string_view equation, std::string_view meaning, std::string_view unit);
+  // label   a  b  c | d  e  f
+  void row(std::string_view label, const Vector6& six) { row(label, six, six); }
+  // What is rounding beside `size` is 0; turning and shifting parts have sizes of their own.
+  void row(std::string_view label, const Vector6& six, const Vector6& size);
+  // Terms, a line, and what they add up to. One term alone is not repeated.
+  void sum(const std::vector<std::pair<std::string, Vector6>>& terms, std::string_view name,
+           const Vector6& total);
+  void matrix(const Eigen::MatrixXd& m);
+  const std::string& str() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace twinarm

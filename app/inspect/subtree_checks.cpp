@@ -1,0 +1,160 @@
+// D, U, u and pA from the equations of motion of each subtree.
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "app/inspect/checks.h"
+#include "app/inspect/second_way.h"
+
+namespace twinarm {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+Vector6 as_vector(const Force<double>& f) {
+  return (Vector6() << f.n.x, f.n.y, f.n.z, f.f.x, f.f.y, f.f.z).finished();
+}
+
+// Of two matrices, as a part of `scale`.
+template <class A, class B>
+double apart(const A& a, const B& b, double scale) {
+  if (a.size() == 0) return 0;
+  const double error = (a - b).template lpNorm<Eigen::Infinity>();
+  return error == 0 ? 0 : error / scale;
+}
+template <class A>
+double size_of(const A& a) {
+  return a.size() == 0 ? 0 : a.template lpNorm<Eigen::Infinity>();
+}
+
+// What is compared for one body. The answers are held against the terms that they are differences
+// of: an inertia felt through free joints may be small against what is locked.
+class Subtree {
+ public:
+  Subtree(const Inspection& in, SecondWay& second, std::size_t body)
+      : in_(in), second_(second), body_(body), rows_(second.rows_of(body)) {
+    M_ii_ = second.M()(rows_.own, rows_.own);
+    M_id_ = second.M()(rows_.own, rows_.below);
+    if (!rows_.below.empty()) M_dd_.compute(second.M()(rows_.below, rows_.below));
+  }
+
+  double D_error() const {
+    const auto nv = static_cast<Eigen::Index>(rows_.own.size());
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const Eigen::Map<const RowMajor> D(in_.w.D.data() + in_.w.iD[body_], nv, nv);
+    const Eigen::MatrixXd second = M_ii_ - M_id_ * solve_below(M_id_.transpose());
+    return apart(D, second, size_of(M_ii_));
+  }
+
+  double U_error() const {
+    double worst = 0;
+    const Eigen::MatrixXd below = solve_below(M_id_.transpose());
+    for (std::size_t k = 0; k < rows_.own.size(); ++k) {
+      Eigen::VectorXd qdd = Eigen::VectorXd::Zero(second_.M().rows());
+      qdd[rows_.own[k]] = 1;
+      const SecondWay::Answer locked = second_.inertial(qdd);
+      for (std::size_t d = 0; d < rows_.below.size(); ++d)
+        qdd[rows_.below[d]] = -below(static_cast<Eigen::Index>(d), static_cast<Eigen::Index>(k));
+      const Vector6 U = as_vector(second_.inertial(qdd).f[body_]);
+      const Vector6 found = as_vector(in_.w.U[static_cast<std::size_t>(rows_.own[k])]);
+      worst = std::max(worst, apart(found, U, size_of(as_vector(locked.f[body_]))));
+    }
+    return worst;
+  }
+
+  // Errors of u and of pA; `load` is a size of the wrenches that they are differences of.
+  std::pair<double, double> bias_errors(double load) const {
+    const Eigen::VectorXd all_tau = Eigen::Map<const Eigen::VectorXd>(
+        in_.forces.tau.data(), static_cast<Eigen::Index>(in_.forces.tau.size()));
+    Eigen::VectorXd qdd = Eigen::VectorXd::Zero(second_.M().rows());
+    const SecondWay::Answer held = second_.inverse(qdd, body_);
+    const Eigen::VectorXd left = all_tau - held.tau;
+    const Eigen::VectorXd below = solve_below(left(rows_.below));
+    qdd(rows_.below) = below;
+    const SecondWay::Answer free = second_.inverse(qdd, body_);
+    const Vector6 pA = as_vector(free.f[body_]), found_pA = as_vector(in_.w.pA[body_]);
+    const double scale = std::max({size_of(pA), size_of(as_vector(held.f[body_])), load});
+
+    const Eigen::VectorXd reaction = M_id_ * below;
+    const Eigen::VectorXd u = Eigen::VectorXd(left(rows_.own)) - reaction;
+    const auto first = static_cast<Eigen::Index>(in_.model.iv[body_]);
+    const Eigen::Map<const Eigen::VectorXd> found_u(in_.w.u.data() + first, u.size());
+    return {apart(found_u, u, std::max({scale, size_of(u), size_of(reaction)})),
+            apart(found_pA, pA, scale)};
+  }
+
+ private:
+  Eigen::MatrixXd solve_below(const Eigen::MatrixXd& b) const {
+    return rows_.below.empty() ? b : Eigen::MatrixXd(M_dd_.solve(b));
+  }
+
+  const Inspection& in_;
+  SecondWay& second_;
+  std::size_t body_;
+  SecondWay::Rows rows_;
+  Eigen::MatrixXd M_ii_, M_id_;
+  Eigen::LDLT<Eigen::MatrixXd> M_dd_;
+};
+
+// Of the wrenches at a body: a force that is small because large ones cancel is held against those.
+double load_on(const Inspection& in, const SecondWay::Answer& still, std::size_t i) {
+  const Force<double> moved = in.model.I[i] * in.w.a[i];
+  const double weight = in.model.I[i].m * to_eigen(in.model.gravity).norm();
+  return std::max({size_of(as_vector(still.f[i])), size_of(as_vector(moved)),
+                   size_of(as_vector(in.w.pA[i])), weight, 1e-300});
+}
+
+}  // namespace
+
+SubtreeErrors subtree_errors(const Inspection& in) {
+  SecondWay second(in);
+  const Eigen::VectorXd no_qdd = Eigen::VectorXd::Zero(second.M().rows());
+  const SecondWay::Answer still = second.inverse(no_qdd);
+  const Errors none(in.body_count());
+  SubtreeErrors errors{none, none, none, none};
+  for (std::size_t i = 1; i < in.body_count(); ++i) {
+    const Subtree subtree(in, second, i);
+    errors.D[i] = subtree.D_error();
+    errors.U[i] = subtree.U_error();
+    std::tie(errors.u[i], errors.pA[i]) = subtree.bias_errors(load_on(in, still, i));
+  }
+  return errors;
+}
+
+WholeErrors whole_errors(const Inspection& in) {
+  SecondWay second(in);
+  const auto nv = static_cast<Eigen::Index>(in.model.nv);
+  const Eigen::Map<const Eigen::VectorXd> qdd(in.w.qdd.data(), nv), tau(in.forces.tau.data(), nv);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(nv);
+  const SecondWay::Answer moving = second.inverse(qdd), still = second.inverse(none);
+  const Eigen::VectorXd M_qdd = second.M() * qdd;
+  const Errors zero(in.body_count());
+  WholeErrors errors{zero, zero, zero, zero};
+  for (std::size_t i = 1; i < in.body_count(); ++i) {
+    const auto first = static_cast<Eigen::Index>(in.model.iv[i]);
+    const auto count = static_cast<Eigen::Index>(in.model.dofs(i));
+    const Vector6 f = as_vector(moving.f[i]);
+    const double load = std::max(load_on(in, still, i), size_of(f));
+    if (count > 0) {
+      const Eigen::VectorXd t = tau.segment(first, count);
+      const double size = std::max(size_of(t), load);
+      errors.tau[i] = apart(t, Eigen::VectorXd(moving.tau.segment(first, count)), size);
+      const Eigen::VectorXd sum = M_qdd.segment(first, count) + still.tau.segment(first, count);
+      const double terms = (second.M().middleRows(first, count).cwiseAbs() * qdd.cwiseAbs())
+                               .lpNorm<Eigen::Infinity>();
+      errors.qdd[i] = apart(sum, t, std::max(terms, size));
+    }
+    const Motion<double>&a = in.w.a[i], &b = moving.a[i];
+    const Vector6 a6 = (Vector6() << to_eigen(a.w), to_eigen(a.v)).finished();
+    const Vector6 b6 = (Vector6() << to_eigen(b.w), to_eigen(b.v)).finished();
+    const double g = to_eigen(in.model.gravity).norm();
+    errors.a[i] = apart(a6, b6, std::max({size_of(b6), size_of(qdd), g, 1e-300}));
+    const Vector6 found = as_vector(in.w.IA[i] * in.w.a[i] + in.w.pA[i]);
+    errors.f[i] = apart(found, f, load);
+  }
+  return errors;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+"""`twinarm inspect`: what is told of the passes, wrenches that sum to zero, forces by name, faults.
+
+    test_inspect_command.py PATH/TO/twinarm
+"""
+import json
+import math
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+import robot_command
+from robot_command import PENDULUM, ROOT, RobotCommand, add, cross, joint, link, robot
+
+S103 = "assets/robots/s103/s103.urdf"
+PUMA = "assets/robots/puma560/puma560.urdf"
+STATE = {"q": {"joint1": 0.3, "joint2": -0.8}, "qd": {"joint1": 1.2, "joint2": -0.5},
+         "tau": {"joint1": 2}}
+
+
+class Inspect(RobotCommand):
+    command = "inspect"
+
+    def quantity(self, answer, number, body, name):
+        found = [q for p in answer["passes"] if p["pass"] == number and p["body"] == body
+                 for q in p["quantities"] if q["name"] == name]
+        self.assertEqual(len(found), 1, f"{name} of {body} in pass {number}")
+        return found[0]["value"]
+
+    def wrenches_on(self, answer, body):
+        """By their sources."""
+        found, = (b for b in answer["balance"] if b["body"] == body)
+        return {w["source"]: w for w in found["wrenches"]}
+
+    def check_sums(self, answer):
+        """By our own sum, not by the printed one."""
+        for body in answer["balance"]:
+            for part in ("force", "torque"):
+                total = add(*(w[part] for w in body["wrenches"]))
+                largest = max(abs(x) for w in body["wrenches"] for p in ("force", "torque")
+                              for x in w[p])
+                self.assertLessEqual(max(map(abs, total)), 1e-10 * largest, body["body"])
+            self.assertLess(body["residual"], 1e-10)
+        for line in answer["joint_balance"]:
+            self.assertLess(line["residual"], 1e-10, line)
+        for check in answer["checks"]:
+            self.assertTrue(check["pass"], check)
+            self.assertLessEqual(check["error"], check["tolerance"])
+
+    def test_every_check_passes_on_the_robots_that_come_with_it(self):
+        for urdf, options, state in ((S103, [], STATE), (S103, ["--no-friction"], STATE),
+                                     (PUMA, [], ROOT / "assets/states/puma_qn_moving.json"),
+                                     (PUMA, ["--floating"], None),
+                                     (PUMA, ["--axes", "link"], None)):
+            with self.subTest(urdf=urdf, options=options):
+                self.check_sums(self.answer(urdf, *options, state=state))
+
+    def test_accelerations_are_those_of_twinarm_dynamics(self):
+        found = self.answer(PUMA, state=ROOT / "assets/states/puma_qn_moving.json")
+        result = subprocess.run([robot_command.PROGRAM, "dynamics", str(ROOT / PUMA), "--state",
+                                 str(ROOT / "assets/states/puma_qn_moving.json"), "--json"],
+                                capture_output=True, text=True, check=True)
+        wanted = json.loads(result.stdout)["qdd"]
+        of_joint = {p["joint"]: p["body"] for p in found["passes"]}
+        for name, qdd in wanted.items():
+            self.close([self.quantity(found, 3, of_joint[name], "qdd")], [qdd], 1e-9, name)
+
+    def test_a_pendulum_by_hand(self):
+        # A point of 1 kg on 1 m, at 90 degrees: D = 1, u = S^T of its weight, a = -g downwards.
+        found = self.answer(PENDULUM, state={"q": {"hinge": 1.5707963267948966},
+                                             "qd": {"hinge": 2}, "tau": {"hinge": 3}})
+        self.close([self.quantity(found, 2, "bob", "D")], [1])
+        self.close([self.quantity(found, 2, "bob", "u")], [3])
+        self.close([self.quantity(found, 3, "bob", "qdd")], [3 - 9.81])
+        self.close(self.quantity(found, 1, "bob", "S"), [0, -1, 0, 0, 0, 0])
+        self.close(self.quantity(found, 1, "bob", "v"), [0, -2, 0, 0, 0, 0])
+        wrenches = self.wrenches_on(found, "bob")
+        self.close(wrenches["gravity"]["force"], [0, 0, -9.81])
+        # The bob stands 1 m out; the hinge pulls it in by m w^2 r, and turns it with tau.
+        at = wrenches["joint/hinge"]
+        self.assertAlmostEqual(abs(at["force"][0]), 4, places=12)
+        self.assertAlmostEqual(at["torque"][1], -3, places=12)
+
+    def test_each_applied_wrench_stands_under_its_own_name(self):
+        state = {"wrenches": [{"link": "bob", "point": [0, 0, -1], "force": [1, 2, 3]},
+                              {"link": "bob", "torque": [0, 0, 7]}]}
+        found = self.answer(PENDULUM, state=state)
+        wrenches = self.wrenches_on(found, "bob")
+        self.close(wrenches["wrench/0"]["force"], [1, 2, 3])
+        self.close(wrenches["wrench/0"]["torque"], cross([0, 0, -1], [1, 2, 3]))
+        self.close(wrenches["wrench/1"]["torque"], [0, 0, 7])
+        self.check_sums(found)
+
+    def test_all_joint_types_and_friction_and_mimics(self):
+        parts, parent = ['<link name="base"/>'], "base"
+        kinds = ["spherical", "universal", "cylindrical", "screw", "planar", "floating", "fixed",
+                 "prismatic", "revolute"]
+        for n, kind in enumerate(kinds):
+            more = '<twinarm pitch="0.2"/>' if kind == "screw" else ""
+            if kind == "revolute":
+                more = '<dynamics damping="0.3" friction="0.1"/><mimic joint="j7" multiplier="2"/>'
+            parts += [link(f"l{n}"), joint(f"j{n}", kind, parent, f"l{n}", xyz="0.1 0.2 0.3",
+                                           rpy="0.3 -0.2 0.9", axis="0.6 0 0.8", more=more)]
+            parent = f"l{n}"
+        state = {"qd": {"j0": [1, 2, 3], "j1": [1, -1], "j2": [2, 0.3], "j3": 1,
+                        "j4": [0.1, 0.2, 0.3], "j5": [1, 2, 3, 0.3, 0.2, 0.1], "j7": 0.7}}
+        self.check_sums(self.answer(robot(*parts), state=state))
+
+    def test_pass_and_body_narrow_what_is_told(self):
+        found = self.answer(S103, "--pass", "2", "--body", "arm2")
+        self.assertEqual([(p["pass"], p["body"]) for p in found["passes"]], [(2, "arm2")])
+        self.assertEqual([b["body"] for b in found["balance"]], ["arm2"])
+
+    def test_every_page_for_people_fits_a_terminal(self):
+        for urdf in (S103, PUMA):
+            text = self.run_it(urdf).stdout
+            self.assertIn("PASS 3", text)
+            wide = [line for line in text.splitlines() if len(line) > 100]
+            self.assertEqual(wide, [])
+
+    def test_the_documentation_lists_every_quantity_with_its_equation(self):
+        page = (ROOT / "docs/inspect.md").read_text(encoding="utf-8")
+        page = page.split("## What each quantity is")[1].split("\n## ")[0]
+        for step in self.answer(PUMA)["passes"]:
+            for quantity in step["quantities"]:
+                row = [line for line in page.splitlines()
+                       if line.startswith(f"| `{quantity['name']}` |")]
+                self.assertEqual(len(row), 1, quantity["name"])
+                self.assertIn(quantity["equation"], row[0])
+                self.assertIn(quantity["meaning"], row[0])
+
+    def test_unknown_names_are_all_told_at_once_with_the_nearest(self):
+        errors = self.errors(S103, "--body", "amr2", "--body", "nothing", "--pass", "4",
+                             "--axes", "wrold")
+        self.assertEqual(len(errors), 4, errors)
+        text = "\n".join(errors)
+        for part in ("amr2", "arm2", "nothing", "--pass", "'4'", "wrold"):
+            self.assertIn(part, text)
+
+
+class InspectScenes(RobotCommand):
+    command = "inspect"
+    check_sums, wrenches_on = Inspect.check_sums, Inspect.wrenches_on
+
+    def scene(self, name, *options):
+        return self.answer(f"assets/scenes/{name}.toml", *options)
+
+    def test_every_scene_that_comes_with_it_is_in_balance(self):
+        for scene in sorted((ROOT / "assets/scenes").glob("*.toml")):
+            with self.subTest(scene=scene.stem):
+                result = self.run_it(str(scene), "--json")
+                self.assertEqual(result.returncode, 0, result.stdout[-3000:] + result.stderr)
+                self.check_sums(json.loads(result.stdout))
+
+    def test_under_each_box_of_a_stack_stands_the_weight_of_those_above(self):
+        found = self.scene("box_stack")
+        for body in found["balance"]:
+            number = int(re.fullmatch(r"box(\d+)", body["body"])[1])
+            up = [w["force"][2] for w in body["wrenches"]
+                  if w["source"].startswith("contact/") and w["force"][2] > 0]
+            self.assertAlmostEqual(sum(up), (11 - number) * 9.81, places=6)
+
+    def test_a_coupling_is_read_out_by_its_name_on_the_link_it_pulls(self):
+        urdf = self.folder / "test.urdf"
+        urdf.write_text(PENDULUM)
+        scene = self.folder / "scene.toml"
+        for treatment in ("explicit", "semi-implicit", "implicit"):
+            scene.write_text('step = 0.001\n[[robot]]\nname = "arm"\nmodel = "test.urdf"\n'
+                             '[[coupling]]\nname = "pull"\ntype = "linear"\nlink = "bob"\n'
+                             'point = [0, 0, -1]\nstiffness = 100\ndamping = 3\n'
+                             f'treatment = "{treatment}"\n'
+                             '[coupling.target]\nq = { hinge = 0.2 }\n')
+            found = self.answer(str(scene))
+            self.check_sums(found)
+            pull = self.wrenches_on(found, "bob")["coupling/pull"]["force"]
+            # 100 N/m over the chord of 0.2 rad, from rest.
+            size = sum(x * x for x in pull) ** 0.5
+            self.assertAlmostEqual(size, 100 * 2 * math.sin(0.1),
+                                   delta=1e-9 if treatment == "explicit" else 0.2)
+
+
+if __name__ == "__main__":
+    robot_command.PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main()
