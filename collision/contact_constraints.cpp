@@ -94,7 +94,7 @@ ContactPoint ContactConstraints::start(const Contact& contact) const {
     point.force_W = before->force_W;
     point.couple_W = before->couple_W;
     point.anchor_W = before->anchor_W;
-    point.is_held = before->is_held;
+    point.is_held = before->is_held, point.opens = before->opens;
     point.slip_W = before->slip_W;
   }
   return point;

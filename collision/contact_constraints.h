@@ -68,7 +68,7 @@ struct ContactPoint {
   Vector3 couple_W = Vector3::Zero();    // on b: torsional and rolling friction [N m]
   Vector3 anchor_W = Vector3::Zero();    // compliant: how far the bristles are bent [m]
   Vector3 velocity_W = Vector3::Zero();  // of b against a, at the end of the step [m/s]
-  bool is_held = false;                  // event_source.h
+  bool is_held = false, opens = false;   // event_source.h
   Vector3 slip_W = Vector3::Zero();      // of what is held: at the start of the piece [m/s]
 };
 
@@ -109,7 +109,7 @@ class ContactConstraints final : public EventSource, public Rewindable {
             std::size_t first) noexcept override;
 
   // contact_events.cpp
-  void hold(const ConstraintFrame& frame) noexcept override;
+  void hold(const ConstraintFrame& frame, bool struck) noexcept override;
   void hold_again() noexcept override;
   void look(const ConstraintFrame& frame, Nearest& nearest) const noexcept override;
   void modes(std::vector<char>& modes) const noexcept override;
@@ -149,8 +149,7 @@ class ContactConstraints final : public EventSource, public Rewindable {
   ContactWork& work_of(const Contact& contact);
   void take_step(const ConstraintFrame& frame, const ImpulseProblem& problem, const Part& part,
                  const Matrix3& axes);
-  void take_flow(const ContactPoint& point, const ImpulseConstraint& c, double normal,
-                 double friction);
+  void take_flow(ContactPoint& point, const ImpulseConstraint& c, double normal, double friction);
   double may_close(const ConstraintFrame& frame, const ContactPoint& point) const;
   bool takes_part(const ConstraintFrame& frame, std::size_t point) const;
   void add_contact(const ConstraintFrame& frame, std::size_t point, ImpulseProblem& problem);

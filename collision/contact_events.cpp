@@ -6,13 +6,15 @@
 #include "collision/contact_constraints.h"
 
 namespace twinarm {
-void ContactConstraints::hold(const ConstraintFrame& frame) noexcept {
+void ContactConstraints::hold(const ConstraintFrame& frame, bool struck) noexcept {
   locates_ = true;
   held_pairs_.clear();
   for (ContactPoint& p : points_) {
     const Vector3 velocity = approach(p.contact, frame.k);
     const double u = p.contact.n_W.dot(velocity);
-    p.is_held = p.contact.depth >= -kClosed && u <= kRest;
+    const bool goes_on = p.is_held && !p.opens && !struck;
+    p.is_held = goes_on || (p.contact.depth >= -kClosed && u <= kRest);
+    p.opens = false;
     p.slip_W = velocity - u * p.contact.n_W;
     const std::pair pair(p.contact.a, p.contact.b);
     if (p.is_held && (held_pairs_.empty() || held_pairs_.back() != pair))
@@ -39,14 +41,15 @@ void ContactConstraints::look(const ConstraintFrame& frame, Nearest& nearest) co
   }
 }
 
-void ContactConstraints::take_flow(const ContactPoint& point, const ImpulseConstraint& c,
-                                   double normal, double friction) {
+void ContactConstraints::take_flow(ContactPoint& point, const ImpulseConstraint& c, double normal,
+                                   double friction) {
   const bool moves = std::hypot(c.u[1], c.u[2]) > kMoves;
   const bool slid = c.law == ImpulseLaw::coulomb && point.slip_W.norm() > kMoves;
   const bool goes_on = moves && point.slip_W.dot(point.velocity_W) > 0;
   Mode mode = moves ? Mode::slides : Mode::rests;
   if (slid && !goes_on) mode = Mode::turns;
-  if (c.u[0] > kMoves) mode = Mode::opens;
+  point.opens = c.u[0] > kMoves;
+  if (point.opens) mode = Mode::opens;
   modes_.push_back(mode);
   const auto pair = std::lower_bound(held_pairs_.begin(), held_pairs_.end(),
                                      std::pair(point.contact.a, point.contact.b));

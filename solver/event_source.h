@@ -20,12 +20,13 @@ class EventSource : public ConstraintSource {
   // slower than this rests [m/s]. Angles of joints likewise.
   static constexpr double kClosed = 1e-9, kRest = 1e-7;
   // Slower than this what is held neither slides nor opens [m/s].
-  static constexpr double kMoves = 1e-9;
+  static constexpr double kMoves = 1e-8;
   // Gaps of what is held go by this rate, so that what integration leaves does not add up [1/s].
   static constexpr double kGapRate = 100;
 
-  // After begin_step at the start of a piece: holds what touches.
-  virtual void hold(const ConstraintFrame& frame) noexcept = 0;
+  // After begin_step at the start of a piece: holds what touches, and what was held before and did
+  // not open, unless something has hit meanwhile.
+  virtual void hold(const ConstraintFrame& frame, bool struck) noexcept = 0;
   // Back to the start of the piece, as hold() left it; the next begin_step follows from there.
   virtual void hold_again() noexcept = 0;
 

@@ -13,7 +13,9 @@ constexpr double kShortest = 1e-11;  // of a piece that must be good [s]
 // Residuals of the impulses [m/s]: extrapolation multiplies what they leave by some hundreds.
 constexpr double kGoodGuess = 1e-14, kAccepted = 1e-11, kAim = 1e-13;
 constexpr int kMostPieces = 1'000'000;  // in one step: no run goes on for ever in silence
-constexpr double kFar = 1;              // stands for a gap that is not there [m]
+// Of a piece, relative and absolute: well below EventSource::kMoves, else what rolls seems to slip.
+constexpr double kTolerance = 1e-10;
+constexpr double kFar = 1;  // stands for a gap that is not there [m]
 
 }  // namespace
 
@@ -45,8 +47,8 @@ void EventStep::step(ConstrainedStep& constrained, Mechanism& m, double h, StepR
 // What has come together is struck; the rest is held or free.
 void EventStep::begin(ConstrainedStep& constrained, Mechanism& m, double s) {
   constrained.begin_sources(m, s);
-  constrained.hit(m);
-  for (EventSource* source : sources_) source->hold(frame(constrained, m));
+  const bool struck = constrained.hit(m);
+  for (EventSource* source : sources_) source->hold(frame(constrained, m), struck);
   start_ = m.x;
 }
 
@@ -112,7 +114,7 @@ double EventStep::shorten(ConstrainedStep& constrained, Mechanism& m, double s, 
 void EventStep::force_through(ConstrainedStep& constrained, Mechanism& m, double s) {
   is_solved_ = true;
   modes_.clear();
-  run_column(constrained, m, s, 1);
+  run_column(constrained, m, s, 1, Uneven::taken);
   go_to(constrained, m, values_, s);
 }
 
@@ -121,7 +123,7 @@ EventStep::Piece EventStep::cross(ConstrainedStep& constrained, Mechanism& m, do
   modes_.clear();
   is_solved_ = true;
   for (int n = 1; n <= kColumns; ++n) {
-    if (!run_column(constrained, m, s, n)) return Piece::uneven;
+    if (!run_column(constrained, m, s, n, Uneven::refused)) return Piece::uneven;
     extrapolate(n);
   }
   const std::size_t nv = model_->nv;
@@ -132,7 +134,7 @@ EventStep::Piece EventStep::cross(ConstrainedStep& constrained, Mechanism& m, do
   for (std::size_t i = 0; i < nv; ++i) {
     const double place = std::abs(best[i] - next[i]) / (1 + size_[i]);
     const double speed = std::abs(best[nv + i] - next[nv + i]) / (1 + std::abs(best[nv + i]));
-    error_ = std::max({error_, place / tolerance_, speed / tolerance_});
+    error_ = std::max({error_, place / kTolerance, speed / kTolerance});
     if (!std::isfinite(place + speed)) error_ = 1e300;
   }
   go_to(constrained, m, best, s);
@@ -140,7 +142,8 @@ EventStep::Piece EventStep::cross(ConstrainedStep& constrained, Mechanism& m, do
 }
 
 // n steps of the first order; false as soon as what is held does another thing than before.
-bool EventStep::run_column(ConstrainedStep& constrained, Mechanism& m, double s, int n) {
+bool EventStep::run_column(ConstrainedStep& constrained, Mechanism& m, double s, int n,
+                           Uneven uneven) {
   const std::size_t nv = model_->nv;
   const double step = s / n;
   m.x = start_;
@@ -161,7 +164,7 @@ bool EventStep::run_column(ConstrainedStep& constrained, Mechanism& m, double s,
     if (n == 1) modes_ = modes_now_;
     const bool turns =
         std::count(modes_now_.begin(), modes_now_.end(), EventSource::Mode::turns) > 0;
-    if (turns || modes_now_ != modes_) return false;
+    if (uneven == Uneven::refused && (turns || modes_now_ != modes_)) return false;
   }
   values_ = theta_;
   values_.insert(values_.end(), m.x.qd.begin(), m.x.qd.end());

@@ -30,8 +30,6 @@ namespace twinarm {
 class EventStep {
  public:
   explicit EventStep(const Model<double>& model) : model_(&model) {}
-  // Relative and absolute, of a piece.
-  void set_tolerance(double tolerance) { tolerance_ = tolerance; }
   // All of constrained's sources must be EventSources.
   void step(ConstrainedStep& constrained, Mechanism& m, double h, StepReport& report);
 
@@ -40,7 +38,8 @@ class EventStep {
   enum class Piece { good, inexact, uneven };
 
   Piece cross(ConstrainedStep& constrained, Mechanism& m, double s);
-  bool run_column(ConstrainedStep& constrained, Mechanism& m, double s, int n);
+  enum class Uneven { refused, taken };
+  bool run_column(ConstrainedStep& constrained, Mechanism& m, double s, int n, Uneven uneven);
   void begin(ConstrainedStep& constrained, Mechanism& m, double s);
   double piece(ConstrainedStep& constrained, Mechanism& m, double longest, StepReport& report);
   double shorten(ConstrainedStep& constrained, Mechanism& m, double s, double gap_start,
@@ -55,11 +54,11 @@ class EventStep {
 
   const Model<double>* model_;
   std::vector<EventSource*> sources_;
-  double tolerance_ = 1e-10, length_ = 0;  // of the next piece
+  double length_ = 0;  // of the next piece
   State<double> start_;
   std::vector<double> theta_, rate_, size_;
   // Aitken and Neville's table, its last row: theta, v, works. error_: by how much the last two
-  // columns differ, over the tolerance.
+  // columns differ, over kTolerance.
   std::array<std::vector<double>, kColumns> row_;
   std::vector<double> values_, spare_;
   double error_ = 0;

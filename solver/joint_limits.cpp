@@ -82,13 +82,14 @@ void JointLimits::take(const ConstraintFrame& frame, const ImpulseProblem& probl
     }
     limit.force += row.sign * c.p[0] / frame.h;
     row.after = row.gap + frame.h * u;
-    row.opens = c.u[0] > kMoves;
     if (frame.phase == Phase::step)
       limit.work += c.p[0] * u;
     else
       for (std::size_t i = 0; i < held_.size(); ++i)
-        if (held_[i].limit == row.limit && held_[i].sign == row.sign)
+        if (held_[i].limit == row.limit && held_[i].sign == row.sign) {
+          held_[i].opens = c.u[0] > kMoves;
           flow_works_[i] += 0.5 * c.p[0] * (u + speed(row, frame.x));
+        }
   }
 }
 

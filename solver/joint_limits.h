@@ -30,7 +30,7 @@ class JointLimits final : public EventSource, public Rewindable {
             std::size_t first) noexcept override;
   // joint_limits_events.cpp
   bool closes(const ConstraintFrame& frame) noexcept override;
-  void hold(const ConstraintFrame& frame) noexcept override;
+  void hold(const ConstraintFrame& frame, bool struck) noexcept override;
   void hold_again() noexcept override;
   void look(const ConstraintFrame& frame, Nearest& nearest) const noexcept override;
   void modes(std::vector<char>& modes) const noexcept override;
@@ -45,19 +45,19 @@ class JointLimits final : public EventSource, public Rewindable {
     std::size_t limit;
     double sign;  // +1: velocities away from the lower limit are positive, -1: from the upper
     double gap, after = 0;
-    bool opens = false;
   };
   struct Held {
     std::size_t limit;
     double sign;
+    bool opens = false;
   };
   bool takes_part(const ConstraintFrame& frame, const Row& row) const;
-  bool is_held(const Row& row) const;
+  const Held* held(const Row& row) const;
   double speed(const Row& row, const State<double>& x) const;
   const Model<double>* model_;
   std::vector<Limit> limits_, kept_;
   std::vector<Row> rows_;  // that can be reached in this step
-  std::vector<Held> held_;
+  std::vector<Held> held_, held_before_;
   std::vector<double> flow_works_;  // of each held
 };
 

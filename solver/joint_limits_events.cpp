@@ -11,14 +11,14 @@ double JointLimits::speed(const Row& row, const State<double>& x) const {
   return row.sign * x.qd[model_->iv[static_cast<std::size_t>(limits_[row.limit].body)]];
 }
 
-bool JointLimits::is_held(const Row& row) const {
-  return std::any_of(held_.begin(), held_.end(), [&](const Held& held) {
-    return held.limit == row.limit && held.sign == row.sign;
-  });
+const JointLimits::Held* JointLimits::held(const Row& row) const {
+  for (const Held& h : held_)
+    if (h.limit == row.limit && h.sign == row.sign) return &h;
+  return nullptr;
 }
 
 bool JointLimits::takes_part(const ConstraintFrame& frame, const Row& row) const {
-  if (frame.phase == Phase::flow) return is_held(row);
+  if (frame.phase == Phase::flow) return held(row) != nullptr;
   return frame.phase != Phase::hit || row.gap <= kClosed;
 }
 
@@ -30,10 +30,15 @@ bool JointLimits::closes(const ConstraintFrame& frame) noexcept {
   });
 }
 
-void JointLimits::hold(const ConstraintFrame& frame) noexcept {
-  held_.clear();
-  for (const Row& row : rows_)
-    if (row.gap <= kClosed && speed(row, frame.x) <= kRest) held_.push_back({row.limit, row.sign});
+void JointLimits::hold(const ConstraintFrame& frame, bool struck) noexcept {
+  held_before_.clear();
+  for (const Row& row : rows_) {
+    const Held* before = held(row);
+    const bool goes_on = before && !before->opens && !struck;
+    if (goes_on || (row.gap <= kClosed && speed(row, frame.x) <= kRest))
+      held_before_.push_back({row.limit, row.sign});
+  }
+  std::swap(held_, held_before_);
   flow_works_.assign(held_.size(), 0);
 }
 
@@ -43,7 +48,7 @@ void JointLimits::hold_again() noexcept {
 
 void JointLimits::look(const ConstraintFrame& frame, Nearest& nearest) const noexcept {
   for (const Row& row : rows_) {
-    if (is_held(row)) continue;
+    if (held(row)) continue;
     const double u = speed(row, frame.x);
     const bool closes = u < -kRest;
     if (closes) nearest.time = std::min(nearest.time, std::max(0.0, row.gap) / -u);
@@ -54,7 +59,7 @@ void JointLimits::look(const ConstraintFrame& frame, Nearest& nearest) const noe
 
 void JointLimits::modes(std::vector<char>& modes) const noexcept {
   for (const Row& row : rows_)
-    if (is_held(row)) modes.push_back(row.opens ? Mode::opens : Mode::rests);
+    if (const Held* h = held(row)) modes.push_back(h->opens ? Mode::opens : Mode::rests);
 }
 
 void JointLimits::count_works() noexcept {

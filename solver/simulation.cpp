@@ -66,7 +66,6 @@ void Simulation::locate_events() {
   for (const ForceSource* source : m_.sources) check_located(*source);
   for (ConstraintSource* source : constrained_.sources()) check_located(*source);
   located_.emplace(model());
-  located_->set_tolerance(tolerance_);
 }
 
 void Simulation::set_loops(std::vector<LoopClosure> loops) {
@@ -87,8 +86,6 @@ void Simulation::set_integrator(Integrator integrator) {
 void Simulation::set_tolerance(double tolerance) {
   if (!(tolerance > 0) || !std::isfinite(tolerance))
     throw std::invalid_argument("a tolerance is a positive number");
-  tolerance_ = tolerance;
-  if (located_) located_->set_tolerance(tolerance);
   dopri5_.set_tolerance(tolerance);
   dopri5_.forget();
 }
@@ -153,7 +150,7 @@ StepReport Simulation::advance(double h, bool one_substep) {
     m_.x.t = t + h;
     m_.refresh();
   }
-  if (constrained_.any()) {
+  if (constrained_.any() || located_) {
     if (located_) {
       located_->step(constrained_, m_, h, report);
     } else {

@@ -34,7 +34,7 @@ class Simulation {
   // with the semi-implicit integrator alone and has one round of forces. Throws likewise.
   void add(ConstraintSource& source);
   // Constrained steps locate their events in time and are of high order between them
-  // (solver/event_step.h), at set_tolerance(). Throws std::invalid_argument where a source is
+  // (solver/event_step.h), to 1e-10. Throws std::invalid_argument where a source is
   // implicit in the step, or is no EventSource.
   void locate_events();
   // Bilateral constraints, in place of those before. Throws InputError with all faults; loops must
@@ -83,7 +83,6 @@ class Simulation {
 
   Mechanism m_;
   Integrator integrator_ = Integrator::semi_implicit;
-  double tolerance_ = 1e-10;
   std::vector<double> shift_;
   RungeKutta rk_;
   Dopri5 dopri5_;

@@ -70,12 +70,12 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
     add_limits();
     simulation.add(*limits_);
   }
-  if (!locates_events(scene) || !(contacts_ || limits_)) return;
+  if (!locates_events(scene)) return;
   if (deepest_at_start_ > ContactConstraints::kSlop)
-    throw InputError(
-        {{scene.description.file.string(), 0, "contact",
-          "bodies stand " + number_text(deepest_at_start_) + " m deep in one another at the start",
-          "move them apart, or let contact = \"rigid\" do it"}});
+    throw InputError({{scene.description.file.string(), 0, "contact",
+                       deepest_pair_ + " stand " + short_number_text(deepest_at_start_) +
+                           " m deep in one another at the start",
+                       "move them apart, or let contact = \"rigid\" do it"}});
   simulation.locate_events();
 }
 

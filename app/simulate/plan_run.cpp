@@ -47,7 +47,7 @@ void choose_integrator(const SimulateOptions& options, RunPlan& plan, FaultList&
   plan.tolerance = *options.tolerance;
   if (!is_positive(plan.tolerance))
     faults.add({"", 0, "--tolerance", "must be positive, is " + number_text(plan.tolerance), ""});
-  if (!plan.has_tolerance())
+  if (!plan.is_adaptive())
     faults.add({"", 0, "--tolerance",
                 "'" + std::string(integrator_name(plan.integrator)) +
                     "' has steps of fixed size, and no tolerance",

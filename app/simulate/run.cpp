@@ -123,7 +123,7 @@ class Run {
       if (contacts_->deepest_at_start() > kDeepStart)
         warn_of_deep_start(simulated.scene->description.contact);
     }
-    if (plan.has_tolerance()) sim_.set_tolerance(plan.tolerance);
+    if (plan.is_adaptive()) sim_.set_tolerance(plan.tolerance);
     ledger_.emplace(input_, wrenches_, simulated.couplings.get(),
                     plan.locates_events ? Integrator::dopri5 : plan.integrator);
   }

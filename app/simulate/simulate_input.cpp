@@ -109,9 +109,9 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
   }
   refuse_robot_options(options.robot, faults);
   auto description = attempt(faults, [&] { return read_scene(options.robot.model); });
+  choose_contact(options.contact, description ? &*description : nullptr, faults);
   const RunPlan plan =
       plan_run(options, description ? defaults_of(*description) : RunDefaults{1.0}, faults);
-  choose_contact(options.contact, description ? &*description : nullptr, faults);
   if (!options.robot.gravity.empty())
     if (const auto gravity = parse_gravity(options.robot.gravity, faults); gravity && description)
       description->gravity = *gravity;

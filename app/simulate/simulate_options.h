@@ -17,7 +17,7 @@ struct SimulateOptions {
   std::optional<double> duration, step;  // [s]
   std::string integrator;                // by its name in solver/integrator.h; may be empty
   std::string contact;                   // "rigid" ..; may be empty
-  std::optional<double> tolerance;       // of dopri5 and located events, relative and absolute
+  std::optional<double> tolerance;       // of dopri5, relative and absolute
   std::optional<double> every;           // a sample each so many seconds
   std::string at;                        // samples at these times, "t1,t2,.."
   bool json = false, csv = false;
@@ -39,7 +39,6 @@ struct RunPlan {
   bool locates_events = false;  // in each step
   std::vector<double> times;    // of samples, ascending
   bool is_adaptive() const { return integrator == Integrator::dopri5; }
-  bool has_tolerance() const { return is_adaptive() || locates_events; }
 };
 
 // Adds all faults of the options to the list.

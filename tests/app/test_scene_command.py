@@ -371,14 +371,55 @@ shape = { halfspace = { normal = [0, 0, 1], offset = -0.09 } }
                 self.assertLess(last[name]["position"][2], 0.01 + 1e-3)
 
 
+class Located(Scenes):
+    FALL = BALL.replace("[1, 2, 3]", "[1, 0, 0]").replace("[0, 0, 1]", "[0, 0, 1.1]") + """
+restitution = 1
+[[body]]
+name = "floor"
+fixed = true
+shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
+restitution = 0.8
+friction = 0
+"""
+
+    def test_a_bouncing_ball_is_where_it_should_be_whatever_the_step(self):
+        speed, t = math.sqrt(2 * 9.81), 1.0  # after the first impact, before the second
+        first = speed / 9.81
+        height = 0.8 * speed * (t - first) - 9.81 * (t - first) ** 2 / 2
+        for step in (0.001, 0.3):
+            answer = self.run_scene('contact = "event"\n' + self.FALL, "--duration", 4.5,
+                                    "--step", step, "--at", "1,4.5")
+            ball = answer["samples"][0]["links"]["ball"]
+            self.assertAlmostEqual(ball["position"][2], 0.1 + height, delta=1e-9)
+            self.assertAlmostEqual(ball["position"][0], 1, delta=1e-9)
+            rest = answer["samples"][1]["links"]["ball"]
+            self.assertAlmostEqual(rest["position"][2], 0.1, delta=1e-9)
+            ledger = answer["ledger"]
+            self.assertAlmostEqual(ledger["gravity"], 2 * 9.81, delta=1e-8)
+            self.assertAlmostEqual(ledger["contact/ball-floor/impact"], -2 * 9.81, delta=1e-6)
+            self.assertAlmostEqual(ledger["numerical"], 0, delta=1e-8)
+
+    def test_the_command_line_outranks_the_file(self):
+        answer = self.run_scene(self.FALL, "--duration", 1, "--step", 0.5, "--contact", "event")
+        speed, first = math.sqrt(2 * 9.81), math.sqrt(2 / 9.81)
+        velocity = answer["samples"][-1]["links"]["ball"]["linear_velocity"]
+        self.assertAlmostEqual(velocity[2], 0.8 * speed - 9.81 * (1 - first), delta=1e-7)
+
+    def test_implicit_couplings_and_bodies_in_one_another_are_refused(self):
+        found = self.refusals('contact = "event"\n' + arm("r") + coupling("stiffness = 1"),
+                              "--duration", 1)
+        self.assertIn("does not go with contact = \"event\"", found[0])
+        found = self.refusals('contact = "event"\n' + self.FALL.replace("1.1", "0.09"),
+                              "--duration", 1)
+        self.assertIn("'ball' and 'floor' stand 0.01 m deep in one another", found[0])
+
+
 class Refused(Scenes):
     def test_contacts_take_the_semi_implicit_integrator_only(self):
         pair = BALL + BALL.replace("ball", "other")
         found = self.refusals(pair, "--duration", 1, "--integrator", "rk4")
         self.assertEqual(len(found), 1)
         self.assertIn("contacts go with the semi-implicit integrator", found[0])
-        found = self.refusals('contact = "event"\n' + BALL, "--duration", 1)
-        self.assertIn("impact times cannot be located yet", found[0])
 
     def test_faults_of_options_and_scene_are_told_together(self):
         found = self.refusals("step = -1\n" + BALL, "--floating", "--strict", "--gravity", "1,2",

@@ -19,17 +19,17 @@
 
 namespace twinarm::test {
 
-using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
+using FclGeometry = std::shared_ptr<const fcl::CollisionGeometryd>;
 
 struct FclShape::Impl {
-  Geometry geometry;
+  FclGeometry geometry;
 };
 
 namespace {
 
 constexpr double distance_tolerance = 1e-10;
 
-Geometry convex_of(const ConvexHull& hull) {
+FclGeometry convex_of(const ConvexHull& hull) {
   auto vertices = std::make_shared<std::vector<Vector3>>(hull.vertices);
   auto faces = std::make_shared<std::vector<int>>();
   for (const std::vector<int>& loop : hull.faces) {  // as FCL wants it: count, then the corners

@@ -293,7 +293,7 @@ TEST_CASE("cylinders deep in each other: found poses whose least overlap is hard
   Random random(53);
   for (std::size_t i = 0; i < all.size(); ++i) {
     CAPTURE(i);
-    Pair pair(drum, all[i].b);
+    BoundedPair pair(drum, all[i].b);
     const Solid solid_a(drum), solid_b(all[i].b);
     const Pose X_WA, X_WB{all[i].turn.normalized().toRotationMatrix(), all[i].p_AB};
     const double depth = -pair.world.distance(0, 1, X_WA, X_WB);
