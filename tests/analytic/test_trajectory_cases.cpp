@@ -23,7 +23,7 @@ void for_each_trajectory(F&& f) {
   }
 }
 
-const AnalyticCase& find(const std::string& name) {
+const AnalyticCase& case_named(const std::string& name) {
   for (const AnalyticCase& c : analytic_cases())
     if (name == c.name) return c;
   FAIL("there is no case " << name);
@@ -66,7 +66,7 @@ TEST_CASE("known motions: what is seen has a name each, and the times ascend") {
 TEST_CASE("known motions: times between two steps are met to the order of the scheme") {
   for (const auto& [integrator, factor] :
        {std::pair{Integrator::rk4, 16.0}, {Integrator::verlet, 4.0}}) {
-    const TrajectoryCase& swing = *find("B2").trajectory;  // times of whole seconds
+    const TrajectoryCase& swing = *case_named("B2").trajectory;  // times of whole seconds
     const double coarse = run_lane(swing, {integrator, 0.0124, 0}).error;
     const double fine = run_lane(swing, {integrator, 0.0062, 0}).error;
     CHECK(std::abs(coarse / fine / factor - 1) < 0.1);
@@ -76,10 +76,10 @@ TEST_CASE("known motions: times between two steps are met to the order of the sc
 }
 
 TEST_CASE("known motions: no event, a reading too few or not a number are no success") {
-  TrajectoryCase swing = *find("B1-90").trajectory;
+  TrajectoryCase swing = *case_named("B1-90").trajectory;
   swing.events.until = 1;
   CHECK(std::isnan(run_lane(swing, swing.lane).error));
-  TrajectoryCase fewer = *find("B2").trajectory;
+  TrajectoryCase fewer = *case_named("B2").trajectory;
   fewer.observe = [](const Model<double>&, const State<double>& x) { return x.q; };
   CHECK(std::isnan(run_lane(fewer, fewer.lane).error));
   fewer.observe = [](const Model<double>&, const State<double>& x) {
@@ -89,7 +89,7 @@ TEST_CASE("known motions: no event, a reading too few or not a number are no suc
 }
 
 TEST_CASE("known motions: a recording has the start and every step, with the energy") {
-  const TrajectoryCase& swing = *find("B2").trajectory;
+  const TrajectoryCase& swing = *case_named("B2").trajectory;
   std::vector<TrajectoryPoint> points;
   const LaneResult result = run_lane(swing, {Integrator::euler, 0.01, 0}, &points);
   REQUIRE(points.size() == 1001);

@@ -70,7 +70,7 @@ Poses poses_of_all_kinds(Random& random, const Shape& a, const Shape& b, int k) 
 
 // visit(a, b, solid_a, solid_b, random)
 template <class Visit>
-void for_all_pairs(Visit visit) {
+void for_all_solids(Visit visit) {
   const std::vector<Shape> shapes = shapes_of_all_sizes();
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     for (std::size_t j = 0; j < shapes.size(); ++j) {
@@ -87,7 +87,7 @@ void for_all_pairs(Visit visit) {
 TEST_CASE(
     "gjk: along its normal every distance is proven by the supports, and the points have it") {
   int apart = 0;
-  for_all_pairs([&](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
+  for_all_solids([&](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
                     Random& random) {
     const double radii = solid_a.core.radius + solid_b.core.radius;
     double gap = 0, points = 0;
@@ -110,7 +110,7 @@ TEST_CASE(
 }
 
 TEST_CASE("gjk: FCL never finds a shorter distance, and none where this finds an overlap") {
-  for_all_pairs([](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
+  for_all_solids([](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
                    Random& random) {
     const FclShape fcl_a(a, solid_a.core), fcl_b(b, solid_b.core);
     double longer = 0, lost = 0;
@@ -130,7 +130,7 @@ TEST_CASE("gjk: FCL never finds a shorter distance, and none where this finds an
 
 TEST_CASE("gjk: where it finds an overlap of the cores, no direction parts them") {
   NarrowPhase narrow_phase;
-  for_all_pairs([&](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
+  for_all_solids([&](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
                     Random& random) {
     const double radii = solid_a.core.radius + solid_b.core.radius;
     double parted = 0, unlike = 0;
@@ -152,7 +152,7 @@ TEST_CASE("gjk: where it finds an overlap of the cores, no direction parts them"
 }
 
 TEST_CASE("gjk: what is farther than asked for is told to be so, the rest is not cut short") {
-  for_all_pairs([](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
+  for_all_solids([](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
                    Random& random) {
     int wrong = 0;
     for (int k = 0; k < 50; ++k) {
