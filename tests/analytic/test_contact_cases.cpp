@@ -8,26 +8,6 @@
 
 using namespace twinarm;
 
-namespace {
-
-// Cases that miss their tolerance today, by how much they may, and what limits them. They are held
-// at that, and `twinarm compare` shows them as failed. One that keeps its tolerance is struck off.
-struct KnownMiss {
-  const char* name;
-  double error;
-  const char* limit;
-};
-constexpr KnownMiss known_misses[] = {
-    {"E17", 2e-11, "the residual that the impulse solver aims at"},
-};
-const KnownMiss* known_miss(const std::string& name) {
-  for (const KnownMiss& miss : known_misses)
-    if (name == miss.name) return &miss;
-  return nullptr;
-}
-
-}  // namespace
-
 TEST_CASE("analytic cases: names are unique, groups and references are told") {
   std::set<std::string> names;
   for (const AnalyticCase& c : analytic_cases()) {
@@ -41,14 +21,11 @@ TEST_CASE("analytic cases: names are unique, groups and references are told") {
 }
 
 // The loops have tests of their own, which ask for more (tests/solver/test_loop_motion.cpp).
-TEST_CASE("analytic cases: every case of contact keeps its tolerance, or is known to miss it") {
+TEST_CASE("analytic cases: every case of contact keeps its tolerance") {
   for (const AnalyticCase& c : analytic_cases()) {
     if (std::string(c.group) != "contact") continue;
     CAPTURE(std::string(c.name));
     CAPTURE(std::string(c.reference));
-    const CaseResult result = c.run();
-    const KnownMiss* miss = known_miss(c.name);
-    CHECK(result.error <= (miss ? miss->error : c.tolerance));
-    if (miss) CHECK_FALSE(passes(c, result));
+    CHECK(c.run().error <= c.tolerance);
   }
 }
