@@ -12,8 +12,8 @@ namespace {
 
 constexpr int no_tree = ImpulseConstraint::no_tree;
 constexpr double first_rho = 1e2, usual_rho = 1e5, largest_rho = 1e7;  // times rho0
-constexpr double least_rho = 1, astray = 10;  // a residual so much larger than the best
-constexpr int most_returns = 10;
+constexpr double least_rho = 1, astray = 10;    // a residual so much larger than the best
+constexpr int most_returns = 10, patience = 4;  // times most_newton, from the best of all
 constexpr std::size_t few = 8;             // constraints of an island whose solution is polished
 constexpr double starts[] = {1, 0.1, 10};  // of one path after the other
 
@@ -194,7 +194,7 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
     for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
     const double before = best;
     settle(problem, island);
-    run_rounds(problem, island, most_newton, report);
+    run_rounds(problem, island, patience * most_newton, report);
     judge();
     if (best > 0.5 * before) break;
   }
