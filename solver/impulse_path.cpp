@@ -4,8 +4,8 @@
 //   x o z = s e,    z = T (u + l mu |u_t|_s e_n),    p = T x,    l = max(0, 1 - s/s0),
 //   |u_t|_s^2 = |u_t|^2 + (r s/s0)^2
 //
-// with r the velocities at stake: |u_t| has a corner at rest, which in scenes that are mirror
-// images of themselves the curve does meet, and could not be followed across.
+// with r the velocities at stake: the corner that |u_t| has at rest is rounded, the less the
+// smaller s.
 // At s = s0 nothing is lifted: that is a convex problem. From there the solutions form a curve that
 // leads to s = 0, where l = 1, if contacts can part at all (Jv + b within K* for some v; then all
 // on it is bounded, which is also what Acary, Cadoux, Lemarechal and Malick 2011 ask for). On its

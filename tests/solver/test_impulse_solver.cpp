@@ -70,8 +70,8 @@ TEST_CASE("500 random problems of hard friction, over-determined, end in what ob
   CHECK(worst_breach < 1e-7);
 }
 
-// Four laws to a body, which redundant contacts and discs of their own are among. Where rounds give
-// up a Newton step, they have to go back to where it began: else four of these are not found.
+// Four laws to a body, which redundant contacts and discs of their own are among. Before rounds
+// went back to their best and on from there, four of these were not found.
 TEST_CASE("600 random problems of every law, over-determined, end in what obeys their laws") {
   double worst_breach = 0, worst_residual = 0;
   for (unsigned seed = 0; seed < 600; ++seed) {
