@@ -29,7 +29,7 @@ constexpr double held_rho = 1e4;  // times rho0, of what is not a contact
 
 int ImpulseSolver::approach_centrally(ImpulseProblem& problem, const Island& island) {
   begin_centrally(problem, island);
-  shift_part_ = 1;
+  shift_part_ = 1, rounded_ = 0;
   double step = 1, best = std::numeric_limits<double>::infinity();
   int iterations = 0, stuck = 0;
   for (; iterations < most_iterations && stuck <= most_stuck; ++iterations) {
@@ -105,11 +105,11 @@ double ImpulseSolver::measure_centrally(ImpulseProblem& problem, const Island& i
     if (is_cone(c)) {
       c.p = scaled(c, x_[i]);
       sum += cone_dot(x_[i], z_[i]);
-      const double slip = std::sqrt(c.u[1] * c.u[1] + c.u[2] * c.u[2]);
-      const Vec exact = scaled(c, {c.u[0] + shift_part_ * shift_of(c, c.u), c.u[1], c.u[2]});
+      const double slip = smooth_slip(c.u), part = shift_part_ * c.mu;
+      const double lift = c.law == ImpulseLaw::coulomb ? part * slip : 0;
+      const Vec exact = scaled(c, {c.u[0] + lift, c.u[1], c.u[2]});
       for (int r = 0; r < 3; ++r) r_z_[i][r] = exact[r] - z_[i][r];
       lift_[i] = {0, 0};
-      const double part = shift_part_ * c.mu;
       if (slip > 0) lift_[i] = {part * c.u[1] / slip, part * c.u[2] / slip};
       scaling_[i] = nesterov_todd(x_[i], z_[i]);
       const double T = inverse_mu(c);

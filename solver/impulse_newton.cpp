@@ -75,7 +75,8 @@ void ImpulseSolver::lay_out(const ImpulseProblem& problem, const Island& island)
 }
 
 // The convex problem, whose shifts are held; then, from its solution, Newton on the shifts that
-// follow. That has no function to go down on, so it is taken only as long as it comes nearer.
+// follow. That has no function to go down on, so it is taken only as long as it comes nearer, in
+// shorter steps where there is time for them; otherwise back to the solution.
 int ImpulseSolver::solve_round(ImpulseProblem& problem, const Island& island, int most) {
   int steps = 0;
   for (Gradient now = gradient(problem, island, Shift::held);
@@ -86,14 +87,25 @@ int ImpulseSolver::solve_round(ImpulseProblem& problem, const Island& island, in
     ++steps;
     if (step == 1 && now.largest < 1e2 * now.rounding) break;
   }
+  for (const int t : island.trees)
+    std::copy_n(problem.v(t), problem.size(t),
+                held_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)));
   Gradient now = gradient(problem, island, Shift::followed);
   while (steps < most && now.largest > now.rounding) {
     find_direction(problem, island, false);
     move(problem, island, 1);
     ++steps;
-    const Gradient then = gradient(problem, island, Shift::followed);
-    if (!(then.squared < 0.25 * now.squared)) {
-      move(problem, island, -1);
+    Gradient then = gradient(problem, island, Shift::followed);
+    double step = 1;
+    if (most > quick_newton)
+      for (; !(then.squared < (1 - 0.5 * step) * now.squared) && step > 0.05; step *= 0.5) {
+        move(problem, island, -0.5 * step);
+        then = gradient(problem, island, Shift::followed);
+      }
+    if (!(then.squared < (step < 1 ? 1 - 0.5 * step : 0.25) * now.squared)) {
+      for (const int t : island.trees)
+        std::copy_n(held_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)),
+                    problem.size(t), problem.v(t));
       gradient(problem, island, Shift::held);
       break;
     }

@@ -1,8 +1,11 @@
 // The last resort of impulse_solver.h: the central path of impulse_interior.cpp is followed from a
 // problem that has one solution to the exact law, round all of its turns.
 //
-//   x o z = s e,    z = T (u + l mu |u_t| e_n),    p = T x,    l = max(0, 1 - s/s0)
+//   x o z = s e,    z = T (u + l mu |u_t|_s e_n),    p = T x,    l = max(0, 1 - s/s0),
+//   |u_t|_s^2 = |u_t|^2 + (r s/s0)^2
 //
+// with r the velocities at stake: the corner that |u_t| has at rest is rounded, the less the
+// smaller s.
 // At s = s0 nothing is lifted: that is a convex problem. From there the solutions form a curve that
 // leads to s = 0, where l = 1, if contacts can part at all (Jv + b within K* for some v; then all
 // on it is bounded, which is also what Acary, Cadoux, Lemarechal and Malick 2011 ask for). On its
@@ -24,7 +27,7 @@
 namespace twinarm {
 namespace {
 
-constexpr int most_steps = 600, most_corrections = 5;
+constexpr int most_steps = 600, most_corrections = 5, most_starting = 60;
 constexpr double near = 0.1, slow = 0.7, shorter = 0.3, longest = 0.95, shortest = 1e-6;
 constexpr double sharp = 1e-3;  // a turn by more than 90 degrees within that length is one
 constexpr double boundary = 0.95;
@@ -130,7 +133,10 @@ void ImpulseSolver::Path::find_directions() {
   for_each_cone([&](int i) {
     const ImpulseConstraint& c = problem.constraints()[i];
     of.right_[i] = {s, 0, 0};
-    of.d_z_[i] = scaled(c, {-rise * shift_of(c, c.u), 0, 0});
+    const double slip = of.smooth_slip(c.u), from_s = of.rounded_ * of.rounded_ / slip;
+    const double lift =
+        c.law == ImpulseLaw::coulomb ? c.mu * (of.shift_part_ * from_s - rise * slip) : 0;
+    of.d_z_[i] = scaled(c, {lift, 0, 0});
   });
   of.solve_centrally(problem, island, of.d_z_, 0);
   take(of.tangent_, 1);
@@ -200,20 +206,23 @@ int ImpulseSolver::follow_path(ImpulseProblem& problem, const Island& island, do
     turn->x.resize(x_.size()), turn->z.resize(x_.size());
   }
   d_z_.resize(x_.size());
-  double s0 = 0;
+  double s0 = 0, speed = 0;
   for (const int i : island.constraints)
-    if (is_cone(problem.constraints()[i])) z_[i][0] *= start, s0 = x_[i][0] * z_[i][0];
+    if (is_cone(problem.constraints()[i]))
+      z_[i][0] *= start, speed = z_[i][0], s0 = x_[i][0] * speed;
   Path path{*this, problem, island, s0};
   double best = infinity;
   int steps = 0;
   for (; s0 > 0 && steps < most_steps; ++steps) {
     shift_part_ = std::max(0.0, 1 - path.s / s0);
+    rounded_ = speed * path.s / s0;
     double residual = 0;
     const bool inside = measure_centrally(problem, island, residual) > 0 && residual < 1e100;
     if (inside && residual < best) {
       best = residual;
       for (const int i : island.constraints) kept_[i] = p_[i];
     }
+    if (path.at == Path::At::start && steps > most_starting) break;
     if (residual <= tolerance || path.s > 2 * s0) break;
     if (inside) {
       if (!path.step()) break;

@@ -12,6 +12,8 @@ namespace {
 
 constexpr int no_tree = ImpulseConstraint::no_tree;
 constexpr double first_rho = 1e2, usual_rho = 1e5, largest_rho = 1e7;  // times rho0
+constexpr double least_rho = 1, astray = 10;    // a residual so much larger than the best
+constexpr int most_returns = 10, patience = 4;  // times most_newton, from the best of all
 constexpr std::size_t few = 8;             // constraints of an island whose solution is polished
 constexpr double starts[] = {1, 0.1, 10};  // of one path after the other
 
@@ -25,6 +27,7 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
   rho0_.assign(count, 0);
   D_.resize(count), u_.resize(count), du_.resize(count), p_.resize(count);
   f_.assign(problem.nv(), 0), dv_.resize(problem.nv()), delta_.resize(problem.nv());
+  held_v_.resize(problem.nv());
   std::copy_n(problem.v0(0), problem.tree_count() > 0 ? problem.nv() : 0, problem.v(0));
   find_islands(problem);
   for (std::size_t i = 0; i < count; ++i) {
@@ -160,7 +163,7 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
   order(problem, island);
   lay_out(problem, island);
   double best = std::numeric_limits<double>::infinity();
-  best_p_.resize(problem.constraints().size());
+  best_p_.resize(problem.constraints().size()), round_p_.resize(best_p_.size());
   const auto judge = [&] {
     const double residual = settle(problem, island);
     if (residual < best) {
@@ -186,6 +189,15 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
     report.path = std::max(report.path, follow_path(problem, island, start));
     finish();
   }
+  // On from the best, as long as that comes nearer.
+  for (int k = 0; k < most_returns && best > accepted; ++k) {
+    for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
+    const double before = best;
+    settle(problem, island);
+    run_rounds(problem, island, patience * most_newton, report);
+    judge();
+    if (best > 0.5 * before) break;
+  }
   // What neither can solve (friction beyond Painleve's bound) is at least brought near, so that
   // nothing falls through.
   const auto most_descents =
@@ -197,14 +209,24 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
   for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
 }
 
-// From p and u of the constraints, and v.
+// From p and u of the constraints, and v. Rounds that go astray are taken back to the best, with a
+// smaller rho, which holds them nearer to where they begin.
 void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, int most,
                                ImpulseReport& report) {
-  for (const int i : island.constraints)
-    remember(problem.constraints()[i], problem.constraints(), problem.constraints()[i].u,
-             problem.constraints()[i].p, memory_[i]);
   int newton = 0, round = 0;
-  double last = 0;
+  double last = 0, best = std::numeric_limits<double>::infinity();
+  double most_rho = usual_rho;
+  const auto bring_back = [&] {
+    for (const int i : island.constraints) problem.constraints()[i].p = round_p_[i];
+    settle(problem, island);
+  };
+  const auto remember_all = [&] {
+    for (const int i : island.constraints) {
+      const ImpulseConstraint& c = problem.constraints()[i];
+      remember(c, problem.constraints(), c.u, c.p, memory_[i]);
+    }
+  };
+  remember_all();
   rho_ratio_ = first_rho;
   while (newton < most) {
     for (const int i : island.constraints) memory_[i].rho = rho_ratio_ * rho0_[i];
@@ -221,14 +243,25 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
       remember(c, problem.constraints(), c.u, c.p, memory_[i]);
       residual = std::max(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
     }
-    if (residual <= 0.3 * tolerance) break;
+    report.rounds = std::max(report.rounds, round);
+    report.newton = std::max(report.newton, newton);
+    if (residual <= 0.3 * tolerance) return;
+    if (residual < best) {
+      best = residual;
+      for (const int i : island.constraints) round_p_[i] = problem.constraints()[i].p;
+    } else if (residual > astray * best && rho_ratio_ > least_rho) {
+      bring_back();
+      remember_all();
+      most_rho = rho_ratio_ = std::max(least_rho, 0.01 * rho_ratio_);
+      last = best;
+      continue;
+    }
     // Multipliers that creep while the active laws stay the same need a larger rho.
     const bool creeps = steps <= 2 && residual > 0.3 * last;
-    if (rho_ratio_ < usual_rho || (creeps && rho_ratio_ < largest_rho)) rho_ratio_ *= 10;
+    if (rho_ratio_ < most_rho || (creeps && rho_ratio_ < largest_rho)) rho_ratio_ *= 10;
     last = residual;
   }
-  report.rounds = std::max(report.rounds, round);
-  report.newton = std::max(report.newton, newton);
+  if (best < last) bring_back();
 }
 
 // From a solution to one whose digits are all right, as long as that comes nearer: rounds of one

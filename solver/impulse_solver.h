@@ -17,6 +17,7 @@
 // Deterministic.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "solver/envelope_lu.h"
@@ -41,7 +42,7 @@ class ImpulseSolver {
   double accepted = 5e-9;    // residual of a solution that will do [m/s]
   double tolerance = 1e-10;  // residual that a solution aims at [m/s]
   int quick_newton = 12;     // steps before the start of impulse_interior.cpp is asked for
-  int most_newton = 200;     // steps in all
+  int most_newton = 400;     // steps in all
 
   // Writes v of the problem, and p and u of its constraints.
   ImpulseReport solve(ImpulseProblem& problem);
@@ -82,12 +83,12 @@ class ImpulseSolver {
   struct Path;
   int follow_path(ImpulseProblem& problem, const Island& island, double start);
 
-  std::vector<double> factors_;           // of the blocks of M: L L^T, 1 / l_ii on the diagonal
-  std::vector<LawMemory> memory_;         // by constraint
-  std::vector<double> rho0_;              // by constraint: 1 / J diag(M)^-1 J^T
-  std::vector<Mat> D_;                    // by constraint
-  std::vector<Vec> u_, du_, p_, best_p_;  // by constraint
-  std::vector<double> f_, dv_, delta_;    // by velocity
+  std::vector<double> factors_;    // of the blocks of M: L L^T, 1 / l_ii on the diagonal
+  std::vector<LawMemory> memory_;  // by constraint
+  std::vector<double> rho0_;       // by constraint: 1 / J diag(M)^-1 J^T
+  std::vector<Mat> D_;             // by constraint
+  std::vector<Vec> u_, du_, p_, best_p_, round_p_;  // by constraint
+  std::vector<double> f_, dv_, delta_, held_v_;     // by velocity
   std::vector<Island> islands_;
   std::size_t island_count_ = 0;
   std::vector<int> root_, island_of_;  // by tree
@@ -100,6 +101,10 @@ class ImpulseSolver {
   // of impulse_interior.cpp, by constraint
   int cones_ = 0;
   double shift_part_ = 1;  // of mu |u_t| that counts
+  double rounded_ = 0;     // radius of the corner of |u_t| at rest, which the path rounds [m/s]
+  double smooth_slip(const Vec& u) const {
+    return std::sqrt(u[1] * u[1] + u[2] * u[2] + rounded_ * rounded_);
+  }
   std::vector<ConeVec> x_, z_, dx_, dz_, d_, r_z_, right_, kept_;
   std::vector<std::array<double, 2>> lift_;
   std::vector<ConeScaling> scaling_;

@@ -70,6 +70,24 @@ TEST_CASE("500 random problems of hard friction, over-determined, end in what ob
   CHECK(worst_breach < 1e-7);
 }
 
+// Four laws to a body, which redundant contacts and discs of their own are among. Before rounds
+// went back to their best and on from there, four of these were not found.
+TEST_CASE("600 random problems of every law, over-determined, end in what obeys their laws") {
+  double worst_breach = 0, worst_residual = 0;
+  for (unsigned seed = 0; seed < 600; ++seed) {
+    ImpulseProblem problem =
+        seed < 300 ? random_problem(seed, 3, 12, 1e3) : random_problem(seed - 300, 6, 18, 100);
+    ImpulseSolver solver;
+    worst_residual = std::max(worst_residual, solver.solve(problem).residual);
+    double largest = 1;  // impulse
+    for (const ImpulseConstraint& c : problem.constraints()) largest = std::max(largest, c.p[0]);
+    for (const ImpulseConstraint& c : problem.constraints())
+      worst_breach = std::max(worst_breach, breach(problem, c) / largest);
+  }
+  CHECK(worst_residual <= 1e-8);
+  CHECK(worst_breach < 1e-6);  // residual 1e-8 m/s, impulses of masses up to 1000
+}
+
 // Normals along x and y, both of which are to leave at 1 m/s: so v_x, v_y >= 1 and friction pulls
 // against both. By symmetry m = (1 - mu) p. From mu = 1 on the sum of all impulses points into the
 // groove: no solution.
