@@ -28,6 +28,7 @@ struct AnalyticCase {
   double tolerance;       // the case passes where error <= tolerance; 0: nothing may be broken
   CaseResult (*run)();    // null: a trajectory
   std::shared_ptr<const TrajectoryCase> trajectory{};
+  CaseResult (*mistaken)() = nullptr;  // run() with a mistake in it, which must fail; may be null
 };
 
 inline AnalyticCase trajectory_case(const char* name, const char* group, const char* reference,

@@ -16,11 +16,13 @@ const std::vector<AnalyticCase>& analytic_cases() {
              symmetric_body(),  asymmetric_body(), heavy_top(),
              floating_tree(),   pendulum(),        compound_pendulum(),
              sliding_joints(),  oscillators(),     spherical_pendulum(),
-             universal_joint(), loop_runs(),       impacts(),
-             sliding(),         toppling(),        rolling(),
-             painleve(),        spinning(),        stacks(),
-             hollows(),         arches(),          wedges(),
-             rod_impacts(),
+             universal_joint(), double_pendulum(), hanging_chain(),
+             cart_pole(),       kapitza(),         crossed_hinges(),
+             loop_runs(),       impacts(),         sliding(),
+             toppling(),        rolling(),         painleve(),
+             spinning(),        stacks(),          hollows(),
+             arches(),          wedges(),          rod_impacts(),
+             golden_pendulum(), integrators(),
          })
       cases.insert(cases.end(), family.begin(), family.end());
     return cases;

@@ -17,5 +17,12 @@ std::vector<AnalyticCase> sliding_joints();      // B4, B5, B9
 std::vector<AnalyticCase> oscillators();         // B6
 std::vector<AnalyticCase> spherical_pendulum();  // B7
 std::vector<AnalyticCase> universal_joint();     // B8
+std::vector<AnalyticCase> double_pendulum();     // C1, C2, C10
+std::vector<AnalyticCase> hanging_chain();       // C3, C4, C5
+std::vector<AnalyticCase> cart_pole();           // C6, C10
+std::vector<AnalyticCase> kapitza();             // C7
+std::vector<AnalyticCase> crossed_hinges();      // C8, C9
+std::vector<AnalyticCase> golden_pendulum();     // G1, G2
+std::vector<AnalyticCase> integrators();         // G2, G3, G4
 
 }  // namespace twinarm::smooth_cases

@@ -1,6 +1,7 @@
 #include "benchmarks/analytic/special_functions.h"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/special_functions/bessel.hpp>
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
 #include <cmath>
@@ -27,6 +28,10 @@ long double arithmetic_geometric_mean(long double a, long double b) {
     a = mean;
   }
   return a;
+}
+
+double zero_of_bessel(int k) {
+  return boost::math::cyl_bessel_j_zero(0.0, k);
 }
 
 long double integral(const std::function<long double(long double)>& f, long double a,

@@ -4,10 +4,10 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
-#include <array>
 #include <numbers>
 #include <string>
 
+#include "benchmarks/analytic/golden_steps.h"
 #include "solver/model_builder.h"
 #include "tests/solver/pendulum.h"
 
@@ -17,65 +17,6 @@ using namespace twinarm::testing;
 namespace {
 
 constexpr double kExactAngle = -1.4050273115247991;  // t = 1 s, released at 90 degrees
-
-struct Golden {
-  Integrator integrator;
-  double angle, rate;           // at 1 s, h = 10 ms
-  std::array<double, 3> error;  // of the angle, h = 10, 5, 2.5 ms
-  double energy;                // after 100 s, h = 10 ms; 0 at the start
-};
-const Golden kGolden[] = {
-    {Integrator::euler,
-     -1.4542586468839336,
-     -1.910991855901703,
-     {0.04923, 0.02463, 0.01232},
-     48.11},
-    {Integrator::semi_implicit,
-     -1.4140239721507901,
-     -1.7993332855089053,
-     {0.008997, 0.004498, 0.002249},
-     -0.03523},
-    {Integrator::semi_implicit_xv,
-     -1.3960306392957011,
-     -1.7993332855089053,
-     {0.008997, 0.004498, 0.002249},
-     0.04299},
-    {Integrator::verlet,
-     -1.405085873500597,
-     -1.7989637723982739,
-     {5.856e-05, 1.464e-05, 3.66e-06},
-     -0.001947},
-    {Integrator::midpoint,
-     -1.4052124376524113,
-     -1.7983889145061638,
-     {0.0001851, 4.511e-05, 1.113e-05},
-     0.01116},
-    {Integrator::heun,
-     -1.4051560758049801,
-     -1.7986875338290331,
-     {0.0001288, 3.074e-05, 7.503e-06},
-     0.01217},
-    {Integrator::rk4,
-     -1.4050273031405154,
-     -1.7993090484649084,
-     {8.384e-09, 5.033e-10, 3.081e-11},
-     -7.125e-07},
-    {Integrator::implicit_midpoint,
-     -1.4049687399868869,
-     -1.7996300100240135,
-     {5.857e-05, 1.464e-05, 3.66e-06},
-     0.0003859},
-    {Integrator::trapezoid,
-     -1.4049101749531139,
-     -1.7999266545133732,
-     {0.0001171, 2.928e-05, 7.32e-06},
-     -0.0007679},
-    {Integrator::implicit_euler,
-     -1.3557749142852238,
-     -1.6957210499962863,
-     {0.04925, 0.02464, 0.01232},
-     -9.809},
-};
 
 // A mechanism, where it starts, and what is known of it after a time.
 struct Case {
@@ -159,8 +100,8 @@ Case heavy_top() {  // A4, cuspidal
 }  // namespace
 
 TEST_CASE("a pendulum from 90 degrees, 100 steps of 10 ms, meets the golden numbers to 1e-12") {
-  CHECK(std::size(kGolden) == all_integrators.size() - 1);  // dopri5 has no fixed step
-  for (const Golden& row : kGolden) {
+  CHECK(std::size(golden_steps()) == all_integrators.size() - 1);  // dopri5 has no fixed step
+  for (const GoldenSteps& row : golden_steps()) {
     CAPTURE(std::string(integrator_name(row.integrator)));
     const State<double> x = swing(kRight, 0, row.integrator, 0.01, 1);
     CHECK(std::abs(x.q[0] - row.angle) < 1e-12);
@@ -170,7 +111,7 @@ TEST_CASE("a pendulum from 90 degrees, 100 steps of 10 ms, meets the golden numb
 }
 
 TEST_CASE("a pendulum's errors at three steps, and its energy after 100 s, are the golden ones") {
-  for (const Golden& row : kGolden) {
+  for (const GoldenSteps& row : golden_steps()) {
     CAPTURE(std::string(integrator_name(row.integrator)));
     double h = 0.01;
     for (const double error : row.error) {
