@@ -14,9 +14,9 @@
 namespace twinarm {
 namespace {
 
-using Pair = std::pair<int, int>;
+using GeometryPair = std::pair<int, int>;
 
-std::string name_of_pair(const RecordingHeader& header, const Pair& pair) {
+std::string name_of_pair(const RecordingHeader& header, const GeometryPair& pair) {
   const auto name = [&](int id) {
     const auto i = static_cast<std::size_t>(id);
     return i < header.geometries.size() ? header.geometries[i] : std::to_string(id);
@@ -32,8 +32,8 @@ std::string in_csv(const std::string& name) {
 }
 
 // The pairs that touch in any frame, whose forces have columns.
-std::vector<Pair> pairs_of(const Recording& recording) {
-  std::vector<Pair> pairs;
+std::vector<GeometryPair> pairs_of(const Recording& recording) {
+  std::vector<GeometryPair> pairs;
   for (std::size_t n = 0; n < recording.size(); ++n)
     for (const RecordedContact& c : recording.frame(n).contacts) pairs.emplace_back(c.a, c.b);
   std::sort(pairs.begin(), pairs.end());
@@ -41,7 +41,8 @@ std::vector<Pair> pairs_of(const Recording& recording) {
   return pairs;
 }
 
-std::string recorded_csv_header(const Recording& recording, const std::vector<Pair>& pairs) {
+std::string recorded_csv_header(const Recording& recording,
+                                const std::vector<GeometryPair>& pairs) {
   const RecordingHeader& header = recording.header();
   std::string line = "t[s],step[1]";
   const auto add = [&](const std::string& name) { line += "," + in_csv(name); };
@@ -49,14 +50,14 @@ std::string recorded_csv_header(const Recording& recording, const std::vector<Pa
   for (const std::string& coupling : header.couplings)
     for (const char* axis : {"x", "y", "z"})
       add("coupling/" + coupling + "/" + axis + "[N or N m]");
-  for (const Pair& pair : pairs)
+  for (const GeometryPair& pair : pairs)
     for (const char* axis : {"x", "y", "z"}) add(name_of_pair(header, pair) + "/" + axis + "[N]");
   for (const std::string& row : recording.rows()) add("ledger/" + row + "[J]");
   return line + ",hash[1]";
 }
 
 void print_recording_csv(const Recording& recording) {
-  const std::vector<Pair> pairs = pairs_of(recording);
+  const std::vector<GeometryPair> pairs = pairs_of(recording);
   fmt::print("{}\n", recorded_csv_header(recording, pairs));
   for (std::size_t n = 0; n < recording.size(); ++n) {
     check_interrupt();
@@ -66,10 +67,10 @@ void print_recording_csv(const Recording& recording) {
     for (const double value : frame.values) add(value);
     for (const Vector3& pull : frame.pulls)
       for (const double component : pull) add(component);
-    for (const Pair& pair : pairs) {
+    for (const GeometryPair& pair : pairs) {
       Vector3 force = Vector3::Zero();
       for (const RecordedContact& c : frame.contacts)
-        if (Pair(c.a, c.b) == pair) force += c.force;
+        if (GeometryPair(c.a, c.b) == pair) force += c.force;
       for (const double component : force) add(component);
     }
     std::vector<double> works(recording.rows().size());

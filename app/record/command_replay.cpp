@@ -34,7 +34,7 @@ std::vector<std::size_t> parted(const Recording& recording, const Replay& fork) 
   return order;
 }
 
-std::string named(const RecordedColumn& column) {
+std::string with_unit(const RecordedColumn& column) {
   return column.name + "[" + column.unit + "]";
 }
 
@@ -44,7 +44,7 @@ void print_branches(const Recording& recording, const Replay& fork) {
   std::vector<std::string> headings{"t [s]"};
   for (const std::size_t c : columns)
     for (const char* branch : {"recorded ", "fork "})
-      headings.push_back(branch + named(recording.header().columns[c]));
+      headings.push_back(branch + with_unit(recording.header().columns[c]));
   TextTable table(std::move(headings));
   const std::size_t count = fork.frames.size();
   const std::size_t stride = std::max<std::size_t>(1, (count + kTableRows - 1) / kTableRows);
@@ -96,7 +96,8 @@ void write_branch(JsonWriter& json, const char* name, const Recording& recording
     const RecordedFrame frame = forked ? replay.frames[n] : recording.frame(replay.first + n);
     for (std::size_t c = 0; c < columns.size(); ++c) values[c].push_back(frame.values[c]);
   }
-  for (std::size_t c = 0; c < columns.size(); ++c) json.key(named(columns[c])).numbers(values[c]);
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    json.key(with_unit(columns[c])).numbers(values[c]);
   json.end_object();
   json.end_object();
 }

@@ -15,7 +15,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // The largest x in (0, 1] with good(x), good for all that are smaller; 0: none above 1e-12.
 template <class Good>
-double largest(Good good) {
+double largest_part(Good good) {
   if (good(1.0)) return 1;
   double low = -12, high = 0;  // powers of ten
   if (!good(1e-12)) return 0;
@@ -26,15 +26,15 @@ double largest(Good good) {
   return std::pow(10, low);
 }
 
-struct Method {
+struct StepMethod {
   bool known = true, held = false;
   Scheme scheme = Scheme::implicit;
   double undamped = 0;  // limit of w h of a method that prediction.h has not; 0: it has
   std::string name;
 };
 
-Method method_of(const SceneCoupling& coupling, Integrator integrator) {
-  Method method;
+StepMethod step_method_of(const SceneCoupling& coupling, Integrator integrator) {
+  StepMethod method;
   if (coupling.rate > 0) return {true, true, Scheme::hold, 0, "held force"};
   if (coupling.treatment == Treatment::implicit) method.scheme = Scheme::implicit;
   if (coupling.treatment == Treatment::semi_implicit) method.scheme = Scheme::implicit_damper;
@@ -73,18 +73,19 @@ StiffMode stiff_mode(const Eigen::MatrixXd& M, const Coupling::JointSpace& space
   return {std::sqrt(std::max(0.0, modes.eigenvalues().maxCoeff())), shape.dot(space.B * shape)};
 }
 
-double limit_of(const Method& method, const Eigen::MatrixXd& M, const Coupling::JointSpace& space) {
+double limit_of(const StepMethod& method, const Eigen::MatrixXd& M,
+                const Coupling::JointSpace& space) {
   const StiffMode mode = stiff_mode(M, space);
   if (method.undamped > 0) return mode.w > 0 ? method.undamped / mode.w : kNever;
   if (!method.held) return largest_stable_step(M, space.K, space.B, method.scheme);
-  return 10 * largest([&](double part) {
+  return 10 * largest_part([&](double part) {
            const double h = 10 * part, alpha = mode.w * mode.w * h * h;
            return alpha == 0 || is_stable(method.scheme, alpha, mode.damping * h);
          });
 }
 
 Suspect suspect_of(const SceneCoupling& spec, const Coupling& coupling, const Kinematics& k,
-                   const Eigen::MatrixXd& M, const Method& method, double h) {
+                   const Eigen::MatrixXd& M, const StepMethod& method, double h) {
   Suspect suspect;
   const Coupling::JointSpace space = coupling.joint_space(k);
   const double w = stiff_mode(M, space).w;
@@ -98,7 +99,7 @@ Suspect suspect_of(const SceneCoupling& spec, const Coupling& coupling, const Ki
   suspect.gain = "stiffness";
   suspect.unit = spec.type == CouplingDescription::Type::linear ? "N/m" : "N m/rad";
   if (suspect.step > suspect.largest_step)
-    suspect.largest_gain = spec.spring.k * largest([&](double part) {
+    suspect.largest_gain = spec.spring.k * largest_part([&](double part) {
                              return limit_of(method, M, {part * space.K, space.B}) >= suspect.step;
                            });
   return suspect;
@@ -158,7 +159,7 @@ std::vector<Suspect> find_suspects(const SimulatePlan& prepared) {
   if (input.scene)
     for (std::size_t c = 0; c < input.couplings->size(); ++c) {
       const SceneCoupling& spec = input.couplings->spec(c);
-      const Method method = method_of(spec, prepared.run.integrator);
+      const StepMethod method = step_method_of(spec, prepared.run.integrator);
       if (method.known)
         suspects.push_back(
             suspect_of(spec, input.couplings->coupling(c), k, M, method, prepared.run.step));

@@ -28,7 +28,7 @@ std::vector<std::string> parts_of(const std::string& path) {
   return parts;
 }
 
-void write_value(TomlValue& value, const std::string& text) {
+void write_toml_value(TomlValue& value, const std::string& text) {
   const auto number = parse_number(text);
   value.text = text;
   value.number = number.value_or(text == "true" ? 1 : 0);
@@ -69,7 +69,7 @@ void apply(const Change& change, TomlValue& scene, FaultList& faults) {
   std::vector<std::string> names;
   for (const TomlValue& member : scene.members) names.push_back(member.key);
   if (!list) return fault("the scene has no '" + name + "'", name_remedy(name, names, "keys"));
-  if (parts.size() == 1) return write_value(*list, change.value);
+  if (parts.size() == 1) return write_toml_value(*list, change.value);
   std::vector<TomlValue*> items;
   for (std::size_t i = 0; i < list->items.size(); ++i) {
     const TomlValue* own_name = list->items[i].find("name");
@@ -89,7 +89,7 @@ void apply(const Change& change, TomlValue& scene, FaultList& faults) {
       value->key = parts.back();
       value->line = item->line;
     }
-    write_value(*value, change.value);
+    write_toml_value(*value, change.value);
   }
 }
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "app/simulate/add_contacts.h"
+#include "app/simulate/limit_watch.h"
+#include "app/simulate/run_end.h"
 #include "collision/import/number_text.h"
 #include "solver/energy.h"
-#include "solver/first_bad.h"
 
 namespace twinarm {
 namespace {
@@ -22,6 +22,12 @@ constexpr double kDeepStart = 1e-4;
 // Between two checkpoints, from the earlier of which a post-mortem is computed again.
 constexpr long kCheckpoint = 1000;
 constexpr long kEnergyEvery = 8;  // steps: the check costs a pass
+
+void visit_head(Memory& memory, long& steps, double& end, long& unsolved) {
+  memory.visit(steps);
+  memory.visit(end);
+  memory.visit(unsolved);
+}
 
 // The times t = n step, the last one `duration`.
 class Grid {
@@ -43,78 +49,6 @@ class Grid {
   double step_, duration_;
   long steps_ = 0;
 };
-
-// Notes the first time at which a joint stands beyond its limits, which do not act.
-class LimitWatch {
- public:
-  LimitWatch(const RobotInput& input, bool limits_act, std::vector<std::string>& warnings)
-      : warnings_(warnings) {
-    if (limits_act) return;
-    for (const JointDescription& joint : input.robot.joints) {
-      const int body = input.model.find_joint(joint.name);
-      if (joint.is_limited() && body > 0)
-        limits_.push_back({&joint, input.model.iq[static_cast<std::size_t>(body)]});
-    }
-  }
-  void look(double t, const State<double>& x) {
-    for (Limit& limit : limits_) {
-      const double q = x.q[limit.iq];
-      const double slack = 1e-9;  // a joint that rests at its limit is not beyond it
-      if (limit.is_told || (q >= limit.joint->lower - slack && q <= limit.joint->upper + slack))
-        continue;
-      limit.is_told = true;
-      warnings_.push_back(fmt::format(
-          "joint '{}' stands at {} beyond its limits {} .. {} at t = {} s: position limits do not "
-          "act here",
-          limit.joint->name, short_number_text(q), short_number_text(limit.joint->lower),
-          short_number_text(limit.joint->upper), short_number_text(t)));
-    }
-  }
-
- private:
-  struct Limit {
-    const JointDescription* joint;
-    std::size_t iq;
-    bool is_told = false;
-  };
-  std::vector<Limit> limits_;
-  std::vector<std::string>& warnings_;
-};
-
-double default_bound(const Model<double>& model, const State<double>& x) {
-  double mass = 0;
-  for (const auto& inertia : model.I) mass += inertia.m;
-  const double weight = mass * to_eigen(model.gravity).norm();
-  return RunPlan::kGrowth * std::max({1.0, kinetic_energy(model, x), weight});
-}
-
-PostMortem examine(const StepReport& report, const Simulation& simulation,
-                   const State<double>& last, double t, long step) {
-  const Model<double>& model = simulation.model();
-  PostMortem found;
-  found.kinetic_energy = kinetic_energy(model, last);
-  found.time = t;
-  found.step = step;
-  double fastest = 0;
-  for (std::size_t i = 1; i < model.parent.size(); ++i)
-    for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof)
-      if (std::abs(last.qd[dof]) > fastest) {
-        fastest = std::abs(last.qd[dof]);
-        found.fastest_joint = model.joint_name[i];
-        found.joint = model.joint_name[i];
-        found.body = model.body_name[i];
-      }
-  if (!report.finite && report.bad_field) {
-    const auto body = static_cast<std::size_t>(report.bad_body);
-    found.body = model.body_name[body];
-    found.joint = model.joint_name[body];
-    found.field = report.bad_field;
-    found.pass = first_bad_quantity(model, simulation.forces(), simulation.workspace()).pass;
-  }
-  found.reason = report.finite ? "no substep however short meets the tolerance"
-                               : "a number is not finite: the run diverged";
-  return found;
-}
 
 class Run : public RunView {
  public:
@@ -147,8 +81,8 @@ class Run : public RunView {
     if (plan.is_adaptive()) sim_.set_tolerance(plan.tolerance);
     ledger_.emplace(input_, wrenches_, simulated.couplings.get(),
                     plan.locates_events ? Integrator::dopri5 : plan.integrator);
-    bound_ =
-        plan.energy_bound > 0 ? plan.energy_bound : default_bound(input_.model, input_.state.x);
+    bound_ = plan.energy_bound > 0 ? plan.energy_bound
+                                   : default_energy_bound(input_.model, input_.state.x);
     if (from) go_on_from(*from);
     earlier_ = later_ = memory();
   }
@@ -202,9 +136,7 @@ class Run : public RunView {
     if (watch_.warn) watch_.warn(result_.warnings.back());
   }
   void visit_memory(Memory& memory) {
-    memory.visit(result_.steps);
-    memory.visit(result_.end);
-    memory.visit(unsolved_);
+    visit_head(memory, result_.steps, result_.end, unsolved_);
     sim_.visit_memory(memory);
     ledger_->visit_memory(memory);
   }
@@ -257,7 +189,7 @@ class Run : public RunView {
              plan_.times[next_] - t <= kSameTime * h_most;
            ++next_)
         watch_.sample(plan_.times[next_], before_->state());
-      result_.post_mortem = examine(report, sim_, ledger_->now(), t, result_.steps);
+      result_.post_mortem = examine_end(report, sim_, ledger_->now(), t, result_.steps);
       return false;
     }
     unsolved_ += report.converged ? 0 : 1;
@@ -281,7 +213,7 @@ class Run : public RunView {
   bool stays_bounded(const StepReport& report) {
     const double energy = kinetic_energy(input_.model, sim_.state());
     if (energy <= bound_) return true;
-    PostMortem found = examine(report, sim_, sim_.state(), result_.end, result_.steps);
+    PostMortem found = examine_end(report, sim_, sim_.state(), result_.end, result_.steps);
     found.by_energy = true;
     found.energy_bound = bound_;
     found.field = "qd";
@@ -320,9 +252,17 @@ class Run : public RunView {
 
 }  // namespace
 
+Memory simulation_memory(const std::string& memory) {
+  Memory all(memory);
+  long steps = 0, unsolved = 0;
+  double end = 0;
+  visit_head(all, steps, end, unsolved);
+  return all;
+}
+
 SimulateResult run_plan(const SimulateInput& input, const RunPlan& plan, const RunWatch& watch,
                         const RunStart* from) {
-  return Run(input, plan, watch, start).run();
+  return Run(input, plan, watch, from).run();
 }
 
 }  // namespace twinarm

@@ -78,6 +78,9 @@ struct RunWatch {
   std::function<void(double t)> tick;                          // after each step; may throw
 };
 
+// Of RunView::memory() the part that Simulation::visit_memory reads.
+Memory simulation_memory(const std::string& memory);
+
 // Samples between two points of the grid are reached by a side step from the earlier one; the run
 // is the same, whatever is sampled.
 // `start`: goes on from there, with the same bits. Throws InputError where it is of another scene.
