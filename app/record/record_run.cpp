@@ -133,7 +133,7 @@ RunRecorder::RunRecorder(const std::filesystem::path& file, RecordingHeader head
     : writer_(file, std::move(header)), prepared_(prepared), every_(every) {}
 
 void RunRecorder::look(RunView& run) {
-  const double t = run.simulation().state().t, slack = 1e-9 * prepared_.run.step;
+  const double t = run.simulation().state().t, slack = 1e-6 * std::min(prepared_.run.step, 1e-3);
   const bool at_end = t >= prepared_.run.duration - slack;
   if (every_ > 0 && t < next_ - slack && !at_end) return;
   while (every_ > 0 && next_ <= t + slack) next_ += every_;

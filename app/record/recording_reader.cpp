@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "app/output_file.h"
@@ -101,7 +102,7 @@ RecordedFrame Recording::frame(std::size_t n) const {
 }
 
 std::size_t Recording::at(double t, const std::string& option) const {
-  const double slack = 1e-9 * std::max(header_.step, 1e-300);
+  const double slack = 1e-6 * std::min(header_.step, 1e-3);  // sums of steps are rounded
   const double first = places_.front().t, last = places_.back().t;
   if (!(t >= first - slack && t <= last + slack))
     throw InputError({{file_, 0, option,

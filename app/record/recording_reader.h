@@ -22,7 +22,7 @@ class Recording {
 
   std::size_t size() const { return places_.size(); }
   RecordedFrame frame(std::size_t n) const;
-  // The last frame at or before t (a billionth of a step after it counts too). Throws InputError
+  // The last frame at or before t (a millionth of a step after it counts too). Throws InputError
   // where t lies outside of what is recorded, naming `option`.
   std::size_t at(double t, const std::string& option) const;
 

@@ -27,7 +27,7 @@ double largest_part(Good good) {
 }
 
 struct StepMethod {
-  bool known = true, held = false;
+  bool known = true;
   Scheme scheme = Scheme::implicit;
   double undamped = 0;  // limit of w h of a method that prediction.h has not; 0: it has
   std::string name;
@@ -35,7 +35,7 @@ struct StepMethod {
 
 StepMethod step_method_of(const SceneCoupling& coupling, Integrator integrator) {
   StepMethod method;
-  if (coupling.rate > 0) return {true, true, Scheme::hold, 0, "held force"};
+  if (coupling.rate > 0) return {true, Scheme::hold, 0, "held force"};
   if (coupling.treatment == Treatment::implicit) method.scheme = Scheme::implicit;
   if (coupling.treatment == Treatment::semi_implicit) method.scheme = Scheme::implicit_damper;
   if (coupling.treatment != Treatment::explicit_) {
@@ -63,45 +63,64 @@ StepMethod step_method_of(const SceneCoupling& coupling, Integrator integrator) 
   return method;
 }
 
-// The stiffest mode of M^-1 K: w, and the damping in it.
-struct StiffMode {
+// Of one coupling: e'' + damping e' + w^2 e = 0. K and B of a coupling are alike but for k and b,
+// so they share their modes.
+struct CouplingMode {
   double w = 0, damping = 0;
 };
-StiffMode stiff_mode(const Eigen::MatrixXd& M, const Coupling::JointSpace& space) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(space.K, M);
-  const Eigen::VectorXd shape = modes.eigenvectors().rightCols(1);
-  return {std::sqrt(std::max(0.0, modes.eigenvalues().maxCoeff())), shape.dot(space.B * shape)};
+std::vector<CouplingMode> modes_of(const Eigen::MatrixXd& M, const Coupling::JointSpace& space) {
+  const bool by_stiffness = !space.K.isZero(0);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+      by_stiffness ? space.K : space.B, M);
+  const Eigen::VectorXd& values = solver.eigenvalues();
+  std::vector<CouplingMode> modes;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (!(values[i] > 1e-9 * values.maxCoeff())) continue;  // what the coupling does not move
+    const Eigen::VectorXd shape = solver.eigenvectors().col(i);
+    modes.push_back({by_stiffness ? std::sqrt(values[i]) : 0, shape.dot(space.B * shape)});
+  }
+  return modes;
 }
 
-double limit_of(const StepMethod& method, const Eigen::MatrixXd& M,
-                const Coupling::JointSpace& space) {
-  const StiffMode mode = stiff_mode(M, space);
-  if (method.undamped > 0) return mode.w > 0 ? method.undamped / mode.w : kNever;
-  if (!method.held) return largest_stable_step(M, space.K, space.B, method.scheme);
-  return 10 * largest_part([&](double part) {
-           const double h = 10 * part, alpha = mode.w * mode.w * h * h;
-           return alpha == 0 || is_stable(method.scheme, alpha, mode.damping * h);
-         });
+// With the stiffness, or where there is none the damping, times `part`.
+bool holds(const StepMethod& method, const std::vector<CouplingMode>& modes, double h,
+           double part = 1) {
+  return std::all_of(modes.begin(), modes.end(), [&](const CouplingMode& mode) {
+    const double alpha = part * mode.w * mode.w * h * h;
+    if (method.undamped > 0) return alpha <= method.undamped * method.undamped;
+    return is_stable(method.scheme, alpha, (mode.w > 0 ? 1 : part) * mode.damping * h);
+  });
+}
+
+double largest_step(const StepMethod& method, const std::vector<CouplingMode>& modes) {
+  constexpr double kLongest = 10;  // [s]
+  if (holds(method, modes, kLongest)) return kNever;
+  return kLongest *
+         largest_part([&](double part) { return holds(method, modes, part * kLongest); });
 }
 
 Suspect suspect_of(const SceneCoupling& spec, const Coupling& coupling, const Kinematics& k,
                    const Eigen::MatrixXd& M, const StepMethod& method, double h) {
   Suspect suspect;
-  const Coupling::JointSpace space = coupling.joint_space(k);
-  const double w = stiff_mode(M, space).w;
+  const std::vector<CouplingMode> modes = modes_of(M, coupling.joint_space(k));
+  double w = 0;
+  for (const CouplingMode& mode : modes) w = std::max(w, mode.w > 0 ? mode.w : mode.damping);
   suspect.name = "coupling '" + spec.name + "'";
   suspect.scheme = method.name;
   suspect.is_coupling = true;
   suspect.step = spec.rate > 0 ? 1 / spec.rate : h;
-  suspect.largest_step = limit_of(method, M, space);
+  suspect.largest_step = largest_step(method, modes);
   suspect.product = w * suspect.step;
   suspect.limit = w * suspect.largest_step;
-  suspect.gain = "stiffness";
-  suspect.unit = spec.type == CouplingDescription::Type::linear ? "N/m" : "N m/rad";
+  const bool is_spring = spec.spring.k > 0,
+             is_linear = spec.type == CouplingDescription::Type::linear;
+  suspect.gain = is_spring ? "stiffness" : "damping";
+  suspect.unit =
+      std::string(is_linear ? "N" : "N m") + (is_spring ? "" : " s") + (is_linear ? "/m" : "/rad");
   if (suspect.step > suspect.largest_step)
-    suspect.largest_gain = spec.spring.k * largest_part([&](double part) {
-                             return limit_of(method, M, {part * space.K, space.B}) >= suspect.step;
-                           });
+    suspect.largest_gain =
+        (is_spring ? spec.spring.k : spec.spring.b) *
+        largest_part([&](double part) { return holds(method, modes, suspect.step, part); });
   return suspect;
 }
 
