@@ -1,13 +1,11 @@
 #!/usr/bin/env python3
-"""Recordings: `simulate --record`, `export`, `replay`, `inspect RECORDING`, and what a run that stops
-by itself says.
+"""Recordings: `simulate --record`, `export`, `replay`, and files that are damaged.
 
     test_recording.py PATH/TO/twinarm
 """
 import csv
 import io
 import json
-import math
 import os
 import pathlib
 import signal
@@ -19,93 +17,8 @@ import unittest
 import zlib
 
 import robot_command
-from robot_command import PENDULUM, RobotCommand, joint, link, robot, slider
-
-DOUBLE = robot('<link name="base"/>', link("upper"), link("lower"),
-               joint("shoulder", "continuous", "base", "upper", axis="0 1 0",
-                     more='<dynamics damping="0.1" friction="0.3"/>'),
-               joint("elbow", "continuous", "upper", "lower", xyz="0 0 -1", axis="1 0 0"))
-ROD = robot('<link name="base"/>', link("rod", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.5)),
-            joint("hinge", "continuous", "base", "rod"))
-HELD = """
-[[robot]]
-name = "arm"
-model = "test.urdf"
-q = { hinge = 0.5 }
-[[coupling]]
-name = "pull"
-type = "torsional"
-measure = "joint"
-link = "rod"
-stiffness = %s
-damping = %s
-treatment = "explicit"
-%s
-target = { q = { hinge = 0.0 } }
-"""
-BOXES = """
-step = 0.002
-%s
-[[body]]
-name = "floor"
-fixed = true
-shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
-[[body]]
-name = "low"
-shape = { box = { size = [0.2, 0.2, 0.2] } }
-mass = 1
-position = [0, 0, 0.12]
-linear_velocity = [0.8, 0, 0]
-angular_velocity = [0, 0, 3]
-[[body]]
-name = "high"
-shape = { box = { size = [0.2, 0.2, 0.2] } }
-mass = 1
-position = [0.03, 0.01, 0.35]
-restitution = 0.3
-"""
-
-
-class RecordingCommand(RobotCommand):
-    def twinarm(self, *arguments, code=0):
-        result = subprocess.run([robot_command.PROGRAM, *map(str, arguments)], cwd=self.folder,
-                                capture_output=True, text=True, timeout=120)
-        self.assertEqual(result.returncode, code, result.stderr + result.stdout[:2000])
-        return result
-
-    def record(self, text, *options, name="run.twinrec", urdf=ROD, state=None, code=0):
-        is_scene = not text.startswith("<robot")
-        (self.folder / "test.urdf").write_text(urdf if is_scene else text)
-        model = self.folder / ("scene.toml" if is_scene else "test.urdf")
-        if is_scene:
-            model.write_text(text)
-        arguments = ["simulate", model, *options, "--json", "--record", self.folder / name]
-        if state is not None:
-            (self.folder / "state.json").write_text(json.dumps(state))
-            arguments += ["--state", self.folder / "state.json"]
-        self.simulated = self.twinarm(*arguments, code=code)
-        return self.folder / name
-
-    def exported(self, file):
-        return json.loads(self.twinarm("export", file, "--json").stdout)
-
-    def replayed(self, file, *options, code=0):
-        return json.loads(self.twinarm("replay", file, *options, "--json", code=code).stdout)
-
-    def refused(self, *arguments):
-        result = self.twinarm(*arguments, code=2)
-        return result.stderr
-
-    def goes_on_with_the_same_bits(self, file, times):
-        frames = self.exported(file)["frames"]
-        for t in times:
-            answer = self.replayed(file, "--from", t)
-            at = max(n for n, f in enumerate(frames) if f["t"] <= t + 1e-12)
-            self.assertEqual(answer["hash"], frames[at]["hash"])
-            self.assertEqual(answer["hash_again"], answer["hash"])
-            self.assertEqual(answer["compared"], len(frames) - 1 - at)
-            self.assertEqual(answer["equal"], answer["compared"], answer)
-            self.assertTrue(answer["bit_exact"])
+from recording_command import BOXES, DOUBLE, HELD, RecordingCommand
+from robot_command import PENDULUM
 
 
 class Recordings(RecordingCommand):
@@ -280,97 +193,6 @@ class Damage(RecordingCommand):
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(timeout=20), 130)
         self.assertEqual(self.exported(file)["end"], "interrupted")
-
-
-class Instants(RecordingCommand):
-    def test_an_instant_is_inspected_as_the_state_file_of_that_instant_is(self):
-        state = {"q": {"shoulder": 1.0}, "tau": {"elbow": 0.2}}
-        file = self.record(DOUBLE, "--duration", 0.1, state=state)
-        recorded = json.loads(self.twinarm("inspect", file, "--at", 0.05, "--json").stdout)
-        printed = json.loads(self.twinarm(
-            "simulate", self.folder / "test.urdf", "--state", self.folder / "state.json",
-            "--duration", 0.1, "--at", 0.05, "--json").stdout)["samples"][0]
-        (self.folder / "then.json").write_text(
-            json.dumps({"q": printed["q"], "qd": printed["qd"], "tau": state["tau"]}))
-        wanted = json.loads(self.twinarm("inspect", self.folder / "test.urdf", "--state",
-                                         self.folder / "then.json", "--json").stdout)
-        self.assertEqual(recorded["passes"], wanted["passes"])
-        self.assertEqual(recorded["balance"], wanted["balance"])
-
-    def test_the_forces_on_a_box_at_an_instant_of_a_scene_balance(self):
-        file = self.record(BOXES % "", "--duration", 0.4)
-        answer = json.loads(self.twinarm("inspect", file, "--at", 0.3, "--json").stdout)
-        by_body = {b["body"]: b for b in answer["balance"]}
-        self.assertLess(by_body["low"]["residual"], 1e-10)
-        self.assertTrue(any(w["source"].startswith("contact/")
-                            for w in by_body["low"]["wrenches"]))
-
-    def test_times_outside_and_options_that_do_not_go_are_refused(self):
-        file = self.record(PENDULUM, "--duration", 0.1)
-        self.assertIn("--at", self.refused("inspect", file, "--at", 3))
-        self.assertIn("--at", self.refused("inspect", self.folder / "test.urdf", "--at", 0))
-
-
-class PostMortems(RecordingCommand):
-    def test_a_spring_above_its_limit_is_named_and_the_remedy_holds(self):
-        """One spring on I = 0.5 without damper: semi-implicit Euler holds up to w h = 2."""
-        inertia, h, k = 0.5, 0.001, 4e6
-        file = self.folder / "last.twinrec"
-        self.record(HELD % (k, 0, ""), "--duration", 1, "--step", h, "--post-mortem", file, code=3)
-        found = json.loads(self.simulated.stdout)["post_mortem"]
-        suspect = found["suspects"][0]
-        self.assertIn("'pull'", suspect["name"])
-        self.close(suspect["w_h"], math.sqrt(k / inertia) * h, 1e-9)
-        self.close(suspect["limit"], 2, 1e-4)
-        self.close(suspect["largest_step"], 2 / math.sqrt(k / inertia), 1e-4)
-        self.close(suspect["largest_gain"], 4 * inertia / h ** 2, 1e-3)
-        self.assertEqual(found["joint"], "hinge")
-        self.assertIn("'pull'", self.simulated.stderr)
-        self.assertTrue(found["ledger_row"])
-        self.assertGreater(found["ledger_growth"], 1)
-        # What it says holds, holds; a little beyond the limit it does not.
-        for step, code in ((0.9 * suspect["largest_step"], 0), (1.2 * suspect["largest_step"], 3)):
-            self.record(HELD % (k, 0, ""), "--duration", 1, "--step", step, "--post-mortem", file,
-                        code=code)
-        self.record(HELD % (0.9 * suspect["largest_gain"], 0, ""), "--duration", 1, "--step", h)
-
-    def test_the_last_thousand_steps_are_those_of_the_run(self):
-        """A spring a hair beyond its limit, recorded in full beside its post-mortem."""
-        k = 4 * 0.5 / 0.001 ** 2 * 1.00002
-        last = self.folder / "last.twinrec"
-        full = self.record(HELD % (k, 0, ""), "--duration", 60, "--energy-bound", 1e25,
-                           "--post-mortem", last, code=3)
-        found = json.loads(self.simulated.stdout)["post_mortem"]
-        self.assertIn("kinetic energy", found["reason"])
-        ours, all_frames = self.exported(last)["frames"], self.exported(full)["frames"]
-        self.assertEqual(len(ours), 1000)
-        self.assertGreater(len(all_frames), 1500)
-        self.assertEqual([f["hash"] for f in ours], [f["hash"] for f in all_frames[-1000:]])
-        self.assertEqual(ours[-1]["step"], found["step"])
-        # It opens; at such speeds a check by a second way may fall short, and then says so.
-        opened = subprocess.run([robot_command.PROGRAM, "inspect", last, "--at",
-                                 str(ours[500]["t"]), "--json"], capture_output=True, text=True)
-        self.assertIn(opened.returncode, (0, 1), opened.stderr)
-        self.assertTrue(json.loads(opened.stdout)["balance"])
-
-    def test_the_damper_of_a_joint_is_named_where_the_integrator_takes_it_explicitly(self):
-        self.record(slider(damping=1e5), "--duration", 1, "--integrator", "euler",
-                    "--energy-bound", "inf", "--post-mortem", self.folder / "last.twinrec",
-                    state={"qd": {"slide": 1}}, code=3)
-        found = json.loads(self.simulated.stdout)["post_mortem"]
-        self.assertIn("'slide'", found["suspects"][0]["name"])
-        self.close(found["suspects"][0]["w_h"], 1e5 / 2.0 * 0.001)
-        self.assertEqual(found["suspects"][0]["limit"], 2)
-
-    def test_bad_numbers_are_told(self):
-        (self.folder / "test.urdf").write_text(PENDULUM)
-        errors = self.refused("simulate", self.folder / "test.urdf", "--duration", 1,
-                              "--energy-bound", -1, "--record-every", 0)
-        for words in ("--energy-bound", "--record-every", "--record FILE"):
-            self.assertIn(words, errors)
-        self.assertIn("cannot be written", self.refused(
-            "simulate", self.folder / "test.urdf", "--duration", 1, "--record",
-            self.folder / "none" / "run.twinrec"))
 
 
 if __name__ == "__main__":
