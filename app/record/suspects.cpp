@@ -68,7 +68,8 @@ StepMethod step_method_of(const SceneCoupling& coupling, Integrator integrator) 
 struct CouplingMode {
   double w = 0, damping = 0;
 };
-std::vector<CouplingMode> modes_of(const Eigen::MatrixXd& M, const Coupling::JointSpace& space) {
+std::vector<CouplingMode> coupling_modes(const Eigen::MatrixXd& M,
+                                         const Coupling::JointSpace& space) {
   const bool by_stiffness = !space.K.isZero(0);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
       by_stiffness ? space.K : space.B, M);
@@ -83,8 +84,8 @@ std::vector<CouplingMode> modes_of(const Eigen::MatrixXd& M, const Coupling::Joi
 }
 
 // With the stiffness, or where there is none the damping, times `part`.
-bool holds(const StepMethod& method, const std::vector<CouplingMode>& modes, double h,
-           double part = 1) {
+bool all_hold(const StepMethod& method, const std::vector<CouplingMode>& modes, double h,
+              double part = 1) {
   return std::all_of(modes.begin(), modes.end(), [&](const CouplingMode& mode) {
     const double alpha = part * mode.w * mode.w * h * h;
     if (method.undamped > 0) return alpha <= method.undamped * method.undamped;
@@ -94,15 +95,15 @@ bool holds(const StepMethod& method, const std::vector<CouplingMode>& modes, dou
 
 double largest_step(const StepMethod& method, const std::vector<CouplingMode>& modes) {
   constexpr double kLongest = 10;  // [s]
-  if (holds(method, modes, kLongest)) return kNever;
+  if (all_hold(method, modes, kLongest)) return kNever;
   return kLongest *
-         largest_part([&](double part) { return holds(method, modes, part * kLongest); });
+         largest_part([&](double part) { return all_hold(method, modes, part * kLongest); });
 }
 
 Suspect suspect_of(const SceneCoupling& spec, const Coupling& coupling, const Kinematics& k,
                    const Eigen::MatrixXd& M, const StepMethod& method, double h) {
   Suspect suspect;
-  const std::vector<CouplingMode> modes = modes_of(M, coupling.joint_space(k));
+  const std::vector<CouplingMode> modes = coupling_modes(M, coupling.joint_space(k));
   double w = 0;
   for (const CouplingMode& mode : modes) w = std::max(w, mode.w > 0 ? mode.w : mode.damping);
   suspect.name = "coupling '" + spec.name + "'";
@@ -120,7 +121,7 @@ Suspect suspect_of(const SceneCoupling& spec, const Coupling& coupling, const Ki
   if (suspect.step > suspect.largest_step)
     suspect.largest_gain =
         (is_spring ? spec.spring.k : spec.spring.b) *
-        largest_part([&](double part) { return holds(method, modes, suspect.step, part); });
+        largest_part([&](double part) { return all_hold(method, modes, suspect.step, part); });
   return suspect;
 }
 
