@@ -43,6 +43,7 @@ struct InspectOptions {
   std::vector<std::string> passes, bodies;  // none: all
   std::string axes = "world";               // of the wrenches: world or link
   std::optional<double> step;               // of a scene [s]; left out: the scene's
+  std::optional<double> at;                 // of a recording [s]; left out: its end
   bool json = false;
 };
 int run_inspect(const InspectOptions& options);  // 1 where a check falls short
@@ -54,6 +55,21 @@ struct ModesOptions {
 int run_modes(const ModesOptions& options);
 
 int run_simulate(const SimulateOptions& options);
+
+struct ExportOptions {
+  std::filesystem::path recording;
+  bool json = false, csv = false;
+};
+int run_export(const ExportOptions& options);
+
+struct ReplayOptions {
+  std::filesystem::path recording;
+  double from = 0;  // [s]
+  std::vector<std::string> changes;
+  std::filesystem::path plot;  // SVG; empty: none
+  bool json = false;
+};
+int run_replay(const ReplayOptions& options);  // 1 where a bit differs from the recording
 
 struct CompareOptions {
   std::vector<std::string> cases;

@@ -109,11 +109,12 @@ void add_inspect(CLI::App& app, InspectOptions& options, std::function<int()>& c
       "The passes of the articulated-body algorithm with their numbers, every wrench on every "
       "body, and checks by second ways\n\n"
       "Example:  twinarm inspect assets/robots/s103/s103.urdf --body arm2");
-  add_robot_options(*inspect, options.robot, "the robot's URDF, or a scene in TOML");
+  add_robot_options(*inspect, options.robot, "the robot's URDF, a scene in TOML, or a recording");
   inspect->add_option("--pass", options.passes, "1, 2 or 3; all if not given");
   inspect->add_option("--body", options.bodies, "names of links and bodies; all if not given");
   inspect->add_option("--axes", options.axes, "of the wrenches: world or link")
       ->capture_default_str();
+  inspect->add_option("--at", options.at, "seconds; of a recording; its end if not given");
   inspect->add_option("--step", options.step, "of a scene: seconds; the scene's if not given");
   inspect->add_flag("--json", options.json, "print one JSON object on stdout");
   inspect->callback([&] { command = [&] { return run_inspect(options); }; });
@@ -150,9 +151,39 @@ void add_simulate(CLI::App& app, SimulateOptions& options, std::function<int()>&
   simulate->add_option("--tolerance", options.tolerance, "of dopri5, relative and absolute");
   simulate->add_option("--every", options.every, "a sample each so many seconds");
   simulate->add_option("--at", options.at, "samples at these times: t1,t2,..");
+  simulate->add_option("--record", options.record, "write a recording of the run to this file");
+  simulate->add_option("--record-every", options.record_every,
+                       "seconds between its frames; each step if not given");
+  simulate->add_option("--energy-bound", options.energy_bound,
+                       "joules of kinetic energy at which the run stops; inf: none");
+  simulate->add_option("--post-mortem", options.post_mortem,
+                       "where the last steps of a run go that stops by itself; in out/ if not "
+                       "given");
   simulate->add_flag("--json", options.json, "print one JSON object on stdout");
   simulate->add_flag("--csv", options.csv, "print one row a sample on stdout");
   simulate->callback([&] { command = [&] { return run_simulate(options); }; });
+}
+
+void add_recordings(CLI::App& app, ExportOptions& exported, ReplayOptions& replayed,
+                    std::function<int()>& command) {
+  CLI::App* out = app.add_subcommand("export",
+                                     "Print a recording as CSV or JSON, units in the headers\n\n"
+                                     "Example:  twinarm export out/run.twinrec --csv");
+  out->add_option("recording", exported.recording, "of `twinarm simulate --record`")->required();
+  out->add_flag("--json", exported.json, "print one JSON object on stdout");
+  out->add_flag("--csv", exported.csv, "print one row a frame on stdout");
+  out->callback([&] { command = [&] { return run_export(exported); }; });
+  CLI::App* replay = app.add_subcommand(
+      "replay",
+      "Run on from a recorded step: the same bits; or, with --set, a fork\n\n"
+      "Example:  twinarm replay out/run.twinrec --from 0.5 --set coupling.stiffness=800");
+  replay->add_option("recording", replayed.recording, "of `twinarm simulate --record`")->required();
+  replay->add_option("--from", replayed.from, "seconds; the start if not given");
+  replay->add_option("--set", replayed.changes, "PATH=VALUE of the scene, for a fork")
+      ->allow_extra_args(false);
+  replay->add_option("--plot", replayed.plot, "an SVG of both branches");
+  replay->add_flag("--json", replayed.json, "print one JSON object on stdout");
+  replay->callback([&] { command = [&] { return run_replay(replayed); }; });
 }
 
 void add_compare(CLI::App& app, CompareOptions& options, std::function<int()>& command) {
@@ -197,6 +228,9 @@ int main(int argc, char** argv) {
   InspectOptions inspect;
   ModesOptions modes;
   SimulateOptions simulate;
+  simulate.command.assign(argv, argv + argc);
+  ExportOptions exported;
+  ReplayOptions replayed;
   CompareOptions compare;
   StudyOptions study;
   TraceOptions trace;
@@ -206,6 +240,7 @@ int main(int argc, char** argv) {
   add_inspect(app, inspect, command);
   add_modes(app, modes, command);
   add_simulate(app, simulate, command);
+  add_recordings(app, exported, replayed, command);
   add_compare(app, compare, command);
   add_study(app, study, command);
   add_make_robot(app, recipe, command);

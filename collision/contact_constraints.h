@@ -118,6 +118,7 @@ class ContactConstraints final : public EventSource, public Rewindable {
 
   void keep() override { kept_ = {points_, work_}; }
   void go_back() noexcept override;
+  void visit_memory(Memory& memory) override;  // contact_memory.cpp
 
   const std::vector<ContactPoint>& points() const { return points_; }
   // Of all steps so far, ascending by (a, b).

@@ -30,6 +30,13 @@ Coupling::Coupling(std::string name, const Model<double>& model, KinematicRobot&
   faults.check();
 }
 
+void Coupling::visit_memory(Memory& memory) {
+  for (SpringReading& reading : readings_) {
+    for (Vector3* v : {&reading.p_K, &reading.p_D, &reading.pull}) memory.visit(*v);
+    memory.visit(reading.size);
+  }
+}
+
 Vector3 rotation_vector(const Matrix3& R) {
   const Eigen::Quaterniond quaternion(R);
   const double sign = quaternion.w() < 0 ? -1.0 : 1.0;  // the shorter way round

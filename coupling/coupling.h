@@ -9,6 +9,7 @@
 
 #include "coupling/kinematic_robot.h"
 #include "solver/force_source.h"
+#include "solver/memory.h"
 
 namespace twinarm {
 
@@ -42,6 +43,9 @@ class Coupling : public ForceSource {
   const std::string& name() const { return name_; }
   const std::vector<Spring>& springs() const { return springs_; }
   const std::vector<SpringReading>& readings() const { return readings_; }
+  // The pulls, which may be held over many steps. The kinematic robot is a function of time, unless
+  // its rates are differences: that is not remembered here.
+  virtual void visit_memory(Memory& memory);
 
   // K_q and B_q about zero offset at a pose: tau = K_q (q_K - q_D) + B_q (qd_K - qd_D).
   struct JointSpace {

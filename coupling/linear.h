@@ -21,6 +21,10 @@ class LinearCoupling final : public Coupling {
                   Forces<double>& forces) noexcept override;
   bool needs_semi_implicit() const override { return treatment_ != Treatment::explicit_; }
   JointSpace joint_space(const Kinematics& k) const override;
+  void visit_memory(Memory& memory) override {
+    Coupling::visit_memory(memory);
+    memory.visit(steps_);
+  }
 
  private:
   Treatment treatment_;

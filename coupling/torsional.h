@@ -25,6 +25,10 @@ class TorsionalCoupling final : public Coupling {
                   Forces<double>& forces) noexcept override;
   bool needs_semi_implicit() const override { return treatment_ != Treatment::explicit_; }
   JointSpace joint_space(const Kinematics& k) const override;
+  void visit_memory(Memory& memory) override {
+    Coupling::visit_memory(memory);
+    memory.visit(steps_);
+  }
 
  private:
   void pull_world(std::size_t s, const State<double>& x, const Kinematics& k,

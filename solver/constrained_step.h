@@ -21,6 +21,7 @@
 #include "solver/impulse_solver.h"
 #include "solver/integrator_mechanism.h"
 #include "solver/integrator_report.h"
+#include "solver/memory.h"
 #include "solver/model_trees.h"
 
 namespace twinarm {
@@ -50,6 +51,11 @@ class ConstrainedStep {
   // Residuals [m/s]: of a guess and of a solution that will do, and what a solution aims at.
   void set_accuracy(double good_guess, double accepted, double aim) {
     solver_.good_guess = good_guess, solver_.accepted = accepted, solver_.tolerance = aim;
+  }
+  // Guesses of impulses.
+  void visit_memory(Memory& memory) {
+    for (auto* guess : {&friction_guess_, &mimic_guess_, &loop_guess_}) memory.visit(*guess);
+    solver_.visit_memory(memory);
   }
   const ModelTrees& trees() const { return trees_; }
 

@@ -30,6 +30,7 @@ namespace twinarm {
 class EventStep {
  public:
   explicit EventStep(const Model<double>& model) : model_(&model) {}
+  void visit_memory(Memory& memory) { memory.visit(length_); }
   // All of constrained's sources must be EventSources.
   void step(ConstrainedStep& constrained, Mechanism& m, double h, StepReport& report);
 

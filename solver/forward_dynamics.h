@@ -23,6 +23,7 @@
 
 #include "solver/joint_friction.h"
 #include "solver/loop_forces.h"
+#include "solver/memory.h"
 #include "solver/model.h"
 #include "solver/workspace.h"
 
@@ -73,6 +74,7 @@ class ForwardDynamics {
   const std::vector<std::size_t>& at_rest(const State<double>& x) noexcept;
   // Stops what the last call holds, and what slides against its mode, exactly.
   void settle(State<double>& x) const;
+  void visit_memory(Memory& memory) { memory.visit(mode_); }
 
  private:
   enum class Rule { now, end_of_step, as_chosen };

@@ -23,6 +23,7 @@
 #include "solver/envelope_lu.h"
 #include "solver/impulse_law.h"
 #include "solver/impulse_problem.h"
+#include "solver/memory.h"
 #include "solver/second_order_cone.h"
 
 namespace twinarm {
@@ -46,6 +47,8 @@ class ImpulseSolver {
 
   // Writes v of the problem, and p and u of its constraints.
   ImpulseReport solve(ImpulseProblem& problem);
+  // Which guesses are not to be trusted.
+  void visit_memory(Memory& memory) { memory.visit(solve_again_); }
 
  private:
   struct Island {

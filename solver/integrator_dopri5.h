@@ -16,6 +16,7 @@
 #include "solver/integrator_events.h"
 #include "solver/integrator_explicit.h"
 #include "solver/integrator_report.h"
+#include "solver/memory.h"
 
 namespace twinarm {
 
@@ -24,6 +25,10 @@ class Dopri5 {
   explicit Dopri5(const Mechanism& m);
   void set_tolerance(double tolerance) { tolerance_ = tolerance; }
   double tolerance() const { return tolerance_; }
+  void visit_memory(Memory& memory) {
+    memory.visit(h_next_);
+    memory.visit(err_before_);
+  }
   void forget() { h_next_ = 0; }  // the substep that the past recommends
 
   // Moves m.x, its time too, by h in as many substeps as it needs; or, with `one`, by one accepted

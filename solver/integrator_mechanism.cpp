@@ -71,6 +71,11 @@ void Mechanism::start(State<double> from) {
   refresh();
 }
 
+void Mechanism::resume(State<double> from) {
+  x = std::move(from);
+  forward_kinematics(model, x, k);
+}
+
 void Mechanism::set_loops(LoopClosures loops) {
   projection.set_loops(loops);
   dynamics.set_loops(std::move(loops));

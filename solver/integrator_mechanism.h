@@ -73,6 +73,8 @@ struct Mechanism {
   void place_and_look();
   // At another state. Throws InputError where loops are open there by more than a small rest.
   void start(State<double> from);
+  // Where it stood after refresh(), not placed again: no bit changes.
+  void resume(State<double> from);
   void set_loops(LoopClosures loops);  // closed where the mechanism stands; their rest goes
   // Loops are projected along the M and J of the last acceleration at x (loop_projection.h). Where
   // none was asked for, prepare_projection() finds them; where the last stage became x,

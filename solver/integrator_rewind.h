@@ -1,6 +1,8 @@
 // Sources and the steps that are thrown away (Simulation::side_step).
 #pragma once
 
+#include "solver/memory.h"
+
 namespace twinarm {
 
 // A source that is asked for a step which then is not taken must be as before. What it remembers
@@ -12,6 +14,8 @@ class Rewindable {
   virtual ~Rewindable() = default;
   virtual void keep() {}
   virtual void go_back() noexcept {}
+  // The same fields, written down or taken back, for a restart elsewhere (solver/memory.h).
+  virtual void visit_memory(Memory&) {}
 };
 
 }  // namespace twinarm

@@ -39,6 +39,15 @@ class JointLimits final : public EventSource, public Rewindable {
 
   void keep() override { kept_ = limits_; }
   void go_back() noexcept override { std::swap(limits_, kept_); }
+  void visit_memory(Memory& memory) override {
+    for (Limit& limit : limits_) memory.visit(limit.force), memory.visit(limit.work);
+    memory.resize(held_, sizeof(double));
+    for (Held& held : held_) {
+      memory.visit(held.limit);
+      memory.visit(held.sign);
+      memory.visit(held.opens);
+    }
+  }
 
  private:
   struct Row {

@@ -122,6 +122,16 @@ StepReport Simulation::substep(double h) noexcept {
 }
 
 State<double> Simulation::side_step(double h, StepReport* report) const {
+  const std::vector<Rewindable*> all = memories();
+  for (Rewindable* memory : all) memory->keep();
+  Simulation aside(*this);
+  const StepReport taken = aside.step(h);
+  for (Rewindable* memory : all) memory->go_back();
+  if (report) *report = taken;
+  return aside.state();
+}
+
+std::vector<Rewindable*> Simulation::memories() const {
   std::vector<Rewindable*> memories;
   for (ForceSource* source : m_.sources) {
     memories.push_back(dynamic_cast<Rewindable*>(source));
@@ -133,12 +143,23 @@ State<double> Simulation::side_step(double h, StepReport* report) const {
     if (!memories.back())
       throw std::invalid_argument("a source of constraints does not let a step be taken back");
   }
-  for (Rewindable* memory : memories) memory->keep();
-  Simulation aside(*this);
-  const StepReport taken = aside.step(h);
-  for (Rewindable* memory : memories) memory->go_back();
-  if (report) *report = taken;
-  return aside.state();
+  return memories;
+}
+
+void Simulation::visit_memory(Memory& memory) {
+  const std::vector<Rewindable*> all = memories();
+  State<double> x = m_.x;
+  memory.visit(x.q);
+  memory.visit(x.qd);
+  memory.visit(x.t);
+  if (x.q.size() != model().nq || x.qd.size() != model().nv)
+    throw std::runtime_error("the state is not one of this model");
+  if (memory.reads()) m_.resume(std::move(x));
+  m_.dynamics.visit_memory(memory);
+  dopri5_.visit_memory(memory);
+  constrained_.visit_memory(memory);
+  if (located_) located_->visit_memory(memory);
+  for (Rewindable* source : all) source->visit_memory(memory);
 }
 
 StepReport Simulation::advance(double h, bool one_substep) {

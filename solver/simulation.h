@@ -62,6 +62,10 @@ class Simulation {
   // Where a step of h would lead; the run is not changed, down to the last bit. For samples between
   // the steps. Throws std::invalid_argument for a source that is not Rewindable. May allocate.
   State<double> side_step(double h, StepReport* report = nullptr) const;
+  // All that the next step reads: the state, and what integrator, impulses and sources remember.
+  // Taken back in a simulation that was built alike, the run goes on with the same bits. Throws
+  // std::runtime_error where it was not, std::invalid_argument as side_step().
+  void visit_memory(Memory& memory);
 
   const Model<double>& model() const { return m_.model; }
   const State<double>& state() const { return m_.x; }
@@ -76,6 +80,7 @@ class Simulation {
 
  private:
   StepReport advance(double h, bool one_substep);
+  std::vector<Rewindable*> memories() const;
   void move(double h, StepReport& report);  // one step of fixed size that is not semi-implicit
   void solve_sources(double h,
                      StepReport& report);  // forces and ABA, in rounds where a source asks for them

@@ -42,6 +42,7 @@ class Kept final : public RewindableCoupling {
   bool needs_semi_implicit() const override { return coupling_->needs_semi_implicit(); }
   void keep() override { kept_.emplace(*coupling_); }
   void go_back() noexcept override { coupling_.emplace(*kept_); }
+  void visit_memory(Memory& memory) override { coupling_->visit_memory(memory); }
   const Coupling& coupling() const override { return *coupling_; }
 
  private:

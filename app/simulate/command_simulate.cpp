@@ -6,6 +6,8 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
+#include "app/record/post_mortem.h"
+#include "app/record/record_run.h"
 #include "app/simulate/simulate_output.h"
 
 namespace twinarm {
@@ -37,6 +39,12 @@ std::unique_ptr<RunOutput> output_of(const SimulateOptions& options, const Simul
   return table_output(input, plan);
 }
 
+std::filesystem::path post_mortem_file(const SimulateOptions& options) {
+  if (!options.post_mortem.empty()) return options.post_mortem;
+  return std::filesystem::path("out") / "post_mortem" /
+         (options.robot.model.stem().string() + ".twinrec");
+}
+
 }  // namespace
 
 int run_simulate(const SimulateOptions& options) {
@@ -46,8 +54,12 @@ int run_simulate(const SimulateOptions& options) {
   const RunPlan& plan = prepared.run;
   const std::unique_ptr<RunOutput> output = output_of(options, input, plan);
 
+  std::optional<RunRecorder> recorder;
+  if (!options.record.empty())
+    recorder.emplace(options.record, header_of(options, prepared, options.command), prepared,
+                     options.record_every.value_or(0));
   SimulateResult result;
-  {
+  try {
     PatientProgress progress(plan.duration);
     RunWatch watch;
     watch.warn = [](const std::string& text) {
@@ -58,8 +70,17 @@ int run_simulate(const SimulateOptions& options) {
       check_interrupt();
       progress(t);
     };
+    if (recorder) watch.look = [&](RunView& run) { recorder->look(run); };
     result = run_plan(input, plan, watch);
+  } catch (const Interrupted&) {
+    if (recorder) recorder->finish("interrupted");
+    throw;
   }
+  if (recorder)
+    recorder->finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
+  if (result.post_mortem)
+    explain(prepared, header_of(options, prepared, options.command), post_mortem_file(options),
+            result);
   output->end(result);
   if (!result.post_mortem) return 0;
   const PostMortem& found = *result.post_mortem;
@@ -71,6 +92,7 @@ int run_simulate(const SimulateOptions& options) {
   if (!found.fastest_joint.empty())
     fmt::print(stderr, "; the fastest was joint '{}'", found.fastest_joint);
   fmt::print(stderr, "\n");
+  for (const std::string& words : found.words) fmt::print(stderr, "twinarm:   {}\n", words);
   return kStopped;
 }
 

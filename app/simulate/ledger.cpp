@@ -136,6 +136,17 @@ void Ledger::add_implicit(double h, const State<double>& end) {
   }
 }
 
+void Ledger::visit_memory(Memory& memory) {
+  for (State<double>* x : {&start_, &now_}) {
+    memory.visit(x->q);
+    memory.visit(x->qd);
+    memory.visit(x->t);
+  }
+  for (LedgerRow& row : integrals_) memory.visit(row.work);
+  memory.visit(implicit_);
+  memory.visit(power_now_);
+}
+
 double Ledger::elastic_energy(std::size_t c, const State<double>& x) const {
   forward_kinematics(input_.model, x, k_);
   return 0.5 * couplings_->spec(c).spring.k * couplings_->ends(c, x, k_).offset.squaredNorm();

@@ -23,6 +23,7 @@
 #include "app/scene/scene_couplings.h"
 #include "app/simulate/given_forces.h"
 #include "solver/integrator.h"
+#include "solver/memory.h"
 
 namespace twinarm {
 
@@ -43,6 +44,8 @@ class Ledger {
   void add_step(double h, const std::vector<State<double>>& inner, const State<double>& end);
   const State<double>& now() const { return now_; }
   std::vector<LedgerRow> rows() const;  // `numerical` last
+  // The sums so far; the rows of another run must be the same.
+  void visit_memory(Memory& memory);
   std::vector<LedgerRow> hand() const;  // by the names of the couplings
 
  private:

@@ -77,6 +77,17 @@ RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults, Fa
       plan.duration / plan.step > kMostSteps)
     faults.add({"", 0, "--step", "the run would have more than 1e10 steps",
                 "give a longer step or a shorter duration"});
+  if (options.record_every) positive("--record-every", *options.record_every);
+  if (options.record_every && options.record.empty())
+    faults.add({"", 0, "--record-every", "nothing is recorded", "give --record FILE"});
+  if (options.energy_bound) {
+    plan.energy_bound = *options.energy_bound;
+    if (!(plan.energy_bound > 0))
+      faults.add(
+          {"", 0, "--energy-bound",
+           "must be a positive number of joules, or inf, is " + number_text(plan.energy_bound),
+           ""});
+  }
   if (options.json && options.csv)
     faults.add({"", 0, "--csv", "stdout is taken by --json", "leave one of them out"});
   if (options.every && !options.at.empty())

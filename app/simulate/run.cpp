@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
-#include "app/simulate/add_contacts.h"
+#include "app/simulate/limit_watch.h"
+#include "app/simulate/run_end.h"
 #include "collision/import/number_text.h"
+#include "solver/energy.h"
 
 namespace twinarm {
 namespace {
@@ -14,6 +18,16 @@ namespace {
 constexpr double kSameTime = 1e-9;
 // Bodies that stand deeper in one another at the start are told of [m].
 constexpr double kDeepStart = 1e-4;
+
+// Between two checkpoints, from the earlier of which a post-mortem is computed again.
+constexpr long kCheckpoint = 1000;
+constexpr long kEnergyEvery = 8;  // steps: the check costs a pass
+
+void visit_head(Memory& memory, long& steps, double& end, long& unsolved) {
+  memory.visit(steps);
+  memory.visit(end);
+  memory.visit(unsolved);
+}
 
 // The times t = n step, the last one `duration`.
 class Grid {
@@ -36,69 +50,10 @@ class Grid {
   long steps_ = 0;
 };
 
-// Notes the first time at which a joint stands beyond its limits, which do not act.
-class LimitWatch {
+class Run : public RunView {
  public:
-  LimitWatch(const RobotInput& input, bool limits_act, std::vector<std::string>& warnings)
-      : warnings_(warnings) {
-    if (limits_act) return;
-    for (const JointDescription& joint : input.robot.joints) {
-      const int body = input.model.find_joint(joint.name);
-      if (joint.is_limited() && body > 0)
-        limits_.push_back({&joint, input.model.iq[static_cast<std::size_t>(body)]});
-    }
-  }
-  void look(double t, const State<double>& x) {
-    for (Limit& limit : limits_) {
-      const double q = x.q[limit.iq];
-      const double slack = 1e-9;  // a joint that rests at its limit is not beyond it
-      if (limit.is_told || (q >= limit.joint->lower - slack && q <= limit.joint->upper + slack))
-        continue;
-      limit.is_told = true;
-      warnings_.push_back(fmt::format(
-          "joint '{}' stands at {} beyond its limits {} .. {} at t = {} s: position limits do not "
-          "act here",
-          limit.joint->name, short_number_text(q), short_number_text(limit.joint->lower),
-          short_number_text(limit.joint->upper), short_number_text(t)));
-    }
-  }
-
- private:
-  struct Limit {
-    const JointDescription* joint;
-    std::size_t iq;
-    bool is_told = false;
-  };
-  std::vector<Limit> limits_;
-  std::vector<std::string>& warnings_;
-};
-
-PostMortem examine(const StepReport& report, const Model<double>& model, const State<double>& last,
-                   double t, long step) {
-  PostMortem found;
-  found.time = t;
-  found.step = step;
-  double fastest = 0;
-  for (std::size_t i = 1; i < model.parent.size(); ++i)
-    for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof)
-      if (std::abs(last.qd[dof]) > fastest) {
-        fastest = std::abs(last.qd[dof]);
-        found.fastest_joint = model.joint_name[i];
-      }
-  if (!report.finite && report.bad_field) {
-    const auto body = static_cast<std::size_t>(report.bad_body);
-    found.body = model.body_name[body];
-    found.joint = model.joint_name[body];
-    found.field = report.bad_field;
-  }
-  found.reason = report.finite ? "no substep however short meets the tolerance"
-                               : "a number is not finite: the run diverged";
-  return found;
-}
-
-class Run {
- public:
-  Run(const SimulateInput& simulated, const RunPlan& plan, const RunWatch& watch)
+  Run(const SimulateInput& simulated, const RunPlan& plan, const RunWatch& watch,
+      const RunStart* from)
       : input_(simulated.robot),
         plan_(plan),
         watch_(watch),
@@ -126,22 +81,46 @@ class Run {
     if (plan.is_adaptive()) sim_.set_tolerance(plan.tolerance);
     ledger_.emplace(input_, wrenches_, simulated.couplings.get(),
                     plan.locates_events ? Integrator::dopri5 : plan.integrator);
+    bound_ = plan.energy_bound > 0 ? plan.energy_bound
+                                   : default_energy_bound(input_.model, input_.state.x);
+    if (from) go_on_from(*from);
+    earlier_ = later_ = memory();
+  }
+
+  long step() const override { return result_.steps; }
+  const Simulation& simulation() const override { return sim_; }
+  const SceneContacts* contacts() const override { return contacts_ ? &*contacts_ : nullptr; }
+  std::vector<LedgerRow> ledger() const override {
+    std::vector<LedgerRow> all = ledger_->rows();
+    if (!contacts_) return all;
+    // Before the last row, `numerical`, which is what is left.
+    const std::vector<LedgerRow> rows = contacts_->rows();
+    for (const LedgerRow& row : rows) all.back().work -= row.work;
+    all.insert(all.end() - 1, rows.begin(), rows.end());
+    return all;
+  }
+  std::string memory() override {
+    Memory memory;
+    visit_memory(memory);
+    return memory.bytes();
   }
 
   SimulateResult run() {
-    limits_.look(0, sim_.state());
+    limits_.look(sim_.state().t, sim_.state());
+    if (watch_.look) watch_.look(*this);
     if (plan_.is_adaptive())
       run_adaptive();
     else
       run_grid();
-    if (!result_.post_mortem)  // what is left is the end
+    if (!result_.post_mortem && result_.steps < last_step_)  // what is left is the end
       for (; next_ < plan_.times.size(); ++next_) watch_.sample(plan_.times[next_], sim_.state());
     if (unsolved_ > 0)
       result_.warnings.push_back(
           fmt::format("in {} of {} steps the equation of the step was not solved to rounding",
                       unsolved_, result_.steps));
-    result_.ledger = ledger_->rows();
-    if (contacts_) add_contact_rows();
+    result_.ledger = ledger();
+    if (contacts_) result_.contacts = contacts_->contact_count();
+    if (result_.post_mortem) result_.checkpoint = std::move(earlier_);
     result_.hand = ledger_->hand();
     return std::move(result_);
   }
@@ -156,24 +135,35 @@ class Run {
             : "what overlaps is moved apart, no faster than 0.5 m/s"));
     if (watch_.warn) watch_.warn(result_.warnings.back());
   }
-  // Before the last row, `numerical`, which is what is left.
-  void add_contact_rows() {
-    std::vector<LedgerRow> rows = contacts_->rows();
-    for (const LedgerRow& row : rows) result_.ledger.back().work -= row.work;
-    result_.ledger.insert(result_.ledger.end() - 1, rows.begin(), rows.end());
-    result_.contacts = contacts_->contact_count();
+  void visit_memory(Memory& memory) {
+    visit_head(memory, result_.steps, result_.end, unsolved_);
+    sim_.visit_memory(memory);
+    ledger_->visit_memory(memory);
+  }
+  void go_on_from(const RunStart& start) {
+    Memory memory(start.memory);
+    try {
+      visit_memory(memory);
+      if (!memory.at_end()) throw std::runtime_error("it holds more than this scene remembers");
+    } catch (const std::runtime_error& error) {
+      throw InputError({{"", 0, "restart", error.what(),
+                         "change nothing that alters joints, contacts, couplings or integrator"}});
+    }
+    last_step_ = start.last_step;
+    const double now = result_.end;
+    while (next_ < plan_.times.size() && plan_.times[next_] < now) ++next_;
   }
   void run_grid() {
     const Grid grid(plan_);
-    for (long n = 0; n < grid.steps(); ++n) {
+    for (long n = result_.steps; n < std::min(grid.steps(), last_step_); ++n) {
       const double h = grid.length(n);
       const auto take = [&] { return sim_.step(h); };
       if (!one_step(grid.time(n), h, take, [&](double) { return grid.time(n + 1); })) return;
     }
   }
   void run_adaptive() {
-    double t = 0;
-    while (t < plan_.duration) {
+    double t = result_.end;
+    while (t < plan_.duration && result_.steps < last_step_) {
       const double left = plan_.duration - t, h_most = std::min(plan_.step, left);
       const auto take = [&] { return sim_.substep(h_most); };
       const auto next = [&](double h) {
@@ -199,7 +189,7 @@ class Run {
              plan_.times[next_] - t <= kSameTime * h_most;
            ++next_)
         watch_.sample(plan_.times[next_], before_->state());
-      result_.post_mortem = examine(report, input_.model, ledger_->now(), t, result_.steps);
+      result_.post_mortem = examine_end(report, sim_, ledger_->now(), t, result_.steps);
       return false;
     }
     unsolved_ += report.converged ? 0 : 1;
@@ -211,8 +201,26 @@ class Run {
     ledger_->add_step(report.h, inner_, sim_.state());
     result_.end = t_next;
     limits_.look(t_next, sim_.state());
-    watch_.tick(t_next);
-    return true;
+    if (watch_.look) watch_.look(*this);
+    if (watch_.tick) watch_.tick(t_next);
+    if (result_.steps % kCheckpoint == 0) {
+      earlier_ = std::move(later_);
+      later_ = memory();
+    }
+    return result_.steps % kEnergyEvery != 0 || stays_bounded(report);
+  }
+
+  bool stays_bounded(const StepReport& report) {
+    const double energy = kinetic_energy(input_.model, sim_.state());
+    if (energy <= bound_) return true;
+    PostMortem found = examine_end(report, sim_, sim_.state(), result_.end, result_.steps);
+    found.by_energy = true;
+    found.energy_bound = bound_;
+    found.field = "qd";
+    found.reason = fmt::format("the kinetic energy, {} J, has passed its bound of {} J",
+                               short_number_text(energy), short_number_text(bound_));
+    result_.post_mortem = std::move(found);
+    return false;
   }
 
   // Samples before t_end, by side steps from `from`, which stands at t.
@@ -237,13 +245,24 @@ class Run {
   std::optional<Simulation> before_;  // the run at the start of the step
   std::vector<State<double>> inner_;
   std::size_t next_ = 0;  // sample
-  long unsolved_ = 0;
+  long unsolved_ = 0, last_step_ = std::numeric_limits<long>::max();
+  double bound_ = 0;
+  std::string earlier_, later_;  // checkpoints
 };
 
 }  // namespace
 
-SimulateResult run_plan(const SimulateInput& input, const RunPlan& plan, const RunWatch& watch) {
-  return Run(input, plan, watch).run();
+Memory simulation_memory(const std::string& memory) {
+  Memory all(memory);
+  long steps = 0, unsolved = 0;
+  double end = 0;
+  visit_head(all, steps, end, unsolved);
+  return all;
+}
+
+SimulateResult run_plan(const SimulateInput& input, const RunPlan& plan, const RunWatch& watch,
+                        const RunStart* from) {
+  return Run(input, plan, watch, from).run();
 }
 
 }  // namespace twinarm

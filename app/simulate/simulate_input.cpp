@@ -108,7 +108,11 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
     return {{read_robot_input(options.robot, faults), nullptr, nullptr}, plan};
   }
   refuse_robot_options(options.robot, faults);
-  auto description = attempt(faults, [&] { return read_scene(options.robot.model); });
+  auto description = attempt(faults, [&] {
+    TomlValue tree = read_toml(options.robot.model);
+    if (options.change_scene) options.change_scene(tree, faults);
+    return read_scene(tree, options.robot.model);
+  });
   choose_contact(options.contact, description ? &*description : nullptr, faults);
   const RunPlan plan =
       plan_run(options, description ? defaults_of(*description) : RunDefaults{1.0}, faults);

@@ -101,6 +101,29 @@ class JsonOutput : public RunOutput {
     json_.key("field").text(found.field);
     json_.key("fastest_joint").text(found.fastest_joint);
     json_.key("reason").text(found.reason);
+    json_.key("pass").count(found.pass);
+    json_.key("kinetic_energy").number(found.kinetic_energy);
+    if (found.by_energy) json_.key("energy_bound").number(found.energy_bound);
+    json_.key("ledger_row").text(found.row);
+    json_.key("ledger_growth").number(found.row_growth);
+    json_.key("suspects").begin_array();
+    for (const Suspect& suspect : found.suspects) write(suspect);
+    json_.end_array();
+    json_.key("recording").text(found.recording);
+    json_.key("words").texts(found.words);
+    json_.end_object();
+  }
+
+  void write(const Suspect& suspect) {
+    json_.begin_object();
+    json_.key("name").text(suspect.name);
+    json_.key("scheme").text(suspect.scheme);
+    json_.key("w_h").number(suspect.product);
+    json_.key("limit").number(suspect.limit);
+    json_.key("step").number(suspect.step);
+    json_.key("largest_step").number(suspect.largest_step);
+    json_.key("gain").text(suspect.gain);
+    json_.key("largest_gain").number(suspect.largest_gain);
     json_.end_object();
   }
 

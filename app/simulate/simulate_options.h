@@ -1,11 +1,15 @@
 // What `twinarm simulate` is told, and the run that this asks for.
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/dynamics/robot_input.h"
+#include "app/scene/toml_tree.h"
 #include "solver/fault.h"
 #include "solver/integrator.h"
 
@@ -21,6 +25,13 @@ struct SimulateOptions {
   std::optional<double> every;           // a sample each so many seconds
   std::string at;                        // samples at these times, "t1,t2,.."
   bool json = false, csv = false;
+  std::filesystem::path record;        // a recording; empty: none is written
+  std::optional<double> record_every;  // [s]; left out: each step
+  std::optional<double> energy_bound;  // of kinetic energy [J]; left out: kGrowth times the start's
+  std::vector<std::string> command;    // as it was typed
+  std::filesystem::path post_mortem;   // of a run that stops; empty: beside others in out/
+  // What a fork changes in a scene before it is read; may be empty.
+  std::function<void(TomlValue&, FaultList&)> change_scene;
 };
 
 struct RunDefaults {
@@ -38,6 +49,10 @@ struct RunPlan {
   double tolerance = 1e-9;
   bool locates_events = false;  // in each step
   std::vector<double> times;    // of samples, ascending
+  // A run stops where its kinetic energy passes this. Negative: kGrowth times the largest of 1 J,
+  // its kinetic energy at the start, and its weight over 1 m.
+  double energy_bound = -1;  // [J]
+  static constexpr double kGrowth = 1e12;
   bool is_adaptive() const { return integrator == Integrator::dopri5; }
 };
 

@@ -52,6 +52,7 @@ LIBRARIES = {
                         "app/render/painter.cpp", "app/render/scene_pass.cpp",
                         "app/render/shaders.cpp"}),
     "FreeType": (r"ft2build|freetype/", {"app/render/lettering.cpp"}),
+    "zlib": (r"zlib\.h", {"app/record/recording.cpp"}),
     "PNG": (r"png\.h", {"app/render/image.cpp"}),
 }
 # Parts of the program that are libraries of their own, so that tests can look at them.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/commands.h"
 #include "app/inspect/command/inspect_input.h"
 #include "app/inspect/command/inspect_output.h"
 #include "app/nearest_name.h"
+#include "app/record/instant.h"
 
 namespace twinarm {
 namespace {
@@ -86,14 +88,28 @@ int run_inspect(const InspectOptions& options) {
   simulate.duration = 1;
   simulate.step = options.step;
   simulate.integrator = "semi-implicit";
-  auto prepared = attempt(faults, [&] { return prepare_simulation(simulate); });
+  std::optional<Memory> memory;
+  const bool is_recorded = is_recording(options.robot.model);
+  if (options.at && !is_recorded)
+    faults.add({"", 0, "--at", "is for a recording", "give one, or --state"});
+  if (options.step && is_recorded)
+    faults.add({"", 0, "--step", "a recording has its own step", "leave it out"});
+  double t = 0;
+  auto prepared = attempt(faults, [&] {
+    if (!is_recorded) return prepare_simulation(simulate);
+    RecordedInstant instant = open_instant(options.robot.model, options.at);
+    memory = std::move(instant.memory);
+    t = instant.t;
+    return std::move(instant.prepared);
+  });
   if (prepared) read_bodies(options, prepared->input.robot.model, view, faults);
   faults.check();
 
   SimulateInput& input = prepared->input;
   const bool is_scene = input.scene != nullptr;
-  Inspected inspected =
-      is_scene ? inspect_scene(input, prepared->run.step) : inspect_robot(input.robot);
+  Inspected inspected = is_scene
+                            ? inspect_scene(input, prepared->run.step, memory ? &*memory : nullptr)
+                            : inspect_robot(input.robot);
   if (is_scene && input.scene->description.integrator.value_or(Integrator::semi_implicit) !=
                       Integrator::semi_implicit)
     inspected.warnings.emplace_back(
@@ -104,6 +120,7 @@ int run_inspect(const InspectOptions& options) {
 
   view.warnings = inspected.warnings;
   view.title = title_of(input.robot, in, options);
+  if (is_recorded) view.title += fmt::format("; recorded, t = {} s", t);
   fmt::print("{}\n",
              options.json ? inspect_json(in, view, checks) : inspect_text(in, view, checks));
   const bool all_pass =

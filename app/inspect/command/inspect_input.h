@@ -22,8 +22,8 @@ struct Inspected {
 Inspected inspect_robot(const RobotInput& input);
 
 // The forces of the first semi-implicit step of h from the state: those, couplings, contacts,
-// limits, constraints.
-Inspected inspect_scene(SimulateInput& input, double h);
+// limits, constraints. `memory`: of an instant within a run (Simulation::visit_memory).
+Inspected inspect_scene(SimulateInput& input, double h, Memory* memory = nullptr);
 
 // Used by both: torques of the state file by joint, and its wrenches.
 std::vector<Actor> given_actors(const RobotInput& input);

@@ -20,7 +20,7 @@ Index index(std::size_t i) {
 
 class FirstStep {
  public:
-  FirstStep(SimulateInput& input, double h)
+  FirstStep(SimulateInput& input, double h, Memory* memory)
       : input_(input),
         model_(input.robot.model),
         h_(h),
@@ -35,6 +35,7 @@ class FirstStep {
     for (const SceneMotion& motion : input.scene->motions) sim_.prescribe(motion.body, motion.law);
     sim_.set_integrator(Integrator::semi_implicit);
     contacts_.emplace(*input.scene, sim_);
+    if (memory) sim_.visit_memory(*memory);
   }
 
   Inspected take() {
@@ -211,8 +212,8 @@ class FirstStep {
 
 }  // namespace
 
-Inspected inspect_scene(SimulateInput& input, double h) {
-  return FirstStep(input, h).take();
+Inspected inspect_scene(SimulateInput& input, double h, Memory* memory) {
+  return FirstStep(input, h, memory).take();
 }
 
 }  // namespace twinarm

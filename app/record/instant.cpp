@@ -1,0 +1,62 @@
+#include "app/record/instant.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string>
+
+#include "app/record/recording_reader.h"
+#include "app/record/recording_writer.h"
+#include "app/record/unpack.h"
+#include "app/simulate/run.h"
+#include "solver/kinematics.h"
+
+namespace twinarm {
+namespace {
+
+// A wrench in world axes acts on the point of its link that stood there at the start of the run.
+void move_state(RobotInput& input, const State<double>& x) {
+  Kinematics before(input.model), now(input.model);
+  forward_kinematics(input.model, input.state.x, before);
+  forward_kinematics(input.model, x, now);
+  for (Wrench& wrench : input.state.wrenches) {
+    if (wrench.in_link_axes) continue;
+    const Pose &was = before.X_WL[wrench.body], &is = now.X_WL[wrench.body];
+    const Vector3 p_L = was.R.transpose() * (wrench.point - was.p);
+    wrench.point = is * p_L;
+  }
+  input.state.x = x;
+}
+
+}  // namespace
+
+bool is_recording(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(8, '\0');
+  stream.read(start.data(), 8);
+  if (stream) return start == std::string(recording_format::kMagic, 8);
+  std::error_code ignored;
+  return !std::filesystem::exists(file, ignored) && std::filesystem::exists(part_of(file), ignored);
+}
+
+RecordedInstant open_instant(const std::filesystem::path& file, std::optional<double> at) {
+  const Recording recording(file);
+  for (const std::string& note : recording.notes()) fmt::print(stderr, "twinarm: {}\n", note);
+  const RecordedFrame frame =
+      recording.frame(at ? recording.at(*at, "--at") : recording.size() - 1);
+  const UnpackedRun files(recording.header());
+  SimulateOptions options = files.options();
+  options.integrator = "semi-implicit";
+  options.step = recording.header().step;
+  options.tolerance.reset();
+  RecordedInstant instant{prepare_simulation(options), simulation_memory(frame.memory), frame.t};
+  Memory memory = instant.memory;
+  State<double> x(instant.prepared.input.robot.model);
+  memory.visit(x.q);
+  memory.visit(x.qd);
+  memory.visit(x.t);
+  move_state(instant.prepared.input.robot, x);
+  return instant;
+}
+
+}  // namespace twinarm

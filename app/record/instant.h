@@ -1,0 +1,25 @@
+// A recorded instant, opened again: for inspection.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "app/simulate/simulate_input.h"
+#include "solver/memory.h"
+
+namespace twinarm {
+
+// Whether the file begins as a recording, or there is only its .part.
+bool is_recording(const std::filesystem::path& file);
+
+struct RecordedInstant {
+  SimulatePlan prepared;  // its state is that of the instant; so are the points of wrenches
+  Memory memory;          // for Simulation::visit_memory of a simulation that is built alike
+  double t = 0;           // of the frame [s]
+};
+
+// The last frame at or before `at`; left out: the last of all. With semi-implicit steps. Throws
+// InputError.
+RecordedInstant open_instant(const std::filesystem::path& file, std::optional<double> at);
+
+}  // namespace twinarm

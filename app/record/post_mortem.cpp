@@ -1,0 +1,127 @@
+#include "app/record/post_mortem.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "app/record/record_run.h"
+#include "collision/import/number_text.h"
+
+namespace twinarm {
+namespace {
+
+std::string short_text(double value) {
+  return short_number_text(value);
+}
+
+// The ledger where the last steps begin and where they end.
+struct LastSteps {
+  std::map<std::string, double> before, after;
+  long first = 0, count = 0;
+};
+
+LastSteps run_again(const SimulatePlan& prepared, RecordingHeader header,
+                    const std::filesystem::path& file, const SimulateResult& result) {
+  LastSteps found;
+  const PostMortem& end = *result.post_mortem;
+  const long last = end.by_energy ? end.step : end.step - 1;
+  RunPlan plan = prepared.run;
+  plan.times.clear();
+  plan.energy_bound = HUGE_VAL;
+  std::error_code ignored;
+  if (!file.parent_path().empty()) std::filesystem::create_directories(file.parent_path(), ignored);
+  RunRecorder recorder(file, std::move(header), prepared);
+  const auto note = [](RunView& run, std::map<std::string, double>& rows) {
+    for (const LedgerRow& row : run.ledger()) rows[row.name] = row.work;
+  };
+  RunWatch watch;
+  watch.look = [&](RunView& run) {
+    if (run.step() <= last - kLastSteps) return;
+    if (found.count++ == 0) {
+      found.first = run.step();
+      note(run, found.before);
+    }
+    if (run.step() == last) note(run, found.after);
+    recorder.write(run);
+  };
+  const RunStart start{result.checkpoint, last};
+  run_plan(prepared.input, plan, watch, &start);
+  recorder.finish("post-mortem: " + end.reason);
+  return found;
+}
+
+void find_row(const LastSteps& steps, PostMortem& found) {
+  for (const auto& [name, work] : steps.after) {
+    const auto before = steps.before.find(name);
+    const double growth = work - (before == steps.before.end() ? 0 : before->second);
+    if (growth > found.row_growth || (std::isnan(growth) && found.row.empty()))
+      found.row = name, found.row_growth = growth;
+  }
+}
+
+void say_first_bad(PostMortem& found) {
+  if (found.by_energy)
+    found.words.push_back(
+        fmt::format("fastest then: joint '{}', which carries body '{}'", found.joint, found.body));
+  else if (!found.field.empty())
+    found.words.push_back(fmt::format(
+        "first bad quantity: '{}' of body '{}' (joint '{}'), {}", found.field, found.body,
+        found.joint,
+        found.pass > 0 ? fmt::format("in pass {}", found.pass) : "an input of the passes"));
+}
+
+void say_suspects(PostMortem& found, double h) {
+  bool any = false;
+  for (const Suspect& s : found.suspects) {
+    if (s.step <= s.largest_step) continue;
+    any = true;
+    found.words.push_back(fmt::format("behind it: {}, w h = {} where at most {} holds ({})", s.name,
+                                      short_text(s.product), short_text(s.limit), s.scheme));
+    std::string remedy;
+    if (s.largest_step > 0)
+      remedy =
+          fmt::format("a step of {} s would hold", short_text(0.9 * s.largest_step * h / s.step));
+    if (s.largest_gain > 0)
+      remedy += fmt::format("{}a {} of {} {} would hold at this step", remedy.empty() ? "" : "; ",
+                            s.gain, short_text(0.9 * s.largest_gain), s.unit);
+    if (s.is_coupling)
+      remedy += std::string(remedy.empty() ? "" : "; ") +
+                "treatment = \"implicit\" with the integrator semi-implicit would hold";
+    if (!s.is_coupling)
+      remedy += "; the integrator semi-implicit takes dampers of joints implicitly";
+    found.words.push_back(std::move(remedy));
+  }
+  if (!any)
+    found.words.emplace_back(
+        "no coupling and no damper of a joint is beyond its limit of linear theory about the "
+        "start: look for a short step, a contact or an actuator that drives it");
+}
+
+}  // namespace
+
+void explain(const SimulatePlan& prepared, RecordingHeader header,
+             const std::filesystem::path& file, SimulateResult& result) {
+  PostMortem& found = *result.post_mortem;
+  say_first_bad(found);
+  found.suspects = find_suspects(prepared);
+  say_suspects(found, prepared.run.step);
+  try {
+    const LastSteps steps = run_again(prepared, std::move(header), file, result);
+    find_row(steps, found);
+    if (!found.row.empty())
+      found.words.push_back(
+          fmt::format("the ledger's row '{}' grew most: by {} J in the last {} "
+                      "steps",
+                      found.row, short_text(found.row_growth), steps.count));
+    found.recording = file.string();
+    found.words.push_back(
+        fmt::format("its last {} steps are in {}: look with `twinarm inspect {} "
+                    "--at {}`",
+                    steps.count, found.recording, found.recording, number_text(found.time)));
+  } catch (const InputError& error) {
+    found.words.push_back(std::string("its last steps are not kept: ") + error.what());
+  }
+}
+
+}  // namespace twinarm

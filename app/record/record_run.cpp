@@ -1,0 +1,152 @@
+#include "app/record/record_run.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "app/dynamics/robot_table.h"
+#include "app/output_file.h"
+#include "solver/energy.h"
+
+namespace twinarm {
+namespace {
+
+void add_file(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) return;
+  const std::string path = std::filesystem::absolute(file).lexically_normal().string();
+  const auto is_same = [&](const RecordedFile& f) { return f.path == path; };
+  if (std::none_of(files.begin(), files.end(), is_same))
+    files.push_back({path, read_whole_file(file)});
+}
+
+template <class Geometry>
+void add_mesh(std::vector<RecordedFile>& files, const Geometry& geometry) {
+  if (const auto* mesh = std::get_if<MeshGeometry>(&geometry)) add_file(files, mesh->file);
+}
+
+// All that the scene needs again: robots with their meshes, meshes of bodies, traces of hands.
+void add_files_of(const SceneDescription& scene, std::vector<RecordedFile>& files) {
+  for (const RobotInScene& robot : scene.robots) {
+    add_file(files, robot.description.file);
+    for (const LinkDescription& link : robot.description.links) {
+      for (const VisualPart& part : link.visuals) add_mesh(files, part.geometry);
+      for (const CollisionPart& part : link.collisions) add_mesh(files, part.geometry);
+    }
+  }
+  for (const BodyDescription& body : scene.bodies)
+    if (const auto* mesh = std::get_if<MeshSpec>(&body.shape)) add_file(files, mesh->mesh.file);
+  for (const CouplingDescription& coupling : scene.couplings)
+    add_file(files, coupling.target.trace);
+}
+
+std::vector<RecordedColumn> columns_of(const RobotInput& input) {
+  std::vector<RecordedColumn> columns;
+  const Coordinates& coordinates = input.coordinates;
+  for (const NamedJoint& joint : coordinates.all())
+    for (const JointComponent& c : joint.components())
+      columns.push_back({"q/" + component_name(coordinates, joint, c), c.is_quaternion ? "1"
+                                                                       : c.is_angle    ? "rad"
+                                                                                       : "m"});
+  for (const NamedJoint& joint : coordinates.all())
+    for (const JointComponent& c : joint.components())
+      if (c.v >= 0)
+        columns.push_back(
+            {"qd/" + component_name(coordinates, joint, c), c.is_angle ? "rad/s" : "m/s"});
+  for (std::size_t i = 1; i < input.model.parent.size(); ++i)
+    for (const char* axis : {"x", "y", "z"})
+      columns.push_back({"links/" + input.model.body_name[i] + "/" + axis, "m"});
+  columns.push_back({"kinetic_energy", "J"});
+  columns.push_back({"potential_energy", "J"});
+  return columns;
+}
+
+// In the order of columns_of(); k belongs to x.
+std::vector<double> values_of(const RobotInput& input, const State<double>& x,
+                              const Kinematics& k) {
+  std::vector<double> values;
+  for (const NamedJoint& joint : input.coordinates.all()) {
+    const std::vector<double> q = coordinates_of(joint, x);
+    values.insert(values.end(), q.begin(), q.end());
+  }
+  for (const NamedJoint& joint : input.coordinates.all()) {
+    const std::vector<double> qd = from_solver(joint, x, x.qd);
+    for (const JointComponent& c : joint.components())
+      if (c.v >= 0) values.push_back(qd[static_cast<std::size_t>(c.v)]);
+  }
+  for (std::size_t i = 1; i < input.model.parent.size(); ++i)
+    for (const double p : k.X_WL[i].p) values.push_back(p);
+  values.push_back(kinetic_energy(input.model, x));
+  values.push_back(potential_energy(input.model, x));
+  return values;
+}
+
+void add_contacts_of(const SceneContacts* all, RecordedFrame& frame) {
+  if (!all || !all->contacts()) return;
+  for (const ContactPoint& p : all->contacts()->points()) {
+    if (p.force_W.isZero(0) && p.couple_W.isZero(0)) continue;
+    frame.contacts.push_back({p.contact.a, p.contact.b, p.contact.depth, p.contact.p_WC,
+                              p.contact.n_W, p.force_W, p.couple_W});
+  }
+}
+
+}  // namespace
+
+RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& prepared,
+                          std::vector<std::string> command) {
+  RecordingHeader header;
+  header.program = TWINARM_VERSION;
+  header.command = std::move(command);
+  header.options = options;
+  header.options.change_scene = nullptr;
+  for (auto* path : {&header.options.robot.model, &header.options.robot.state})
+    if (!path->empty()) *path = std::filesystem::absolute(*path).lexically_normal();
+  add_file(header.files, options.robot.model);
+  add_file(header.files, options.robot.state);
+  header.integrator = integrator_name(prepared.run.integrator);
+  header.step = prepared.run.step;
+  header.duration = prepared.run.duration;
+  header.columns = columns_of(prepared.input.robot);
+  if (!prepared.input.scene) return header;
+  const SceneModel& scene = *prepared.input.scene;
+  add_files_of(scene.description, header.files);
+  for (const SceneCoupling& coupling : scene.couplings) header.couplings.push_back(coupling.name);
+  for (const SceneGeometry& geometry : scene.geometries) header.geometries.push_back(geometry.name);
+  return header;
+}
+
+RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared) {
+  RecordedFrame frame;
+  const State<double>& x = run.simulation().state();
+  frame.step = run.step();
+  frame.t = x.t;
+  frame.values = values_of(prepared.input.robot, x, run.simulation().kinematics());
+  if (const SceneCouplings* couplings = prepared.input.couplings.get())
+    for (std::size_t c = 0; c < couplings->size(); ++c) frame.pulls.push_back(couplings->pull(c));
+  add_contacts_of(run.contacts(), frame);
+  frame.memory = run.memory();
+  frame.hash = hash_of(frame.memory);
+  return frame;
+}
+
+RunRecorder::RunRecorder(const std::filesystem::path& file, RecordingHeader header,
+                         const SimulatePlan& prepared, double every)
+    : writer_(file, std::move(header)), prepared_(prepared), every_(every) {}
+
+void RunRecorder::look(RunView& run) {
+  const double t = run.simulation().state().t, slack = 1e-6 * std::min(prepared_.run.step, 1e-3);
+  const bool at_end = t >= prepared_.run.duration - slack;
+  if (every_ > 0 && t < next_ - slack && !at_end) return;
+  while (every_ > 0 && next_ <= t + slack) next_ += every_;
+  write(run);
+}
+
+void RunRecorder::write(RunView& run) {
+  RecordedFrame frame = frame_of(run, prepared_);
+  for (const LedgerRow& row : run.ledger()) {
+    frame.rows.push_back(writer_.number_of(row.name));
+    frame.works.push_back(row.work);
+  }
+  writer_.write(frame);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,37 @@
+// From a run to its recording.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/record/recording_writer.h"
+#include "app/simulate/run.h"
+#include "app/simulate/simulate_input.h"
+
+namespace twinarm {
+
+RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& prepared,
+                          std::vector<std::string> command);
+
+// Without the numbers of the ledger's rows, which a file gives them.
+RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared);
+
+// RunWatch::look of a run that is recorded.
+class RunRecorder {
+ public:
+  // `every` 0: each step.
+  RunRecorder(const std::filesystem::path& file, RecordingHeader header,
+              const SimulatePlan& prepared, double every = 0);
+  void look(RunView& run);
+  void write(RunView& run);
+  void finish(const std::string& how) { writer_.finish(how); }
+
+ private:
+  RecordingWriter writer_;
+  const SimulatePlan& prepared_;
+  double every_, next_ = 0;
+};
+
+}  // namespace twinarm

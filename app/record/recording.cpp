@@ -1,0 +1,96 @@
+#include "app/record/recording.h"
+
+#include <zlib.h>
+
+namespace twinarm {
+namespace {
+
+template <class T, class F>
+void visit_all(Memory& memory, std::vector<T>& items, F f) {
+  memory.resize(items, 1);
+  for (T& item : items) f(item);
+}
+
+void visit_path(Memory& memory, std::filesystem::path& path) {
+  std::string text = path.string();
+  memory.visit(text);
+  path = text;
+}
+
+void visit_number(Memory& memory, std::optional<double>& number) {
+  bool given = number.has_value();
+  double value = number.value_or(0);
+  memory.visit(given);
+  memory.visit(value);
+  if (given)
+    number = value;
+  else
+    number.reset();
+}
+
+// What the run itself depends on; not what it printed.
+void visit_options(Memory& memory, SimulateOptions& options) {
+  visit_path(memory, options.robot.model);
+  visit_path(memory, options.robot.state);
+  memory.visit(options.robot.gravity);
+  for (bool* flag : {&options.robot.floating, &options.robot.friction, &options.robot.armature,
+                     &options.robot.strict})
+    memory.visit(*flag);
+  for (auto* number : {&options.duration, &options.step, &options.tolerance, &options.energy_bound})
+    visit_number(memory, *number);
+  memory.visit(options.integrator);
+  memory.visit(options.contact);
+}
+
+}  // namespace
+
+std::uint64_t hash_of(const std::string& bytes) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return hash;
+}
+
+std::uint32_t checksum(const char* bytes, std::size_t count) {
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const unsigned char*>(bytes), count));
+}
+
+void visit(Memory& memory, RecordingHeader& header) {
+  memory.visit(header.program);
+  visit_all(memory, header.command, [&](std::string& word) { memory.visit(word); });
+  visit_all(memory, header.files, [&](RecordedFile& file) {
+    memory.visit(file.path);
+    memory.visit(file.bytes);
+  });
+  visit_options(memory, header.options);
+  memory.visit(header.integrator);
+  memory.visit(header.step);
+  memory.visit(header.duration);
+  memory.visit(header.seed);
+  visit_all(memory, header.columns, [&](RecordedColumn& column) {
+    memory.visit(column.name);
+    memory.visit(column.unit);
+  });
+  visit_all(memory, header.couplings, [&](std::string& name) { memory.visit(name); });
+  visit_all(memory, header.geometries, [&](std::string& name) { memory.visit(name); });
+}
+
+void visit(Memory& memory, RecordedFrame& frame) {
+  memory.visit(frame.step);
+  memory.visit(frame.t);
+  memory.visit(frame.hash);
+  memory.visit(frame.values);
+  visit_all(memory, frame.pulls, [&](Vector3& pull) { memory.visit(pull); });
+  visit_all(memory, frame.contacts, [&](RecordedContact& contact) {
+    memory.visit(contact.a);
+    memory.visit(contact.b);
+    memory.visit(contact.depth);
+    for (Vector3* v : {&contact.point, &contact.normal, &contact.force, &contact.couple})
+      memory.visit(*v);
+  });
+  memory.visit(frame.rows);
+  memory.visit(frame.works);
+  memory.visit(frame.memory);
+}
+
+}  // namespace twinarm

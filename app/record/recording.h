@@ -1,0 +1,70 @@
+// A recording of a run (docs/recording.md): what it was of, then frame by frame what it did.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/simulate/simulate_options.h"
+#include "solver/memory.h"
+
+namespace twinarm {
+
+// A file that the run read, so that the recording stands alone.
+struct RecordedFile {
+  std::string path, bytes;  // absolute
+};
+
+struct RecordedColumn {
+  std::string name, unit;
+};
+
+struct RecordingHeader {
+  std::string program;  // its version
+  std::vector<std::string> command;
+  std::vector<RecordedFile> files;  // the model or scene first
+  SimulateOptions options;          // as given; paths absolute
+  std::string integrator;
+  double step = 0, duration = 0;        // [s]
+  long seed = 0;                        // of what is random; a run has nothing of that kind
+  std::vector<RecordedColumn> columns;  // of RecordedFrame::values
+  std::vector<std::string> couplings;
+  std::vector<std::string> geometries;  // that contacts name by number
+};
+
+struct RecordedContact {  // on b, world axes
+  int a = 0, b = 0;
+  double depth = 0;  // [m]
+  Vector3 point = Vector3::Zero(), normal = Vector3::Zero();
+  Vector3 force = Vector3::Zero(), couple = Vector3::Zero();  // [N], [N m]
+};
+
+struct RecordedFrame {
+  long step = 0;
+  double t = 0;                // [s]
+  std::uint64_t hash = 0;      // of memory
+  std::vector<double> values;  // coordinates, velocities, positions, energies
+  std::vector<Vector3> pulls;  // of the couplings, on the link [N or N m]
+  std::vector<RecordedContact> contacts;
+  std::vector<std::uint32_t> rows;  // of the ledger: numbers of names
+  std::vector<double> works;        // [J]
+  std::string memory;               // state, and what the next step reads besides
+};
+
+std::uint64_t hash_of(const std::string& bytes);  // FNV-1a, 64 bits
+
+// Both ways, as solver/memory.h.
+void visit(Memory& memory, RecordingHeader& header);
+void visit(Memory& memory, RecordedFrame& frame);
+
+// The blocks of the file: kind, length, payload, CRC-32 of all three. Little-endian.
+namespace recording_format {
+inline constexpr char kMagic[9] = "TWINREC\n";
+inline constexpr std::uint32_t kVersion = 1;
+inline constexpr char kHeader = 'H', kName = 'N', kFrame = 'F', kEnd = 'E';
+inline constexpr std::size_t kStart = 12;              // magic and version
+inline constexpr std::size_t kBefore = 5, kAfter = 4;  // bytes of a block around its payload
+}  // namespace recording_format
+std::uint32_t checksum(const char* bytes, std::size_t count);
+
+}  // namespace twinarm

@@ -1,0 +1,44 @@
+// Reads a recording: as much of it as is whole.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/record/recording.h"
+
+namespace twinarm {
+
+class Recording {
+ public:
+  // FILE, or FILE.part where there is no FILE. Throws InputError for what is no recording, is of a
+  // newer format, or has nothing whole; what else is missing stands in notes().
+  explicit Recording(const std::filesystem::path& file);
+
+  const RecordingHeader& header() const { return header_; }
+  const std::vector<std::string>& rows() const { return names_; }  // of the ledger
+  const std::vector<std::string>& notes() const { return notes_; }
+  const std::string& end() const { return end_; }  // how the run ended; empty: not known
+
+  std::size_t size() const { return places_.size(); }
+  RecordedFrame frame(std::size_t n) const;
+  // The last frame at or before t (a millionth of a step after it counts too). Throws InputError
+  // where t lies outside of what is recorded, naming `option`.
+  std::size_t at(double t, const std::string& option) const;
+
+ private:
+  struct Place {
+    std::size_t begin, size;  // of the payload
+    double t;
+  };
+  void read_blocks();
+  void take(char kind, std::size_t begin, std::size_t size);
+
+  std::string file_, bytes_, end_;
+  RecordingHeader header_;
+  bool has_header_ = false;
+  std::vector<std::string> names_, notes_;
+  std::vector<Place> places_;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,82 @@
+#include "app/record/recording_writer.h"
+
+#include <utility>
+
+#include "solver/fault.h"
+
+namespace twinarm {
+namespace {
+
+constexpr std::size_t kMostWaiting = 1 << 18;  // bytes
+constexpr std::chrono::milliseconds kLongestWait{250};
+
+std::string bytes_of(std::uint32_t number) {
+  Memory memory;
+  memory.visit(number);
+  return memory.bytes();
+}
+
+}  // namespace
+
+std::filesystem::path part_of(const std::filesystem::path& file) {
+  return file.string() + ".part";
+}
+
+RecordingWriter::RecordingWriter(std::filesystem::path file, RecordingHeader header)
+    : file_(std::move(file)),
+      part_(part_of(file_)),
+      out_(part_, std::ios::binary | std::ios::trunc),
+      flushed_(std::chrono::steady_clock::now()) {
+  if (!out_ || std::filesystem::is_directory(file_)) fail();
+  waiting_ = std::string(recording_format::kMagic, 8) + bytes_of(recording_format::kVersion);
+  Memory memory;
+  visit(memory, header);
+  block(recording_format::kHeader, memory.bytes());
+  flush();
+}
+
+std::uint32_t RecordingWriter::number_of(const std::string& row) {
+  const auto [place, is_new] = names_.try_emplace(row, static_cast<std::uint32_t>(names_.size()));
+  if (is_new) block(recording_format::kName, row);
+  return place->second;
+}
+
+void RecordingWriter::write(RecordedFrame& frame) {
+  Memory memory;
+  visit(memory, frame);
+  block(recording_format::kFrame, memory.bytes());
+  if (waiting_.size() > kMostWaiting || std::chrono::steady_clock::now() - flushed_ > kLongestWait)
+    flush();
+}
+
+void RecordingWriter::finish(std::string how) {
+  block(recording_format::kEnd, how);
+  flush();
+  out_.close();
+  std::error_code error;
+  std::filesystem::rename(part_, file_, error);
+  if (error || !out_) fail();
+}
+
+void RecordingWriter::block(char kind, const std::string& payload) {
+  const std::size_t begin = waiting_.size();
+  waiting_ += kind;
+  waiting_ += bytes_of(static_cast<std::uint32_t>(payload.size()));
+  waiting_ += payload;
+  waiting_ += bytes_of(checksum(waiting_.data() + begin, waiting_.size() - begin));
+}
+
+void RecordingWriter::flush() {
+  out_.write(waiting_.data(), static_cast<std::streamsize>(waiting_.size()));
+  out_.flush();
+  if (!out_) fail();
+  waiting_.clear();
+  flushed_ = std::chrono::steady_clock::now();
+}
+
+void RecordingWriter::fail() const {
+  throw InputError({{file_.string(), 0, "--record", "the recording cannot be written",
+                     "choose a folder that exists, can be written, and has room"}});
+}
+
+}  // namespace twinarm

@@ -1,0 +1,42 @@
+// A recorded run made again, from the files that the recording holds: those on the disk may have
+// changed, or be gone.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/record/recording_reader.h"
+#include "app/simulate/simulate_input.h"
+
+namespace twinarm {
+
+// "coupling[0].stiffness=800", "coupling.stiffness=800" (all), "coupling.NAME.stiffness=800",
+// "gravity=0,0,-1.62".
+struct Change {
+  std::string path, value;
+};
+// Throws InputError for what has no '='.
+Change parse_change(const std::string& text);
+// To a scene's tree; adds a fault where the path leads nowhere.
+void apply(const Change& change, TomlValue& scene, FaultList& faults);
+
+// The recording's files in a temporary folder, which goes with it.
+class UnpackedRun {
+ public:
+  explicit UnpackedRun(const RecordingHeader& header);
+  ~UnpackedRun();
+  UnpackedRun(const UnpackedRun&) = delete;
+  UnpackedRun& operator=(const UnpackedRun&) = delete;
+
+  // What the run was given, its paths those of the copies.
+  SimulateOptions options(const std::vector<Change>& changes = {}) const;
+
+ private:
+  std::filesystem::path copy_of(const std::filesystem::path& original) const;
+  void lead_to_copies(TomlValue& value) const;
+  const RecordingHeader& header_;
+  std::filesystem::path folder_;
+};
+
+}  // namespace twinarm

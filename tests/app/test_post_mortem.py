@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""`twinarm inspect RECORDING --at T`, and what a run that stops by itself says.
+
+    test_post_mortem.py PATH/TO/twinarm
+"""
+import json
+import math
+import os
+import subprocess
+import sys
+import unittest
+
+import robot_command
+from recording_command import BOXES, DOUBLE, HELD, RecordingCommand
+from robot_command import PENDULUM, slider
+
+
+class Instants(RecordingCommand):
+    def test_an_instant_is_inspected_as_the_state_file_of_that_instant_is(self):
+        state = {"q": {"shoulder": 1.0}, "tau": {"elbow": 0.2}}
+        file = self.record(DOUBLE, "--duration", 0.1, state=state)
+        recorded = json.loads(self.twinarm("inspect", file, "--at", 0.05, "--json").stdout)
+        printed = json.loads(self.twinarm(
+            "simulate", self.folder / "test.urdf", "--state", self.folder / "state.json",
+            "--duration", 0.1, "--at", 0.05, "--json").stdout)["samples"][0]
+        (self.folder / "then.json").write_text(
+            json.dumps({"q": printed["q"], "qd": printed["qd"], "tau": state["tau"]}))
+        wanted = json.loads(self.twinarm("inspect", self.folder / "test.urdf", "--state",
+                                         self.folder / "then.json", "--json").stdout)
+        self.assertEqual(recorded["passes"], wanted["passes"])
+        self.assertEqual(recorded["balance"], wanted["balance"])
+
+    def test_the_forces_on_a_box_at_an_instant_of_a_scene_balance(self):
+        file = self.record(BOXES % "", "--duration", 0.4)
+        answer = json.loads(self.twinarm("inspect", file, "--at", 0.3, "--json").stdout)
+        by_body = {b["body"]: b for b in answer["balance"]}
+        self.assertLess(by_body["low"]["residual"], 1e-10)
+        self.assertTrue(any(w["source"].startswith("contact/")
+                            for w in by_body["low"]["wrenches"]))
+
+    def test_times_outside_and_options_that_do_not_go_are_refused(self):
+        file = self.record(PENDULUM, "--duration", 0.1)
+        self.assertIn("--at", self.refused("inspect", file, "--at", 3))
+        self.assertIn("--at", self.refused("inspect", self.folder / "test.urdf", "--at", 0))
+
+
+class PostMortems(RecordingCommand):
+    def test_a_spring_above_its_limit_is_named_and_the_remedy_holds(self):
+        """One spring on I = 0.5 without damper: semi-implicit Euler holds up to w h = 2."""
+        inertia, h, k = 0.5, 0.001, 4e6
+        file = self.folder / "last.twinrec"
+        self.record(HELD % (k, 0, ""), "--duration", 1, "--step", h, "--post-mortem", file, code=3)
+        found = json.loads(self.simulated.stdout)["post_mortem"]
+        suspect = found["suspects"][0]
+        self.assertIn("'pull'", suspect["name"])
+        self.close(suspect["w_h"], math.sqrt(k / inertia) * h, 1e-9)
+        self.close(suspect["limit"], 2, 1e-4)
+        self.close(suspect["largest_step"], 2 / math.sqrt(k / inertia), 1e-4)
+        self.close(suspect["largest_gain"], 4 * inertia / h ** 2, 1e-3)
+        self.assertEqual(found["joint"], "hinge")
+        self.assertIn("'pull'", self.simulated.stderr)
+        self.assertTrue(found["ledger_row"])
+        self.assertGreater(found["ledger_growth"], 1)
+        # What it says holds, holds; a little beyond the limit it does not.
+        for step, code in ((0.9 * suspect["largest_step"], 0), (1.2 * suspect["largest_step"], 3)):
+            self.record(HELD % (k, 0, ""), "--duration", 1, "--step", step, "--post-mortem", file,
+                        code=code)
+        self.record(HELD % (0.9 * suspect["largest_gain"], 0, ""), "--duration", 1, "--step", h)
+
+    def test_the_last_thousand_steps_are_those_of_the_run(self):
+        """A spring a hair beyond its limit, recorded in full beside its post-mortem."""
+        k = 4 * 0.5 / 0.001 ** 2 * 1.00002
+        last = self.folder / "last.twinrec"
+        full = self.record(HELD % (k, 0, ""), "--duration", 60, "--energy-bound", 1e25,
+                           "--post-mortem", last, code=3)
+        found = json.loads(self.simulated.stdout)["post_mortem"]
+        self.assertIn("kinetic energy", found["reason"])
+        ours, all_frames = self.exported(last)["frames"], self.exported(full)["frames"]
+        self.assertEqual(len(ours), 1000)
+        self.assertGreater(len(all_frames), 1500)
+        self.assertEqual([f["hash"] for f in ours], [f["hash"] for f in all_frames[-1000:]])
+        self.assertEqual(ours[-1]["step"], found["step"])
+        # It opens; at such speeds a check by a second way may fall short, and then says so.
+        opened = subprocess.run([robot_command.PROGRAM, "inspect", last, "--at",
+                                 str(ours[500]["t"]), "--json"], capture_output=True, text=True)
+        self.assertIn(opened.returncode, (0, 1), opened.stderr)
+        self.assertTrue(json.loads(opened.stdout)["balance"])
+
+    def test_the_damper_of_a_joint_is_named_where_the_integrator_takes_it_explicitly(self):
+        self.record(slider(damping=1e5), "--duration", 1, "--integrator", "euler",
+                    "--energy-bound", "inf", "--post-mortem", self.folder / "last.twinrec",
+                    state={"qd": {"slide": 1}}, code=3)
+        found = json.loads(self.simulated.stdout)["post_mortem"]
+        self.assertIn("'slide'", found["suspects"][0]["name"])
+        self.close(found["suspects"][0]["w_h"], 1e5 / 2.0 * 0.001)
+        self.assertEqual(found["suspects"][0]["limit"], 2)
+
+    def test_bad_numbers_are_told(self):
+        (self.folder / "test.urdf").write_text(PENDULUM)
+        errors = self.refused("simulate", self.folder / "test.urdf", "--duration", 1,
+                              "--energy-bound", -1, "--record-every", 0)
+        for words in ("--energy-bound", "--record-every", "--record FILE"):
+            self.assertIn(words, errors)
+        self.assertIn("cannot be written", self.refused(
+            "simulate", self.folder / "test.urdf", "--duration", 1, "--record",
+            self.folder / "none" / "run.twinrec"))
+
+
+if __name__ == "__main__":
+    robot_command.PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""Recordings: `simulate --record`, `export`, `replay`, and files that are damaged.
+
+    test_recording.py PATH/TO/twinarm
+"""
+import csv
+import io
+import json
+import os
+import pathlib
+import signal
+import struct
+import subprocess
+import sys
+import time
+import unittest
+import zlib
+
+import robot_command
+from recording_command import BOXES, DOUBLE, HELD, RecordingCommand
+from robot_command import PENDULUM
+
+
+class Recordings(RecordingCommand):
+    def test_a_robot_goes_on_with_the_same_bits_from_any_step_by_every_integrator(self):
+        state = {"q": {"shoulder": 1.0, "elbow": 0.5}, "tau": {"elbow": 0.2},
+                 "wrenches": [{"link": "lower", "point": [0, 0, -1.5], "force": [1, 0.5, 0]}]}
+        for integrator in ("semi-implicit", "semi-implicit-xv", "verlet", "rk4", "dopri5",
+                           "implicit-midpoint"):
+            file = self.record(DOUBLE, "--duration", 0.3, "--step", 0.01, "--integrator",
+                               integrator, state=state)
+            self.goes_on_with_the_same_bits(file, (0, 0.05, 0.21))
+
+    def test_contacts_go_on_with_the_same_bits(self):
+        for contact in ("rigid", "compliant", "event"):
+            file = self.record(BOXES % f'contact = "{contact}"', "--duration", 0.5)
+            self.goes_on_with_the_same_bits(file, (0, 0.1, 0.3))
+            frames = self.exported(file)["frames"]
+            self.assertTrue(any(f["contacts"] for f in frames), contact)
+
+    def test_a_held_force_goes_on_with_the_same_bits_between_two_evaluations(self):
+        file = self.record(HELD % (50, 2, "rate = 100"), "--duration", 0.2, "--step", 0.001)
+        self.goes_on_with_the_same_bits(file, (0, 0.033, 0.104))
+
+    def test_a_recording_stands_alone_where_its_files_have_changed_or_are_gone(self):
+        file = self.record(HELD % (50, 2, ""), "--duration", 0.2)
+        (self.folder / "test.urdf").unlink()
+        (self.folder / "scene.toml").write_text("step = 5")
+        self.goes_on_with_the_same_bits(file, (0.1,))
+
+    def test_a_fork_is_the_run_that_the_changed_scene_gives(self):
+        """Forked at t = 0 it must be, number by number, a run of the edited scene."""
+        file = self.record(HELD % (50, 2, ""), "--duration", 0.3)
+        for path in ("coupling.stiffness", "coupling[0].stiffness", "coupling.pull.stiffness"):
+            fork = self.replayed(file, "--from", 0, "--set", f"{path}=800")
+            self.assertTrue(fork["bit_exact"])
+            by_name = {b["name"]: b for b in fork["branches"]}
+            other = self.exported(self.record(HELD % (800, 2, ""), "--duration", 0.3,
+                                              name="other.twinrec"))
+            column = [c["name"] for c in other["columns"]].index("q/hinge")
+            wanted = [f["values"][column] for f in other["frames"]]
+            self.assertEqual(by_name["fork"]["values"]["q/hinge[rad]"], wanted)
+            self.assertNotEqual(by_name["recorded"]["values"]["q/hinge[rad]"], wanted)
+        table = self.twinarm("replay", file, "--from", 0.1, "--set", "coupling.stiffness=800")
+        self.assertIn("fork q/hinge[rad]", table.stdout)
+
+    def test_what_a_fork_cannot_change_is_refused(self):
+        file = self.record(HELD % (50, 2, ""), "--duration", 0.1)
+        for change, words in (("coupling.stifness=1", "stifness"), ("step=0.1", "grid"),
+                              ("couplin.stiffness=1", "'coupling'"), ("nonsense", "PATH=VALUE"),
+                              ("coupling[7].stiffness=1", "no such"),
+                              ("coupling.stiffness=-1", "negative")):
+            self.assertIn(words, self.refused("replay", file, "--set", change))
+        self.assertIn("--from", self.refused("replay", file, "--from", 5))
+
+    def test_the_ledger_and_the_states_are_those_that_simulate_prints(self):
+        file = self.record(BOXES % "", "--duration", 0.4)
+        printed = json.loads(self.simulated.stdout)
+        exported = self.exported(file)
+        last = exported["frames"][-1]
+        self.assertEqual(last["ledger"], printed["ledger"])
+        names = [c["name"] for c in exported["columns"]]
+        sample = printed["samples"][-1]
+        self.assertEqual(last["values"][names.index("kinetic_energy")], sample["kinetic_energy"])
+        for axis in range(3):
+            self.assertEqual(last["values"][names.index(f"links/low/{'xyz'[axis]}")],
+                             sample["links"]["low"]["position"][axis])
+
+    def test_the_csv_has_units_in_its_header_and_the_numbers_of_the_json(self):
+        file = self.record(BOXES % "", "--duration", 0.3)
+        rows = list(csv.DictReader(io.StringIO(self.twinarm("export", file, "--csv").stdout)))
+        frames = self.exported(file)["frames"]
+        self.assertEqual(len(rows), len(frames))
+        self.assertTrue(all(name.endswith("]") for name in rows[0]), list(rows[0]))
+        self.assertEqual([float(r["t[s]"]) for r in rows], [f["t"] for f in frames])
+        self.assertEqual(float(rows[-1]["ledger/gravity[J]"]), frames[-1]["ledger"]["gravity"])
+        pushed = [c["force"][2] for c in frames[-1]["contacts"] if c["pair"] == "contact/floor-low"]
+        self.assertAlmostEqual(float(rows[-1]["contact/floor-low/z[N]"]), sum(pushed))
+
+    def test_record_every_keeps_fewer_frames_and_the_end(self):
+        file = self.record(PENDULUM, "--duration", 0.105, "--step", 0.01, "--record-every", 0.02)
+        times = [f["t"] for f in self.exported(file)["frames"]]
+        self.close(times, [0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.105])
+        self.goes_on_with_the_same_bits(file, (0.05,))
+
+    def test_recording_does_not_change_the_run(self):
+        self.record(BOXES % "", "--duration", 0.3)
+        recorded = self.simulated.stdout
+        plain = self.twinarm("simulate", self.folder / "scene.toml", "--duration", 0.3, "--json")
+        self.assertEqual(plain.stdout, recorded)
+
+
+class Damage(RecordingCommand):
+    def frame_ends(self, data):
+        """(offset behind each block, its kind), by the layout in docs/recording.md."""
+        at, ends = 12, []
+        while at < len(data):
+            size = struct.unpack_from("<I", data, at + 1)[0]
+            payload_end = at + 5 + size
+            self.assertEqual(struct.unpack_from("<I", data, payload_end)[0],
+                             zlib.crc32(data[at:payload_end]))
+            ends.append((payload_end + 4, chr(data[at])))
+            at = payload_end + 4
+        return ends
+
+    def test_what_is_whole_of_a_file_cut_short_anywhere_is_kept_and_said(self):
+        file = self.record(PENDULUM, "--duration", 0.05, "--step", 0.01, state={"q": {"hinge": 1}})
+        data = file.read_bytes()
+        ends = self.frame_ends(data)
+        frames = [end for end, kind in ends if kind == "F"]
+        self.assertEqual(len(frames), 6)
+        for cut in (frames[0], frames[2] + 1, frames[4] - 1, len(data) - 1):
+            file.write_bytes(data[:cut])
+            exported = self.exported(file)
+            self.assertEqual(len(exported["frames"]), sum(end <= cut for end in frames))
+            self.assertTrue(any("cut short" in n or "mark of its end" in n
+                                for n in exported["notes"]), exported["notes"])
+        for cut in (0, 5, 11, 12, 20, frames[0] - 1):
+            file.write_bytes(data[:cut])
+            self.assertIn(str(file), self.refused("export", file, "--csv"))
+
+    def test_a_flipped_bit_ends_what_is_read_and_is_said(self):
+        file = self.record(PENDULUM, "--duration", 0.05, "--step", 0.01, state={"q": {"hinge": 1}})
+        data = bytearray(file.read_bytes())
+        frames = [end for end, kind in self.frame_ends(bytes(data)) if kind == "F"]
+        data[frames[2] + 30] ^= 4
+        file.write_bytes(data)
+        exported = self.exported(file)
+        self.assertEqual(len(exported["frames"]), 3)
+        self.assertTrue(any("checksum" in n and "3 frames" in n for n in exported["notes"]))
+        self.goes_on_with_the_same_bits(file, (0.01,))
+
+    def test_a_newer_format_and_what_is_no_recording_are_refused(self):
+        file = self.record(PENDULUM, "--duration", 0.02)
+        data = bytearray(file.read_bytes())
+        data[8:12] = struct.pack("<I", 7)
+        file.write_bytes(data)
+        for command in (["export", file, "--csv"], ["replay", file], ["inspect", file]):
+            error = self.refused(*command)
+            self.assertIn("version 7", error)
+            self.assertIn("version 1", error)
+        file.write_bytes(b"not at all")
+        self.assertIn("no recording", self.refused("export", file, "--csv"))
+        self.assertIn("cannot be read", self.refused("export", self.folder / "none", "--csv"))
+
+    def test_a_run_that_is_killed_leaves_what_it_had_flushed(self):
+        (self.folder / "test.urdf").write_text(PENDULUM)
+        file = self.folder / "killed.twinrec"
+        process = subprocess.Popen(
+            [robot_command.PROGRAM, "simulate", self.folder / "test.urdf", "--duration", "1e4",
+             "--record", file], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        part = pathlib.Path(str(file) + ".part")
+        deadline = time.time() + 30
+        while time.time() < deadline and not (part.exists() and part.stat().st_size > 100_000):
+            time.sleep(0.05)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        self.assertFalse(file.exists())
+        result = self.twinarm("export", file, "--csv")
+        self.assertIn(".part", result.stderr)
+        self.assertGreater(len(result.stdout.splitlines()), 100)
+        answer = self.replayed(file, "--from", 0.01)
+        self.assertTrue(answer["bit_exact"])
+        self.assertGreater(answer["compared"], 100)
+
+    def test_ctrl_c_leaves_a_whole_recording(self):
+        (self.folder / "test.urdf").write_text(PENDULUM)
+        file = self.folder / "stopped.twinrec"
+        process = subprocess.Popen(
+            [robot_command.PROGRAM, "simulate", self.folder / "test.urdf", "--duration", "1e4",
+             "--record", file], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(0.7)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=20), 130)
+        self.assertEqual(self.exported(file)["end"], "interrupted")
+
+
+if __name__ == "__main__":
+    robot_command.PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
