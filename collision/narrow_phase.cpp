@@ -8,8 +8,9 @@
 //   4. cylinders and ellipsoids: see curved_axis.h.
 // Every direction, wherever it comes from, is judged by overlap(n) of the true shapes: an upper
 // bound of the depth for any n. So a search that ends early can cost optimality, never consistency,
-// and the difference between distance and bound (the duality gap) tells that it happened. Cost: 0.1 us in closed form, 0.6 us for boxes face on face, 2-30 us
-// otherwise; hulls with hundreds of vertices 10-100 us.
+// and the difference between distance and bound (the duality gap) tells that it happened. Cost: 0.1
+// us in closed form, 0.6 us for boxes face on face, 2-30 us otherwise; hulls with hundreds of
+// vertices 10-100 us.
 #include "collision/narrow_phase.h"
 
 #include <Eigen/Geometry>

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/kinematics.h"
 #include "solver/energy.h"
 #include "solver/first_bad.h"
+#include "solver/kinematics.h"
 
 namespace twinarm {
 
