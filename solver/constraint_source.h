@@ -16,8 +16,8 @@
 namespace twinarm {
 
 enum class Phase {
-  impact,   // velocities jump: v0 are those before
-  step,     // v0 are those at the end of the step without the impulses
+  impact,    // velocities jump: v0 are those before
+  step,      // v0 are those at the end of the step without the impulses
   separate,  // v0 = 0, and v is a small motion [m, rad]: what penetrates is pushed apart
   // of event_step.h alone:
   hit,  // as impact, of what touches now
@@ -29,8 +29,8 @@ struct ConstraintFrame {
   const ModelTrees& trees;
   const State<double>& x;  // q at the start, qd before this phase
   Phase phase;
-  double h;              // [s]
-  bool plastic = false;  // impact: as if every restitution were 0
+  double h;                   // [s]
+  bool plastic = false;       // impact: as if every restitution were 0
   const double* v = nullptr;  // velocities of x, in the order of the trees
   // impact: accelerations that go on until the gap is closed, in the order of the trees
   const double* acceleration = nullptr;

@@ -88,7 +88,7 @@ TEST_CASE(
     "gjk: along its normal every distance is proven by the supports, and the points have it") {
   int apart = 0;
   for_all_solids([&](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
-                    Random& random) {
+                     Random& random) {
     const double radii = solid_a.core.radius + solid_b.core.radius;
     double gap = 0, points = 0;
     for (int k = 0; k < 200; ++k) {
@@ -111,7 +111,7 @@ TEST_CASE(
 
 TEST_CASE("gjk: FCL never finds a shorter distance, and none where this finds an overlap") {
   for_all_solids([](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
-                   Random& random) {
+                    Random& random) {
     const FclShape fcl_a(a, solid_a.core), fcl_b(b, solid_b.core);
     double longer = 0, lost = 0;
     for (int k = 0; k < 50; ++k) {
@@ -131,7 +131,7 @@ TEST_CASE("gjk: FCL never finds a shorter distance, and none where this finds an
 TEST_CASE("gjk: where it finds an overlap of the cores, no direction parts them") {
   NarrowPhase narrow_phase;
   for_all_solids([&](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
-                    Random& random) {
+                     Random& random) {
     const double radii = solid_a.core.radius + solid_b.core.radius;
     double parted = 0, unlike = 0;
     for (int k = 0; k < 50; ++k) {
@@ -153,7 +153,7 @@ TEST_CASE("gjk: where it finds an overlap of the cores, no direction parts them"
 
 TEST_CASE("gjk: what is farther than asked for is told to be so, the rest is not cut short") {
   for_all_solids([](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
-                   Random& random) {
+                    Random& random) {
     int wrong = 0;
     for (int k = 0; k < 50; ++k) {
       const Poses x = poses_of_all_kinds(random, a, b, k);
