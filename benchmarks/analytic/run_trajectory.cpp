@@ -206,8 +206,8 @@ std::optional<double> observed_order(const TrajectoryCase& c, const Lane& lane) 
     scene.conserves = false;  // nobody asks for its energy
     error.push_back(measure(c, std::move(scene), {lane.integrator, h, 0}, nullptr).error);
     if (i < 2 || !(error[error.size() - 3] > rounding)) continue;
-    const double* e = &error[error.size() - 3];
-    const double fine = std::log2(e[1] / e[0]), coarse = std::log2(e[2] / e[1]);
+    const double* last = &error[error.size() - 3];
+    const double fine = std::log2(last[1] / last[0]), coarse = std::log2(last[2] / last[1]);
     // Least squares through three points at equal distances.
     if (fine > 0.5 && std::abs(fine - coarse) < 0.3) return (fine + coarse) / 2;
   }
