@@ -43,17 +43,12 @@ struct alignas(N * sizeof(double)) Batch {
     for (int i = 0; i < N; ++i) root.lanes[i] = std::sqrt(a.lanes[i]);
     return root;
   }
-  friend bool is_nonzero(const Batch& a) {
-    bool any = false;
-    for (int i = 0; i < N; ++i) any = any | (a.lanes[i] != 0);
-    return any;
-  }
+  friend bool is_nonzero(const Batch& a) { return any_lane(a.lanes != 0); }
   friend SinCos<Batch> sin_cos(const Batch& x) {
     const SinCos<Lanes> both = sin_cos_polynomial<Lanes, Mask>(x.lanes);
     SinCos<Batch> out{of(both.sin), of(both.cos)};
-    bool near = true;
-    for (int i = 0; i < N; ++i) near = near & (std::abs(x.lanes[i]) <= kPolynomialRange);
-    if (near) return out;
+    const Mask near = (x.lanes <= kPolynomialRange) & (x.lanes >= -kPolynomialRange);
+    if (!any_lane(~near)) return out;
     for (int i = 0; i < N; ++i) {  // far out, and NaN
       const SinCos<double> one = sin_cos(static_cast<double>(x.lanes[i]));
       out.sin.lanes[i] = one.sin;

@@ -26,6 +26,18 @@ struct LanesOf<8> {
   typedef std::int64_t Mask __attribute__((vector_size(64)));
 };
 
+// Whether any bit of any lane is set. By halves, so that lanes are not taken out one by one.
+inline bool any_lane(const LanesOf<2>::Mask& m) {
+  return (m[0] | m[1]) != 0;
+}
+inline bool any_lane(const LanesOf<4>::Mask& m) {
+  return any_lane(__builtin_shufflevector(m, m, 0, 1) | __builtin_shufflevector(m, m, 2, 3));
+}
+inline bool any_lane(const LanesOf<8>::Mask& m) {
+  return any_lane(__builtin_shufflevector(m, m, 0, 1, 2, 3) |
+                  __builtin_shufflevector(m, m, 4, 5, 6, 7));
+}
+
 // How many doubles a register holds at the level that a unit is compiled for.
 #if defined(__AVX512F__)
 inline constexpr int kNativeLanes = 8;
