@@ -1,11 +1,11 @@
 #include "coupling/prediction.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "solver/dense_algebra.h"
 #include "solver/dynamics.h"
 
 namespace twinarm {
@@ -61,8 +61,7 @@ bool is_stable(Scheme scheme, double alpha, double beta) {
 }
 
 VectorXd squared_frequencies(const MatrixXd& M, const MatrixXd& K) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(K, M, Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return generalized_eigenvalues(K, M);
 }
 
 namespace {
@@ -91,7 +90,7 @@ MatrixXd step_matrix(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B, Sc
 
 bool contracts(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B, Scheme scheme, double h) {
   const MatrixXd A = step_matrix(M, K, B, scheme, h);
-  return A.eigenvalues().cwiseAbs().maxCoeff() <= 1 + 1e-9;
+  return eigenvalues_of(A).cwiseAbs().maxCoeff() <= 1 + 1e-9;
 }
 
 }  // namespace

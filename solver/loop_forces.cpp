@@ -1,9 +1,9 @@
 #include "solver/loop_forces.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <utility>
 
+#include "solver/dense_algebra.h"
 #include "solver/dynamics.h"
 
 namespace twinarm {
@@ -134,9 +134,7 @@ Eigen::VectorXd BilateralForces::lambda_of_loops() const {
   Eigen::VectorXd lambda(static_cast<Eigen::Index>(loops_.rows()));
   for (Eigen::Index r = 0; r < lambda.size(); ++r)
     lambda[r] = lambda_[model_->mimics.size() + static_cast<std::size_t>(r)];
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> forces_of(loops_.J().transpose());
-  forces_of.setThreshold(1e-9);
-  return forces_of.solve(loops_.J().transpose() * lambda);
+  return shortest_solution(loops_.J().transpose(), loops_.J().transpose() * lambda, 1e-9);
 }
 
 }  // namespace twinarm

@@ -1,11 +1,10 @@
 #include "app/inspect/linear_system.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "solver/dense_algebra.h"
 #include "solver/derivatives.h"
 #include "solver/mimic.h"
 
@@ -120,7 +119,7 @@ LinearSystem linearise(const Model<double>& model, const State<double>& x, const
     if (dof < dof_count) system.dofs.push_back(dof);
   const Index n = index(system.dofs.size());
   const Eigen::MatrixXd G = all_G.leftCols(n);
-  const Eigen::LDLT<Eigen::MatrixXd> M_y(G.transpose() * M * G);
+  const Eigen::MatrixXd M_y = G.transpose() * M * G;
   system.A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   system.B = Eigen::MatrixXd::Zero(2 * n, n);
   if (n == 0) return system;
@@ -129,9 +128,9 @@ LinearSystem linearise(const Model<double>& model, const State<double>& x, const
       system.A(r, c) = W(index(system.dofs[static_cast<std::size_t>(r)]),
                          index(system.dofs[static_cast<std::size_t>(c)]));
   system.A.topRightCorner(n, n).setIdentity();
-  system.A.bottomLeftCorner(n, n) = M_y.solve(G.transpose() * M * by_q * G);
-  system.A.bottomRightCorner(n, n) = M_y.solve(G.transpose() * M * by_qd * G);
-  system.B.bottomRows(n) = M_y.solve(Eigen::MatrixXd::Identity(n, n));
+  system.A.bottomLeftCorner(n, n) = solve_symmetric(M_y, G.transpose() * M * by_q * G);
+  system.A.bottomRightCorner(n, n) = solve_symmetric(M_y, G.transpose() * M * by_qd * G);
+  system.B.bottomRows(n) = solve_symmetric(M_y, Eigen::MatrixXd::Identity(n, n));
   return system;
 }
 
@@ -187,12 +186,12 @@ std::vector<Mode> modes_of(const Eigen::MatrixXd& given) {
     modes.push_back(mode_of(0, Z.col(z).cast<std::complex<double>>()));
 
   const Eigen::MatrixXd rest = Q.transpose() * A * Q, into = Z.transpose() * A * Q;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(rest);
+  const Eigensystem motion = eigensystem_of(rest);
   for (Index k = 0; k < rank; ++k) {
-    std::complex<double> lambda = solver.eigenvalues()[k];
+    std::complex<double> lambda = motion.values[k];
     if (lambda.imag() < 0) continue;
     if (std::abs(lambda) < kZero) lambda = 0;
-    const Eigen::VectorXcd y = solver.eigenvectors().col(k);
+    const Eigen::VectorXcd y = motion.vectors.col(k);
     Eigen::VectorXcd x = Q.cast<std::complex<double>>() * y;
     if (lambda != 0.0 && Z.cols() > 0)
       x += Z.cast<std::complex<double>>() * (into.cast<std::complex<double>>() * y) / lambda;

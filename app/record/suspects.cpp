@@ -1,11 +1,11 @@
 // Which spring or damper a step is too long for.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "app/record/post_mortem.h"
 #include "coupling/prediction.h"
+#include "solver/dense_algebra.h"
 #include "solver/dynamics.h"
 
 namespace twinarm {
@@ -71,13 +71,12 @@ struct CouplingMode {
 std::vector<CouplingMode> coupling_modes(const Eigen::MatrixXd& M,
                                          const Coupling::JointSpace& space) {
   const bool by_stiffness = !space.K.isZero(0);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      by_stiffness ? space.K : space.B, M);
-  const Eigen::VectorXd& values = solver.eigenvalues();
+  const SymmetricEigensystem of = generalized_eigensystem(by_stiffness ? space.K : space.B, M);
+  const Eigen::VectorXd& values = of.values;
   std::vector<CouplingMode> modes;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     if (!(values[i] > 1e-9 * values.maxCoeff())) continue;  // what the coupling does not move
-    const Eigen::VectorXd shape = solver.eigenvectors().col(i);
+    const Eigen::VectorXd shape = of.vectors.col(i);
     modes.push_back({by_stiffness ? std::sqrt(values[i]) : 0, shape.dot(space.B * shape)});
   }
   return modes;
@@ -144,7 +143,7 @@ void add_dampers(const SimulatePlan& prepared, const Eigen::MatrixXd& M,
   const Model<double>& model = prepared.input.robot.model;
   const double limit = damping_limit(prepared.run.integrator), h = prepared.run.step;
   if (limit == kNever) return;
-  const Eigen::MatrixXd inverse = M.inverse();
+  const Eigen::MatrixXd inverse = inverse_of(M);
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     if (model.dofs(i) == 0) continue;
     const std::size_t iv = model.iv[i];

@@ -1,8 +1,8 @@
 #include "benchmarks/analytic/chain_parts.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "solver/dense_algebra.h"
 #include "solver/derivatives.h"
 
 namespace twinarm::smooth_parts {
@@ -40,7 +40,7 @@ CaseObserver absolute_angles() {
 
 std::vector<double> squared_frequencies_of(const Model<double>& model, const State<double>& x) {
   const Eigen::MatrixXd dq = forward_dynamics_derivatives(model, x, Forces<double>(model)).dq;
-  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(dq, false).eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues_of(dq);
   std::vector<double> all;
   for (const std::complex<double>& value : values) all.push_back(-value.real());
   std::sort(all.begin(), all.end());

@@ -1,7 +1,6 @@
 // Painleve's rod (E7): a uniform rod of 1 m slides on its lower end, which leads. From mu = (k^2 +
 // cos^2) / (sin cos), k^2 = 1/3, the normal force would have to pull: no force does it, only an
 // impulse.
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "benchmarks/analytic/contact_cases.h"
 #include "benchmarks/analytic/contact_scene.h"
+#include "solver/dense_algebra.h"
 #include "solver/dynamics.h"
 
 namespace twinarm::contact_cases {
@@ -45,7 +45,7 @@ double critical_friction(double angle) {
   forward_kinematics(model, x, k);
   const Vector3 end = k.X_WL[static_cast<std::size_t>(rod)] * Vector3(0, 0, -0.5 * kLength);
   const Eigen::MatrixXd J = point_jacobian(model, k, rod, end);
-  const Eigen::Matrix3d A = J * M.ldlt().solve(J.transpose());
+  const Eigen::Matrix3d A = J * solve_symmetric(M, J.transpose());
   return -A(2, 2) / A(2, 0);
 }
 CaseResult threshold_of_sign() {

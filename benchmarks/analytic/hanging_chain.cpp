@@ -5,13 +5,13 @@
 // K_ii = m g a (n - i + 1/2), a = 1/n, i from 1; for n -> infinity w_k = j_(0,k)/2 sqrt(g/L).
 // C5, a folded chain of which one end is let go, with energy kept (Calkin, March, Am. J. Phys. 57,
 // 1989): v^2 = 2 g x (1 - x/2L)/(1 - x/L); a chain of n links comes near it.
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
 #include "benchmarks/analytic/chain_parts.h"
 #include "benchmarks/analytic/smooth_cases.h"
 #include "benchmarks/analytic/special_functions.h"
+#include "solver/dense_algebra.h"
 #include "solver/energy.h"
 #include "solver/kinematics.h"
 
@@ -27,8 +27,7 @@ CaseReadings laguerre_frequencies(int n) {
     if (k > 0) T(k, k - 1) = T(k - 1, k) = k;
   }
   CaseReadings all;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solved(T);
-  for (const double x : solved.eigenvalues()) all.push_back(std::sqrt(n * kGravity * x));
+  for (const double x : symmetric_eigenvalues(T)) all.push_back(std::sqrt(n * kGravity * x));
   return all;
 }
 
@@ -44,9 +43,9 @@ CaseReadings rod_chain_frequencies(int n, int count) {
     K(i, i) = kGravity * a * (n - i - 0.5);
   }
   // K is the harmless one: M x = mu K x has the slow motions as its largest eigenvalues.
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solved(M, K);
+  const Eigen::VectorXd slow = generalized_eigenvalues(M, K);
   CaseReadings all;
-  for (int k = 0; k < count; ++k) all.push_back(1 / std::sqrt(solved.eigenvalues()[n - 1 - k]));
+  for (int k = 0; k < count; ++k) all.push_back(1 / std::sqrt(slow[n - 1 - k]));
   return all;
 }
 

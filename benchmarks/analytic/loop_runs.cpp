@@ -1,11 +1,11 @@
 // The mechanisms of loop_cases.h, run with rk4 at their step, as cases of the list.
 #include "benchmarks/analytic/loop_runs.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "benchmarks/analytic/loop_cases.h"
+#include "solver/dense_algebra.h"
 #include "solver/energy.h"
 #include "solver/loop_assembly.h"
 #include "solver/simulation.h"
@@ -53,8 +53,7 @@ CaseResult assembled_four_bar() {
   forward_kinematics(c.model, x, k);
   LoopClosures loops(c.model, {c.loops[0]});
   loops.evaluate(x, k);
-  const Eigen::VectorXd rates =
-      loops.J().rightCols<2>().completeOrthogonalDecomposition().solve(-10 * loops.J().col(0));
+  const Eigen::VectorXd rates = shortest_solution(loops.J().rightCols(2), -10 * loops.J().col(0));
   x.qd = {10, rates[0], rates[1]};
   return {error_of(c.read(x, k), c.reference[0].values)};
 }

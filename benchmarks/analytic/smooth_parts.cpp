@@ -1,10 +1,10 @@
 #include "benchmarks/analytic/smooth_parts.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "solver/dense_algebra.h"
 #include "solver/derivatives.h"
 #include "solver/dynamics.h"
 #include "solver/forward_dynamics.h"
@@ -71,7 +71,7 @@ Vector3 reaction(const Model<double>& model, const State<double>& x) {
 
 std::vector<double> small_frequencies(const Model<double>& model, const State<double>& x) {
   const Eigen::MatrixXd dq = forward_dynamics_derivatives(model, x, Forces<double>(model)).dq;
-  const Eigen::VectorXcd eigenvalues = Eigen::EigenSolver<Eigen::MatrixXd>(dq, false).eigenvalues();
+  const Eigen::VectorXcd eigenvalues = eigenvalues_of(dq);
   std::vector<double> all;
   for (const std::complex<double>& value : eigenvalues) all.push_back(std::sqrt(-value.real()));
   std::sort(all.begin(), all.end());

@@ -2,11 +2,11 @@
 //   out' / in' = cos b / (cos^2(in) cos^2 b + sin^2(in)),   from cos b to 1 / cos b,
 // where at in = 0 the input's pin lies in the plane of the shafts. And a plate of 1 m x 0.6 m, 1
 // kg, hung by the middle of its short edge: w^2 = m g (1/2) / I about either axis of the joint.
-#include <Eigen/Dense>
 #include <cmath>
 
 #include "benchmarks/analytic/smooth_cases.h"
 #include "benchmarks/analytic/smooth_parts.h"
+#include "solver/dense_algebra.h"
 #include "solver/kinematics.h"
 #include "solver/loop_assembly.h"
 
@@ -44,8 +44,7 @@ Output output(const Model<double>& model, const State<double>& start, double inp
   forward_kinematics(model, x, k);
   LoopClosures bearing(model, {loops[0]});
   bearing.evaluate(x, k);
-  const Eigen::VectorXd rates =
-      bearing.J().rightCols<2>().completeOrthogonalDecomposition().solve(-bearing.J().col(0));
+  const Eigen::VectorXd rates = shortest_solution(bearing.J().rightCols(2), -bearing.J().col(0));
   x.qd = {1, rates[0], rates[1]};
   forward_kinematics(model, x, k);
   const Vector3 pin = k.X_WL[2].R.col(1);

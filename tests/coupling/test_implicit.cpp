@@ -2,10 +2,10 @@
 // known: docs/coupling.md, solver/spring.h.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
 #include <numbers>
 
 #include "coupling/prediction.h"
+#include "solver/dense_algebra.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/coupling/two_link.h"
 
@@ -106,7 +106,7 @@ TEST_CASE("implicit: the two eigenvalues of a step multiply to 1/(1 + alpha + be
           A.col(column) << 1e3 * x.q[0], 1e3 * x.qd[0];
         }
         CHECK(A.determinant() == doctest::Approx(1 / (1 + alpha + beta)).epsilon(1e-10));
-        const Eigen::Vector2d size = A.eigenvalues().cwiseAbs();
+        const Eigen::Vector2d size = eigenvalues_of(A).cwiseAbs();
         if (beta * beta < 4 * alpha)  // a complex pair: both have this size
           CHECK(size.maxCoeff() == doctest::Approx(1 / std::sqrt(1 + alpha + beta)).epsilon(1e-6));
       }

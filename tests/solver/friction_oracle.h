@@ -1,8 +1,10 @@
 // Coulomb friction at rest by trying every case: each of n <= 5 dofs sticks, or slips one way.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <optional>
+
+#include "solver/dense_algebra.h"
 
 namespace twinarm::testing {
 
@@ -22,7 +24,7 @@ inline std::optional<Eigen::VectorXd> friction_by_enumeration(const Eigen::Matri
       if (digits % 3 == 0) A.row(i) = B.row(i);
       b[i] = digits % 3 == 0 ? -a[i] : digits % 3 == 1 ? low[i] : high[i];
     }
-    const Eigen::VectorXd f = A.fullPivLu().solve(b), v = a + B * f;
+    const Eigen::VectorXd f = solve_pivoted(A, b), v = a + B * f;
     bool good = true;
     for (Eigen::Index i = 0, digits = c; i < n; ++i, digits /= 3)
       good = good && (digits % 3 == 0   ? f[i] >= low[i] - 1e-12 && f[i] <= high[i] + 1e-12

@@ -1,9 +1,9 @@
 // Friction of chains: every case of sticking and sliding tried, and the box problem behind it.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
 #include <string>
 
+#include "solver/dense_algebra.h"
 #include "solver/dynamics.h"
 #include "solver/forward_dynamics.h"
 #include "solver/model_builder.h"
@@ -69,7 +69,7 @@ TEST_CASE("friction of chains, some joints at rest, is what trying all 3^n cases
     const VectorXd b = vector_of(model.damping), v = vector_of(x.qd);
     MatrixXd M = mass_matrix(model, x);
     M += (h * b).asDiagonal();
-    const MatrixXd inverse = M.inverse();
+    const MatrixXd inverse = inverse_of(M);
     const VectorXd a_free =
         inverse * (vector_of(tau) - bias(model, x) - VectorXd(b.cwiseProduct(v)));
     VectorXd low = -vector_of(model.coulomb_plus), high = vector_of(model.coulomb_minus);
@@ -115,7 +115,7 @@ TEST_CASE("friction of chains, some joints at rest, is what trying all 3^n cases
     dynamics.set_friction(false);
     dynamics(x, forces, w);
     const VectorXd frictionless =
-        mass_matrix(model, x).ldlt().solve(vector_of(tau) - bias(model, x));
+        solve_symmetric(mass_matrix(model, x), vector_of(tau) - bias(model, x));
     CHECK((vector_of(w.qdd) - frictionless).lpNorm<Eigen::Infinity>() <
           1e-11 * (scale + frictionless.norm()));
   }

@@ -2,10 +2,10 @@
 // form, friction of joints that loops couple.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
 #include <string>
 
 #include "benchmarks/analytic/loop_cases.h"
+#include "solver/dense_algebra.h"
 #include "solver/dynamics.h"
 #include "solver/mimic.h"
 #include "solver/simulation.h"
@@ -59,9 +59,7 @@ struct Both {
     K.bottomLeftCorner(m, n) = A;
     VectorXd right(n + m);
     right << tau - h, -gamma;
-    Eigen::CompleteOrthogonalDecomposition<MatrixXd> of;
-    of.setThreshold(1e-10);
-    return of.compute(K).solve(right);
+    return shortest_solution(K, right, 1e-10);
   }
 };
 

@@ -2,13 +2,13 @@
 // promises.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <cstring>
 #include <numbers>
 #include <string>
 
 #include "benchmarks/analytic/loop_cases.h"
+#include "solver/dense_algebra.h"
 #include "solver/energy.h"
 #include "solver/loop_assembly.h"
 #include "solver/model_builder.h"
@@ -166,8 +166,7 @@ TEST_CASE("loops: the assembled four-bar has the angles and rates of the closed 
   forward_kinematics(c.model, x, k);
   LoopClosures loops(c.model, {c.loops[0]});
   loops.evaluate(x, k);
-  const Eigen::VectorXd rates =
-      loops.J().rightCols<2>().completeOrthogonalDecomposition().solve(-10 * loops.J().col(0));
+  const Eigen::VectorXd rates = shortest_solution(loops.J().rightCols(2), -10 * loops.J().col(0));
   x.qd = {10, rates[0], rates[1]};
   const std::vector<double> found = c.read(x, k);
   for (std::size_t i = 0; i < found.size(); ++i)

@@ -1,9 +1,9 @@
 // Joints that follow others: the saddle-point system of M and A, closed forms, and no net work.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
 #include <string>
 
+#include "solver/dense_algebra.h"
 #include "solver/dynamics.h"
 #include "solver/energy.h"
 #include "solver/forward_dynamics.h"
@@ -78,7 +78,7 @@ TEST_CASE("mimics: accelerations and forces solve the saddle-point system of M a
     K << dense.M, -dense.A.transpose(), dense.A, MatrixXd::Zero(m, m);
     VectorXd right = VectorXd::Zero(n + m);
     right.head(n) = vector_of(forces.tau) - dense.h;
-    const VectorXd solution = K.fullPivLu().solve(right);
+    const VectorXd solution = solve_pivoted(K, right);
 
     ForwardDynamics dynamics(model);
     Workspace<double> w(model), plain(model);
@@ -97,9 +97,8 @@ TEST_CASE("mimics: accelerations and forces solve the saddle-point system of M a
     const MatrixXd G = mimic_projection(model);
     CHECK((dense.A * G).norm() < 1e-15);
     CHECK(largest(vector_of(x.qd) - G * vector_of(x.qd)(independent_dofs(model))) < 1e-15);
-    const VectorXd ydd = (G.transpose() * dense.M * G)
-                             .ldlt()
-                             .solve(G.transpose() * (vector_of(forces.tau) - dense.h));
+    const VectorXd ydd = solve_symmetric(G.transpose() * dense.M * G,
+                                         G.transpose() * (vector_of(forces.tau) - dense.h));
     CHECK(largest(vector_of(w.qdd) - G * ydd) < 1e-11 * scale);
   }
 }
@@ -133,7 +132,7 @@ TEST_CASE("friction of followers is felt by their leaders through the ratio, at 
       }
     MatrixXd M = dense.M;
     M += (h * b).asDiagonal();
-    const MatrixXd inverse = (G.transpose() * M * G).inverse();
+    const MatrixXd inverse = inverse_of(G.transpose() * M * G);
     const VectorXd a =
         inverse * G.transpose() * (vector_of(forces.tau) - dense.h - VectorXd(b.cwiseProduct(v)));
     VectorXd target = a;

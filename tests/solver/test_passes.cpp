@@ -1,8 +1,6 @@
 // What the passes owe each other, for every joint, scalar and level of the instruction set: forward
 // and inverse dynamics, the mass matrix and its inverse come from four texts.
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
+#include "solver/dense_algebra.h"
 #include "tests/solver/every_scalar.h"
 
 using namespace twinarm;
@@ -53,10 +51,9 @@ Difference against_dense(const Packed<S>& p, const Passes<S>& passes) {
   for (int lane = 0; lane < Scalar<S>::lanes && p.model.nv > 0; ++lane) {
     const MatrixXd M = square_of(d.matrix.M, p.model.nv, lane);
     const VectorXd tau = lane_of(p.forces_S.tau, lane), h = lane_of(d.bias.tau, lane);
-    const VectorXd qdd = M.ldlt().solve(tau - h);
+    const VectorXd qdd = solve_symmetric(M, tau - h);
     const double difference = (lane_of(d.forward.qdd, lane) - qdd).norm();
-    const VectorXd eigenvalues =
-        Eigen::SelfAdjointEigenSolver<MatrixXd>(M, Eigen::EigenvaluesOnly).eigenvalues();
+    const VectorXd eigenvalues = symmetric_eigenvalues(M);
     const double magnified =
         (eigenvalues.maxCoeff() * qdd.norm() + tau.norm() + h.norm()) / eigenvalues.minCoeff();
     worst.relative = std::max(worst.relative, difference / qdd.norm());
@@ -229,7 +226,7 @@ TEST_CASE("implicit terms: aba solves (M + armature + J^T m* J) qdd = tau - h - 
         rhs -= m * J.transpose() * to_eigen(wM.a[i].v + cross(wM.a[i].w, r));
       }
       aba(model, x, forces, w);
-      const VectorXd qdd = M.ldlt().solve(rhs);
+      const VectorXd qdd = solve_symmetric(M, rhs);
       worst = std::max(worst, (lane_of(w.qdd, 0) - qdd).norm() / qdd.norm());
     }
   MESSAGE("largest relative difference = " << worst);

@@ -1,8 +1,7 @@
 // What an observer in the world sees, against poses and their derivatives (world_oracle.h), the
 // laws of momentum and energy, and the dense mass matrix.
+#include "solver/dense_algebra.h"
 #include "solver/world.h"
-
-#include <Eigen/Cholesky>
 
 #include "solver/energy.h"
 #include "solver/operational_space.h"
@@ -273,7 +272,7 @@ TEST_CASE(
       const auto got = inverse_operational_inertia(t.model, p.body, p.r_B, at_rest, wrench, t.w);
       std::vector<Motion<double>> J(t.model.nv);
       jacobian(t.model, t.w, p.body, p.r_B, J);
-      const MatrixXd expected = dense(J) * M.ldlt().solve(dense(J).transpose());
+      const MatrixXd expected = dense(J) * solve_symmetric(M, dense(J).transpose());
       MatrixXd difference = expected;
       for (std::size_t row = 0; row < 6; ++row)
         for (std::size_t col = 0; col < 6; ++col)

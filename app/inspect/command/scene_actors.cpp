@@ -1,5 +1,4 @@
 // The first step of a scene, and by whose name each of its forces acts.
-#include <Eigen/QR>
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -8,6 +7,7 @@
 #include "app/inspect/command/inspect_input.h"
 #include "app/simulate/add_contacts.h"
 #include "app/simulate/given_forces.h"
+#include "solver/dense_algebra.h"
 
 namespace twinarm {
 namespace {
@@ -166,9 +166,7 @@ class FirstStep {
       A(index(loops.rows() + m), index(mimic.follower)) += 1;
       A(index(loops.rows() + m), index(mimic.leader)) -= mimic.ratio;
     }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> forces_of(A.transpose());
-    forces_of.setThreshold(1e-9);
-    const Eigen::VectorXd lambda = forces_of.solve(rest_);
+    const Eigen::VectorXd lambda = shortest_solution(A.transpose(), rest_, 1e-9);
     const Eigen::VectorXd of_loops = lambda.head(index(loops.rows()));
     for (std::size_t l = 0; l < loops.loops().size(); ++l) add_loop(loops, l, of_loops);
     std::vector<double> tau(model_.nv);

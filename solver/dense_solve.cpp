@@ -1,0 +1,30 @@
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include "solver/dense_algebra.h"
+
+namespace twinarm {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd solve_symmetric(const MatrixXd& M, const MatrixXd& B) {
+  return M.ldlt().solve(B);
+}
+
+VectorXd solve_pivoted(const MatrixXd& A, const VectorXd& b) {
+  return A.fullPivLu().solve(b);
+}
+
+MatrixXd inverse_of(const MatrixXd& A) {
+  return A.inverse();
+}
+
+VectorXd shortest_solution(const MatrixXd& A, const VectorXd& b, double threshold) {
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(A.rows(), A.cols());
+  if (threshold > 0) solver.setThreshold(threshold);
+  return solver.compute(A).solve(b);
+}
+
+}  // namespace twinarm
