@@ -180,8 +180,15 @@ ContactWork& ContactConstraints::work_of(const Contact& contact) {
     return std::pair(work.a, work.b) < ab;
   });
   if (w == work_.end() || std::pair(w->a, w->b) != pair)
-    w = work_.insert(w, {contact.a, contact.b});
+    w = work_.insert(w, {contact.a, contact.b, 0, 0, 0, Vector3::Zero(), Vector3::Zero()});
   return *w;
+}
+
+// Where the constraint's rows have it act: on what moves, where the other does not.
+Vector3 ContactConstraints::moment_of(const Contact& contact, const Vector3& impulse_W) const {
+  const int a = geometry(contact.a).body, b = geometry(contact.b).body;
+  const bool b_stands = is_immovable_[static_cast<std::size_t>(b)];
+  return point_on(contact, b_stands ? a : b).cross(impulse_W);
 }
 
 void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem& problem,
@@ -195,7 +202,13 @@ void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem
     const ImpulseConstraint& c = problem.constraints()[part.row];
     ContactPoint& point = points_[part.point];
     const Matrix3 axes = contact_axes(point.contact.n_W);
-    point.impulse_W += axes * Vector3(c.p[0], c.p[1], c.p[2]);
+    const Vector3 impulse_W = axes * Vector3(c.p[0], c.p[1], c.p[2]);
+    point.impulse_W += impulse_W;
+    if (frame.phase != Phase::flow) {
+      ContactWork& work = work_of(point.contact);
+      work.impulse_W += impulse_W;
+      work.moment_W += moment_of(point.contact, impulse_W);
+    }
     if (jumps) {
       // Work on what moves freely: over J v alone, without what moves by a law.
       std::array<double, 3> before, after;
@@ -242,8 +255,9 @@ void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulsePr
       friction += couple.p[r] * (couple.u[r] - couple.b[r]);
     }
   }
-  if (frame.phase == Phase::flow) return take_flow(point, c, normal, friction);
+  if (frame.phase == Phase::flow) return take_flow(point, c, frame.h, normal, friction);
   ContactWork& work = work_of(point.contact);
+  work.moment_W += frame.h * point.couple_W;
   const bool hits = c.p[0] > 0 && start[0] < -kSlowestBounce && u_n > start[0];
   (hits ? work.impact : work.normal) += normal;
   work.friction += friction;

@@ -72,10 +72,12 @@ struct ContactPoint {
   Vector3 slip_W = Vector3::Zero();      // of what is held: at the start of the piece [m/s]
 };
 
-// Of all points of two geometries, on what they belong to [J].
+// Of all points of two geometries, on what they belong to.
 struct ContactWork {
   int a, b;
-  double normal = 0, friction = 0, impact = 0;
+  double normal = 0, friction = 0, impact = 0;  // [J]
+  Vector3 impulse_W = Vector3::Zero();          // on b [N s]
+  Vector3 moment_W = Vector3::Zero();           // on b, about the world's origin [N m s]
 };
 
 // The normal and two directions across it, as columns.
@@ -148,9 +150,11 @@ class ContactConstraints final : public EventSource, public Rewindable {
   double bounce_speed(std::size_t point, double u, const ConstraintFrame& frame,
                       const ImpulseProblem& problem, const ImpulseConstraint& c) const;
   ContactWork& work_of(const Contact& contact);
+  Vector3 moment_of(const Contact& contact, const Vector3& impulse_W) const;
   void take_step(const ConstraintFrame& frame, const ImpulseProblem& problem, const Part& part,
                  const Matrix3& axes);
-  void take_flow(ContactPoint& point, const ImpulseConstraint& c, double normal, double friction);
+  void take_flow(ContactPoint& point, const ImpulseConstraint& c, double h, double normal,
+                 double friction);
   double may_close(const ConstraintFrame& frame, const ContactPoint& point) const;
   bool takes_part(const ConstraintFrame& frame, std::size_t point) const;
   void add_contact(const ConstraintFrame& frame, std::size_t point, ImpulseProblem& problem);
@@ -174,8 +178,10 @@ class ContactConstraints final : public EventSource, public Rewindable {
   Kept kept_;
   std::vector<ContactWork> work_;
   std::vector<std::pair<int, int>> held_pairs_;  // ascending
-  std::vector<double> flow_works_;               // normal and friction of each
-  std::vector<char> modes_;                      // of the held, after a flow
+  // Of each: works of normal force and friction, impulse, moment.
+  static constexpr std::size_t kFlowNumbers = 8;
+  std::vector<double> flow_works_;
+  std::vector<char> modes_;  // of the held, after a flow
   std::vector<double> gap_after_;
   std::vector<char> closing_;
   std::vector<Part> parts_;

@@ -21,7 +21,7 @@ void ContactConstraints::hold(const ConstraintFrame& frame, bool struck) noexcep
       held_pairs_.push_back(pair);
   }
   held_ = points_;
-  flow_works_.assign(2 * held_pairs_.size(), 0);
+  flow_works_.assign(kFlowNumbers * held_pairs_.size(), 0);
 }
 
 void ContactConstraints::hold_again() noexcept {
@@ -41,8 +41,8 @@ void ContactConstraints::look(const ConstraintFrame& frame, Nearest& nearest) co
   }
 }
 
-void ContactConstraints::take_flow(ContactPoint& point, const ImpulseConstraint& c, double normal,
-                                   double friction) {
+void ContactConstraints::take_flow(ContactPoint& point, const ImpulseConstraint& c, double h,
+                                   double normal, double friction) {
   const bool moves = std::hypot(c.u[1], c.u[2]) > kMoves;
   const bool slid = c.law == ImpulseLaw::coulomb && point.slip_W.norm() > kMoves;
   const bool goes_on = moves && point.slip_W.dot(point.velocity_W) > 0;
@@ -53,8 +53,11 @@ void ContactConstraints::take_flow(ContactPoint& point, const ImpulseConstraint&
   modes_.push_back(mode);
   const auto pair = std::lower_bound(held_pairs_.begin(), held_pairs_.end(),
                                      std::pair(point.contact.a, point.contact.b));
-  const auto at = 2 * static_cast<std::size_t>(pair - held_pairs_.begin());
-  flow_works_[at] += normal, flow_works_[at + 1] += friction;
+  double* sums = &flow_works_[kFlowNumbers * static_cast<std::size_t>(pair - held_pairs_.begin())];
+  sums[0] += normal, sums[1] += friction;
+  const Vector3 impulse_W = h * point.force_W;
+  const Vector3 moment_W = moment_of(point.contact, impulse_W) + h * point.couple_W;
+  for (int i = 0; i < 3; ++i) sums[2 + i] += impulse_W[i], sums[5 + i] += moment_W[i];
 }
 
 void ContactConstraints::modes(std::vector<char>& modes) const noexcept {
@@ -66,7 +69,10 @@ void ContactConstraints::count_works() noexcept {
     Contact contact{};
     contact.a = held_pairs_[i].first, contact.b = held_pairs_[i].second;
     ContactWork& work = work_of(contact);
-    work.normal += flow_works_[2 * i], work.friction += flow_works_[2 * i + 1];
+    const double* sums = &flow_works_[kFlowNumbers * i];
+    work.normal += sums[0], work.friction += sums[1];
+    work.impulse_W += Vector3(sums[2], sums[3], sums[4]);
+    work.moment_W += Vector3(sums[5], sums[6], sums[7]);
   }
 }
 

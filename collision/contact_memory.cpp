@@ -22,6 +22,7 @@ void ContactConstraints::visit_memory(Memory& memory) {
   for (ContactWork& work : work_) {
     memory.visit(work.a), memory.visit(work.b);
     for (double* joules : {&work.normal, &work.friction, &work.impact}) memory.visit(*joules);
+    memory.visit(work.impulse_W), memory.visit(work.moment_W);
   }
 }
 

@@ -129,6 +129,7 @@ int ConstrainedStep::resolve_impacts(Mechanism& m, double h, Phase phase) {
     note(pass, report_.impacts == 0, report_.impact);
     report_.impact_loss += before - after;
     hand_out(frame);  // with the kinematics before
+    count_bilateral(m, phase);
     trees_.scatter(problem_, m.x.qd);
     forward_kinematics(*model_, m.x, m.k);
   }
@@ -200,6 +201,7 @@ bool ConstrainedStep::solve_step(Mechanism& m, double h, Phase phase) {
   if (problem_.constraints().empty()) return false;
   report_.step = solver_.solve(problem_);
   hand_out(frame);
+  count_bilateral(m, phase);
 
   sum_.assign(problem_.nv(), 0);
   for (const ImpulseConstraint& c : problem_.constraints())
@@ -281,8 +283,42 @@ void ConstrainedStep::move(Mechanism& m, double h) {
 }
 
 void ConstrainedStep::add_bilateral(Mechanism& m, Phase phase) {
+  first_bilateral_ = problem_.constraints().size();
   add_mimics();
   if (m.has_loops()) add_loops(m, phase);
+}
+
+// Works and momenta of what add_bilateral() added (step_account.h).
+void ConstrainedStep::count_bilateral(Mechanism& m, Phase phase) {
+  if (!m.account) return;
+  const bool in_flow = phase == Phase::flow;
+  const auto work_of = [&](const ImpulseConstraint& c) {
+    std::array<double, 3> before, after;
+    problem_.velocity(c, velocity_.data(), before);
+    problem_.velocity(c, problem_.v(0), after);
+    double work = 0;
+    for (std::size_t r = 0; r < 3; ++r) work += 0.5 * c.p[r] * (before[r] + after[r]);
+    return work;
+  };
+  std::size_t next = first_bilateral_;
+  for (std::size_t i = 0; i < model_->mimics.size(); ++i)
+    m.account->add_mimic(i, work_of(problem_.constraints()[next++]), in_flow);
+  const LoopClosures& loops = m.dynamics.bilateral().loops();
+  lambda_.resize(static_cast<Eigen::Index>(loops.rows()));
+  for (std::size_t row = 0; row < loops.rows(); ++next) {
+    const ImpulseConstraint& c = problem_.constraints()[next];
+    Exchange on_both;
+    on_both.work = work_of(c);
+    m.account->add_loop(loops.loop_of(row), on_both, in_flow);
+    for (int r = 0; r < c.rows; ++r)
+      lambda_[static_cast<Eigen::Index>(row++)] = c.p[static_cast<std::size_t>(r)];
+  }
+  for (std::size_t l = 0; l < loops.loops().size(); ++l) {
+    Exchange on_a;
+    const LoopWrench wrench = loops.wrench(l, lambda_);
+    on_a.add_wrench(1, loops.point(l, m.k), wrench.force, wrench.couple);
+    m.account->add_loop(l, on_a, in_flow);
+  }
 }
 
 // g' = 0; what is left of g = 0 is for Mechanism::refresh().
@@ -322,6 +358,7 @@ void ConstrainedStep::separate(Mechanism& m, double h) {
   bool wanted = false;
   for (const ConstraintSource* source : sources_) wanted = source->wants_separation() || wanted;
   if (!wanted) return;
+  if (m.account) penetrating_ = m.x;
   problem_.clear();
   trees_.add_to(problem_, nullptr, m.w);
   const ConstraintFrame frame{m.k, trees_, m.x, Phase::separate, h};
@@ -330,6 +367,7 @@ void ConstrainedStep::separate(Mechanism& m, double h) {
   solver_.solve(problem_);
   trees_.scatter(problem_, shift_);
   integrate_coordinates(*model_, m.x.q, shift_, m.x.q);
+  if (m.account) m.account->add_separation(penetrating_, m.x);
 }
 
 }  // namespace twinarm

@@ -64,6 +64,8 @@ class ConstrainedStep {
   const std::vector<double>& coulomb_torque() const { return coulomb_; }
   // Generalised force of all constraints, by velocity [N m, N]; without impacts.
   const std::vector<double>& constraint_force() const { return constraint_; }
+  // After the impacts of the last step, before its second phase.
+  const std::vector<double>& velocities_after_impacts() const { return before_; }
 
  private:
   static constexpr int most_impacts = 50;
@@ -80,6 +82,7 @@ class ConstrainedStep {
   void add_mimics();
   void add_loops(Mechanism& m, Phase phase);
   void add_bilateral(Mechanism& m, Phase phase);  // both
+  void count_bilateral(Mechanism& m, Phase phase);
   double kinetic_energy(const double* v) const;
   double bounce();
 
@@ -96,6 +99,9 @@ class ConstrainedStep {
   std::vector<double> damping_, coulomb_, constraint_, shift_;
   std::vector<double> friction_guess_, mimic_guess_, loop_guess_, sum_, acceleration_, velocity_,
       elastic_, elastic_p_;
+  std::size_t first_bilateral_ = 0;  // of the constraints in problem_
+  Eigen::VectorXd lambda_;           // impulses of the loops' rows
+  State<double> penetrating_;        // before what penetrates is moved apart
 };
 
 }  // namespace twinarm

@@ -37,6 +37,7 @@ void EventStep::step(ConstrainedStep& constrained, Mechanism& m, double h, StepR
     const double s = piece(constrained, m, left, report);
     m.x.t = s == left ? t_end : start_.t + s;
     m.refresh();
+    if (m.account) m.account->count_flow(), m.account->count_projection();
     for (EventSource* source : sources_) source->count_works();
     report.converged = report.converged && is_solved_;
     ++report.substeps;
@@ -147,6 +148,7 @@ bool EventStep::run_column(ConstrainedStep& constrained, Mechanism& m, double s,
   const std::size_t nv = model_->nv;
   const double step = s / n;
   m.x = start_;
+  if (m.account) m.account->start_flow();
   for (EventSource* source : sources_) source->hold_again();
   theta_.assign(nv, 0);
   rate_.resize(nv);
@@ -170,6 +172,7 @@ bool EventStep::run_column(ConstrainedStep& constrained, Mechanism& m, double s,
   values_.insert(values_.end(), m.x.qd.begin(), m.x.qd.end());
   for (EventSource* source : sources_)
     values_.insert(values_.end(), source->works().begin(), source->works().end());
+  if (m.account) values_.insert(values_.end(), m.account->flow().begin(), m.account->flow().end());
   return true;
 }
 
@@ -198,6 +201,8 @@ void EventStep::go_to(ConstrainedStep&, Mechanism& m, const std::vector<double>&
   std::size_t next = 2 * nv;
   for (EventSource* source : sources_)
     for (double& work : source->works()) work = row[next++];
+  if (m.account)
+    for (double& sum : m.account->flow()) sum = row[next++];
 }
 
 }  // namespace twinarm

@@ -58,7 +58,11 @@ void Mechanism::refresh() {
 }
 
 double Mechanism::close(State<double>& at, Kinematics& k_at) {
-  return has_loops() ? projection(dynamics.at_rest(at), at, k_at, w) : 0;
+  if (!has_loops()) return 0;
+  if (account) account->before_projection(at);
+  const double open = projection(dynamics.at_rest(at), at, k_at, w);
+  if (account) account->after_projection(at, projection);
+  return open;
 }
 
 void Mechanism::start(State<double> from) {

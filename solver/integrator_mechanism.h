@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "solver/force_source.h"
@@ -11,6 +12,7 @@
 #include "solver/loop_projection.h"
 #include "solver/model.h"
 #include "solver/pose.h"
+#include "solver/step_account.h"
 #include "solver/workspace.h"
 
 namespace twinarm {
@@ -42,7 +44,8 @@ struct Mechanism {
   Forces<double> forces;     // likewise
   ForwardDynamics dynamics;  // likewise: friction, followers' and loops' forces
   LoopProjection projection;
-  double loops_open = 0;  // at x: the largest row of g that refresh() left
+  std::optional<StepAccount> account;  // where the ledgers ask for it
+  double loops_open = 0;               // at x: the largest row of g that refresh() left
   std::vector<ForceSource*> sources;
   struct Drive {
     std::size_t body;

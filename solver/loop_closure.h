@@ -86,6 +86,11 @@ class LoopClosures {
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& J() const {
     return J_;
   }
+  // Where the force of a loop acts, k as in evaluate(); of a distance any point of its line will
+  // do.
+  Vector3 point(std::size_t loop, const Kinematics& k) const {
+    return k.position(loops_[loop].body_b, loops_[loop].X_LbC.p);
+  }
   // For lambda of all rows, where evaluate() was last.
   LoopWrench wrench(std::size_t loop, const Eigen::VectorXd& lambda) const;
 

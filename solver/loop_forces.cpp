@@ -124,6 +124,21 @@ void BilateralForces::correction(const Eigen::VectorXd& residual,
   add_accelerations(out);
 }
 
+void BilateralForces::add_lambda(double part, std::vector<double>& sum) const {
+  for (std::size_t r = 0; r < loops_.rows(); ++r)
+    sum[r] += part * lambda_[model_->mimics.size() + r];
+}
+
+void BilateralForces::shift_of(std::size_t loop, const std::vector<double>& lambda,
+                               std::vector<double>& out) const {
+  std::fill(out.begin(), out.end(), 0);
+  for (std::size_t r = loops_.first_row(loop); r < loops_.rows() && loops_.loop_of(r) == loop;
+       ++r) {
+    const double* Z = &Z_[(model_->mimics.size() + r) * model_->nv];
+    for (std::size_t d = 0; d < model_->nv; ++d) out[d] += Z[d] * lambda[r];
+  }
+}
+
 void BilateralForces::take_factors(const BilateralForces& from) noexcept {
   Z_ = from.Z_;
   factors_ = from.factors_;

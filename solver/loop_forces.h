@@ -46,6 +46,12 @@ class BilateralForces {
   // M^-1 A^T lambda such that the loops' rows of A times it are -residual, all others' 0.
   void correction(const Eigen::VectorXd& residual, std::vector<double>& out) noexcept;
 
+  // Adds `part` of lambda of the last solve() or correction(), of the loops' rows.
+  void add_lambda(double part, std::vector<double>& sum) const;
+  // M^-1 A^T lambda, of one loop's rows and as prepare() found them; lambda as add_lambda() has it.
+  void shift_of(std::size_t loop, const std::vector<double>& lambda,
+                std::vector<double>& out) const;
+
   std::size_t rank() const { return factors_.rank(); }  // of all rows of the last prepare()
   // Of the loops' rows, of the last solve(); where rows are redundant the shortest of all with the
   // same J^T lambda. Allocates.

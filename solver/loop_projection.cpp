@@ -77,6 +77,8 @@ double LoopProjection::operator()(const std::vector<std::size_t>& held, State<do
   loops.evaluate(x, k);
   std::fill(moved_q_.begin(), moved_q_.end(), 0);
   std::fill(moved_qd_.begin(), moved_qd_.end(), 0);
+  std::fill(pushed_q_.begin(), pushed_q_.end(), 0);
+  std::fill(pushed_qd_.begin(), pushed_qd_.end(), 0);
   if (held != forces_.held()) forces_.prepare(w, held);
   const At at{held, x, k, w};
 
@@ -88,10 +90,12 @@ double LoopProjection::operator()(const std::vector<std::size_t>& held, State<do
         integrate_coordinates(*model_, x.q, shift_, x.q);
         apply_mimics(*model_, x);
         add(shift_, 1, moved_q_);
+        forces_.add_lambda(1, pushed_q_);
       },
       [&] {
         x.q = q_before_;
         add(shift_, -1, moved_q_);
+        forces_.add_lambda(-1, pushed_q_);
       });
   double fastest = 1;
   for (const double v : x.qd) fastest = std::max(fastest, std::abs(v));
@@ -104,10 +108,12 @@ double LoopProjection::operator()(const std::vector<std::size_t>& held, State<do
         for (const std::size_t d : held) x.qd[d] = 0;
         apply_mimics(*model_, x);
         add(shift_, 1, moved_qd_);
+        forces_.add_lambda(1, pushed_qd_);
       },
       [&] {
         x.qd = qd_before_;
         add(shift_, -1, moved_qd_);
+        forces_.add_lambda(-1, pushed_qd_);
       });
   return largest(loops.g());
 }

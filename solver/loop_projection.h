@@ -36,7 +36,11 @@ class LoopProjection {
         shift_(model.nv),
         moved_q_(model.nv),
         moved_qd_(model.nv) {}
-  void set_loops(LoopClosures loops) { forces_.set_loops(std::move(loops)); }
+  void set_loops(LoopClosures loops) {
+    pushed_q_.assign(loops.rows(), 0);
+    pushed_qd_.assign(loops.rows(), 0);
+    forces_.set_loops(std::move(loops));
+  }
 
   // The step starts at x, where `prepared` was; `held` velocities stay as they are.
   void start(const BilateralForces& prepared, const std::vector<std::size_t>& held,
@@ -49,6 +53,11 @@ class LoopProjection {
   // mended.
   const std::vector<double>& moved_q() const { return moved_q_; }
   const std::vector<double>& moved_qd() const { return moved_qd_; }
+  // The share of one loop in both, of the last call.
+  void share_of(std::size_t loop, std::vector<double>& dq, std::vector<double>& dqd) const {
+    forces_.shift_of(loop, pushed_q_, dq);
+    forces_.shift_of(loop, pushed_qd_, dqd);
+  }
 
  private:
   struct At;
@@ -58,6 +67,7 @@ class LoopProjection {
   const Model<double>* model_;
   BilateralForces forces_;
   std::vector<double> q_before_, qd_before_, shift_, moved_q_, moved_qd_;
+  std::vector<double> pushed_q_, pushed_qd_;  // by row of the loops: lambda of all corrections
 };
 
 }  // namespace twinarm

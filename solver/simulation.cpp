@@ -131,6 +131,20 @@ State<double> Simulation::side_step(double h, StepReport* report) const {
   return aside.state();
 }
 
+void Simulation::evaluate_at(const State<double>& x,
+                             const std::function<void(const Simulation&)>& see) const {
+  constexpr double kMoment = 1e-6;  // [s]; tells which side of a corner of a hand's motion is meant
+  const std::vector<Rewindable*> all = memories();
+  for (Rewindable* memory : all) memory->keep();
+  Simulation aside(*this);
+  aside.m_.x = x;
+  forward_kinematics(model(), aside.m_.x, aside.m_.k);
+  aside.m_.begin_step(kMoment);
+  aside.m_.accelerate();
+  see(aside);
+  for (Rewindable* memory : all) memory->go_back();
+}
+
 std::vector<Rewindable*> Simulation::memories() const {
   std::vector<Rewindable*> memories;
   for (ForceSource* source : m_.sources) {
@@ -165,11 +179,13 @@ void Simulation::visit_memory(Memory& memory) {
 StepReport Simulation::advance(double h, bool one_substep) {
   StepReport report;
   const double t = m_.x.t;
+  if (m_.account) m_.account->start_step();
   if (integrator_ == Integrator::semi_implicit_xv) {  // its sources act at the new coordinates
     m_.prepare_projection();
     drift(m_, shift_, h);
     m_.x.t = t + h;
     m_.refresh();
+    if (m_.account) m_.account->count_projection();
   }
   if (constrained_.any() || located_) {
     if (located_) {
@@ -178,6 +194,7 @@ StepReport Simulation::advance(double h, bool one_substep) {
       constrained_.step(m_, h, report);
       m_.x.t = t + h;
       m_.refresh();
+      if (m_.account) m_.account->count_projection();
     }
     report.h = m_.x.t - t;
     look_for_bad_numbers(report);
@@ -199,6 +216,7 @@ StepReport Simulation::advance(double h, bool one_substep) {
   }
   if (integrator_ != Integrator::dopri5) m_.x.t = t + h;
   m_.refresh();
+  if (m_.account) m_.account->count_projection();
   report.h = m_.x.t - t;
   report.loops_open = m_.loops_open;
   look_for_bad_numbers(report);

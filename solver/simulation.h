@@ -46,6 +46,11 @@ class Simulation {
   void set_tolerance(double tolerance);  // of dopri5, relative and absolute
   // The prescribed joint that carries the body moves by this law, from now on.
   void prescribe(int body, MotionLaw law);
+  // From now on account() says what constraints did in the last step. After set_loops().
+  void keep_account() {
+    m_.account.emplace(m_.model, m_.dynamics.bilateral().loops().loops().size());
+  }
+  const StepAccount& account() const { return *m_.account; }
   // Off: as if no joint had damping or Coulomb friction.
   void set_joint_friction(bool on) {
     m_.dynamics.set_friction(on);
@@ -62,6 +67,9 @@ class Simulation {
   // Where a step of h would lead; the run is not changed, down to the last bit. For samples between
   // the steps. Throws std::invalid_argument for a source that is not Rewindable. May allocate.
   State<double> side_step(double h, StepReport* report = nullptr) const;
+  // `see` gets a copy that stands at x, after one evaluation of all forces there by no step's rule;
+  // contacts and limits take no part. Throws as side_step(). May allocate.
+  void evaluate_at(const State<double>& x, const std::function<void(const Simulation&)>& see) const;
   // All that the next step reads: the state, and what integrator, impulses and sources remember.
   // Taken back in a simulation that was built alike, the run goes on with the same bits. Throws
   // std::runtime_error where it was not, std::invalid_argument as side_step().

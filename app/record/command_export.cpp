@@ -53,6 +53,10 @@ std::string recorded_csv_header(const Recording& recording,
   for (const GeometryPair& pair : pairs)
     for (const char* axis : {"x", "y", "z"}) add(name_of_pair(header, pair) + "/" + axis + "[N]");
   for (const std::string& row : recording.rows()) add("ledger/" + row + "[J]");
+  for (const std::string& row : recording.momentum_rows())
+    for (const char* part :
+         {"/x[N s]", "/y[N s]", "/z[N s]", "/about_x[N m s]", "/about_y[N m s]", "/about_z[N m s]"})
+      add("momentum/" + row + part);
   return line + ",hash[1]";
 }
 
@@ -76,6 +80,12 @@ void print_recording_csv(const Recording& recording) {
     std::vector<double> works(recording.rows().size());
     for (std::size_t i = 0; i < frame.rows.size(); ++i) works.at(frame.rows[i]) = frame.works[i];
     for (const double work : works) add(work);
+    std::vector<Vector3> momenta(2 * recording.momentum_rows().size(), Vector3::Zero());
+    for (std::size_t i = 0; i < frame.momentum_rows.size(); ++i)
+      for (std::size_t part = 0; part < 2; ++part)
+        momenta.at(2 * frame.momentum_rows[i] + part) = frame.momenta.at(2 * i + part);
+    for (const Vector3& momentum : momenta)
+      for (const double component : momentum) add(component);
     fmt::print("{},{:016x}\n", line, frame.hash);
   }
 }
@@ -111,6 +121,14 @@ void write_recorded_frame(JsonWriter& json, const Recording& recording,
   for (std::size_t i = 0; i < frame.rows.size(); ++i)
     json.key(recording.rows().at(frame.rows[i])).number(frame.works[i]);
   json.end_object();
+  json.key("momentum").begin_object();
+  for (std::size_t i = 0; i < frame.momentum_rows.size(); ++i) {
+    json.key(recording.momentum_rows().at(frame.momentum_rows[i])).begin_object();
+    json.key("linear").vector(frame.momenta.at(2 * i));
+    json.key("angular").vector(frame.momenta.at(2 * i + 1));
+    json.end_object();
+  }
+  json.end_object();
   json.end_object();
 }
 
@@ -131,9 +149,14 @@ void print_recording_json(const Recording& recording) {
   json.key("seed").count(header.seed);
   json.key("end").text(recording.end());
   json.key("notes").texts(recording.notes());
+  json.key("alarms").texts(recording.alarms());
   json.key("units").begin_object();
   json.key("t").text("s");
   json.key("ledger").text("J");
+  json.key("momentum").begin_object();
+  json.key("linear").text("N s");
+  json.key("angular").text("N m s");
+  json.end_object();
   json.key("force").text("N");
   json.key("couple").text("N m");
   json.key("couplings").text("N or N m");

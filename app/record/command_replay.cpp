@@ -1,86 +1,14 @@
 // `twinarm replay`: the same bits from a recorded step on, or a fork beside its recording.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/commands.h"
 #include "app/json_writer.h"
-#include "app/record/replay.h"
-#include "app/study/gnuplot.h"
-#include "app/text_table.h"
+#include "app/record/fork_view.h"
 
 namespace twinarm {
 namespace {
 
 constexpr int kDiffers = 1;
-constexpr std::size_t kTableRows = 20, kTableColumns = 4;
-
-// Which values part most, the most first; quaternions and all else alike.
-std::vector<std::size_t> parted(const Recording& recording, const Replay& fork) {
-  std::vector<double> most(recording.header().columns.size());
-  for (std::size_t n = 0; n < fork.frames.size(); ++n) {
-    const RecordedFrame recorded = recording.frame(fork.first + n);
-    for (std::size_t c = 0; c < most.size(); ++c)
-      most[c] = std::max(most[c], std::abs(fork.frames[n].values[c] - recorded.values[c]));
-  }
-  std::vector<std::size_t> order;
-  for (std::size_t c = 0; c < most.size(); ++c)
-    if (recording.header().columns[c].name.starts_with("q/") ||
-        recording.header().columns[c].name.starts_with("links/"))
-      order.push_back(c);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return most[a] > most[b]; });
-  return order;
-}
-
-std::string with_unit(const RecordedColumn& column) {
-  return column.name + "[" + column.unit + "]";
-}
-
-void print_branches(const Recording& recording, const Replay& fork) {
-  std::vector<std::size_t> columns = parted(recording, fork);
-  columns.resize(std::min(columns.size(), kTableColumns));
-  std::vector<std::string> headings{"t [s]"};
-  for (const std::size_t c : columns)
-    for (const char* branch : {"recorded ", "fork "})
-      headings.push_back(branch + with_unit(recording.header().columns[c]));
-  TextTable table(std::move(headings));
-  const std::size_t count = fork.frames.size();
-  const std::size_t stride = std::max<std::size_t>(1, (count + kTableRows - 1) / kTableRows);
-  for (std::size_t n = 0; n < count; n = n + 1 == count ? count : std::min(n + stride, count - 1)) {
-    const RecordedFrame recorded = recording.frame(fork.first + n);
-    std::vector<std::string> row{cell(recorded.t)};
-    for (const std::size_t c : columns) {
-      row.push_back(cell(recorded.values[c]));
-      row.push_back(cell(fork.frames[n].values[c]));
-    }
-    table.add(std::move(row));
-  }
-  fmt::print("{}", table.str());
-}
-
-void draw_branches(const Recording& recording, const Replay& fork,
-                   const std::filesystem::path& file) {
-  const std::vector<std::size_t> columns = parted(recording, fork);
-  if (columns.empty()) return;
-  const RecordedColumn& column = recording.header().columns[columns.front()];
-  std::vector<double> t, first, second;
-  for (std::size_t n = 0; n < fork.frames.size(); ++n) {
-    const RecordedFrame recorded = recording.frame(fork.first + n);
-    t.push_back(recorded.t);
-    first.push_back(recorded.values[columns.front()]);
-    second.push_back(fork.frames[n].values[columns.front()]);
-  }
-  const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
-  Gnuplot gnuplot(folder);
-  const std::string script = fmt::format(
-      "set xlabel 'time [s]'\nset ylabel {}\nplot {} with lines lw 4 lc '{}' title 'recorded', {} "
-      "with lines lw 1.5 lc '{}' title 'fork'\n",
-      in_quotes(column.name + " [" + column.unit + "]"), gnuplot.curve(t, first), palette::kvr,
-      gnuplot.curve(t, second), palette::dvr);
-  gnuplot.draw(file.stem().string(), "Recorded run and fork: " + column.name, 900, 420, script);
-}
 
 void write_branch(JsonWriter& json, const char* name, const Recording& recording,
                   const Replay& replay, bool forked) {
@@ -99,6 +27,25 @@ void write_branch(JsonWriter& json, const char* name, const Recording& recording
   for (std::size_t c = 0; c < columns.size(); ++c)
     json.key(with_unit(columns[c])).numbers(values[c]);
   json.end_object();
+  json.end_object();
+}
+
+void write_ledgers(JsonWriter& json, const ComparedLedgers& ledgers) {
+  json.key("ledger").begin_object();
+  for (const ComparedWork& row : ledgers.works) {
+    json.key(row.name).begin_object();
+    json.key("recorded").number(row.recorded);
+    json.key("fork").number(row.fork);
+    json.end_object();
+  }
+  json.end_object();
+  json.key("momentum").begin_object();
+  for (const ComparedMomentum& row : ledgers.momenta) {
+    json.key(row.name).begin_object();
+    json.key("recorded").vector(row.recorded);
+    json.key("fork").vector(row.fork);
+    json.end_object();
+  }
   json.end_object();
 }
 
@@ -122,6 +69,7 @@ void print_replay_json(const Recording& recording, const Replay& exact, const Re
     write_branch(json, "recorded", recording, *fork, false);
     write_branch(json, "fork", recording, *fork, true);
     json.end_array();
+    write_ledgers(json, compared_ledgers(exact, *fork));
   }
   json.end_object();
   fmt::print("{}\n", json.str());
@@ -151,9 +99,10 @@ int run_replay(const ReplayOptions& options) {
     fmt::print(
         "{} of {} recorded frames after it have the same bits{}\n", exact.equal, exact.compared,
         same ? "" : fmt::format("; the first that differs is at t = {} s", exact.first_different));
-    if (fork) print_branches(recording, *fork);
+    if (fork) print_fork(recording, exact, *fork);
   }
-  if (fork && !options.plot.empty()) draw_branches(recording, *fork, options.plot);
+  if (fork && !options.plot.empty())
+    draw_fork(recording, exact, *fork, options.changes, options.plot);
   return same ? 0 : kDiffers;
 }
 

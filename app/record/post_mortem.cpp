@@ -71,26 +71,33 @@ void say_first_bad(PostMortem& found) {
         found.pass > 0 ? fmt::format("in pass {}", found.pass) : "an input of the passes"));
 }
 
+std::string remedy_of(const Suspect& s, double h) {
+  std::string remedy;
+  if (s.largest_step > 0)
+    remedy =
+        fmt::format("a step of {} s would hold", short_text(0.9 * s.largest_step * h / s.step));
+  if (s.largest_gain > 0)
+    remedy += fmt::format("{}a {} of {} {} would hold at this step", remedy.empty() ? "" : "; ",
+                          s.gain, short_text(0.9 * s.largest_gain), s.unit);
+  if (s.is_coupling)
+    remedy += std::string(remedy.empty() ? "" : "; ") +
+              "treatment = \"implicit\" with the integrator semi-implicit would hold";
+  if (!s.is_coupling) remedy += "; the integrator semi-implicit takes dampers of joints implicitly";
+  return remedy;
+}
+
+std::string beyond_limit(const Suspect& s) {
+  return fmt::format("{}, w h = {} where at most {} holds ({})", s.name, short_text(s.product),
+                     short_text(s.limit), s.scheme);
+}
+
 void say_suspects(PostMortem& found, double h) {
   bool any = false;
   for (const Suspect& s : found.suspects) {
     if (s.step <= s.largest_step) continue;
     any = true;
-    found.words.push_back(fmt::format("behind it: {}, w h = {} where at most {} holds ({})", s.name,
-                                      short_text(s.product), short_text(s.limit), s.scheme));
-    std::string remedy;
-    if (s.largest_step > 0)
-      remedy =
-          fmt::format("a step of {} s would hold", short_text(0.9 * s.largest_step * h / s.step));
-    if (s.largest_gain > 0)
-      remedy += fmt::format("{}a {} of {} {} would hold at this step", remedy.empty() ? "" : "; ",
-                            s.gain, short_text(0.9 * s.largest_gain), s.unit);
-    if (s.is_coupling)
-      remedy += std::string(remedy.empty() ? "" : "; ") +
-                "treatment = \"implicit\" with the integrator semi-implicit would hold";
-    if (!s.is_coupling)
-      remedy += "; the integrator semi-implicit takes dampers of joints implicitly";
-    found.words.push_back(std::move(remedy));
+    found.words.push_back("behind it: " + beyond_limit(s));
+    found.words.push_back(remedy_of(s, h));
   }
   if (!any)
     found.words.emplace_back(
@@ -100,10 +107,29 @@ void say_suspects(PostMortem& found, double h) {
 
 }  // namespace
 
+std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared) {
+  std::string words = fmt::format(
+      "at t = {} s the ledger's row '{}' has come to {} J, more than the kinetic energy there was "
+      "at {} s, and grows without bound: the run creates energy",
+      short_text(alarm.t), alarm.row, short_text(alarm.work), short_text(alarm.since));
+  for (const Suspect& s : find_suspects(prepared))
+    if (s.step > s.largest_step)
+      return words + "; behind it: " + beyond_limit(s) + "; " + remedy_of(s, prepared.run.step);
+  return words + (prepared.run.is_adaptive()
+                      ? "; give a smaller --tolerance"
+                      : fmt::format("; give a shorter step than {} s, or --integrator dopri5 where "
+                                    "nothing touches",
+                                    short_text(prepared.run.step)));
+}
+
 void explain(const SimulatePlan& prepared, RecordingHeader header,
              const std::filesystem::path& file, SimulateResult& result) {
   PostMortem& found = *result.post_mortem;
   say_first_bad(found);
+  if (result.alarm)
+    found.words.push_back(fmt::format(
+        "an alarm came at t = {} s: the ledger's row '{}' grew without bound, to {} J",
+        short_text(result.alarm->t), result.alarm->row, short_text(result.alarm->work)));
   found.suspects = find_suspects(prepared);
   say_suspects(found, prepared.run.step);
   try {

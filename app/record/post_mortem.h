@@ -18,6 +18,9 @@ constexpr long kLastSteps = 1000;
 void explain(const SimulatePlan& prepared, RecordingHeader header,
              const std::filesystem::path& file, SimulateResult& result);
 
+// What an alarm says: the row, when, and what would hold.
+std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared);
+
 // Springs and dampers that this integrator takes at the start of a step, against their limits of
 // linear theory about the start (coupling/prediction.h); the worst first.
 std::vector<Suspect> find_suspects(const SimulatePlan& prepared);

@@ -146,6 +146,10 @@ void RunRecorder::write(RunView& run) {
     frame.rows.push_back(writer_.number_of(row.name));
     frame.works.push_back(row.work);
   }
+  for (const MomentumRow& row : run.momentum()) {
+    frame.momentum_rows.push_back(writer_.momentum_number_of(row.name));
+    frame.momenta.insert(frame.momenta.end(), {row.linear, row.angular});
+  }
   writer_.write(frame);
 }
 

@@ -26,6 +26,7 @@ class RunRecorder {
               const SimulatePlan& prepared, double every = 0);
   void look(RunView& run);
   void write(RunView& run);
+  void alarm(const std::string& words) { writer_.alarm(words); }
   void finish(const std::string& how) { writer_.finish(how); }
 
  private:

@@ -90,6 +90,8 @@ void visit(Memory& memory, RecordedFrame& frame) {
   });
   memory.visit(frame.rows);
   memory.visit(frame.works);
+  memory.visit(frame.momentum_rows);
+  visit_all(memory, frame.momenta, [&](Vector3& momentum) { memory.visit(momentum); });
   memory.visit(frame.memory);
 }
 

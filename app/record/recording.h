@@ -48,7 +48,10 @@ struct RecordedFrame {
   std::vector<RecordedContact> contacts;
   std::vector<std::uint32_t> rows;  // of the ledger: numbers of names
   std::vector<double> works;        // [J]
-  std::string memory;               // state, and what the next step reads besides
+  // Of the ledger of momentum: numbers of names, linear and angular by turns [N s], [N m s].
+  std::vector<std::uint32_t> momentum_rows;
+  std::vector<Vector3> momenta;
+  std::string memory;  // state, and what the next step reads besides
 };
 
 std::uint64_t hash_of(const std::string& bytes);  // FNV-1a, 64 bits
@@ -60,8 +63,9 @@ void visit(Memory& memory, RecordedFrame& frame);
 // The blocks of the file: kind, length, payload, CRC-32 of all three. Little-endian.
 namespace recording_format {
 inline constexpr char kMagic[9] = "TWINREC\n";
-inline constexpr std::uint32_t kVersion = 1;
-inline constexpr char kHeader = 'H', kName = 'N', kFrame = 'F', kEnd = 'E';
+inline constexpr std::uint32_t kVersion = 2;
+inline constexpr char kHeader = 'H', kName = 'N', kMomentumName = 'M', kAlarm = 'A', kFrame = 'F',
+                      kEnd = 'E';
 inline constexpr std::size_t kStart = 12;              // magic and version
 inline constexpr std::size_t kBefore = 5, kAfter = 4;  // bytes of a block around its payload
 }  // namespace recording_format

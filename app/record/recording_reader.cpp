@@ -82,6 +82,10 @@ void Recording::take(char kind, std::size_t begin, std::size_t size) {
     has_header_ = true;
   } else if (kind == kName) {
     names_.push_back(bytes_.substr(begin, size));
+  } else if (kind == kMomentumName) {
+    momentum_names_.push_back(bytes_.substr(begin, size));
+  } else if (kind == kAlarm) {
+    alarms_.push_back(bytes_.substr(begin, size));
   } else if (kind == kEnd) {
     end_ = bytes_.substr(begin, size);
   } else if (kind == kFrame) {
@@ -94,10 +98,29 @@ void Recording::take(char kind, std::size_t begin, std::size_t size) {
   }
 }
 
+// A right checksum says that the bytes are as they were written, not that they make sense.
 RecordedFrame Recording::frame(std::size_t n) const {
-  Memory memory(bytes_.substr(places_[n].begin, places_[n].size));
   RecordedFrame frame;
-  visit(memory, frame);
+  bool fits = true;
+  try {
+    Memory memory(bytes_.substr(places_[n].begin, places_[n].size));
+    visit(memory, frame);
+    fits = memory.at_end();
+  } catch (const std::runtime_error&) {
+    fits = false;
+  }
+  const auto all_below = [](const std::vector<std::uint32_t>& numbers, std::size_t count) {
+    return std::all_of(numbers.begin(), numbers.end(), [&](std::uint32_t i) { return i < count; });
+  };
+  fits = fits && frame.values.size() == header_.columns.size() &&
+         frame.pulls.size() <= header_.couplings.size() &&
+         frame.works.size() == frame.rows.size() && all_below(frame.rows, names_.size()) &&
+         frame.momenta.size() == 2 * frame.momentum_rows.size() &&
+         all_below(frame.momentum_rows, momentum_names_.size());
+  if (!fits)
+    throw InputError(
+        {{file_, 0, fmt::format("frame {}, at byte {}", n, places_[n].begin),
+          "its checksum is right, but its numbers do not fit the header", "record it again"}});
   return frame;
 }
 

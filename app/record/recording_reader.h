@@ -17,6 +17,8 @@ class Recording {
 
   const RecordingHeader& header() const { return header_; }
   const std::vector<std::string>& rows() const { return names_; }  // of the ledger
+  const std::vector<std::string>& momentum_rows() const { return momentum_names_; }
+  const std::vector<std::string>& alarms() const { return alarms_; }
   const std::vector<std::string>& notes() const { return notes_; }
   const std::string& end() const { return end_; }  // how the run ended; empty: not known
 
@@ -37,7 +39,7 @@ class Recording {
   std::string file_, bytes_, end_;
   RecordingHeader header_;
   bool has_header_ = false;
-  std::vector<std::string> names_, notes_;
+  std::vector<std::string> names_, momentum_names_, alarms_, notes_;
   std::vector<Place> places_;
 };
 

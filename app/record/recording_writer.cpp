@@ -36,9 +36,21 @@ RecordingWriter::RecordingWriter(std::filesystem::path file, RecordingHeader hea
 }
 
 std::uint32_t RecordingWriter::number_of(const std::string& row) {
-  const auto [place, is_new] = names_.try_emplace(row, static_cast<std::uint32_t>(names_.size()));
-  if (is_new) block(recording_format::kName, row);
+  return number_in(names_, recording_format::kName, row);
+}
+
+std::uint32_t RecordingWriter::momentum_number_of(const std::string& row) {
+  return number_in(momentum_names_, recording_format::kMomentumName, row);
+}
+
+std::uint32_t RecordingWriter::number_in(Names& names, char kind, const std::string& row) {
+  const auto [place, is_new] = names.try_emplace(row, static_cast<std::uint32_t>(names.size()));
+  if (is_new) block(kind, row);
   return place->second;
+}
+
+void RecordingWriter::alarm(const std::string& words) {
+  block(recording_format::kAlarm, words);
 }
 
 void RecordingWriter::write(RecordedFrame& frame) {

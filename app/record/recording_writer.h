@@ -19,6 +19,8 @@ class RecordingWriter {
   RecordingWriter(std::filesystem::path file, RecordingHeader header);
   // Numbers of the ledger's rows by name: a new name is written down first.
   std::uint32_t number_of(const std::string& row);
+  std::uint32_t momentum_number_of(const std::string& row);
+  void alarm(const std::string& words);
   void write(RecordedFrame& frame);
   // The end of the run in a word, then the file's own name. Throws InputError.
   void finish(std::string how);
@@ -32,7 +34,9 @@ class RecordingWriter {
   std::ofstream out_;
   std::string waiting_;
   std::chrono::steady_clock::time_point flushed_;
-  std::map<std::string, std::uint32_t> names_;
+  using Names = std::map<std::string, std::uint32_t>;
+  std::uint32_t number_in(Names& names, char kind, const std::string& row);
+  Names names_, momentum_names_;
 };
 
 std::filesystem::path part_of(const std::filesystem::path& file);

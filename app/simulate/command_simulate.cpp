@@ -65,6 +65,12 @@ int run_simulate(const SimulateOptions& options) {
     watch.warn = [](const std::string& text) {
       fmt::print(stderr, "twinarm: warning: {}\n", text);
     };
+    watch.alarm = [&](const Alarm& alarm) {
+      const std::string words = alarm_words(alarm, prepared);
+      fmt::print(stderr, "twinarm: alarm: {}\n", words);
+      if (recorder) recorder->alarm(words);
+      return words;
+    };
     watch.sample = [&](double t, const State<double>& x) { output->sample(t, x); };
     watch.tick = [&](double t) {
       check_interrupt();

@@ -34,9 +34,10 @@ class GivenWrench : public ForceSource, public Rewindable {
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
   double power(const Kinematics& k) const;  // [W]
+  Wrench now(const Kinematics& k) const;    // in world axes
+  std::size_t body() const { return wrench_.body; }
 
  private:
-  Wrench now(const Kinematics& k) const;  // in world axes
   Wrench wrench_;
   Vector3 p_L_;  // the point, link axes
 };

@@ -25,18 +25,18 @@ double dot(const Eigen::VectorXd& rows, const NamedJoint& joint,
 }  // namespace
 
 Ledger::Ledger(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
-               SceneCouplings* couplings, Integrator integrator)
+               SceneCouplings* couplings, Integrator integrator, bool others_want_inner)
     : input_(input),
       wrenches_(wrenches),
       couplings_(couplings),
       k_(input.model),
       start_(input.state.x),
       now_(start_) {
-  find_rows(integrator);
+  find_rows(integrator, others_want_inner);
   power_now_ = powers(start_, Side::after);
 }
 
-void Ledger::find_rows(Integrator integrator) {
+void Ledger::find_rows(Integrator integrator, bool others_want_inner) {
   const Model<double>& model = input_.model;
   const auto& joints = input_.coordinates.all();
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -62,7 +62,7 @@ void Ledger::find_rows(Integrator integrator) {
 
   const int order = facts_of(integrator).order;
   weights_ = {0.5, 0.5};
-  if (integrals_.empty() || order < 4) return;
+  if ((integrals_.empty() && !others_want_inner) || order < 4) return;
   nodes_ = {0.5};
   weights_ = {1.0 / 6, 4.0 / 6, 1.0 / 6};
   if (order == 4) return;

@@ -36,10 +36,11 @@ class Ledger {
  public:
   // All must outlive it; `couplings` may be null.
   Ledger(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
-         SceneCouplings* couplings, Integrator integrator);
+         SceneCouplings* couplings, Integrator integrator, bool others_want_inner);
 
   // Where within a step, as parts of it, the state is asked for besides its ends.
   std::span<const double> inner_nodes() const;
+  std::span<const double> weights() const { return weights_; }  // the ends included
   // A step of h from the state of the last call (or the start), by way of inner_nodes().
   void add_step(double h, const std::vector<State<double>>& inner, const State<double>& end);
   const State<double>& now() const { return now_; }
@@ -57,7 +58,7 @@ class Ledger {
     std::string joint;
     std::size_t iv, nv;
   };
-  void find_rows(Integrator integrator);
+  void find_rows(Integrator integrator, bool others_want_inner);
   using Side = SceneCouplings::Side;  // of a corner in the motion of a kinematic robot
   std::vector<double> powers(const State<double>& x, Side side) const;  // by integrals_
   double elastic_energy(std::size_t c, const State<double>& x) const;   // k e^2 / 2

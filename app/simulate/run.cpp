@@ -79,10 +79,15 @@ class Run : public RunView {
         warn_of_deep_start(simulated.scene->description.contact);
     }
     if (plan.is_adaptive()) sim_.set_tolerance(plan.tolerance);
+    sim_.keep_account();
+    momentum_.emplace(input_, wrenches_, simulated.couplings.get(), plan.integrator,
+                      plan.locates_events, sim_);
     ledger_.emplace(input_, wrenches_, simulated.couplings.get(),
-                    plan.locates_events ? Integrator::dopri5 : plan.integrator);
+                    plan.locates_events ? Integrator::dopri5 : plan.integrator,
+                    momentum_->wants_inner());
     bound_ = plan.energy_bound > 0 ? plan.energy_bound
                                    : default_energy_bound(input_.model, input_.state.x);
+    alarm_.emplace(weight_of(input_.model));
     if (from) go_on_from(*from);
     earlier_ = later_ = memory();
   }
@@ -92,13 +97,16 @@ class Run : public RunView {
   const SceneContacts* contacts() const override { return contacts_ ? &*contacts_ : nullptr; }
   std::vector<LedgerRow> ledger() const override {
     std::vector<LedgerRow> all = ledger_->rows();
-    if (!contacts_) return all;
-    // Before the last row, `numerical`, which is what is left.
-    const std::vector<LedgerRow> rows = contacts_->rows();
-    for (const LedgerRow& row : rows) all.back().work -= row.work;
-    all.insert(all.end() - 1, rows.begin(), rows.end());
+    const auto add = [&](const std::vector<LedgerRow>& rows) {
+      // Before the last row, `numerical`, which is what is left.
+      for (const LedgerRow& row : rows) all.back().work -= row.work;
+      all.insert(all.end() - 1, rows.begin(), rows.end());
+    };
+    if (contacts_) add(contacts_->rows());
+    add(momentum_->energy_rows(sim_));
     return all;
   }
+  std::vector<MomentumRow> momentum() const override { return momentum_->rows(sim_, contacts()); }
   std::string memory() override {
     Memory memory;
     visit_memory(memory);
@@ -119,6 +127,7 @@ class Run : public RunView {
           fmt::format("in {} of {} steps the equation of the step was not solved to rounding",
                       unsolved_, result_.steps));
     result_.ledger = ledger();
+    result_.momentum = momentum();
     if (contacts_) result_.contacts = contacts_->contact_count();
     if (result_.post_mortem) result_.checkpoint = std::move(earlier_);
     result_.hand = ledger_->hand();
@@ -139,6 +148,7 @@ class Run : public RunView {
     visit_head(memory, result_.steps, result_.end, unsolved_);
     sim_.visit_memory(memory);
     ledger_->visit_memory(memory);
+    momentum_->visit_memory(memory);
   }
   void go_on_from(const RunStart& start) {
     Memory memory(start.memory);
@@ -199,6 +209,7 @@ class Run : public RunView {
     for (const double part : ledger_->inner_nodes())
       inner_.push_back(before_->side_step(part * report.h));
     ledger_->add_step(report.h, inner_, sim_.state());
+    momentum_->add_step(report.h, ledger_->weights(), inner_, sim_);
     result_.end = t_next;
     limits_.look(t_next, sim_.state());
     if (watch_.look) watch_.look(*this);
@@ -207,7 +218,16 @@ class Run : public RunView {
       earlier_ = std::move(later_);
       later_ = memory();
     }
+    if (watch_.alarm && result_.steps % LedgerAlarm::kWindow == 0) look_at_ledger();
     return result_.steps % kEnergyEvery != 0 || stays_bounded(report);
+  }
+
+  void look_at_ledger() {
+    const double kinetic = kinetic_energy(input_.model, sim_.state());
+    auto found = alarm_->look(result_.end, kinetic, ledger(), ledger_->hand());
+    if (!found) return;
+    result_.alarm_words = watch_.alarm(*found);
+    result_.alarm = std::move(found);
   }
 
   bool stays_bounded(const StepReport& report) {
@@ -241,6 +261,8 @@ class Run : public RunView {
   std::vector<GivenWrench> wrenches_;
   LimitWatch limits_;
   std::optional<Ledger> ledger_;
+  std::optional<MomentumLedger> momentum_;
+  std::optional<LedgerAlarm> alarm_;
   std::optional<SceneContacts> contacts_;
   std::optional<Simulation> before_;  // the run at the start of the step
   std::vector<State<double>> inner_;

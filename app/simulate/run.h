@@ -9,6 +9,8 @@
 
 #include "app/simulate/add_contacts.h"
 #include "app/simulate/ledger.h"
+#include "app/simulate/ledger_alarm.h"
+#include "app/simulate/momentum_ledger.h"
 #include "app/simulate/simulate_input.h"
 #include "app/simulate/simulate_options.h"
 #include "solver/simulation.h"
@@ -21,9 +23,10 @@ class RunView {
   virtual ~RunView() = default;
   virtual long step() const = 0;  // that was taken last; 0 at the start
   virtual const Simulation& simulation() const = 0;
-  virtual const SceneContacts* contacts() const = 0;  // null for a URDF
-  virtual std::vector<LedgerRow> ledger() const = 0;  // `numerical` last
-  virtual std::string memory() = 0;                   // all that the run goes on from
+  virtual const SceneContacts* contacts() const = 0;      // null for a URDF
+  virtual std::vector<LedgerRow> ledger() const = 0;      // `numerical` last
+  virtual std::vector<MomentumRow> momentum() const = 0;  // likewise
+  virtual std::string memory() = 0;                       // all that the run goes on from
 };
 
 // A step of an earlier run to begin at, and the last one to take.
@@ -64,17 +67,21 @@ struct SimulateResult {
   long steps = 0;
   double end = 0;  // [s]; where the run stopped by itself: the last good time
   std::vector<LedgerRow> ledger;
+  std::vector<MomentumRow> momentum;
   std::vector<LedgerRow> hand;  // of the kinematic sides of couplings; outside the sum
   std::vector<std::string> warnings;
   int contacts = 0;  // points that press, at the last step
   std::optional<PostMortem> post_mortem;
-  std::string checkpoint;  // where a run stopped: the memory of some 1,000 to 2,000 steps before
+  std::optional<Alarm> alarm;
+  std::string alarm_words;  // by whoever watched
+  std::string checkpoint;   // where a run stopped: the memory of some 1,000 to 2,000 steps before
 };
 
 struct RunWatch {
   std::function<void(const std::string&)> warn;  // of the start, before the run; also in the result
   std::function<void(double t, const State<double>&)> sample;  // times of the plan, in their order
   std::function<void(RunView&)> look;                          // at the start and after each step
+  std::function<std::string(const Alarm&)> alarm;              // says it; once at most
   std::function<void(double t)> tick;                          // after each step; may throw
 };
 

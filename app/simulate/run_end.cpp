@@ -9,11 +9,14 @@
 
 namespace twinarm {
 
-double default_energy_bound(const Model<double>& model, const State<double>& x) {
+double weight_of(const Model<double>& model) {
   double mass = 0;
   for (const auto& inertia : model.I) mass += inertia.m;
-  const double weight = mass * to_eigen(model.gravity).norm();
-  return RunPlan::kGrowth * std::max({1.0, kinetic_energy(model, x), weight});
+  return mass * to_eigen(model.gravity).norm();
+}
+
+double default_energy_bound(const Model<double>& model, const State<double>& x) {
+  return RunPlan::kGrowth * std::max({1.0, kinetic_energy(model, x), weight_of(model)});
 }
 
 PostMortem examine_end(const StepReport& report, const Simulation& simulation,

@@ -5,6 +5,7 @@
 
 namespace twinarm {
 
+double weight_of(const Model<double>& model);  // [N]
 // RunPlan::energy_bound where none is given [J].
 double default_energy_bound(const Model<double>& model, const State<double>& start);
 

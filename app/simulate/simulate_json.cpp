@@ -44,12 +44,29 @@ class JsonOutput : public RunOutput {
     json_.key("ledger").begin_object();
     for (const LedgerRow& row : result.ledger) json_.key(row.name).number(row.work);
     json_.end_object();
+    json_.key("momentum").begin_object();
+    for (const MomentumRow& row : result.momentum) {
+      json_.key(row.name).begin_object();
+      json_.key("linear").vector(row.linear);
+      json_.key("angular").vector(row.angular);
+      json_.end_object();
+    }
+    json_.end_object();
     if (simulated_.couplings) {
       json_.key("hand").begin_object();
       for (const LedgerRow& row : result.hand) json_.key(row.name).number(row.work);
       json_.end_object();
     }
     json_.key("steps").count(result.steps);
+    if (result.alarm) {
+      json_.key("alarm").begin_object();
+      json_.key("row").text(result.alarm->row);
+      json_.key("time").number(result.alarm->t);
+      json_.key("since").number(result.alarm->since);
+      json_.key("work").number(result.alarm->work);
+      json_.key("words").text(result.alarm_words);
+      json_.end_object();
+    }
     if (result.post_mortem) write(*result.post_mortem);
     std::vector<std::string> warnings = input_.warnings;
     warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());

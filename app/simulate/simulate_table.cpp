@@ -13,23 +13,64 @@
 namespace twinarm {
 namespace {
 
-// Rows of many contacts are summed by kind: the JSON has them all.
-std::vector<LedgerRow> shortened(const std::vector<LedgerRow>& rows) {
-  constexpr std::ptrdiff_t most_contacts = 12;
-  const auto is_contact = [](const LedgerRow& row) { return row.name.starts_with("contact/"); };
-  if (std::count_if(rows.begin(), rows.end(), is_contact) <= most_contacts) return rows;
-  std::vector<LedgerRow> out;
-  for (const LedgerRow& row : rows) {
-    const std::string kind = "contact, all/" + row.name.substr(row.name.rfind('/') + 1);
-    const auto same = std::find_if(out.begin(), out.end(), [&](const LedgerRow& o) {
-      return is_contact(row) && o.name == kind;
-    });
-    if (same != out.end())
-      same->work += row.work;
-    else
-      out.push_back({is_contact(row) ? kind : row.name, row.work});
+void add(LedgerRow& sum, const LedgerRow& row) {
+  sum.work += row.work;
+}
+void add(MomentumRow& sum, const MomentumRow& row) {
+  sum.linear += row.linear;
+  sum.angular += row.angular;
+}
+
+// "contact/floor-box/friction": which of the kinds it is one of, or nothing.
+std::string kind_of(const std::string& name) {
+  const std::size_t last = name.rfind('/');
+  for (const char* what : {"contact", "constraint"}) {
+    if (!name.starts_with(std::string(what) + "/")) continue;
+    const std::string part = name.substr(last + 1);
+    for (const char* kind : {"normal", "friction", "impact", "stabilisation"})
+      if (part == kind) return std::string(what) + ", all/" + kind;
+    return std::string(what) + ", all";
+  }
+  return "";
+}
+
+// Rows of many contacts or constraints are summed by kind: the JSON has them all.
+template <class Row>
+std::vector<Row> shortened(const std::vector<Row>& rows) {
+  constexpr std::ptrdiff_t most = 12;
+  const auto has_kind = [](const Row& row) { return !kind_of(row.name).empty(); };
+  if (std::count_if(rows.begin(), rows.end(), has_kind) <= most) return rows;
+  std::vector<Row> out;
+  for (const Row& row : rows) {
+    const std::string kind = kind_of(row.name);
+    const auto same = std::find_if(out.begin(), out.end(),
+                                   [&](const Row& o) { return !kind.empty() && o.name == kind; });
+    if (same != out.end()) {
+      add(*same, row);
+      continue;
+    }
+    out.push_back(row);
+    if (!kind.empty()) out.back().name = kind;
   }
   return out;
+}
+
+std::string momentum_table(const SimulateResult& result) {
+  TextTable table({"momentum, 0 to " + cell(result.end) + " s", "x [N s]", "y [N s]", "z [N s]",
+                   "about x [N m s]", "about y [N m s]", "about z [N m s]"});
+  const auto line = [&](const MomentumRow& row) {
+    std::vector<std::string> cells{row.name};
+    for (const Vector3& v : {row.linear, row.angular})
+      for (const double component : v) cells.push_back(cell(component));
+    table.add(std::move(cells));
+  };
+  MomentumRow sum{"change of momentum", Vector3::Zero(), Vector3::Zero()};
+  for (const MomentumRow& row : shortened(result.momentum)) {
+    line(row);
+    add(sum, row);
+  }
+  line(sum);
+  return table.str();
 }
 
 class TableOutput : public RunOutput {
@@ -68,7 +109,7 @@ class TableOutput : public RunOutput {
       sum += row.work;
     }
     ledger.add({"change of kinetic energy", cell(sum)});
-    fmt::print("{}", ledger.str());
+    fmt::print("{}\n{}", ledger.str(), momentum_table(result));
     if (result.contacts > 0) fmt::print("\n{} contact points press at the end\n", result.contacts);
     const char* space = "\n";
     for (const auto* warnings : {&input_.warnings, &result.warnings})

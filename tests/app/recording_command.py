@@ -48,6 +48,28 @@ mass = 1
 position = [0.03, 0.01, 0.35]
 restitution = 0.3
 """
+DRIVEN = """
+integrator = "rk4"
+[[body]]
+name = "wheel"
+shape = { cylinder = { radius = 0.5, length = 0.1 } }
+position = [0, 0, 1]
+motion = { angular = [0, 0, 3], linear = [0.2, 0, 0] }
+group = 1
+[[body]]
+name = "bob"
+shape = { box = { size = [0.1, 0.2, 0.6] } }
+mass = 2
+position = [0.5, 0, 0.7]
+linear_velocity = [0.2, 1.5, 0]
+group = 1
+[[constraint]]
+name = "hook"
+type = "ball"
+a = "bob"
+b = "wheel"
+point = [0.5, 0, 1]
+"""
 
 
 class RecordingCommand(RobotCommand):

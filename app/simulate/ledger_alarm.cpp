@@ -1,0 +1,75 @@
+#include "app/simulate/ledger_alarm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace twinarm {
+namespace {
+
+constexpr double kGrowth = 1.5, kShare = 0.25;
+
+// What is looked at: of a coupling the sum of its parts less the work of its hand.
+std::vector<LedgerRow> watched(const std::vector<LedgerRow>& rows,
+                               const std::vector<LedgerRow>& hand) {
+  std::vector<LedgerRow> found;
+  for (const LedgerRow& work : hand) found.push_back({"coupling/" + work.name, -work.work});
+  for (const LedgerRow& row : rows) {
+    if (row.name == "numerical" || row.name.ends_with("/stabilisation")) {
+      found.push_back(row);
+      continue;
+    }
+    for (std::size_t c = 0; c < hand.size(); ++c)
+      if (row.name.starts_with(found[c].name + "/")) found[c].work += row.work;
+  }
+  return found;
+}
+
+double work_of(const std::vector<LedgerRow>& rows, const std::string& name) {
+  for (const LedgerRow& row : rows)
+    if (row.name == name) return row.work;
+  return 0;
+}
+
+}  // namespace
+
+std::optional<Alarm> LedgerAlarm::look(double t, double kinetic, const std::vector<LedgerRow>& rows,
+                                       const std::vector<LedgerRow>& hand) {
+  if (is_told_) return std::nullopt;
+  largest_kinetic_ = std::max(largest_kinetic_, kinetic);
+  const std::vector<LedgerRow> now = watched(rows, hand);
+  long every = 1;
+  for (Scale& scale : scales_) {
+    if (count_ % every != 0) break;
+    std::rotate(scale.marks.begin(), scale.marks.begin() + 1, scale.marks.end());
+    scale.marks.back() = {t, largest_kinetic_, now};
+    if (++scale.count >= kMarks)
+      if (auto alarm = examine(scale)) {
+        is_told_ = true;
+        return alarm;
+      }
+    every *= kCoarser;
+  }
+  ++count_;
+  return std::nullopt;
+}
+
+std::optional<Alarm> LedgerAlarm::examine(const Scale& scale) const {
+  const Mark &first = scale.marks.front(), &last = scale.marks.back();
+  const double least = std::max({floor_, first.largest_kinetic, kShare * last.largest_kinetic});
+  for (const LedgerRow& row : last.rows) {
+    if (!(row.work > least)) continue;
+    bool grows = true;
+    double growth = 0;
+    for (std::size_t m = 1; m < kMarks; ++m) {
+      const double then =
+          work_of(scale.marks[m].rows, row.name) - work_of(scale.marks[m - 1].rows, row.name);
+      grows = grows && then > 0 && then >= kGrowth * growth;
+      growth = then;
+    }
+    if (grows) return Alarm{row.name, last.t, row.work, first.t};
+  }
+  return std::nullopt;
+}
+
+}  // namespace twinarm

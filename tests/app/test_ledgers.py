@@ -1,0 +1,147 @@
+#!/usr/bin/env python3
+"""The ledgers of energy and momentum on every scene of assets/scenes, against what the bodies have
+by their poses and velocities (bodies_of_scene.py).
+
+    test_ledgers.py PATH/TO/twinarm
+"""
+import json
+import os
+import subprocess
+import sys
+import unittest
+
+import robot_command
+from bodies_of_scene import Contents, add, bodies_of, size
+from recording_command import DRIVEN, RecordingCommand
+from robot_command import ROOT, joint, link, robot
+
+SCENES = sorted((ROOT / "assets" / "scenes").glob("*.toml"))
+# Seconds that are enough for something to happen, and not more.
+DURATION = {"pyramid": 0.05, "box_stack": 0.1, "bouncing_ball": 0.6, "cradle": 0.4,
+            "rattleback": 0.1, "spinning_coin": 0.05, "four_bar": 0.4, "slider_crank": 0.4,
+            "robot_beside_obstacles": 0.3, "peg_in_hole": 0.3}
+
+
+class Ledgers(RecordingCommand):
+    def run_scene(self, scene, *options):
+        arguments = [robot_command.PROGRAM, "simulate", scene, *map(str, options), "--json"]
+        result = subprocess.run(arguments, cwd=self.folder, capture_output=True, text=True,
+                                timeout=120)
+        if result.returncode == 2:
+            return None, result.stderr
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout), result.stderr
+
+    def balance(self, scene, *options):
+        """What both ledgers leave over of what the bodies have gained, as parts of what moved."""
+        answer, error = self.run_scene(scene, *options)
+        if answer is None:
+            self.assertIn("does not go", error)  # the scene says why it has no such contact
+            return None
+        self.assertNotIn("alarm", answer)
+        bodies = bodies_of(scene)
+        first, last = (Contents(bodies, answer["samples"][i]["links"]) for i in (0, -1))
+        rows, momenta = answer["ledger"], answer["momentum"]
+        moved = max([abs(w) for w in rows.values()] + [first.kinetic, last.kinetic, 1e-6])
+        gained = last.kinetic - first.kinetic
+        self.assertLess(abs(sum(rows.values()) - gained), 1e-12 * max(1, moved), scene.name)
+        self.assertLess(abs(rows["gravity"] + last.potential - first.potential),
+                        1e-12 * max(1, moved), scene.name)
+        pushed = {}
+        for part, gain in (("linear", add(last.linear, first.linear, -1)),
+                           ("angular", add(last.angular, first.angular, -1))):
+            total = (0, 0, 0)
+            for row in momenta.values():
+                total = add(total, row[part])
+            pushed[part] = max([size(r[part]) for r in momenta.values()] +
+                               [size(getattr(first, part)), 1e-6])
+            self.assertLess(size(add(total, gain, -1)), 1e-11 * max(1, pushed[part]), scene.name)
+        return {"energy": abs(rows["numerical"]) / moved,
+                "linear": size(momenta["numerical"]["linear"]) / pushed["linear"],
+                "angular": size(momenta["numerical"]["angular"]) / pushed["angular"],
+                "rows": rows, "momenta": momenta}
+
+    def test_on_every_scene_the_rows_sum_to_what_the_bodies_gained(self):
+        for scene in SCENES:
+            for contact in ("rigid", "compliant", "event"):
+                duration = DURATION.get(scene.stem, 0.3)
+                if contact == "event":
+                    duration = 0.002 if scene.stem == "four_bar" else min(duration, 0.05)
+                with self.subTest(scene=scene.stem, contact=contact):
+                    self.balance(scene, "--duration", duration, "--contact", contact)
+
+    def falls_with(self, scene, integrator, order, steps, key, *options):
+        """The rest falls with the step, by the integrator's order at least."""
+        errors = [self.balance(scene, "--integrator", integrator, "--step", h, *options)[key]
+                  for h in steps]
+        for coarse, fine in zip(errors, errors[1:]):
+            self.assertLess(fine, max(0.7 * coarse / 2 ** (order - 1), 1e-12),
+                            f"{scene.stem} {integrator} {key} {errors}")
+
+    def test_the_numerical_rows_fall_by_the_integrators_order(self):
+        four_bar, slider_crank = (ROOT / "assets" / "scenes" / (name + ".toml")
+                                  for name in ("four_bar", "slider_crank"))
+        for scene in (four_bar, slider_crank):
+            for integrator, order, steps in (("semi-implicit", 1, (2e-3, 1e-3, 5e-4)),
+                                             ("verlet", 2, (4e-3, 2e-3)), ("rk4", 4, (1e-2, 5e-3))):
+                for key in ("energy", "linear", "angular"):
+                    self.falls_with(scene, integrator, order, steps, key, "--duration", 0.4)
+
+    def test_what_the_drive_puts_in_stands_in_the_row_of_the_constraint(self):
+        """A body hangs by a ball joint on another that turns by a law: no energy is kept, and
+        what it gains is that row alone."""
+        scene = self.folder / "driven.toml"
+        scene.write_text(DRIVEN)
+        for integrator, options, tolerance in (
+                ("dopri5", ("--tolerance", 1e-11), 1e-9), ("rk4", ("--step", 1e-3), 1e-8),
+                ("semi-implicit", ("--step", 1e-4), 1e-2)):
+            found = self.balance(scene, "--duration", 1, "--integrator", integrator, *options)
+            for key in ("energy", "linear", "angular"):
+                self.assertLess(found[key], tolerance, f"{integrator} {key} {found['rows']}")
+            self.assertGreater(abs(found["rows"]["constraint/hook"]), 0.1)
+
+    def test_with_dormand_prince_the_ledgers_close_where_the_scene_is_smooth(self):
+        for name in ("four_bar", "slider_crank"):
+            found = self.balance(ROOT / "assets" / "scenes" / (name + ".toml"), "--integrator",
+                                 "dopri5", "--tolerance", 1e-11, "--duration", 0.5)
+            for key in ("energy", "linear", "angular"):
+                self.assertLess(found[key], 1e-9, f"{name} {key}")
+
+
+class Joints(RecordingCommand):
+    def test_what_goes_through_the_joint_to_the_ground_is_newtons_law_for_the_whole_robot(self):
+        """By three integrators, with a motor, friction and a wrench; of the total momentum that
+        is computed from the links alone."""
+        urdf = robot('<link name="base"/>', link("upper"), link("lower"),
+                     joint("shoulder", "continuous", "base", "upper", axis="0 1 0",
+                           more='<dynamics damping="0.4" friction="0.2"/>'),
+                     joint("elbow", "continuous", "upper", "lower", xyz="0 0 -1", axis="1 0 0"))
+        (self.folder / "arm.urdf").write_text(urdf)
+        (self.folder / "state.json").write_text(json.dumps(
+            {"q": {"shoulder": 0.4}, "qd": {"elbow": 2}, "tau": {"elbow": 0.7},
+             "wrenches": [{"link": "lower", "point": [0, 0, -1.5], "force": [1, 2, 3]}]}))
+        m, com, i = robot_command.MASS, robot_command.COM, robot_command.INERTIA
+        inertia = ((i[0], i[1], i[2]), (i[1], i[3], i[4]), (i[2], i[4], i[5]))
+        bodies = {name: (m, com, inertia) for name in ("upper", "lower")}
+        for options, tolerance in ((["semi-implicit", "--step", 1e-4], 2e-3),
+                                   (["rk4", "--step", 1e-3], 1e-9),
+                                   (["dopri5", "--tolerance", 1e-11], 1e-9)):
+            answer = json.loads(self.twinarm(
+                "simulate", self.folder / "arm.urdf", "--state", self.folder / "state.json",
+                "--duration", 0.5, "--json", "--integrator", *options).stdout)
+            rows = answer["momentum"]
+            self.assertEqual(list(rows), ["gravity", "wrench/0", "joint/shoulder", "numerical"])
+            self.close(rows["wrench/0"]["linear"], [0.5, 1, 1.5])
+            self.close(rows["gravity"]["linear"], [0, 0, -9.81 * 2 * m * 0.5])
+            first, last = (Contents(bodies, answer["samples"][n]["links"]) for n in (0, -1))
+            for part in ("linear", "angular"):
+                gained = add(getattr(last, part), getattr(first, part), -1)
+                for row in ("gravity", "wrench/0", "joint/shoulder"):
+                    gained = add(gained, rows[row][part], -1)
+                self.assertLess(size(gained), tolerance * size(rows["gravity"]["linear"]),
+                                f"{options} {part}")
+
+
+if __name__ == "__main__":
+    robot_command.PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
