@@ -316,7 +316,7 @@ void ConstrainedStep::count_bilateral(Mechanism& m, Phase phase) {
   for (std::size_t l = 0; l < loops.loops().size(); ++l) {
     Exchange on_a;
     const LoopWrench wrench = loops.wrench(l, lambda_);
-    on_a.add_wrench(1, loops.point(l, m.k), wrench.force, wrench.couple);
+    on_a.add_wrench(1, loops.point(l), wrench.force, wrench.couple);
     m.account->add_loop(l, on_a, in_flow);
   }
 }

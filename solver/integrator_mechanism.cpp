@@ -61,7 +61,7 @@ double Mechanism::close(State<double>& at, Kinematics& k_at) {
   if (!has_loops()) return 0;
   if (account) account->before_projection(at);
   const double open = projection(dynamics.at_rest(at), at, k_at, w);
-  if (account) account->after_projection(at, projection);
+  if (account) account->after_projection(at, projection, dynamics.bilateral().loops());
   return open;
 }
 

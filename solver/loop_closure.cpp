@@ -104,6 +104,7 @@ void LoopClosures::evaluate_points(const Kinematics& k, Ends& e, const LoopClosu
   const Vector3 s = p - a.X_WC.p, s_rate = b.v - a.v, turned = a.w.cross(s);
   const Index row = index(e.first_row);
   e.R_WC = a.X_WC.R;
+  e.p_WC = p;
   g_.segment<3>(row) = -(R_CW * s);
   rate_.segment<3>(row) = R_CW * (turned - s_rate);
   gamma_.segment<3>(row) =
@@ -155,6 +156,7 @@ void LoopClosures::evaluate_distance(const Kinematics& k, Ends& e, const LoopClo
   const Vector3 n = d / length;
   const Index row = index(e.first_row);
   e.n[0] = n;
+  e.p_WC = b.X_WC.p;
   g_[row] = length - loop.length;
   rate_[row] = n.dot(d_rate);
   gamma_[row] = n.dot(a.a - b.a) + (d_rate.squaredNorm() - rate_[row] * rate_[row]) / length;

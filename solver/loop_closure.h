@@ -86,11 +86,8 @@ class LoopClosures {
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& J() const {
     return J_;
   }
-  // Where the force of a loop acts, k as in evaluate(); of a distance any point of its line will
-  // do.
-  Vector3 point(std::size_t loop, const Kinematics& k) const {
-    return k.position(loops_[loop].body_b, loops_[loop].X_LbC.p);
-  }
+  // Where the force of a loop acts; of a distance any point of its line will do.
+  const Vector3& point(std::size_t loop) const { return ends_[loop].p_WC; }
   // For lambda of all rows, where evaluate() was last.
   LoopWrench wrench(std::size_t loop, const Eigen::VectorXd& lambda) const;
 
@@ -100,6 +97,7 @@ class LoopClosures {
     std::size_t shared = 0;              // velocities below this move both ends
     std::vector<std::size_t> dofs;       // of the others, on either side
     Matrix3 R_WC = Matrix3::Identity();  // axes of C_a
+    Vector3 p_WC = Vector3::Zero();      // origin of C_b
     std::array<Vector3, 3> n;            // of the rotational rows, or the distance
   };
   struct Side;

@@ -53,6 +53,9 @@ class LoopProjection {
   // mended.
   const std::vector<double>& moved_q() const { return moved_q_; }
   const std::vector<double>& moved_qd() const { return moved_qd_; }
+  const std::vector<double>& pushed_qd() const {
+    return pushed_qd_;
+  }  // impulses of the loops' rows
   // The share of one loop in both, of the last call.
   void share_of(std::size_t loop, std::vector<double>& dq, std::vector<double>& dqd) const {
     forces_.shift_of(loop, pushed_q_, dq);

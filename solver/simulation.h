@@ -48,7 +48,8 @@ class Simulation {
   void prescribe(int body, MotionLaw law);
   // From now on account() says what constraints did in the last step. After set_loops().
   void keep_account() {
-    m_.account.emplace(m_.model, m_.dynamics.bilateral().loops().loops().size());
+    const LoopClosures& loops = m_.dynamics.bilateral().loops();
+    m_.account.emplace(m_.model, loops.loops().size(), loops.rows());
   }
   const StepAccount& account() const { return *m_.account; }
   // Off: as if no joint had damping or Coulomb friction.

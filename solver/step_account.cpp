@@ -6,7 +6,7 @@
 
 namespace twinarm {
 
-StepAccount::StepAccount(const Model<double>& model, std::size_t loops)
+StepAccount::StepAccount(const Model<double>& model, std::size_t loops, std::size_t rows)
     : model_(&model),
       moved_(bodies_that_forces_move(model)),
       w_(model),
@@ -15,8 +15,11 @@ StepAccount::StepAccount(const Model<double>& model, std::size_t loops)
       mimics_(model.mimics.size()),
       flow_(kNumbers * loops + mimics_.size()),
       share_q_(loops, std::vector<double>(model.nv)),
-      share_qd_(share_q_) {
-  for (State<double>* x : {&seen_, &before_, &after_, &trial_}) {
+      share_qd_(share_q_),
+      push_(loops),
+      lambda_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows))) {
+  for (State<double>* x : {&seen_, &before_, &after_, &trial_, &pushes_[0].from, &pushes_[0].to,
+                           &pushes_[1].from, &pushes_[1].to}) {
     x->q.resize(model.nq);
     x->qd.resize(model.nv);
   }
@@ -27,6 +30,7 @@ void StepAccount::start_step() {
   std::fill(stabilisation_.begin(), stabilisation_.end(), Exchange{});
   std::fill(mimics_.begin(), mimics_.end(), 0);
   separation_ = {};
+  push_count_ = 0;
   pending_ = false;
 }
 
@@ -35,7 +39,8 @@ void StepAccount::before_projection(const State<double>& x) {
   seen_.qd = x.qd;
 }
 
-void StepAccount::after_projection(const State<double>& x, const LoopProjection& projection) {
+void StepAccount::after_projection(const State<double>& x, const LoopProjection& projection,
+                                   const LoopClosures& at_start) {
   if (x.q == seen_.q && x.qd == seen_.qd) {
     pending_ = pending_ && x.q == after_.q && x.qd == after_.qd;
     return;
@@ -44,23 +49,39 @@ void StepAccount::after_projection(const State<double>& x, const LoopProjection&
   std::swap(before_.qd, seen_.qd);
   after_.q = x.q;
   after_.qd = x.qd;
-  for (std::size_t l = 0; l < stabilisation_.size(); ++l)
+  const std::vector<double>& lambda = projection.pushed_qd();
+  for (std::size_t r = 0; r < lambda.size(); ++r) lambda_[static_cast<Eigen::Index>(r)] = lambda[r];
+  for (std::size_t l = 0; l < stabilisation_.size(); ++l) {
     projection.share_of(l, share_q_[l], share_qd_[l]);
+    const LoopWrench wrench = at_start.wrench(l, lambda_);
+    push_[l] = {};
+    push_[l].add_wrench(1, at_start.point(l), wrench.force, wrench.couple);
+  }
   pending_ = true;
 }
 
+// E is quadratic in v: over the mean of the velocities before and after, works of all loops add up.
 void StepAccount::count_projection() {
   if (!pending_) return;
   pending_ = false;
-  const Exchange from = contents(before_);
-  if (stabilisation_.size() == 1) {
-    stabilisation_[0] += contents(after_) - from;
-    return;
+  if (push_count_ < pushes_.size()) {
+    Push& push = pushes_[push_count_++];
+    push.from.q = push.to.q = after_.q;
+    push.from.qd = before_.qd;
+    push.to.qd = after_.qd;
   }
+  const Exchange from = contents(before_);
   for (std::size_t l = 0; l < stabilisation_.size(); ++l) {
     integrate_coordinates(*model_, before_.q, share_q_[l], trial_.q);
-    for (std::size_t d = 0; d < model_->nv; ++d) trial_.qd[d] = before_.qd[d] + share_qd_[l][d];
+    trial_.qd = before_.qd;
     stabilisation_[l] += contents(trial_) - from;
+    trial_.q = after_.q;
+    for (const double side : {1.0, -1.0}) {
+      for (std::size_t d = 0; d < model_->nv; ++d)
+        trial_.qd[d] = 0.5 * (before_.qd[d] + after_.qd[d] + side * share_qd_[l][d]);
+      push_[l].work += side * contents(trial_).work;
+    }
+    loops_[l] += push_[l];
   }
 }
 

@@ -144,7 +144,8 @@ void Ledger::visit_memory(Memory& memory) {
   }
   for (LedgerRow& row : integrals_) memory.visit(row.work);
   memory.visit(implicit_);
-  memory.visit(power_now_);
+  // Found again: a fork's springs pull with another power.
+  if (memory.reads()) power_now_ = powers(now_, Side::after);
 }
 
 double Ledger::elastic_energy(std::size_t c, const State<double>& x) const {

@@ -8,7 +8,7 @@
 //   - the largest kinetic energy before those windows, and what the weight is worth over 1e-6 m,
 //   - a quarter of the largest kinetic energy so far.
 // The second alone is met by no sound run: it has lost count of its energy. Windows have 16 steps,
-// 64, 256 and so on, so that slow growth is seen too. Losses are bounded, and never alarm.
+// 32, 64 and so on, so that slow growth is seen too. Losses are bounded, and never alarm.
 #pragma once
 
 #include <array>
@@ -37,8 +37,8 @@ class LedgerAlarm {
                             const std::vector<LedgerRow>& hand);
 
  private:
-  static constexpr std::size_t kScales = 8, kMarks = 5;
-  static constexpr long kCoarser = 4;
+  static constexpr std::size_t kScales = 16, kMarks = 5;
+  static constexpr long kCoarser = 2;
   struct Mark {
     double t = 0, largest_kinetic = 0;
     std::vector<LedgerRow> rows;

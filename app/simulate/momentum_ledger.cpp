@@ -93,6 +93,11 @@ void MomentumLedger::add_step(double h, std::span<const double> weights,
     add(end, weights.back(), Side::before);
   }
   const StepAccount& account = after.account();
+  if (rule_ != Rule::located)
+    for (const StepAccount::Push& push : account.pushes())
+      for (std::size_t t = 0; t < trees_.size(); ++t)
+        sums_[tree(t)] +=
+            contents(trees_[t].bodies, push.to) - contents(trees_[t].bodies, push.from);
   for (std::size_t l = 0; l < loop_count_; ++l) {
     sums_[loop(l)] += account.loops()[l];
     stabilisation_[l] += account.stabilisation()[l];
@@ -192,7 +197,7 @@ void MomentumLedger::add_loops(double part, const Simulation& at, const std::vec
   }
   for (std::size_t l = 0; l < loop_count_; ++l) {
     const LoopWrench wrench = loops.wrench(l, all);
-    sums_[loop(l)].add_wrench(part, loops.point(l, k_), wrench.force, wrench.couple);
+    sums_[loop(l)].add_wrench(part, loops.point(l), wrench.force, wrench.couple);
   }
 }
 

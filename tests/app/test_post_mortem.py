@@ -86,6 +86,33 @@ class PostMortems(RecordingCommand):
         self.assertIn(opened.returncode, (0, 1), opened.stderr)
         self.assertTrue(json.loads(opened.stdout)["balance"])
 
+    def test_a_run_that_creates_energy_says_so_once_and_before_it_stops(self):
+        """A spring a hair beyond its limit; a little below it nothing is said."""
+        limit = 4 * 0.5 / 0.001 ** 2
+        file = self.record(HELD % (limit * 1.00002, 0, ""), "--duration", 60,
+                           "--post-mortem", self.folder / "last.twinrec", code=3)
+        answer = json.loads(self.simulated.stdout)
+        alarm = answer["alarm"]
+        self.assertEqual(alarm["row"], "numerical")
+        self.assertLess(alarm["time"], answer["post_mortem"]["time"])
+        for word in ("'pull'", "numerical", "stiffness", "implicit"):
+            self.assertIn(word, alarm["words"])
+        self.assertEqual(self.simulated.stderr.count("twinarm: alarm: "), 1)
+        self.assertEqual(self.exported(file)["alarms"], [alarm["words"]])
+        self.assertTrue(any("alarm" in words for words in answer["post_mortem"]["words"]))
+        for part in (0.9, 0.99):
+            self.record(HELD % (limit * part, 0, ""), "--duration", 5)
+            self.assertNotIn("alarm", json.loads(self.simulated.stdout))
+
+    def test_a_method_that_always_gains_is_told_by_an_alarm_alone(self):
+        """Explicit Euler on a spring: energy grows by 1 + (w h)^2 in each step, and runs on."""
+        self.record(HELD % (100, 0, ""), "--duration", 20, "--integrator", "euler")
+        answer = json.loads(self.simulated.stdout)
+        self.assertNotIn("post_mortem", answer)
+        self.assertIn("'pull'", answer["alarm"]["words"])
+        # By then it has at least doubled: (1 + (w h)^2)^n, w^2 = 100 / 0.5.
+        self.assertGreater(1.0002 ** (answer["alarm"]["time"] / 0.001), 2)
+
     def test_the_damper_of_a_joint_is_named_where_the_integrator_takes_it_explicitly(self):
         self.record(slider(damping=1e5), "--duration", 1, "--integrator", "euler",
                     "--energy-bound", "inf", "--post-mortem", self.folder / "last.twinrec",
