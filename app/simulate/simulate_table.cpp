@@ -13,10 +13,10 @@
 namespace twinarm {
 namespace {
 
-void add(LedgerRow& sum, const LedgerRow& row) {
+void sum_up(LedgerRow& sum, const LedgerRow& row) {
   sum.work += row.work;
 }
-void add(MomentumRow& sum, const MomentumRow& row) {
+void sum_up(MomentumRow& sum, const MomentumRow& row) {
   sum.linear += row.linear;
   sum.angular += row.angular;
 }
@@ -46,7 +46,7 @@ std::vector<Row> shortened(const std::vector<Row>& rows) {
     const auto same = std::find_if(out.begin(), out.end(),
                                    [&](const Row& o) { return !kind.empty() && o.name == kind; });
     if (same != out.end()) {
-      add(*same, row);
+      sum_up(*same, row);
       continue;
     }
     out.push_back(row);
@@ -67,7 +67,7 @@ std::string momentum_table(const SimulateResult& result) {
   MomentumRow sum{"change of momentum", Vector3::Zero(), Vector3::Zero()};
   for (const MomentumRow& row : shortened(result.momentum)) {
     line(row);
-    add(sum, row);
+    sum_up(sum, row);
   }
   line(sum);
   return table.str();
