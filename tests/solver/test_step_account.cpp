@@ -76,10 +76,12 @@ TEST_CASE("accounts: what rk4 drifts off its loops is mended by stabilisation, w
   }
 }
 
-TEST_CASE("accounts: a limit that is far away makes the step one of impulses, and changes no sum") {
-  // Loops by accelerations and by impulses are the same step (constrained_step.h), so what the
-  // mechanism gains is the same to rounding; the work of the loops is of first order in h.
+TEST_CASE(
+    "accounts: a loop that nothing drives does no work in steps by impulses, but of first order") {
+  // By accelerations g'' = 0, by impulses g' = 0: two methods of the first order for one motion.
+  // Nothing drives the loop, so its work falls with h.
   const LoopCase c = slider_crank();
+  double last = 0;
   for (const double h : {1e-3, 5e-4}) {
     Simulation plain = closed_mechanism(c, Integrator::semi_implicit);
     Simulation limited = closed_mechanism(c, Integrator::semi_implicit);
@@ -89,10 +91,10 @@ TEST_CASE("accounts: a limit that is far away makes the step one of impulses, an
     const int steps = static_cast<int>(0.2 / h + 0.5);
     const Sums by_force = run_with_account(plain, h, steps);
     const Sums by_impulse = run_with_account(limited, h, steps);
-    CHECK(by_impulse.gained == doctest::Approx(by_force.gained).epsilon(1e-9));
-    CHECK(by_impulse.stabilisation == doctest::Approx(by_force.stabilisation).epsilon(1e-6));
-    CHECK(by_force.loops == 0);  // of forces it says nothing: the accelerations hold them
-    CHECK(std::abs(by_impulse.loops) < 20 * h);
-    CHECK(std::abs(by_impulse.loops) > 1e-3 * h);
+    CHECK(std::abs(by_impulse.gained - by_force.gained) < 20 * h);
+    CHECK(std::abs(by_impulse.loops + by_impulse.stabilisation) < 20 * h);
+    CHECK(by_impulse.loops != 0);
+    if (last != 0) CHECK(std::abs(by_impulse.loops) < 0.6 * last);
+    last = std::abs(by_impulse.loops);
   }
 }
