@@ -9,19 +9,13 @@ namespace {
 
 constexpr double kGrowth = 1.5, kShare = 0.25;
 
-// What is looked at: of a coupling the sum of its parts less the work of its hand.
-std::vector<LedgerRow> watched(const std::vector<LedgerRow>& rows,
-                               const std::vector<LedgerRow>& hand) {
+// What an ideal element does is in none of these.
+std::vector<LedgerRow> watched(const std::vector<LedgerRow>& rows) {
   std::vector<LedgerRow> found;
-  for (const LedgerRow& work : hand) found.push_back({"coupling/" + work.name, -work.work});
-  for (const LedgerRow& row : rows) {
-    if (row.name == "numerical" || row.name.ends_with("/stabilisation")) {
+  for (const LedgerRow& row : rows)
+    if (row.name == "numerical" || row.name.ends_with("/stabilisation") ||
+        row.name.ends_with("/implicit"))
       found.push_back(row);
-      continue;
-    }
-    for (std::size_t c = 0; c < hand.size(); ++c)
-      if (row.name.starts_with(found[c].name + "/")) found[c].work += row.work;
-  }
   return found;
 }
 
@@ -33,11 +27,11 @@ double work_of(const std::vector<LedgerRow>& rows, const std::string& name) {
 
 }  // namespace
 
-std::optional<Alarm> LedgerAlarm::look(double t, double kinetic, const std::vector<LedgerRow>& rows,
-                                       const std::vector<LedgerRow>& hand) {
+std::optional<Alarm> LedgerAlarm::look(double t, double kinetic,
+                                       const std::vector<LedgerRow>& rows) {
   if (is_told_) return std::nullopt;
   largest_kinetic_ = std::max(largest_kinetic_, kinetic);
-  const std::vector<LedgerRow> now = watched(rows, hand);
+  const std::vector<LedgerRow> now = watched(rows);
   long every = 1;
   for (Scale& scale : scales_) {
     if (count_ % every != 0) break;

@@ -1,14 +1,14 @@
 // Says when something creates energy without bound: a run that will explode says so before it does.
 //
-// Looked at are `numerical`, what each coupling gives to the bodies beyond the work of its hand,
-// and what stabilises constraints and contacts. What is physical is bounded by what was there or
-// was put in; an instability grows by a factor in each length of time. So an alarm is a quantity
+// Looked at are the rows of what no law of nature does: `numerical`, what implicit treatments of
+// couplings do besides their springs, and what stabilises constraints and contacts. In a sound run
+// they stay small; an instability grows by a factor in each length of time. So an alarm is a row
 // that over four windows of equal length grew, from window to window by half as much again at
 // least, and now exceeds
 //   - the largest kinetic energy before those windows, and what the weight is worth over 1e-6 m,
 //   - a quarter of the largest kinetic energy so far.
-// The second alone is met by no sound run: it has lost count of its energy. Windows have 16 steps,
-// 32, 64 and so on, so that slow growth is seen too. Losses are bounded, and never alarm.
+// A run where that holds has lost count of its energy. Windows have 16 steps, 32, 64 and so on, so
+// that slow growth is seen too. Losses are bounded, and never alarm.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@
 namespace twinarm {
 
 struct Alarm {
-  std::string row;   // of the ledger; of a coupling without the part
+  std::string row;   // of the ledger
   double t = 0;      // [s]
   double work = 0;   // [J]
   double since = 0;  // the four windows began then [s]
@@ -33,8 +33,7 @@ class LedgerAlarm {
 
   explicit LedgerAlarm(double weight) : floor_(1e-6 * weight) {}
   // After every kWindow steps; the first that alarms, once in all.
-  std::optional<Alarm> look(double t, double kinetic, const std::vector<LedgerRow>& rows,
-                            const std::vector<LedgerRow>& hand);
+  std::optional<Alarm> look(double t, double kinetic, const std::vector<LedgerRow>& rows);
 
  private:
   static constexpr std::size_t kScales = 16, kMarks = 5;

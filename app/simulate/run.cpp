@@ -224,7 +224,7 @@ class Run : public RunView {
 
   void look_at_ledger() {
     const double kinetic = kinetic_energy(input_.model, sim_.state());
-    auto found = alarm_->look(result_.end, kinetic, ledger(), ledger_->hand());
+    auto found = alarm_->look(result_.end, kinetic, ledger());
     if (!found) return;
     result_.alarm_words = watch_.alarm(*found);
     result_.alarm = std::move(found);
