@@ -22,6 +22,10 @@ std::vector<AnalyticCase> hanging_chain();       // C3, C4, C5
 std::vector<AnalyticCase> cart_pole();           // C6, C10
 std::vector<AnalyticCase> kapitza();             // C7
 std::vector<AnalyticCase> crossed_hinges();      // C8, C9
+std::vector<AnalyticCase> puma560_robot();       // F1
+std::vector<AnalyticCase> planar_arm();          // F2
+std::vector<AnalyticCase> coupling_tracking();   // F3
+std::vector<AnalyticCase> coupling_stability();  // F4
 std::vector<AnalyticCase> golden_pendulum();     // G1, G2
 std::vector<AnalyticCase> integrators();         // G2, G3, G4
 

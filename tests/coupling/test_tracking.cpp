@@ -1,5 +1,5 @@
 // The coupled two-link arm against continuous-time references that were computed by an independent
-// code (docs/cases.md, F3), and against the claims about the paper (docs/findings.md).
+// code (docs/cases_robots.md, F3), and against the claims about the paper (docs/findings.md).
 #include <doctest/doctest.h>
 
 #include <cmath>

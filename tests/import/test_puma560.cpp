@@ -1,5 +1,5 @@
 // The PUMA 560, read from its URDF, against published and recomputed torques and accelerations
-// (tests/solver/puma560_values.h).
+// (benchmarks/analytic/puma560_values.h).
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include "collision/import/urdf.h"
 #include "solver/dynamics.h"
 #include "tests/import/helpers.h"
-#include "tests/solver/puma560_values.h"
+#include "benchmarks/analytic/puma560_values.h"
 
 namespace twinarm {
 namespace {

@@ -1,4 +1,5 @@
-// Reference values of the PUMA 560 (assets/robots/puma560), g = 9.81 m/s^2 along -z of the base.
+// Reference values of the PUMA 560 (F1, assets/robots/puma560), g = 9.81 m/s^2 along -z of the
+// base.
 //
 // Computed by a Newton-Euler code of its own, in more digits than double has; every digit that the
 // Robotics Toolbox publishes (5 or 6 of rne and accel) agrees. Names as there: rne(q, qd, qdd) is
