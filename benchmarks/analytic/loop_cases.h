@@ -22,6 +22,8 @@ struct LoopCase {
   std::vector<LoopClosure> loops{};
   State<double> start{};
   std::shared_ptr<ForceSource> source{};  // null: gravity alone
+  // Energy of the source, if it has one at every state [J].
+  std::function<double(const State<double>&)> stored{};
   std::function<std::vector<double>(const State<double>&, const Kinematics&)> read{};
   std::vector<std::string> readings{};  // what read() gives, in order, with unit
   struct Sample {

@@ -8,6 +8,7 @@
 
 #include "benchmarks/analytic/loop_cases.h"
 #include "benchmarks/analytic/loop_parts.h"
+#include "solver/integrator_rewind.h"
 #include "solver/spring.h"
 
 namespace twinarm {
@@ -20,7 +21,7 @@ const Vector3 middle(0.5, 0, 0);  // of a rod, in its own axes
 constexpr double kSide = 0.05;    // of the slider and of the hinges, from the axis
 
 // Both couplers, as forces along the lines between their ends.
-struct CouplerForces final : ForceSource {
+struct CouplerForces final : ForceSource, Rewindable {
   std::array<int, 2> rods;
   int slider;
   CouplerForces(std::array<int, 2> rod_bodies, int slider_body)

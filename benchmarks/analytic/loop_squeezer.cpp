@@ -6,6 +6,7 @@
 // and carry H and G, on which K4 and K6 turn by Phi and Omega and reach to E.
 #include "benchmarks/analytic/loop_cases.h"
 #include "benchmarks/analytic/loop_parts.h"
+#include "solver/integrator_rewind.h"
 #include "solver/spring.h"
 
 namespace twinarm {
@@ -20,7 +21,7 @@ const Vector3 A(-0.06934, -0.00227, 0), B(-0.03635, 0.03273, 0), C(0.014, 0.072,
 constexpr double c0 = 4530, l0 = 0.07785, motor = 0.033;
 
 // Motor on K1, spring from D on K3 to C in the world.
-struct MotorAndSpring final : ForceSource {
+struct MotorAndSpring final : ForceSource, Rewindable {
   std::size_t crank;
   int k3;
   MotorAndSpring(std::size_t crank_dof, int body) : crank(crank_dof), k3(body) {}
@@ -30,6 +31,11 @@ struct MotorAndSpring final : ForceSource {
     const Vector3 p = k.position(k3, {sd, -sc, 0}), to_C = C - p;
     const double length = to_C.norm();
     add_point_force(k, k3, p, c0 * (length - l0) / length * to_C, forces);
+  }
+  // Of the spring, and what the motor has left to give.
+  double energy(const State<double>& x, const Kinematics& k) const {
+    const double stretch = (C - k.position(k3, {sd, -sc, 0})).norm() - l0;
+    return c0 / 2 * stretch * stretch - motor * x.q[crank];
   }
 };
 
@@ -72,7 +78,13 @@ LoopCase squeezer() {
                        1.23054744454982119};
   c.start = State<double>(c.model);
   for (std::size_t i = 0; i < 7; ++i) c.start.q[order[i]] = q0[i];
-  c.source = std::make_shared<MotorAndSpring>(order[0], k3);
+  const auto source = std::make_shared<MotorAndSpring>(order[0], k3);
+  c.source = source;
+  c.stored = [source, model = c.model](const State<double>& x) {
+    Kinematics k(model);
+    forward_kinematics(model, x, k);
+    return source->energy(x, k);
+  };
   c.read = [order](const State<double>& x, const Kinematics&) {
     std::vector<double> angles;
     for (const std::size_t i : order) angles.push_back(x.q[i]);
@@ -89,7 +101,10 @@ LoopCase squeezer() {
         0.52253691715599637, 0.23832559659585125, 1.0862751085998732}},
       {0.03,
        {15.810771195153707, -15.756371058411839, 0.040822240119645805, -0.53473011634207959,
-        0.52440996587995407, 0.53473011634207959, 1.0480807410419379}}};
+        0.52440996587995407, 0.53473011634207959, 1.0480807410419379}},
+      {0.05,
+       {33.825867766954517, -33.583431517463868, 0.11339507381259902, -0.40785286560188444,
+        0.52606044491699583, 0.40785286560188444, 1.0569024294349628}}};
   c.step = 2e-6;
   c.tolerance = 1e-8;
   return c;
