@@ -7,6 +7,23 @@
 #include "solver/energy.h"
 
 namespace twinarm {
+namespace {
+
+class ConstantPush final : public ForceSource {
+ public:
+  ConstantPush(std::size_t dof, const Vector3& force) : dof_(dof), force_(force) {}
+  void add_forces(const State<double>&, const Kinematics&,
+                  Forces<double>& forces) noexcept override {
+    for (std::size_t i = 0; i < 3; ++i)
+      forces.tau[dof_ + i] += force_[static_cast<Eigen::Index>(i)];
+  }
+
+ private:
+  std::size_t dof_;
+  Vector3 force_;
+};
+
+}  // namespace
 
 int ContactScene::add(const Body& body) {
   BodyInertia inertia;
@@ -60,6 +77,11 @@ void ContactScene::start() {
   simulation_->add(*contacts_);
   start_energy_ = lowest_ = energy();
   most_kinetic_ = kinetic_energy(model_, simulation_->state());
+}
+
+void ContactScene::push(int body, const Vector3& force) {
+  pushes_.push_back(std::make_unique<ConstantPush>(model_.iv[index(body)] + 3, force));
+  simulation_->add(*pushes_.back());
 }
 
 double ContactScene::energy() const {

@@ -49,6 +49,8 @@ class ContactScene {
   explicit ContactScene(const Vector3& gravity = {0, 0, -kGravity}) {
     builder_.set_gravity(gravity);
   }
+  // Gravity times `off`, for mistakes.
+  explicit ContactScene(double off) : ContactScene(Vector3(0, 0, -kGravity * off)) {}
   ContactScene(const ContactScene&) = delete;
   ContactScene& operator=(const ContactScene&) = delete;
 
@@ -58,6 +60,8 @@ class ContactScene {
   void add_turning(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
                    double rate);
   void start();
+  // After start(): a constant force on a free body that no energy counts, for mistakes. World axes.
+  void push(int body, const Vector3& force);
   // From now on steps of any length, whose events are located in time.
   void locate_events() { simulation_->locate_events(); }
 
@@ -103,9 +107,23 @@ class ContactScene {
   Model<double> model_;
   std::unique_ptr<ContactConstraints> contacts_;
   std::unique_ptr<Simulation> simulation_;
+  std::vector<std::unique_ptr<ForceSource>> pushes_;
   double start_energy_ = 0, lowest_ = 0, strayed_ = 0, rise_ = 0, most_kinetic_ = 0;
   bool ok_ = true;
 };
+
+// A case with its mistake: the experiment multiplies one thing in it by `off`, which is 1 in the
+// case; in the mistake it is some thousandths more or less, and the case must fail.
+template <CaseResult (*experiment)(double off), int thousandths>
+AnalyticCase contact_case(const char* name, const char* reference, double tolerance) {
+  return {name,
+          "contact",
+          reference,
+          tolerance,
+          [] { return experiment(1); },
+          {},
+          [] { return experiment(1 + 1e-3 * thousandths); }};
+}
 
 // The value between `low`, where the outcome is false, and `high`, where it is true, to `within`.
 template <class Outcome>
@@ -119,7 +137,8 @@ double threshold(double low, double high, double within, Outcome&& outcome) {
 
 // A case whose error falls with the step: its error at h, and the order from h to h / 4 where the
 // error is more than rounding.
-inline CaseResult with_order(double (*error)(double h), double h) {
+template <class Error>
+CaseResult with_order(Error&& error, double h) {
   constexpr double kRounding = 1e-9;
   CaseResult result{error(h)};
   const double fine = error(h / 4);

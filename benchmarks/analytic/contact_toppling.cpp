@@ -11,32 +11,32 @@ namespace {
 
 constexpr double kWidth = 0.2, kHeight = 0.5, kMass = 1;
 
-ContactScene::Body block(double mu) {
-  return {Box{{kWidth, 0.3, kHeight}}, surface(mu), kMass, {0, 0, kHeight / 2}};
+ContactScene::Body block(double mu, double width = kWidth) {
+  return {Box{{width, 0.3, kHeight}}, surface(mu), kMass, {0, 0, kHeight / 2}};
 }
 double tilt(const ContactScene& scene, int body) {
   return std::acos(std::min(1.0, scene.R(body)(2, 2)));
 }
 // On an incline, at rest: does it tip within a second? Just above the limit the lean grows like
 // cosh(5.2 t), to 0.01 rad from 1e-4 rad beyond it.
-bool topples(double incline, double mu) {
+bool topples(double incline, double mu, double width) {
   ContactScene scene(tilted_gravity(incline));
   scene.add_floor(surface(mu));
-  const int body = scene.add(block(mu));
+  const int body = scene.add(block(mu, width));
   scene.start();
   scene.run(1, kStep);
   return tilt(scene, body) > 0.01;
 }
 
-CaseResult tilt_limit() {
-  const double limit =
-      threshold(15 * kDegree, 30 * kDegree, 1e-4, [](double angle) { return topples(angle, 1); });
+CaseResult tilt_limit(double off) {  // width
+  const double limit = threshold(15 * kDegree, 30 * kDegree, 1e-4,
+                                 [off](double angle) { return topples(angle, 1, off * kWidth); });
   return {relative(limit, 21.80140948635181 * kDegree)};
 }
 // On 30 degrees it slides for any mu below 0.577; the friction topples it above b/h.
-CaseResult slide_or_topple() {
-  const double limit =
-      threshold(0.3, 0.5, 1e-4, [](double mu) { return topples(30 * kDegree, mu); });
+CaseResult slide_or_topple(double off) {  // width
+  const double limit = threshold(
+      0.3, 0.5, 1e-4, [off](double mu) { return topples(30 * kDegree, mu, off * kWidth); });
   return {relative(limit, 0.4)};
 }
 
@@ -58,11 +58,11 @@ class Push final : public ForceSource {
   std::size_t dof_;
   double force_;
 };
-CaseResult push_limit() {
-  const double limit = threshold(0.1, 0.3, 1e-4, [](double part) {
+CaseResult push_limit(double off) {  // width
+  const double limit = threshold(0.1, 0.3, 1e-4, [off](double part) {
     ContactScene scene;
     scene.add_floor(surface(1));
-    const int body = scene.add(block(1));
+    const int body = scene.add(block(1, off * kWidth));
     scene.start();
     Push push(scene.model().iv[1], part * kMass * kGravity);
     scene.simulation().add(push);
@@ -84,16 +84,16 @@ int start_at_curb(ContactScene& scene, double speed) {
   scene.start();
   return number;
 }
-CaseResult curb_rate() {
+CaseResult curb_rate(double off) {  // speed
   ContactScene scene;
-  const int body = start_at_curb(scene, 1);
+  const int body = start_at_curb(scene, off);
   scene.run(2e-3, kStep);
   return {relative(scene.w(body).y(), 2.586206896551724)};
 }
-CaseResult curb_speed() {
-  const double limit = threshold(0.5, 1.0, 1e-4, [](double speed) {
+CaseResult curb_speed(double off) {  // speed
+  const double limit = threshold(0.5, 1.0, 1e-4, [off](double speed) {
     ContactScene scene;
-    const int body = start_at_curb(scene, speed);
+    const int body = start_at_curb(scene, off * speed);
     scene.run(1.5, kStep);
     return tilt(scene, body) > 30 * kDegree;
   });
@@ -102,13 +102,14 @@ CaseResult curb_speed() {
 
 // Housner: leaning by 0.1 rad it falls back, and goes on about the other edge. What is left of the
 // energy of the turn is what lifts it: m g R (cos(alpha - lean) - cos alpha), before and after.
-CaseResult rocking() {
+CaseResult rocking(double off) {  // width
   constexpr double kLean = 0.1;
+  const double half = off * kWidth / 2;
   ContactScene scene;
   scene.add_floor(surface(1));
-  ContactScene::Body body = block(1);
+  ContactScene::Body body = block(1, 2 * half);
   body.R = turn_about(Vector3::UnitY(), kLean);
-  body.p = Vector3(kWidth / 2, 0, 0) - body.R * Vector3(kWidth / 2, 0, -kHeight / 2);
+  body.p = Vector3(half, 0, 0) - body.R * Vector3(half, 0, -kHeight / 2);
   const int number = scene.add(body);
   scene.start();
   scene.locate_events();
@@ -125,19 +126,20 @@ CaseResult rocking() {
 }  // namespace
 
 std::vector<AnalyticCase> toppling() {
-  const char* group = "contact";
   return {
-      {"E3-tilt", group, "block 0.2 x 0.5 m: tilt limit 21.80 degrees [relative]", 0.01,
-       tilt_limit},
-      {"E3-push", group, "horizontal push at the top that topples: 0.2 m g [relative]", 0.01,
-       push_limit},
-      {"E3-slide", group, "least mu that topples it as it slides: b/h = 0.4 [relative]", 0.01,
-       slide_or_topple},
-      {"E3-curb", group, "rate after a curb at 1 m/s: 2.5862 rad/s [relative]", 0.01, curb_rate},
-      {"E3-over", group, "speed that takes it over the curb: 0.76446 m/s [relative]", 0.01,
-       curb_speed},
-      {"E3-rocking", group,
-       "Housner's ratio (w+/w-)^2 of a rocking block, events located [relative]", 0.01, rocking},
+      contact_case<tilt_limit, 20>("E3-tilt",
+                                   "block 0.2 x 0.5 m: tilt limit 21.80 degrees [relative]", 0.01),
+      contact_case<push_limit, 20>(
+          "E3-push", "horizontal push at the top that topples: 0.2 m g [relative]", 0.01),
+      contact_case<slide_or_topple, 20>(
+          "E3-slide", "least mu that topples it as it slides: b/h = 0.4 [relative]", 0.01),
+      contact_case<curb_rate, 20>("E3-curb", "rate after a curb at 1 m/s: 2.5862 rad/s [relative]",
+                                  0.01),
+      contact_case<curb_speed, 20>(
+          "E3-over", "speed that takes it over the curb: 0.76446 m/s [relative]", 0.01),
+      contact_case<rocking, 20>(
+          "E3-rocking", "Housner's ratio (w+/w-)^2 of a rocking block, events located [relative]",
+          0.01),
   };
 }
 

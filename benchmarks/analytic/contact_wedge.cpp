@@ -72,12 +72,12 @@ double rise(double half_angle, double mu) {
   return scene.ok() ? scene.p(wedge).z() - start : NAN;
 }
 
-CaseResult self_locking() {
+CaseResult self_locking(double off) {  // mu
   double error = 0;
   for (const double angle : {5 * kDegree, 15 * kDegree, 30 * kDegree}) {
     const double limit = std::tan(angle);
     const double found = threshold(0.8 * limit, 1.2 * limit, 1e-4 * limit,
-                                   [&](double mu) { return rise(angle, mu) < 1e-4; });
+                                   [&](double mu) { return rise(angle, off * mu) < 1e-4; });
     error = std::max(error, relative(found, limit));
   }
   return {error};
@@ -86,8 +86,8 @@ CaseResult self_locking() {
 }  // namespace
 
 std::vector<AnalyticCase> wedges() {
-  return {{"E14", "contact", "wedge between pressed blocks: least mu that locks, tan th [relative]",
-           1e-3, self_locking}};
+  return {contact_case<self_locking, 2>(
+      "E14", "wedge between pressed blocks: least mu that locks, tan th [relative]", 1e-3)};
 }
 
 }  // namespace twinarm::contact_cases
