@@ -46,13 +46,15 @@ class Compare(unittest.TestCase):
         self.assertTrue(all(name.startswith("E6-") for name in names), names)
 
     def test_a_group_and_names_add_up_and_energy_is_told_where_it_is_kept(self):
-        answer = self.answer("E6-two", "--group", "loops")
-        self.assertEqual({c["group"] for c in answer["cases"]}, {"loops", "contact"})
-        self.assertEqual([c["name"] for c in answer["cases"] if c["group"] == "contact"],
-                         ["E6-two"])
+        asked = ["D3", "D4", "D5-springs", "D5-rods", "E6-two"]
+        answer = self.answer(*asked, "--group", "robots")
+        self.assertEqual([c["name"] for c in answer["cases"] if c["group"] != "robots"], asked)
+        self.assertGreater(len(answer["cases"]), len(asked) + 4)
         loops = {c["name"]: c for c in answer["cases"]}
         self.assertLess(loops["D4"]["energy_drift"], 1e-8)
-        self.assertIsNone(loops["D3"]["energy_drift"])  # a motor drives it
+        self.assertLess(loops["D3"]["energy_drift"], 1e-8)  # the motor's work counted
+        self.assertIsNone(loops["D5-springs"]["energy_drift"])  # dampers take it
+        self.assertAlmostEqual(loops["D5-rods"]["order"], 4, delta=0.1)
 
     def test_people_get_a_table_with_a_row_for_each_and_the_sums(self):
         result = run("E6-two", "D7")
@@ -102,6 +104,21 @@ class Compare(unittest.TestCase):
         self.assertEqual([c["name"] for c in answer["skipped"]], ["F5"])
         self.assertGreater(len(answer["skipped"][0]["why"]), 10)
         self.assertEqual(run("F5", "D7").stdout.splitlines()[-1], "1 passed, 0 failed, 1 skipped")
+
+    def test_whatever_has_no_data_or_no_model_is_skipped_and_nothing_is_passed_for_it(self):
+        names = ["D8", "E14-capstan", "E15", "F5", "H1-anymal", "H2", "H3"]
+        answer = self.answer(*names)
+        self.assertEqual([c["name"] for c in answer["skipped"]], names)
+        self.assertEqual((answer["cases"], answer["passed"], answer["failed"]), ([], 0, 0))
+
+    def test_robots_and_couplings_are_group_f(self):
+        answer = self.answer("F1", "F2", "F3-joint", "F4-euler")
+        rows = {c["name"]: c for c in answer["cases"]}
+        self.assertEqual({c["group"] for c in answer["cases"]}, {"robots", "couplings"})
+        self.assertTrue(all(c["pass"] for c in answer["cases"]), answer["cases"])
+        self.assertTrue({"F1-published", "F2-velocity", "F3-joint-mean", "F4-euler-difference"}
+                        <= set(rows))
+        self.assertAlmostEqual(rows["F3-joint"]["order"], 4, delta=0.2)
 
     def test_wrong_lanes_are_told_together_with_wrong_names(self):
         result = run("A11", "--integrator", "rk5", "--step", "0,0.1", "--json")
