@@ -17,8 +17,8 @@ namespace {
 using namespace loop_parts;
 
 constexpr double k_coupler = 8e5, b_coupler = 4e4, rest = 0.5;
-const Vector3 middle(0.5, 0, 0);  // of a rod, in its own axes
-constexpr double kSide = 0.05;    // of the slider and of the hinges, from the axis
+const Vector3 kRodMiddle(0.5, 0, 0);  // of a rod, in its own axes
+constexpr double kSide = 0.05;        // of the slider and of the hinges, from the axis
 
 // Both couplers, as forces along the lines between their ends.
 struct CouplerForces final : ForceSource, Rewindable {
@@ -30,7 +30,7 @@ struct CouplerForces final : ForceSource, Rewindable {
                   Forces<double>& forces) noexcept override {
     for (const int body : rods) {
       const Vector3 to = k.position(slider, {body == rods[0] ? kSide : -kSide, 0, 0});
-      const Vector3 from = k.position(body, middle), line = to - from;
+      const Vector3 from = k.position(body, kRodMiddle), line = to - from;
       const double length = line.norm();
       const Vector3 n = line / length;
       const double rate = n.dot(k.velocity(slider, to) - k.velocity(body, from));
@@ -104,7 +104,7 @@ LoopCase governor(Couplers couplers) {
     rods[side] = builder.add_body("rod" + n, shaft, "hinge" + n, JointType::revolute, top,
                                   Vector3::UnitY(), rod_and_ball());
     if (couplers == Couplers::springs) continue;
-    LoopClosure end{"coupler" + n, LoopType::distance, rods[side], slider, {{}, middle}, {}};
+    LoopClosure end{"coupler" + n, LoopType::distance, rods[side], slider, {{}, kRodMiddle}, {}};
     end.X_LaC.R.setIdentity();
     end.X_LbC.p.x() = side == 0 ? kSide : -kSide;
     end.length = rest;

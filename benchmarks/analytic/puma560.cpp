@@ -20,78 +20,34 @@ namespace {
 using namespace smooth_parts;
 using puma560::Joints;
 
-struct PumaRow {
-  double a, d;         // [m]
-  int alpha;           // quarter turns
-  double mass;         // [kg]
-  Vector3 com;         // in frame i [m]
-  Vector3 inertia;     // about it, axes of frame i [kg m^2]
-  double motor;        // [kg m^2], before the gear
-  double gear;         // size
-  double viscous;      // [N m s/rad], before the gear
-  double plus, minus;  // Coulomb friction at the motor, by the sign of the joint's rate [N m]
+struct PumaLink {
+  double a, d;                // [m]
+  int alpha;                  // quarter turns
+  double mass;                // [kg]
+  std::array<double, 3> com;  // in frame i [m]
+  std::array<double, 3> I;    // about it, axes of frame i [kg m^2]
 };
-const std::array<PumaRow, 6>& puma_table() {
-  static const std::array<PumaRow, 6> table{{
-      {0, 0, 1, 0, {0, 0, 0}, {0, 0.35, 0}, 200e-6, 62.6111, 1.48e-3, 0.395, 0.435},
-      {0.4318,
-       0,
-       0,
-       17.4,
-       {-0.3638, 0.006, 0.2275},
-       {0.13, 0.524, 0.539},
-       200e-6,
-       107.815,
-       0.817e-3,
-       0.126,
-       0.071},
-      {0.0203,
-       0.15005,
-       -1,
-       4.8,
-       {-0.0203, -0.0141, 0.070},
-       {0.066, 0.086, 0.0125},
-       200e-6,
-       53.7063,
-       1.38e-3,
-       0.132,
-       0.105},
-      {0,
-       0.4318,
-       1,
-       0.82,
-       {0, 0.019, 0},
-       {1.8e-3, 1.3e-3, 1.8e-3},
-       33e-6,
-       76.0364,
-       71.2e-6,
-       11.2e-3,
-       16.9e-3},
-      {0,
-       0,
-       -1,
-       0.34,
-       {0, 0, 0},
-       {0.3e-3, 0.4e-3, 0.3e-3},
-       33e-6,
-       71.923,
-       82.6e-6,
-       9.26e-3,
-       14.5e-3},
-      {0,
-       0,
-       0,
-       0.09,
-       {0, 0, 0.032},
-       {0.15e-3, 0.15e-3, 0.04e-3},
-       33e-6,
-       76.686,
-       36.7e-6,
-       3.96e-3,
-       10.5e-3},
-  }};
-  return table;
-}
+constexpr std::array<PumaLink, 6> kPumaLinks{{
+    {0, 0, 1, 0, {0, 0, 0}, {0, 0.35, 0}},
+    {0.4318, 0, 0, 17.4, {-0.3638, 0.006, 0.2275}, {0.13, 0.524, 0.539}},
+    {0.0203, 0.15005, -1, 4.8, {-0.0203, -0.0141, 0.070}, {0.066, 0.086, 0.0125}},
+    {0, 0.4318, 1, 0.82, {0, 0.019, 0}, {1.8e-3, 1.3e-3, 1.8e-3}},
+    {0, 0, -1, 0.34, {0, 0, 0}, {0.3e-3, 0.4e-3, 0.3e-3}},
+    {0, 0, 0, 0.09, {0, 0, 0.032}, {0.15e-3, 0.15e-3, 0.04e-3}},
+}};
+struct PumaMotor {
+  double inertia, gear;  // before the gear [kg m^2]; its ratio, without sign
+  double viscous;        // before the gear [N m s/rad]
+  double plus, minus;    // Coulomb friction there, by the sign of the joint's rate [N m]
+};
+constexpr std::array<PumaMotor, 6> kPumaMotors{{
+    {200e-6, 62.6111, 1.48e-3, 0.395, 0.435},
+    {200e-6, 107.815, 0.817e-3, 0.126, 0.071},
+    {200e-6, 53.7063, 1.38e-3, 0.132, 0.105},
+    {33e-6, 76.0364, 71.2e-6, 11.2e-3, 16.9e-3},
+    {33e-6, 71.923, 82.6e-6, 9.26e-3, 14.5e-3},
+    {33e-6, 76.686, 36.7e-6, 3.96e-3, 10.5e-3},
+}};
 
 // A joint turns first and shifts afterwards: link i is frame i-1 turned by q_i, and the fixed rest
 // of A_i carries the inertia of frame i and the next joint.
@@ -99,16 +55,19 @@ Model<double> puma() {
   ModelBuilder builder;
   int parent = 0;
   Pose joint{};
-  for (const PumaRow& row : puma_table()) {
-    const double s = row.alpha, c = row.alpha == 0 ? 1 : 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const PumaLink& row = kPumaLinks[i];
+    const PumaMotor& motor = kPumaMotors[i];
+    const double s = row.alpha, c = row.alpha == 0 ? 1 : 0, G = motor.gear;
     Pose rest{Matrix3::Identity(), {row.a, 0, row.d}};
     rest.R << 1, 0, 0, 0, c, -s, 0, s, c;
-    const BodyInertia inertia{row.mass, rest * row.com,
-                              rest.R * row.inertia.asDiagonal() * rest.R.transpose()};
-    const JointProperties properties{.armature = row.gear * row.gear * row.motor,
-                                     .damping = row.gear * row.gear * row.viscous,
-                                     .coulomb_plus = row.gear * row.plus,
-                                     .coulomb_minus = row.gear * row.minus};
+    const Matrix3 I = Vector3(row.I.data()).asDiagonal();
+    const BodyInertia inertia{row.mass, rest * Vector3(row.com.data()),
+                              rest.R * I * rest.R.transpose()};
+    const JointProperties properties{.armature = G * G * motor.inertia,
+                                     .damping = G * G * motor.viscous,
+                                     .coulomb_plus = G * motor.plus,
+                                     .coulomb_minus = G * motor.minus};
     const std::string n = std::to_string(parent + 1);
     parent = builder.add_body("link" + n, parent, "j" + n, JointType::revolute, joint,
                               Vector3::UnitZ(), inertia, properties);
@@ -282,30 +241,12 @@ TrajectoryCase puma_forward() {
   return c;
 }
 
-// In units of the last digit that is published.
-struct Published {
-  double value, unit;
-};
-constexpr std::array<Published, 18> kPublished{{
-    {3.35311, 1e-5},
-    {36.0025, 1e-4},
-    {7.42596, 1e-5},
-    {0.190043, 1e-6},
-    {0.203441, 1e-6},
-    {0.194133, 1e-6},
-    {32.4952, 1e-4},
-    {60.867, 1e-4},
-    {17.7436, 1e-4},
-    {1.45452, 1e-5},
-    {1.29911, 1e-5},
-    {0.713781, 1e-6},
-    {-7.4102, 1e-4},
-    {-9.8432, 1e-4},
-    {-10.9694, 1e-4},
-    {-4.4314, 1e-4},
-    {-0.9881, 1e-4},
-    {21.0228, 1e-4},
-}};
+// rne from rest, moving; accel. And the unit of the last digit of each.
+constexpr std::array<double, 18> kPublished{
+    3.35311, 36.0025, 7.42596,  0.190043, 0.203441, 0.194133, 32.4952, 60.867,  17.7436,
+    1.45452, 1.29911, 0.713781, -7.4102,  -9.8432,  -10.9694, -4.4314, -0.9881, 21.0228};
+constexpr std::array<double, 18> kLastDigit{1e-5, 1e-4, 1e-5, 1e-6, 1e-6, 1e-6, 1e-4, 1e-4, 1e-4,
+                                            1e-5, 1e-5, 1e-6, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4};
 TrajectoryCase puma_published() {
   TrajectoryCase c = puma_weight();
   c.statement =
@@ -317,12 +258,12 @@ TrajectoryCase puma_published() {
     CaseReadings all = puma_torques(model, qn, {}, 1);
     append(all, puma_torques(model, qn, kOnes, 1));
     append(all, puma_accelerations(model));
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] /= kPublished[i].unit;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] /= kLastDigit[i];
     return all;
   };
   c.reference = [](double) {
     CaseReadings all;
-    for (const Published& number : kPublished) all.push_back(number.value / number.unit);
+    for (std::size_t i = 0; i < 18; ++i) all.push_back(kPublished[i] / kLastDigit[i]);
     return all;
   };
   c.measure = largest_difference;
