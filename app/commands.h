@@ -76,6 +76,7 @@ struct CompareOptions {
   std::string group;
   std::vector<std::string> integrators;
   std::vector<double> steps;
+  std::filesystem::path html;  // folder or .html file of the page; empty: none
   bool json = false;
 };
 int run_compare(const CompareOptions& options);  // 1 where a case falls short

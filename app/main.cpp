@@ -205,6 +205,8 @@ void add_compare(CLI::App& app, CompareOptions& options, std::function<int()>& c
   compare->add_option("--step", options.steps, "and with these steps: h1,h2,.. [s]")
       ->delimiter(',')
       ->allow_extra_args(false);
+  compare->add_option("--html", options.html,
+                      "folder for the page compare.html: statements, figures, code of all cases");
   compare->add_flag("--json", options.json, "print one JSON object on stdout");
   compare->callback([&] { command = [&] { return run_compare(options); }; });
 }

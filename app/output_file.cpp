@@ -10,22 +10,23 @@
 namespace twinarm {
 namespace {
 
-InputError cannot_write(const std::filesystem::path& path, const std::string& why) {
+InputError cannot_write(const std::filesystem::path& path, const std::string& why,
+                        const char* option) {
   return InputError({{path.string(), 0, "", "cannot be written" + why,
-                      "choose a folder that can be written, with --out"}});
+                      std::string("choose a folder that can be written, with ") + option}});
 }
 
 }  // namespace
 
-void require_writable_folder(const std::filesystem::path& folder) {
+void require_writable_folder(const std::filesystem::path& folder, const char* option) {
   std::error_code error;
   std::filesystem::path there = std::filesystem::absolute(folder, error);
   while (!std::filesystem::exists(there, error) && there.has_relative_path())
     there = there.parent_path();
   if (!std::filesystem::is_directory(there, error))
-    throw cannot_write(folder, ": " + there.string() + " is not a folder");
+    throw cannot_write(folder, ": " + there.string() + " is not a folder", option);
   if (access(there.c_str(), W_OK | X_OK) != 0)
-    throw cannot_write(folder, ": no permission in " + there.string());
+    throw cannot_write(folder, ": no permission in " + there.string(), option);
 }
 
 std::string read_whole_file(const std::filesystem::path& file) {

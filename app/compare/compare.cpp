@@ -10,6 +10,35 @@
 namespace twinarm {
 namespace {
 
+// What the threads share, under one lock.
+struct Work {
+  std::mutex lock{};
+  std::condition_variable news{};
+  std::size_t next = 0, done = 0;
+  bool stopped = false;
+  std::exception_ptr failure{};
+};
+
+void work_off(std::size_t count, const std::function<void(std::size_t)>& one, Work& work) {
+  std::unique_lock held(work.lock);
+  while (!work.stopped && work.next < count) {
+    const std::size_t mine = work.next++;
+    held.unlock();
+    std::exception_ptr failure;
+    try {
+      one(mine);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    held.lock();
+    ++work.done;
+    if (failure) work.failure = failure, work.stopped = true;
+    work.news.notify_one();
+  }
+}
+
+}  // namespace
+
 CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& lanes) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
@@ -22,55 +51,20 @@ CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& lanes) {
   return row;
 }
 
-// What the threads share, under one lock.
-struct Work {
-  std::mutex lock{};
-  std::condition_variable news{};
-  std::size_t next = 0, done = 0;
-  bool stopped = false;
-  std::exception_ptr failure{};
-};
-
-void work_off(const std::vector<const AnalyticCase*>& cases, const std::vector<Lane>& lanes,
-              Work& work, std::vector<CompareRow>& rows) {
-  std::unique_lock held(work.lock);
-  while (!work.stopped && work.next < cases.size()) {
-    const std::size_t mine = work.next++;
-    held.unlock();
-    CompareRow row{};
-    std::exception_ptr failure;
-    try {
-      row = run_one(*cases[mine], lanes);
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    held.lock();
-    rows[mine] = std::move(row);
-    ++work.done;
-    if (failure) work.failure = failure, work.stopped = true;
-    work.news.notify_one();
-  }
-}
-
-}  // namespace
-
-std::vector<CompareRow> run_cases(const std::vector<const AnalyticCase*>& cases,
-                                  const std::vector<Lane>& lanes,
-                                  const std::function<void(std::size_t, const char*)>& tick) {
-  std::vector<CompareRow> rows(cases.size());
+void two_at_a_time(std::size_t count, const std::function<void(std::size_t)>& one,
+                   const std::function<void(std::size_t)>& tick) {
   Work work;
   std::vector<std::thread> threads;
-  const std::size_t count = std::thread::hardware_concurrency() > 1 ? 2 : 1;
-  for (std::size_t i = 0; i < count; ++i)
-    threads.emplace_back([&] { work_off(cases, lanes, work, rows); });
+  for (unsigned i = 0; i < std::clamp(std::thread::hardware_concurrency(), 1U, 2U); ++i)
+    threads.emplace_back([&] { work_off(count, one, work); });
 
   std::exception_ptr failure;
   try {
     std::unique_lock held(work.lock);
-    while (work.done < cases.size() && !work.stopped) {
+    while (work.done < count && !work.stopped) {
       const std::size_t done = work.done;
       held.unlock();
-      tick(done, cases[std::min(done, cases.size() - 1)]->name);
+      tick(done);
       held.lock();
       work.news.wait_for(held, std::chrono::milliseconds(100),
                          [&] { return work.done > done || work.stopped; });
@@ -83,7 +77,6 @@ std::vector<CompareRow> run_cases(const std::vector<const AnalyticCase*>& cases,
   for (std::thread& thread : threads) thread.join();
   if (!failure) failure = work.failure;
   if (failure) std::rethrow_exception(failure);
-  return rows;
 }
 
 std::size_t failures(const std::vector<CompareRow>& rows) {

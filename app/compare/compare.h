@@ -41,19 +41,23 @@ std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
                              const std::vector<double>& steps, FaultList& faults);
 std::string lane_name(const Lane& lane);  // "rk4 0.001"
 
-// Cases are judged in their own lane; the others are beside it. `tick` is called every now and then
-// with how many are done and one that is not; it may throw, after which no further case begins.
-std::vector<CompareRow> run_cases(const std::vector<const AnalyticCase*>& cases,
-                                  const std::vector<Lane>& lanes,
-                                  const std::function<void(std::size_t, const char*)>& tick);
+// Calls work(0) .. work(count - 1), two at a time where there are two processors. `tick` is called
+// every now and then with how many are done; it may throw, and so may work, after which no further
+// one begins.
+void two_at_a_time(std::size_t count, const std::function<void(std::size_t)>& work,
+                   const std::function<void(std::size_t)>& tick);
+
+// A case is judged in its own lane; the others are beside it.
+CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& lanes);
 
 // How many fell short.
 std::size_t failures(const std::vector<CompareRow>& rows);
 
-// For people: a table, and what fell short below it. For programs: one JSON object.
+// For people: a table, and what fell short below it. For programs: one JSON object;
+// `page` is the file that --html made, or empty.
 std::string compare_table(const std::vector<CompareRow>& rows, const std::vector<Lane>& lanes,
                           const std::vector<const SkippedCase*>& skipped);
 std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<Lane>& lanes,
-                         const std::vector<const SkippedCase*>& skipped);
+                         const std::vector<const SkippedCase*>& skipped, const std::string& page);
 
 }  // namespace twinarm

@@ -76,7 +76,7 @@ std::string compare_table(const std::vector<CompareRow>& rows, const std::vector
 
 // What is not finite becomes null.
 std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<Lane>& lanes,
-                         const std::vector<const SkippedCase*>& skipped) {
+                         const std::vector<const SkippedCase*>& skipped, const std::string& page) {
   Json cases = Json::array();
   for (const CompareRow& row : rows) {
     cases.push_back({{"name", row.test->name},
@@ -93,10 +93,11 @@ std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<
   Json left_out = Json::array();
   for (const SkippedCase* c : skipped) left_out.push_back({{"name", c->name}, {"why", c->why}});
   const std::size_t failed = failures(rows);
-  const Json answer = {{"cases", cases},
-                       {"passed", rows.size() - failed},
-                       {"failed", failed},
-                       {"skipped", left_out}};
+  Json answer = {{"cases", cases},
+                 {"passed", rows.size() - failed},
+                 {"failed", failed},
+                 {"skipped", left_out}};
+  if (!page.empty()) answer["page"] = page;
   return answer.dump(1) + "\n";
 }
 

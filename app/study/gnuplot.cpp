@@ -31,8 +31,6 @@ const char* const kFigureStyle =
 
 namespace {
 
-constexpr std::size_t kStretches = 700;  // of a curve: about one per pixel of a figure's width
-
 std::filesystem::path find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::string rest = path ? path : "";
@@ -118,9 +116,10 @@ std::string Gnuplot::data(const std::vector<std::vector<double>>& columns) {
   return in_quotes(name);
 }
 
-std::string Gnuplot::curve(const std::vector<double>& x, const std::vector<double>& y) {
+std::string Gnuplot::curve(const std::vector<double>& x, const std::vector<double>& y,
+                           std::size_t stretches) {
   const std::size_t n = std::min(x.size(), y.size());
-  if (n <= 2 * kStretches)
+  if (n <= 2 * stretches)
     return data({{x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)},
                  {y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n)}});
   std::vector<double> kept_x, kept_y;
@@ -128,8 +127,8 @@ std::string Gnuplot::curve(const std::vector<double>& x, const std::vector<doubl
     kept_x.push_back(x[i]);
     kept_y.push_back(y[i]);
   };
-  for (std::size_t s = 0; s < kStretches; ++s) {
-    const std::size_t begin = s * n / kStretches, end = (s + 1) * n / kStretches;
+  for (std::size_t s = 0; s < stretches; ++s) {
+    const std::size_t begin = s * n / stretches, end = (s + 1) * n / stretches;
     std::size_t low = begin, high = begin;
     for (std::size_t i = begin; i < end; ++i) {
       if (y[i] < y[low]) low = i;
@@ -141,8 +140,8 @@ std::string Gnuplot::curve(const std::vector<double>& x, const std::vector<doubl
   return data({kept_x, kept_y});
 }
 
-void Gnuplot::draw(const std::string& name, const std::string& title, int width, int height,
-                   const std::string& script) {
+std::string Gnuplot::svg(const std::string& name, const std::string& title, int width, int height,
+                         const std::string& script) {
   const std::filesystem::path made = temporary_ / (name + ".svg");
   const std::filesystem::path input = temporary_ / (name + ".gp");
   const std::filesystem::path messages = temporary_ / (name + ".log");
@@ -154,21 +153,26 @@ void Gnuplot::draw(const std::string& name, const std::string& title, int width,
   if (!run_gnuplot(temporary_, input, messages) || !std::filesystem::exists(made))
     throw std::runtime_error("gnuplot could not draw " + name + ": " +
                              (std::filesystem::exists(messages) ? read_whole_file(messages) : ""));
-  std::string svg = read_whole_file(made);
+  std::string drawn = read_whole_file(made);
   // Ids of their own, so that many figures can stand in one page; fonts that other systems have;
   // a title that says what it is.
   for (const char* id : {"gnuplot_canvas", "textbox", "greybox"}) {
-    replace_all(svg, fmt::format("\"{}\"", id), fmt::format("\"{}_{}\"", name, id));
-    replace_all(svg, fmt::format("'{}'", id), fmt::format("'{}_{}'", name, id));
-    replace_all(svg, fmt::format("#{})", id), fmt::format("#{}_{})", name, id));
+    replace_all(drawn, fmt::format("\"{}\"", id), fmt::format("\"{}_{}\"", name, id));
+    replace_all(drawn, fmt::format("'{}'", id), fmt::format("'{}_{}'", name, id));
+    replace_all(drawn, fmt::format("#{})", id), fmt::format("#{}_{})", name, id));
   }
-  replace_all(svg, "'gp", "'" + name + "_gp");
-  replace_all(svg, "#gp", "#" + name + "_gp");
-  replace_all(svg, "\"DejaVu Sans\"", "\"DejaVu Sans, Verdana, sans-serif\"");
-  replace_all(svg, "<title>" + name + "</title>", "<title>" + title + "</title>");
-  const std::size_t begin = svg.find("<desc>"), end = svg.find("</desc>");
-  if (end != std::string::npos && begin < end) svg.erase(begin, end + 7 - begin);
-  write_whole_file(folder_ / (name + ".svg"), svg);
+  replace_all(drawn, "'gp", "'" + name + "_gp");
+  replace_all(drawn, "#gp", "#" + name + "_gp");
+  replace_all(drawn, "\"DejaVu Sans\"", "\"DejaVu Sans, Verdana, sans-serif\"");
+  replace_all(drawn, "<title>" + name + "</title>", "<title>" + title + "</title>");
+  const std::size_t begin = drawn.find("<desc>"), end = drawn.find("</desc>");
+  if (end != std::string::npos && begin < end) drawn.erase(begin, end + 7 - begin);
+  return drawn;
+}
+
+void Gnuplot::draw(const std::string& name, const std::string& title, int width, int height,
+                   const std::string& script) {
+  write_whole_file(folder_ / (name + ".svg"), svg(name, title, width, height, script));
 }
 
 }  // namespace twinarm

@@ -33,8 +33,13 @@ class Gnuplot {
   // becomes a gap.
   std::string data(const std::vector<std::vector<double>>& columns);
   // A curve, thinned to what can be seen: of each of many stretches its lowest and highest point.
-  std::string curve(const std::vector<double>& x, const std::vector<double>& y);
-  // Makes folder/name.svg. `title` is what a screen reader says.
+  std::string curve(const std::vector<double>& x, const std::vector<double>& y,
+                    std::size_t stretches = 700);  // about one per pixel of a figure's width
+  // The SVG; `name` tells its ids from those of other figures of a page, `title` is what a screen
+  // reader says.
+  std::string svg(const std::string& name, const std::string& title, int width, int height,
+                  const std::string& script);
+  // Makes folder/name.svg of it.
   void draw(const std::string& name, const std::string& title, int width, int height,
             const std::string& script);
 

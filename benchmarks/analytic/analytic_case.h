@@ -29,7 +29,12 @@ struct AnalyticCase {
   CaseResult (*run)();    // null: a trajectory
   std::shared_ptr<const TrajectoryCase> trajectory{};
   CaseResult (*mistaken)() = nullptr;  // run() with a mistake in it, which must fail; may be null
+  const char* statement = nullptr;     // asked for by statement_of(); null where told elsewhere
 };
+
+// What is known, for people: one paragraph, formulas in <p>, HTML without a stylesheet. That of the
+// trajectory, of the case itself, or of case_statements.cpp; null where there is none.
+const char* statement_of(const AnalyticCase& c);
 
 inline AnalyticCase trajectory_case(const char* name, const char* group, const char* reference,
                                     double tolerance, TrajectoryCase trajectory) {

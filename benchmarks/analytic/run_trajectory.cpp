@@ -78,6 +78,7 @@ class Run {
     if (!scene_.conserves || !case_.has_steps() || !(most_kinetic_ > 0)) return {};
     return strayed_ / most_kinetic_;
   }
+  long steps() const { return steps_; }
 
  private:
   bool adaptive() const { return lane_.integrator == Integrator::dopri5; }
@@ -87,7 +88,8 @@ class Run {
     const StepReport report = adaptive() ? simulation_.substep(h) : simulation_.step(h);
     if (!report.ok()) return false;
     // Without the rounding of a sum of many steps, which would be an error of time.
-    now_ = adaptive() ? now_ + report.h : static_cast<double>(++steps_) * lane_.step;
+    ++steps_;
+    now_ = adaptive() ? now_ + report.h : static_cast<double>(steps_) * lane_.step;
     const double energy = look();
     strayed_ = std::max(strayed_, std::abs(energy - energy_at_start_));
     return true;
@@ -144,6 +146,7 @@ LaneResult measure(const TrajectoryCase& c, CaseScene scene, const Lane& lane,
   };
   if (!all()) result.error = kNothing;
   result.energy_drift = run.energy_drift();
+  result.steps = run.steps();
   result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return result;
 }
@@ -196,20 +199,31 @@ double mutant_error(const TrajectoryCase& c) {
   return measure(c, std::move(scene), c.lane, nullptr).error;
 }
 
+std::optional<double> slope_of(const std::vector<double>& errors, double rounding) {
+  for (std::size_t i = 0; i + 2 < errors.size(); ++i) {
+    if (!(errors[i] > rounding)) continue;
+    const double fine = std::log2(errors[i + 1] / errors[i]);
+    const double coarse = std::log2(errors[i + 2] / errors[i + 1]);
+    // Least squares through three points at equal distances.
+    if (fine > 0.5 && std::abs(fine - coarse) < 0.3) return (fine + coarse) / 2;
+  }
+  return {};
+}
+
+double rounding_of(const TrajectoryCase& c) {
+  return 1e-12 * largest_reference(c);
+}
+
 std::optional<double> observed_order(const TrajectoryCase& c, const Lane& lane) {
   if (!c.takes_lanes() || lane.integrator == Integrator::dopri5) return {};
-  const double rounding = 1e-12 * largest_reference(c);
-  std::vector<double> error;
+  const double rounding = rounding_of(c);
+  std::vector<double> errors;
   double h = lane.step;
   for (int i = 0; i < 9; ++i, h *= 2) {
     CaseScene scene = c.scene();
     scene.conserves = false;  // nobody asks for its energy
-    error.push_back(measure(c, std::move(scene), {lane.integrator, h, 0}, nullptr).error);
-    if (i < 2 || !(error[error.size() - 3] > rounding)) continue;
-    const double* last = &error[error.size() - 3];
-    const double fine = std::log2(last[1] / last[0]), coarse = std::log2(last[2] / last[1]);
-    // Least squares through three points at equal distances.
-    if (fine > 0.5 && std::abs(fine - coarse) < 0.3) return (fine + coarse) / 2;
+    errors.push_back(measure(c, std::move(scene), {lane.integrator, h, 0}, nullptr).error);
+    if (const auto slope = slope_of(errors, rounding)) return slope;
   }
   return {};
 }

@@ -11,6 +11,7 @@ struct LaneResult {
   double error = 0;  // largest measure of all times; not a number where the run stopped by itself
   std::optional<double> energy_drift{};  // max |E - E0| over the largest kinetic energy
   double seconds = 0;
+  long steps = 0;  // that were done
 };
 
 // A run to look at: a point at the start and after every step.
@@ -26,9 +27,13 @@ LaneResult run_lane(const TrajectoryCase& c, const Lane& lane,
 // The same with the case's mistake in it, in its own lane.
 double mutant_error(const TrajectoryCase& c);
 
-// By how much, in powers of two, the error falls when the step halves: the slope through the three
-// smallest of the steps h, 2h, 4h .. whose error is above rounding (1e-12 of the largest reading)
-// and whose two slopes agree to 0.3. Nothing where no three do, and for dopri5.
+// Of errors with the steps h, 2h, 4h ..: by how much, in powers of two, they fall when the step
+// halves. The slope through the first three that are above rounding and whose two slopes agree to
+// 0.3; nothing where no three do.
+std::optional<double> slope_of(const std::vector<double>& errors, double rounding);
+double rounding_of(const TrajectoryCase& c);  // 1e-12 of the largest reading
+
+// The slope of the lane's step, its double and so on. Nothing for dopri5.
 std::optional<double> observed_order(const TrajectoryCase& c, const Lane& lane);
 
 }  // namespace twinarm

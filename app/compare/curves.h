@@ -1,0 +1,42 @@
+// What the page draws of a known motion: the run in its own lane beside the reference, its energy,
+// and the error of every integrator against the step.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/analytic/run_trajectory.h"
+
+namespace twinarm::compare_page {
+
+// One integrator over steps that double, smallest first. A run that stopped by itself is not here.
+struct ErrorCurve {
+  Integrator integrator;
+  std::vector<double> step, error;  // of dopri5 the mean step, by its tolerance [s]
+  std::optional<double> order;
+};
+
+struct CaseCurves {
+  std::vector<std::string> names;         // of the readings, with unit
+  std::vector<double> t;                  // [s]
+  std::vector<std::vector<double>> seen;  // by reading, then by t
+  std::vector<double> exact_t;
+  std::vector<std::vector<double>> exact;  // by reading, then by exact_t
+  std::vector<double> energy;              // by t: (E - E0) / the largest kinetic one, or E [J]
+  bool energy_kept = false;                // the former
+  bool cut = false;                        // the run goes on after the last t
+  std::vector<ErrorCurve> errors;          // none where the case takes no other lanes
+};
+
+// Runs every integrator with five steps: some fifty times the work of the case.
+CaseCurves curves_of(const TrajectoryCase& c);
+
+// Of a case without steps: what was seen and what should have been.
+struct Reading {
+  std::string name;
+  double seen, exact;
+};
+std::vector<Reading> readings_of(const TrajectoryCase& c);
+
+}  // namespace twinarm::compare_page

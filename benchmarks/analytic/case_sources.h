@@ -1,0 +1,16 @@
+// The files of benchmarks/analytic/ as they were compiled, so that a page can show how a case is
+// written. Made by embed_sources.cmake.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace twinarm {
+
+struct CaseSource {
+  std::string_view file;  // "pendulum.cpp"
+  std::string_view text;
+};
+const std::vector<CaseSource>& case_sources();
+
+}  // namespace twinarm
