@@ -18,10 +18,10 @@ bool is_letter(char c) {
 struct Entity {
   std::string_view name, text;
 };
-constexpr Entity kEntities[] = {{"&radic;", "√"},  {"&minus;", "−"}, {"&pi;", "π"},
-                                {"&omega;", "ω"},  {"&theta;", "θ"}, {"&phi;", "φ"},
-                                {"&tau;", "τ"},    {"&mu;", "μ"},    {"&alpha;", "α"},
-                                {"&lambda;", "λ"}, {"&deg;", "°"},   {"&times;", "×"}};
+constexpr Entity kEntities[] = {
+    {"&radic;", "√"}, {"&minus;", "−"}, {"&pi;", "π"},   {"&omega;", "ω"}, {"&theta;", "θ"},
+    {"&phi;", "φ"},   {"&tau;", "τ"},   {"&mu;", "μ"},   {"&alpha;", "α"}, {"&lambda;", "λ"},
+    {"&Phi;", "Φ"},   {"&deg;", "°"},   {"&times;", "×"}};
 
 std::string plain(std::string_view html) {
   std::string text(html);

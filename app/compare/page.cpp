@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+
 #include "app/compare/page_style.h"
+#include "app/html_text.h"
 #include "app/output_file.h"
 #include "app/study/gnuplot.h"
-#include "app/study/report_sections.h"
 #include "app/study/report_style.h"
 
 namespace twinarm::compare_page {

@@ -6,7 +6,7 @@
 #include "app/compare/formulas.h"
 #include "app/compare/page.h"
 #include "app/compare/plots.h"
-#include "app/study/report_sections.h"
+#include "app/html_text.h"
 
 namespace twinarm::compare_page {
 namespace {

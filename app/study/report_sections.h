@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/html_text.h"
 #include "app/study/results.h"
 
 namespace twinarm {
@@ -21,8 +22,6 @@ class Gallery {
   std::filesystem::path folder_;
 };
 
-std::string escaped(const std::string& text);
-std::string yes_no(bool yes, const char* yes_word, const char* no_word);
 // A few significant digits for people, "infinite" and "none" in words.
 std::string rounded(double value, int digits = 3);
 std::string degrees(double value);                     // two decimals; more for a tiny one

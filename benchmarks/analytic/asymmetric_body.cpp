@@ -92,7 +92,7 @@ TrajectoryCase tumbling() {
 
 TrajectoryCase tumbling_invariants() {
   TrajectoryCase c = tumbling();
-  c.statement = "The same body: |H| and the kinetic energy stay as they are.";
+  c.statement = "The same body: what stays is <p>|H| = |I &omega;|, 2T = &omega; I &omega;</p>";
   c.readings = {"|H| [N m s]", "kinetic energy [J]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
     const Inertia<double>& inertia = model.I[1];
@@ -136,7 +136,10 @@ TrajectoryCase flip_time() {
 // Near a steady spin w2 the other two rates grow as exp(n t): n^2 = (I3 - I2) (I2 - I1) / (I1 I3).
 TrajectoryCase flip_growth() {
   TrajectoryCase c = flip();
-  c.statement = "Near the spin (0, 1, 0) rad/s the other rates grow as exp(t/&radic;3).";
+  c.statement =
+      "Near the spin (0, 1, 0) rad/s the other rates grow as <p>exp(n t), n<sup>2</sup> = "
+      "(I<sub>3</sub> &minus; I<sub>2</sub>)(I<sub>2</sub> &minus; "
+      "I<sub>1</sub>)/(I<sub>1</sub>I<sub>3</sub>) = 1/3</p>";
   c.scene = [] { return spinning(0, 1, 0); };
   c.times = {0};
   c.readings = {"growth rate [1/s]"};

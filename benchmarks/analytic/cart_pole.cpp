@@ -75,7 +75,9 @@ TrajectoryCase cart_pole_motion() {
 // No force acts along x, so the centre of mass stays where it was.
 TrajectoryCase cart_pole_centre() {
   TrajectoryCase c = cart_pole_motion();
-  c.statement = "The same: the common centre of mass does not move along x.";
+  c.statement =
+      "The same: the common centre of mass does not move along the line. <p>(M x + m (x + l sin "
+      "&theta;))/(M + m) = const</p>";
   c.times = {0.5, 1, 1.5, 2, 3, 4, 5};
   c.readings = {"x of the centre [m]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
@@ -126,7 +128,9 @@ TrajectoryCase chrono_slider() {
   return {.statement =
               "A pendulum of 1 m, 1 kg, 1 kg m<sup>2</sup> on a cart of 1 kg with a spring of 10 "
               "N/m is let go level, g = 10 m/s<sup>2</sup>: a unit test of Project Chrono, "
-              "utest_CH_slider_pend.",
+              "utest_CH_slider_pend. <p>(M + m) x'' + m l (cos &theta; &theta;'' &minus; sin "
+              "&theta; &theta;'<sup>2</sup>) + k x = 0, m l cos &theta; x'' + J &theta;'' + m g l "
+              "sin &theta; = 0</p>",
           .scene = [] { return kChrono.scene(std::numbers::pi / 2); },
           .times = {1, 2, 5},
           .readings = {"x [m]", "angle from level [rad]", "speed [m/s]", "rate [rad/s]"},

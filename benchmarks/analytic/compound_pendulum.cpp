@@ -121,7 +121,10 @@ std::vector<AnalyticCase> compound_pendulum() {
   const auto weight = [](const Model<double>& model, const State<double>& x) {
     return CaseReadings{reaction(model, x).z()};
   };
-  const char* hinged = "A uniform rod of 1 kg and 1 m, hinged at its end.";
+  const char* hinged =
+      "A uniform rod of 1 kg and 1 m, hinged at its end: <p>&theta;'' = &minus;(3g/2L) sin "
+      "&theta;</p> "
+      "At the horizontal the hinge carries m g/4; at the bottom, come from there, 5 m g/2.";
   const double bottom_rate = std::sqrt(3 * kGravity);
   return {
       trajectory_case("B3", group, "rod from 60 degrees: angle [rad], rate [rad/s] at 2 s", 1e-8,

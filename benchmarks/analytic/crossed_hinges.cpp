@@ -66,7 +66,9 @@ TrajectoryCase furuta_motion() {
 // In one state, q2 = 1, rates 2 and 3.
 TrajectoryCase furuta_evaluation() {
   TrajectoryCase c = furuta_motion();
-  c.statement = "Furuta's pendulum at 1 rad, its joints at 2 and 3 rad/s: accelerations.";
+  c.statement =
+      "Furuta's pendulum at 1 rad, its joints at 2 and 3 rad/s: accelerations. <p>M(q) q'' = "
+      "&minus;h(q, q')</p> with M and h of the motion above.";
   c.scene = [] { return furuta(1, 2, 3); };
   c.times = {0};
   c.readings = {"arm [rad/s2]", "pendulum [rad/s2]"};
@@ -172,7 +174,7 @@ TrajectoryCase babyboot_fine() {
 }
 TrajectoryCase babyboot_rates_at_end() {
   TrajectoryCase c = babyboot_motion();
-  c.statement = "The same by dopri5: rates and accelerations at 10 s.";
+  c.statement = "The same by dopri5: rates and accelerations at 10 s. <p>q'(t), q''(t)</p>";
   c.times = {10};
   c.readings = {"rod [rad/s]", "plate [rad/s]", "rod [rad/s2]", "plate [rad/s2]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {

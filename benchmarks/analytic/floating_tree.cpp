@@ -81,7 +81,8 @@ TrajectoryCase momenta() {
   return {
       .statement =
           "A floating tree of four links without gravity, its joints moved by torques from "
-          "within: linear momentum, and angular momentum about the origin, stay as they are.",
+          "within: linear momentum, and angular momentum about the origin, stay. <p>P(t) = P(0), "
+          "H(t) = H(0)</p>",
       .scene =
           [] {
             CaseScene scene = tumbling(Vector3::Zero());
@@ -112,7 +113,7 @@ TrajectoryCase falling() {
 
 TrajectoryCase energy() {
   TrajectoryCase c = falling();
-  c.statement = "The same tree under gravity: kinetic and potential energy have a constant sum.";
+  c.statement = "The same tree under gravity: <p>T + V = const</p>";
   c.readings = {"energy [J]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
     return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
@@ -132,7 +133,7 @@ TrajectoryCase ballistic() {
   return {
       .statement =
           "2 kg fall from rest under semi-implicit steps of h: <p>E &minus; E<sub>0</sub> = "
-          "&minus;m g<sup>2</sup> h t/2</p>, the error of the scheme itself.",
+          "&minus;m g<sup>2</sup> h t/2</p> The error of the scheme itself.",
       .scene =
           [] {
             Model<double> model = free_body(2, {0.1, 0.2, 0.25});

@@ -81,7 +81,8 @@ using namespace smooth_parts;
 TrajectoryCase golden_motion(const GoldenSteps& row) {
   return {.statement =
               "A pendulum of 1 m from 90&deg;, 100 steps of 10 ms: where the scheme "
-              "itself must be, by an independent code.",
+              "itself must be, by an independent code. <p>x<sub>n+1</sub> = "
+              "&Phi;<sub>h</sub>(x<sub>n</sub>), &theta;'' = &minus;(g/l) sin &theta;</p>",
           .scene = [] { return start_at(point_pendulum(), {std::numbers::pi / 2}, {0}); },
           .times = {1},
           .readings = {"angle [rad]", "rate [rad/s]"},
@@ -97,7 +98,8 @@ TrajectoryCase golden_energy(const GoldenSteps& row) {
   TrajectoryCase c = golden_motion(row);
   c.statement =
       "The same pendulum, 10000 steps of 10 ms: the energy that the scheme has gained or "
-      "lost, by an independent code.";
+      "lost, by an independent code. <p>E = m l<sup>2</sup>&theta;'<sup>2</sup>/2 &minus; m g l "
+      "cos &theta;, E(0) = 0</p>";
   c.times = {100};
   c.readings = {"energy [J]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {

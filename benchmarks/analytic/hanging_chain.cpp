@@ -149,7 +149,7 @@ TrajectoryCase folded_fall() {
 }
 TrajectoryCase folded_energy() {
   TrajectoryCase c = folded_fall();
-  c.statement = "The same chain: its energy stays what it was at the start.";
+  c.statement = "The same chain: its energy stays what it was at the start. <p>T + V = V(0)</p>";
   c.events = {};
   c.times = {0.1, 0.2, 0.3, 0.35};
   c.readings = {"energy [J]"};

@@ -94,26 +94,27 @@ CaseReadings observe_axis(const Model<double>&, const State<double>& x) {
 }
 
 TrajectoryCase motion(double step) {
-  return {.statement =
-              "A top of 1 kg, its centre 0.2 m from the fixed point, I<sub>1</sub> = 0.05 and "
-              "I<sub>3</sub> = 0.01 kg m<sup>2</sup> about it, is released 30&deg; from upright "
-              "with its axis at rest and a spin of 100 rad/s. Its axis falls and rises, "
-              "<p>cos &theta; = u<sub>1</sub> + (u<sub>0</sub> &minus; u<sub>1</sub>) "
-              "cd<sup>2</sup>(k t),</p> and goes round at I<sub>3</sub>&omega;<sub>3</sub> "
-              "(u<sub>0</sub> &minus; u)/(I<sub>1</sub>(1 &minus; u<sup>2</sup>)).",
-          .scene =
-              [] {
-                return tilted({0, 0, kSpin});
-              },
-          .times = {0.1, 0.38054140391335806, 0.5, 1},
-          .readings = {"x of the axis", "y of the axis", "z of the axis"},
-          .observe = observe_axis,
-          .reference =
-              [](double t) {
-                const Vector3 e = nutation().axis(t);
-                return CaseReadings{e.x(), e.y(), e.z()};
-              },
-          .lane = rk4_lane(step)};
+  return {
+      .statement =
+          "A top of 1 kg, its centre 0.2 m from the fixed point, I<sub>1</sub> = 0.05 and "
+          "I<sub>3</sub> = 0.01 kg m<sup>2</sup> about it, is released 30&deg; from upright "
+          "with its axis at rest and a spin of 100 rad/s. Its axis falls and rises, "
+          "<p>cos &theta; = u<sub>1</sub> + (u<sub>0</sub> &minus; u<sub>1</sub>) "
+          "cd<sup>2</sup>(k t)</p> and goes round at <p>&phi;' = I<sub>3</sub>&omega;<sub>3</sub> "
+          "(u<sub>0</sub> &minus; u)/(I<sub>1</sub>(1 &minus; u<sup>2</sup>)), u = cos &theta;</p>",
+      .scene =
+          [] {
+            return tilted({0, 0, kSpin});
+          },
+      .times = {0.1, 0.38054140391335806, 0.5, 1},
+      .readings = {"x of the axis", "y of the axis", "z of the axis"},
+      .observe = observe_axis,
+      .reference =
+          [](double t) {
+            const Vector3 e = nutation().axis(t);
+            return CaseReadings{e.x(), e.y(), e.z()};
+          },
+      .lane = rk4_lane(step)};
 }
 
 // The rate in body axes, of which two components turn with the spin.

@@ -131,7 +131,7 @@ TrajectoryCase unit_quaternion() {
   TrajectoryCase c = steady_turning();
   c.statement =
       "The same ball, a million steps of 10 ms: its quaternion has length 1, and its "
-      "rate is what it was.";
+      "rate is what it was. <p>q<sub>n+1</sub> = q<sub>n</sub> exp(h &omega;/2), |q| = 1</p>";
   c.scene = [scene = c.scene] {
     CaseScene all = scene();
     all.conserves = false;

@@ -107,7 +107,9 @@ TrajectoryCase turns() {
 
 TrajectoryCase stick() {
   TrajectoryCase c = fading(0);
-  c.statement = "The same sticks from its tenth turn on: at &minus;0.003 m, after &pi; s.";
+  c.statement =
+      "The same sticks from its tenth turn on: at &minus;0.003 m, after &pi; s, where <p>k |x| "
+      "&le; F</p>";
   c.scene = [] { return oscillator(0.097, 0, 0.5, 0); };
   c.times = {std::numbers::pi, 3.5, 5};
   c.reference = [](double) { return CaseReadings{-0.003, 0}; };

@@ -87,7 +87,8 @@ TrajectoryCase swing_in_plane() {
   TrajectoryCase c = swing();
   c.statement =
       "A particle on a circle of 1 m starts at rest from (&minus;1, 0): benchmark A01 of IFToMM's "
-      "library of multibody problems, by elliptic functions.";
+      "library of multibody problems. <p>(x, y) = (&minus;sin &theta;, &minus;cos &theta;), "
+      "&theta; = 2 asin(k cd(&omega;<sub>0</sub>t))</p>";
   c.readings = {"x [m]", "y [m]"};
   c.observe = [](const Model<double>&, const State<double>& x) {
     return CaseReadings{-std::sin(x.q[0]), -std::cos(x.q[0])};

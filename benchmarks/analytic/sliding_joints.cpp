@@ -106,7 +106,9 @@ TrajectoryCase incline() {
 }
 TrajectoryCase incline_start() {
   TrajectoryCase c = incline();
-  c.statement = "The same: it starts with g sin 30&deg;, and 12.2625 m/s is its last speed.";
+  c.statement =
+      "The same: how it starts, and its last speed. <p>x''(0) = g sin 30&deg;, v = m g sin "
+      "30&deg;/c</p>";
   c.times = {0};
   c.readings = {"start [m/s2]", "terminal speed [m/s]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
@@ -168,7 +170,9 @@ TrajectoryCase planar() {
 }
 
 TrajectoryCase thrown() {
-  return {.statement = "A free body is thrown from (0, 0, 1) with (3, 0, 4) m/s: a parabola.",
+  return {.statement =
+              "A free body is thrown from (0, 0, 1) with (3, 0, 4) m/s: <p>r = r<sub>0</sub> + "
+              "v<sub>0</sub>t + g t<sup>2</sup>/2</p>",
           .scene =
               [] {
                 return start_at(

@@ -118,7 +118,9 @@ TrajectoryCase bounds() {
 
 TrajectoryCase momentum_kept() {
   TrajectoryCase c = swing(JointType::spherical);
-  c.statement = "The same: its angular momentum about the vertical stays 1.5 N m s.";
+  c.statement =
+      "The same: its angular momentum about the vertical stays. <p>L = m (x y' &minus; y x') = 1.5 "
+      "N m s</p>";
   c.readings = {"Lz [N m s]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
     const CaseReadings p = observe_place(model, x);

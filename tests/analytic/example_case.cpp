@@ -1,4 +1,4 @@
-// The worked example of docs/cases.md, "How to add a case": 2 kg hang on a spring of 50 N/m, are
+// The worked example of docs/adding_a_case.md: 2 kg hang on a spring of 50 N/m, are
 // held where it is slack, and let go. With w^2 = k / m,
 //   z = -(g / w^2) (1 - cos w t).
 // A case of the list would stand in benchmarks/analytic/ as it stands here, down to its last line.
@@ -31,7 +31,7 @@ CaseReadings reference(double t) {
 TrajectoryCase motion() {
   return {.statement =
               "2 kg are let go on a slack spring of 50 N/m: <p>z = &minus;g/w<sup>2</sup> "
-              "(1 &minus; cos wt), w<sup>2</sup> = k/m</p>",
+              "(1 &minus; cos w t), w<sup>2</sup> = k/m</p>",
           .scene = scene,
           .times = {1, 2, 10},
           .readings = {"z [m]", "speed [m/s]"},

@@ -3,20 +3,24 @@
 
     test_compare_command.py PATH/TO/twinarm
 """
+import html.parser
 import json
 import os
+import pathlib
+import re
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 
 PROGRAM = ""
 
 
-def run(*arguments, timeout=120):
+def run(*arguments, timeout=120, **more):
     return subprocess.run([PROGRAM, "compare", *arguments], capture_output=True, text=True,
-                          timeout=timeout)
+                          timeout=timeout, **more)
 
 
 class Compare(unittest.TestCase):
@@ -144,6 +148,149 @@ class Compare(unittest.TestCase):
         out, err = process.communicate(timeout=60)
         self.assertEqual((process.returncode, out), (130, ""), err)
         self.assertIn("interrupted", err)
+
+
+class Tags(html.parser.HTMLParser):
+    """The page as a list of (tag, attributes), and whether all that must be closed is."""
+    OPEN = {"meta", "th", "td", "tr", "br", "path", "use", "circle", "rect"}  # need no end
+
+    def __init__(self, text):
+        super().__init__()
+        self.all, self.open, self.wrong = [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.all.append((tag, dict(attributes)))
+        if tag not in self.OPEN:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.all.append((tag, dict(attributes)))
+
+    def handle_endtag(self, tag):
+        if tag in self.OPEN:
+            return
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append(tag)
+
+
+class Page(unittest.TestCase):
+    """One page of cases of every kind, made once."""
+    NAMES = ["A1", "A5-ballistic", "B1-45", "B3-start", "C3-2", "D7", "E6-two", "E2-slide",
+             "G1-rk4", "G4-rk4", "F5"]
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.out = pathlib.Path(cls.folder.name) / "not" / "yet"
+        cls.result = run(*cls.NAMES, "--html", str(cls.out), "--json")
+        cls.answer = json.loads(cls.result.stdout)
+        cls.page = (cls.out / "compare.html").read_text(encoding="utf-8")
+        cls.tags = Tags(cls.page)
+        parts = re.split(r'<section class=case id="([^"]+)">', cls.page)
+        cls.sections = dict(zip(parts[1::2], parts[2::2]))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_it_is_one_file_that_the_answer_names(self):
+        self.assertEqual(self.result.returncode, 0)
+        self.assertEqual(self.answer["page"], str(self.out / "compare.html"))
+        self.assertEqual([p.name for p in self.out.iterdir()], ["compare.html"])
+
+    def test_it_needs_nothing_from_outside(self):
+        for tag, attributes in self.tags.all:
+            self.assertNotIn(tag, ("script", "link", "iframe", "object", "embed", "base"))
+            for key in ("src", "href", "xlink:href", "data"):
+                value = attributes.get(key) or "#"
+                self.assertTrue(value.startswith(("#", "data:")), (tag, key, value))
+        self.assertIsNone(re.search(r"@import|url\((?!['\"]?#)", self.page))
+
+    def test_what_is_opened_is_closed_and_every_link_and_mark_has_its_one_target(self):
+        self.assertEqual((self.tags.wrong, self.tags.open), ([], []))
+        ids = [a["id"] for _, a in self.tags.all if "id" in a]
+        self.assertEqual(len(ids), len(set(ids)))
+        for _, attributes in self.tags.all:
+            for key in ("href", "xlink:href"):
+                if key in attributes:
+                    self.assertIn(attributes[key][1:], ids)
+
+    def test_every_case_has_its_row_and_its_section_with_formula_and_code(self):
+        names = [c["name"] for c in self.answer["cases"]]
+        self.assertEqual(len(names), len(self.NAMES) - 1)
+        self.assertEqual(re.findall(r'<tr data-case="([^"]+)">', self.page), names)
+        self.assertEqual(list(self.sections), names)
+        for name, section in self.sections.items():
+            self.assertIn("<div class=formula>", section, name)
+            self.assertIn(f"twinarm compare {name}", section)
+            code = re.search(r"<pre>(.*)</pre></details>", section, re.S).group(1)
+            self.assertGreater(len(code.splitlines()), 8, name)
+            self.assertIn("// The line of the list:", code)
+
+    def test_the_numbers_of_the_index_are_those_of_json_to_the_last_digit(self):
+        for case in self.answer["cases"]:
+            row = re.search(rf'<tr data-case="{case["name"]}">(.*?)</tr>', self.page, re.S).group(1)
+            numbers = [float(x) for x in re.findall(r'data-value="([^"]+)"', row)]
+            wanted = [case[k] for k in ("error", "tolerance", "order", "energy_drift", "seconds")]
+            self.assertEqual(numbers, [x for x in wanted if x is not None], case["name"])
+            self.assertIn(">pass<" if case["pass"] else ">short<", row)
+
+    def test_what_is_skipped_is_in_the_index_with_its_reason(self):
+        row = re.search(r'<tr data-skipped="F5">(.*?)</tr>', self.page, re.S).group(1)
+        self.assertIn(self.answer["skipped"][0]["why"], row)
+
+    def test_a_motion_is_drawn_with_its_errors_and_energy_and_a_state_has_its_readings(self):
+        for name, figures in {"A1": 3, "B1-45": 3, "G1-rk4": 2, "A5-ballistic": 2}.items():
+            self.assertEqual(self.sections[name].count("<svg"), figures, name)
+        for scheme in ("euler", "verlet", "rk4", "dopri5", "trapezoid"):
+            self.assertIn(scheme, self.sections["A1"])
+        self.assertIn("step [s]", self.sections["A1"])
+        self.assertIn("time [s]", self.sections["A1"])
+        self.assertIn("14.715", self.sections["B3-start"])
+        self.assertNotIn("<svg", self.sections["E6-two"])
+
+    def test_the_slopes_beside_the_schemes_are_their_orders(self):
+        text = re.sub(r"<[^>]+>", " ", self.sections["A1"])
+        for scheme, order in {"rk4": 4, "verlet": 2, "euler": 1, "heun": 2}.items():
+            slope = re.search(rf"\b{scheme}\s+([0-9.]+)", text).group(1)
+            self.assertAlmostEqual(float(slope), order, delta=0.15, msg=scheme)
+
+
+class Guide(unittest.TestCase):
+    def test_the_worked_example_of_the_guide_is_the_one_that_is_compiled(self):
+        root = pathlib.Path(__file__).resolve().parents[2]
+        guide = (root / "docs/adding_a_case.md").read_text(encoding="utf-8")
+        example = (root / "tests/analytic/example_case.cpp").read_text(encoding="utf-8")
+        lines = {line.strip() for line in example.splitlines()}
+        blocks = re.findall(r"^ +```cpp\n(.*?)^ +```", guide, re.S | re.M)
+        self.assertEqual(len(blocks), 4)
+        for line in "".join(blocks).splitlines():
+            if ".statement" not in line:
+                self.assertIn(line.strip(), lines)
+
+
+class PageFaults(unittest.TestCase):
+    def test_a_folder_that_cannot_be_written_is_told_before_anything_runs(self):
+        with tempfile.NamedTemporaryFile() as file:
+            result = run("D77", "--html", file.name + "/out", "--json")
+        errors = json.loads(result.stdout)["errors"]
+        self.assertEqual((result.returncode, len(errors)), (2, 2), errors)
+        self.assertIn("is not a folder", errors[1]["rule"])
+        self.assertIn("--html", errors[1]["remedy"])
+
+    def test_without_gnuplot_the_remedy_is_to_install_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = run("D7", "--html", folder, env={**os.environ, "PATH": folder})
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+            self.assertIn("install gnuplot-nox", result.stderr)
+            self.assertEqual(os.listdir(folder), [])
+
+    def test_a_file_name_may_be_given_in_place_of_a_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = run("D7", "--html", folder + "/mine.html")
+            self.assertEqual(os.listdir(folder), ["mine.html"])
+        self.assertEqual(result.stdout.splitlines()[-1], f"page: {folder}/mine.html")
 
 
 if __name__ == "__main__":
