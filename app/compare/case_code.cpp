@@ -153,13 +153,30 @@ const Definition* elsewhere(const std::string& name, const std::string_view but)
   return nullptr;
 }
 
+// What the function that makes the list has of its own, up to the line: `const auto small = ..`.
+std::vector<Definition> locals_before(std::string_view source, std::size_t at) {
+  const std::size_t begin = source.rfind("\nstd::vector<AnalyticCase>", at);
+  if (begin == std::string_view::npos) return {};
+  const std::size_t body = source.find('\n', begin + 1) + 1;
+  std::string all;
+  for (std::size_t i = body; i < at;) {
+    const std::size_t end = std::min(source.find('\n', i), at);
+    const std::string_view line = source.substr(i, end - i);
+    if (line.starts_with("  return")) break;
+    all += std::string(line.starts_with("  ") ? line.substr(2) : line) + "\n";
+    i = end + 1;
+  }
+  return definitions_of(all);
+}
+
 }  // namespace
 
 CaseCode code_of(const std::string& case_name) {
   const auto [source, at] = find_case(case_name);
   if (!source) return {};
   const std::string_view line = around(source->text, at);
-  const std::vector<Definition> all = definitions_of(source->text);
+  std::vector<Definition> all = definitions_of(source->text);
+  for (Definition& local : locals_before(source->text, at)) all.push_back(std::move(local));
   std::vector<bool> wanted(all.size(), false);
   std::vector<std::string> open;
   std::string from_elsewhere;

@@ -9,7 +9,7 @@
 namespace twinarm::compare_page {
 namespace {
 
-constexpr long kMostSteps = 20000;                // of the run that is drawn
+constexpr long kMostSteps = 50000;                // of the run that is drawn
 constexpr long kFinestSteps = 12000, kSteps = 5;  // of those in the diagram of errors
 constexpr int kExactPoints = 24;
 
@@ -31,7 +31,7 @@ double end_of(const TrajectoryCase& c) {
 void sample_reference(const TrajectoryCase& c, double until, CaseCurves& curves) {
   std::vector<double> arguments = c.times;
   for (int n = 1; n <= c.events.count; ++n) arguments.push_back(n);
-  if (c.takes_lanes() && c.events.count == 0) {
+  if (c.takes_lanes() && c.events.count == 0 && !c.at_times_only) {
     arguments = {0};
     for (int n = 1; n <= kExactPoints; ++n) arguments.push_back(until * n / kExactPoints);
   }
@@ -65,7 +65,7 @@ void record(const TrajectoryCase& c, CaseCurves& curves) {
   shown.measure = [](const CaseReadings&, const CaseReadings&) { return 0.0; };
   if (c.events.count > 0) {
     // The function whose zeros are the events is drawn too.
-    curves.names.push_back("passes zero at each event");
+    curves.names.push_back(kEventFunction);
     shown.observe = [&c](const Model<double>& model, const State<double>& x) {
       CaseReadings seen = c.observe(model, x);
       seen.push_back(c.events.zero(model, x));

@@ -10,6 +10,9 @@
 
 namespace twinarm::compare_page {
 
+// Name of the reading that passes zero at each event.
+inline constexpr const char* kEventFunction = "zero at events";
+
 // One integrator over steps that double, smallest first. A run that stopped by itself is not here.
 struct ErrorCurve {
   Integrator integrator;

@@ -74,12 +74,24 @@ std::string sums(const std::vector<CompareRow>& rows, std::size_t skipped) {
 }
 
 constexpr const char* kHowToRead =
-    "<p class=note>Error and tolerance are in the unit that the case names; a case passes where "
-    "its "
-    "error is no larger than its tolerance. Order: by which power the error falls with the step, "
+    "<h2 id=reading>How to read this</h2>\n"
+    "<p><b>Numbers.</b> Error and tolerance are in the unit that the case names; a case passes "
+    "where "
+    "its error is no larger than its tolerance. Order: by which power the error falls with the "
+    "step, "
     "where three steps agree. Energy drift: the largest change of energy over the largest kinetic "
-    "energy, where energy is kept. How each is measured: docs/cases.md; how to add a case: "
-    "docs/adding_a_case.md.</p>\n";
+    "energy, where energy is kept.</p>\n"
+    "<p><b>Run and reference.</b> Lines are the run in the lane in which the case is judged; "
+    "circles "
+    "are the reference. Where events are timed, the function whose zeros they are is drawn, and a "
+    "circle lies where the reference has it pass zero.</p>\n"
+    "<p><b>Error against step.</b> All integrators, with steps that double; on logarithmic axes an "
+    "order is a slope, and stands behind the name. Colours are orders, marks are schemes. dopri5 "
+    "chooses its steps: it is drawn at their mean, for tolerances from 1e-12 to 1e-4. The dashed "
+    "line is the tolerance of the case.</p>\n"
+    "<p><b>The code</b> of a case unfolds, and is quoted from the file that was compiled. A case "
+    "of "
+    "your own is one file: docs/adding_a_case.md. What is measured, and how: docs/cases.md.</p>\n";
 
 }  // namespace
 
@@ -113,7 +125,7 @@ std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std
       "whose outcome is known, by closed form or by an independent computation, run by twinarm: " +
       sums(rows, skipped.size()) +
       ".</p>\n</header>\n<nav aria-label=Contents><div>"
-      "<a href=\"#index\">Index</a>";
+      "<a href=\"#index\">Index</a><a href=\"#reading\">How to read this</a>";
   std::string body, group;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (group != rows[i].test->group) {

@@ -6,12 +6,15 @@
 #include "app/compare/formulas.h"
 #include "app/compare/page.h"
 #include "app/compare/plots.h"
+#include "app/compare/small_svg.h"
 #include "app/html_text.h"
+#include "benchmarks/analytic/loop_runs.h"
 
 namespace twinarm::compare_page {
 namespace {
 
-std::string figure(const std::string& svg, const std::string& caption, const char* kind = "") {
+std::string figure(const std::string& drawn, const std::string& caption, const char* kind = "") {
+  const std::string svg = small_svg(drawn);
   const std::size_t begin = svg.find("<svg");  // without the XML declaration
   if (svg.empty() || begin == std::string::npos) return "";
   return fmt::format("<figure{}><svg role=img{}<figcaption>{}</figcaption></figure>\n", kind,
@@ -28,7 +31,7 @@ std::string fact(const std::string& name, const std::string& value) {
   return fmt::format("<div><span>{}</span> <b>{}</b></div>", name, value);
 }
 
-std::string facts_of_case(const CompareRow& row) {
+std::string facts_of_case(const CompareRow& row, const TrajectoryCase* motion) {
   const AnalyticCase& c = *row.test;
   std::string html = "<div class=facts>" + fact("error", fmt::format("{:.3g}", row.result.error)) +
                      fact("tolerance", fmt::format("{:.3g}", c.tolerance));
@@ -36,8 +39,7 @@ std::string facts_of_case(const CompareRow& row) {
   if (row.result.energy_drift)
     html += fact("energy drift", fmt::format("{:.1e}", *row.result.energy_drift));
   html += fact("time", fmt::format("{:.2f} s", row.seconds));
-  if (c.trajectory && c.trajectory->has_steps())
-    html += fact("judged with", lane_words(c.trajectory->lane));
+  if (motion && motion->has_steps()) html += fact("judged with", lane_words(motion->lane));
   return html + "</div>\n";
 }
 
@@ -64,27 +66,19 @@ std::string readings_table(const TrajectoryCase& c) {
   return html + "</tbody></table>\n";
 }
 
-std::string figures_of(const CompareRow& row) {
-  const TrajectoryCase& c = *row.test->trajectory;
+std::string figures_of(const CompareRow& row, const TrajectoryCase& c) {
   const std::string name = row.test->name;
   const CaseCurves curves = curves_of(c);
   Gnuplot gnuplot{std::filesystem::path()};
-  std::string caption = "<b>Run and reference.</b> Lines: " + lane_words(c.lane) +
-                        "; circles: the reference, where it is known.";
-  if (c.events.count > 0)
-    caption +=
-        " The reference is of the times at which something passes zero, and of what is read then.";
+  std::string caption = "Run (" + lane_words(c.lane) + ") and reference.";
+  if (c.events.count > 0) caption += " Known are the events: times, and what is read at them.";
   if (curves.cut) caption += " Only the beginning is drawn.";
   const std::string pair =
       figure(error_figure(gnuplot, name, curves, row.test->tolerance),
-             "<b>Error against step</b>, in the unit of the tolerance. Behind each name its slope: "
-             "the order. Colours are orders, marks are schemes; dopri5 by its mean step.") +
+             "Error against step, with the slopes.") +
       figure(energy_figure(gnuplot, name, curves),
-             curves.energy_kept
-                 ? "<b>Energy over time.</b> Nothing takes or gives energy here: what is seen is "
-                   "the scheme's."
-                 : "<b>Energy over time.</b> Forces are meant to change it here, or it is an "
-                   "energy of motion and gravity alone.");
+             curves.energy_kept ? "Energy over time; nothing but the scheme changes it."
+                                : "Energy over time; forces change it, or hold some of it.");
   return figure(motion_figure(gnuplot, name, curves), caption, " class=wide") + "<div class=pair>" +
          pair + "</div>\n";
 }
@@ -107,9 +101,10 @@ std::string case_section(const CompareRow& row, const std::vector<Lane>& lanes) 
       fmt::format("<section class=case id=\"{0}\"><h3>{0}{1}<span class=what>{2}</span></h3>\n",
                   escaped(c.name), yes_no(pass, "pass", "short"), escaped(c.reference));
   const char* statement = statement_of(c);
-  html += typeset_statement(statement ? statement : "") + facts_of_case(row) + lanes_table(row);
-  if (c.trajectory)
-    html += c.trajectory->has_steps() ? figures_of(row) : readings_table(*c.trajectory);
+  const auto motion = c.trajectory ? c.trajectory : loop_motion(c.name);
+  html += typeset_statement(statement ? statement : "") + facts_of_case(row, motion.get()) +
+          lanes_table(row);
+  if (motion) html += motion->has_steps() ? figures_of(row, *motion) : readings_table(*motion);
   html += command_of(row, lanes);
   const CaseCode code = code_of(c.name);
   if (!code.file.empty())

@@ -5,7 +5,7 @@ namespace twinarm::compare_page {
 
 inline constexpr const char* kPageStyle = R"css(
 table.index td { white-space: nowrap; }
-table.index td.text { white-space: normal; min-width: 16rem; }
+table.index td.text { white-space: normal; min-width: 16rem; width: 55%; }
 table.index { font-size: .82rem; line-height: 1.35; }
 table.index th, table.index td { padding: .2rem .45rem; }
 table.index tr.group th { text-align: left; padding-top: .9rem; font-size: .92rem; }
@@ -24,6 +24,10 @@ section.case figure { margin: .7rem 0; }
 .facts { display: flex; flex-wrap: wrap; gap: .1rem 1.7rem; font-size: .9rem; margin: .5rem 0; }
 .facts b { font-weight: 600; font-variant-numeric: tabular-nums; }
 .facts span { color: var(--soft); }
+figure svg { font-family: "DejaVu Sans", Verdana, sans-serif; stroke-linecap: round;
+  stroke-linejoin: round; }
+.l { fill: none; stroke: currentColor; }
+section.case p sub, section.case p sup { line-height: 0; font-size: .72em; }
 .readings { width: auto; }
 .command { margin: .6rem 0; padding: .45rem .8rem; }
 details pre { font-size: .76rem; }
@@ -34,9 +38,15 @@ details pre { font-size: .76rem; }
   table.index { font-size: 6.8pt; }
   table.index th, table.index td { padding: .1rem .22rem; }
   table.index td.text { min-width: 0; }
+  figcaption, .note { font-size: 8pt; margin-top: .1rem; }
+  section.case p { margin: .3rem 0; }
+  section.case h3 { font-size: 11pt; }
+  .facts, .readings { font-size: 8.4pt; }
+  .command { padding: .25rem .6rem; }
   .pair { gap: 0 10px; break-inside: avoid; }
-  section.case figure { margin: .4rem 0; }
-  section.case figure.wide svg { width: 88%; }
+  section.case figure { margin: .3rem 0; }
+  section.case figure.wide svg { width: 86%; }
+  .pair svg { width: 92%; }
   details { display: none; }
   details[open] { display: block; }
   a { color: inherit; text-decoration: none; }

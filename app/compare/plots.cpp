@@ -11,7 +11,7 @@ namespace twinarm::compare_page {
 namespace {
 
 // A page has hundreds of curves: fewer points than in a report of ten figures.
-constexpr std::size_t kStretches = 220;
+constexpr std::size_t kStretches = 120;
 constexpr std::size_t kMostPanels = 3;
 
 struct LineLook {
@@ -54,6 +54,7 @@ std::string id_of(const char* kind, const std::string& name) {
 
 // "angle [rad]" has the unit "rad".
 std::string unit_of(const std::string& reading) {
+  if (reading == kEventFunction) return "any unit";
   const std::size_t open = reading.find('['), close = reading.find(']');
   if (open == std::string::npos || close == std::string::npos || close < open) return "";
   std::string unit = reading.substr(open + 1, close - open - 1);
@@ -133,7 +134,8 @@ std::string motion_figure(Gnuplot& gnuplot, const std::string& name, const CaseC
   constexpr int kPanel = 165, kRest = 62;
   const int height = kPanel * static_cast<int>(panels.size()) + kRest;
   std::string script = "set multiplot\nset lmargin at screen 0.088\nset rmargin at screen 0.80\n";
-  script += fmt::format("set xrange [0:{:g}]\n", curves.t.back());
+  const double end = curves.exact_t.empty() ? 0 : curves.exact_t.back();
+  script += fmt::format("set xrange [0:{:.9g}]\n", std::max(curves.t.back(), end));
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const double top = 1 - (14. + kPanel * double(p)) / height;
     const double bottom = 1 - (kPanel * double(p + 1) - 14.) / height;
@@ -147,8 +149,8 @@ std::string motion_figure(Gnuplot& gnuplot, const std::string& name, const CaseC
                                      : "set format x ''\nunset xlabel\n";
     script += range_of(curves, panels[p]) + panel_plots(gnuplot, curves, panels[p]) + "\n";
   }
-  return gnuplot.svg(id_of("motion_", name), name + ": readings over time, run and exact", 900,
-                     height, script + "unset multiplot\n");
+  return gnuplot.svg(id_of("m", name), name + ": readings over time, run and exact", 900, height,
+                     script + "unset multiplot\n");
 }
 
 std::string error_figure(Gnuplot& gnuplot, const std::string& name, const CaseCurves& curves,
@@ -182,12 +184,12 @@ std::string error_figure(Gnuplot& gnuplot, const std::string& name, const CaseCu
   const std::string script =
       "set logscale xy\nset format x '10^{%T}'\nset format y '10^{%T}'\nset termoption enhanced\n" +
       decades("x", short_step, long_step) + decades("y", low, high) +
-      "set lmargin at screen 0.145\nset rmargin at screen 0.66\nset tmargin at screen 0.96\n"
-      "set bmargin at screen 0.155\nset xlabel 'step [s]' offset 0,0.3\n"
+      "set lmargin at screen 0.155\nset rmargin at screen 0.625\nset tmargin at screen 0.96\n"
+      "set bmargin at screen 0.19\nset xlabel 'step [s]' offset 0,0.3\n"
       "set ylabel 'error' offset 0.6,0\n"
-      "set key noenhanced at screen 0.675,0.975 left top Left reverse samplen 1.6 spacing 1.12 "
+      "set key noenhanced at screen 0.64,0.975 left top Left reverse samplen 1.6 spacing 1.12 "
       "font ',11.5'\n";
-  return gnuplot.svg(id_of("error_", name), name + ": error against step, with slopes", 560, 330,
+  return gnuplot.svg(id_of("e", name), name + ": error against step, with slopes", 510, 310,
                      script + plots);
 }
 
@@ -196,16 +198,16 @@ std::string energy_figure(Gnuplot& gnuplot, const std::string& name, const CaseC
   const auto [low, high] = std::minmax_element(curves.energy.begin(), curves.energy.end());
   std::string script =
       "set lmargin at screen 0.175\nset rmargin at screen 0.975\nset tmargin at screen 0.90\n"
-      "set bmargin at screen 0.155\nset xlabel 'time [s]' offset 0,0.3\nunset key\n";
+      "set bmargin at screen 0.19\nset xlabel 'time [s]' offset 0,0.3\nunset key\n";
   script += fmt::format("set xrange [0:{:g}]\n", curves.t.back());
   if (!(*high > *low)) script += fmt::format("set yrange [{:g}:{:g}]\n", *low - 1, *high + 1);
   script += fmt::format(
       "set label 1 {} at graph 0,1.045 left font ',12' textcolor '#333333'\n",
       in_quotes(curves.energy_kept ? "(E − E₀) / largest kinetic energy  [1]" : "energy  [J]"));
-  if (curves.energy_kept) script += "set format y '%.1e'\n";
+  if (curves.energy_kept) script += "set format y '%.2g'\n";
   script += fmt::format("plot {} with lines lw 1.6 lc '{}'",
                         gnuplot.curve(curves.t, curves.energy, kStretches), palette::ink);
-  return gnuplot.svg(id_of("energy_", name), name + ": energy over time", 560, 330, script);
+  return gnuplot.svg(id_of("n", name), name + ": energy over time", 510, 310, script);
 }
 
 }  // namespace twinarm::compare_page

@@ -137,6 +137,7 @@ std::string Gnuplot::curve(const std::vector<double>& x, const std::vector<doubl
     keep(std::min(low, high));
     if (low != high) keep(std::max(low, high));
   }
+  keep(n - 1);  // a line ends where its data do
   return data({kept_x, kept_y});
 }
 

@@ -75,9 +75,10 @@ TrajectoryCase driven() {
 TrajectoryCase resonance() {
   TrajectoryCase c = driven();
   c.statement =
-      "The same after 40 s: <p>A = F / |k &minus; mW<sup>2</sup> + icW|, tan &phi; = "
+      "The same after 40 s: <p>A = F / |k &minus; mW<sup>2</sup> + i c W|, tan &phi; = "
       "cW/(k &minus; mW<sup>2</sup>)</p>";
   c.times = {40};
+  c.at_times_only = true;
   c.readings = {"amplitude [m]", "lag [rad]"};
   c.observe = [](const Model<double>&, const State<double>& x) {
     const std::complex<double> turning(x.q[0], -x.qd[0] / kDrive);
@@ -112,6 +113,7 @@ TrajectoryCase stick() {
       "&le; F</p>";
   c.scene = [] { return oscillator(0.097, 0, 0.5, 0); };
   c.times = {std::numbers::pi, 3.5, 5};
+  c.at_times_only = true;  // not before the first
   c.reference = [](double) { return CaseReadings{-0.003, 0}; };
   c.mutant = more_inertia;
   return c;

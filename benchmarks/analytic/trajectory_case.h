@@ -81,8 +81,9 @@ struct TrajectoryCase {
   CaseMeasure measure = largest_difference;
   void (*mutant)(CaseScene&) = more_gravity;  // with this mistake the error is above the tolerance
   CaseEvents events{};
-  bool of_its_lane =
-      false;  // the reference is what a scheme gives at its step: no lane but its own
+  // The reference is what a scheme gives at its step: no lane but its own.
+  bool of_its_lane = false;
+  bool at_times_only = false;  // the reference is known at the times and nowhere between
 
   bool has_steps() const { return events.count > 0 || times.back() > 0; }
   bool takes_lanes() const { return has_steps() && !of_its_lane; }

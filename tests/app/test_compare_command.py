@@ -176,8 +176,8 @@ class Tags(html.parser.HTMLParser):
 
 class Page(unittest.TestCase):
     """One page of cases of every kind, made once."""
-    NAMES = ["A1", "A5-ballistic", "B1-45", "B3-start", "C3-2", "D7", "E6-two", "E2-slide",
-             "G1-rk4", "G4-rk4", "F5"]
+    NAMES = ["A1", "A5-ballistic", "B1-45", "B3-start", "C3-2", "D1-hinge", "D7", "E6-two",
+             "E2-slide", "G1-rk4", "G4-rk4", "F5"]
 
     @classmethod
     def setUpClass(cls):
@@ -218,7 +218,7 @@ class Page(unittest.TestCase):
 
     def test_every_case_has_its_row_and_its_section_with_formula_and_code(self):
         names = [c["name"] for c in self.answer["cases"]]
-        self.assertEqual(len(names), len(self.NAMES) - 1)
+        self.assertLess(set(self.NAMES) - {"F5"}, set(names))  # A1-start and others too
         self.assertEqual(re.findall(r'<tr data-case="([^"]+)">', self.page), names)
         self.assertEqual(list(self.sections), names)
         for name, section in self.sections.items():
@@ -241,14 +241,16 @@ class Page(unittest.TestCase):
         self.assertIn(self.answer["skipped"][0]["why"], row)
 
     def test_a_motion_is_drawn_with_its_errors_and_energy_and_a_state_has_its_readings(self):
-        for name, figures in {"A1": 3, "B1-45": 3, "G1-rk4": 2, "A5-ballistic": 2}.items():
+        for name, figures in {"A1": 3, "B1-45": 3, "G1-rk4": 2, "A5-ballistic": 2,
+                              "D1-hinge": 2}.items():
             self.assertEqual(self.sections[name].count("<svg"), figures, name)
         for scheme in ("euler", "verlet", "rk4", "dopri5", "trapezoid"):
             self.assertIn(scheme, self.sections["A1"])
         self.assertIn("step [s]", self.sections["A1"])
         self.assertIn("time [s]", self.sections["A1"])
         self.assertIn("14.715", self.sections["B3-start"])
-        self.assertNotIn("<svg", self.sections["E6-two"])
+        for name in ("B3-start", "E6-two", "D7"):
+            self.assertNotIn("<svg", self.sections[name])
 
     def test_the_slopes_beside_the_schemes_are_their_orders(self):
         text = re.sub(r"<[^>]+>", " ", self.sections["A1"])
