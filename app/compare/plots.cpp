@@ -133,7 +133,7 @@ std::string motion_figure(Gnuplot& gnuplot, const std::string& name, const CaseC
   if (panels.empty() || curves.t.size() < 2) return "";
   constexpr int kPanel = 165, kRest = 62;
   const int height = kPanel * static_cast<int>(panels.size()) + kRest;
-  std::string script = "set multiplot\nset lmargin at screen 0.088\nset rmargin at screen 0.80\n";
+  std::string script = "set multiplot\nset lmargin at screen 0.105\nset rmargin at screen 0.80\n";
   const double end = curves.exact_t.empty() ? 0 : curves.exact_t.back();
   script += fmt::format("set xrange [0:{:.9g}]\n", std::max(curves.t.back(), end));
   for (std::size_t p = 0; p < panels.size(); ++p) {

@@ -288,6 +288,16 @@ class PageFaults(unittest.TestCase):
             self.assertIn("install gnuplot-nox", result.stderr)
             self.assertEqual(os.listdir(folder), [])
 
+    def test_ctrl_c_leaves_no_page(self):
+        with tempfile.TemporaryDirectory() as folder:
+            process = subprocess.Popen([PROGRAM, "compare", "--html", folder + "/out"],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=60)
+            self.assertEqual((process.returncode, out), (130, ""), err)
+            self.assertEqual(os.listdir(folder), [])
+
     def test_a_file_name_may_be_given_in_place_of_a_folder(self):
         with tempfile.TemporaryDirectory() as folder:
             result = run("D7", "--html", folder + "/mine.html")
