@@ -1,5 +1,6 @@
 #include "benchmarks/analytic/analytic_case.h"
 #include "benchmarks/analytic/contact_cases.h"
+#include "benchmarks/analytic/engine_tasks.h"
 #include "benchmarks/analytic/loop_runs.h"
 #include "benchmarks/analytic/run_trajectory.h"
 #include "benchmarks/analytic/smooth_cases.h"
@@ -46,6 +47,7 @@ const std::vector<AnalyticCase>& analytic_cases() {
              coupling_stability(),
              golden_pendulum(),
              integrators(),
+             engine_tasks::cases(),
          })
       cases.insert(cases.end(), family.begin(), family.end());
     return cases;

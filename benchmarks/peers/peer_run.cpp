@@ -1,0 +1,101 @@
+#include "benchmarks/peers/peer_run.h"
+
+#include <algorithm>
+#include <ctime>
+#include <exception>
+#include <iostream>
+
+namespace twinarm::peers {
+namespace {
+
+double thread_seconds() {  // CPU time of this thread
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// When a run is looked at.
+std::vector<double> looks(const PeerCase& c) {
+  if (!c.times.empty()) return c.times;
+  std::vector<double> all;
+  for (long n = 1; n <= std::lround(c.duration / c.step); ++n)
+    all.push_back(static_cast<double>(n) * c.step);
+  return all;
+}
+
+// The first run: what it comes to. Looking is not timed.
+void observe(Row& row, double budget) {
+  row.peer->load(row.test->scene, row.scheme, row.h);
+  const Judge judge = row.test->judge();
+  std::vector<double> q, v;
+  double spent = 0;
+  for (const double t : looks(*row.test)) {
+    const double start = thread_seconds();
+    row.peer->advance(t);
+    spent += thread_seconds() - start;
+    row.peer->read(q, v);
+    row.error = judge(t, q, v);
+    if (!row.scheme.adaptive) row.steps = std::lround(t / row.h);
+    if (!std::isfinite(row.error)) {
+      row.stopped = "not a number after " + std::to_string(t) + " s";
+      break;
+    }
+    if (spent > budget && t < row.test->duration - 1e-9) {
+      row.stopped = "took longer than the budget, after " + std::to_string(t) + " s of the scene";
+      break;
+    }
+  }
+  row.seconds.push_back(spent);
+}
+
+// Those that follow: nothing but the steps. As often as a clock needs.
+void repeat(Row& row) {
+  constexpr double kLongEnough = 2e-3;
+  const std::vector<double> times =
+      row.test->times.empty() ? std::vector{row.test->duration} : row.test->times;
+  double spent = 0;
+  int runs = 0;
+  do {
+    row.peer->load(row.test->scene, row.scheme, row.h);
+    const double start = thread_seconds();
+    for (const double t : times) row.peer->advance(t);
+    spent += thread_seconds() - start;
+    ++runs;
+  } while (spent < kLongEnough);
+  row.seconds.push_back(spent / runs);
+}
+
+}  // namespace
+
+void measure(std::vector<Row>& rows, int repetitions, double budget) {
+  constexpr double kOnceIsEnough = 2;  // seconds
+  for (Row& row : rows) {
+    std::cerr << "bench_peers: " << row.test->name << ", " << row.peer->name() << ' '
+              << row.scheme.name << '\n';
+    try {
+      observe(row, budget);
+    } catch (const std::exception& fault) {
+      row.stopped = fault.what(), row.error = NAN;
+    }
+  }
+  for (int n = 0; n < repetitions && repetitions > 1; ++n)
+    for (Row& row : rows)
+      if (row.stopped.empty() && row.seconds[0] < kOnceIsEnough) {
+        if (n == 0) row.seconds.clear();  // it had looks in it, and cold caches
+        repeat(row);
+      }
+}
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return NAN;
+  std::ranges::sort(values);
+  return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
+}
+
+double spread_of(const std::vector<double>& values) {
+  if (values.size() < 2) return NAN;
+  const auto [least, most] = std::ranges::minmax(values);
+  return (most - least) / median_of(values);
+}
+
+}  // namespace twinarm::peers

@@ -1,0 +1,34 @@
+// Runs cases in engines, one row for each engine, scheme and step.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "benchmarks/peers/peer.h"
+#include "benchmarks/peers/peer_cases.h"
+
+namespace twinarm::peers {
+
+// One engine with one scheme and step in one case.
+struct Row {
+  Peer* peer;
+  const PeerCase* test;
+  Scheme scheme;
+  double h;  // or the tolerance
+  double error = NAN;
+  long steps = 0;                 // of a fixed step; 0: adaptive
+  std::vector<double> seconds{};  // by repetition: CPU time of the whole run
+  std::string stopped{};          // why it did not come to its end
+};
+
+// Each once for its error, which is not timed, then in `repetitions` turns for its time: in a turn
+// all rows run one after the other, so that what disturbs the machine for a while disturbs all of
+// them. A run that takes longer than `budget` [s] is stopped, and says so.
+void measure(std::vector<Row>& rows, int repetitions, double budget);
+
+double median_of(std::vector<double> values);  // not a number of none
+double spread_of(
+    const std::vector<double>& values);  // (longest - shortest) / median, of two or more
+
+}  // namespace twinarm::peers
