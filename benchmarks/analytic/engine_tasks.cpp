@@ -64,8 +64,8 @@ class Pushes final : public ForceSource {
   const Task& task_;
 };
 
-// In our own solver, in steps of 1 ms.
-double error_of(const Task& task) {
+// In our own solver, in steps of 1 ms; judged as `truth` says.
+double error_of(const Task& task, const Task& truth) {
   ContactScene scene;
   const double e = std::sqrt(task.restitution), mu = task.friction;
   // a pair takes the geometric mean of the frictions
@@ -76,7 +76,7 @@ double error_of(const Task& task) {
   scene.start();
   Pushes pushes(task);
   scene.simulation().add(pushes);
-  MeanError error(task);
+  MeanError error(truth);
   std::vector<Moving> bodies(task.bodies.size());
   double mean = NAN;
   for (long n = 1; n <= std::lround(task.duration / kStep); ++n) {
@@ -92,7 +92,22 @@ double error_of(const Task& task) {
   return mean;
 }
 
-// Mistakes of 0.1 %.
+double error_of(const Task& task) {
+  return error_of(task, task);
+}
+
+// As much of a task as a run of all cases has time for; scripts/peers runs the whole.
+Task first(double seconds, Task task) {
+  task.duration = seconds;
+  return task;
+}
+
+// Mistakes: of 0.1 %, and balls that come nearer than they should.
+Task smaller(Task task) {
+  for (TaskBody& b : task.bodies)
+    for (double& r : b.half) r *= 0.95;
+  return task;
+}
 Task heavier(Task task) {
   for (TaskBody& b : task.bodies) b.mass *= 1.001;
   return task;
@@ -195,15 +210,23 @@ std::vector<AnalyticCase> cases() {
        [] { return CaseResult{error_of(bouncing())}; },
        {},
        [] { return CaseResult{error_of(less_elastic(bouncing()))}; }},
-      {"H1-666", group, "216 balls fall on each other: overlaps squared, mean [m2]", 1e-3,
-       [] { return CaseResult{error_of(pile(false))}; }},
+      {"H1-666",
+       group,
+       "216 balls fall on each other, 0.55 s: overlaps squared, mean [m2]",
+       1e-3,
+       [] { return CaseResult{error_of(first(0.55, pile(false)))}; },
+       {},
+       [] {
+         const Task task = first(0.55, pile(false));
+         return CaseResult{error_of(smaller(task), task)};
+       }},
       {"H1-666-elastic",
        group,
-       "the same, elastic: energy, mean square [J2]",
+       "the same, elastic, 2 s: energy, mean square [J2]",
        50,
-       [] { return CaseResult{error_of(pile(true))}; },
+       [] { return CaseResult{error_of(first(2, pile(true)))}; },
        {},
-       [] { return CaseResult{error_of(less_elastic(pile(true)))}; }},
+       [] { return CaseResult{error_of(less_elastic(first(2, pile(true))))}; }},
   };
 }
 

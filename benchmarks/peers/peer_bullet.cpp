@@ -27,19 +27,28 @@ bool all_free(const Scene& scene) {
                      [](const Body& b) { return b.joint == Joint::free; });
 }
 
+bool has_boxes(const Scene& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const Body& b) { return b.form == Form::box; });
+}
+
 // Members are destroyed from the last to the first: bodies after the world.
 struct BulletWorld {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broad_phase;
-  btMultiBodyConstraintSolver solver;
+  btMultiBodyConstraintSolver tree_solver;
+  btSequentialImpulseConstraintSolver solver;
   std::vector<std::unique_ptr<btCollisionShape>> shapes;
   std::vector<std::unique_ptr<btRigidBody>> bodies;
   std::unique_ptr<btCollisionObject> floor;
   std::unique_ptr<btMultiBody> tree;
-  btMultiBodyDynamicsWorld world{&dispatcher, &broad_phase, &solver, &configuration};
+  btMultiBodyDynamicsWorld tree_world{&dispatcher, &broad_phase, &tree_solver, &configuration};
+  btDiscreteDynamicsWorld free_world{&dispatcher, &broad_phase, &solver, &configuration};
+  btDiscreteDynamicsWorld& world;
 
-  explicit BulletWorld(const Scene& scene) {
+  explicit BulletWorld(const Scene& scene)
+      : world(all_free(scene) ? free_world : static_cast<btDiscreteDynamicsWorld&>(tree_world)) {
     world.setGravity(bt3(scene.gravity));
     if (scene.uncorrected) world.getSolverInfo().m_erp = world.getSolverInfo().m_erp2 = 0;
     if (all_free(scene))
@@ -48,15 +57,21 @@ struct BulletWorld {
       make_tree(scene);
     if (!scene.floor) return;
     floor = std::make_unique<btCollisionObject>();
-    floor->setCollisionShape(
-        shapes.emplace_back(std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), 0)).get());
+    if (has_boxes(
+            scene)) {  // a half-space finds one corner of a box in a step, and loses the others
+      shapes.push_back(std::make_unique<btBoxShape>(btVector3(100, 100, 1)));
+      floor->setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(0, 0, -1)));
+    } else {
+      shapes.push_back(std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), 0));
+    }
+    floor->setCollisionShape(shapes.back().get());
     floor->setFriction(scene.friction > 0 ? scene.floor_friction / std::sqrt(scene.friction) : 0);
     floor->setRestitution(std::sqrt(scene.restitution));
     world.addCollisionObject(floor.get(), btBroadphaseProxy::StaticFilter,
                              btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter);
   }
   ~BulletWorld() {
-    if (tree) world.removeMultiBody(tree.get());
+    if (tree) tree_world.removeMultiBody(tree.get());
     while (world.getNumCollisionObjects() > 0)
       world.removeCollisionObject(world.getCollisionObjectArray()[0]);
   }
@@ -100,7 +115,7 @@ struct BulletWorld {
     tree->setAngularDamping(0);
     tree->setMaxCoordinateVelocity(1e30);  // it would be clipped at 100
     tree->setCanSleep(false);
-    world.addMultiBody(tree.get());
+    tree_world.addMultiBody(tree.get());
   }
 };
 

@@ -13,6 +13,8 @@
 #include <dart/dynamics/WeldJoint.hpp>
 #include <dart/simulation/World.hpp>
 
+#include <iostream>
+
 #include "benchmarks/peers/peer.h"
 
 namespace twinarm::peers {
@@ -32,12 +34,25 @@ void write_quaternion(const Eigen::Matrix3d& R, double* q) {
   q[0] = turn.w(), q[1] = turn.x(), q[2] = turn.y(), q[3] = turn.z();
 }
 
+// DART tells of names that it changes, and on stdout, where the answer goes.
+class SaidOnStderr {
+ public:
+  SaidOnStderr() : out_(std::cout.rdbuf(std::cerr.rdbuf())) {}
+  ~SaidOnStderr() { std::cout.rdbuf(out_); }
+  SaidOnStderr(const SaidOnStderr&) = delete;
+  SaidOnStderr& operator=(const SaidOnStderr&) = delete;
+
+ private:
+  std::streambuf* out_;
+};
+
 class Dart final : public FixedStepPeer {
  public:
   std::string name() const override { return "dart"; }
   std::vector<Scheme> schemes(const Scene&) const override { return {{"semi-implicit"}}; }
 
   void load(const Scene& scene, const Scheme&, double h) override {
+    const SaidOnStderr quiet;
     begin(h);
     scene_ = scene;
     static const double its_own = ContactConstraint::getErrorReductionParameter();
@@ -89,10 +104,12 @@ class Dart final : public FixedStepPeer {
                      const typename JointType::Properties& properties) {
     return skeleton->createJointAndBodyNodePair<JointType>(parent, properties).second;
   }
-  dd::BodyNode* add(const Body& b) {
+  dd::BodyNodePtr add(const Body& b) {
     dd::BodyNode* parent =
         b.parent < 0 ? nullptr : bodies_[static_cast<std::size_t>(b.parent)].get();
-    const dd::SkeletonPtr skeleton = parent ? parent->getSkeleton() : dd::Skeleton::create();
+    const dd::SkeletonPtr skeleton =
+        parent ? parent->getSkeleton()
+               : dd::Skeleton::create("of " + std::to_string(bodies_.size()));
     dd::Joint::Properties placed;
     placed.mT_ParentBodyToJoint.linear() = rotation(b.turn.data());
     placed.mT_ParentBodyToJoint.translation() = eigen(b.position);
