@@ -101,8 +101,11 @@ class Dart final : public FixedStepPeer {
  private:
   template <class JointType>
   dd::BodyNode* make(const dd::SkeletonPtr& skeleton, dd::BodyNode* parent,
-                     const typename JointType::Properties& properties) {
-    return skeleton->createJointAndBodyNodePair<JointType>(parent, properties).second;
+                     typename JointType::Properties properties) {
+    const std::string number = std::to_string(bodies_.size());  // or it renames them, and tells
+    properties.mName = "joint " + number;
+    const dd::BodyNode::AspectProperties named("body " + number);
+    return skeleton->createJointAndBodyNodePair<JointType>(parent, properties, named).second;
   }
   dd::BodyNodePtr add(const Body& b) {
     dd::BodyNode* parent =

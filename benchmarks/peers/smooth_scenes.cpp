@@ -101,8 +101,8 @@ PeerCase falling_puma() {
   const auto model = std::make_shared<const Model<double>>(puma());
   State<double> start(*model);
   start.q = {0.3, -0.6, 0.8, 0.4, -0.5, 0.2};
-  PeerCase result{"PUMA", "smooth", "puma6 of bench_speed falls from rest, 1 s", "rad, rad/s",
-                  scene_of("PUMA", *model, start)};
+  PeerCase result{"PUMA", "smooth", "an arm of the size of a PUMA 560 falls from rest, 1 s",
+                  "rad, rad/s", scene_of("PUMA", *model, start)};
   result.times = {0.5, 1}, result.duration = 1;
   result.judge = [model, start, times = result.times] {
     auto exact = std::make_shared<std::vector<State<double>>>();
