@@ -3,6 +3,7 @@
 #include "app/scene/scene_builder.h"
 #include "solver/fault.h"
 #include "solver/kinematics.h"
+#include "solver/turn.h"
 
 namespace twinarm {
 namespace {
@@ -21,11 +22,6 @@ std::size_t robot_named(const SceneDescription& scene, const std::string& name) 
   std::size_t r = 0;
   while (scene.robots[r].name != name) ++r;  // the reader has seen it
   return r;
-}
-
-// R whose z is the axis.
-Matrix3 turned_to(const Vector3& axis) {
-  return Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), axis).toRotationMatrix();
 }
 
 class ConstraintBuilder {
@@ -106,7 +102,7 @@ class ConstraintBuilder {
     }
     Pose X_WC;
     X_WC.p = given.point.value_or(X_WA.p);
-    if (given.axis) X_WC.R = turned_to(*given.axis);
+    if (given.axis) X_WC.R = turn_z_to(*given.axis);
     made.X_AC = X_WA.inverse() * X_WC;
     made.X_BC = X_WB.inverse() * X_WC;
   }

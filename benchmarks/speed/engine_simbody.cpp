@@ -8,6 +8,7 @@
 
 #include "benchmarks/speed/eigen.h"
 #include "benchmarks/speed/engine.h"
+#include "solver/turn.h"
 
 namespace twinarm::speed {
 namespace {
@@ -87,9 +88,7 @@ class Simbody : public Engine {
       return SimTK::MobilizedBody::Free(parent, SimTK::Transform(), body, SimTK::Transform());
     // its pin turns about z: frames whose z is the link's axis
     const Eigen::Matrix3d to_axis =
-        Eigen::Quaterniond::FromTwoVectors(
-            Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(static_cast<Eigen::Index>(link.axis)))
-            .toRotationMatrix();
+        turn_z_to(Eigen::Vector3d::Unit(static_cast<Eigen::Index>(link.axis)));
     const SimTK::Transform in_parent(rotation(matrix3(link.rotation) * to_axis),
                                      vec(vector3(link.position)));
     return SimTK::MobilizedBody::Pin(parent, in_parent, body, SimTK::Transform(rotation(to_axis)));
