@@ -41,7 +41,9 @@ int run_dynamics(const DynamicsOptions& options);
 struct InspectOptions {
   RobotOptions robot;
   std::vector<std::string> passes, bodies;  // none: all
-  std::string axes = "world";               // of the wrenches: world or link
+  std::string axes = "world";               // of the wrenches: world, link, or a body's name
+  std::string about = "origin";             // origin, com, a body's name, or x,y,z in the world
+  std::vector<std::string> forces;          // by name; none: all
   std::optional<double> step;               // of a scene [s]; left out: the scene's
   std::optional<double> at;                 // of a recording [s]; left out: its end
   bool json = false;

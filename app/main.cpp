@@ -112,8 +112,17 @@ void add_inspect(CLI::App& app, InspectOptions& options, std::function<int()>& c
   add_robot_options(*inspect, options.robot, "the robot's URDF, a scene in TOML, or a recording");
   inspect->add_option("--pass", options.passes, "1, 2 or 3; all if not given");
   inspect->add_option("--body", options.bodies, "names of links and bodies; all if not given");
-  inspect->add_option("--axes", options.axes, "of the wrenches: world or link")
+  inspect
+      ->add_option("--axes", options.axes,
+                   "of the wrenches: world, link (each body its own), or the name of a body")
       ->capture_default_str();
+  inspect
+      ->add_option("--about", options.about,
+                   "where torques are taken: origin or com (each body its own), the name of a "
+                   "body, or a point x,y,z of the world")
+      ->capture_default_str();
+  inspect->add_option("--force", options.forces,
+                      "read out these alone: coupling/NAME, contact/A-B, constraint/NAME ..");
   inspect->add_option("--at", options.at, "seconds; of a recording; its end if not given");
   inspect->add_option("--step", options.step, "of a scene: seconds; the scene's if not given");
   inspect->add_flag("--json", options.json, "print one JSON object on stdout");

@@ -60,7 +60,7 @@ Force<double> joint_force(const Inspection& in, std::size_t i) {
   return in.w.IA[i] * in.w.a[i] + in.w.pA[i];
 }
 
-BodyBalance balance_of(const Inspection& in, std::size_t body, BalanceAxes axes) {
+BodyBalance balance_of(const Inspection& in, std::size_t body, const Viewpoint& from) {
   BodyBalance balance;
   balance.body = body;
   std::vector<NamedWrench>& all = balance.wrenches;
@@ -78,12 +78,8 @@ BodyBalance balance_of(const Inspection& in, std::size_t body, BalanceAxes axes)
   all.push_back(inertia_of(in, body));
 
   Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
-  const Matrix3 R_LW = in.k.X_WL[body].R.transpose();
   for (NamedWrench& wrench : all) {
-    if (axes == BalanceAxes::link) {
-      wrench.force = R_LW * wrench.force;
-      wrench.torque = R_LW * wrench.torque;
-    }
+    wrench = from.see(in, body, std::move(wrench));
     force += wrench.force;
     torque += wrench.torque;
     balance.largest = std::max({balance.largest, wrench.force.lpNorm<Eigen::Infinity>(),

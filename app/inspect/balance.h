@@ -9,14 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "app/inspect/inspection.h"
+#include "app/inspect/viewpoint.h"
 
 namespace twinarm {
-
-struct NamedWrench {
-  std::string source;
-  Vector3 force, torque;  // the torque is about the link's origin
-};
 
 struct BodyBalance {
   std::size_t body = 0;
@@ -27,9 +22,7 @@ struct BodyBalance {
   double residual = 0;
 };
 
-enum class BalanceAxes { world, link };
-BodyBalance balance_of(const Inspection& in, std::size_t body,
-                       BalanceAxes axes = BalanceAxes::world);
+BodyBalance balance_of(const Inspection& in, std::size_t body, const Viewpoint& from = {});
 
 // At one degree of freedom of a joint: what pulls at it, the rotor's inertia, and what it hands on
 // to the body, S^T f with the sign that makes the sum zero.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct Actor {
   std::string source;  // as in the ledger: "wrench/0", "coupling/NAME", "joint/NAME/damping"
   std::vector<OnBody> bodies;
   std::vector<OnJoint> joints;
+  // Where it acts, if at a point; and the normal of a contact. World axes.
+  std::optional<Vector3> point_W{}, normal_W{};
 };
 
 // An actor of what a source of forces added to forces that were zero.

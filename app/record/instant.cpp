@@ -7,7 +7,6 @@
 
 #include "app/record/recording_reader.h"
 #include "app/record/recording_writer.h"
-#include "app/record/unpack.h"
 #include "app/simulate/run.h"
 #include "solver/kinematics.h"
 
@@ -44,12 +43,13 @@ RecordedInstant open_instant(const std::filesystem::path& file, std::optional<do
   for (const std::string& note : recording.notes()) fmt::print(stderr, "twinarm: {}\n", note);
   const RecordedFrame frame =
       recording.frame(at ? recording.at(*at, "--at") : recording.size() - 1);
-  const UnpackedRun files(recording.header());
-  SimulateOptions options = files.options();
+  const auto files = std::make_shared<const UnpackedRun>(recording.header());
+  SimulateOptions options = files->options();
   options.integrator = "semi-implicit";
   options.step = recording.header().step;
   options.tolerance.reset();
-  RecordedInstant instant{prepare_simulation(options), simulation_memory(frame.memory), frame.t};
+  RecordedInstant instant{prepare_simulation(options), simulation_memory(frame.memory), frame.t,
+                          files};
   Memory memory = instant.memory;
   State<double> x(instant.prepared.input.robot.model);
   memory.visit(x.q);

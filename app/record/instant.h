@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 
+#include "app/record/unpack.h"
 #include "app/simulate/simulate_input.h"
 #include "solver/memory.h"
 
@@ -16,6 +18,8 @@ struct RecordedInstant {
   SimulatePlan prepared;  // its state is that of the instant; so are the points of wrenches
   Memory memory;          // for Simulation::visit_memory of a simulation that is built alike
   double t = 0;           // of the frame [s]
+  // The files that it was made from: meshes are read when contacts are set up, which is later.
+  std::shared_ptr<const UnpackedRun> files;
 };
 
 // The last frame at or before `at`; left out: the last of all. With semi-implicit steps. Throws

@@ -114,8 +114,11 @@ class Inspect(RobotCommand):
         self.assertEqual([b["body"] for b in found["balance"]], ["arm2"])
 
     def test_every_page_for_people_fits_a_terminal(self):
-        for urdf in (S103, PUMA):
-            text = self.run_it(urdf).stdout
+        moving = ROOT / "assets/states/puma_qn_moving.json"
+        for model, state in ((S103, None), (S103, STATE), (PUMA, moving),
+                             ("assets/scenes/box_stack.toml", None),
+                             ("assets/scenes/four_bar.toml", None)):
+            text = self.run_it(model, state=state).stdout
             self.assertIn("PASS 3", text)
             wide = [line for line in text.splitlines() if len(line) > 100]
             self.assertEqual(wide, [])
@@ -133,10 +136,10 @@ class Inspect(RobotCommand):
 
     def test_unknown_names_are_all_told_at_once_with_the_nearest(self):
         errors = self.errors(S103, "--body", "amr2", "--body", "nothing", "--pass", "4",
-                             "--axes", "wrold")
-        self.assertEqual(len(errors), 4, errors)
+                             "--axes", "wrold", "--about", "gripepr", "--force", "wrench/0")
+        self.assertEqual(len(errors), 6, errors)
         text = "\n".join(errors)
-        for part in ("amr2", "arm2", "nothing", "--pass", "'4'", "wrold"):
+        for part in ("amr2", "arm2", "nothing", "--pass", "'4'", "wrold", "gripper", "wrench/0"):
             self.assertIn(part, text)
 
 

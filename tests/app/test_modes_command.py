@@ -79,12 +79,110 @@ class Modes(RobotCommand):
         for word in ("[Hz]", "period", "damping ratio", "shapes"):
             self.assertIn(word, text)
 
-    def test_faults_come_all_at_once(self):
-        scene = self.scene(HINGE, '[[constraint]]\nname = "tie"\ntype = "ball"\na = "rod"\n'
-                           'b = "world"\npoint = [0, 0, 0]\n')
-        errors = self.errors(scene)
+    def test_a_scene_with_nothing_that_is_held_is_refused(self):
+        scene = self.folder / "scene.toml"
+        scene.write_text('[[body]]\nname = "ball"\nshape = { sphere = { radius = 0.1 } }\nmass = 1\n')
+        errors = self.errors(str(scene))
         self.assertEqual(len(errors), 1, errors)
-        self.assertIn("tie", errors[0])
+        self.assertIn("neither a robot with a joint nor a constraint", errors[0])
+
+    def test_about_what_is_no_equilibrium_a_warning_says_so(self):
+        tilted = self.answer(PENDULUM, state={"q": {"hinge": 0.5}})
+        self.assertIn("no equilibrium: 'hinge' accelerates", tilted["warnings"][-1])
+        self.assertNotIn("equilibrium", "".join(self.answer(PENDULUM)["warnings"]))
+
+
+# Two cranks hang from the ceiling, a bar between their ends: w^2 = g (m + M) / (l (2 m / 3 + M)).
+LENGTH, CRANK, BAR, APART = 0.5, 1.5, 4.0, 0.8
+STIFFNESS = 9.81 * (CRANK + BAR) * LENGTH         # of the angle [N m]
+SWINGING = (2 * CRANK / 3 + BAR) * LENGTH ** 2    # [kg m^2]
+
+
+def crank(name):
+    about_com = CRANK * LENGTH ** 2 / 12
+    return link(name, CRANK, (0, 0, -LENGTH / 2), (about_com, 0, 0, about_com, 0, 0.001))
+
+
+PARALLELOGRAM = robot(
+    '<link name="base"/>', crank("left"), crank("right"),
+    link("bar", BAR, (APART / 2, 0, 0), (0.01, 0, 0, 0.3, 0, 0.3)),
+    joint("j_left", "continuous", "base", "left", axis="0 1 0"),
+    joint("j_right", "continuous", "base", "right", xyz=f"{APART} 0 0", axis="0 1 0"),
+    joint("pin", "continuous", "left", "bar", xyz=f"0 0 {-LENGTH}", axis="0 1 0"))
+
+
+class ModesOfLoops(RobotCommand):
+    command = "modes"
+    scene = Modes.scene
+
+    def test_a_parallelogram_swings_as_its_energies_say_with_every_type_of_pin(self):
+        for kind, more in (("ball", ""), ("hinge", "axis = [0, 1, 0]\n")):
+            scene = self.scene(PARALLELOGRAM, '[[constraint]]\nname = "far"\n'
+                               f'type = "{kind}"\na = "arm/bar"\nb = "arm/right"\n'
+                               f'point = [{APART}, 0, {-LENGTH}]\n{more}')
+            found = self.answer(scene)
+            mode, = found["modes"]
+            self.close(mode["frequency"], math.sqrt(STIFFNESS / SWINGING), 1e-10)
+            self.close([mode["shape"][j] for j in ("j_left", "j_right", "pin")], [1, 1, -1], 1e-9)
+            self.assertEqual(len(found["rows"]), 1)
+            self.assertEqual(len(found["A"]), 2)
+
+    def test_a_coupling_and_a_damper_act_through_the_loop(self):
+        k, b = 60.0, 0.9
+        scene = self.scene(PARALLELOGRAM, '[[constraint]]\nname = "far"\ntype = "ball"\n'
+                           f'a = "arm/bar"\nb = "arm/right"\npoint = [{APART}, 0, {-LENGTH}]\n'
+                           '[[coupling]]\nname = "pull"\ntype = "torsional"\n'
+                           f'measure = "joint"\nlink = "right"\nstiffness = {k}\n'
+                           f'damping = {b}\n')
+        mode, = self.answer(scene)["modes"]
+        w = math.sqrt((STIFFNESS + k) / SWINGING)
+        self.close([mode["frequency"], mode["damping_ratio"]], [w, b / (2 * SWINGING * w)], 1e-10)
+
+    def test_free_bodies_that_constraints_hold_swing_under_their_own_names(self):
+        # The same of three bodies, and a fourth that nothing holds: it is left out.
+        about = CRANK * LENGTH ** 2 / 12
+        rod = ('shape = {{ box = {{ size = [0.02, 0.02, 0.5] }} }}\nmass = {m}\ngroup = 1\n'
+               'inertia = [{i}, {i}, 0.001, 0, 0, 0]\ncom = [0, 0, 0]\n')
+        text = "".join(f'[[body]]\nname = "{name}"\nposition = [{x}, 0, {z}]\n'
+                       + rod.format(m=mass, i=i)
+                       for name, x, z, mass, i in (
+                           ("left", 0, -LENGTH / 2, CRANK, about),
+                           ("right", APART, -LENGTH / 2, CRANK, about),
+                           ("bar", APART / 2, -LENGTH, BAR, 0.3), ("loose", 9, 9, 1, 0.1)))
+        for n, (a, b, x, z) in enumerate((("world", "left", 0, 0), ("world", "right", APART, 0),
+                                          ("left", "bar", 0, -LENGTH),
+                                          ("right", "bar", APART, -LENGTH))):
+            text += (f'[[constraint]]\nname = "hinge{n}"\ntype = "hinge"\na = "{a}"\n'
+                     f'b = "{b}"\npoint = [{x}, 0, {z}]\naxis = [0, 1, 0]\n')
+        scene = self.folder / "scene.toml"
+        scene.write_text(text)
+        found = self.answer(str(scene))
+        mode, = found["modes"]
+        self.close(mode["frequency"], math.sqrt(STIFFNESS / SWINGING), 1e-9)
+        shape = mode["shape"]
+        self.assertEqual(sorted(shape), ["bar", "left", "right"])
+        # The cranks' middles go half as far as the bar; the bar does not turn.
+        turn = shape["left"][4]
+        self.close(shape["bar"], [-LENGTH * turn, 0, 0, 0, 0, 0], 1e-9)
+        self.close(shape["right"], [-LENGTH / 2 * turn, 0, 0, 0, turn, 0], 1e-9)
+
+    def test_a_constraint_that_asks_for_nothing_changes_nothing(self):
+        scene = self.scene(PENDULUM, '[[constraint]]\nname = "tie"\ntype = "ball"\n'
+                           'a = "arm/bob"\nb = "world"\npoint = [0, 0, 0]\n')
+        mode, = self.answer(scene)["modes"]
+        self.close(mode["frequency"], math.sqrt(9.81), 1e-11)
+
+    def test_a_gear_counts_the_far_wheel_by_its_ratio(self):
+        wheels = robot('<link name="base"/>', link("a", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.2)),
+                       link("b", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.5)),
+                       joint("ja", "continuous", "base", "a"),
+                       joint("jb", "continuous", "base", "b"))
+        scene = self.scene(wheels, '[[constraint]]\nname = "mesh"\ntype = "gear"\n'
+                           'a = "arm/ja"\nb = "arm/jb"\nratio = 3\n'
+                           '[[coupling]]\nname = "pull"\ntype = "torsional"\n'
+                           'measure = "joint"\nlink = "a"\nstiffness = 12\ndamping = 0\n')
+        mode, = self.answer(scene)["modes"]
+        self.close(mode["frequency"], math.sqrt(12 * 9 / (0.2 * 9 + 0.5)), 1e-10)
 
 
 if __name__ == "__main__":

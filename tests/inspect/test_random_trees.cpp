@@ -3,7 +3,9 @@
 
 #include <map>
 
+#include "app/inspect/balance.h"
 #include "app/inspect/checks.h"
+#include "app/inspect/shown.h"
 #include "tests/solver/random_tree.h"
 
 using namespace twinarm;
@@ -33,6 +35,18 @@ std::vector<Actor> random_actors(Random& random, const Model<double>& model, boo
   return {actor_of("all", forces)};
 }
 
+// What the wrenches on a body leave, as a part of the largest of their numbers, whatever it is.
+double rest_of_wrenches(const BodyBalance& balance) {
+  Vector6 sum = Vector6::Zero();
+  double largest = 0;
+  for (const NamedWrench& wrench : balance.wrenches) {
+    const Vector6 six = (Vector6() << wrench.force, wrench.torque).finished();
+    sum += six;
+    largest = std::max(largest, six.lpNorm<Eigen::Infinity>());
+  }
+  return largest > 0 ? sum.lpNorm<Eigen::Infinity>() / largest : 0;
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -54,6 +68,10 @@ TEST_CASE(
       double& largest = worst[check.name];
       largest = std::max(largest, check.error);
     }
+    double& rest = worst["wrenches on a body, of the largest"];
+    for (std::size_t i = 1; i < in.body_count(); ++i)
+      rest = std::max(rest, rest_of_wrenches(balance_of(in, i)));
+    CHECK(rest < 1e-10);
   }
   for (const auto& [name, error] : worst) MESSAGE(name, ": ", error);
 }

@@ -53,9 +53,10 @@ void write_passes(JsonWriter& json, const Inspection& in, const InspectView& vie
 void write_balances(JsonWriter& json, const Inspection& in, const InspectView& view) {
   json.begin_array();
   for (const std::size_t body : view.bodies) {
-    const BodyBalance balance = balance_of(in, body, view.axes);
+    const BodyBalance balance = balance_of(in, body, view.from);
     json.begin_object();
     json.key("body").text(in.model.body_name[body]);
+    json.key("about").vector(view.from.p_WV(in, body));
     json.key("wrenches").begin_array();
     for (const NamedWrench& wrench : balance.wrenches) {
       json.begin_object();
@@ -67,6 +68,40 @@ void write_balances(JsonWriter& json, const Inspection& in, const InspectView& v
     json.end_array();
     json.key("largest").number(balance.largest);
     json.key("residual").number(balance.residual);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+void write_forces(JsonWriter& json, const Inspection& in, const InspectView& view) {
+  json.begin_array();
+  for (const NamedForce& named : forces_in_view(in, view)) {
+    json.begin_object();
+    json.key("source").text(named.source);
+    if (named.point) json.key("point").vector(*named.point);
+    if (named.parts) {
+      json.key("normal").number(named.parts->normal);
+      json.key("friction").number(named.parts->friction);
+    }
+    json.key("on").begin_array();
+    for (const NamedForce::End& end : named.ends) {
+      json.begin_object();
+      json.key("body").text(in.model.body_name[end.body]);
+      json.key("force").vector(end.wrench.force);
+      json.key("torque").vector(end.wrench.torque);
+      json.key("about").vector(end.about);
+      json.end_object();
+    }
+    json.end_array();
+    json.key("joints").begin_array();
+    for (const NamedForce::OnJoint& on : named.joints) {
+      json.begin_object();
+      json.key("joint").text(in.model.joint_name[on.body]);
+      json.key("component").count(static_cast<long>(on.dof - in.model.iv[on.body]));
+      json.key("value").number(on.value);
+      json.end_object();
+    }
+    json.end_array();
     json.end_object();
   }
   json.end_array();
@@ -103,6 +138,7 @@ std::string inspect_json(const Inspection& in, const InspectView& view,
   write_passes(json.key("passes"), in, view);
   write_balances(json.key("balance"), in, view);
   write_joints(json.key("joint_balance"), in, view);
+  write_forces(json.key("forces"), in, view);
   json.key("checks").begin_array();
   for (const Check& check : checks) {
     json.begin_object();
@@ -116,7 +152,8 @@ std::string inspect_json(const Inspection& in, const InspectView& view,
     json.end_object();
   }
   json.end_array();
-  json.key("axes").text(view.axes == BalanceAxes::world ? "world" : "link");
+  json.key("axes").text(view.axes);
+  json.key("about").text(view.about);
   json.key("warnings").texts(view.warnings);
   json.end_object();
   return json.str();

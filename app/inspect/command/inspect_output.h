@@ -12,11 +12,17 @@ namespace twinarm {
 
 struct InspectView {
   std::vector<int> passes{1, 2, 3};
-  std::vector<std::size_t> bodies;  // in the order of the model
-  BalanceAxes axes = BalanceAxes::world;
+  std::vector<std::size_t> bodies;               // in the order of the model
+  Viewpoint from;                                // of wrenches
+  std::string axes = "world", about = "origin";  // as they were asked for
+  std::vector<std::string> forces;               // sources to be read out; none: all
+  bool forces_alone = false;                     // pages for people tell of nothing else
   std::string title;
   std::vector<std::string> warnings;
 };
+
+// Those that the view asks for.
+std::vector<NamedForce> forces_in_view(const Inspection& in, const InspectView& view);
 
 std::string inspect_json(const Inspection& in, const InspectView& view,
                          const std::vector<Check>& checks);

@@ -25,8 +25,9 @@ std::vector<Actor> given_actors(const RobotInput& input) {
   forward_kinematics(input.model, input.state.x, k);
   for (std::size_t i = 0; i < input.state.wrenches.size(); ++i) {
     const Wrench& wrench = input.state.wrenches[i];
-    actors.push_back(
-        {"wrench/" + std::to_string(i), {{wrench.body, in_body_axes(wrench, k), {}}}, {}});
+    Actor actor{"wrench/" + std::to_string(i), {{wrench.body, in_body_axes(wrench, k), {}}}, {}};
+    actor.point_W = wrench.in_link_axes ? k.X_WL[wrench.body] * wrench.point : wrench.point;
+    actors.push_back(std::move(actor));
   }
   return actors;
 }

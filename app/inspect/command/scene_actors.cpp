@@ -75,7 +75,10 @@ class FirstStep {
     for (std::size_t c = 0; c < input_.couplings->size(); ++c) {
       Forces<double> added(model_);
       input_.couplings->source(c).add_forces(x_, k_, added);
-      actors_.push_back(actor_of("coupling/" + input_.couplings->spec(c).name, added));
+      const SceneCoupling& spec = input_.couplings->spec(c);
+      actors_.push_back(actor_of("coupling/" + spec.name, added));
+      if (spec.type == CouplingDescription::Type::linear)
+        actors_.back().point_W = k_.position(spec.spring.body, spec.spring.p_L);
     }
   }
   // At the end of the step: h b as armature.
@@ -137,6 +140,8 @@ class FirstStep {
       const Vector3 half = 0.5 * std::max(0.0, -p.contact.depth) * p.contact.n_W;
       const Vector3 on_b = p.contact.p_WC + (moves(a.body) ? Vector3::Zero() : half);
       const Vector3 on_a = p.contact.p_WC - (moves(b.body) ? Vector3::Zero() : half);
+      actor.point_W = p.contact.p_WC;
+      actor.normal_W = p.contact.n_W;
       push(actor, b.body, on_b, p.force_W, p.couple_W);
       push(actor, a.body, on_a, -p.force_W, -p.couple_W);
       actors_.push_back(std::move(actor));
@@ -189,6 +194,7 @@ class FirstStep {
                  b = static_cast<std::size_t>(loop.body_b);
       const Vector3 C_b = k_.X_WL[b] * loop.X_LbC.p;
       const Vector3 C_a = loop.type == LoopType::distance ? k_.X_WL[a] * loop.X_LaC.p : C_b;
+      actor.point_W = C_b;
       push(actor, loop.body_a, C_a, on_a.force, on_a.couple);
       push(actor, loop.body_b, C_b, -on_a.force, -on_a.couple);
     }

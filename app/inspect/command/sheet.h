@@ -14,20 +14,21 @@ namespace twinarm {
 // Five digits, four where there is an exponent; what is below 1e-13 of `scale` is 0.
 std::string short_number(double value, double scale = 1);
 
-// Broken at blanks, to lines that fit.
-std::string wrapped(std::string_view text);
+// Broken at blanks, to lines that fit; those after the first are indented.
+std::string wrapped(std::string_view text, std::size_t indent = 2);
 
 class Sheet {
  public:
   void line(std::string_view text) { text_ += std::string(text) + "\n"; }
-  void rule(char c);
+  // Between two rules; the note to the right, where it fits in the line, else below.
+  void title(std::string_view text, std::string_view note);
   // An equation to the left, what it is and its unit to the right.
   void heading(std::string_view equation, std::string_view meaning, std::string_view unit);
   // label   a  b  c | d  e  f
   void row(std::string_view label, const Vector6& six) { row(label, six, six); }
   // What is rounding beside `size` is 0; turning and shifting parts have sizes of their own.
   void row(std::string_view label, const Vector6& six, const Vector6& size);
-  // Terms, a line, and what they add up to. One term alone is not repeated.
+  // Terms, a line, and what they add up to. What is one term alone, or zero, is not repeated.
   void sum(const std::vector<std::pair<std::string, Vector6>>& terms, std::string_view name,
            const Vector6& total);
   void matrix(const Eigen::MatrixXd& m);

@@ -1,0 +1,19 @@
+// What `twinarm inspect` is asked to show, out of its options.
+#pragma once
+
+#include "app/commands.h"
+#include "app/inspect/command/inspect_output.h"
+#include "solver/fault.h"
+
+namespace twinarm {
+
+// --pass; all if none is given.
+void read_passes(const InspectOptions& options, InspectView& view, FaultList& faults);
+// --body, --axes, --about: names of bodies.
+void read_bodies(const InspectOptions& options, const Model<double>& model, InspectView& view,
+                 FaultList& faults);
+// --force: the whole name of a force, or what stands after its first slash.
+void read_forces(const InspectOptions& options, const std::vector<Actor>& actors, InspectView& view,
+                 FaultList& faults);
+
+}  // namespace twinarm
