@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/dense_algebra.h"
 #include "solver/forward_dynamics.h"
 #include "solver/mimic.h"
 
@@ -94,12 +95,12 @@ class LoopConditions {
 struct Split {
   std::vector<Index> lead, follow;
   MatrixXd Z;  // all of y
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> follow_of;
+  MatrixXd J_follow;
 
   // d with J d = rows and P d = 0.
   VectorXd lift(const VectorXd& rows) const {
     VectorXd d = VectorXd::Zero(Z.rows());
-    if (!follow.empty()) d(follow) = VectorXd(follow_of.solve(rows));
+    if (!follow.empty()) d(follow) = shortest_solution(J_follow, rows, kDependentRows);
     return d;
   }
 };
@@ -126,13 +127,11 @@ Split split_by(const MatrixXd& J) {
   split.lead.assign(order.begin() + rank, order.end());
   std::sort(split.lead.begin(), split.lead.end());
   split.Z = MatrixXd::Zero(n, n - rank);
-  if (rank > 0) {
-    split.follow_of.setThreshold(kDependentRows);
-    split.follow_of.compute(J(Eigen::all, split.follow));
-    split.Z(split.follow, Eigen::all) =
-        -MatrixXd(split.follow_of.solve(MatrixXd(J(Eigen::all, split.lead))));
+  split.J_follow = J(Eigen::all, split.follow);
+  for (std::size_t k = 0; k < split.lead.size(); ++k) {
+    split.Z.col(signed_index(k)) = -split.lift(J.col(split.lead[k]));
+    split.Z(split.lead[k], signed_index(k)) = 1;
   }
-  for (std::size_t k = 0; k < split.lead.size(); ++k) split.Z(split.lead[k], signed_index(k)) = 1;
   return split;
 }
 
@@ -215,10 +214,10 @@ LoopedSystem linearise_with_loops(const Model<double>& model, const State<double
   system.A = MatrixXd::Zero(2 * ny, 2 * ny);
   system.B = MatrixXd::Zero(2 * ny, ny);
   if (ny == 0) return looped;
-  const MatrixXd M = free.B.bottomRows(n).inverse();
+  const MatrixXd M = inverse_of(free.B.bottomRows(n));
   const MatrixXd a_q = free.A.bottomLeftCorner(n, n), a_qd = free.A.bottomRightCorner(n, n);
   const MatrixXd turning = free.A.topLeftCorner(n, n) * Z;
-  const MatrixXd inverse = (Z.transpose() * M * Z).inverse();
+  const MatrixXd inverse = inverse_of(Z.transpose() * M * Z);
   system.A.topLeftCorner(ny, ny) = turning(split.lead, Eigen::all);
   system.A.topRightCorner(ny, ny).setIdentity();
   system.A.bottomLeftCorner(ny, ny) = inverse * Z.transpose() * M * (a_q * Z + a_qd * L - N_y);
