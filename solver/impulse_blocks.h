@@ -37,11 +37,11 @@ void with_shapes(int rows, int m, int n, F&& f) {
     f(rows, m, n);
 }
 
-// D J, where D is the upper left of a 3 x 3 matrix.
-template <class Rows, class N>
-inline void product(const double* __restrict D, const double* __restrict J, Rows rows, N n,
-                    double* __restrict out) {
-  for (int r = 0; r < rows; ++r)
+// D J, where D is the upper left of a 3 x 3 matrix, of `left` rows.
+template <class Left, class Rows, class N>
+inline void product(const double* __restrict D, Left left, const double* __restrict J, Rows rows,
+                    N n, double* __restrict out) {
+  for (int r = 0; r < left; ++r)
     for (int k = 0; k < n; ++k) {
       double sum = 0;
       for (int s = 0; s < rows; ++s) sum += D[r * 3 + s] * J[s * n + k];

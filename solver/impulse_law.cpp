@@ -119,6 +119,13 @@ void respond(const ImpulseConstraint& c, const LawMemory& memory, Shift shift, c
   }
 }
 
+Vec along_edge(const ImpulseConstraint& c, const LawMemory& memory, const Vec& u) {
+  const double x = memory.l[0] - memory.rho * u[0];
+  const double y = c.rows > 1 ? memory.l[1] - memory.rho * u[1] : 0;
+  const double norm = length(x, y);
+  return norm > memory.radius ? Vec{x / norm, y / norm, 0} : Vec{};
+}
+
 double law_residual(const ImpulseConstraint& c, const LawMemory& memory, double rho, const Vec& u,
                     const Vec& p) {
   Vec again{};

@@ -32,6 +32,9 @@ enum class Shift { held, followed };
 void respond(const ImpulseConstraint& c, const LawMemory& memory, Shift shift, const Vec& u, Vec& p,
              Mat& D);
 
+// Where p(u) of a disc is at its edge, the direction of p there; 0 within.
+Vec along_edge(const ImpulseConstraint& c, const LawMemory& memory, const Vec& u);
+
 // How far p is from obeying the law at u, with the same for rho = 1/g: |p - P_K(p - rho ut)| / rho
 // [m/s]; of a compliant contact p less what its springs and bristles give, over rho and stiffness.
 double law_residual(const ImpulseConstraint& c, const LawMemory& memory, double rho, const Vec& u,

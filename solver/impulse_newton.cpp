@@ -126,17 +126,33 @@ ImpulseSolver::Gradient ImpulseSolver::gradient(ImpulseProblem& problem, const I
   for (const int t : island.trees)
     std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)), problem.size(t), 0.0);
   double fastest = 0;
+  crosses_.clear();
   for (const int i : island.constraints) {
     const ImpulseConstraint& c = problem.constraints()[i];
     problem.velocity(c, problem.v(0), u_[i]);
     for (int r = 0; r < c.rows; ++r) u_[i][r] += c.b[r];
-    respond(c, memory_[i], shift, u_[i], p_[i], D_[i]);
+    if (c.law == ImpulseLaw::disc && shift == Shift::followed)
+      respond_disc(c, i);
+    else
+      respond(c, memory_[i], shift, u_[i], p_[i], D_[i]);
     problem.add_transpose(c, p_[i], f_.data());
     fastest = std::max({fastest, std::abs(u_[i][0]), std::abs(u_[i][1]), std::abs(u_[i][2])});
   }
   Gradient all = balance(problem, island);
   all.rounding = std::max(0.01 * tolerance, 2e-14 * rho_ratio_ * fastest);
   return all;
+}
+
+// A disc whose radius follows the contact's p_n at this u.
+void ImpulseSolver::respond_disc(const ImpulseConstraint& c, int i) {
+  LawMemory memory = memory_[i];
+  memory.radius = c.radius * std::max(0.0, p_[c.of][0]);
+  respond(c, memory, Shift::followed, u_[i], p_[i], D_[i]);
+  const Vec way = along_edge(c, memory, u_[i]);
+  if (way == Vec{}) return;
+  Cross& cross = crosses_.emplace_back(Cross{i, c.of, {}});
+  for (int r = 0; r < c.rows; ++r)
+    for (int k = 0; k < 3; ++k) cross.D[3 * r + k] = c.radius * way[r] * D_[c.of][k];
 }
 
 // rhs_ = M (v - v0) - f_
@@ -186,32 +202,43 @@ void ImpulseSolver::assemble(const ImpulseProblem& problem, const Island& island
         if (!symmetric && k < r) matrix_.column(row, at)[k] += M[r * n + k];
       }
   }
-  for (const int i : island.constraints) {
-    const ImpulseConstraint& c = problem.constraints()[i];
-    for (int side = 0; side < 2; ++side) {
-      if (c.tree[side] == no_tree) continue;
-      const int n = problem.size(c.tree[side]);
-      DJ_.resize(std::max(DJ_.size(), static_cast<std::size_t>(3 * n)));
-      with_shape(c.rows, n, [&](auto rows, auto size) {
-        product(D_[i].data(), problem.J(c, side), rows, size, DJ_.data());
+  const std::vector<ImpulseConstraint>& all = problem.constraints();
+  for (const int i : island.constraints) add_products(problem, all[i], all[i], D_[i], symmetric);
+  if (!symmetric)
+    for (const Cross& cross : crosses_)
+      add_products(problem, all[cross.of], all[cross.by], cross.D, symmetric);
+}
+
+// J^T D J of the left, D, and the right, each with both of its sides.
+void ImpulseSolver::add_products(const ImpulseProblem& problem, const ImpulseConstraint& left,
+                                 const ImpulseConstraint& right, const Mat& D, bool symmetric) {
+  for (int side = 0; side < 2; ++side) {
+    if (right.tree[side] == no_tree) continue;
+    const int n = problem.size(right.tree[side]);
+    DJ_.resize(std::max(DJ_.size(), static_cast<std::size_t>(3 * n)));
+    if (&left == &right)
+      with_shape(left.rows, n, [&](auto rows, auto size) {
+        product(D.data(), rows, problem.J(right, side), rows, size, DJ_.data());
       });
-      for (int other = 0; other < 2; ++other)
-        if (c.tree[other] != no_tree) add_block(problem, c, other, side, symmetric);
-    }
+    else
+      product(D.data(), left.rows, problem.J(right, side), right.rows, n, DJ_.data());
+    for (int other = 0; other < 2; ++other)
+      if (left.tree[other] != no_tree) add_block(problem, left, other, right, side, symmetric);
   }
 }
 
-// J_s^T (D J)_t, s and t the trees of the two sides; what is above the diagonal lies by columns.
-void ImpulseSolver::add_block(const ImpulseProblem& problem, const ImpulseConstraint& c, int side_s,
-                              int side_t, bool symmetric) {
-  const int s = c.tree[side_s], t = c.tree[side_t];
+// J_s^T (D J)_t, s and t the trees of two sides; what is above the diagonal lies by columns.
+void ImpulseSolver::add_block(const ImpulseProblem& problem, const ImpulseConstraint& left,
+                              int side_s, const ImpulseConstraint& right, int side_t,
+                              bool symmetric) {
+  const int s = left.tree[side_s], t = right.tree[side_t];
   const std::size_t row = row_[s], column = row_[t];
   if (symmetric && row < column) return;
-  const double *J = problem.J(c, side_s), *DJ = DJ_.data();
+  const double *J = problem.J(left, side_s), *DJ = DJ_.data();
   const auto place = [](std::size_t from, int k) { return from + static_cast<std::size_t>(k); };
   const auto below = [&](int k) { return matrix_.row(place(row, k), column); };
   const auto above = [&](int k) { return matrix_.column(place(column, k), row); };
-  with_shapes(c.rows, problem.size(s), problem.size(t), [&](auto rows, auto m, auto n) {
+  with_shapes(left.rows, problem.size(s), problem.size(t), [&](auto rows, auto m, auto n) {
     if (row > column) {
       add_product_rows(J, m, DJ, n, rows, below, [&](int) { return n; });
     } else if (row < column) {

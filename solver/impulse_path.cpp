@@ -35,9 +35,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // W^-1 x
 ConeVec divided(const ConeScaling& s, const ConeVec& x) {
-  const double eta2 = cone_det({s.W[0], s.W[3], s.W[6]});
   const ConeVec y = times(s.W, {x[0], -x[1], -x[2]});
-  return {y[0] / eta2, -y[1] / eta2, -y[2] / eta2};
+  return {y[0] / s.eta2, -y[1] / s.eta2, -y[2] / s.eta2};
 }
 
 }  // namespace
@@ -53,8 +52,7 @@ struct ImpulseSolver::Path {
 
   template <class F>
   void for_each_cone(F&& f) const {
-    for (const int i : island.constraints)
-      if (is_cone(problem.constraints()[i])) f(i);
+    for (const int i : of.cones_) f(i);
   }
   template <class F>
   void for_each_velocity(F&& f) const {
@@ -131,12 +129,15 @@ void ImpulseSolver::Path::find_directions() {
   take(of.correction_, 0);
   const double rise = s < s0 ? s / s0 : 0;  // -dl for ds = s
   for_each_cone([&](int i) {
-    const ImpulseConstraint& c = problem.constraints()[i];
     of.right_[i] = {s, 0, 0};
-    const double slip = of.smooth_slip(c.u), from_s = of.rounded_ * of.rounded_ / slip;
-    const double lift =
-        c.law == ImpulseLaw::coulomb ? c.mu * (of.shift_part_ * from_s - rise * slip) : 0;
-    of.d_z_[i] = scaled(c, {lift, 0, 0});
+    of.d_z_[i] = {};
+    if (!is_contact(problem.constraints()[i])) return;
+    for (int k = i; k >= 0; k = of.next_disc_[k]) {
+      const ConeTerms& terms = of.terms_[k];
+      const double corner = of.rounded_ * terms.corner;
+      const double from_s = terms.slip > 0 ? corner * corner / terms.slip : 0;
+      of.d_z_[i][0] += terms.arm * (of.shift_part_ * from_s - rise * terms.slip);
+    }
   });
   of.solve_centrally(problem, island, of.d_z_, 0);
   take(of.tangent_, 1);
@@ -200,22 +201,18 @@ bool ImpulseSolver::Path::step() {
 // From `start` times the velocities that are at stake, another curve for each. p of the constraints
 // is the best that was met. Returns the steps.
 int ImpulseSolver::follow_path(ImpulseProblem& problem, const Island& island, double start) {
-  begin_centrally(problem, island);
+  const double s0 = begin_centrally(problem, island, start);
   for (Turn* turn : {&correction_, &tangent_, &last_, &saved_}) {
     turn->v.resize(problem.nv());
     turn->x.resize(x_.size()), turn->z.resize(x_.size());
   }
   d_z_.resize(x_.size());
-  double s0 = 0, speed = 0;
-  for (const int i : island.constraints)
-    if (is_cone(problem.constraints()[i]))
-      z_[i][0] *= start, speed = z_[i][0], s0 = x_[i][0] * speed;
   Path path{*this, problem, island, s0};
   double best = infinity;
   int steps = 0;
   for (; s0 > 0 && steps < most_steps; ++steps) {
     shift_part_ = std::max(0.0, 1 - path.s / s0);
-    rounded_ = speed * path.s / s0;
+    rounded_ = path.s / s0;
     double residual = 0;
     const bool inside = measure_centrally(problem, island, residual) > 0 && residual < 1e100;
     if (inside && residual < best) {

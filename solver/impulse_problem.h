@@ -19,6 +19,7 @@ enum class ImpulseLaw : unsigned char {
   at_least,  // u >= 0, p >= 0, u p = 0: a limit, a contact without friction  1 row
   within,    // p in [low, high]; u > 0 only at low, u < 0 only at high      1 row
   disc,      // |p| <= radius p_n of the contact `of`; slips against p       1 or 2 rows
+             // (the contact comes before it, and is between the same trees)
   coulomb,   // row 0 normal: at_least; rows 1, 2: |p_t| <= mu p_n, slips against p_t
   compliant  // a spring-damper in place of at_least, and bristles that slip at mu p_n (3 rows)
 };

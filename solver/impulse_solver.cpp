@@ -45,6 +45,7 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
     }
     rho0_[i] = inverse > 0 ? c.rows / inverse : 1;
   }
+  link_discs(problem);
   report.islands = static_cast<int>(island_count_);
   solve_again_.resize(static_cast<std::size_t>(problem.tree_count()));
   for (std::size_t i = 0; i < island_count_; ++i) {
@@ -64,6 +65,16 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
     report.converged = report.converged && residual <= accepted;
   }
   return report;
+}
+
+void ImpulseSolver::link_discs(const ImpulseProblem& problem) {
+  const std::vector<ImpulseConstraint>& all = problem.constraints();
+  next_disc_.assign(all.size(), -1);
+  for (std::size_t i = all.size(); i-- > 0;)
+    if (all[i].law == ImpulseLaw::disc && all[i].radius > 0) {
+      next_disc_[i] = next_disc_[all[i].of];
+      next_disc_[all[i].of] = static_cast<int>(i);
+    }
 }
 
 void ImpulseSolver::factorise_trees(const ImpulseProblem& problem) {

@@ -54,6 +54,7 @@ class ImpulseSolver {
   struct Island {
     std::vector<int> trees, constraints;
   };
+  void link_discs(const ImpulseProblem& problem);
   void factorise_trees(const ImpulseProblem& problem);
   void solve_tree(const ImpulseProblem& problem, int tree, double* f) const;
   void find_islands(const ImpulseProblem& problem);
@@ -69,18 +70,26 @@ class ImpulseSolver {
   };
   int solve_round(ImpulseProblem& problem, const Island& island, int most);
   Gradient gradient(ImpulseProblem& problem, const Island& island, Shift shift);
+  void respond_disc(const ImpulseConstraint& c, int i);
   Gradient balance(const ImpulseProblem& problem, const Island& island);
   void find_direction(const ImpulseProblem& problem, const Island& island, bool symmetric);
   void assemble(const ImpulseProblem& problem, const Island& island, bool symmetric);
-  void add_block(const ImpulseProblem& problem, const ImpulseConstraint& c, int side_s, int side_t,
-                 bool symmetric);
+  void add_products(const ImpulseProblem& problem, const ImpulseConstraint& left,
+                    const ImpulseConstraint& right, const Mat& D, bool symmetric);
+  void add_block(const ImpulseProblem& problem, const ImpulseConstraint& left, int side_s,
+                 const ImpulseConstraint& right, int side_t, bool symmetric);
   void move(ImpulseProblem& problem, const Island& island, double step);
   int approach_centrally(ImpulseProblem& problem, const Island& island);
-  void begin_centrally(ImpulseProblem& problem, const Island& island);
+  bool has_cone(const ImpulseProblem& problem, const ImpulseConstraint& c) const;
+  double begin_centrally(ImpulseProblem& problem, const Island& island, double start);
   double measure_centrally(ImpulseProblem& problem, const Island& island, double& residual);
+  void measure_cone(ImpulseConstraint& c, int i);
+  void join_discs(const ImpulseProblem& problem, int contact);
   double direct_centrally(ImpulseProblem& problem, const Island& island, double s, bool correct);
   void solve_centrally(const ImpulseProblem& problem, const Island& island,
                        const std::vector<ConeVec>& r, double part);
+  void hand_out_centrally(const ImpulseProblem& problem, const std::vector<ConeVec>& r);
+  std::array<double, 2> change_across(int i, double dp_n, const std::array<double, 2>& dz) const;
   void move_centrally(ImpulseProblem& problem, const Island& island, double step);
   double step_length(const ImpulseProblem& problem, const Island& island);
   struct Path;
@@ -90,6 +99,12 @@ class ImpulseSolver {
   std::vector<LawMemory> memory_;  // by constraint
   std::vector<double> rho0_;       // by constraint: 1 / J diag(M)^-1 J^T
   std::vector<Mat> D_;             // by constraint
+  std::vector<int> next_disc_;     // by contact and disc: the next disc of this contact, or -1
+  struct Cross {                   // -dp of constraint `of` / du of `by`
+    int of, by;
+    Mat D;
+  };
+  std::vector<Cross> crosses_;
   std::vector<Vec> u_, du_, p_, best_p_, round_p_;  // by constraint
   std::vector<double> f_, dv_, delta_, held_v_;     // by velocity
   std::vector<Island> islands_;
@@ -102,14 +117,16 @@ class ImpulseSolver {
   double rho_ratio_ = 0;  // rho / rho0 of the island that is being solved
   EnvelopeLu matrix_;
   // of impulse_interior.cpp, by constraint
-  int cones_ = 0;
+  std::vector<int> cones_;
   double shift_part_ = 1;  // of mu |u_t| that counts
-  double rounded_ = 0;     // radius of the corner of |u_t| at rest, which the path rounds [m/s]
-  double smooth_slip(const Vec& u) const {
-    return std::sqrt(u[1] * u[1] + u[2] * u[2] + rounded_ * rounded_);
-  }
+  double rounded_ = 0;     // the corner of |u_t| at rest, which the path rounds: a part of `corner`
   std::vector<ConeVec> x_, z_, dx_, dz_, d_, r_z_, right_, kept_;
-  std::vector<std::array<double, 2>> lift_;
+  struct ConeTerms {  // impulse_central.h
+    double arm = 0, corner = 0, slip = 0, A = 0, C = 0, n = 0;
+    std::array<double, 2> h{}, l{};
+    std::array<double, 3> S{};  // its entries aa, ab, bb
+  };
+  std::vector<ConeTerms> terms_;
   std::vector<ConeScaling> scaling_;
   std::vector<double> step_rhs_;
   // of impulse_path.cpp: directions, or a place, in v, x, z and s (of which it is a part)

@@ -51,14 +51,17 @@ inline double cone_step(const ConeVec& x, const ConeVec& d) {
 struct ConeScaling {
   ConeMat W, W2;
   ConeVec t;
+  ConeVec w;  // W^2 = eta^2 (2 w w^T - diag(1, -1, -1)), w_0^2 - |w_1|^2 = 1
+  double eta2;
 };
 inline ConeScaling nesterov_todd(const ConeVec& x, const ConeVec& z) {
   const double det_x = std::sqrt(cone_det(x)), det_z = std::sqrt(cone_det(z));
   const double g = std::sqrt(0.5 * (1 + cone_dot(x, z) / (det_x * det_z)));
-  ConeVec w;
+  ConeScaling s;
+  ConeVec& w = s.w;
   for (int r = 0; r < 3; ++r) w[r] = (x[r] / det_x + (r == 0 ? 1 : -1) * z[r] / det_z) / (2 * g);
   const double eta2 = det_x / det_z, eta = std::sqrt(eta2);
-  ConeScaling s;
+  s.eta2 = eta2;
   for (int r = 0; r < 3; ++r)
     for (int k = 0; k < 3; ++k) {
       const double one = r == k ? 1 : 0;
