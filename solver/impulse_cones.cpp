@@ -7,6 +7,7 @@
 // multiplier renewed each time.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "solver/impulse_central.h"
 #include "solver/impulse_solver.h"
@@ -14,7 +15,8 @@
 namespace twinarm {
 namespace {
 
-constexpr double held_rho = 1e4;  // times rho0, of what has no cone
+constexpr double held_rho = 1e4;           // times rho0, of what has no cone
+constexpr double starts[] = {1, 0.1, 10};  // times the velocities that are at stake
 
 double dot2(const std::array<double, 2>& a, const std::array<double, 2>& b) {
   return a[0] * b[0] + a[1] * b[1];
@@ -22,6 +24,16 @@ double dot2(const std::array<double, 2>& a, const std::array<double, 2>& b) {
 std::array<double, 2> rows_across(const ImpulseConstraint& c, const Vec& u) {
   const int first = first_across(c), count = across(c);
   return {count > 0 ? u[first] : 0, count > 1 ? u[first + 1] : 0};
+}
+
+// From 1/3 to 3, spread like random numbers, and the same each time (splitmix64).
+double weight_of(int which, int i) {
+  std::uint64_t bits = static_cast<std::uint64_t>(which) * 0x9e3779b97f4a7c15u +
+                       static_cast<std::uint64_t>(i) * 0xbf58476d1ce4e5b9u;
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
+  bits ^= bits >> 31;
+  return std::pow(9.0, static_cast<double>(bits >> 11) * 0x1p-53 - 0.5);
 }
 
 // S into the rows across, D all else 0.
@@ -46,9 +58,10 @@ bool ImpulseSolver::has_cone(const ImpulseProblem& problem, const ImpulseConstra
   return is_contact(c);
 }
 
-// x and z on the axes of their cones, as large as the impulses and velocities that are at stake,
-// these times `start`. Returns x_0 z_0, which is the same for all; 0 if there is none.
-double ImpulseSolver::begin_centrally(ImpulseProblem& problem, const Island& island, double start) {
+// x and z on the axes of their cones, as large as the impulses and velocities that are at stake;
+// from the second start on these are larger or smaller, and x_0 z_0 has a weight of its own for
+// each cone. Returns x_0 z_0 of weight 1; 0 if there is none.
+double ImpulseSolver::begin_centrally(ImpulseProblem& problem, const Island& island, int which) {
   const std::size_t count = problem.constraints().size();
   x_.resize(count), z_.resize(count), dx_.resize(count), dz_.resize(count), d_.resize(count);
   r_z_.resize(count), right_.resize(count), terms_.resize(count), scaling_.resize(count);
@@ -71,7 +84,7 @@ double ImpulseSolver::begin_centrally(ImpulseProblem& problem, const Island& isl
       impulse = std::max(impulse, rho0_[i] * std::abs(c.u[r] + c.b[r]));
     }
   }
-  const double s0 = impulse * speed * start;
+  const double s0 = impulse * speed * starts[which % 3];
   for (const int i : cones_) {
     const ImpulseConstraint& c = problem.constraints()[i];
     terms_[i].arm = arm_of(c);
@@ -79,7 +92,8 @@ double ImpulseSolver::begin_centrally(ImpulseProblem& problem, const Island& isl
       x_[i][0] = terms_[i].arm * x_[c.of][0] / terms_[c.of].arm;
     else
       x_[i][0] = c.law == ImpulseLaw::within ? 0.5 * (c.high - c.low) : impulse;
-    z_[i][0] = s0 / x_[i][0];
+    terms_[i].weight = which == 0 ? 1 : weight_of(which, i);
+    z_[i][0] = terms_[i].weight * s0 / x_[i][0];
     terms_[i].corner = z_[i][0];
   }
   return cones_.empty() ? 0 : s0;

@@ -27,7 +27,7 @@ constexpr int most_iterations = 60, most_stuck = 3;
 }  // namespace
 
 int ImpulseSolver::approach_centrally(ImpulseProblem& problem, const Island& island) {
-  begin_centrally(problem, island, 1);
+  begin_centrally(problem, island, 0);
   shift_part_ = 1, rounded_ = 0;
   double step = 1, best = std::numeric_limits<double>::infinity();
   int iterations = 0, stuck = 0;
@@ -66,7 +66,7 @@ double ImpulseSolver::direct_centrally(ImpulseProblem& problem, const Island& is
   for (const int i : cones_) {
     const ConeScaling& scaling = scaling_[i];
     const Vec square = jordan(scaling.t, scaling.t);
-    right_[i] = {s - square[0], -square[1], -square[2]};
+    right_[i] = {s * terms_[i].weight - square[0], -square[1], -square[2]};
     if (!correct) continue;
     const Vec Wdz = times(scaling.W, dz_[i]);
     const Vec Wdx{-scaling.t[0] - Wdz[0], -scaling.t[1] - Wdz[1], -scaling.t[2] - Wdz[2]};

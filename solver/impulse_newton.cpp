@@ -77,8 +77,10 @@ void ImpulseSolver::lay_out(const ImpulseProblem& problem, const Island& island)
 // The convex problem, whose shifts are held; then, from its solution, Newton on the shifts that
 // follow. That has no function to go down on, so it is taken only as long as it comes nearer, in
 // shorter steps where there is time for them; otherwise back to the solution.
-int ImpulseSolver::solve_round(ImpulseProblem& problem, const Island& island, int most) {
-  int steps = 0;
+ImpulseSolver::Round ImpulseSolver::solve_round(ImpulseProblem& problem, const Island& island,
+                                                int most) {
+  Round round;
+  int& steps = round.steps;
   for (Gradient now = gradient(problem, island, Shift::held);
        steps < most && now.largest > now.rounding; now = gradient(problem, island, Shift::held)) {
     find_direction(problem, island, true);
@@ -91,6 +93,7 @@ int ImpulseSolver::solve_round(ImpulseProblem& problem, const Island& island, in
     std::copy_n(problem.v(t), problem.size(t),
                 held_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)));
   Gradient now = gradient(problem, island, Shift::followed);
+  round.left = now.largest;
   while (steps < most && now.largest > now.rounding) {
     find_direction(problem, island, false);
     move(problem, island, 1);
@@ -106,12 +109,14 @@ int ImpulseSolver::solve_round(ImpulseProblem& problem, const Island& island, in
       for (const int t : island.trees)
         std::copy_n(held_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)),
                     problem.size(t), problem.v(t));
-      gradient(problem, island, Shift::held);
+      round.left = gradient(problem, island, Shift::held).largest;
+      round.strayed = true;
       break;
     }
     now = then;
+    round.left = now.largest;
   }
-  return steps;
+  return round;
 }
 
 void ImpulseSolver::move(ImpulseProblem& problem, const Island& island, double step) {

@@ -27,7 +27,7 @@
 namespace twinarm {
 namespace {
 
-constexpr int most_steps = 600, most_corrections = 5, most_starting = 60;
+constexpr int most_steps = 1500, most_corrections = 5, most_starting = 60;
 constexpr double near = 0.1, slow = 0.7, shorter = 0.3, longest = 0.95, shortest = 1e-6;
 constexpr double sharp = 1e-3;  // a turn by more than 90 degrees within that length is one
 constexpr double boundary = 0.95;
@@ -129,7 +129,7 @@ void ImpulseSolver::Path::find_directions() {
   take(of.correction_, 0);
   const double rise = s < s0 ? s / s0 : 0;  // -dl for ds = s
   for_each_cone([&](int i) {
-    of.right_[i] = {s, 0, 0};
+    of.right_[i] = {s * of.terms_[i].weight, 0, 0};
     of.d_z_[i] = {};
     if (!is_contact(problem.constraints()[i])) return;
     for (int k = i; k >= 0; k = of.next_disc_[k]) {
@@ -198,10 +198,9 @@ bool ImpulseSolver::Path::step() {
   return length > shortest;
 }
 
-// From `start` times the velocities that are at stake, another curve for each. p of the constraints
-// is the best that was met. Returns the steps.
-int ImpulseSolver::follow_path(ImpulseProblem& problem, const Island& island, double start) {
-  const double s0 = begin_centrally(problem, island, start);
+// Another curve for each `which`. p of the constraints is the best that was met. Returns the steps.
+int ImpulseSolver::follow_path(ImpulseProblem& problem, const Island& island, int which) {
+  const double s0 = begin_centrally(problem, island, which);
   for (Turn* turn : {&correction_, &tangent_, &last_, &saved_}) {
     turn->v.resize(problem.nv());
     turn->x.resize(x_.size()), turn->z.resize(x_.size());
@@ -220,7 +219,7 @@ int ImpulseSolver::follow_path(ImpulseProblem& problem, const Island& island, do
       for (const int i : island.constraints) kept_[i] = p_[i];
     }
     if (path.at == Path::At::start && steps > most_starting) break;
-    if (residual <= tolerance || path.s > 2 * s0) break;
+    if (residual <= 0.5 * accepted || path.s > 2 * s0) break;
     if (inside) {
       if (!path.step()) break;
     } else {

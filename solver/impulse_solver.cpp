@@ -14,8 +14,8 @@ constexpr int no_tree = ImpulseConstraint::no_tree;
 constexpr double first_rho = 1e2, usual_rho = 1e5, largest_rho = 1e7;  // times rho0
 constexpr double least_rho = 1, astray = 10;    // a residual so much larger than the best
 constexpr int most_returns = 10, patience = 4;  // times most_newton, from the best of all
-constexpr std::size_t few = 8;             // constraints of an island whose solution is polished
-constexpr double starts[] = {1, 0.1, 10};  // of one path after the other
+constexpr std::size_t few = 8;  // constraints of an island whose solution is polished
+constexpr int most_paths = 8;   // one after the other
 
 }  // namespace
 
@@ -182,32 +182,32 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
       for (const int i : island.constraints) best_p_[i] = problem.constraints()[i].p;
     }
   };
-  run_rounds(problem, island, quick_newton, report);
+  run_rounds(problem, island, quick_newton, false, report);
   judge();
-  const auto finish = [&] {
+  const auto finish = [&](bool yields) {
     judge();
     if (best <= accepted) return;
     settle(problem, island);
-    run_rounds(problem, island, most_newton, report);
+    run_rounds(problem, island, most_newton, yields, report);
     judge();
   };
   if (best > accepted) {
     report.interior = std::max(report.interior, approach_centrally(problem, island));
-    finish();
+    finish(false);
   }
-  for (const double start : starts) {
-    if (best <= accepted) break;
-    report.path = std::max(report.path, follow_path(problem, island, start));
-    finish();
+  for (int which = 0; which < most_paths && best > accepted; ++which) {
+    report.path = std::max(report.path, follow_path(problem, island, which));
+    finish(which % 2 == 1);
   }
-  // On from the best, as long as that comes nearer.
+  // On from the best, in one way and in the other, as long as that comes nearer.
   for (int k = 0; k < most_returns && best > accepted; ++k) {
+    const bool yields = k % 2 == 0;
     for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
     const double before = best;
     settle(problem, island);
-    run_rounds(problem, island, patience * most_newton, report);
+    run_rounds(problem, island, patience * most_newton, yields, report);
     judge();
-    if (best > 0.5 * before) break;
+    if (!yields && best > 0.5 * before) break;
   }
   // What neither can solve (friction beyond Painleve's bound) is at least brought near, so that
   // nothing falls through.
@@ -221,8 +221,10 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
 }
 
 // From p and u of the constraints, and v. Rounds that go astray are taken back to the best, with a
-// smaller rho, which holds them nearer to where they begin.
-void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, int most,
+// smaller rho, which holds them nearer to where they begin. Where they yield, that is also done
+// after a round whose shifts could not follow (Levenberg's way): what creeps at a large rho may
+// come near at a small one.
+void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, int most, bool yields,
                                ImpulseReport& report) {
   int newton = 0, round = 0;
   double last = 0, best = std::numeric_limits<double>::infinity();
@@ -241,14 +243,14 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
   rho_ratio_ = first_rho;
   while (newton < most) {
     for (const int i : island.constraints) memory_[i].rho = rho_ratio_ * rho0_[i];
-    const int steps = solve_round(problem, island, most - newton);
-    newton += std::max(1, steps);
+    const Round end = solve_round(problem, island, most - newton);
+    newton += std::max(1, end.steps);
     ++round;
     for (const int i : island.constraints) {
       ImpulseConstraint& c = problem.constraints()[i];
       c.p = p_[i], c.u = u_[i];
     }
-    double residual = 0;
+    double residual = end.left;  // a round that had no time to end is no solution
     for (const int i : island.constraints) {
       const ImpulseConstraint& c = problem.constraints()[i];
       remember(c, problem.constraints(), c.u, c.p, memory_[i]);
@@ -268,8 +270,11 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
       continue;
     }
     // Multipliers that creep while the active laws stay the same need a larger rho.
-    const bool creeps = steps <= 2 && residual > 0.3 * last;
-    if (rho_ratio_ < most_rho || (creeps && rho_ratio_ < largest_rho)) rho_ratio_ *= 10;
+    const bool creeps = end.steps <= 2 && residual > 0.3 * last;
+    if (yields && end.strayed)
+      rho_ratio_ = std::max(least_rho, 0.1 * rho_ratio_);
+    else if (rho_ratio_ < most_rho || (creeps && rho_ratio_ < largest_rho))
+      rho_ratio_ *= 10;
     last = residual;
   }
   if (best < last) bring_back();

@@ -32,7 +32,7 @@ struct ImpulseReport {
   int islands = 0, solved = 0;  // solved: those whose guess did not do
   int rounds = 0, newton = 0;   // the most of any island
   int interior = 0;             // iterations of impulse_interior.cpp, the most of any island
-  int path = 0;                 // steps of impulse_path.cpp, the most of any island
+  int path = 0;                 // steps of impulse_path.cpp on one path, the most of any island
   double residual = 0;          // largest of any constraint, law_residual() [m/s, rad/s]
   bool converged = true;
 };
@@ -61,14 +61,20 @@ class ImpulseSolver {
   double relax(ImpulseProblem& problem, const Island& island);
   double settle(ImpulseProblem& problem, const Island& island);
   void solve_island(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
-  void run_rounds(ImpulseProblem& problem, const Island& island, int most, ImpulseReport& report);
+  void run_rounds(ImpulseProblem& problem, const Island& island, int most, bool yields,
+                  ImpulseReport& report);
   double polish(ImpulseProblem& problem, const Island& island, double residual);
   void order(const ImpulseProblem& problem, const Island& island);
   void lay_out(const ImpulseProblem& problem, const Island& island);
   struct Gradient {
     double largest, squared, rounding;  // as velocities [m/s]; squared in the norm of diag(M)^-1
   };
-  int solve_round(ImpulseProblem& problem, const Island& island, int most);
+  struct Round {
+    int steps = 0;
+    double left = 0;       // of M (v - v0) = J^T p, as a velocity [m/s]
+    bool strayed = false;  // shifts that followed did not come nearer
+  };
+  Round solve_round(ImpulseProblem& problem, const Island& island, int most);
   Gradient gradient(ImpulseProblem& problem, const Island& island, Shift shift);
   void respond_disc(const ImpulseConstraint& c, int i);
   Gradient balance(const ImpulseProblem& problem, const Island& island);
@@ -81,7 +87,7 @@ class ImpulseSolver {
   void move(ImpulseProblem& problem, const Island& island, double step);
   int approach_centrally(ImpulseProblem& problem, const Island& island);
   bool has_cone(const ImpulseProblem& problem, const ImpulseConstraint& c) const;
-  double begin_centrally(ImpulseProblem& problem, const Island& island, double start);
+  double begin_centrally(ImpulseProblem& problem, const Island& island, int which);
   double measure_centrally(ImpulseProblem& problem, const Island& island, double& residual);
   void measure_cone(ImpulseConstraint& c, int i);
   void join_discs(const ImpulseProblem& problem, int contact);
@@ -93,7 +99,7 @@ class ImpulseSolver {
   void move_centrally(ImpulseProblem& problem, const Island& island, double step);
   double step_length(const ImpulseProblem& problem, const Island& island);
   struct Path;
-  int follow_path(ImpulseProblem& problem, const Island& island, double start);
+  int follow_path(ImpulseProblem& problem, const Island& island, int which);
 
   std::vector<double> factors_;    // of the blocks of M: L L^T, 1 / l_ii on the diagonal
   std::vector<LawMemory> memory_;  // by constraint
@@ -121,7 +127,8 @@ class ImpulseSolver {
   double shift_part_ = 1;  // of mu |u_t| that counts
   double rounded_ = 0;     // the corner of |u_t| at rest, which the path rounds: a part of `corner`
   std::vector<ConeVec> x_, z_, dx_, dz_, d_, r_z_, right_, kept_;
-  struct ConeTerms {  // impulse_central.h
+  struct ConeTerms {    // impulse_central.h
+    double weight = 1;  // x o z = s weight e
     double arm = 0, corner = 0, slip = 0, A = 0, C = 0, n = 0;
     std::array<double, 2> h{}, l{};
     std::array<double, 3> S{};  // its entries aa, ab, bb
