@@ -3,7 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "solver/impulse_solver.h"
 #include "tests/solver/random_tree.h"
@@ -66,6 +70,78 @@ inline ImpulseProblem random_problem(unsigned seed, int bodies, int constraints,
     c.radius = 0.005;
     c.of = of;
     if (law == ImpulseLaw::coulomb || law == ImpulseLaw::at_least) c.b[0] = random.uniform(0, 0.2);
+  }
+  return problem;
+}
+
+// A pyramid of boxes of 1 kg and 0.1 m side, `levels` high and a little apart, that are thrown
+// about while they touch: four contacts where a box lies on another, with restitution.
+inline ImpulseProblem struck_pyramid(unsigned seed, int levels) {
+  constexpr double half = 0.05, apart = 0.02;
+  Random random(seed);
+  ImpulseProblem problem;
+  std::vector<std::array<double, 2>> at;  // x, z
+  for (int level = 0; level < levels; ++level)
+    for (int k = 0; k + level < levels; ++k)
+      at.push_back({(k + 0.5 * level) * (2 * half + apart), half + 2 * half * level});
+  for (std::size_t box = 0; box < at.size(); ++box) {
+    const int t = problem.add_tree(6);
+    for (int r = 0; r < 3; ++r)
+      problem.M(t)[7 * r] = 2.0 / 3 * half * half, problem.M(t)[7 * (3 + r)] = 1;
+    for (int k = 0; k < 6; ++k)
+      problem.v0(t)[k] = k < 3 ? random.uniform(-2, 2) : random.uniform(-0.2, 0.2);
+    problem.v0(t)[5] -= 0.2;
+  }
+  const double mu = random.uniform(0.2, 1), restitution = random.uniform(0, 0.5);
+  Matrix3 axes;
+  axes << 0, 1, 0, 0, 0, 1, 1, 0, 0;  // z, x, y
+  const auto touch = [&](int a, int b, double x, double y, double z) {
+    ImpulseConstraint& c = problem.add(ImpulseLaw::coulomb, 3, a, b);
+    for (int side = 0; side < 2; ++side)
+      if (const int t = c.tree[side]; t != ImpulseConstraint::no_tree)
+        add_rows(problem, c, side, axes, {x - at[t][0], y, z - at[t][1]}, false);
+    c.mu = mu;
+    std::array<double, 3> u;
+    problem.velocity(c, problem.v0(0), u);
+    c.b[0] = restitution * std::min(0.0, u[0]);
+  };
+  for (int b = 0; b < problem.tree_count(); ++b)
+    for (int a = -1; a < b; ++a) {
+      const double x_a = a < 0 ? at[b][0] : at[a][0], top = a < 0 ? 0 : at[a][1] + half;
+      const double low = std::max(x_a, at[b][0]) - half, high = std::min(x_a, at[b][0]) + half;
+      if (std::abs(at[b][1] - half - top) > 0.1 * half || low > high) continue;
+      for (const double x : {low, high})
+        for (const double y : {-half, half}) touch(a, b, x, y, top);
+    }
+  return problem;
+}
+
+// What found_impulses.h describes; bodies are free.
+inline ImpulseProblem read_problem(const char* text) {
+  std::istringstream in(text);
+  ImpulseProblem problem;
+  for (std::string word; in >> word;) {
+    if (word == "tree") {
+      const int t = problem.add_tree(6);
+      for (int r = 0; r < 6; ++r)
+        for (int k = 0; k <= r; ++k) {
+          in >> problem.M(t)[6 * r + k];
+          problem.M(t)[6 * k + r] = problem.M(t)[6 * r + k];
+        }
+      for (int k = 0; k < 6; ++k) in >> problem.v0(t)[k];
+      continue;
+    }
+    int rows = 0, a = 0, b = 0, of = 0;
+    in >> rows >> a >> b >> of;
+    const bool disc = word == "disc";
+    ImpulseConstraint& c = problem.add(disc ? ImpulseLaw::disc : ImpulseLaw::coulomb, rows, a, b);
+    c.of = of;
+    in >> (disc ? c.radius : c.mu);
+    for (double& x : c.b) in >> x;
+    for (double& x : c.p) in >> x;
+    for (int side = 0; side < 2; ++side)
+      if (c.tree[side] != ImpulseConstraint::no_tree)
+        for (int k = 0; k < 6 * rows; ++k) in >> problem.J(c, side)[k];
   }
   return problem;
 }
