@@ -52,13 +52,16 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
     double residual = settle(problem, islands_[i]);
     char& again = solve_again_[static_cast<std::size_t>(islands_[i].trees.front())];
     const bool fails = !(residual <= good_guess);
-    if (fails || (again && residual > 0.1 * tolerance)) {
+    bool open = fails || (again && residual > 0.1 * tolerance);
+    if (!open && residual > tolerance) {
+      residual = relax(problem, islands_[i]);
+      open = !(residual <= good_guess);  // where bodies share contacts it can lose what was there
+    }
+    if (open) {
       solve_island(problem, islands_[i], report);
       residual = settle(problem, islands_[i]);
       if (islands_[i].constraints.size() <= few || !(residual <= accepted))
         residual = polish(problem, islands_[i], residual);
-    } else if (residual > tolerance) {
-      residual = relax(problem, islands_[i]);
     }
     again = fails;
     report.residual = std::max(report.residual, residual);
