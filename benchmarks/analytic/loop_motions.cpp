@@ -42,11 +42,11 @@ TrajectoryCase as_motion(const LoopCase& c) {
 }  // namespace
 
 std::shared_ptr<const TrajectoryCase> loop_motion(std::string_view case_name) {
-  struct Mechanism {
+  struct NamedLoop {
     std::string_view name;
     LoopCase (*make)();
   };
-  constexpr Mechanism all[] = {
+  constexpr NamedLoop all[] = {
       {"D1-hinge", pendulum_on_hinge},
       {"D1-circle", pendulum_on_circle},
       {"D2-2", [] { return windows(2); }},
@@ -56,7 +56,7 @@ std::shared_ptr<const TrajectoryCase> loop_motion(std::string_view case_name) {
       {"D5-rods", [] { return governor(Couplers::rods); }},
       {"D6", slider_crank},
   };
-  for (const Mechanism& one : all)
+  for (const NamedLoop& one : all)
     if (one.name == case_name) return std::make_shared<const TrajectoryCase>(as_motion(one.make()));
   return nullptr;
 }

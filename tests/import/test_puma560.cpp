@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "benchmarks/analytic/puma560_values.h"
 #include "collision/import/robot_model.h"
 #include "collision/import/urdf.h"
 #include "solver/dynamics.h"
 #include "tests/import/helpers.h"
-#include "benchmarks/analytic/puma560_values.h"
 
 namespace twinarm {
 namespace {
