@@ -183,7 +183,7 @@ class Page(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.out = pathlib.Path(cls.folder.name) / "not" / "yet"
-        cls.result = run(*cls.NAMES, "--html", str(cls.out), "--json")
+        cls.result = run(*cls.NAMES, "--html", str(cls.out), "--json", timeout=600)
         cls.answer = json.loads(cls.result.stdout)
         cls.page = (cls.out / "compare.html").read_text(encoding="utf-8")
         cls.tags = Tags(cls.page)
