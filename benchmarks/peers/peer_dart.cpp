@@ -13,6 +13,7 @@
 #include <dart/dynamics/WeldJoint.hpp>
 #include <dart/simulation/World.hpp>
 
+#include <cmath>
 #include <iostream>
 
 #include "benchmarks/peers/peer.h"

@@ -1,6 +1,7 @@
 // twinarm itself: the step that any program calls, with every integrator; contacts by the rigid
 // response, as they come and with impacts located in time.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
