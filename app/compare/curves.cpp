@@ -9,8 +9,8 @@
 namespace twinarm::compare_page {
 namespace {
 
-constexpr long kMostSteps = 50000;                // of the run that is drawn
-constexpr long kFinestSteps = 12000, kSteps = 5;  // of those in the diagram of errors
+constexpr long kMostSteps = 50000;               // of the run that is drawn
+constexpr long kFinestSteps = 6000, kSteps = 5;  // of those in the diagram of errors
 constexpr int kExactPoints = 24;
 
 // References may cost more than a run; every run asks for the same.

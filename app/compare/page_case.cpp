@@ -8,7 +8,6 @@
 #include "app/compare/plots.h"
 #include "app/compare/small_svg.h"
 #include "app/html_text.h"
-#include "benchmarks/analytic/loop_runs.h"
 
 namespace twinarm::compare_page {
 namespace {
@@ -101,9 +100,9 @@ std::string case_section(const CompareRow& row, const std::vector<Lane>& lanes) 
       fmt::format("<section class=case id=\"{0}\"><h3>{0}{1}<span class=what>{2}</span></h3>\n",
                   escaped(c.name), yes_no(pass, "pass", "short"), escaped(c.reference));
   const char* statement = statement_of(c);
-  const auto motion = c.trajectory ? c.trajectory : loop_motion(c.name);
-  html += typeset_statement(statement ? statement : "") + facts_of_case(row, motion.get()) +
-          lanes_table(row);
+  const TrajectoryCase* motion = c.trajectory.get();
+  html +=
+      typeset_statement(statement ? statement : "") + facts_of_case(row, motion) + lanes_table(row);
   if (motion) html += motion->has_steps() ? figures_of(row, *motion) : readings_table(*motion);
   html += command_of(row, lanes);
   const CaseCode code = code_of(c.name);

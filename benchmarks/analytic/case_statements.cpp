@@ -9,7 +9,7 @@ const char* statement_of(const AnalyticCase& c) {
   if (c.statement) return c.statement;
   const std::string_view name = c.name;
   const CaseStatement* found = nullptr;
-  for (const auto* table : {&contact_statements(), &loop_statements()})
+  for (const auto* table : {&contact_statements(), &other_statements()})
     for (const CaseStatement& one : *table) {
       const bool means =
           name.starts_with(one.name) && (name.size() == one.name.size() ||

@@ -13,6 +13,6 @@ struct CaseStatement {
 };
 
 const std::vector<CaseStatement>& contact_statements();  // group E
-const std::vector<CaseStatement>& loop_statements();     // groups D and G
+const std::vector<CaseStatement>& other_statements();    // groups F, G, H
 
 }  // namespace twinarm

@@ -57,6 +57,7 @@ TrajectoryCase motion_of(LoopCase (*make)(), const char* statement) {
     return c->read(x, k);
   };
   motion.reference = [c](double t) { return tabulated(*c, t); };
+  motion.at_times_only = true;
   motion.lane = rk4_lane(c->step);
   return motion;
 }
@@ -72,6 +73,7 @@ CaseReadings swinging(double t) {  // from 90 degrees at rest
 TrajectoryCase swing_of(LoopCase (*make)(), const char* statement) {
   TrajectoryCase motion = motion_of(make, statement);
   motion.reference = swinging;
+  motion.at_times_only = false;
   return motion;
 }
 
@@ -93,6 +95,7 @@ TrajectoryCase windows_motion(double step) {
       "((N + 1)/3 + N)</p>");
   motion.times = {1, 10};
   motion.reference = [](double t) { return turning_windows(count, t); };
+  motion.at_times_only = false;
   motion.lane = rk4_lane(step);
   return motion;
 }

@@ -25,7 +25,7 @@ TEST_CASE("cases: every one says what is known of it, with a formula") {
 }
 
 TEST_CASE("cases: no statement stands for nothing, none is there twice") {
-  for (const auto* table : {&contact_statements(), &loop_statements()}) {
+  for (const auto* table : {&contact_statements(), &other_statements()}) {
     std::set<std::string> names;
     for (const CaseStatement& one : *table) {
       const std::string name(one.name);
