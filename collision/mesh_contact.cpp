@@ -5,11 +5,20 @@
 // the point of contact lies on: in a triangle with an obtuse corner a normal on one side leans over
 // another side too. Along flat and hollow edges the neighbour has the contact, so a ball rolls over
 // them and feels nothing. Contacts that two triangles share, on their common edge, are kept once.
+//
+// Along a triangle's own normal the depth is how far the body reaches behind its plane, and that is
+// false round a corner: a box that rests on a tread and hangs over its edge reaches far behind the
+// wall below. It does not lie over the wall as long as it is apart from the tread; but a hair deep
+// there, the two have a sliver in common as seen along the wall's normal. Now a point is no deeper
+// in a solid than it is far from the surface. So contacts are taken in ascending order of depth,
+// and one along a triangle's normal counts only if its point is not much nearer to a triangle that
+// the body touches already.
 #include "collision/mesh_contact.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "collision/direction.h"
 
@@ -20,6 +29,11 @@ constexpr double lean = 1e-6;              // sine of an angle that counts as le
 constexpr double same_point = 1e-9;        // [m]
 constexpr double on_side = 1e-6;           // a point as near to a side lies on it [m]
 constexpr double same_direction = 0.9999;  // cosine
+// Of its depth: a point that is nearer than this to another triangle is not that deep. Less than 1,
+// for triangles that bend mildly agree on a depth but for the cosine between them.
+constexpr double part_of_depth = 0.5;
+// distance() asks for contacts from this far apart: what is flush within rounding counts.
+constexpr double flush = 1e-6;  // [m]
 
 Aabb box_in(const Placed& mesh, const Placed& body, double margin) {
   const Pose X_MB = mesh.X_WG.inverse() * body.X_WG;
@@ -47,15 +61,61 @@ bool is_own(const Vector3& n, const Vector3& front, const Vector3& p, const Mesh
   return true;
 }
 
+// Of a point (in the frame of the mesh) from triangle t: where it is over the triangle from its
+// plane, else from the nearest side.
+double distance_from(const Vector3& p, const MeshSurface& surface, int t) {
+  const std::vector<Vector3>& corners = surface.triangles[t].core.hull.vertices;
+  bool is_over = true;
+  double nearest = 1e300;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3 &a = corners[i], along = corners[(i + 1) % 3] - a;
+    is_over = is_over && surface.sides[t][i].outward.dot(p - a) <= 0;
+    const double part = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (p - a - part * along).squaredNorm());
+  }
+  return is_over ? std::abs(surface.normals[t].dot(p - corners[0])) : std::sqrt(nearest);
+}
+
 }  // namespace
 
-void MeshContact::take(const std::vector<ManifoldPoint>& points, const Vector3& n_W, int t,
-                       double margin) {
+void MeshContact::take(const std::vector<ManifoldPoint>& points, Along along, const Vector3& n_W,
+                       int t, double margin) {
+  const std::size_t first = all_.size();
+  double deepest = -1e300;
   for (ManifoldPoint point : points) {
     if (!(point.depth > -margin)) continue;
     point.n_W = n_W;
     point.feature = feature_name(t, point.feature, 0, 11);
     all_.push_back(point);
+    deepest = std::max(deepest, point.depth);
+  }
+  if (all_.size() > first) touches_.push_back({t, along, deepest, first, all_.size()});
+}
+
+bool MeshContact::is_false(const Placed& mesh, const ManifoldPoint& point) const {
+  if (!(point.depth > 0)) return false;
+  const MeshSurface& surface = *mesh.solid.surface;
+  const Vector3 p = mesh.X_WG.inverse() * point.p_WB;
+  const double near = part_of_depth * point.depth;
+  return std::any_of(true_.begin(), true_.end(), [&](int t) {
+    const Vector3& corner = surface.triangles[t].core.hull.vertices[0];
+    return std::abs(surface.normals[t].dot(p - corner)) < near &&
+           distance_from(p, surface, t) < near;
+  });
+}
+
+// From all_ to kept_.
+void MeshContact::drop_false(const Placed& mesh) {
+  std::sort(touches_.begin(), touches_.end(), [](const Touch& x, const Touch& y) {
+    return std::tie(x.deepest, x.triangle) < std::tie(y.deepest, y.triangle);
+  });
+  kept_.clear();
+  true_.clear();
+  for (const Touch& touch : touches_) {
+    const std::size_t count = kept_.size();
+    for (std::size_t i = touch.first; i < touch.last; ++i)
+      if (touch.along == Along::leaning || !is_false(mesh, all_[i])) kept_.push_back(all_[i]);
+    if (kept_.size() > count) true_.push_back(touch.triangle);
   }
 }
 
@@ -74,16 +134,17 @@ void MeshContact::touch_triangle(NarrowPhase& narrow_phase, const Placed& mesh, 
   const bool lies_over = std::any_of(over.begin(), over.end(), [&](const ManifoldPoint& point) {
     return point.depth > front.overlap - same_point;
   });
-  if (lies_over) return take(over, n_W, t, margin);
+  if (lies_over) return take(over, Along::front, n_W, t, margin);
   NearestPair pair;
   if (!narrow_phase.nearest(triangle, body, margin, pair)) return;
   // From midway to the triangle's own point.
   const Vector3 p_W = pair.p_W + 0.5 * pair.axis.overlap * pair.axis.n_W;
   const Matrix3 R_MW = mesh.X_WG.R.transpose();
   if (!is_own(R_MW * pair.axis.n_W, R_MW * n_W, mesh.X_WG.inverse() * p_W, surface, t)) {
-    return take(over, n_W, t, margin);
+    return take(over, Along::front, n_W, t, margin);
   }
-  take(manifold_.between(triangle, body, pair.axis, pair.p_W, margin), pair.axis.n_W, t, margin);
+  take(manifold_.between(triangle, body, pair.axis, pair.p_W, margin), Along::leaning,
+       pair.axis.n_W, t, margin);
 }
 
 // Direction by direction, deepest first: each point once, four at most.
@@ -115,15 +176,18 @@ const std::vector<ManifoldPoint>& MeshContact::contacts(NarrowPhase& narrow_phas
                                                         double margin) {
   near_.clear();
   all_.clear();
+  touches_.clear();
   mesh.solid.surface->find(box_in(mesh, body, margin), near_);
   for (int t : near_) touch_triangle(narrow_phase, mesh, t, body, margin);
+  drop_false(mesh);
+  std::swap(all_, kept_);
   thin_out();
   return kept_;
 }
 
 double MeshContact::distance(NarrowPhase& narrow_phase, const Placed& mesh, const Placed& body) {
   double deepest = 0;
-  for (const ManifoldPoint& point : contacts(narrow_phase, mesh, body, 0)) {
+  for (const ManifoldPoint& point : contacts(narrow_phase, mesh, body, flush)) {
     deepest = std::max(deepest, point.depth);
   }
   if (deepest > 0) return -deepest;

@@ -22,11 +22,23 @@ class MeshContact {
  private:
   void touch_triangle(NarrowPhase& narrow_phase, const Placed& mesh, int t, const Placed& body,
                       double margin);
-  void take(const std::vector<ManifoldPoint>& points, const Vector3& n_W, int t, double margin);
+  enum class Along { front, leaning };  // the triangle's own normal, or over a side or corner
+  void take(const std::vector<ManifoldPoint>& points, Along along, const Vector3& n_W, int t,
+            double margin);
+  bool is_false(const Placed& mesh, const ManifoldPoint& point) const;
+  void drop_false(const Placed& mesh);
   void thin_out();
 
+  struct Touch {  // of one triangle
+    int triangle;
+    Along along;
+    double deepest;
+    std::size_t first, last;  // of all_
+  };
+
   Manifold manifold_;
-  std::vector<int> near_;
+  std::vector<int> near_, true_;  // triangles
+  std::vector<Touch> touches_;
   std::vector<ManifoldPoint> all_, group_, kept_;
 };
 
