@@ -9,10 +9,10 @@
 // Along a triangle's own normal the depth is how far the body reaches behind its plane, and that is
 // false round a corner: a box that rests on a tread and hangs over its edge reaches far behind the
 // wall below. It does not lie over the wall as long as it is apart from the tread; but a hair deep
-// there, the two have a sliver in common as seen along the wall's normal. Now a point is no deeper
-// in a solid than it is far from the surface. So contacts are taken in ascending order of depth,
-// and one along a triangle's normal counts only if its point is not much nearer to a triangle that
-// the body touches already.
+// there, the two have a sliver in common as seen along the wall's normal. Now what is inside a
+// solid is no deeper than it is far from the surface. So contacts are taken in ascending order of
+// depth; one along a triangle's normal counts only if nothing on its way down is much nearer to a
+// triangle that the body hardly touches.
 #include "collision/mesh_contact.h"
 
 #include <Eigen/Geometry>
@@ -32,6 +32,8 @@ constexpr double same_direction = 0.9999;  // cosine
 // Of its depth: a point that is nearer than this to another triangle is not that deep. Less than 1,
 // for triangles that bend mildly agree on a depth but for the cosine between them.
 constexpr double part_of_depth = 0.5;
+// Two points as near as this may be one for the clipping of features (clip.cpp) [m].
+constexpr double clipped_as_one = 1e-9;
 // distance() asks for contacts from this far apart: what is flush within rounding counts.
 constexpr double flush = 1e-6;  // [m]
 
@@ -92,16 +94,24 @@ void MeshContact::take(const std::vector<ManifoldPoint>& points, Along along, co
   if (all_.size() > first) touches_.push_back({t, along, deepest, first, all_.size()});
 }
 
+// By what is hardly touched and yet near the line from the triangle down to the body's point.
 bool MeshContact::is_false(const Placed& mesh, const ManifoldPoint& point) const {
-  if (!(point.depth > 0)) return false;
   const MeshSurface& surface = *mesh.solid.surface;
-  const Vector3 p = mesh.X_WG.inverse() * point.p_WB;
-  const double near = part_of_depth * point.depth;
-  return std::any_of(true_.begin(), true_.end(), [&](int t) {
-    const Vector3& corner = surface.triangles[t].core.hull.vertices[0];
-    return std::abs(surface.normals[t].dot(p - corner)) < near &&
-           distance_from(p, surface, t) < near;
-  });
+  const Pose X_MW = mesh.X_WG.inverse();
+  const Vector3 top = X_MW * point.p_WA, down = X_MW * point.p_WB - top;
+  for (const Touch& touch : true_) {
+    const double hardly = std::max(touch.deepest, clipped_as_one);
+    if (point.depth < 4 * hardly) return false;  // they ascend
+    const Vector3& corner = surface.triangles[touch.triangle].core.hull.vertices[0];
+    for (double part = 1; part * point.depth > 2 * hardly; part *= 0.5) {
+      const Vector3 p = top + part * down;
+      const double near = part_of_depth * part * point.depth;
+      if (std::abs(surface.normals[touch.triangle].dot(p - corner)) < near &&
+          distance_from(p, surface, touch.triangle) < near)
+        return true;
+    }
+  }
+  return false;
 }
 
 // From all_ to kept_.
@@ -115,7 +125,7 @@ void MeshContact::drop_false(const Placed& mesh) {
     const std::size_t count = kept_.size();
     for (std::size_t i = touch.first; i < touch.last; ++i)
       if (touch.along == Along::leaning || !is_false(mesh, all_[i])) kept_.push_back(all_[i]);
-    if (kept_.size() > count) true_.push_back(touch.triangle);
+    if (kept_.size() > count) true_.push_back(touch);
   }
 }
 

@@ -37,8 +37,8 @@ class MeshContact {
   };
 
   Manifold manifold_;
-  std::vector<int> near_, true_;  // triangles
-  std::vector<Touch> touches_;
+  std::vector<int> near_;              // triangles
+  std::vector<Touch> touches_, true_;  // true_: those that count, ascending in depth
   std::vector<ManifoldPoint> all_, group_, kept_;
 };
 

@@ -6,6 +6,7 @@
 #include "solver/dynamics.h"
 #include "solver/world.h"
 #include "tests/collision/contact_scene.h"
+#include "tests/collision/step_mesh.h"
 #include "tests/solver/count_allocations.h"
 #include "tests/solver/random_tree.h"
 
@@ -235,5 +236,30 @@ TEST_CASE("bad surfaces are all told at once") {
     FAIL("accepted");
   } catch (const InputError& error) {
     CHECK(error.faults().size() == 3);
+  }
+}
+
+TEST_CASE("a box that hangs over the edge of a mesh rests there, also where it began a hair deep") {
+  for (const double deep : {1e-9, 1e-8, 1e-7, 1e-6}) {
+    CAPTURE(deep);
+    ContactScene scene;
+    scene.set_gravity({0, 0, -9.81});
+    ContactSurface rough;
+    rough.friction = 0.5;
+    scene.obstacle(MeshShape{test::step_mesh()}, rough);
+    const Vector3 start(-0.1, 0.12, 0.17 - deep);  // over two edges
+    const int box = scene.body(Box{{0.12, 0.1, 0.1}}, 2, rough, {start});
+    scene.begin();
+    for (int n = 0; n < 300; ++n) {
+      scene.simulation().step(1e-3);
+      Vector3 force = Vector3::Zero();
+      for (const ContactPoint& point : scene.contacts().points()) {
+        force += point.force_W;
+        CHECK(point.contact.depth < 1.1e-6);
+      }
+      if (n > 1) CHECK((force - 2 * 9.81 * Vector3::UnitZ()).norm() < 1e-6);
+    }
+    CHECK((scene.position(box) - start).norm() < 2e-6);
+    CHECK(scene.velocity(box).norm() < 1e-8);
   }
 }

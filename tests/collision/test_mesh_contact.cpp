@@ -12,6 +12,7 @@
 #include "solver/fault.h"
 #include "tests/collision/oracle.h"
 #include "tests/collision/pair_scene.h"
+#include "tests/collision/step_mesh.h"
 
 using namespace twinarm;
 using namespace twinarm::test;
@@ -187,21 +188,7 @@ TEST_CASE("bad meshes are refused with what is wrong: empty, open, flipped, thin
 
 TEST_CASE(
     "whoever is near a mesh whose triangles have obtuse corners touches it, as near as it is") {
-  // A step: its flat ends are fans, and one of their triangles has a corner of 160 degrees.
-  const std::vector<std::array<double, 2>> outline{{-0.15, 0}, {0.15, 0}, {0.15, 0.05},
-                                                   {0, 0.05},  {0, 0.12}, {-0.15, 0.12}};
-  TriangleMesh step;
-  for (const double y : {-0.15, 0.15})
-    for (const auto& [x, z] : outline) step.vertices.emplace_back(x, y, z);
-  for (int i = 1; i < 5; ++i) {
-    step.triangles.push_back({0, i, i + 1});
-    step.triangles.push_back({6, i + 7, i + 6});
-  }
-  for (int i = 0; i < 6; ++i) {
-    const int j = (i + 1) % 6;
-    step.triangles.push_back({i, i + 6, j + 6});
-    step.triangles.push_back({i, j + 6, j});
-  }
+  const TriangleMesh step = step_mesh();
   REQUIRE(mesh_fault(MeshShape{step}).empty());
   const double margin = 0.02;
   for (const Shape& body : bodies()) {
