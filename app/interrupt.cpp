@@ -13,6 +13,10 @@ void catch_interrupts() {
   std::signal(SIGTERM, note);
 }
 
+bool is_interrupted() {
+  return interrupted != 0;
+}
+
 void check_interrupt() {
   if (interrupted) throw Interrupted();
 }

@@ -10,6 +10,7 @@ struct Interrupted : std::exception {
 };
 
 void catch_interrupts();  // from now on SIGINT and SIGTERM only set a flag
+bool is_interrupted();    // whether it is set
 void check_interrupt();   // throws Interrupted once the flag is set
 
 }  // namespace twinarm

@@ -15,6 +15,7 @@
 // In the second phase p u' <= 0, as gaps only close.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "solver/constraint_source.h"
@@ -52,6 +53,8 @@ class ConstrainedStep {
   void set_accuracy(double good_guess, double accepted, double aim) {
     solver_.good_guess = good_guess, solver_.accepted = accepted, solver_.tolerance = aim;
   }
+  std::size_t law_count() const { return problem_.constraints().size(); }  // of the last solution
+  void set_usual_accuracy() { set_accuracy(usual_[0], usual_[1], usual_[2]); }
   // Guesses of impulses.
   void visit_memory(Memory& memory) {
     for (auto* guess : {&friction_guess_, &mimic_guess_, &loop_guess_}) memory.visit(*guess);
@@ -92,6 +95,7 @@ class ConstrainedStep {
   std::vector<std::size_t> first_;  // by source: its first constraint in problem_
   ImpulseProblem problem_;
   ImpulseSolver solver_;
+  std::array<double, 3> usual_{solver_.good_guess, solver_.accepted, solver_.tolerance};
   ConstraintReport report_;
   bool friction_on_ = true;
   std::vector<char> flies_;     // by tree

@@ -12,14 +12,14 @@ namespace {
 constexpr double kShortest = 1e-11;  // of a piece that must be good [s]
 // Residuals of the impulses [m/s]: extrapolation multiplies what they leave by some hundreds.
 constexpr double kGoodGuess = 1e-14, kAccepted = 1e-11, kAim = 1e-13;
-constexpr int kMostPieces = 1'000'000;  // in one step: no run goes on for ever in silence
 // Of a piece, relative and absolute: well below EventSource::kMoves, else what rolls seems to slip.
 constexpr double kTolerance = 1e-10;
 constexpr double kFar = 1;  // stands for a gap that is not there [m]
 
 }  // namespace
 
-void EventStep::step(ConstrainedStep& constrained, Mechanism& m, double h, StepReport& report) {
+void EventStep::step(ConstrainedStep& constrained, Mechanism& m, double h, Interrupted interrupted,
+                     StepReport& report) {
   sources_.clear();
   for (ConstraintSource* source : constrained.sources())
     sources_.push_back(static_cast<EventSource*>(source));
@@ -29,12 +29,17 @@ void EventStep::step(ConstrainedStep& constrained, Mechanism& m, double h, StepR
   const double t_end = m.x.t + h;
   if (length_ <= 0) length_ = h;
   report.substeps = 0;
+  laws_ = 0;
+  interrupted_ = interrupted, is_interrupted_ = false;
   for (double left = h; left > 1e-15 * h; left = t_end - m.x.t) {
-    if (report.substeps + report.rejected > kMostPieces) {
-      report.reached = false;
+    const double s = piece(constrained, m, left, report);
+    if (s == 0) {
+      go_back(m);
+      report.interrupted = is_interrupted_;
+      report.reached = !is_interrupted_;
+      if (!is_interrupted_) finish(constrained, m, t_end, report);
       return;
     }
-    const double s = piece(constrained, m, left, report);
     m.x.t = s == left ? t_end : start_.t + s;
     m.refresh();
     if (m.account) m.account->count_flow(), m.account->count_projection();
@@ -43,6 +48,34 @@ void EventStep::step(ConstrainedStep& constrained, Mechanism& m, double h, StepR
     ++report.substeps;
     if (s == left) break;
   }
+}
+
+// Whether the piece is given up.
+bool EventStep::stops() {
+  if (!is_interrupted_ && interrupted_) is_interrupted_ = interrupted_();
+  return is_interrupted_ || laws_ >= kMostLaws;
+}
+
+// To the start of the piece.
+void EventStep::go_back(Mechanism& m) {
+  m.x = start_;
+  forward_kinematics(*model_, m.x, m.k);
+  for (EventSource* source : sources_) source->hold_again();
+}
+
+// The rest of the step at once; what is held in the next one is found anew.
+void EventStep::finish(ConstrainedStep& constrained, Mechanism& m, double t_end,
+                       StepReport& report) {
+  const bool is_converged = report.converged;
+  constrained.set_usual_accuracy();
+  constrained.step(m, t_end - m.x.t, report);
+  m.x.t = t_end;
+  m.refresh();
+  constrained.begin_sources(m, 0);
+  for (EventSource* source : sources_) source->hold(frame(constrained, m), true);
+  report.converged = report.converged && is_converged;
+  report.located = false;
+  ++report.substeps;
 }
 
 // What has come together is struck; the rest is held or free.
@@ -60,7 +93,7 @@ EventSource::Nearest EventStep::look(ConstrainedStep& constrained, const Mechani
   return nearest;
 }
 
-// Moves m by a good piece, at most the longest; returns its length.
+// Moves m by a good piece, at most the longest; returns its length, or 0 where it is given up.
 double EventStep::piece(ConstrainedStep& constrained, Mechanism& m, double longest,
                         StepReport& report) {
   begin(constrained, m, longest);
@@ -70,6 +103,7 @@ double EventStep::piece(ConstrainedStep& constrained, Mechanism& m, double longe
   if (1.02 * ahead.time < s) s = std::max(1.02 * ahead.time, kShortest);
   for (;; ++report.rejected) {
     const Piece found = cross(constrained, m, s);
+    if (found == Piece::stopped) return 0;
     if (found != Piece::good && s <= kShortest) {
       ++report.events;
       force_through(constrained, m, s);
@@ -102,13 +136,14 @@ double EventStep::piece(ConstrainedStep& constrained, Mechanism& m, double longe
 
 double EventStep::shorten(ConstrainedStep& constrained, Mechanism& m, double s, double gap_start,
                           double gap_end) {
-  return step_to_zero(s, gap_start, gap_end, [&](double trial) {
+  const double length = step_to_zero(s, gap_start, gap_end, [&](double trial) {
     m.x = start_;
     forward_kinematics(*model_, m.x, m.k);
-    cross(constrained, m, trial);
+    if (cross(constrained, m, trial) == Piece::stopped) return 0.0;  // ends the search
     constrained.begin_sources(m, trial);
     return look(constrained, m).gap;
   });
+  return stops() ? 0 : length;
 }
 
 // Over an event that is located: one step of the first order.
@@ -116,7 +151,7 @@ void EventStep::force_through(ConstrainedStep& constrained, Mechanism& m, double
   is_solved_ = true;
   modes_.clear();
   run_column(constrained, m, s, 1, Uneven::taken);
-  go_to(constrained, m, values_, s);
+  go_to(m, values_, s);
 }
 
 // From start_ by s: m is there, whether the piece is good or not.
@@ -124,7 +159,8 @@ EventStep::Piece EventStep::cross(ConstrainedStep& constrained, Mechanism& m, do
   modes_.clear();
   is_solved_ = true;
   for (int n = 1; n <= kColumns; ++n) {
-    if (!run_column(constrained, m, s, n, Uneven::refused)) return Piece::uneven;
+    if (!run_column(constrained, m, s, n, Uneven::refused))
+      return stops() ? Piece::stopped : Piece::uneven;
     extrapolate(n);
   }
   const std::size_t nv = model_->nv;
@@ -138,11 +174,12 @@ EventStep::Piece EventStep::cross(ConstrainedStep& constrained, Mechanism& m, do
     error_ = std::max({error_, place / kTolerance, speed / kTolerance});
     if (!std::isfinite(place + speed)) error_ = 1e300;
   }
-  go_to(constrained, m, best, s);
+  go_to(m, best, s);
   return error_ <= 1 ? Piece::good : Piece::inexact;
 }
 
-// n steps of the first order; false as soon as what is held does another thing than before.
+// n steps of the first order; false as soon as what is held does another thing than before, or the
+// piece is given up.
 bool EventStep::run_column(ConstrainedStep& constrained, Mechanism& m, double s, int n,
                            Uneven uneven) {
   const std::size_t nv = model_->nv;
@@ -153,6 +190,7 @@ bool EventStep::run_column(ConstrainedStep& constrained, Mechanism& m, double s,
   theta_.assign(nv, 0);
   rate_.resize(nv);
   for (int i = 1; i <= n; ++i) {
+    if (uneven == Uneven::refused && stops()) return false;
     shift_rate(*model_, theta_, m.x.qd, rate_);
     for (std::size_t dof = 0; dof < nv; ++dof) theta_[dof] += step * rate_[dof];
     integrate_coordinates(*model_, start_.q, theta_, m.x.q);
@@ -160,6 +198,7 @@ bool EventStep::run_column(ConstrainedStep& constrained, Mechanism& m, double s,
     m.place_and_look();
     constrained.begin_sources(m, 0);
     constrained.flow(m, step);
+    laws_ += 1 + static_cast<long>(constrained.law_count());
     is_solved_ = is_solved_ && constrained.report().step.converged;
     modes_now_.clear();
     for (EventSource* source : sources_) source->modes(modes_now_);
@@ -191,7 +230,7 @@ void EventStep::extrapolate(int n) {
   row_[static_cast<std::size_t>(n - 1)] = values_;
 }
 
-void EventStep::go_to(ConstrainedStep&, Mechanism& m, const std::vector<double>& row, double s) {
+void EventStep::go_to(Mechanism& m, const std::vector<double>& row, double s) {
   const std::size_t nv = model_->nv;
   theta_.assign(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(nv));
   integrate_coordinates(*model_, start_.q, theta_, m.x.q);

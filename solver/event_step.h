@@ -14,6 +14,12 @@
 // impact, with the restitution of what touches. Impacts slower than 1e-7 m/s do not bounce: so a
 // ball comes to rest through the point in time at which its bounces accumulate.
 //
+// Where events follow one another without end (a heap that chatters; redundant loops, whose forces
+// are known to rounding only, so that no piece is good) a step stops looking for them after
+// kMostLaws laws solved (one for each constraint in each solution): what is left of it is one step
+// of fixed size (constrained_step.h), which obeys the same laws to first order, and the report says
+// so (StepReport::located).
+//
 // Between bodies that are nearer to each other at the start of a piece than they move in it a gap
 // is looked for at its end; the predicted time of the meeting bounds the piece, so nothing is
 // jumped.
@@ -31,12 +37,17 @@ class EventStep {
  public:
   explicit EventStep(const Model<double>& model) : model_(&model) {}
   void visit_memory(Memory& memory) { memory.visit(length_); }
-  // All of constrained's sources must be EventSources.
-  void step(ConstrainedStep& constrained, Mechanism& m, double h, StepReport& report);
+  // `interrupted` is asked before each solution; may be null. True ends the step where its last
+  // piece began. All of constrained's sources must be EventSources.
+  using Interrupted = bool (*)();
+  void step(ConstrainedStep& constrained, Mechanism& m, double h, Interrupted interrupted,
+            StepReport& report);
+
+  static constexpr long kMostLaws = 500'000;  // in one step; a second or two
 
  private:
   static constexpr int kColumns = 7;
-  enum class Piece { good, inexact, uneven };
+  enum class Piece { good, inexact, uneven, stopped };
 
   Piece cross(ConstrainedStep& constrained, Mechanism& m, double s);
   enum class Uneven { refused, taken };
@@ -46,9 +57,12 @@ class EventStep {
   double shorten(ConstrainedStep& constrained, Mechanism& m, double s, double gap_start,
                  double gap_end);
   void force_through(ConstrainedStep& constrained, Mechanism& m, double s);
+  void go_back(Mechanism& m);
+  void finish(ConstrainedStep& constrained, Mechanism& m, double t_end, StepReport& report);
+  bool stops();
   EventSource::Nearest look(ConstrainedStep& constrained, const Mechanism& m) const;
   void extrapolate(int n);
-  void go_to(ConstrainedStep& constrained, Mechanism& m, const std::vector<double>& row, double s);
+  void go_to(Mechanism& m, const std::vector<double>& row, double s);
   ConstraintFrame frame(const ConstrainedStep& constrained, const Mechanism& m) const {
     return {m.k, constrained.trees(), m.x, Phase::flow, 0};
   }
@@ -64,6 +78,9 @@ class EventStep {
   std::vector<double> values_, spare_;
   double error_ = 0;
   bool is_solved_ = true;  // all steps of the piece
+  long laws_ = 0;          // solved in this step
+  Interrupted interrupted_ = nullptr;
+  bool is_interrupted_ = false;
   std::vector<char> modes_, modes_now_;
 };
 

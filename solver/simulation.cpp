@@ -189,7 +189,7 @@ StepReport Simulation::advance(double h, bool one_substep) {
   }
   if (constrained_.any() || located_) {
     if (located_) {
-      located_->step(constrained_, m_, h, report);
+      located_->step(constrained_, m_, h, interrupted_, report);
     } else {
       constrained_.step(m_, h, report);
       m_.x.t = t + h;

@@ -37,6 +37,9 @@ class Simulation {
   // (solver/event_step.h), to 1e-10. Throws std::invalid_argument where a source is
   // implicit in the step, or is no EventSource.
   void locate_events();
+  // Asked within steps that locate their events, which may be long; true ends the step
+  // (StepReport::interrupted), and the state stands before its end.
+  void set_interrupted(EventStep::Interrupted ask) { interrupted_ = ask; }
   // Bilateral constraints, in place of those before. Throws InputError with all faults; loops must
   // be closed where the mechanism stands (close_loops in loop_assembly.h finds such a place).
   // Velocities that they do not allow go to the nearest that they do, as in an impact. From then
@@ -103,6 +106,7 @@ class Simulation {
   FrictionEvents events_;
   ConstrainedStep constrained_;
   std::optional<EventStep> located_;
+  EventStep::Interrupted interrupted_ = nullptr;
   std::optional<ImplicitStep> implicit_;  // nv x nv numbers: only where the integrator needs it
 };
 

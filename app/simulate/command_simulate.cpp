@@ -72,6 +72,7 @@ int run_simulate(const SimulateOptions& options) {
       return words;
     };
     watch.sample = [&](double t, const State<double>& x) { output->sample(t, x); };
+    watch.interrupted = is_interrupted;
     watch.tick = [&](double t) {
       check_interrupt();
       progress(t);

@@ -23,10 +23,11 @@ constexpr double kDeepStart = 1e-4;
 constexpr long kCheckpoint = 1000;
 constexpr long kEnergyEvery = 8;  // steps: the check costs a pass
 
-void visit_head(Memory& memory, long& steps, double& end, long& unsolved) {
+void visit_head(Memory& memory, long& steps, double& end, long& unsolved, long& unlocated) {
   memory.visit(steps);
   memory.visit(end);
   memory.visit(unsolved);
+  memory.visit(unlocated);
 }
 
 // The times t = n step, the last one `duration`.
@@ -73,6 +74,7 @@ class Run : public RunView {
         sim_.prescribe(motion.body, motion.law);
     }
     sim_.set_integrator(plan.integrator);
+    sim_.set_interrupted(watch.interrupted);
     if (simulated.scene) {
       contacts_.emplace(*simulated.scene, sim_);
       if (contacts_->deepest_at_start() > kDeepStart)
@@ -126,6 +128,13 @@ class Run : public RunView {
       result_.warnings.push_back(
           fmt::format("in {} of {} steps the equation of the step was not solved to rounding",
                       unsolved_, result_.steps));
+    if (unlocated_ > 0)
+      result_.warnings.push_back(fmt::format(
+          "in {} of {} steps there were too many events to locate them all (bound: {} laws "
+          "solved): "
+          "what was left of these steps was taken as one step of fixed size, of first order; give "
+          "--contact rigid, or a shorter --step",
+          unlocated_, result_.steps, EventStep::kMostLaws));
     result_.ledger = ledger();
     result_.momentum = momentum();
     if (contacts_) result_.contacts = contacts_->contact_count();
@@ -145,7 +154,7 @@ class Run : public RunView {
     if (watch_.warn) watch_.warn(result_.warnings.back());
   }
   void visit_memory(Memory& memory) {
-    visit_head(memory, result_.steps, result_.end, unsolved_);
+    visit_head(memory, result_.steps, result_.end, unsolved_, unlocated_);
     sim_.visit_memory(memory);
     ledger_->visit_memory(memory);
     momentum_->visit_memory(memory);
@@ -192,6 +201,7 @@ class Run : public RunView {
         next_ < plan_.times.size() && plan_.times[next_] < t + h_most * (1 - kSameTime);
     if (has_sample_within || !ledger_->inner_nodes().empty()) before_.emplace(sim_);
     const StepReport report = take();
+    if (report.interrupted) return stop_for_interrupt(t);
     ++result_.steps;
     if (!report.finite || !report.reached) {
       // Of the samples of this step only those at its start are good.
@@ -203,11 +213,12 @@ class Run : public RunView {
       return false;
     }
     unsolved_ += report.converged ? 0 : 1;
+    unlocated_ += report.located ? 0 : 1;
     const double t_next = next(report.h);
     if (has_sample_within) sample_up_to(t_next - kSameTime * report.h, t, *before_);
     inner_.clear();
     for (const double part : ledger_->inner_nodes())
-      inner_.push_back(before_->side_step(part * report.h));
+      inner_.push_back(step_aside(*before_, part * report.h, t));
     ledger_->add_step(report.h, inner_, sim_.state());
     momentum_->add_step(report.h, ledger_->weights(), inner_, sim_);
     result_.end = t_next;
@@ -248,8 +259,18 @@ class Run : public RunView {
     for (; next_ < plan_.times.size() && plan_.times[next_] < t_end; ++next_) {
       const double at = plan_.times[next_];
       const bool same = at - t <= kSameTime * (t_end - t);
-      watch_.sample(at, same ? from.state() : from.side_step(at - t));
+      watch_.sample(at, same ? from.state() : step_aside(from, at - t, t));
     }
+  }
+  State<double> step_aside(const Simulation& from, double h, double t) {
+    StepReport report;
+    State<double> x = from.side_step(h, &report);
+    if (report.interrupted) stop_for_interrupt(t);
+    return x;
+  }
+  bool stop_for_interrupt(double t) const {
+    if (watch_.tick) watch_.tick(t);  // throws
+    return false;
   }
 
   const RobotInput& input_;
@@ -267,7 +288,7 @@ class Run : public RunView {
   std::optional<Simulation> before_;  // the run at the start of the step
   std::vector<State<double>> inner_;
   std::size_t next_ = 0;  // sample
-  long unsolved_ = 0, last_step_ = std::numeric_limits<long>::max();
+  long unsolved_ = 0, unlocated_ = 0, last_step_ = std::numeric_limits<long>::max();
   double bound_ = 0;
   std::string earlier_, later_;  // checkpoints
 };
@@ -276,9 +297,9 @@ class Run : public RunView {
 
 Memory simulation_memory(const std::string& memory) {
   Memory all(memory);
-  long steps = 0, unsolved = 0;
+  long steps = 0, unsolved = 0, unlocated = 0;
   double end = 0;
-  visit_head(all, steps, end, unsolved);
+  visit_head(all, steps, end, unsolved, unlocated);
   return all;
 }
 

@@ -83,6 +83,8 @@ struct RunWatch {
   std::function<void(RunView&)> look;                          // at the start and after each step
   std::function<std::string(const Alarm&)> alarm;              // says it; once at most
   std::function<void(double t)> tick;                          // after each step; may throw
+  // Asked within long steps; true ends the step, and tick() follows, which is to throw.
+  bool (*interrupted)() = nullptr;
 };
 
 // Of RunView::memory() the part that Simulation::visit_memory reads.
