@@ -73,7 +73,7 @@ double ImpulseSolver::begin_centrally(ImpulseProblem& problem, const Island& isl
   for (const int i : island.constraints) {
     ImpulseConstraint& c = problem.constraints()[i];
     memory_[i].rho = rho_ratio_ * rho0_[i];
-    memory_[i].l = c.p;
+    memory_[i].l = kept_[i] = c.p;
     x_[i] = z_[i] = dx_[i] = dz_[i] = {};
     if (!has_cone(problem, c)) continue;
     cones_.push_back(i);
@@ -122,11 +122,11 @@ double ImpulseSolver::measure_centrally(ImpulseProblem& problem, const Island& i
     }
     p_[i] = c.p, u_[i] = c.u;
     problem.add_transpose(c, c.p, f_.data());
-    residual = std::max(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
+    residual = worse(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
   }
   for (const int i : cones_)
     if (is_contact(problem.constraints()[i])) join_discs(problem, i);
-  residual = std::max(residual, balance(problem, island).largest);
+  residual = worse(residual, balance(problem, island).largest);
   return sum / std::max<double>(1, static_cast<double>(cones_.size()));
 }
 

@@ -141,7 +141,7 @@ double law_residual(const ImpulseConstraint& c, const LawMemory& memory, double 
   // A stiff spring makes much of a velocity that is hardly wrong: its own stiffness counts to rho.
   double largest = 0;
   for (int r = 0; r < c.rows; ++r)
-    largest = std::max(largest, std::abs(p[r] - again[r]) / (rho + D[4 * r]));
+    largest = worse(largest, std::abs(p[r] - again[r]) / (rho + D[4 * r]));
   return largest;
 }
 

@@ -174,7 +174,7 @@ ImpulseSolver::Gradient ImpulseSolver::balance(const ImpulseProblem& problem,
       double sum = -f_[at + static_cast<std::size_t>(r)];
       for (int k = 0; k < n; ++k) sum += M[r * n + k] * delta_[at + static_cast<std::size_t>(k)];
       rhs_[row_[t] + static_cast<std::size_t>(r)] = sum;
-      all.largest = std::max(all.largest, std::abs(sum) / M[r * n + r]);
+      all.largest = worse(all.largest, std::abs(sum) / M[r * n + r]);
       all.squared += sum * sum / M[r * n + r];
     }
   }

@@ -64,7 +64,7 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
         residual = polish(problem, islands_[i], residual);
     }
     again = fails;
-    report.residual = std::max(report.residual, residual);
+    report.residual = worse(report.residual, residual);
     report.converged = report.converged && residual <= accepted;
   }
   return report;
@@ -145,8 +145,7 @@ double ImpulseSolver::settle(ImpulseProblem& problem, const Island& island) {
     problem.velocity(c, problem.v(0), c.u);
     for (int r = 0; r < c.rows; ++r) c.u[r] += c.b[r];
     if (c.law == ImpulseLaw::disc) memory_[i].radius = c.radius * problem.constraints()[c.of].p[0];
-    const double left = law_residual(c, memory_[i], rho0_[i], c.u, c.p);
-    residual = left <= residual ? residual : left;  // keeps what is not a number
+    residual = worse(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
   }
   return residual;
 }
@@ -185,6 +184,7 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
       for (const int i : island.constraints) best_p_[i] = problem.constraints()[i].p;
     }
   };
+  for (const int i : island.constraints) best_p_[i] = problem.constraints()[i].p;
   run_rounds(problem, island, quick_newton, false, report);
   judge();
   const auto finish = [&](bool yields) {
@@ -242,6 +242,7 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
       remember(c, problem.constraints(), c.u, c.p, memory_[i]);
     }
   };
+  for (const int i : island.constraints) round_p_[i] = problem.constraints()[i].p;
   remember_all();
   rho_ratio_ = first_rho;
   while (newton < most) {
@@ -257,7 +258,7 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
     for (const int i : island.constraints) {
       const ImpulseConstraint& c = problem.constraints()[i];
       remember(c, problem.constraints(), c.u, c.p, memory_[i]);
-      residual = std::max(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
+      residual = worse(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
     }
     report.rounds = std::max(report.rounds, round);
     report.newton = std::max(report.newton, newton);
@@ -265,7 +266,7 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
     if (residual < best) {
       best = residual;
       for (const int i : island.constraints) round_p_[i] = problem.constraints()[i].p;
-    } else if (residual > astray * best && rho_ratio_ > least_rho) {
+    } else if (!(residual <= astray * best) && rho_ratio_ > least_rho) {
       bring_back();
       remember_all();
       most_rho = rho_ratio_ = std::max(least_rho, 0.01 * rho_ratio_);
@@ -280,7 +281,7 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
       rho_ratio_ *= 10;
     last = residual;
   }
-  if (best < last) bring_back();
+  if (!(last <= best)) bring_back();
 }
 
 // From a solution to one whose digits are all right, as long as that comes nearer: rounds of one
