@@ -12,6 +12,7 @@
 #include <array>
 
 #include "solver/impulse_problem.h"
+#include "solver/worse.h"
 
 namespace twinarm {
 
@@ -25,11 +26,6 @@ struct LawMemory {
 
 using Vec = std::array<double, 3>;
 using Mat = std::array<double, 9>;  // row by row
-
-// The larger; what is not a number is larger than any, so that none is lost among others.
-inline double worse(double a, double b) {
-  return b <= a ? a : b;
-}
 
 // p(u), u with b, and D = -dp/du. Shift held: the gradient of a convex function, D symmetric.
 // Followed: s = mu |u_t| at this u, and in D.

@@ -13,6 +13,7 @@
 
 #include "solver/force_source.h"
 #include "solver/integrator.h"
+#include "solver/worse.h"
 
 namespace twinarm {
 
@@ -49,10 +50,6 @@ using CaseObserver = std::function<CaseReadings(const Model<double>&, const Stat
 // One number from what was seen at one time and what should have been.
 using CaseMeasure = double (*)(const CaseReadings& seen, const CaseReadings& exact);
 
-// The larger one; not a number where one of them is none.
-inline double worse(double a, double b) {
-  return b <= a || std::isnan(a) ? a : b;
-}
 double largest_difference(const CaseReadings& seen, const CaseReadings& exact);
 double relative_to_largest(const CaseReadings& seen, const CaseReadings& exact);
 
