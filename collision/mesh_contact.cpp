@@ -18,6 +18,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <tuple>
 
 #include "collision/direction.h"
@@ -114,19 +115,27 @@ bool MeshContact::is_false(const Placed& mesh, const ManifoldPoint& point) const
   return false;
 }
 
-// From all_ to kept_.
+// From all_ to kept_, in the order of the triangles: of a point that two share, the name stays.
 void MeshContact::drop_false(const Placed& mesh) {
   std::sort(touches_.begin(), touches_.end(), [](const Touch& x, const Touch& y) {
     return std::tie(x.deepest, x.triangle) < std::tie(y.deepest, y.triangle);
   });
-  kept_.clear();
   true_.clear();
-  for (const Touch& touch : touches_) {
-    const std::size_t count = kept_.size();
-    for (std::size_t i = touch.first; i < touch.last; ++i)
-      if (touch.along == Along::leaning || !is_false(mesh, all_[i])) kept_.push_back(all_[i]);
-    if (kept_.size() > count) true_.push_back(touch);
+  for (Touch& touch : touches_) {
+    const auto begin = all_.begin() + static_cast<std::ptrdiff_t>(touch.first),
+               end = all_.begin() + static_cast<std::ptrdiff_t>(touch.last);
+    if (touch.along == Along::front) {
+      const auto last = std::remove_if(
+          begin, end, [&](const ManifoldPoint& point) { return is_false(mesh, point); });
+      touch.last = touch.first + static_cast<std::size_t>(last - begin);
+    }
+    if (touch.last > touch.first) true_.push_back(touch);
   }
+  std::sort(touches_.begin(), touches_.end(),
+            [](const Touch& x, const Touch& y) { return x.first < y.first; });
+  kept_.clear();
+  for (const Touch& touch : touches_)
+    for (std::size_t i = touch.first; i < touch.last; ++i) kept_.push_back(all_[i]);
 }
 
 void MeshContact::touch_triangle(NarrowPhase& narrow_phase, const Placed& mesh, int t,

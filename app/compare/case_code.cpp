@@ -99,8 +99,8 @@ std::vector<Definition> definitions_of(std::string_view source) {
   return all;
 }
 
-// The brackets around `at`, with the name before them; a call that only makes the name does not
-// count.
+// The brackets around `at`, with the name before them and its template arguments; a call that only
+// makes the name does not count.
 std::string_view around(std::string_view text, std::size_t at) {
   int depth = 0;
   for (std::size_t i = at; i-- > 0;) {
@@ -108,6 +108,7 @@ std::string_view around(std::string_view text, std::size_t at) {
     if (depth >= 0) continue;
     depth = 0;
     std::size_t begin = i, end = i;
+    if (begin > 0 && text[begin - 1] == '>') begin = text.rfind('<', begin);
     while (begin > 0 && in_name(text[begin - 1])) --begin;
     if (text.substr(begin, i - begin) == "name_of_case") continue;
     for (int inner = 0; end < text.size(); ++end) {
