@@ -8,6 +8,7 @@ namespace twinarm {
 namespace {
 
 constexpr double kGrowth = 1.5, kShare = 0.25;
+constexpr double kBurst = 10, kBurstShare = 0.5, kBurstHeight = 1e3;  // of floor_'s 1e-6 m
 
 // What an ideal element does is in none of these.
 std::vector<LedgerRow> watched(const std::vector<LedgerRow>& rows) {
@@ -37,14 +38,27 @@ std::optional<Alarm> LedgerAlarm::look(double t, double kinetic,
     if (count_ % every != 0) break;
     std::rotate(scale.marks.begin(), scale.marks.begin() + 1, scale.marks.end());
     scale.marks.back() = {t, largest_kinetic_, now};
-    if (++scale.count >= kMarks)
-      if (auto alarm = examine(scale)) {
-        is_told_ = true;
-        return alarm;
-      }
+    ++scale.count;
+    std::optional<Alarm> alarm;
+    if (scale.count >= 2 && every == 1) alarm = burst(scale);
+    if (!alarm && scale.count >= kMarks) alarm = examine(scale);
+    if (alarm) {
+      is_told_ = true;
+      return alarm;
+    }
     every *= kCoarser;
   }
   ++count_;
+  return std::nullopt;
+}
+
+std::optional<Alarm> LedgerAlarm::burst(const Scale& scale) const {
+  const Mark &before = scale.marks[kMarks - 2], &now = scale.marks.back();
+  const double had = std::max(before.largest_kinetic, kBurstHeight * floor_);
+  for (const LedgerRow& row : now.rows)
+    if (row.work - work_of(before.rows, row.name) > kBurst * had &&
+        row.work > kBurstShare * now.largest_kinetic)
+      return Alarm{row.name, now.t, row.work, before.t};
   return std::nullopt;
 }
 

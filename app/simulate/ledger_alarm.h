@@ -8,7 +8,10 @@
 //   - the largest kinetic energy before those windows, and what the weight is worth over 1e-6 m,
 //   - a quarter of the largest kinetic energy so far.
 // A run where that holds has lost count of its energy. Windows have 16 steps, 32, 64 and so on, so
-// that slow growth is seen too. Losses are bounded, and never alarm.
+// that slow growth is seen too. What bursts within one window of 16 steps and may be over after it
+// is a row that grew by more than ten times the largest kinetic energy before (and ten times what
+// the weight is worth over 1 mm), to more than half of the largest so far. Losses are bounded, and
+// never alarm.
 #pragma once
 
 #include <array>
@@ -24,7 +27,7 @@ struct Alarm {
   std::string row;   // of the ledger
   double t = 0;      // [s]
   double work = 0;   // [J]
-  double since = 0;  // the four windows began then [s]
+  double since = 0;  // its windows began then [s]
 };
 
 class LedgerAlarm {
@@ -46,6 +49,7 @@ class LedgerAlarm {
     std::array<Mark, kMarks> marks;  // the last one is the newest
     std::size_t count = 0;
   };
+  std::optional<Alarm> burst(const Scale& finest) const;
   std::optional<Alarm> examine(const Scale& scale) const;
 
   double floor_, largest_kinetic_ = 0;

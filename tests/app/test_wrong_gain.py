@@ -19,20 +19,20 @@ SPRING = ('[[coupling]]\nname = "{name}"\ntype = "torsional"\nmeasure = "joint"\
 
 
 class WrongGain(RobotCommand):
-    def run_with(self, k, *options, step=0.001, treatment="explicit"):
+    def run_with(self, k, *options, step=0.001, treatment="explicit", duration=0.5):
         scene = self.folder / "scene.toml"
         scene.write_text(
             f'step = {step}\n[[robot]]\nname = "arm"\nmodel = "robots/s103/s103.urdf"\n' +
             SPRING.format(name="soft", link="arm1", joint="joint1", k=200, b=2, treatment=treatment) +
             SPRING.format(name="hard", link="arm2", joint="joint2", k=k, b=0, treatment=treatment))
         return subprocess.run(
-            [robot_command.PROGRAM, "simulate", scene, "--duration", "0.5", "--json",
+            [robot_command.PROGRAM, "simulate", scene, "--duration", str(duration), "--json",
              *map(str, options)], capture_output=True, text=True, timeout=120,
             cwd=robot_command.ROOT)
 
     def test_the_right_spring_is_named_and_what_it_says_would_hold_holds(self):
         file = self.folder / "last.twinrec"
-        broken = self.run_with(9e5, "--post-mortem", file)
+        broken = self.run_with(9e5, "--post-mortem", file, "--energy-bound", 1e6)
         self.assertEqual(broken.returncode, 3, broken.stderr)
         self.assertIn("behind it: coupling 'hard'", broken.stderr)
         suspect = json.loads(broken.stdout)["post_mortem"]["suspects"][0]
@@ -42,6 +42,10 @@ class WrongGain(RobotCommand):
                     self.run_with(0.99 * suspect["largest_gain"]),
                     self.run_with(9e5, treatment="implicit")):
             self.assertEqual(run.returncode, 0, run.stderr)
+
+    def test_a_run_that_bounces_between_its_limits_does_not_pass_for_sound(self):
+        answer = json.loads(self.run_with(9e5, duration=0.034).stdout)
+        self.assertEqual(answer["alarm"]["row"], "numerical")
 
     def test_a_recorded_robot_with_meshes_is_opened_with_its_forces(self):
         file = self.folder / "run.twinrec"
