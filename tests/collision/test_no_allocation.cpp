@@ -15,7 +15,7 @@ using namespace twinarm::test;
 namespace {
 
 // One of each kind that the variant has, and a second hull.
-std::vector<Shape> every_shape() {
+std::vector<Shape> every_kind() {
   Random random(7);
   return {Sphere{0.06},
           Box{{0.2, 0.14, 0.1}},
@@ -34,7 +34,7 @@ std::vector<Shape> every_shape() {
 
 TEST_CASE(
     "no pair of shapes allocates in detection or distance, the second time through its poses") {
-  const std::vector<Shape> shapes = every_shape();
+  const std::vector<Shape> shapes = every_kind();
   int pairs = 0;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     for (std::size_t j = 0; j < shapes.size(); ++j) {
@@ -78,7 +78,7 @@ TEST_CASE("a crowd that moves through itself does not allocate in detection once
   std::vector<Pose> start, now;
   std::vector<Vector3> velocity;
   for (int copy = 0; copy < 4; ++copy) {
-    for (const Shape& shape : every_shape()) {
+    for (const Shape& shape : every_kind()) {
       if (!is_supported(shape, HalfSpace{})) continue;
       world.add({"body", shape, 0});
       start.push_back(random_pose(random));
