@@ -156,7 +156,7 @@ void add_simulate(CLI::App& app, SimulateOptions& options, std::function<int()>&
                        "semi-implicit or the scene's if not given; one of" + names);
   simulate->add_option("--contact", options.contact,
                        "how bodies of a scene are kept apart; its own word if not given; one of "
-                       "rigid compliant");
+                       "rigid compliant event");
   simulate->add_option("--tolerance", options.tolerance, "of dopri5, relative and absolute");
   simulate->add_option("--every", options.every, "a sample each so many seconds");
   simulate->add_option("--at", options.at, "samples at these times: t1,t2,..");

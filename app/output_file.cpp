@@ -29,6 +29,12 @@ void require_writable_folder(const std::filesystem::path& folder, const char* op
     throw cannot_write(folder, ": no permission in " + there.string(), option);
 }
 
+void make_folder(const std::filesystem::path& folder, const char* option) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw cannot_write(folder, ": " + error.message(), option);
+}
+
 std::string read_whole_file(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError({{file.string(), 0, "", "the file cannot be read", ""}});

@@ -9,6 +9,8 @@ namespace twinarm {
 // Whether the folder is there and can be written, or could be made; makes nothing. Throws
 // InputError; its remedy names the option.
 void require_writable_folder(const std::filesystem::path& folder, const char* option = "--out");
+// With all that is above it. Throws likewise.
+void make_folder(const std::filesystem::path& folder, const char* option = "--out");
 std::string read_whole_file(const std::filesystem::path& file);
 
 }  // namespace twinarm

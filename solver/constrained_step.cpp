@@ -195,7 +195,7 @@ bool ConstrainedStep::solve_step(Mechanism& m, double h, Phase phase) {
   add_sources(frame);
   const std::size_t friction = problem_.constraints().size();
   add_joint_friction(m, h);
-  add_bilateral(m, frame.phase);
+  add_bilateral(m, frame.phase, h);
   std::fill(constraint_.begin(), constraint_.end(), 0);
   std::fill(coulomb_.begin(), coulomb_.end(), 0);
   if (problem_.constraints().empty()) return false;
@@ -282,10 +282,10 @@ void ConstrainedStep::move(Mechanism& m, double h) {
   integrate_coordinates(*model_, m.x.q, shift_, m.x.q);
 }
 
-void ConstrainedStep::add_bilateral(Mechanism& m, Phase phase) {
+void ConstrainedStep::add_bilateral(Mechanism& m, Phase phase, double h) {
   first_bilateral_ = problem_.constraints().size();
   add_mimics();
-  if (m.has_loops()) add_loops(m, phase);
+  if (m.has_loops()) add_loops(m, phase, h);
 }
 
 // Works and momenta of what add_bilateral() added (step_account.h).
@@ -322,7 +322,7 @@ void ConstrainedStep::count_bilateral(Mechanism& m, Phase phase) {
 }
 
 // g' = 0; what is left of g = 0 is for Mechanism::refresh().
-void ConstrainedStep::add_loops(Mechanism& m, Phase phase) {
+void ConstrainedStep::add_loops(Mechanism& m, Phase phase, double h) {
   LoopClosures& loops = m.dynamics.bilateral().loops();
   loops.evaluate(m.x, m.k);
   loop_guess_.resize(loops.rows());
@@ -341,6 +341,7 @@ void ConstrainedStep::add_loops(Mechanism& m, Phase phase) {
     for (std::size_t r = 0; r < count; ++r) {
       const auto from = static_cast<Eigen::Index>(row + r);
       c.b[r] = phase == Phase::separate ? 0 : loops.rate()[from];
+      if (with_gamma_ && phase == Phase::step) c.b[r] += h * loops.gamma()[from];
       if (phase == Phase::step || phase == Phase::flow) c.p[r] = loop_guess_[row + r];
       for (const std::size_t dof : dofs) {
         const double entry = loops.J()(from, static_cast<Eigen::Index>(dof));

@@ -60,6 +60,9 @@ class ConstrainedStep {
     for (auto* guess : {&friction_guess_, &mimic_guess_, &loop_guess_}) memory.visit(*guess);
     solver_.visit_memory(memory);
   }
+  // Loops: J qdd + gamma = 0, the forces of this instant, in place of g' = 0 after the step. A run
+  // leaves gamma to the impulses that put velocities right: they cannot give energy.
+  void constrain_accelerations() { with_gamma_ = true; }
   const ModelTrees& trees() const { return trees_; }
 
   const ConstraintReport& report() const { return report_; }
@@ -83,8 +86,8 @@ class ConstrainedStep {
   void hand_out(const ConstraintFrame& frame);
   void add_joint_friction(const Mechanism& m, double h);
   void add_mimics();
-  void add_loops(Mechanism& m, Phase phase);
-  void add_bilateral(Mechanism& m, Phase phase);  // both
+  void add_loops(Mechanism& m, Phase phase, double h);
+  void add_bilateral(Mechanism& m, Phase phase, double h = 0);  // both
   void count_bilateral(Mechanism& m, Phase phase);
   double kinetic_energy(const double* v) const;
   double bounce();
@@ -98,6 +101,7 @@ class ConstrainedStep {
   std::array<double, 3> usual_{solver_.good_guess, solver_.accepted, solver_.tolerance};
   ConstraintReport report_;
   bool friction_on_ = true;
+  bool with_gamma_ = false;
   std::vector<char> flies_;     // by tree
   std::vector<double> before_;  // by velocity: those at the start of the second phase
   std::vector<double> damping_, coulomb_, constraint_, shift_;

@@ -87,6 +87,7 @@ class Simulation {
   // Friction, followers' and loops' forces, likewise.
   const ForwardDynamics& dynamics() const { return m_.dynamics; }
   // Where there are constraints: of the last step.
+  void constrain_accelerations() { constrained_.constrain_accelerations(); }
   const ConstrainedStep& constraints() const { return constrained_; }
   Integrator integrator() const { return integrator_; }
 

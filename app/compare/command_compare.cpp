@@ -87,7 +87,7 @@ int run_compare(const CompareOptions& options) {
       two_at_a_time(
           count, [&](std::size_t i) { sections[i] = compare_page::case_section(rows[i], lanes); },
           [&](std::size_t done) { watch(name_of(done), count + done); });
-      std::filesystem::create_directories(std::filesystem::absolute(page).parent_path());
+      make_folder(std::filesystem::absolute(page).parent_path(), "--html");
       write_whole_file(page, compare_page::page_html(rows, sections, selection.skipped,
                                                      command_line(options), watch.seconds()));
     }

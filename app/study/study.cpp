@@ -133,7 +133,7 @@ int run_study(const StudyOptions& options) {
     write_calibration(calibration, calibration_file);
   }
   for (const char* part : {"figures", "csv", "pictures"})
-    std::filesystem::create_directories(options.out / part);
+    make_folder(options.out / part);
 
   Progress progress(false);
   StudyResults results = compute(options, inputs, *hand, calibration, progress);

@@ -140,6 +140,13 @@ class NamedForces(RobotCommand):
         for body in found["balance"]:
             self.assertLess(body["residual"], 1e-10)
 
+    def test_a_loop_in_motion_has_the_forces_of_the_instant(self):
+        found = self.answer("assets/scenes/slider_crank.toml")
+        force = next(end["force"] for end in self.force(found, "constraint/pin")["on"]
+                     if end["body"] == "piston")
+        r, length, rate, mass = 0.1, 0.3, 5, 1.5  # at dead centre
+        self.close([force[0]], [-mass * r * rate**2 * (1 + r / length)], 1e-9)
+
     def test_one_force_alone_on_a_page_that_fits(self):
         result = self.run_it("assets/scenes/slider_crank.toml", "--force", "pin")
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -69,6 +69,11 @@ int run_inspect(const InspectOptions& options) {
     faults.add({"", 0, "--at", "is for a recording", "give one, or --state"});
   if (options.step && is_recorded)
     faults.add({"", 0, "--step", "a recording has its own step", "leave it out"});
+  const RobotOptions& given = options.robot;
+  if (is_recorded && (!given.state.empty() || !given.gravity.empty() || given.floating ||
+                      !given.friction || !given.armature || given.strict))
+    faults.add({"", 0, "--state, --gravity, --floating, --no-friction, --no-armature, --strict",
+                "a recording has its own state and model", "leave them out; choose by --at"});
   std::shared_ptr<const UnpackedRun> files;
   double t = 0;
   auto prepared = attempt(faults, [&] {

@@ -34,6 +34,7 @@ class FirstStep {
     for (std::size_t c = 0; c < input.couplings->size(); ++c) sim_.add(input.couplings->source(c));
     for (const SceneMotion& motion : input.scene->motions) sim_.prescribe(motion.body, motion.law);
     sim_.set_integrator(Integrator::semi_implicit);
+    sim_.constrain_accelerations();
     contacts_.emplace(*input.scene, sim_);
     if (memory) sim_.visit_memory(*memory);
   }
