@@ -79,10 +79,13 @@ void record(const TrajectoryCase& c, CaseCurves& curves) {
     strayed = std::max(strayed, std::abs(p.energy - points[0].energy));
   curves.energy_kept = run.energy_drift.has_value();
   const double scale = strayed > 0 ? run.energy_drift.value_or(0) / strayed : 0;
+  if (curves.energy_kept) curves.energy_label = "(E − E₀) / largest kinetic energy  [1]";
   curves.seen.resize(curves.names.size());
+  curves.energy.resize(1);
   for (const TrajectoryPoint& p : points) {
     curves.t.push_back(p.t);
-    curves.energy.push_back(curves.energy_kept ? (p.energy - points[0].energy) * scale : p.energy);
+    curves.energy[0].push_back(curves.energy_kept ? (p.energy - points[0].energy) * scale
+                                                  : p.energy);
     for (std::size_t i = 0; i < curves.names.size() && i < p.seen.size(); ++i)
       curves.seen[i].push_back(p.seen[i]);
   }

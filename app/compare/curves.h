@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/analytic/analytic_case.h"
 #include "benchmarks/analytic/run_trajectory.h"
 
 namespace twinarm::compare_page {
@@ -26,14 +27,22 @@ struct CaseCurves {
   std::vector<std::vector<double>> seen;  // by reading, then by t
   std::vector<double> exact_t;
   std::vector<std::vector<double>> exact;  // by reading, then by exact_t
-  std::vector<double> energy;              // by t: (E - E0) / the largest kinetic one, or E [J]
-  bool energy_kept = false;                // the former
-  bool cut = false;                        // the run goes on after the last t
-  std::vector<ErrorCurve> errors;          // none where the case takes no other lanes
+  // By run, then by t: (E - E0) / the largest kinetic one, E - E0 of a contact case, or E [J].
+  std::vector<std::vector<double>> energy;
+  std::string energy_label = "energy  [J]";
+  bool energy_kept = false;        // the first of them
+  bool cut = false;                // the run goes on after the last t
+  std::vector<ErrorCurve> errors;  // none where the case takes no other lanes
+  std::string drawn;               // the reading, where curves are runs of one
+  std::string no_errors;           // why there is no error against the step
 };
 
 // Runs every integrator with five steps: some fifty times the work of the case.
 CaseCurves curves_of(const TrajectoryCase& c);
+
+// Of a contact case: runs it again, and once for each step; `seconds` is what the case took. None
+// where nothing moves.
+std::optional<CaseCurves> contact_curves_of(const AnalyticCase& c, double seconds);
 
 // Of a case without steps: what was seen and what should have been.
 struct Reading {

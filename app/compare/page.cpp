@@ -89,6 +89,10 @@ constexpr const char* kHowToRead =
     "order is a slope, and stands behind the name. Colours are orders, marks are schemes. dopri5 "
     "chooses its steps: it is drawn at their mean, for tolerances from 1e-12 to 1e-4. The dashed "
     "line is the tolerance of the case.</p>\n"
+    "<p><b>Contact.</b> The case is run again, and one coordinate of its body noted; where several "
+    "bodies or surfaces are compared, a line is one run. Circles stand where a closed form is "
+    "known. Its step is varied, not its integrator; where that tells nothing, the reason stands "
+    "below.</p>\n"
     "<p><b>The code</b> of a case unfolds, and is quoted from the file that was compiled. A case "
     "of "
     "your own is one file: docs/adding_a_case.md. What is measured, and how: docs/cases.md.</p>\n";

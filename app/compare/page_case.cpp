@@ -82,6 +82,27 @@ std::string figures_of(const CompareRow& row, const TrajectoryCase& c) {
          pair + "</div>\n";
 }
 
+std::string contact_figures(const CompareRow& row) {
+  const std::string name = row.test->name;
+  const std::optional<CaseCurves> curves = contact_curves_of(*row.test, row.seconds);
+  if (!curves) return "<p class=note>Nothing moves here: it is one evaluation.</p>\n";
+  Gnuplot gnuplot{std::filesystem::path()};
+  std::string caption = curves->exact_t.empty() ? "The run." : "Run and reference.";
+  if (!curves->drawn.empty())
+    caption = fmt::format("Drawn: {}, {}.", escaped(curves->drawn),
+                          curves->exact_t.empty() ? "in several runs" : "runs and reference");
+  if (curves->cut) caption += " Only the beginning is drawn.";
+  const std::string pair =
+      figure(error_figure(gnuplot, name, *curves, row.test->tolerance),
+             "Error of the case against the step, with its slope where it falls.") +
+      figure(energy_figure(gnuplot, name, *curves),
+             "Change of energy over time: impacts, friction and other forces make it.");
+  std::string html = figure(motion_figure(gnuplot, name, *curves), caption, " class=wide") +
+                     "<div class=pair>" + pair + "</div>\n";
+  if (!curves->no_errors.empty()) html += "<p class=note>" + curves->no_errors + "</p>\n";
+  return html;
+}
+
 std::string command_of(const CompareRow& row, const std::vector<Lane>& lanes) {
   std::string command = std::string("twinarm compare ") + row.test->name;
   const TrajectoryCase* c = row.test->trajectory.get();
@@ -104,6 +125,7 @@ std::string case_section(const CompareRow& row, const std::vector<Lane>& lanes) 
   html +=
       typeset_statement(statement ? statement : "") + facts_of_case(row, motion) + lanes_table(row);
   if (motion) html += motion->has_steps() ? figures_of(row, *motion) : readings_table(*motion);
+  if (!motion && std::string_view(c.group) == "contact") html += contact_figures(row);
   html += command_of(row, lanes);
   const CaseCode code = code_of(c.name);
   if (!code.file.empty())

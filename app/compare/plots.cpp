@@ -113,12 +113,11 @@ std::string decades(const char* axis, double low, double high) {
 }
 
 // What is constant to all its digits would have an axis of one number.
-std::string range_of(const CaseCurves& curves, const std::vector<std::size_t>& panel) {
+std::string range_of(const std::vector<const std::vector<double>*>& all) {
   double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const std::size_t i : panel)
-    for (const auto* values : {&curves.seen[i], &curves.exact[i]})
-      for (const double x : *values)
-        if (std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
+  for (const auto* values : all)
+    for (const double x : *values)
+      if (std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
   if (low > high) return "";
   const double size = std::max(std::abs(low), std::abs(high));
   double margin = 0.08 * (high - low);
@@ -147,7 +146,10 @@ std::string motion_figure(Gnuplot& gnuplot, const std::string& name, const CaseC
     script += fmt::format("set key at screen 0.812,{:.4f} left top Left reverse\n", top);
     script += p + 1 == panels.size() ? "set format x '%g'\nset xlabel 'time [s]' offset 0,0.3\n"
                                      : "set format x ''\nunset xlabel\n";
-    script += range_of(curves, panels[p]) + panel_plots(gnuplot, curves, panels[p]) + "\n";
+    std::vector<const std::vector<double>*> shown;
+    for (const std::size_t i : panels[p])
+      shown.insert(shown.end(), {&curves.seen[i], &curves.exact[i]});
+    script += range_of(shown) + panel_plots(gnuplot, curves, panels[p]) + "\n";
   }
   return gnuplot.svg(id_of("m", name), name + ": readings over time, run and exact", 900, height,
                      script + "unset multiplot\n");
@@ -195,18 +197,22 @@ std::string error_figure(Gnuplot& gnuplot, const std::string& name, const CaseCu
 
 std::string energy_figure(Gnuplot& gnuplot, const std::string& name, const CaseCurves& curves) {
   if (curves.t.size() < 2) return "";
-  const auto [low, high] = std::minmax_element(curves.energy.begin(), curves.energy.end());
   std::string script =
       "set lmargin at screen 0.175\nset rmargin at screen 0.975\nset tmargin at screen 0.90\n"
       "set bmargin at screen 0.19\nset xlabel 'time [s]' offset 0,0.3\nunset key\n";
   script += fmt::format("set xrange [0:{:g}]\n", curves.t.back());
-  if (!(*high > *low)) script += fmt::format("set yrange [{:g}:{:g}]\n", *low - 1, *high + 1);
-  script += fmt::format(
-      "set label 1 {} at graph 0,1.045 left font ',12' textcolor '#333333'\n",
-      in_quotes(curves.energy_kept ? "(E − E₀) / largest kinetic energy  [1]" : "energy  [J]"));
+  std::vector<const std::vector<double>*> shown;
+  for (const auto& energy : curves.energy) shown.push_back(&energy);
+  script += range_of(shown);
+  script += fmt::format("set label 1 {} at graph 0,1.045 left font ',12' textcolor '#333333'\n",
+                        in_quotes(curves.energy_label));
   if (curves.energy_kept) script += "set format y '%.2g'\n";
-  script += fmt::format("plot {} with lines lw 1.6 lc '{}'",
-                        gnuplot.curve(curves.t, curves.energy, kStretches), palette::ink);
+  // Runs have the colours that they have in the figure of the motion.
+  for (std::size_t i = 0; i < curves.energy.size(); ++i)
+    script += fmt::format(
+        "{}{} with lines lw 1.6 lc '{}'", i == 0 ? "plot " : ", ",
+        gnuplot.curve(curves.t, curves.energy[i], kStretches),
+        curves.energy.size() == 1 ? palette::ink : kLines[i % std::size(kLines)].colour);
   return gnuplot.svg(id_of("n", name), name + ": energy over time", 510, 310, script);
 }
 

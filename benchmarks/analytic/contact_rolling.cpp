@@ -80,10 +80,11 @@ double frequency(ContactScene& scene, double duration, Reading&& reading) {
   double before = reading(), first = 0, last = 0;
   int passes = 0;
   while (scene.t() < duration) {
+    const double t = scene.t();
     scene.step(kStep);
     const double now = reading();
     if (before * now < 0) {
-      last = scene.t() - kStep * now / (now - before);
+      last = scene.t() - (scene.t() - t) * now / (now - before);
       if (passes++ == 0) first = last;
     }
     before = now;

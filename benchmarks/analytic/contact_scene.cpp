@@ -23,6 +23,11 @@ class ConstantPush final : public ForceSource {
   Vector3 force_;
 };
 
+// A recorder may ask for other steps than the case names.
+double scaled_step(double h) {
+  return contact_recorder ? contact_recorder->step_scale * h : h;
+}
+
 }  // namespace
 
 int ContactScene::add(const Body& body) {
@@ -77,6 +82,7 @@ void ContactScene::start() {
   simulation_->add(*contacts_);
   start_energy_ = lowest_ = energy();
   most_kinetic_ = kinetic_energy(model_, simulation_->state());
+  if (contact_recorder) contact_recorder->begin(*this);
 }
 
 void ContactScene::push(int body, const Vector3& force) {
@@ -96,17 +102,18 @@ void ContactScene::watch() {
   strayed_ = std::max(strayed_, std::abs(now - start_energy_));
   rise_ = std::max(rise_, now - lowest_);
   lowest_ = std::min(lowest_, now);
+  if (contact_recorder) contact_recorder->note(*this, now);
 }
 
 bool ContactScene::step(double h) {
-  const StepReport report = simulation_->step(h);
+  const StepReport report = simulation_->step(scaled_step(h));
   ok_ = ok_ && report.ok();
   watch();
   return report.ok();
 }
 
 void ContactScene::run(double duration, double h) {
-  const long steps = std::lround(duration / h);
+  const long steps = std::lround(duration / scaled_step(h));
   for (long n = 0; n < steps; ++n) step(h);
 }
 

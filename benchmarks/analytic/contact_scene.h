@@ -9,6 +9,7 @@
 
 #include "benchmarks/analytic/analytic_case.h"
 #include "benchmarks/analytic/case_constants.h"
+#include "benchmarks/analytic/contact_recorder.h"
 #include "collision/contact_constraints.h"
 #include "solver/model_builder.h"
 #include "solver/simulation.h"
@@ -130,7 +131,9 @@ template <class Outcome>
 double threshold(double low, double high, double within, Outcome&& outcome) {
   while (high - low > within) {
     const double middle = 0.5 * (low + high);
-    (outcome(middle) ? high : low) = middle;
+    const bool holds = outcome(middle);
+    if (contact_recorder) contact_recorder->outcome(middle, holds);
+    (holds ? high : low) = middle;
   }
   return 0.5 * (low + high);
 }

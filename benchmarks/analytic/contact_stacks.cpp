@@ -59,7 +59,8 @@ Standing stand(const Stack& stack) {
   return scene.ok() ? result : Standing{NAN, NAN, NAN};
 }
 const std::vector<double> kTen(10, 1.0);
-const Standing& ten_boxes() {  // 10 s, run once
+Standing ten_boxes() {  // 10 s, run once, and anew for who looks on
+  if (contact_recorder) return stand({kTen, 10});
   static const Standing result = stand({kTen, 10});
   return result;
 }

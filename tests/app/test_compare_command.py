@@ -176,8 +176,8 @@ class Tags(html.parser.HTMLParser):
 
 class Page(unittest.TestCase):
     """One page of cases of every kind, made once."""
-    NAMES = ["A1", "A5-ballistic", "B1-45", "B3-start", "C3-2", "D1-hinge", "D7", "E6-two",
-             "E2-slide", "G1-rk4", "G4-rk4", "F5"]
+    NAMES = ["A1", "A5-ballistic", "B1-45", "B3-start", "C3-2", "D1-hinge", "D7", "E1-times",
+             "E2-slide", "E2-place", "E2-threshold", "E6-two", "E7-sign", "G1-rk4", "G4-rk4", "F5"]
 
     @classmethod
     def setUpClass(cls):
@@ -249,8 +249,35 @@ class Page(unittest.TestCase):
         self.assertIn("step [s]", self.sections["A1"])
         self.assertIn("time [s]", self.sections["A1"])
         self.assertIn("14.715", self.sections["B3-start"])
-        for name in ("B3-start", "E6-two", "D7"):
+        for name in ("B3-start", "E7-sign", "D7"):
             self.assertNotIn("<svg", self.sections[name])
+
+    def test_a_contact_case_is_drawn_with_its_energy_and_its_error_or_why_it_has_none(self):
+        for name, figures in {"E1-times": 2, "E2-slide": 3, "E2-place": 3, "E2-threshold": 2,
+                              "E6-two": 3}.items():
+            self.assertEqual(self.sections[name].count("<svg"), figures, name)
+        self.assertIn("does not come from the step", self.sections["E1-times"])
+        self.assertIn("bisection", self.sections["E2-threshold"])
+        for words in ("height of the ball", "[m]", "exact", "time [s]", "E − E₀"):
+            self.assertIn(words, self.sections["E1-times"])
+        # The middle of 0.4 and 0.8 holds, that of 0.4 and 0.6 does not.
+        for tried in ("at 0.6", "at 0.5"):
+            self.assertIn(tried, self.sections["E2-threshold"])
+        order = next(c["order"] for c in self.answer["cases"] if c["name"] == "E2-place")
+        text = re.sub(r"<[^>]+>", " ", self.sections["E2-place"])
+        slope = float(re.search(r"semi-implicit\s+([0-9.]+)", text).group(1))
+        self.assertAlmostEqual(slope, order, delta=0.01)
+
+    def test_every_contact_case_is_drawn_but_the_one_where_nothing_moves(self):
+        root = pathlib.Path(__file__).resolve().parents[2]
+        cases = "".join(p.read_text() for p in root.glob("benchmarks/analytic/contact_*.cpp"))
+        looks = "".join(p.read_text() for p in root.glob("app/compare/contact_looks_*.cpp"))
+        names = re.findall(r'contact_case<[^>]+>\(\s*"([^"]+)"', cases)
+        self.assertGreater(len(names), 50)
+        drawn = re.findall(r'\.name = "([^"]+)"', looks)
+        self.assertEqual(len(drawn), len(set(drawn)))
+        self.assertEqual(set(names) - set(drawn), {"E7-sign"})
+        self.assertEqual(set(drawn) - set(names), set())
 
     def test_the_slopes_beside_the_schemes_are_their_orders(self):
         text = re.sub(r"<[^>]+>", " ", self.sections["A1"])
