@@ -109,7 +109,9 @@ std::string panel_plots(Gnuplot& gnuplot, const CaseCurves& curves,
 
 // A decade around the numbers.
 std::string decades(const char* axis, double low, double high) {
-  return fmt::format("set {}range [{:g}:{:g}]\n", axis, low / 1.6, high * 1.6);
+  low /= 1.6, high *= 1.6;
+  const double power = std::pow(10, std::floor(std::log10(high)));  // an axis needs one number
+  return fmt::format("set {}range [{:g}:{:g}]\n", axis, std::min(low, power), high);
 }
 
 // What is constant to all its digits would have an axis of one number.
@@ -198,7 +200,7 @@ std::string error_figure(Gnuplot& gnuplot, const std::string& name, const CaseCu
 std::string energy_figure(Gnuplot& gnuplot, const std::string& name, const CaseCurves& curves) {
   if (curves.t.size() < 2) return "";
   std::string script =
-      "set lmargin at screen 0.175\nset rmargin at screen 0.975\nset tmargin at screen 0.90\n"
+      "set lmargin at screen 0.175\nset rmargin at screen 0.955\nset tmargin at screen 0.90\n"
       "set bmargin at screen 0.19\nset xlabel 'time [s]' offset 0,0.3\nunset key\n";
   script += fmt::format("set xrange [0:{:g}]\n", curves.t.back());
   std::vector<const std::vector<double>*> shown;
