@@ -14,9 +14,8 @@ namespace twinarm {
 namespace {
 
 std::uint32_t number_at(const std::string& bytes, std::size_t at) {
-  Memory memory(bytes.substr(at, 4));
   std::uint32_t number = 0;
-  memory.visit(number);
+  bytes.copy(reinterpret_cast<char*>(&number), sizeof number, at);
   return number;
 }
 
