@@ -132,8 +132,7 @@ int run_study(const StudyOptions& options) {
     calibration = calibrate(inputs, progress);
     write_calibration(calibration, calibration_file);
   }
-  for (const char* part : {"figures", "csv", "pictures"})
-    make_folder(options.out / part);
+  for (const char* part : {"figures", "csv", "pictures"}) make_folder(options.out / part);
 
   Progress progress(false);
   StudyResults results = compute(options, inputs, *hand, calibration, progress);
