@@ -1,7 +1,6 @@
 // The same scenes in every engine: how far each is from the truth, and what a step costs it. Prints
 // JSON (docs/peers.md says what is in it); table and figure are scripts/peers'.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -10,9 +9,12 @@
 #include <stdexcept>
 
 #include "benchmarks/peers/peer_run.h"
+#include "benchmarks/speed/options.h"
 
 namespace twinarm::peers {
 namespace {
+
+using speed::positive, speed::split;
 
 constexpr const char* usage =
     R"(Runs the same scenes in all engines of this build; prints JSON on stdout, progress on stderr.
@@ -38,23 +40,6 @@ struct Options {
   double budget = 20;
   bool list = false, help = false;
 };
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
-  if (parts.empty()) throw std::invalid_argument("an empty list");
-  return parts;
-}
-
-template <class Number>
-Number positive(const std::string& text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size() || !(number > 0))
-    throw std::invalid_argument(text + " is not a positive number");
-  return number;
-}
 
 std::vector<PeerCase> all_cases() {
   std::vector<PeerCase> all;

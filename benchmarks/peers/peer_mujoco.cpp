@@ -1,46 +1,34 @@
 // MuJoCo: mj_step with every one of its integrators; contacts by Newton's method, elliptic cones,
 // all else as it comes. It has no coefficient of restitution.
-#include <mujoco/mujoco.h>
-
 #include <algorithm>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
 
 #include "benchmarks/peers/peer.h"
+#include "benchmarks/speed/mujoco_model.h"
 
 namespace twinarm::peers {
 namespace {
 
-struct Release {
-  void operator()(mjModel* m) const { mj_deleteModel(m); }
-  void operator()(mjData* d) const { mj_deleteData(d); }
-};
-
-template <class Numbers>
-std::string text(const Numbers& numbers) {
-  std::ostringstream out;
-  out.precision(17);
-  for (const double number : numbers) out << number << ' ';
-  return out.str();
-}
+using speed::mjcf, speed::MujocoRelease;
 
 void write_children(std::ostream& xml, const Scene& scene, int parent) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& b = scene.bodies[i];
     if (b.parent != parent) continue;
-    xml << "<body pos=\"" << text(b.position) << "\" quat=\"" << text(b.turn) << "\">";
+    xml << "<body pos=\"" << mjcf(b.position) << "\" quat=\"" << mjcf(b.turn) << "\">";
     if (b.joint == Joint::free)
       xml << "<freejoint/>";
     else if (b.joint == Joint::ball)
       xml << "<joint type=\"ball\"/>";
     else
       xml << "<joint type=\"hinge\" axis=\"0 0 1\"/>";
-    xml << "<inertial pos=\"" << text(b.com) << "\" mass=\"" << text(std::array{b.mass})
-        << "\" fullinertia=\"" << text(b.inertia) << "\"/>";
+    xml << "<inertial pos=\"" << mjcf(b.com) << "\" mass=\"" << mjcf(std::array{b.mass})
+        << "\" fullinertia=\"" << mjcf(b.inertia) << "\"/>";
     if (b.form != Form::none)
       xml << "<geom type=\"" << (b.form == Form::box ? "box" : "sphere") << "\" size=\""
-          << text(b.half) << "\" condim=\"" << (scene.friction > 0 ? 3 : 1) << "\" friction=\""
+          << mjcf(b.half) << "\" condim=\"" << (scene.friction > 0 ? 3 : 1) << "\" friction=\""
           << scene.friction << "\"/>";
     write_children(xml, scene, static_cast<int>(i));
     xml << "</body>";
@@ -52,7 +40,7 @@ std::string mjcf(const Scene& scene, const std::string& integrator, double h) {
   std::ostringstream xml;
   xml.precision(17);
   xml << "<mujoco><compiler angle=\"radian\"/><size njmax=\"3000\" nconmax=\"1000\"/>"
-      << "<option timestep=\"" << h << "\" gravity=\"" << text(scene.gravity) << "\" integrator=\""
+      << "<option timestep=\"" << h << "\" gravity=\"" << mjcf(scene.gravity) << "\" integrator=\""
       << integrator << "\" solver=\"Newton\" cone=\"elliptic\"/><worldbody>";
   if (scene.floor)
     xml << "<geom type=\"plane\" size=\"50 50 1\" priority=\"1\" condim=\""
@@ -109,8 +97,8 @@ class MuJoCo final : public FixedStepPeer {
     }
   }
   Scene scene_;
-  std::unique_ptr<mjModel, Release> model_;
-  std::unique_ptr<mjData, Release> data_;
+  std::unique_ptr<mjModel, MujocoRelease> model_;
+  std::unique_ptr<mjData, MujocoRelease> data_;
 };
 
 }  // namespace

@@ -1,13 +1,12 @@
 // How long the engines take for the same scenes with contacts, and how well they hold them. Prints
 // JSON; the table is scripts/bench's.
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 
 #include "benchmarks/speed/contact_engine.h"
+#include "benchmarks/speed/options.h"
 
 namespace twinarm::speed {
 namespace {
@@ -37,22 +36,6 @@ struct Options {
   bool quick = false, list = false, help = false;
 };
 
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
-  if (parts.empty()) throw std::invalid_argument("an empty list");
-  return parts;
-}
-
-int positive(const std::string& text) {
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size() || number <= 0)
-    throw std::invalid_argument(text + " is not a positive number");
-  return number;
-}
-
 Options options_from(int argc, char** argv) {
   Options o;
   for (int i = 1; i < argc; ++i) {
@@ -66,7 +49,7 @@ Options options_from(int argc, char** argv) {
     else if (name == "--engines")
       o.engines = split(value());
     else if (name == "--repetitions")
-      o.repetitions = positive(value());
+      o.repetitions = positive<int>(value());
     else if (name == "--quick")
       o.quick = true, o.repetitions = 1;
     else if (name == "--list")

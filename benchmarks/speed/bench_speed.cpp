@@ -1,7 +1,6 @@
 // How long the engines take for the same mechanisms in the same situations. Prints JSON; the table
 // and the figure are scripts/bench's.
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <optional>
 #include <sstream>
@@ -9,6 +8,7 @@
 
 #include "benchmarks/speed/agreement.h"
 #include "benchmarks/speed/engine.h"
+#include "benchmarks/speed/options.h"
 #include "benchmarks/speed/timing.h"
 
 namespace twinarm::speed {
@@ -38,23 +38,6 @@ struct Options {
   double seconds = 0.02;
   bool list = false, help = false;
 };
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
-  if (parts.empty()) throw std::invalid_argument("an empty list");
-  return parts;
-}
-
-template <class Number>
-Number positive(const std::string& text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size() || !(number > 0))
-    throw std::invalid_argument(text + " is not a positive number");
-  return number;
-}
 
 Options options_from(int argc, char** argv) {
   Options o;

@@ -1,31 +1,17 @@
 // MuJoCo's contact scenes: Newton's method and elliptic cones, all else as it comes.
-#include <mujoco/mujoco.h>
-
 #include <algorithm>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
 
 #include "benchmarks/speed/contact_engine.h"
+#include "benchmarks/speed/mujoco_model.h"
 
 namespace twinarm::speed {
 namespace {
 
-struct Release {
-  void operator()(mjModel* m) const { mj_deleteModel(m); }
-  void operator()(mjData* d) const { mj_deleteData(d); }
-};
-
-template <class Numbers>
-std::string text(const Numbers& numbers) {
-  std::ostringstream out;
-  out.precision(17);
-  for (const double number : numbers) out << number << ' ';
-  return out.str();
-}
-
 std::string size_of(double half) {
-  return " size=\"" + text(std::array{half, half, half}) + "\"";
+  return " size=\"" + mjcf(std::array{half, half, half}) + "\"";
 }
 
 // The axes of scara3 all point along z and its links are not turned.
@@ -35,14 +21,14 @@ std::string arm() {
   const Mechanism scara = scara3();
   for (const Link& link : scara.links) {
     const Numbers9& I = link.inertia;
-    xml << "<body pos=\"" << text(link.position) << "\"><joint type=\"hinge\" axis=\"0 0 1\"/>"
-        << "<inertial pos=\"" << text(link.com) << "\" mass=\"" << link.mass << "\" fullinertia=\""
-        << text(std::array{I[0], I[4], I[8], I[1], I[2], I[5]}) << "\"/>";
+    xml << "<body pos=\"" << mjcf(link.position) << "\"><joint type=\"hinge\" axis=\"0 0 1\"/>"
+        << "<inertial pos=\"" << mjcf(link.com) << "\" mass=\"" << link.mass << "\" fullinertia=\""
+        << mjcf(std::array{I[0], I[4], I[8], I[1], I[2], I[5]}) << "\"/>";
   }
   xml << "<geom name=\"tip\" type=\"sphere\" size=\"" << push.radius << "\" pos=\""
-      << text(push.tip) << "\"/>";
+      << mjcf(push.tip) << "\"/>";
   for (std::size_t i = 0; i < scara.links.size(); ++i) xml << "</body>";
-  xml << "<geom type=\"box\" pos=\"" << text(push.obstacle) << "\"" << size_of(box_edge / 2)
+  xml << "<geom type=\"box\" pos=\"" << mjcf(push.obstacle) << "\"" << size_of(box_edge / 2)
       << "/>";
   return xml.str();
 }
@@ -51,7 +37,7 @@ std::string boxes(const ContactScene& scene) {
   std::ostringstream xml;
   xml << "<geom type=\"plane\" size=\"10 10 1\"/>";
   for (const Numbers3& centre : scene.boxes)
-    xml << "<body pos=\"" << text(centre) << "\"><freejoint/><geom type=\"box\" mass=\"" << box_mass
+    xml << "<body pos=\"" << mjcf(centre) << "\"><freejoint/><geom type=\"box\" mass=\"" << box_mass
         << "\"" << size_of(box_edge / 2) << "/></body>";
   return xml.str();
 }
@@ -112,8 +98,8 @@ class MuJoCo final : public ContactEngine {
  private:
   ContactScene scene_;
   Push push_;
-  std::unique_ptr<mjModel, Release> model_;
-  std::unique_ptr<mjData, Release> data_;
+  std::unique_ptr<mjModel, MujocoRelease> model_;
+  std::unique_ptr<mjData, MujocoRelease> data_;
 };
 
 }  // namespace

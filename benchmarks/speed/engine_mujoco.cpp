@@ -1,8 +1,6 @@
 // MuJoCo. What is timed is its smooth dynamics: the calls of mj_forward that the answer needs, and
 // no other. No collision, no constraints, no actuators, no passive forces (the models have none,
 // and mj_passive would only cost), so this is the least time in which MuJoCo itself can give it.
-#include <mujoco/mujoco.h>
-
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -11,22 +9,10 @@
 
 #include "benchmarks/speed/eigen.h"
 #include "benchmarks/speed/engine.h"
+#include "benchmarks/speed/mujoco_model.h"
 
 namespace twinarm::speed {
 namespace {
-
-struct Release {
-  void operator()(mjModel* m) const { mj_deleteModel(m); }
-  void operator()(mjData* d) const { mj_deleteData(d); }
-};
-
-template <class Numbers>
-std::string text(const Numbers& numbers) {
-  std::ostringstream out;
-  out.precision(17);
-  for (const double number : numbers) out << number << ' ';
-  return out.str();
-}
 
 // The mechanism as MJCF. The XML reader refuses elements nested deeper than 100, so what hangs
 // lower goes into files of its own, each included where its first body stands.
@@ -64,16 +50,16 @@ class Mjcf {
     const Link& link = mechanism_.links[i];
     const Eigen::Quaterniond R(matrix3(link.rotation));
     const Numbers9& I = link.inertia;
-    xml << "<body pos=\"" << text(link.position) << "\" quat=\""
-        << text(std::array{R.w(), R.x(), R.y(), R.z()}) << "\">";
+    xml << "<body pos=\"" << mjcf(link.position) << "\" quat=\""
+        << mjcf(std::array{R.w(), R.x(), R.y(), R.z()}) << "\">";
     if (i < mechanism_.first_joint()) {
       xml << "<freejoint/>";
     } else {
       const Eigen::Vector3d axis = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(link.axis));
-      xml << "<joint type=\"hinge\" axis=\"" << text(axis) << "\"/>";
+      xml << "<joint type=\"hinge\" axis=\"" << mjcf(axis) << "\"/>";
     }
-    xml << "<inertial pos=\"" << text(link.com) << "\" mass=\"" << text(std::array{link.mass})
-        << "\" fullinertia=\"" << text(std::array{I[0], I[4], I[8], I[1], I[2], I[5]}) << "\"/>";
+    xml << "<inertial pos=\"" << mjcf(link.com) << "\" mass=\"" << mjcf(std::array{link.mass})
+        << "\" fullinertia=\"" << mjcf(std::array{I[0], I[4], I[8], I[1], I[2], I[5]}) << "\"/>";
     write_children(xml, static_cast<int>(i), depth + 1);
     xml << "</body>";
   }
@@ -172,8 +158,8 @@ class MuJoCo : public Engine {
   }
 
   Mechanism mechanism_;
-  std::unique_ptr<mjModel, Release> model_;
-  std::unique_ptr<mjData, Release> data_;
+  std::unique_ptr<mjModel, MujocoRelease> model_;
+  std::unique_ptr<mjData, MujocoRelease> data_;
   std::vector<Situation> situations_;
 };
 
