@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <tuple>
 #include <utility>
 
 #include "solver/fault.h"
@@ -13,6 +15,10 @@ constexpr double kSlowestBounce = 1e-3;  // [m/s]
 constexpr double kTouching = 1e-6;       // takes part in an impact of others [m]
 constexpr double kLeastReach = 5e-4;     // [m]
 constexpr double kSamePoint = 0.01;      // [m]
+
+std::tuple<int, int, int> name_of(const Contact& c) {
+  return {c.a, c.b, c.feature};
+}
 
 double half_diagonal(const Shape& shape) {
   Vector3 extent;
@@ -69,12 +75,15 @@ void ContactConstraints::set_pair(int a, int b, const ContactPairLaw& law) {
   rules_.push_back({std::min(a, b), std::max(a, b), law});
 }
 
-// How far the geometry gets in a step, forces within it included by the factor, wherever it turns.
-double ContactConstraints::reach(std::size_t geometry, const Kinematics& k, double h) const {
+// How far the geometry gets in a step, wherever it turns.
+double ContactConstraints::way(std::size_t geometry, const Kinematics& k, double h) const {
   const auto body = static_cast<std::size_t>(geometries_[geometry].body);
-  if (body == 0) return 0;
-  const double speed = k.v_WLo[body].norm() + k.w_WL[body].norm() * radius_[geometry];
-  return kLeastReach + 1.25 * h * speed;
+  return h * (k.v_WLo[body].norm() + k.w_WL[body].norm() * radius_[geometry]);
+}
+
+// As far as it is looked for others, forces within the step included.
+double ContactConstraints::reach(std::size_t geometry, const Kinematics& k, double h) const {
+  return geometries_[geometry].body == 0 ? 0 : kLeastReach + 1.25 * way(geometry, k, h);
 }
 
 ContactPoint ContactConstraints::start(const Contact& contact) const {
@@ -131,6 +140,33 @@ void ContactConstraints::begin_step(const Kinematics& k, const State<double>&, d
       points_.push_back(start(contact));
   gap_after_.assign(points_.size(), 0);
   closing_.assign(points_.size(), 0);
+}
+
+// Of points that were there already, names and what they have carried so far stay.
+bool ContactConstraints::look_farther(const Kinematics& k, double h) noexcept {
+  bool farther = false;
+  for (std::size_t g = 0; g < geometries_.size(); ++g)
+    if (way(g, k, h) > reach_[g]) farther = true, reach_[g] = reach(g, k, h);
+  if (!farther) return false;
+  world_.detect(X_WG_, reach_, contacts_);
+  const auto before = [](const ContactPoint& p, const ContactPoint& q) {
+    return name_of(p.contact) < name_of(q.contact);
+  };
+  const std::size_t known = points_.size();
+  for (const Contact& contact : contacts_) {
+    const auto end = points_.begin() + static_cast<std::ptrdiff_t>(known);
+    const auto p = std::lower_bound(
+        points_.begin(), end, contact,
+        [](const ContactPoint& q, const Contact& c) { return name_of(q.contact) < name_of(c); });
+    if (p != end && name_of(p->contact) == name_of(contact)) continue;
+    if (geometry(contact.a).body != 0 || geometry(contact.b).body != 0)
+      points_.push_back(start(contact));
+  }
+  if (points_.size() == known) return false;
+  std::sort(points_.begin(), points_.end(), before);
+  gap_after_.assign(points_.size(), 0);
+  closing_.assign(points_.size(), 0);
+  return true;
 }
 
 bool ContactConstraints::closes(const ConstraintFrame& frame) noexcept {

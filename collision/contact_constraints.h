@@ -7,7 +7,7 @@
 //              slip at mu N; both at the end of the step, so stable at any stiffness. The bound mu
 //              N is that of the last round, which at the end is this step's own.
 // Moving bodies are found as far ahead as they move within a step, and gaps may close but not more:
-// nothing tunnels, whatever its speed.
+// nothing tunnels, whatever its speed. What is struck is looked for again at its new speed.
 #pragma once
 
 #include <span>
@@ -105,6 +105,7 @@ class ContactConstraints final : public EventSource, public Rewindable {
 
   void begin_step(const Kinematics& k, const State<double>& x, double h) noexcept override;
   bool closes(const ConstraintFrame& frame) noexcept override;
+  bool look_farther(const Kinematics& k, double h) noexcept override;
   bool wants_separation() const noexcept override;
   void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
   void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
@@ -142,6 +143,7 @@ class ContactConstraints final : public EventSource, public Rewindable {
     std::vector<ContactPoint> points;
     std::vector<ContactWork> work;
   };
+  double way(std::size_t geometry, const Kinematics& k, double h) const;
   double reach(std::size_t geometry, const Kinematics& k, double h) const;
   ContactPoint start(const Contact& contact) const;
   const ContactPoint* last_of(const Contact& contact) const;

@@ -90,7 +90,7 @@ void ContactConstraints::add_contact(const ConstraintFrame& frame, std::size_t i
     for (int r = 0; r < rows; ++r) c.b[r] = u[r] - c.b[r];
   }
   if (frame.phase == Phase::impact || frame.phase == Phase::hit) {
-    if (closing_[i] && !frame.plastic) c.b[0] -= bounce_speed(i, u[0], frame, problem, c);
+    if (closing_[i] && !frame.is_plastic(c)) c.b[0] -= bounce_speed(i, u[0], frame, problem, c);
     return;
   }
   if (soft) set_compliance(i, frame.h, axes, c);

@@ -13,6 +13,8 @@
 // No step gains energy from its impulses. In an impact Newton's law with friction can (Kane and
 // Levinson 1985): then v+ is taken back towards the plastic one, which cannot, until it does not.
 // In the second phase p u' <= 0, as gaps only close.
+// What is hit may leave faster than it came, and meet within the step what was too far to be found
+// for it: where velocities jump, sources look again, and the phase is solved with what they find.
 #pragma once
 
 #include <array>
@@ -29,6 +31,7 @@ namespace twinarm {
 
 struct ConstraintReport {
   int impacts = 0;             // passes of the first phase
+  int wedged = 0;              // of these: what no velocities obey, restitution left out
   ImpulseReport step, impact;  // impact: the worst of its passes
   double impact_loss = 0;      // kinetic energy that impacts took [J]
 };
@@ -78,6 +81,7 @@ class ConstrainedStep {
   int resolve_impacts(Mechanism& m, double h, Phase phase);
   void accelerate(Mechanism& m, double h);
   bool solve_step(Mechanism& m, double h, Phase phase);
+  bool looks_farther(Mechanism& m, double h);
   void resolve_step(Mechanism& m, double h);
   void move(Mechanism& m, double h);
   void separate(Mechanism& m, double h);
@@ -102,8 +106,8 @@ class ConstrainedStep {
   ConstraintReport report_;
   bool friction_on_ = true;
   bool with_gamma_ = false;
-  std::vector<char> flies_;     // by tree
-  std::vector<double> before_;  // by velocity: those at the start of the second phase
+  std::vector<char> flies_, plastic_;  // by tree
+  std::vector<double> before_;         // by velocity: those at the start of the second phase
   std::vector<double> damping_, coulomb_, constraint_, shift_;
   std::vector<double> friction_guess_, mimic_guess_, loop_guess_, sum_, acceleration_, velocity_,
       elastic_, elastic_p_;

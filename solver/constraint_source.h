@@ -3,6 +3,7 @@
 // A step of h asks each source, in this order (constrained_step.h):
 //   begin_step      once, with the kinematics at its start: find contacts, measure gaps
 //   closes          before impacts: does anything hit within this step, at these velocities?
+//   look_farther    when velocities have jumped
 //   add, take       Phase::impact, as often as something closes; Phase::step once;
 //                   Phase::separate if one of them wants_separation
 // A step that locates its events in time asks for more: event_source.h.
@@ -29,11 +30,19 @@ struct ConstraintFrame {
   const ModelTrees& trees;
   const State<double>& x;  // q at the start, qd before this phase
   Phase phase;
-  double h;                   // [s]
-  bool plastic = false;       // impact: as if every restitution were 0
+  double h;  // [s]
+  // impact, by tree: as if every restitution of what touches it were 0
+  const std::vector<char>* plastic = nullptr;
   const double* v = nullptr;  // velocities of x, in the order of the trees
   // impact: accelerations that go on until the gap is closed, in the order of the trees
   const double* acceleration = nullptr;
+
+  bool is_plastic(const ImpulseConstraint& c) const {
+    for (const int t : c.tree)
+      if (plastic && t != ImpulseConstraint::no_tree && (*plastic)[static_cast<std::size_t>(t)])
+        return true;
+    return false;
+  }
 };
 
 class ConstraintSource {
@@ -41,6 +50,9 @@ class ConstraintSource {
   virtual ~ConstraintSource() = default;
   virtual void begin_step(const Kinematics&, const State<double>&, double /*h*/) noexcept {}
   virtual bool closes(const ConstraintFrame&) noexcept { return false; }
+  // Velocities have jumped to those of k: what is met now and was not before comes in, with a gap.
+  // True where there is something new.
+  virtual bool look_farther(const Kinematics&, double /*h*/) noexcept { return false; }
   virtual bool wants_separation() const noexcept { return false; }
   // Adds its constraints, with the last impulses as a guess.
   virtual void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept = 0;

@@ -16,64 +16,6 @@ double dot(const Vec& a, const Vec& b) {
 
 }  // namespace
 
-// Reverse Cuthill-McKee: a breadth-first walk from an outermost tree, back to front; it keeps the
-// rows of the matrix short.
-void ImpulseSolver::order(const ImpulseProblem& problem, const Island& island) {
-  const auto trees = static_cast<std::size_t>(problem.tree_count());
-  neighbour_begin_.assign(trees + 1, 0);
-  const auto for_each_pair = [&](auto&& f) {
-    int last_a = no_tree, last_b = no_tree;
-    for (const int i : island.constraints) {
-      const auto [a, b] = problem.constraints()[i].tree;
-      if (a == no_tree || b == no_tree || a == b || (a == last_a && b == last_b)) continue;
-      f(a, b), last_a = a, last_b = b;
-    }
-  };
-  for_each_pair([&](int a, int b) { ++neighbour_begin_[a + 1], ++neighbour_begin_[b + 1]; });
-  for (std::size_t t = 0; t < trees; ++t) neighbour_begin_[t + 1] += neighbour_begin_[t];
-  neighbours_.resize(neighbour_begin_[trees]);
-  lowest_.assign(neighbour_begin_.begin(), neighbour_begin_.end());
-  for_each_pair(
-      [&](int a, int b) { neighbours_[lowest_[a]++] = b, neighbours_[lowest_[b]++] = a; });
-  const auto degree = [&](int t) { return neighbour_begin_[t + 1] - neighbour_begin_[t]; };
-
-  const auto walk = [&](int start) {
-    for (const int t : island.trees) lowest_[t] = 0;
-    order_.assign(1, start), lowest_[start] = 1;
-    for (std::size_t done = 0; done < order_.size(); ++done) {
-      const std::size_t from = order_.size();
-      for (int e = neighbour_begin_[order_[done]]; e < neighbour_begin_[order_[done] + 1]; ++e)
-        if (const int t = neighbours_[e]; !lowest_[t]) lowest_[t] = 1, order_.push_back(t);
-      std::sort(order_.begin() + static_cast<std::ptrdiff_t>(from), order_.end(),
-                [&](int a, int b) { return std::pair(degree(a), a) < std::pair(degree(b), b); });
-    }
-  };
-  walk(island.trees.front());
-  walk(order_.back());  // from one end to the other
-  std::reverse(order_.begin(), order_.end());
-}
-
-void ImpulseSolver::lay_out(const ImpulseProblem& problem, const Island& island) {
-  row_.resize(static_cast<std::size_t>(problem.tree_count()));
-  lowest_.resize(row_.size());
-  std::size_t row = 0;
-  for (const int t : order_) {
-    row_[t] = row;
-    lowest_[t] = t;
-    row += static_cast<std::size_t>(problem.size(t));
-  }
-  for (const int i : island.constraints) {
-    const auto [a, b] = problem.constraints()[i].tree;
-    if (a == no_tree || b == no_tree) continue;
-    const int later = row_[a] > row_[b] ? a : b, earlier = later == a ? b : a;
-    if (row_[earlier] < row_[lowest_[later]]) lowest_[later] = earlier;
-  }
-  matrix_.clear();
-  for (const int t : order_)
-    for (int k = 0; k < problem.size(t); ++k) matrix_.add_row(row_[lowest_[t]]);
-  rhs_.resize(row);
-}
-
 // The convex problem, whose shifts are held; then, from its solution, Newton on the shifts that
 // follow. That has no function to go down on, so it is taken only as long as it comes nearer, in
 // shorter steps where there is time for them; otherwise back to the solution.

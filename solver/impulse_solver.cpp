@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "solver/impulse_blocks.h"
 
@@ -48,6 +47,7 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
   link_discs(problem);
   report.islands = static_cast<int>(island_count_);
   solve_again_.resize(static_cast<std::size_t>(problem.tree_count()));
+  residual_.assign(solve_again_.size(), 0);
   for (std::size_t i = 0; i < island_count_; ++i) {
     double residual = settle(problem, islands_[i]);
     char& again = solve_again_[static_cast<std::size_t>(islands_[i].trees.front())];
@@ -64,20 +64,11 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
         residual = polish(problem, islands_[i], residual);
     }
     again = fails;
+    for (const int t : islands_[i].trees) residual_[static_cast<std::size_t>(t)] = residual;
     report.residual = worse(report.residual, residual);
     report.converged = report.converged && residual <= accepted;
   }
   return report;
-}
-
-void ImpulseSolver::link_discs(const ImpulseProblem& problem) {
-  const std::vector<ImpulseConstraint>& all = problem.constraints();
-  next_disc_.assign(all.size(), -1);
-  for (std::size_t i = all.size(); i-- > 0;)
-    if (all[i].law == ImpulseLaw::disc && all[i].radius > 0) {
-      next_disc_[i] = next_disc_[all[i].of];
-      next_disc_[all[i].of] = static_cast<int>(i);
-    }
 }
 
 void ImpulseSolver::factorise_trees(const ImpulseProblem& problem) {
@@ -90,41 +81,6 @@ void ImpulseSolver::factorise_trees(const ImpulseProblem& problem) {
 void ImpulseSolver::solve_tree(const ImpulseProblem& problem, int tree, double* f) const {
   with_size(problem.size(tree),
             [&](auto n) { solve_cholesky(factors_.data() + problem.block(tree), n, f); });
-}
-
-// Union by constraints; islands in the order of their first tree, members ascending.
-void ImpulseSolver::find_islands(const ImpulseProblem& problem) {
-  const auto trees = static_cast<std::size_t>(problem.tree_count());
-  root_.resize(trees);
-  std::iota(root_.begin(), root_.end(), 0);
-  const auto find = [&](int t) {
-    while (root_[t] != t) t = root_[t] = root_[root_[t]];
-    return t;
-  };
-  for (const ImpulseConstraint& c : problem.constraints())
-    if (c.tree[0] != no_tree && c.tree[1] != no_tree) {
-      const int a = find(c.tree[0]), b = find(c.tree[1]);
-      root_[std::max(a, b)] = std::min(a, b);
-    }
-  island_of_.assign(trees, -1);
-  island_count_ = 0;
-  const auto island_at = [&](int tree) -> Island& {
-    int& island = island_of_[find(tree)];
-    if (island < 0) {
-      island = static_cast<int>(island_count_++);
-      if (islands_.size() < island_count_) islands_.emplace_back();
-      islands_[island].trees.clear(), islands_[island].constraints.clear();
-    }
-    return islands_[island];
-  };
-  for (std::size_t i = 0; i < problem.constraints().size(); ++i) {
-    const ImpulseConstraint& c = problem.constraints()[i];
-    if (const int t = c.tree[0] != no_tree ? c.tree[0] : c.tree[1]; t != no_tree)
-      island_at(t).constraints.push_back(static_cast<int>(i));
-  }
-  for (std::size_t t = 0; t < trees; ++t)  // those without a constraint move as v0
-    if (const int island = island_of_[find(static_cast<int>(t))]; island >= 0)
-      islands_[island].trees.push_back(static_cast<int>(t));
 }
 
 // v = v0 + M^-1 J^T p, u of it, and what is left of the laws: of the problem itself, not of the
@@ -177,6 +133,7 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
   lay_out(problem, island);
   double best = std::numeric_limits<double>::infinity();
   best_p_.resize(problem.constraints().size()), round_p_.resize(best_p_.size());
+  guess_p_.resize(best_p_.size());
   const auto judge = [&] {
     const double residual = settle(problem, island);
     if (residual < best) {
@@ -184,7 +141,7 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
       for (const int i : island.constraints) best_p_[i] = problem.constraints()[i].p;
     }
   };
-  for (const int i : island.constraints) best_p_[i] = problem.constraints()[i].p;
+  for (const int i : island.constraints) best_p_[i] = guess_p_[i] = problem.constraints()[i].p;
   run_rounds(problem, island, quick_newton, false, report);
   judge();
   const auto finish = [&](bool yields) {
@@ -197,6 +154,14 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
   if (best > accepted) {
     report.interior = std::max(report.interior, approach_centrally(problem, island));
     finish(false);
+  }
+  // A body between two surfaces may slide, or jam with impulses that have no bound; from the middle
+  // of what is possible one comes to the jam, even where a hair of a gap makes it no solution.
+  for (int k = 0; k < 2 && best > accepted; ++k) {
+    for (const int i : island.constraints) problem.constraints()[i].p = guess_p_[i];
+    settle(problem, island);
+    run_rounds(problem, island, most_newton, k == 1, report);
+    judge();
   }
   for (int which = 0; which < most_paths && best > accepted; ++which) {
     report.path = std::max(report.path, follow_path(problem, island, which));

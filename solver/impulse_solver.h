@@ -47,6 +47,8 @@ class ImpulseSolver {
 
   // Writes v of the problem, and p and u of its constraints.
   ImpulseReport solve(ImpulseProblem& problem);
+  // Of the last solution: what is left of the laws that this tree is under [m/s].
+  double residual_of(int tree) const { return residual_[static_cast<std::size_t>(tree)]; }
   // Which guesses are not to be trusted.
   void visit_memory(Memory& memory) { memory.visit(solve_again_); }
 
@@ -111,11 +113,12 @@ class ImpulseSolver {
     Mat D;
   };
   std::vector<Cross> crosses_;
-  std::vector<Vec> u_, du_, p_, best_p_, round_p_;  // by constraint
-  std::vector<double> f_, dv_, delta_, held_v_;     // by velocity
+  std::vector<Vec> u_, du_, p_, guess_p_, best_p_, round_p_;  // by constraint
+  std::vector<double> f_, dv_, delta_, held_v_;               // by velocity
   std::vector<Island> islands_;
   std::size_t island_count_ = 0;
   std::vector<int> root_, island_of_;  // by tree
+  std::vector<double> residual_;       // by tree, that of its island
   std::vector<char> solve_again_;      // by tree, that of its island's first tree
   std::vector<std::size_t> row_;       // by tree: its first row in matrix_
   std::vector<int> neighbour_begin_, neighbours_, order_, lowest_;

@@ -8,6 +8,7 @@
 #include "tests/solver/count_allocations.h"
 #include "tests/solver/found_impulses.h"
 #include "tests/solver/found_stack.h"
+#include "tests/solver/found_wedges.h"
 #include "tests/solver/impulse_problems.h"
 
 using namespace twinarm;
@@ -104,6 +105,44 @@ TEST_CASE("problems that shoved scenes met are solved, with and without the gues
       CHECK(solver.solve(problem).residual <= 1e-8);
       for (const ImpulseConstraint& c : problem.constraints()) CHECK(breach(problem, c) < 2e-8);
       CHECK(imbalance(problem) < 1e-12);
+    }
+}
+
+// From the middle of all impulses one comes to the jam, whose impulses only seem to do; from the
+// guess, or from none, to what slides.
+TEST_CASE("a body that may slide in a wedge is not jammed there by endless impulses") {
+  for (const char* text : {sliding_wedge, sliding_wedge_next, bouncing_wedge})
+    for (const bool guess : {true, false}) {
+      ImpulseProblem problem = read_problem(text);
+      REQUIRE(problem.constraints().size() >= 3);
+      if (!guess)
+        for (ImpulseConstraint& c : problem.constraints()) c.p = {};
+      ImpulseSolver solver;
+      CHECK(solver.solve(problem).residual <= 1e-8);
+      for (const ImpulseConstraint& c : problem.constraints()) {
+        CHECK(breach(problem, c) < 2e-8);
+        CHECK(c.p[0] < 0.1);
+      }
+      CHECK(imbalance(problem) < 1e-12);
+    }
+}
+
+// Found by halving the restitution: what is left of the law falls with it, and only at none is
+// there a solution, as in the groove below.
+TEST_CASE(
+    "a bounce out of a wedge that holds by friction has no solution; without it there is one") {
+  for (const char* text : {jammed_bounce, jammed_rod})
+    for (const double part : {0.0, 0.01, 1.0}) {
+      CAPTURE(part);
+      ImpulseProblem problem = read_problem(text);
+      REQUIRE(problem.constraints().size() >= 2);
+      for (ImpulseConstraint& c : problem.constraints()) c.b[0] *= part;
+      ImpulseSolver solver;
+      const ImpulseReport report = solver.solve(problem);
+      CHECK(report.converged == (part == 0));
+      CHECK(solver.residual_of(0) == report.residual);
+      for (const double v : {problem.v(0)[3], problem.v(0)[4], problem.v(0)[5]})
+        CHECK(std::isfinite(v));
     }
 }
 

@@ -103,6 +103,7 @@ class Episode {
     if (residual > result_.residual)
       result_.residual = residual, result_.residual_at = result_.seconds;
     result_.unconverged += report.converged ? 0 : 1;
+    result_.wedged += solved.wedged;
     result_.above += residual > EpisodeResult::kResidual ? 1 : 0;
     if (!(residual <= bounds_.residual)) fault("a law of contact is broken, m/s", residual);
     if (solved.impact_loss < -bounds_.created * books_.scale())

@@ -20,11 +20,12 @@ void interrupt(int) {
 void print(long episode, const twinarm::soak::EpisodeResult& r, double wall) {
   std::printf(
       "{\"episode\": %ld, \"seconds\": %.3f, \"steps\": %ld, \"unconverged\": %ld, \"above\": %ld, "
+      "\"wedged\": %ld, "
       "\"residual\": %.3g, \"residual_at\": %.3f, \"depth\": %.3g, \"deep\": %ld, \"created\": "
       "%.3g, \"excess\": "
       "%.3g, \"work\": %.6g, \"contacts\": %d, \"wall\": %.2f, \"fault\": \"%s\"}\n",
-      episode, r.seconds, r.steps, r.unconverged, r.above, r.residual, r.residual_at, r.depth,
-      r.deep, r.created, r.excess, r.work, r.contacts, wall, r.fault.c_str());
+      episode, r.seconds, r.steps, r.unconverged, r.above, r.wedged, r.residual, r.residual_at,
+      r.depth, r.deep, r.created, r.excess, r.work, r.contacts, wall, r.fault.c_str());
   std::fflush(stdout);
 }
 
