@@ -10,7 +10,8 @@ namespace twinarm {
 namespace {
 
 constexpr int no_tree = ImpulseConstraint::no_tree;
-constexpr double first_rho = 1e2, usual_rho = 1e5, largest_rho = 1e7;  // times rho0
+constexpr double first_rho = 1e2, large_rho = 1e4, usual_rho = 1e5,
+                 largest_rho = 1e7;             // times rho0
 constexpr double least_rho = 1, astray = 10;    // a residual so much larger than the best
 constexpr int most_returns = 10, patience = 4;  // times most_newton, from the best of all
 constexpr std::size_t few = 8;  // constraints of an island whose solution is polished
@@ -142,14 +143,17 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
     }
   };
   for (const int i : island.constraints) best_p_[i] = guess_p_[i] = problem.constraints()[i].p;
-  run_rounds(problem, island, quick_newton, false, report);
-  judge();
+  const auto go_on = [&](int most, bool yields, double rho) {
+    rho_ratio_ = rho;
+    run_rounds(problem, island, most, yields, report);
+    judge();
+  };
+  go_on(quick_newton, false, first_rho);
   const auto finish = [&](bool yields) {
     judge();
     if (best <= accepted) return;
     settle(problem, island);
-    run_rounds(problem, island, most_newton, yields, report);
-    judge();
+    go_on(most_newton, yields, first_rho);
   };
   if (best > accepted) {
     report.interior = std::max(report.interior, approach_centrally(problem, island));
@@ -157,11 +161,11 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
   }
   // A body between two surfaces may slide, or jam with impulses that have no bound; from the middle
   // of what is possible one comes to the jam, even where a hair of a gap makes it no solution.
-  for (int k = 0; k < 2 && best > accepted; ++k) {
+  for (const double rho : {first_rho, large_rho}) {
+    if (best <= accepted) break;
     for (const int i : island.constraints) problem.constraints()[i].p = guess_p_[i];
     settle(problem, island);
-    run_rounds(problem, island, most_newton, k == 1, report);
-    judge();
+    go_on(most_newton, false, rho);
   }
   for (int which = 0; which < most_paths && best > accepted; ++which) {
     report.path = std::max(report.path, follow_path(problem, island, which));
@@ -173,8 +177,7 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
     for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
     const double before = best;
     settle(problem, island);
-    run_rounds(problem, island, patience * most_newton, yields, report);
-    judge();
+    go_on(patience * most_newton, yields, first_rho);
     if (!yields && best > 0.5 * before) break;
   }
   // What neither can solve (friction beyond Painleve's bound) is at least brought near, so that
@@ -188,10 +191,10 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
   for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
 }
 
-// From p and u of the constraints, and v. Rounds that go astray are taken back to the best, with a
-// smaller rho, which holds them nearer to where they begin. Where they yield, that is also done
-// after a round whose shifts could not follow (Levenberg's way): what creeps at a large rho may
-// come near at a small one.
+// From p and u of the constraints, v and rho_ratio_. Rounds that go astray are taken back to the
+// best, with a smaller rho, which holds them nearer to where they begin. Where they yield, that is
+// also done after a round whose shifts could not follow (Levenberg's way): what creeps at a large
+// rho may come near at a small one.
 void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, int most, bool yields,
                                ImpulseReport& report) {
   int newton = 0, round = 0;
@@ -209,7 +212,6 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
   };
   for (const int i : island.constraints) round_p_[i] = problem.constraints()[i].p;
   remember_all();
-  rho_ratio_ = first_rho;
   while (newton < most) {
     for (const int i : island.constraints) memory_[i].rho = rho_ratio_ * rho0_[i];
     const Round end = solve_round(problem, island, most - newton);
