@@ -5,11 +5,15 @@ compare` says. No time is judged.
     test_peers.py PATH/TO/bench_peers PATH/TO/twinarm
 """
 import json
+import math
+import statistics
 import subprocess
 import sys
 import unittest
 
 PEERS = TWINARM = ""
+ORDERS = {"verlet": 2, "midpoint": 2, "heun": 2, "implicit-midpoint": 2, "trapezoid": 2, "rk4": 4,
+          "RK4": 4, "Verlet": 2}  # all others 1; of adaptive schemes the power of the tolerance
 ENGINES = {"twinarm", "mujoco", "bullet", "dart", "simbody", "ode"}
 
 
@@ -62,6 +66,21 @@ class Peers(unittest.TestCase):
         for row in self.rows("E2-slide"):
             if row["stopped"] is None:
                 self.assertLess(row["error"], 0.05, row)  # of 0.33 m
+
+    def test_every_scheme_nears_the_same_motion_of_the_arm_at_its_order(self):
+        result = run("--quick", "--cases", "PUMA", "--work-precision")
+        curves = {}
+        for row in json.loads(result.stdout)["work_precision"]:
+            if row["stopped"] is None and 1e-10 < row["error"] < 0.3:
+                curves.setdefault((row["engine"], row["scheme"]), []).append(
+                    (math.log(row["step"] or row["tolerance"]), math.log(row["error"])))
+        self.assertLessEqual({engine for engine, _ in curves}, ENGINES)
+        for name, points in curves.items():
+            slope = statistics.median((b[1] - a[1]) / (b[0] - a[0])
+                                      for a, b in zip(points, points[1:]))
+            self.assertAlmostEqual(slope, ORDERS.get(name[1], 1), delta=0.2, msg=str(name))
+        for engine in ENGINES - set(self.answer["missing"]):  # else it nears another motion
+            self.assertIn(engine, {name[0] for name in curves})
 
     def test_a_run_above_the_budget_is_stopped_and_said(self):
         result = run("--cases", "E11", "--engines", "twinarm", "--repetitions", "1", "--budget",
