@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "benchmarks/peers/peer_run.h"
+#include "benchmarks/peers/peer_progress.h"
 #include "benchmarks/speed/options.h"
 
 namespace twinarm::peers {
@@ -19,7 +19,7 @@ using speed::positive, speed::split;
 constexpr const char* usage =
     R"(Runs the same scenes in all engines of this build; prints JSON on stdout, progress on stderr.
 
-  bench_peers [--cases A,B] [--engines A,B] [--group smooth|contact|engines] [--work-precision]
+  bench_peers [--cases A,B] [--engines A,B] [--work-precision]
               [--repetitions N] [--budget S] [--quick] [--list]
 
   --cases           names or groups; default: all (--list prints them, and the engines)
@@ -215,12 +215,17 @@ int run(const Options& options) {
       missing.add(quoted(name));
     }
   }
+  Progress progress(options.repetitions, options.budget);
+  std::vector<std::vector<Row>> rows;  // by case
+  for (const PeerCase& c : cases) {
+    rows.push_back(rows_of(c, peers, options));
+    for (const Row& row : rows.back()) progress.expect(row);
+  }
   {
     List list(options.work_precision ? "work_precision" : "rows");
-    for (const PeerCase& c : cases) {
-      std::vector<Row> rows = rows_of(c, peers, options);
-      measure(rows, options.repetitions, options.budget);
-      for (const Row& row : rows) list.add(object(row));
+    for (auto& of_case : rows) {
+      measure(of_case, options.repetitions, options.budget, progress);
+      for (const Row& row : of_case) list.add(object(row));
     }
   }
   std::cout << "}\n";

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "benchmarks/peers/peer_cases.h"
+#include "solver/worse.h"
 
 namespace twinarm::peers {
 namespace {
@@ -111,6 +112,13 @@ PeerCase heading(int degrees) {
   return c;
 }
 
+// Of a ball that touches the floor: its speed along x, and that of its surface.
+std::function<Judge()> speed_and_spin(double radius, double v_x, double spin) {
+  return at_the_end([=](const Values& q, const Values& v) {
+    return std::hypot(v[3] - v_x, radius * turning(q, v)[1] - spin);
+  });
+}
+
 PeerCase rolling_sphere() {
   PeerCase c{"E4", "contact", "sphere rolls down 20 degrees, mu = 0.5: its speed after 1 s", "m/s",
              inclined(20, 0.5)};
@@ -120,14 +128,42 @@ PeerCase rolling_sphere() {
   return c;
 }
 
-PeerCase billiard() {
-  constexpr double kBilliard = 0.0286;
-  PeerCase c{"E5", "contact", "billiard ball at 2 m/s, mu = 0.2: speed and R w when it rolls",
-             "m/s", floored(0.2)};
-  add(c.scene, ball(0.17, kBilliard), {0, 0, kBilliard}, {2, 0, 0});
+PeerCase slipping_sphere() {
+  PeerCase c{"E4-slip", "contact", "sphere slips down 20 degrees, mu = 0.05: v, R w after 1 s",
+             "m/s", inclined(20, 0.05)};
+  add(c.scene, ball(1, kRadius), {0, 0, kRadius});
+  c.duration = 1;
+  c.judge = speed_and_spin(kRadius, 2.894298375529322, 1.15229807623872);
+  return c;
+}
+
+// Rolls with (5 v + 2 R w)/7 of the start.
+PeerCase billiard(const std::string& name, const std::string& what, double top_spin) {
+  constexpr double kBilliard = 0.0286, kSpeed = 2;
+  PeerCase c{name, "contact", what, "m/s", floored(0.2)};
+  add(c.scene, ball(0.17, kBilliard), {0, 0, kBilliard}, {kSpeed, 0, 0});
+  c.scene.v[1] = top_spin / kBilliard;
   c.duration = 0.5;
-  c.judge = at_the_end([](const Values& q, const Values& v) {
-    return std::hypot(v[3] - 10 / 7.0, kBilliard * turning(q, v)[1] - 10 / 7.0);
+  const double rolls = (5 * kSpeed + 2 * top_spin) / 7;
+  c.judge = speed_and_spin(kBilliard, rolls, rolls);
+  return c;
+}
+
+// Balls in a row along x, weightless, the first with a velocity: what they have in the end.
+PeerCase in_a_row(const std::string& name, const std::string& what, double restitution,
+                  const Values& masses, double speed, const Values& exact) {
+  constexpr double kGap = 0.01;
+  PeerCase c{name, "contact", what, "m/s", floored(0, restitution)};
+  c.scene.gravity = {};
+  for (std::size_t i = 0; i < masses.size(); ++i)
+    add(c.scene, ball(masses[i], kRadius), {(2 * kRadius + kGap) * static_cast<double>(i), 0, 1},
+        {i == 0 ? speed : 0, 0, 0});
+  c.duration = 0.2;
+  c.judge = at_the_end([exact](const Values&, const Values& v) {
+    double worst = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      worst = worse(worst, std::hypot(v[6 * i + 3] - exact[i], v[6 * i + 4], v[6 * i + 5]));
+    return worst;
   });
   return c;
 }
@@ -150,14 +186,14 @@ PeerCase stack() {
   return c;
 }
 
-PeerCase oblique() {
-  PeerCase c{"E16", "contact", "sphere hits the floor at (2, -3) m/s, e = 0.8, mu = 0.2: v, R w",
-             "m/s", floored(0.2, 0.8)};
+PeerCase oblique(const std::string& name, const std::string& what, double friction, double v_x,
+                 double spin) {
+  PeerCase c{name, "contact", what, "m/s", floored(friction, 0.8)};
   c.scene.gravity = {};
   add(c.scene, ball(1, kRadius), {0, 0, kRadius + 0.1}, {2, 0, -3});
   c.duration = 0.1;
-  c.judge = at_the_end([](const Values& q, const Values& v) {
-    return std::hypot(v[3] - 10 / 7.0, v[5] - 2.4, kRadius * turning(q, v)[1] - 10 / 7.0);
+  c.judge = at_the_end([=](const Values& q, const Values& v) {
+    return std::hypot(v[3] - v_x, v[5] - 2.4, kRadius * turning(q, v)[1] - spin);
   });
   return c;
 }
@@ -172,9 +208,17 @@ std::vector<PeerCase> contact_peer_cases() {
       heading(0),
       heading(45),
       rolling_sphere(),
-      billiard(),
+      slipping_sphere(),
+      billiard("E5", "billiard ball at 2 m/s, mu = 0.2: speed and R w when it rolls", 0),
+      billiard("E5-top", "billiard ball at 2 m/s with top spin of 4 m/s, mu = 0.2", 4),
+      in_a_row("E6-two", "1 kg at 2 m/s hits 3 kg, e = 0.6: speeds", 0.6, {1, 3}, 2, {-0.4, 0.8}),
+      in_a_row("E6-cradle", "five balls with gaps, e = 1: the last one leaves", 1, {1, 1, 1, 1, 1},
+               1, {0, 0, 0, 0, 1}),
       stack(),
-      oblique()};
+      oblique("E16", "sphere hits the floor at (2, -3) m/s, e = 0.8, mu = 0.2: v, R w", 0.2,
+              10 / 7.0, 10 / 7.0),
+      oblique("E16-slip", "sphere hits the floor at (2, -3) m/s, e = 0.8, mu = 0.05: it slips",
+              0.05, 1.73, 0.675)};
 }
 
 }  // namespace twinarm::peers

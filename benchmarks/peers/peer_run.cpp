@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <ctime>
 #include <exception>
-#include <iostream>
+
+#include "benchmarks/peers/peer_progress.h"
 
 namespace twinarm::peers {
 namespace {
@@ -67,23 +68,29 @@ void repeat(Row& row) {
 
 }  // namespace
 
-void measure(std::vector<Row>& rows, int repetitions, double budget) {
+void measure(std::vector<Row>& rows, int repetitions, double budget, Progress& progress) {
   constexpr double kOnceIsEnough = 2;  // seconds
+  const auto worth_repeating = [&](const Row& row) {
+    return repetitions > 1 && row.stopped.empty() && row.seconds[0] < kOnceIsEnough;
+  };
+  std::vector<Row*> repeated;
   for (Row& row : rows) {
-    std::cerr << "bench_peers: " << row.test->name << ", " << row.peer->name() << ' '
-              << row.scheme.name << '\n';
+    progress.begin(row, "");
     try {
       observe(row, budget);
     } catch (const std::exception& fault) {
       row.stopped = fault.what(), row.error = NAN;
     }
+    if (worth_repeating(row)) repeated.push_back(&row);
+    progress.saw(row, worth_repeating(row));
   }
+  for (Row* row : repeated) row->seconds.clear();  // they had looks in them, and cold caches
   for (int n = 0; n < repetitions && repetitions > 1; ++n)
-    for (Row& row : rows)
-      if (row.stopped.empty() && row.seconds[0] < kOnceIsEnough) {
-        if (n == 0) row.seconds.clear();  // it had looks in it, and cold caches
-        repeat(row);
-      }
+    for (Row* row : repeated) {
+      progress.begin(*row, ", again");
+      repeat(*row);
+      progress.repeated(row->seconds.back());
+    }
 }
 
 double median_of(std::vector<double> values) {

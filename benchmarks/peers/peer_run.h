@@ -22,10 +22,12 @@ struct Row {
   std::string stopped{};          // why it did not come to its end
 };
 
+class Progress;
+
 // Each once for its error, which is not timed, then in `repetitions` turns for its time: in a turn
 // all rows run one after the other, so that what disturbs the machine for a while disturbs all of
 // them. A run that takes longer than `budget` [s] is stopped, and says so.
-void measure(std::vector<Row>& rows, int repetitions, double budget);
+void measure(std::vector<Row>& rows, int repetitions, double budget, Progress& progress);
 
 double median_of(std::vector<double> values);  // not a number of none
 double spread_of(

@@ -7,6 +7,7 @@
 
 #include "benchmarks/speed/contact_engine.h"
 #include "benchmarks/speed/options.h"
+#include "benchmarks/speed/stages.h"
 
 namespace twinarm::speed {
 namespace {
@@ -113,7 +114,7 @@ void repeat(ContactEngines& engines, const ContactScene& scene, std::vector<Row>
   }
 }
 
-std::vector<Row> measure(const Options& options, const std::string& model) {
+std::vector<Row> measure(const Options& options, const std::string& model, Stages& stages) {
   ContactScene scene = contact_scene(model);
   if (options.quick) scene.steps = steps_of_a_turn;
   ContactEngines engines = all_contact_engines();
@@ -122,13 +123,16 @@ std::vector<Row> measure(const Options& options, const std::string& model) {
            std::ranges::find(options.engines, engine->name()) == options.engines.end();
   });
   std::vector<Row> rows(engines.size());
+  const auto count = static_cast<double>(engines.size());
   for (std::size_t i = 0; i < engines.size(); ++i) {
     rows[i].engine = engines[i]->name(), rows[i].model = model;
-    std::cerr << "bench_contact: " << model << ", " << rows[i].engine << '\n';
+    stages.begin(model + ", " + rows[i].engine + ": how it holds", 1.0 / count);
     observe(*engines[i], scene, rows[i]);
   }
-  for (int repetition = 0; repetition < options.repetitions; ++repetition)
+  for (int repetition = 0; repetition < options.repetitions; ++repetition) {
+    stages.begin(model + ", all engines in turns");
     repeat(engines, scene, rows);
+  }
   return rows;
 }
 
@@ -167,8 +171,10 @@ int run(const Options& options) {
   std::cout.precision(17);
   std::cout << "{\"rows\": [";
   const char* separator = "\n  ";
+  Stages stages("bench_contact",
+                static_cast<double>(options.models.size()) * (1 + options.repetitions));
   for (const std::string& model : options.models)
-    for (const Row& row : measure(options, model)) {
+    for (const Row& row : measure(options, model, stages)) {
       std::cout << separator;
       print(row);
       separator = ",\n  ";

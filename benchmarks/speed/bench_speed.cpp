@@ -9,6 +9,7 @@
 #include "benchmarks/speed/agreement.h"
 #include "benchmarks/speed/engine.h"
 #include "benchmarks/speed/options.h"
+#include "benchmarks/speed/stages.h"
 #include "benchmarks/speed/timing.h"
 
 namespace twinarm::speed {
@@ -99,7 +100,7 @@ Engines engines_for(const Mechanism& mechanism, const std::vector<Situation>& si
   return engines;
 }
 
-void measure(const Options& options, const std::string& model, Results& results) {
+void measure(const Options& options, const std::string& model, Stages& stages, Results& results) {
   const Mechanism mechanism = speed::mechanism(model);
   const auto given = situations(mechanism, mechanism.nv() > 200 ? 16 : 64);
   Engines engines = engines_for(mechanism, given);
@@ -126,7 +127,8 @@ void measure(const Options& options, const std::string& model, Results& results)
       jobs.push_back([engine, which = algorithm] { engine->run(which); });
       names.push_back(engine->name());
     }
-    std::cerr << "bench_speed: " << name << " of " << model << ", " << jobs.size() << " engines\n";
+    stages.begin(std::string(name) + " of " + model + ", " + std::to_string(jobs.size()) +
+                 " engines");
     std::vector<Timing> timings = time_interleaved(jobs, options.repetitions, options.seconds);
     for (std::size_t i = 0; i < jobs.size(); ++i) {
       timings[i].ns /= static_cast<double>(given.size());
@@ -171,7 +173,11 @@ int run(const Options& options) {
     return 0;
   }
   Results results;
-  for (const std::string& model : options.models) measure(options, model, results);
+  const auto of_a_model = std::ranges::count_if(
+      algorithms, [&](const auto& each) { return chosen(options.algorithms, each.name); });
+  Stages stages("bench_speed",
+                static_cast<double>(options.models.size()) * static_cast<double>(of_a_model));
+  for (const std::string& model : options.models) measure(options, model, stages, results);
   std::cout << json(results);
   return std::ranges::all_of(results.agreement, &Agreement::holds) ? 0 : 1;
 }
