@@ -25,7 +25,7 @@ constexpr const char* usage =
   --cases           names or groups; default: all (--list prints them, and the engines)
   --engines         default: all of this build
   --work-precision  instead of steps of 1 ms: many steps and tolerances, of the cases that are so marked
-  --repetitions     default 5; in each, all engines run one after the other
+  --repetitions     default 3; in each, all engines run one after the other
   --budget          seconds of one run, default 20; what is not done by then is stopped, and said
   --quick           one repetition, budget 0.2 s: to see that it runs
 
@@ -36,7 +36,7 @@ Exit codes: 0 done; 2 bad option.
 struct Options {
   std::vector<std::string> cases, engines;  // empty: all
   bool work_precision = false;
-  int repetitions = 5;
+  int repetitions = 3;
   double budget = 20;
   bool list = false, help = false;
 };
