@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <optional>
 
 #include "app/commands.h"
@@ -18,27 +19,63 @@ namespace {
 // A bar for those who have waited for two seconds; Ctrl-C is noticed between two cases.
 class Watch {
  public:
-  explicit Watch(std::size_t count) : count_(static_cast<double>(count)) {}
-  void operator()(const char* name, std::size_t done) {
-    using Clock = std::chrono::steady_clock;
+  // `name` is run, `share` of all the work is done.
+  void operator()(const char* name, double share) {
     check_interrupt();
-    if (!bar_ && Clock::now() - start_ > std::chrono::seconds(2)) {
-      bar_.emplace(isatty(STDERR_FILENO) == 0);
-      bar_->stage(name, static_cast<double>(done) / count_);
-      told_ = done;
-    }
-    for (; bar_ && told_ < done; ++told_) bar_->stage(name, 1 / count_);
+    if (!bar_ && seconds() < 2) return;
+    if (!bar_) bar_.emplace(isatty(STDERR_FILENO) == 0);
+    if (share > told_) bar_->stage(name, share - told_);
+    told_ = std::max(told_, share);
+    bar_->advance(1);
   }
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
  private:
-  double count_;
-  std::size_t told_ = 0;
+  double told_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<Progress> bar_;
 };
+
+// Runs all cases. Until they have run nobody knows which take long: each counts alike.
+std::vector<CompareRow> run_all(const CaseSelection& selection, const std::vector<Lane>& lanes,
+                                Watch& watch, double share) {
+  const std::size_t count = selection.cases.size();
+  std::vector<CompareRow> rows(count);
+  two_at_a_time(
+      count, [&](std::size_t i) { rows[i] = run_one(*selection.cases[i], lanes); },
+      [&](std::size_t done) {
+        if (done < count)
+          watch(selection.cases[done]->name,
+                share * static_cast<double>(done) / static_cast<double>(count));
+      });
+  return rows;
+}
+
+// The sections of the page, in the order of the rows. Those that take long are made first, so that
+// both threads end together.
+std::vector<std::string> make_sections(const std::vector<CompareRow>& rows,
+                                       const std::vector<Lane>& lanes, Watch& watch, double share) {
+  constexpr double kDrawing = 0.1;  // [s], beside what a case takes
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return rows[a].seconds > rows[b].seconds; });
+  std::vector<double> before{0};  // the work of the first n
+  for (const std::size_t i : order) before.push_back(before.back() + rows[i].seconds + kDrawing);
+  std::vector<std::string> sections(rows.size());
+  two_at_a_time(
+      rows.size(),
+      [&](std::size_t i) {
+        sections[order[i]] = compare_page::case_section(rows[order[i]], lanes);
+      },
+      [&](std::size_t done) {
+        if (done < order.size())
+          watch(rows[order[done]].test->name, 1 - share + share * before[done] / before.back());
+      });
+  return sections;
+}
 
 std::string joined(const std::vector<std::string>& words, const char* between) {
   std::string text;
@@ -72,21 +109,13 @@ int run_compare(const CompareOptions& options) {
   }
   faults.check();
 
-  const std::size_t count = selection.cases.size();
-  std::vector<CompareRow> rows(count);
+  constexpr double kPageShare = 0.75;  // of the work, as it was measured
+  std::vector<CompareRow> rows;
   {
-    Watch watch(page.empty() ? count : 2 * count);
-    const auto name_of = [&](std::size_t i) {
-      return count == 0 ? "" : selection.cases[std::min(i, count - 1)]->name;
-    };
-    two_at_a_time(
-        count, [&](std::size_t i) { rows[i] = run_one(*selection.cases[i], lanes); },
-        [&](std::size_t done) { watch(name_of(done), done); });
+    Watch watch;
+    rows = run_all(selection, lanes, watch, page.empty() ? 1 : 1 - kPageShare);
     if (!page.empty()) {
-      std::vector<std::string> sections(count);
-      two_at_a_time(
-          count, [&](std::size_t i) { sections[i] = compare_page::case_section(rows[i], lanes); },
-          [&](std::size_t done) { watch(name_of(done), count + done); });
+      const auto sections = make_sections(rows, lanes, watch, kPageShare);
       make_folder(std::filesystem::absolute(page).parent_path(), "--html");
       write_whole_file(page, compare_page::page_html(rows, sections, selection.skipped,
                                                      command_line(options), watch.seconds()));

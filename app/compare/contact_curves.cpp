@@ -6,6 +6,7 @@
 
 #include "app/compare/contact_looks.h"
 #include "app/compare/curves.h"
+#include "app/interrupt.h"
 
 namespace twinarm::compare_page {
 namespace {
@@ -51,7 +52,7 @@ std::string unit_in(const std::string& reading) {
 std::string curve_name(const ContactLook& look, const ContactRun& run, std::size_t number,
                        std::size_t reading) {
   const std::string& name = look.readings[reading];
-  if (look.search) return fmt::format("at {:.4g} {}", run.tried, unit_in(name));
+  if (look.search) return fmt::format("{} = {:.4g} {}", look.search, run.tried, unit_in(name));
   return look.runs.empty() ? name : look.runs[number] + " " + unit_in(name);
 }
 
@@ -80,12 +81,12 @@ void add_exact(const ContactLook& look, CaseCurves& all) {
     for (const double t : all.exact_t) all.exact[k].push_back(look.exact(k, t));
 }
 
-// The same experiment with other steps. Those that take long get fewer and longer ones.
-ErrorCurve errors_of(const AnalyticCase& c, double step, double seconds) {
-  constexpr double kLong = 0.3;  // [s]
+// The same experiment with other steps.
+ErrorCurve errors_of(const AnalyticCase& c, double step) {
   ErrorCurve curve{Integrator::semi_implicit, {}, {}, {}};
   std::vector<double> all;
-  for (double scale = seconds < kLong ? 0.25 : 1; scale <= 4; scale *= 2) {
+  for (double scale = 0.25; scale <= 4; scale *= 2) {
+    check_interrupt();
     ContactRecorder recorder;
     recorder.step_scale = scale;
     all.push_back(watched(c, recorder)->error);
@@ -98,9 +99,21 @@ ErrorCurve errors_of(const AnalyticCase& c, double step, double seconds) {
   return curve;
 }
 
+void add_errors(const ContactLook& look, const ErrorCurve& curve, CaseCurves& all) {
+  constexpr double kSolver = 1e-8;  // relative; what is below has been left by the impulses' solver
+  const auto worst = std::max_element(curve.error.begin(), curve.error.end());
+  if (*look.about_steps)
+    all.about_errors = look.about_steps;
+  else if (worst != curve.error.end() && *worst < kSolver)
+    all.about_errors = "No step makes it: the tolerance of the impulses' solver is left.";
+  else if (curve.order)
+    all.about_errors = "Behind the name stands its slope.";
+  all.errors.push_back(curve);
+}
+
 }  // namespace
 
-std::optional<CaseCurves> contact_curves_of(const AnalyticCase& c, double seconds) {
+std::optional<CaseCurves> contact_curves_of(const AnalyticCase& c) {
   const ContactLook* look = look_of(c.name);
   if (!look) return {};
   ContactRecorder recorder;
@@ -108,7 +121,7 @@ std::optional<CaseCurves> contact_curves_of(const AnalyticCase& c, double second
   recorder.count = std::max<std::size_t>(look->runs.size(), 1);
   recorder.every = look->every;
   recorder.until = look->until;
-  recorder.search = look->search;
+  recorder.search = look->search != nullptr;
   watched(c, recorder);
   CaseCurves all;
   all.energy_label = "E − E₀  [J]";
@@ -122,7 +135,7 @@ std::optional<CaseCurves> contact_curves_of(const AnalyticCase& c, double second
   if (look->no_steps)
     all.no_errors = look->no_steps;
   else
-    all.errors.push_back(errors_of(c, look->step, seconds));
+    add_errors(*look, errors_of(c, look->step), all);
   return all;
 }
 

@@ -8,7 +8,7 @@ const ContactLook* look_of(std::string_view case_name) {
   static const std::vector<ContactLook> all = [] {
     std::vector<ContactLook> looks;
     for (auto* part : {contact_look::impacts, contact_look::sliding, contact_look::rolling,
-                       contact_look::buildings})
+                       contact_look::buildings, contact_look::engines})
       for (const ContactLook& look : part()) looks.push_back(look);
     return looks;
   }();

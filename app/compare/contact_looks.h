@@ -22,9 +22,11 @@ struct ContactLook {
   double until = HUGE_VAL;          // [s]
   double known_at = NAN;            // the only time at which exact() is known [s]
   bool from_start = false;          // readings count from where they begin
-  bool search = false;              // a run on each side of the limit
-  double step = kStep;              // of the case [s]
-  const char* no_steps = nullptr;   // why no error is drawn against the step; null: it is
+  // What is tried to find a limit, of which a run on either side is drawn; null: no search.
+  const char* search = nullptr;
+  double step = kStep;             // of the case [s]
+  const char* no_steps = nullptr;  // why no error is drawn against the step; null: it is
+  const char* about_steps = "";    // what is to be said of that error, where it has no order
 };
 
 namespace contact_look {
@@ -32,6 +34,7 @@ std::vector<ContactLook> impacts();    // E1, E6, E16, E17
 std::vector<ContactLook> sliding();    // E2, E3, E5, E7
 std::vector<ContactLook> rolling();    // E4, E8, E9, E10, E12
 std::vector<ContactLook> buildings();  // E11, E13, E14
+std::vector<ContactLook> engines();    // H1
 }  // namespace contact_look
 
 // Null where nothing moves.

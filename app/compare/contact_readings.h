@@ -10,6 +10,8 @@ using Scene = const ContactScene&;
 
 inline constexpr const char* kLocated =
     "Events are located in time: what is left of the error does not come from the step.";
+inline constexpr const char* kPartOfStep =
+    "The end of sliding is met by the next step: the error is some part of a step.";
 inline constexpr const char* kSearch =
     "The limit is found by bisection; drawn are its first runs on either side.";
 inline constexpr const char* kCounted =

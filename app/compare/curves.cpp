@@ -4,13 +4,15 @@
 #include <cmath>
 #include <map>
 
+#include "app/interrupt.h"
 #include "solver/integrator.h"
 
 namespace twinarm::compare_page {
 namespace {
 
 constexpr long kMostSteps = 50000;               // of the run that is drawn
-constexpr long kFinestSteps = 6000, kSteps = 5;  // of those in the diagram of errors
+constexpr long kFinestSteps = 4000, kSteps = 5;  // of those in the diagram of errors
+constexpr std::size_t kMany = 60;                // dofs of which implicit steps take long
 constexpr int kExactPoints = 24;
 
 // References may cost more than a run; every run asks for the same.
@@ -52,6 +54,21 @@ void sample_reference(const TrajectoryCase& c, double until, CaseCurves& curves)
   }
 }
 
+// Two quaternions stand for each attitude: the one on the run's side is shown.
+void choose_sides(CaseCurves& curves) {
+  const auto first = std::find(curves.names.begin(), curves.names.end(), "qw");
+  const auto qw = static_cast<std::size_t>(first - curves.names.begin());
+  if (qw + 4 > curves.names.size()) return;
+  for (std::size_t n = 0; n < curves.exact_t.size(); ++n) {
+    const auto after = std::lower_bound(curves.t.begin(), curves.t.end(), curves.exact_t[n]);
+    const auto at =
+        std::min(static_cast<std::size_t>(after - curves.t.begin()), curves.t.size() - 1);
+    double side = 0;
+    for (std::size_t k = qw; k < qw + 4; ++k) side += curves.seen[k][at] * curves.exact[k][n];
+    for (std::size_t k = qw; side < 0 && k < qw + 4; ++k) curves.exact[k][n] *= -1;
+  }
+}
+
 void record(const TrajectoryCase& c, CaseCurves& curves) {
   const double end = end_of(c), longest = static_cast<double>(kMostSteps) * c.lane.step;
   const bool adaptive = c.lane.integrator == Integrator::dopri5;
@@ -90,12 +107,14 @@ void record(const TrajectoryCase& c, CaseCurves& curves) {
       curves.seen[i].push_back(p.seen[i]);
   }
   sample_reference(c, until, curves);
+  choose_sides(curves);
 }
 
 ErrorCurve error_curve(const TrajectoryCase& c, Integrator integrator, double end, double finest) {
   ErrorCurve curve{integrator, {}, {}, {}};
   if (integrator == Integrator::dopri5) {
     for (const double tolerance : {1e-12, 1e-10, 1e-8, 1e-6, 1e-4}) {
+      check_interrupt();
       const LaneResult run = run_lane(c, dopri5_lane(tolerance));
       if (!std::isfinite(run.error) || run.steps == 0) continue;
       curve.step.push_back(end / static_cast<double>(run.steps));
@@ -106,6 +125,7 @@ ErrorCurve error_curve(const TrajectoryCase& c, Integrator integrator, double en
   std::vector<double> all;  // also those that are not finite
   double h = finest;
   for (int i = 0; i < kSteps; ++i, h *= 2) {
+    check_interrupt();
     all.push_back(run_lane(c, {integrator, h, 0}).error);
     if (!std::isfinite(all.back())) continue;
     curve.step.push_back(h);
@@ -117,7 +137,7 @@ ErrorCurve error_curve(const TrajectoryCase& c, Integrator integrator, double en
 
 }  // namespace
 
-CaseCurves curves_of(const TrajectoryCase& original) {
+CaseCurves curves_of(const TrajectoryCase& original, double judged) {
   TrajectoryCase c = original;
   c.reference = remembered(original.reference);
   CaseCurves curves;
@@ -131,8 +151,16 @@ CaseCurves curves_of(const TrajectoryCase& original) {
   const double end = end_of(c);
   double finest = c.lane.integrator == Integrator::dopri5 ? 1e-3 : c.lane.step;
   while (end / finest > static_cast<double>(kFinestSteps)) finest *= 2;
-  for (const IntegratorFacts& facts : all_integrators)
-    curves.errors.push_back(error_curve(c, facts.integrator, end, finest));
+  if (c.scene().model.nv > kMany) finest *= 4;
+  for (const IntegratorFacts& facts : all_integrators) {
+    ErrorCurve curve = error_curve(c, facts.integrator, end, finest);
+    // Where that would take long the diagram begins with longer steps; the case's own is known.
+    if (facts.integrator == c.lane.integrator && c.lane.step < finest && std::isfinite(judged)) {
+      curve.step.insert(curve.step.begin(), c.lane.step);
+      curve.error.insert(curve.error.begin(), judged);
+    }
+    curves.errors.push_back(curve);
+  }
   return curves;
 }
 

@@ -35,14 +35,15 @@ struct CaseCurves {
   std::vector<ErrorCurve> errors;  // none where the case takes no other lanes
   std::string drawn;               // the reading, where curves are runs of one
   std::string no_errors;           // why there is no error against the step
+  std::string about_errors;        // what is to be said of it
 };
 
-// Runs every integrator with five steps: some fifty times the work of the case.
-CaseCurves curves_of(const TrajectoryCase& c);
+// Runs every integrator with five steps: some fifty times the work of the case, whose error as it
+// is judged is known.
+CaseCurves curves_of(const TrajectoryCase& c, double judged);
 
-// Of a contact case: runs it again, and once for each step; `seconds` is what the case took. None
-// where nothing moves.
-std::optional<CaseCurves> contact_curves_of(const AnalyticCase& c, double seconds);
+// Of a contact case: runs it again, and once for each of five steps. None where nothing moves.
+std::optional<CaseCurves> contact_curves_of(const AnalyticCase& c);
 
 // Of a case without steps: what was seen and what should have been.
 struct Reading {

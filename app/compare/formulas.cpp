@@ -4,6 +4,8 @@
 #include <cctype>
 #include <iterator>
 
+#include "app/html_text.h"
+
 namespace twinarm::compare_page {
 namespace {
 
@@ -19,9 +21,9 @@ struct Entity {
   std::string_view name, text;
 };
 constexpr Entity kEntities[] = {
-    {"&radic;", "√"}, {"&minus;", "−"}, {"&pi;", "π"},   {"&omega;", "ω"}, {"&theta;", "θ"},
-    {"&phi;", "φ"},   {"&tau;", "τ"},   {"&mu;", "μ"},   {"&alpha;", "α"}, {"&lambda;", "λ"},
-    {"&Phi;", "Φ"},   {"&deg;", "°"},   {"&times;", "×"}};
+    {"&radic;", "√"}, {"&minus;", "−"}, {"&pi;", "π"},  {"&omega;", "ω"}, {"&theta;", "θ"},
+    {"&phi;", "φ"},   {"&tau;", "τ"},   {"&mu;", "μ"},  {"&alpha;", "α"}, {"&lambda;", "λ"},
+    {"&Phi;", "Φ"},   {"&beta;", "β"},  {"&deg;", "°"}, {"&times;", "×"}};
 
 std::string plain(std::string_view html) {
   std::string text(html);
@@ -57,7 +59,8 @@ std::string set_letters(std::string_view run) {
 
 std::string set_text(std::string_view text);
 
-// What begins at `at` and is no run of letters: its HTML; `at` moves behind it.
+// What begins at `at` and is no run of letters: its HTML; `at` moves behind it. At depth 0 a comma
+// parts two equations, between which a line may break.
 std::string set_sign(std::string_view text, std::size_t& at, int depth) {
   const auto starts = [&](std::string_view what) { return text.substr(at).starts_with(what); };
   if (text[at] == '<' || text[at] == '&') {  // tags and entities as they are
@@ -75,7 +78,7 @@ std::string set_sign(std::string_view text, std::size_t& at, int depth) {
   }
   if (starts("''")) return at += 2, "″";
   if (starts("'")) return at += 1, "′";
-  if (starts(", ") && depth == 0) return at += 2, ",&emsp; ";
+  if (starts(", ") && depth == 0) return at += 2, ",</span>&emsp; <span class=eq>";
   const auto first = static_cast<unsigned char>(text[at]);
   std::size_t count = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
   count = std::min(count, text.size() - at);
@@ -90,12 +93,19 @@ std::string set_text(std::string_view text) {
   std::string html;
   int depth = 0;
   for (std::size_t at = 0; at < text.size();) {
+    if (text.substr(at).starts_with("&nbsp;")) {  // a number's unit: upright, up to its end
+      const std::size_t end = std::min(text.find_first_of(" ,<)", at), text.size());
+      html += text.substr(at, end - at);
+      at = end;
+      continue;
+    }
     if (const std::size_t n = letters_from(text, at)) {
       html += set_letters(text.substr(at, n));
       at += n;
       continue;
     }
     depth += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
+    if (text[at] == '<') depth += text.substr(at).starts_with("</") ? -1 : 1;
     html += set_sign(text, at, depth);
   }
   return html;
@@ -116,7 +126,29 @@ void add_paragraph(std::string& html, std::string_view text) {
 std::string typeset_formula(std::string_view html) {
   std::string text = plain(html);
   while (!text.empty() && (text.back() == ' ' || text.back() == ',')) text.pop_back();
-  return set_text(text);
+  return "<span class=eq>" + set_text(text) + "</span>";
+}
+
+std::string typeset_words(std::string_view words) {
+  constexpr Entity kWords[] = {{"alpha", "α"}, {"beta", "β"}, {"mu", "μ"},  {"w2", "ω₂"},
+                               {"w3", "ω₃"},   {"m2", "m²"},  {"s2", "s²"}, {"J2", "J²"}};
+  std::string text;
+  for (std::size_t at = 0; at < words.size();) {
+    std::size_t n = 0;
+    while (at + n < words.size() && std::isalnum(static_cast<unsigned char>(words[at + n])) != 0)
+      ++n;
+    const std::string_view word = words.substr(at, n);
+    const auto sign = std::find_if(std::begin(kWords), std::end(kWords),
+                                   [&](const Entity& e) { return e.name == word; });
+    if (words.substr(at).starts_with("^2"))
+      text += "²", n = 2;
+    else if (sign != std::end(kWords))
+      text += sign->text;
+    else
+      text += words.substr(at, n = std::max<std::size_t>(n, 1));
+    at += n;
+  }
+  return escaped(text);
 }
 
 std::string typeset_statement(std::string_view statement) {

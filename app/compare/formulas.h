@@ -13,5 +13,7 @@ namespace twinarm::compare_page {
 std::string typeset_statement(std::string_view statement);
 // What stands in one <p>.
 std::string typeset_formula(std::string_view html);
+// What a terminal shows as "mu", "rad/s^2" or "[m2]", in plain text and escaped: "μ", "rad/s²".
+std::string typeset_words(std::string_view words);
 
 }  // namespace twinarm::compare_page

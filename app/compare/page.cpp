@@ -4,6 +4,7 @@
 
 #include <cctype>
 
+#include "app/compare/formulas.h"
 #include "app/compare/page_style.h"
 #include "app/html_text.h"
 #include "app/output_file.h"
@@ -34,7 +35,7 @@ std::string index_row(const CompareRow& row) {
   const AnalyticCase& c = *row.test;
   return fmt::format(
              "<tr data-case=\"{0}\"><td><a href=\"#{0}\">{0}</a></td><td class=text>{1}</td>",
-             escaped(c.name), escaped(c.reference)) +
+             escaped(c.name), typeset_words(c.reference)) +
          cell(row.result.error, "{:.3g}") + cell(c.tolerance, "{:.3g}") + "<td>" +
          yes_no(passes(c, row.result), "pass", "short") + "</td>" +
          cell(row.result.order, "{:.2f}") + cell(row.result.energy_drift, "{:.1e}") +
@@ -88,11 +89,10 @@ constexpr const char* kHowToRead =
     "<p><b>Error against step.</b> All integrators, with steps that double; on logarithmic axes an "
     "order is a slope, and stands behind the name. Colours are orders, marks are schemes. dopri5 "
     "chooses its steps: it is drawn at their mean, for tolerances from 1e-12 to 1e-4. The dashed "
-    "line is the tolerance of the case.</p>\n"
-    "<p><b>Contact.</b> The case is run again, and one coordinate of its body noted; where several "
-    "bodies or surfaces are compared, a line is one run. Circles stand where a closed form is "
-    "known. Its step is varied, not its integrator; where that tells nothing, the reason stands "
-    "below.</p>\n"
+    "line is the tolerance of the case. A slope above the order: the error is mostly one of "
+    "energy, "
+    "which rk4 has in the fifth order, or its largest terms cancel. Where an error is as large as "
+    "the motion itself, or is rounding, a slope tells nothing.</p>\n"
     "<p><b>The code</b> of a case unfolds, and is quoted from the file that was compiled. A case "
     "of "
     "your own is one file: docs/adding_a_case.md. What is measured, and how: docs/cases.md.</p>\n";

@@ -59,15 +59,17 @@ std::string readings_table(const TrajectoryCase& c) {
   std::string html =
       "<table class=readings><thead><tr><th>reading<th>twinarm<th>exact<th>difference</thead>"
       "<tbody>\n";
-  for (const Reading& r : readings_of(c))
-    html += fmt::format("<tr><td>{}<td>{:.15g}<td>{:.15g}<td>{:.1e}\n", escaped(r.name), r.seen,
-                        r.exact, r.seen - r.exact);
+  for (const Reading& r : readings_of(c)) {
+    const double off = r.seen - r.exact;
+    html += fmt::format("<tr><td>{}<td>{:.15g}<td>{:.15g}<td>{}\n", typeset_words(r.name), r.seen,
+                        r.exact, off == 0 ? "0" : fmt::format("{:.1e}", off));
+  }
   return html + "</tbody></table>\n";
 }
 
 std::string figures_of(const CompareRow& row, const TrajectoryCase& c) {
   const std::string name = row.test->name;
-  const CaseCurves curves = curves_of(c);
+  const CaseCurves curves = curves_of(c, row.result.error);
   Gnuplot gnuplot{std::filesystem::path()};
   std::string caption = "Run (" + lane_words(c.lane) + ") and reference.";
   if (c.events.count > 0) caption += " Known are the events: times, and what is read at them.";
@@ -84,23 +86,25 @@ std::string figures_of(const CompareRow& row, const TrajectoryCase& c) {
 
 std::string contact_figures(const CompareRow& row) {
   const std::string name = row.test->name;
-  const std::optional<CaseCurves> curves = contact_curves_of(*row.test, row.seconds);
-  if (!curves) return "<p class=note>Nothing moves here: it is one evaluation.</p>\n";
+  const std::optional<CaseCurves> curves = contact_curves_of(*row.test);
+  if (!curves) return "";
   Gnuplot gnuplot{std::filesystem::path()};
   std::string caption = curves->exact_t.empty() ? "The run." : "Run and reference.";
   if (!curves->drawn.empty())
     caption = fmt::format("Drawn: {}, {}.", escaped(curves->drawn),
                           curves->exact_t.empty() ? "in several runs" : "runs and reference");
   if (curves->cut) caption += " Only the beginning is drawn.";
-  const std::string pair =
-      figure(error_figure(gnuplot, name, *curves, row.test->tolerance),
-             "Error of the case against the step, with its slope where it falls.") +
-      figure(energy_figure(gnuplot, name, *curves),
-             "Change of energy over time: impacts, friction and other forces make it.");
-  std::string html = figure(motion_figure(gnuplot, name, *curves), caption, " class=wide") +
-                     "<div class=pair>" + pair + "</div>\n";
-  if (!curves->no_errors.empty()) html += "<p class=note>" + curves->no_errors + "</p>\n";
-  return html;
+  const std::string errors = figure(error_figure(gnuplot, name, *curves, row.test->tolerance),
+                                    "Error of the case against the step. " + curves->about_errors);
+  const std::string note =
+      curves->no_errors.empty() ? "" : "<p class=note>" + curves->no_errors + "</p>\n";
+  return figure(motion_figure(gnuplot, name, *curves), caption, " class=wide") +
+         "<div class=pair>" + errors +
+         figure(
+             energy_figure(gnuplot, name, *curves),
+             "Change of energy over time, by impacts, friction and other forces, and by what the "
+             "steps lose or win.") +
+         note + "</div>\n";
 }
 
 std::string command_of(const CompareRow& row, const std::vector<Lane>& lanes) {
@@ -119,13 +123,13 @@ std::string case_section(const CompareRow& row, const std::vector<Lane>& lanes) 
   const bool pass = passes(c, row.result);
   std::string html =
       fmt::format("<section class=case id=\"{0}\"><h3>{0}{1}<span class=what>{2}</span></h3>\n",
-                  escaped(c.name), yes_no(pass, "pass", "short"), escaped(c.reference));
+                  escaped(c.name), yes_no(pass, "pass", "short"), typeset_words(c.reference));
   const char* statement = statement_of(c);
   const TrajectoryCase* motion = c.trajectory.get();
   html +=
       typeset_statement(statement ? statement : "") + facts_of_case(row, motion) + lanes_table(row);
   if (motion) html += motion->has_steps() ? figures_of(row, *motion) : readings_table(*motion);
-  if (!motion && std::string_view(c.group) == "contact") html += contact_figures(row);
+  if (!motion) html += contact_figures(row);
   html += command_of(row, lanes);
   const CaseCode code = code_of(c.name);
   if (!code.file.empty())

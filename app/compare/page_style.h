@@ -5,7 +5,8 @@ namespace twinarm::compare_page {
 
 inline constexpr const char* kPageStyle = R"css(
 table.index td { white-space: nowrap; }
-table.index td.text { white-space: normal; min-width: 16rem; width: 55%; }
+table.index td.text { white-space: normal; min-width: 16rem; width: 100%; }
+table.index td:first-child { white-space: normal; min-width: 7.5rem; }
 table.index { font-size: .82rem; line-height: 1.35; }
 table.index th, table.index td { padding: .2rem .45rem; }
 table.index tr.group th { text-align: left; padding-top: .9rem; font-size: .92rem; }
@@ -20,13 +21,21 @@ section.case figure { margin: .7rem 0; }
   "Cambria Math", Cambria, "Latin Modern Roman", "Liberation Serif", "DejaVu Serif", Georgia, serif; }
 .formula sub, .formula sup { font-size: .72em; line-height: 0; }
 .formula i { padding-right: .04em; }
+.eq { display: inline-block; }
 .root { border-top: 1px solid currentColor; padding: .05em .1em 0; margin-left: -.05em; }
 .facts { display: flex; flex-wrap: wrap; gap: .1rem 1.7rem; font-size: .9rem; margin: .5rem 0; }
 .facts b { font-weight: 600; font-variant-numeric: tabular-nums; }
 .facts span { color: var(--soft); }
-figure svg { font-family: "DejaVu Sans", Verdana, sans-serif; stroke-linecap: round;
+figure svg { font: 13px "DejaVu Sans", Verdana, sans-serif; stroke-linecap: round;
   stroke-linejoin: round; }
 .l { fill: none; stroke: currentColor; }
+.g { fill: none; stroke: #e4e4e4; }
+.k { fill: none; stroke: #555; }
+.o { fill: none; stroke: #111; stroke-width: .65px; }
+figure text { fill: #333; stroke: none; }
+text.e { text-anchor: end; }
+text.m { text-anchor: middle; }
+.pair > .note { align-self: center; margin: 0; }
 section.case p sub, section.case p sup { line-height: 0; font-size: .72em; }
 .readings { width: auto; }
 .command { margin: .6rem 0; padding: .45rem .8rem; }
@@ -37,7 +46,7 @@ details pre { font-size: .76rem; }
   .formula { font-size: 10.4pt; line-height: 1.5; }
   table.index { font-size: 6.8pt; }
   table.index th, table.index td { padding: .1rem .22rem; }
-  table.index td.text { min-width: 0; }
+  table.index td.text, table.index td:first-child { min-width: 0; }
   figcaption, .note { font-size: 8pt; margin-top: .1rem; }
   section.case p { margin: .3rem 0; }
   section.case h3 { font-size: 11pt; }
@@ -47,6 +56,7 @@ details pre { font-size: .76rem; }
   section.case figure { margin: .3rem 0; }
   section.case figure.wide svg { width: 86%; }
   .pair svg { width: 92%; }
+  .readings { break-inside: avoid; }
   details { display: none; }
   details[open] { display: block; }
   a { color: inherit; text-decoration: none; }

@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
+
+#include "app/compare/plot_axes.h"
 
 namespace twinarm::compare_page {
 namespace {
 
 // A page has hundreds of curves: fewer points than in a report of ten figures.
 constexpr std::size_t kStretches = 120;
-constexpr std::size_t kMostPanels = 3;
+constexpr std::size_t kMostPanels = 4;
 
 struct LineLook {
   const char* colour;
@@ -69,62 +70,59 @@ std::string without_unit(const std::string& reading) {
   return open == std::string::npos ? reading : reading.substr(0, open);
 }
 
-// Readings that share a unit share a panel.
+double largest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double x : values)
+    if (std::isfinite(x)) most = std::max(most, std::abs(x));
+  return most;
+}
+
+// Readings that share a unit share a panel, unless one would be a straight line beside the other.
 std::vector<std::vector<std::size_t>> panels_of(const CaseCurves& curves) {
+  constexpr double kMuchLarger = 8;
   std::vector<std::vector<std::size_t>> panels;
   for (std::size_t i = 0; i < curves.names.size(); ++i) {
     if (curves.seen[i].empty()) continue;
-    const auto same = std::find_if(panels.begin(), panels.end(), [&](const auto& panel) {
+    const auto same_unit = [&](const auto& panel) {
       return unit_of(curves.names[panel[0]]) == unit_of(curves.names[i]);
-    });
-    if (same != panels.end())
-      same->push_back(i);
+    };
+    const double mine = largest(curves.seen[i]);
+    const auto alike = [&](const auto& panel) {
+      const double its = largest(curves.seen[panel[0]]);
+      return same_unit(panel) && mine <= kMuchLarger * its && its <= kMuchLarger * mine;
+    };
+    auto panel = std::find_if(panels.begin(), panels.end(), alike);
+    if (panel == panels.end() && panels.size() == kMostPanels)
+      panel = std::find_if(panels.begin(), panels.end(), same_unit);
+    if (panel != panels.end())
+      panel->push_back(i);
     else if (panels.size() < kMostPanels)
       panels.push_back({i});
   }
   return panels;
 }
 
+// All lines, then all points: the legend names the points last.
 std::string panel_plots(Gnuplot& gnuplot, const CaseCurves& curves,
                         const std::vector<std::size_t>& panel) {
-  std::string plots;
+  std::string lines, points;
   for (std::size_t k = 0; k < panel.size(); ++k) {
     const std::size_t i = panel[k];
     const LineLook& look = kLines[k % std::size(kLines)];
-    plots +=
-        fmt::format("{}{} with lines lw 1.8 dt {} lc '{}' title {}", plots.empty() ? "plot " : ", ",
+    lines +=
+        fmt::format("{}{} with lines lw 1.8 dt {} lc '{}' title {}", lines.empty() ? "plot " : ", ",
                     gnuplot.curve(curves.t, curves.seen[i], kStretches), look.dash, look.colour,
                     in_quotes(without_unit(curves.names[i])));
     const std::size_t known = std::min(curves.exact_t.size(), curves.exact[i].size());
     if (known > 0)
-      plots += fmt::format(
+      points += fmt::format(
           ", {} with points pt 6 ps 0.65 lw 1.3 lc '#111111' {}",
           gnuplot.data(
               {{curves.exact_t.begin(), curves.exact_t.begin() + std::ptrdiff_t(known)},
                {curves.exact[i].begin(), curves.exact[i].begin() + std::ptrdiff_t(known)}}),
-          k == 0 ? "title 'exact'" : "notitle");
+          points.empty() ? "title 'exact'" : "notitle");
   }
-  return plots;
-}
-
-// A decade around the numbers.
-std::string decades(const char* axis, double low, double high) {
-  low /= 1.6, high *= 1.6;
-  const double power = std::pow(10, std::floor(std::log10(high)));  // an axis needs one number
-  return fmt::format("set {}range [{:g}:{:g}]\n", axis, std::min(low, power), high);
-}
-
-// What is constant to all its digits would have an axis of one number.
-std::string range_of(const std::vector<const std::vector<double>*>& all) {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const auto* values : all)
-    for (const double x : *values)
-      if (std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
-  if (low > high) return "";
-  const double size = std::max(std::abs(low), std::abs(high));
-  double margin = 0.08 * (high - low);
-  if (high - low <= 1e-6 * size || size == 0) margin = size > 0 ? 0.5 * size : 1;
-  return fmt::format("set yrange [{:.9g}:{:.9g}]\n", low - margin, high + margin);
+  return lines + points;
 }
 
 }  // namespace
@@ -132,14 +130,23 @@ std::string range_of(const std::vector<const std::vector<double>*>& all) {
 std::string motion_figure(Gnuplot& gnuplot, const std::string& name, const CaseCurves& curves) {
   const auto panels = panels_of(curves);
   if (panels.empty() || curves.t.size() < 2) return "";
-  constexpr int kPanel = 165, kRest = 62;
-  const int height = kPanel * static_cast<int>(panels.size()) + kRest;
+  constexpr int kPanel = 165, kRest = 50, kEntry = 20, kAround = 14;
+  int height = kRest;
+  std::vector<int> heights;  // of panels; the legend shall fit beside
+  for (const auto& panel : panels) {
+    heights.push_back(std::max(kPanel, kEntry * static_cast<int>(panel.size() + 1) + 2 * kAround));
+    height += heights.back();
+  }
   std::string script = "set multiplot\nset lmargin at screen 0.105\nset rmargin at screen 0.80\n";
-  const double end = curves.exact_t.empty() ? 0 : curves.exact_t.back();
-  script += fmt::format("set xrange [0:{:.9g}]\n", std::max(curves.t.back(), end));
+  const double known = curves.exact_t.empty() ? 0 : curves.exact_t.back();
+  const double end = std::max(curves.t.back(), known);
+  // A point on the border is drawn, one beyond it is not; data have seven digits.
+  script += fmt::format("set xrange [0:{:.9g}]\n", end * (1 + 1e-6)) + tics("x", 0, end, 8);
+  int above = 0;
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    const double top = 1 - (14. + kPanel * double(p)) / height;
-    const double bottom = 1 - (kPanel * double(p + 1) - 14.) / height;
+    const double top = 1 - double(above + kAround) / height;
+    above += heights[p];
+    const double bottom = 1 - double(above - kAround) / height;
     const std::string unit = unit_of(curves.names[panels[p][0]]);
     script +=
         fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n", top, bottom);
@@ -186,8 +193,8 @@ std::string error_figure(Gnuplot& gnuplot, const std::string& name, const CaseCu
     low = std::min(low, tolerance), high = std::max(high, tolerance);
   }
   const std::string script =
-      "set logscale xy\nset format x '10^{%T}'\nset format y '10^{%T}'\nset termoption enhanced\n" +
-      decades("x", short_step, long_step) + decades("y", low, high) +
+      "set logscale xy\nset termoption enhanced\n" + log_axis("x", short_step, long_step) +
+      log_axis("y", low, high) +
       "set lmargin at screen 0.155\nset rmargin at screen 0.625\nset tmargin at screen 0.96\n"
       "set bmargin at screen 0.19\nset xlabel 'step [s]' offset 0,0.3\n"
       "set ylabel 'error' offset 0.6,0\n"
@@ -202,7 +209,8 @@ std::string energy_figure(Gnuplot& gnuplot, const std::string& name, const CaseC
   std::string script =
       "set lmargin at screen 0.175\nset rmargin at screen 0.955\nset tmargin at screen 0.90\n"
       "set bmargin at screen 0.19\nset xlabel 'time [s]' offset 0,0.3\nunset key\n";
-  script += fmt::format("set xrange [0:{:g}]\n", curves.t.back());
+  script +=
+      fmt::format("set xrange [0:{:g}]\n", curves.t.back()) + tics("x", 0, curves.t.back(), 5);
   std::vector<const std::vector<double>*> shown;
   for (const auto& energy : curves.energy) shown.push_back(&energy);
   script += range_of(shown);

@@ -30,6 +30,7 @@ const std::vector<AnalyticCase>& analytic_cases() {
              kapitza(),
              crossed_hinges(),
              loop_runs(),
+             loop_ends(),
              impacts(),
              sliding(),
              toppling(),

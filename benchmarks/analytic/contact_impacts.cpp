@@ -196,6 +196,22 @@ CaseResult oblique_flight(double off) {
   return oblique_from(0.1, off);
 }
 
+// What is left of the slip falls in proportion to mu until, at the limit, there is none.
+double slip_left(double mu, double off) {  // e
+  ContactScene scene(Vector3::Zero());
+  scene.add_floor(surface(mu, off * 0.8));
+  const int ball =
+      scene.add({Sphere{kBallRadius}, surface(mu, 1), 1, {0, 0, kBallRadius}, {2, 0, -3}});
+  scene.start();
+  scene.run(0.01, kStep);
+  return scene.v(ball).x() - kBallRadius * scene.w(ball).y();
+}
+CaseResult stick_limit(double off) {  // e
+  const double some = slip_left(0.04, off), less = slip_left(0.08, off);
+  const double limit = 0.08 + 0.04 * less / (some - less);
+  return {relative(limit, 2 / 7.0 * 2 / (1.8 * 3))};
+}
+
 }  // namespace
 
 std::vector<AnalyticCase> impacts() {
@@ -225,6 +241,8 @@ std::vector<AnalyticCase> impacts() {
                                      "energy of all cradles never grows [of the kinetic]", 1e-10),
       contact_case<oblique, 1>(
           "E16", "oblique impact of a sphere, slipping and sticking [of the largest speed]", 1e-12),
+      contact_case<stick_limit, 1>(
+          "E16-limit", "oblique impact: mu from which it sticks, 0.10582 [relative]", 1e-12),
       contact_case<oblique_flight, 2>(
           "E16-flight", "oblique impact, coming from 0.1 m above [of the largest speed]", 1e-3),
   };

@@ -11,7 +11,7 @@ const std::vector<CaseStatement>& contact_statements() {
        "e<sup>n−1</sup>)), v<sub>n</sub> = e<sup>n−1</sup> √(2 g h)</p>"},
       {"E1-rest",
        "The same ball bounces without end in a time that has one: from <p>t = √(2h/g) (1 + e)/(1 − "
-       "e) = 4.0637 s</p> on it lies still."},
+       "e) = 4.0637&nbsp;s</p> on it lies still."},
       {"E1-energy",
        "The same ball with restitutions from 0 to 1: an impact takes energy or, with e = 1, keeps "
        "it. <p>E<sub>after</sub> − E<sub>before</sub> = −(1 − e<sup>2</sup>) m "
@@ -25,9 +25,10 @@ const std::vector<CaseStatement>& contact_statements() {
        "there: "
        "exact Coulomb friction does not creep. <p>x(t) = x(0)</p>"},
       {"E2-forces",
-       "The block at rest on 30°: what carries it is its weight. <p>F = m g sin α = 9.81 N, N = m "
+       "The block at rest on 30°: what carries it is its weight. <p>F = m g sin α = 9.81&nbsp;N, N "
+       "= m "
        "g "
-       "cos α = 16.991 N</p>"},
+       "cos α = 16.991&nbsp;N</p>"},
       {"E2-up",
        "The block is pushed uphill at 3 m/s, μ = 0.5: friction and weight slow it down together. "
        "<p>t = v/(g (sin α + μ cos α)), s = v<sup>2</sup>/(2g (sin α + μ cos α))</p>"},

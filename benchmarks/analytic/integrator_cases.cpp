@@ -150,23 +150,52 @@ TrajectoryCase unit_quaternion() {
   return c;
 }
 
-// ---- G4 ----
+// ---- G1 and G4, orders ----
 
-// Of C2 after 1 s.
-double double_pendulum_error(const Lane& lane, bool mistaken) {
+// Of a known motion after 1 s; each mistake is 0.1 % more gravity.
+double error_after_a_second(const char* name, CaseMeasure measure, const Lane& lane, int mistakes) {
   for (const AnalyticCase& known : analytic_cases()) {
-    if (std::strcmp(known.name, "C2") != 0) continue;
+    if (std::strcmp(known.name, name) != 0) continue;
     TrajectoryCase c = *known.trajectory;
     c.times = {1};
-    c.scene = [scene = c.scene, mistaken] {
+    c.measure = measure;
+    c.scene = [scene = c.scene, mistakes] {
       CaseScene all = scene();
       all.conserves = false;
-      if (mistaken) more_gravity(all);
+      for (int k = 0; k < mistakes; ++k) more_gravity(all);
       return all;
     };
     return run_lane(c, lane).error;
   }
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+double double_pendulum_error(const Lane& lane, bool mistaken) {
+  return error_after_a_second("C2", largest_difference, lane, mistaken ? 1 : 0);
+}
+
+// Of schemes of first order the pendulum's angle, while 10 ms halve twice: the worse of two slopes.
+template <Integrator integrator>
+CaseResult halving(bool mistaken) {
+  const auto of_angle = [](const CaseReadings& seen, const CaseReadings& exact) {
+    return std::abs(seen[0] - exact[0]);
+  };
+  double error[3];
+  for (int i = 0; i < 3; ++i)
+    error[i] = error_after_a_second("B2", of_angle, {integrator, kGoldenStep / (1 << i), 0},
+                                    mistaken ? 5 : 0);
+  const double coarse = std::log2(error[0] / error[1]), fine = std::log2(error[1] / error[2]);
+  return {std::max(std::abs(coarse - 1), std::abs(fine - 1)), {}, fine};
+}
+template <Integrator integrator>
+AnalyticCase halving_case() {
+  return {name_of_case("G1-order-", integrator),
+          kIntegrators,
+          "pendulum, 10 ms halve twice: slope of the angle's error against 1",
+          0.05,
+          [] { return halving<integrator>(false); },
+          {},
+          [] { return halving<integrator>(true); }};
 }
 
 // The slope while h halves four times, from n ms for order n, against the order.
@@ -204,11 +233,13 @@ CaseResult proportion(bool mistaken) {
 }  // namespace
 
 std::vector<AnalyticCase> integrators() {
-  std::vector<AnalyticCase> all;
+  std::vector<AnalyticCase> all = {
+      halving_case<Integrator::euler>(), halving_case<Integrator::semi_implicit>(),
+      halving_case<Integrator::semi_implicit_xv>(), halving_case<Integrator::implicit_euler>()};
   for (const Integrator integrator : {Integrator::semi_implicit, Integrator::verlet})
     all.push_back(trajectory_case(name_of_case("G2-", integrator), kIntegrators,
                                   "oscillator, a million steps: the scheme's invariant [relative]",
-                                  1e-10, invariant(integrator)));
+                                  1e-12, invariant(integrator)));
   all.push_back(trend_case<Integrator::semi_implicit>());
   all.push_back(trend_case<Integrator::verlet>());
   all.push_back(trajectory_case("G3", kIntegrators,

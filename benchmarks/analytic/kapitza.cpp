@@ -125,7 +125,7 @@ TrajectoryCase floquet() {
   TrajectoryCase c = shaken_motion(kFloquet, 1);
   c.statement =
       "Kapitza's pendulum on the limit: after one period of the pivot a small angle is what it "
-      "was. <p>w = 156.65935736181 rad/s, by the trace of the monodromy</p>";
+      "was. <p>w = 156.65935736181&nbsp;rad/s, by the trace of the monodromy</p>";
   c.scene = [] { return shaken(kFloquet, small); };
   c.times = {2 * std::numbers::pi / kFloquet};
   c.readings = {"angle after a period, of the first"};

@@ -140,6 +140,7 @@ LoopCase governor(Couplers couplers) {
   if (couplers == Couplers::rods) c.name = "D5-rods", c.title += ", couplers of constant length";
   set_reference(c, couplers);
   c.step = couplers == Couplers::springs ? 1e-4 : 1e-3;
+  c.tolerance = 1e-8;
   return c;
 }
 

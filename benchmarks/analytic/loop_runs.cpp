@@ -43,25 +43,6 @@ CaseScene scene_of(const LoopCase& c) {
   return scene;
 }
 
-// Each run has a mechanism of its own: sources keep what they point at.
-TrajectoryCase motion_of(LoopCase (*make)(), const char* statement) {
-  const auto c = std::make_shared<const LoopCase>(make());
-  TrajectoryCase motion{};
-  motion.statement = statement;
-  motion.scene = [make] { return scene_of(make()); };
-  for (const LoopCase::Sample& sample : c->reference) motion.times.push_back(sample.t);
-  motion.readings = c->readings;
-  motion.observe = [c](const Model<double>& model, const State<double>& x) {
-    Kinematics k(model);
-    forward_kinematics(model, x, k);
-    return c->read(x, k);
-  };
-  motion.reference = [c](double t) { return tabulated(*c, t); };
-  motion.at_times_only = true;
-  motion.lane = rk4_lane(c->step);
-  return motion;
-}
-
 // ---- D1 ----
 
 CaseReadings swinging(double t) {  // from 90 degrees at rest
@@ -71,7 +52,7 @@ CaseReadings swinging(double t) {  // from 90 degrees at rest
   return rounded({-std::sin(angle), -std::cos(angle), -2 * k * w0 * j.cn});
 }
 TrajectoryCase swing_of(LoopCase (*make)(), const char* statement) {
-  TrajectoryCase motion = motion_of(make, statement);
+  TrajectoryCase motion = loop_motion(make, statement);
   motion.reference = swinging;
   motion.at_times_only = false;
   return motion;
@@ -88,7 +69,7 @@ CaseReadings turning_windows(int count, double t) {
 }
 template <int count>
 TrajectoryCase windows_motion(double step) {
-  TrajectoryCase motion = motion_of(
+  TrajectoryCase motion = loop_motion(
       [] { return windows(count); },
       "N four-bars in a row, 2 N + 1 rods of 1 m and 1 kg, turn over from upright, through places "
       "where all rods lie in a line: <p>q'' = c (g/l) sin q, c = ((N + 1)/2 + N) / "
@@ -149,7 +130,7 @@ TrajectoryCase four_bar_place() {
 // ---- the others ----
 
 TrajectoryCase squeezer_motion() {
-  TrajectoryCase motion = motion_of(
+  TrajectoryCase motion = loop_motion(
       squeezer,
       "Andrews' squeezing mechanism: seven bodies in a plane, three loops, a motor of constant "
       "torque and a spring (Hairer, Wanner, Solving Ordinary Differential Equations II, VII.7). "
@@ -159,6 +140,25 @@ TrajectoryCase squeezer_motion() {
 }
 
 }  // namespace
+
+// Each run has a mechanism of its own: sources keep what they point at.
+TrajectoryCase loop_motion(LoopCase (*make)(), const char* statement) {
+  const auto c = std::make_shared<const LoopCase>(make());
+  TrajectoryCase motion{};
+  motion.statement = statement;
+  motion.scene = [make] { return scene_of(make()); };
+  for (const LoopCase::Sample& sample : c->reference) motion.times.push_back(sample.t);
+  motion.readings = c->readings;
+  motion.observe = [c](const Model<double>& model, const State<double>& x) {
+    Kinematics k(model);
+    forward_kinematics(model, x, k);
+    return c->read(x, k);
+  };
+  motion.reference = [c](double t) { return tabulated(*c, t); };
+  motion.at_times_only = true;
+  motion.lane = rk4_lane(c->step);
+  return motion;
+}
 
 std::vector<AnalyticCase> loop_runs() {
   const char* group = "loops";
@@ -171,7 +171,7 @@ std::vector<AnalyticCase> loop_runs() {
       "<p>&theta; = 2 asin(k cd(&omega;<sub>0</sub>t, k<sup>2</sup>)), k = sin 45&deg;</p>";
   const char* flyball =
       "A flyball governor: a shaft that turns freely, two rods with balls, couplers to a slider. "
-      "<p>With rigid couplers s = 1 m (1 &minus; sin &alpha;)</p>";
+      "<p>With rigid couplers s = 1&nbsp;m (1 &minus; sin &alpha;)</p>";
   return {
       add("D1-hinge", "pendulum, a free body on a hinge: place, rate; elliptic functions",
           pendulum_on_hinge().tolerance, swing_of(pendulum_on_hinge, pendulum)),
@@ -184,19 +184,21 @@ std::vector<AnalyticCase> loop_runs() {
       add("D3", "Andrews' squeezer: angles at 0.01 to 0.05 s [rad]", squeezer().tolerance,
           squeezer_motion()),
       add("D4", "Bricard's over-constrained 6R: place of a corner, 10 s [m]", bricard().tolerance,
-          motion_of(bricard,
-                    "Bricard's six bars of 1 m on six hinges at right angles, over-constrained, "
-                    "fall from rest: <p>five conditions of rank four</p>")),
+          loop_motion(bricard,
+                      "Bricard's six bars of 1 m on six hinges at right angles, over-constrained, "
+                      "fall from rest. They close a loop by five conditions, one too many: <p>J q' "
+                      "= 0, rank "
+                      "J = 4</p>")),
       add("D5-springs", "governor with stiff couplers: slider, 10 s [m]",
           governor(Couplers::springs).tolerance,
-          motion_of([] { return governor(Couplers::springs); }, flyball)),
+          loop_motion([] { return governor(Couplers::springs); }, flyball)),
       add("D5-rods", "governor with rigid couplers: slider at 10 s [m]",
           governor(Couplers::rods).tolerance,
-          motion_of([] { return governor(Couplers::rods); }, flyball)),
+          loop_motion([] { return governor(Couplers::rods); }, flyball)),
       add("D6", "slider-crank: crank and piston, 10 s [rad, rad/s, m]", slider_crank().tolerance,
-          motion_of(slider_crank,
-                    "A slider-crank in a vertical plane turns freely: <p>x = r cos &theta; + "
-                    "&radic;(l<sup>2</sup> &minus; r<sup>2</sup> sin<sup>2</sup>&theta;)</p>")),
+          loop_motion(slider_crank,
+                      "A slider-crank in a vertical plane turns freely: <p>x = r cos &theta; + "
+                      "&radic;(l<sup>2</sup> &minus; r<sup>2</sup> sin<sup>2</sup>&theta;)</p>")),
       add("D7", "four-bar at one place: angles and rates [rad, rad/s]", four_bar().tolerance,
           four_bar_place()),
   };

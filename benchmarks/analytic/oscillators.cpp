@@ -60,7 +60,7 @@ TrajectoryCase driven() {
   TrajectoryCase c = fading(2);
   c.statement =
       "1 kg, 100 N/m, 2 N s/m, driven by 5 cos 8t N from rest: <p>x = A cos(8t &minus; "
-      "&phi;) + a motion that fades</p>";
+      "&phi;) + what fades</p>";
   c.scene = [] { return oscillator(0, 2, 0, kForce); };
   c.times = {1, 2, 5};
   c.reference = [](double t) {

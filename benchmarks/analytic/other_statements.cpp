@@ -44,6 +44,12 @@ const std::vector<CaseStatement>& other_statements() {
        "The pendulum of B2 for a million steps of 10 ms. The energy of a symplectic scheme swings "
        "about that of a system nearby, and has no trend: <p>|E(t) − E(0)| = O(h<sup>p</sup>) for "
        "all t</p>"},
+      {"G1-order-",
+       "The pendulum of B2 after 1 s, with steps of 10, 5 and 2.5 ms: the angle of a scheme of "
+       "first "
+       "order is off by half as much as the step halves. <p>e(h) = C h, "
+       "log<sub>2</sub>(e(h)/e(h/2)) "
+       "= 1</p>"},
       {"G4-",
        "The double pendulum of rods, C2, after 1 s, with steps that halve four times. On "
        "logarithmic axes the error is a straight line, and its slope is the order: <p>e(h) = C "

@@ -174,9 +174,41 @@ class Tags(html.parser.HTMLParser):
             self.wrong.append(tag)
 
 
+class Drawing:
+    """The circles and lines of the first figure of a section, in pixels."""
+    LEGEND = 725  # from here on to the right
+
+    @staticmethod
+    def of(section):
+        svg = re.search(r"<svg.*?</svg>", section, re.S).group(0)
+        circles = [(float(x), float(y)) for x, y in re.findall(
+            r"<circle class=o cx=([-0-9.]+) cy=([-0-9.]+)", svg)]
+        lines = []
+        for d in re.findall(r"<path stroke='[^']*'[^>]*? d='([^']+)'", svg):
+            for part in re.findall(r"M([^M]+)", d):
+                start, _, steps = part.partition("l")
+                numbers = [[float(n) for n in re.findall(r"-?[0-9.]+", text)]
+                           for text in (start, steps)]
+                line = [tuple(numbers[0])]
+                for dx, dy in zip(numbers[1][::2], numbers[1][1::2]):
+                    line.append((line[-1][0] + dx, line[-1][1] + dy))
+                lines.append(line)
+        return [c for c in circles if c[0] < Drawing.LEGEND], lines
+
+    @staticmethod
+    def distance(point, lines):
+        def to(a, b):
+            dx, dy = b[0] - a[0], b[1] - a[1]
+            length = dx * dx + dy * dy
+            along = ((point[0] - a[0]) * dx + (point[1] - a[1]) * dy) / length if length else 0
+            along = min(max(along, 0), 1)
+            return ((a[0] + along * dx - point[0]) ** 2 + (a[1] + along * dy - point[1]) ** 2) ** .5
+        return min(to(a, b) for line in lines for a, b in zip(line, line[1:]))
+
+
 class Page(unittest.TestCase):
     """One page of cases of every kind, made once."""
-    NAMES = ["A1", "A5-ballistic", "B1-45", "B3-start", "C3-2", "D1-hinge", "D7", "E1-times",
+    NAMES = ["A1", "A3", "A5-ballistic", "B1-45", "B3-start", "C3-2", "D1-hinge", "D7", "E1-times",
              "E2-slide", "E2-place", "E2-threshold", "E6-two", "E7-sign", "G1-rk4", "G4-rk4", "F5"]
 
     @classmethod
@@ -261,7 +293,7 @@ class Page(unittest.TestCase):
         for words in ("height of the ball", "[m]", "exact", "time [s]", "E − E₀"):
             self.assertIn(words, self.sections["E1-times"])
         # The middle of 0.4 and 0.8 holds, that of 0.4 and 0.6 does not.
-        for tried in ("at 0.6", "at 0.5"):
+        for tried in ("μ = 0.6", "μ = 0.5"):
             self.assertIn(tried, self.sections["E2-threshold"])
         order = next(c["order"] for c in self.answer["cases"] if c["name"] == "E2-place")
         text = re.sub(r"<[^>]+>", " ", self.sections["E2-place"])
@@ -274,10 +306,20 @@ class Page(unittest.TestCase):
         looks = "".join(p.read_text() for p in root.glob("app/compare/contact_looks_*.cpp"))
         names = re.findall(r'contact_case<[^>]+>\(\s*"([^"]+)"', cases)
         self.assertGreater(len(names), 50)
+        names += re.findall(r'\{"(H1[^"]+)",', (root / "benchmarks/analytic/engine_tasks.cpp")
+                            .read_text())
         drawn = re.findall(r'\.name = "([^"]+)"', looks)
         self.assertEqual(len(drawn), len(set(drawn)))
         self.assertEqual(set(names) - set(drawn), {"E7-sign"})
         self.assertEqual(set(drawn) - set(names), set())
+
+    def test_the_circles_of_the_reference_lie_on_the_lines_of_the_run(self):
+        for name, circles in {"A1": 7 * 25, "A3": 7 * 25, "B1-45": 3, "D1-hinge": 3 * 25,
+                              "E1-times": 25, "E2-place": 25, "E2-slide": 25, "E6-two": 50}.items():
+            drawn, lines = Drawing.of(self.sections[name])
+            self.assertEqual(len(drawn), circles, name)
+            for circle in drawn:
+                self.assertLess(Drawing.distance(circle, lines), 2.0, (name, circle))
 
     def test_the_slopes_beside_the_schemes_are_their_orders(self):
         text = re.sub(r"<[^>]+>", " ", self.sections["A1"])
