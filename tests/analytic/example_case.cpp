@@ -12,38 +12,38 @@ namespace {
 
 using namespace smooth_parts;
 
-constexpr double kMass = 2, kStiffness = 50;
+constexpr double kHangingMass = 2, kSpringRate = 50;
 
-CaseScene scene() {
-  const BodyInertia mass{kMass, Vector3::Zero(), Matrix3::Identity()};
+CaseScene hanging_scene() {
+  const BodyInertia mass{kHangingMass, Vector3::Zero(), Matrix3::Identity()};
   CaseScene s = at_rest(one_body(JointType::prismatic, Vector3::UnitZ(), mass));
-  s.sources = {std::make_shared<JointEffort>([](double, double z) { return -kStiffness * z; })};
+  s.sources = {std::make_shared<JointEffort>([](double, double z) { return -kSpringRate * z; })};
   // Without this line the energy would be that of motion and gravity alone, and seem to drift.
-  s.stored = [](const State<double>& x) { return kStiffness / 2 * x.q[0] * x.q[0]; };
+  s.stored = [](const State<double>& x) { return kSpringRate / 2 * x.q[0] * x.q[0]; };
   return s;
 }
 
-CaseReadings reference(double t) {
-  const double w = std::sqrt(kStiffness / kMass), sag = kGravity / (w * w);
+CaseReadings hanging_reference(double t) {
+  const double w = std::sqrt(kSpringRate / kHangingMass), sag = kGravity / (w * w);
   return {-sag * (1 - std::cos(w * t)), -sag * w * std::sin(w * t)};
 }
 
-TrajectoryCase motion() {
+TrajectoryCase hanging_motion() {
   return {.statement =
               "2 kg are let go on a slack spring of 50 N/m: <p>z = &minus;g/w<sup>2</sup> "
               "(1 &minus; cos w t), w<sup>2</sup> = k/m</p>",
-          .scene = scene,
+          .scene = hanging_scene,
           .times = {1, 2, 10},
           .readings = {"z [m]", "speed [m/s]"},
           .observe = joint_state(),
-          .reference = reference};
+          .reference = hanging_reference};
 }
 
 }  // namespace
 
 std::vector<AnalyticCase> hanging_mass() {
   return {trajectory_case("X1", "joints", "let go on a spring: z [m], speed [m/s], 10 s", 1e-8,
-                          motion())};
+                          hanging_motion())};
 }
 
 }  // namespace twinarm::smooth_cases
