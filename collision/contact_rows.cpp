@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kFastestSeparation = 0.5, kSeparationPart = 0.2;  // [m/s], of the depth per step
 constexpr double kBristleRatio = 1;  // tangential over normal stiffness
-constexpr double kFlush = 1e-8;      // a gap that is as good as none [m]
 
 }  // namespace
 
@@ -46,14 +45,13 @@ double ContactConstraints::bounce_speed(std::size_t i, double u, const Constrain
 }
 
 // How fast the gap may close: in a step by what is left of it, in a smooth piece not at all but for
-// the rest that integration leaves. A gap of nanometres is none: it would leave open which of the
-// points of a face lets go, and whether what is wedged may move by that much, at no gain to anyone.
+// the rest that integration leaves.
 double ContactConstraints::may_close(const ConstraintFrame& frame,
                                      const ContactPoint& point) const {
   const double gap = -point.contact.depth;
   if (frame.phase == Phase::flow) return kGapRate * gap;
   if (response_ == ContactResponse::compliant) return 0;
-  return gap < kFlush ? 0 : (gap - kClosed) / frame.h;
+  return std::max(0.0, gap - kClosed) / frame.h;
 }
 
 void ContactConstraints::add_contact(const ConstraintFrame& frame, std::size_t i,
