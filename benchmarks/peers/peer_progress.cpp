@@ -19,7 +19,7 @@ Progress::~Progress() {
 }
 
 void Progress::expect(const Row& row) {
-  unseen_guess_ += guess(row);
+  guesses_.push_back(guess(row));
 }
 
 void Progress::begin(const Row& row, const std::string& again) {
@@ -38,8 +38,9 @@ void Progress::begin(const Row& row, const std::string& again) {
 
 void Progress::saw(const Row& row, bool to_be_repeated) {
   const double took = row.seconds.empty() ? 0 : row.seconds.front();
-  unseen_guess_ -= guess(row), seen_guess_ += guess(row);
-  seen_ += took, spent_ += took;
+  const Guess& expected = guesses_.at(seen_++);
+  guessed_[expected.contacts] += expected.seconds, taken_[expected.contacts] += took;
+  spent_ += took;
   if (to_be_repeated) to_repeat_ += repetitions_ * took;
 }
 
@@ -48,18 +49,22 @@ void Progress::repeated(double seconds) {
 }
 
 // A step costs a microsecond for each body, ten with contacts.
-double Progress::guess(const Row& row) const {
+Progress::Guess Progress::guess(const Row& row) const {
   constexpr double kAdaptive = 0.05;
-  if (row.scheme.adaptive) return std::min(kAdaptive, budget_);
   const Scene& scene = row.test->scene;
+  if (row.scheme.adaptive) return {scene.floor, kAdaptive};
   const double step = (scene.floor ? 1e-5 : 1e-6) * static_cast<double>(scene.bodies.size());
-  return std::min(row.test->duration / row.h * step, budget_);
+  return {scene.floor, row.test->duration / row.h * step};
 }
 
 double Progress::left() const {
-  const double scale = seen_guess_ > 0 ? seen_ / seen_guess_ : 1;
-  const double to_come =
-      std::max(unseen_guess_, 0.0) * scale * (1 + repetitions_) + std::max(to_repeat_, 0.0);
+  double to_come = std::max(to_repeat_, 0.0);
+  for (std::size_t i = seen_; i < guesses_.size(); ++i) {
+    const bool contacts = guesses_[i].contacts;
+    const double run =
+        std::min(guesses_[i].seconds * taken_[contacts] / guessed_[contacts], budget_);
+    to_come += run < kOnceIsEnough ? run * (1 + repetitions_) : run;
+  }
   return to_come * (spent_ > 0 ? clock() / spent_ : 1);
 }
 

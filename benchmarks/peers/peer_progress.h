@@ -6,8 +6,10 @@
 // time of the clock by the ratio so far, so that other work on the machine is counted in.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include "benchmarks/peers/peer_run.h"
 
@@ -26,14 +28,21 @@ class Progress {
   void repeated(double seconds);                         // a repetition is, and took so long
 
  private:
-  double guess(const Row& row) const;  // CPU time of one run [s]
-  double left() const;                 // by the clock [s]
-  double clock() const;                // since the start [s]
+  struct Guess {
+    bool contacts;
+    double seconds;  // CPU time of one run
+  };
+  Guess guess(const Row& row) const;
+  double left() const;   // by the clock [s]
+  double clock() const;  // since the start [s]
 
   int repetitions_;
   double budget_;
   bool terminal_;
-  double unseen_guess_ = 0, seen_guess_ = 0, seen_ = 0;  // of first runs: guessed, guessed, taken
+  std::vector<Guess> guesses_;  // of all rows, in their order
+  std::size_t seen_ = 0;        // rows
+  // Of what was seen, without and with contacts; at the start alike.
+  std::array<double, 2> guessed_{1e-3, 1e-3}, taken_{1e-3, 1e-3};
   double to_repeat_ = 0, spent_ = 0, drawn_ = 0;
   std::chrono::steady_clock::time_point start_;
 };

@@ -69,7 +69,6 @@ void repeat(Row& row) {
 }  // namespace
 
 void measure(std::vector<Row>& rows, int repetitions, double budget, Progress& progress) {
-  constexpr double kOnceIsEnough = 2;  // seconds
   const auto worth_repeating = [&](const Row& row) {
     return repetitions > 1 && row.stopped.empty() && row.seconds[0] < kOnceIsEnough;
   };

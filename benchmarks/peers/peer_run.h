@@ -22,6 +22,8 @@ struct Row {
   std::string stopped{};          // why it did not come to its end
 };
 
+constexpr double kOnceIsEnough = 2;  // CPU seconds: a run that takes longer is not repeated
+
 class Progress;
 
 // Each once for its error, which is not timed, then in `repetitions` turns for its time: in a turn
