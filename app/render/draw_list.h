@@ -1,7 +1,7 @@
 // DrawList: what is to be seen, once, for every painter (OSMesa here, three.js in the browser).
 //
-// World frame W: z up, right-handed, metres, radians. Colours are sRGB in 0..1, not linearised; an
-// alpha below 1 makes an instance a translucent ghost. Pixels count from the top left, y down.
+// World frame W: z up, right-handed, metres, radians. Colours: sRGB in 0..1; alpha below 1: ghost.
+// Pixels: from the top left, y down, of a picture of 1280 x 720; painters scale them with theirs.
 //
 // A list is made once and kept: meshes stay registered, while clear_frame() drops what is placed
 // with them. Meshes are shared and never change, so a copy of a list is cheap and a painter may
@@ -33,7 +33,8 @@ struct Instance {
   Pose X_WM;
   Vector3 scale = Vector3::Ones();  // positive
   Color color{0.7f, 0.7f, 0.7f, 1.0f};
-  float shininess = 0.35f;  // 0 = chalk, 1 = polished
+  float shininess = 0.35f;    // 0 = chalk, 1 = polished
+  bool seen_through = false;  // faintly to be seen where it is behind or inside of bodies
 };
 
 enum class Align { left, center, right };
@@ -56,6 +57,14 @@ struct Label {
 struct LegendLine {
   Color color;  // of the swatch
   std::string text;
+};
+
+// A filled box on the picture, under all letters: bars and panels.
+struct ScreenBox {
+  // The left upper corner, as the offset of a label on the screen; then the size to the right and
+  // down.
+  Eigen::Vector2d corner_px = Eigen::Vector2d::Zero(), size_px = Eigen::Vector2d::Zero();
+  Color color;
 };
 
 struct Camera {
@@ -87,6 +96,7 @@ class DrawList {
   std::vector<Label> labels;
   std::string title;
   std::vector<LegendLine> legend;
+  std::vector<ScreenBox> bars;
   Camera camera;
   Vector3 light_W = Vector3(-0.45, -0.62, 1.0);  // from the scene towards the light, any length
   Ground ground;
@@ -96,7 +106,7 @@ class DrawList {
   MeshId register_mesh(DrawMesh mesh);
   MeshId unit_mesh(UnitShape shape);  // registers it at its first use
   MeshId unit_spring(double aspect);  // likewise, for the nearest of a few aspects
-  void clear_frame();                 // instances, labels, title, legend
+  void clear_frame();                 // instances, labels, bars, title, legend
 
  private:
   std::map<UnitShape, MeshId> units_;

@@ -18,7 +18,7 @@
   X(BindTexture) X(BindVertexArray) X(BlendFunc) X(BlitFramebuffer) X(BufferData)                 \
   X(CheckFramebufferStatus) X(Clear) X(ColorMask) X(CompileShader) X(CreateProgram) \
   X(CreateShader) X(DeleteBuffers) X(DeleteShader) X(DeleteVertexArrays)              \
-  X(DepthFunc) X(Disable) X(DrawArrays) X(DrawBuffer) X(DrawElements) X(Enable)      \
+  X(DepthFunc) X(DepthMask) X(Disable) X(DrawArrays) X(DrawBuffer) X(DrawElements) X(Enable)      \
   X(EnableVertexAttribArray) X(FramebufferRenderbuffer) X(FramebufferTexture2D) X(GenBuffers)     \
   X(GenFramebuffers) X(GenRenderbuffers) X(GenTextures) X(GenVertexArrays) X(GetError)            \
   X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv)          \

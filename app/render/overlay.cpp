@@ -5,7 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <vector>
 
+#include "app/render/drawing.h"
 #include "app/render/view.h"
 
 namespace twinarm {
@@ -16,46 +19,18 @@ using Eigen::Vector2d;
 const Color kInk{0.10f, 0.12f, 0.15f, 1.0f};
 const Color kPaper{0.97f, 0.98f, 0.99f, 0.62f};
 
-// Share of the pixel under a shape of which the edge is `inside` pixels away.
-float cover_at(double inside) {
-  return static_cast<float>(std::clamp(inside + 0.5, 0.0, 1.0));
+constexpr double kUsualLetters = 14.4;  // height of the legend's at 1280 x 720 [px]
+
+Label scaled(Label label, double scale) {
+  label.offset_px *= scale;
+  label.size_px *= scale;
+  return label;
 }
 
-// Blends a shape given by its signed distance (inside positive) over the pixels of a box.
-template <class Inside>
-void fill(Image& image, const Vector2d& low, const Vector2d& high, const Color& color,
-          Inside&& inside) {
-  const int x0 = static_cast<int>(std::floor(std::max(0.0, low.x() - 1)));
-  const int y0 = static_cast<int>(std::floor(std::max(0.0, low.y() - 1)));
-  const int x1 = static_cast<int>(std::ceil(std::min<double>(image.width, high.x() + 1)));
-  const int y1 = static_cast<int>(std::ceil(std::min<double>(image.height, high.y() + 1)));
-  for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < x1; ++x) {
-      const float cover = cover_at(inside(Vector2d(x + 0.5, y + 0.5)));
-      if (cover > 0) blend(image, x, y, color, cover);
-    }
-  }
-}
-
-void draw_rounded_box(Image& image, const Vector2d& low, const Vector2d& high, double radius,
-                      const Color& color) {
-  const Vector2d center = 0.5 * (low + high), half = 0.5 * (high - low);
-  fill(image, low, high, color, [&](const Vector2d& p) {
-    const Vector2d out = (p - center).cwiseAbs() - half + Vector2d::Constant(radius);
-    return radius - out.cwiseMax(0).norm() - std::min(0.0, out.maxCoeff());
-  });
-}
-
-void draw_line(Image& image, const Vector2d& a, const Vector2d& b, double width,
-               const Color& color) {
-  const Vector2d ab = b - a;
-  const double squared = ab.squaredNorm();
-  if (!(squared > 0)) return;
-  const Vector2d margin = Vector2d::Constant(width);
-  fill(image, a.cwiseMin(b) - margin, a.cwiseMax(b) + margin, color, [&](const Vector2d& p) {
-    const double t = std::clamp((p - a).dot(ab) / squared, 0.0, 1.0);
-    return 0.5 * width - (p - a - t * ab).norm();
-  });
+ScreenBox scaled(ScreenBox bar, double scale) {
+  bar.corner_px *= scale;
+  bar.size_px *= scale;
+  return bar;
 }
 
 // Where a label's text stands: the left end of its base line, and its width.
@@ -75,15 +50,87 @@ Placed place(const Image& image, Lettering& lettering, const Label& label, doubl
   return {at_px.cwiseMin(high).cwiseMax(low), width};
 }
 
+// What letters and panels have taken of the picture.
+class TakenRoom {
+ public:
+  void take(const Vector2d& low, const Vector2d& high) { boxes_.push_back({low, high}); }
+  bool is_free(const Vector2d& low, const Vector2d& high) const {
+    return std::none_of(boxes_.begin(), boxes_.end(), [&](const Box& box) {
+      return (low.array() < box.high.array()).all() && (high.array() > box.low.array()).all();
+    });
+  }
+
+ private:
+  struct Box {
+    Vector2d low, high;
+  };
+  std::vector<Box> boxes_;
+};
+
+// The lines that are tried: the one where it stood, its own, the nearest above and below.
+std::vector<double> lines_to_try(double before) {
+  std::vector<double> lines{before, 0};
+  for (int n = 1; n <= 4; ++n) {
+    lines.push_back(-n);
+    lines.push_back(n);
+  }
+  return lines;
+}
+
+// At its place, or on the nearest line where nothing stands yet. Nothing where there is no room:
+// letters over letters cannot be read.
+std::optional<Placed> place_free(const Image& image, Lettering& lettering, const Label& label,
+                                 double top_px, const Vector2d& anchor_px, TakenRoom& taken,
+                                 LabelMemory::Place* before) {
+  constexpr double kGlide = 0.3;  // of the way, in each picture
+  const double line_px = 1.25 * label.size_px;
+  const auto low = [&](const Placed& p) {
+    return Vector2d(p.start_px - Vector2d(4, 0.9 * label.size_px));
+  };
+  const auto high = [&](const Placed& p) {
+    return Vector2d(p.start_px + Vector2d(p.width + 4, 0.25 * label.size_px));
+  };
+  const auto placed_at = [&](double down_px) {
+    return place(image, lettering, label, top_px,
+                 anchor_px + label.offset_px + Vector2d(0, down_px));
+  };
+  for (const double line : lines_to_try(before ? before->line : 0)) {
+    const Placed found = placed_at(line * line_px);
+    if (!taken.is_free(low(found), high(found))) continue;
+    taken.take(low(found), high(found));
+    if (!before) return found;
+    before->line = line;
+    before->shift_px += kGlide * (line * line_px - before->shift_px);
+    return placed_at(before->shift_px);
+  }
+  return std::nullopt;
+}
+
 bool is_inside(const Image& image, const Vector2d& p) {
   return p.x() >= 0 && p.y() >= 0 && p.x() <= image.width && p.y() <= image.height;
 }
 
-void draw_screen_label(Image& image, Lettering& lettering, const Label& label, double top_px) {
-  Vector2d at_px = label.offset_px;
-  if (at_px.x() < 0) at_px.x() += image.width;
-  if (at_px.y() < 0) at_px.y() += image.height;
+// From the bottom or right where negative.
+Vector2d on_screen(const Image& image, Vector2d offset_px) {
+  if (offset_px.x() < 0) offset_px.x() += image.width;
+  if (offset_px.y() < 0) offset_px.y() += image.height;
+  return offset_px;
+}
+
+void draw_bar(Image& image, const ScreenBox& bar, TakenRoom& taken) {
+  if (!bar.corner_px.allFinite() || !bar.size_px.allFinite()) return;
+  if (!(bar.size_px.minCoeff() > 0)) return;
+  const Vector2d low = on_screen(image, bar.corner_px);
+  draw_box(image, low, low + bar.size_px, std::min(3.0, 0.5 * bar.size_px.minCoeff()), bar.color);
+  taken.take(low, low + bar.size_px);
+}
+
+void draw_screen_label(Image& image, Lettering& lettering, const Label& label, double top_px,
+                       TakenRoom& taken) {
+  const Vector2d at_px = on_screen(image, label.offset_px);
   const Placed text = place(image, lettering, label, top_px, at_px);
+  taken.take(text.start_px - Vector2d(4, 0.9 * label.size_px),
+             text.start_px + Vector2d(text.width + 4, 0.25 * label.size_px));
   lettering.draw(image, label.text, text.start_px, label.size_px, label.color);
 }
 
@@ -100,19 +147,21 @@ void draw_leader(Image& image, const Label& label, const Placed& text, const Vec
   line.a *= 0.85f;
   draw_line(image, anchor_px, end_px, 3, kPaper);
   draw_line(image, anchor_px, end_px, 1.2, line);
-  fill(image, anchor_px - Vector2d(3, 3), anchor_px + Vector2d(3, 3), line,
-       [&](const Vector2d& p) { return 2.4 - (p - anchor_px).norm(); });
+  draw_dot(image, anchor_px, 2.4, line);
 }
 
 void draw_world_label(Image& image, Lettering& lettering, const Label& label, double top_px,
-                      const Vector2d& anchor_px) {
-  const Placed text = place(image, lettering, label, top_px, anchor_px + label.offset_px);
-  draw_leader(image, label, text, anchor_px);
-  lettering.draw(image, label.text, text.start_px, label.size_px, label.color);
+                      const Vector2d& anchor_px, TakenRoom& taken, LabelMemory* memory) {
+  LabelMemory::Place* before = memory ? memory->find_or_add(label.text) : nullptr;
+  const auto text = place_free(image, lettering, label, top_px, anchor_px, taken, before);
+  if (!text) return;
+  draw_leader(image, label, *text, anchor_px);
+  lettering.draw(image, label.text, text->start_px, label.size_px, label.color);
 }
 
 // At the bottom left, on a pale panel; sized with the picture.
-void draw_legend(Image& image, const DrawList& list, Lettering& lettering, double size_px) {
+void draw_legend(Image& image, const DrawList& list, Lettering& lettering, double size_px,
+                 TakenRoom& taken) {
   if (list.legend.empty()) return;
   const double row = 1.6 * size_px, margin = 1.4 * size_px, padding = 0.75 * size_px;
   const double swatch = 0.85 * size_px, text_x = swatch + 0.7 * size_px;
@@ -122,12 +171,13 @@ void draw_legend(Image& image, const DrawList& list, Lettering& lettering, doubl
   }
   const double height = row * static_cast<double>(list.legend.size());
   const Vector2d low(margin, image.height - margin - height - 2 * padding);
-  draw_rounded_box(image, low, low + Vector2d(width + 2 * padding, height + 2 * padding),
-                   0.5 * size_px, kPaper);
+  const Vector2d high = low + Vector2d(width + 2 * padding, height + 2 * padding);
+  draw_box(image, low, high, 0.5 * size_px, kPaper);
+  taken.take(low, high);
   Vector2d at = low + Vector2d(padding, padding + 0.5 * row);  // left end, middle of the row
   for (const LegendLine& line : list.legend) {
     const Vector2d top = at - Vector2d(0, 0.5 * swatch);
-    draw_rounded_box(image, top, top + Vector2d(swatch, swatch), 0.22 * swatch, line.color);
+    draw_box(image, top, top + Vector2d(swatch, swatch), 0.22 * swatch, line.color);
     lettering.draw(image, line.text, at + Vector2d(text_x, 0.36 * size_px), size_px, kInk);
     at.y() += row;
   }
@@ -156,21 +206,34 @@ double draw_title(Image& image, const std::string& title, Lettering& lettering, 
 
 }  // namespace
 
+LabelMemory::Place* LabelMemory::find_or_add(const std::string& words) {
+  std::string name;
+  for (const char c : words)
+    if (!(c >= '0' && c <= '9') && c != '.' && c != '-' && c != '+') name += c;
+  name += '#' + std::to_string(seen_[name]++);
+  return &places_[name];
+}
+
 void draw_overlay(Image& image, const DrawList& list, const Eigen::Matrix4d& clip_from_world,
-                  Lettering& lettering) {
-  const double size_px = std::clamp(image.height / 50.0, 10.0, 40.0);
+                  Lettering& lettering, LabelMemory* memory) {
+  if (memory) memory->begin();
+  const double size_px = std::clamp(std::max(image.height / 50.0, image.width / 92.0), 10.0, 40.0);
+  const double scale = size_px / kUsualLetters;
   const double top_px = draw_title(image, list.title, lettering, size_px);
-  for (const Label& label : list.labels) {
-    if (label.anchor == Label::Anchor::screen) {
-      draw_screen_label(image, lettering, label, top_px);
-      continue;
-    }
+  TakenRoom taken;
+  draw_legend(image, list, lettering, size_px, taken);
+  for (const ScreenBox& bar : list.bars) draw_bar(image, scaled(bar, scale), taken);
+  for (const Label& label : list.labels)
+    if (label.anchor == Label::Anchor::screen)
+      draw_screen_label(image, lettering, scaled(label, scale), top_px, taken);
+  for (const Label& usual : list.labels) {
+    const Label label = scaled(usual, scale);
+    if (label.anchor == Label::Anchor::screen) continue;
     const auto anchor_px = project(clip_from_world, label.p_W, image.width, image.height);
     if (anchor_px && is_inside(image, *anchor_px)) {
-      draw_world_label(image, lettering, label, top_px, *anchor_px);
+      draw_world_label(image, lettering, label, top_px, *anchor_px, taken, memory);
     }
   }
-  draw_legend(image, list, lettering, size_px);
   if (list.ground.visible && list.ground.show_scale) {
     draw_grid_scale(image, list.ground, lettering, 0.9 * size_px);
   }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
+#include <string>
 
 #include "app/render/draw_list.h"
 #include "app/render/image.h"
@@ -9,8 +11,25 @@
 
 namespace twinarm {
 
-// `clip_from_world` is the projection with which the picture was made.
+// Where labels stood in the picture before, for films: there they keep their line while it is free,
+// and glide to another instead of jumping. A label is known by its words without numbers, and by
+// how many of the same stand before it in the list.
+class LabelMemory {
+ public:
+  struct Place {
+    double line = 0;      // lines below the wanted place
+    double shift_px = 0;  // down, as drawn
+  };
+  void begin() { seen_.clear(); }                // of a picture
+  Place* find_or_add(const std::string& words);  // of the next label with these words
+
+ private:
+  std::map<std::string, int> seen_;
+  std::map<std::string, Place> places_;
+};
+
+// `clip_from_world` is the projection with which the picture was made; no memory: a still.
 void draw_overlay(Image& image, const DrawList& list, const Eigen::Matrix4d& clip_from_world,
-                  Lettering& lettering);
+                  Lettering& lettering, LabelMemory* memory = nullptr);
 
 }  // namespace twinarm

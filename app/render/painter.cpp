@@ -138,7 +138,7 @@ class Painter::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  Image paint(const DrawList& list) {
+  Image paint(const DrawList& list, bool is_next) {
     Image image{width_, height_, {}};
     image.rgba.resize(std::size_t{4} * static_cast<std::size_t>(width_) *
                       static_cast<std::size_t>(height_));
@@ -151,7 +151,7 @@ class Painter::Impl {
       }
     }
     turn_upright(image);
-    draw_overlay(image, list, pass_->clip_from_world(), lettering_);
+    draw_overlay(image, list, pass_->clip_from_world(), lettering_, is_next ? &labels_ : nullptr);
     return image;
   }
 
@@ -179,6 +179,7 @@ class Painter::Impl {
   Quality quality_;
   std::unique_ptr<ScenePass> pass_;
   Lettering lettering_;
+  LabelMemory labels_;
 };
 
 Painter::Painter(Backend backend, int width, int height, Quality quality)
@@ -188,7 +189,11 @@ Painter::Painter(Painter&&) noexcept = default;
 Painter& Painter::operator=(Painter&&) noexcept = default;
 
 Image Painter::paint(const DrawList& list) {
-  return impl_->paint(list);
+  return impl_->paint(list, false);
+}
+
+Image Painter::paint_next(const DrawList& list) {
+  return impl_->paint(list, true);
 }
 
 }  // namespace twinarm

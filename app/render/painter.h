@@ -32,6 +32,8 @@ class Painter {
   Painter& operator=(Painter&&) noexcept;
 
   Image paint(const DrawList& list);
+  // The same, as the next picture of a film: labels move on from where they stood.
+  Image paint_next(const DrawList& list);
 
  private:
   class Impl;

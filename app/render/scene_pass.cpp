@@ -68,6 +68,7 @@ void ScenePass::add_item(const DrawList& list, const Instance& instance) {
   item.color << linear(instance.color), instance.color.a;
   item.shininess = instance.shininess;
   item.ghost = instance.color.a < 1;
+  item.seen_through = instance.seen_through;
   if (item.world_from_mesh.allFinite() && item.normal_from_mesh.allFinite()) {
     items_.push_back(item);
   }
@@ -96,6 +97,7 @@ void ScenePass::draw(const LightSample& sample) {
   draw_solids(sample);
   if (list_->ground.visible) draw_floor(sample);
   draw_background();
+  draw_hidden(sample);
   draw_ghosts(sample);
   gl_.Disable(GL_FRAMEBUFFER_SRGB);
 }
@@ -184,6 +186,28 @@ void ScenePass::draw_background() const {
   set_backdrop(background_);
   gl_.BindVertexArray(no_vertices_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+// The parts of overlays that lie behind what has been drawn, laid over it. Depth is left as it is.
+void ScenePass::draw_hidden(const LightSample& sample) const {
+  constexpr float kCover = 0.6f;
+  set_frame(ghost_, sample);
+  gl_.DepthFunc(GL_GREATER);
+  gl_.DepthMask(GL_FALSE);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  for (const Item& item : items_) {
+    if (!item.seen_through) continue;
+    Eigen::Vector4f color = item.color;
+    color.w() *= kCover;
+    ghost_.set(Uniform::world_from_mesh, item.world_from_mesh);
+    ghost_.set(Uniform::normal_from_mesh, item.normal_from_mesh);
+    ghost_.set(Uniform::color, color);
+    item.mesh->draw();
+  }
+  gl_.Disable(GL_BLEND);
+  gl_.DepthMask(GL_TRUE);
+  gl_.DepthFunc(GL_LEQUAL);
 }
 
 // Ghosts write their depth first, all of them, and are then coloured where they are nearest: a

@@ -1,7 +1,8 @@
 // ScenePass: one picture of the bodies, floor and background under one sample of the light.
 //
 // The order of a pass: shadow map(s) of the solids; solids; floor; background where nothing else
-// is; ghosts, depth first. Needs the context current in every call.
+// is; what is seen through bodies, faintly; ghosts, depth first. Needs the context current in every
+// call.
 #pragma once
 
 #include <memory>
@@ -49,7 +50,7 @@ class ScenePass {
     Eigen::Matrix3f normal_from_mesh;
     Eigen::Vector4f color;  // linear
     float shininess;
-    bool ghost;
+    bool ghost, seen_through;
   };
 
   void add_item(const DrawList& list, const Instance& instance);
@@ -60,6 +61,7 @@ class ScenePass {
   void draw_solids(const LightSample& sample) const;
   void draw_floor(const LightSample& sample) const;
   void draw_background() const;
+  void draw_hidden(const LightSample& sample) const;
   void draw_ghosts(const LightSample& sample) const;
   void set_backdrop(const Program& program) const;
   const GpuMesh& upload(const std::shared_ptr<const DrawMesh>& mesh);
