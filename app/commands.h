@@ -73,6 +73,19 @@ struct ReplayOptions {
 };
 int run_replay(const ReplayOptions& options);  // 1 where a bit differs from the recording
 
+struct RenderOptions {
+  RobotOptions robot;                           // its model: a recording, a scene or a URDF
+  std::filesystem::path png, frames, mp4, gif;  // exactly one is given
+  std::optional<double> at, from, to;           // [s]
+  std::string size = "1280x720", camera = "auto", show = "ghost,couplings";
+  std::string plot = "none", quality = "normal", gl = "osmesa";
+  std::filesystem::path beside;  // a second recording; empty: none
+  double slow = 1;               // times slower than life
+  std::optional<double> fps;     // left out: 30, of a GIF 25
+  bool json = false;
+};
+int run_render(const RenderOptions& options);
+
 struct CompareOptions {
   std::vector<std::string> cases;
   std::string group;

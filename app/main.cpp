@@ -195,6 +195,48 @@ void add_recordings(CLI::App& app, ExportOptions& exported, ReplayOptions& repla
   replay->callback([&] { command = [&] { return run_replay(replayed); }; });
 }
 
+void add_render(CLI::App& app, RenderOptions& options, std::function<int()>& command) {
+  CLI::App* render = app.add_subcommand(
+      "render",
+      "A picture or a film of a recording, a scene or a robot, without display or GPU\n\n"
+      "Example:  twinarm render assets/scenes/incline.toml --png incline.png --show "
+      "forces,contacts");
+  add_robot_options(*render, options.robot, "a recording, a scene in TOML, or a robot's URDF");
+  render->add_option("--png", options.png, "write one picture to this file");
+  render->add_option("--frames", options.frames, "write a film as numbered PNG into this folder");
+  render->add_option("--mp4", options.mp4, "write a film (needs the program ffmpeg)");
+  render->add_option("--gif", options.gif, "likewise, as GIF");
+  render->add_option(
+      "--at", options.at,
+      "seconds, of the picture; if not given the end of a recording, else the start");
+  render->add_option("--from", options.from, "seconds, where the film begins");
+  render->add_option("--to", options.to, "seconds, where it ends");
+  render->add_option("--slow", options.slow, "times slower than life")->capture_default_str();
+  render->add_option("--fps", options.fps, "pictures per second; 30 if not given, of a GIF 25");
+  render->add_option("--size", options.size, "in pixels")->capture_default_str();
+  render
+      ->add_option("--camera", options.camera,
+                   "auto, front, side, top, iso, follow:BODY, or AZIMUTH,ELEVATION[,DISTANCE] in "
+                   "degrees and metres")
+      ->capture_default_str();
+  render
+      ->add_option("--show", options.show,
+                   "none, all, or some of: ghost trails couplings contacts forces gravity joints "
+                   "frames com momentum inertia articulated labels energy")
+      ->capture_default_str();
+  render
+      ->add_option("--plot", options.plot,
+                   "curves under the picture: none, or some of energy forces couples contacts lag")
+      ->capture_default_str();
+  render->add_option("--beside", options.beside,
+                     "a second recording, in sync at the right of the first");
+  render->add_option("--quality", options.quality, "draft, normal or studio")
+      ->capture_default_str();
+  render->add_option("--gl", options.gl, "what paints: osmesa or egl")->capture_default_str();
+  render->add_flag("--json", options.json, "print one JSON object on stdout");
+  render->callback([&] { command = [&] { return run_render(options); }; });
+}
+
 void add_compare(CLI::App& app, CompareOptions& options, std::function<int()>& command) {
   CLI::App* compare = app.add_subcommand(
       "compare",
@@ -242,6 +284,7 @@ int main(int argc, char** argv) {
   simulate.command.assign(argv, argv + argc);
   ExportOptions exported;
   ReplayOptions replayed;
+  RenderOptions render;
   CompareOptions compare;
   StudyOptions study;
   TraceOptions trace;
@@ -252,6 +295,7 @@ int main(int argc, char** argv) {
   add_modes(app, modes, command);
   add_simulate(app, simulate, command);
   add_recordings(app, exported, replayed, command);
+  add_render(app, render, command);
   add_compare(app, compare, command);
   add_study(app, study, command);
   add_make_robot(app, recipe, command);

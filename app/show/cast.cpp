@@ -1,0 +1,132 @@
+#include "app/show/cast.h"
+
+#include <fmt/format.h>
+
+#include "app/scene/scene_names.h"
+#include "app/show/palette.h"
+#include "app/show/shape_mesh.h"
+#include "solver/fault.h"
+
+namespace twinarm {
+namespace {
+
+// A link that the file gives no colour has one of ours, so that neighbours are told apart.
+Color color_of(const VisualPart& visual, std::size_t body) {
+  if (visual.material.empty() && visual.color.isApprox(Vector4(0.7, 0.7, 0.7, 1.0)))
+    return palette::body(body);
+  const Eigen::Vector4f c = visual.color.cast<float>();
+  return {c(0), c(1), c(2), c(3)};
+}
+
+void set_bounds_of(CastPart& part, const DrawMesh& mesh) {
+  if (mesh.positions.empty()) return;
+  Vector3 low = Vector3::Constant(1e300), high = -low;
+  for (const auto& p : mesh.positions) {
+    const Vector3 q(p[0], p[1], p[2]);
+    low = low.cwiseMin(q);
+    high = high.cwiseMax(q);
+  }
+  part.low_M = low.cwiseProduct(part.scale);
+  part.high_M = high.cwiseProduct(part.scale);
+}
+
+class CastMaker {
+ public:
+  CastMaker(Cast& cast, DrawList& list) : cast_(cast), list_(list) {}
+
+  void add(std::size_t body, int robot, const ShapeLook& look, const Pose& X_LG, Color color) {
+    if (look.is_hollow) color.a = palette::kHollow;
+    CastPart part;
+    part.body = body;
+    part.robot = robot;
+    part.mesh = look.mesh;
+    part.X_LM = X_LG * look.X_GM;
+    part.scale = look.scale;
+    part.color = color;
+    set_bounds_of(part, *list_.meshes[look.mesh]);
+    cast_.parts.push_back(part);
+  }
+
+  // Visuals; in place of what cannot be drawn of them, all collision shapes.
+  void add_link(const LinkDescription& link, std::size_t body, int robot) {
+    std::vector<ShapeLook> looks;
+    try {
+      for (const VisualPart& visual : link.visuals)
+        looks.push_back(look_of(visual.geometry, list_));
+    } catch (const InputError& error) {
+      const Fault& fault = error.faults().front();
+      cast_.notes.push_back(fmt::format("link '{}' is drawn by its collision shapes: {}: {}",
+                                        link.name, fault.file, fault.rule));
+      looks.clear();
+      add_collisions(link, body, robot);
+      return;
+    }
+    for (std::size_t i = 0; i < looks.size(); ++i)
+      add(body, robot, looks[i], link.visuals[i].X_LG(), color_of(link.visuals[i], body));
+    if (!link.visuals.empty() || link.collisions.empty()) return;
+    cast_.notes.push_back(
+        fmt::format("link '{}' has no visual: it is drawn by its collision shapes", link.name));
+    add_collisions(link, body, robot);
+  }
+
+ private:
+  void add_collisions(const LinkDescription& link, std::size_t body, int robot) {
+    for (const CollisionPart& part : link.collisions) try {
+        add(body, robot, look_of(part.geometry, list_), part.X_LG(), palette::body(body));
+      } catch (const InputError& error) {
+        const Fault& fault = error.faults().front();
+        cast_.notes.push_back(fmt::format("of link '{}' a collision shape is missing: {}: {}",
+                                          link.name, fault.file, fault.rule));
+      }
+  }
+
+  Cast& cast_;
+  DrawList& list_;
+};
+
+void add_body(const SceneGeometry& geometry, const BodyDescription& body, std::size_t& free_bodies,
+              CastMaker& maker, Cast& cast, DrawList& list) {
+  const auto index = static_cast<std::size_t>(geometry.body);
+  Color color = body.fixed ? palette::kObstacle : palette::kDriven;
+  if (body.is_free()) color = palette::body(free_bodies++);
+  const std::optional<ShapeLook> look = look_of(geometry.shape, list);
+  if (look) return maker.add(index, -1, *look, geometry.X_LG, color);
+  const auto& half = std::get<HalfSpaceSpec>(geometry.shape);
+  const Vector3 normal = geometry.X_LG.R * half.normal;
+  cast.planes.push_back({index, normal, half.offset + normal.dot(geometry.X_LG.p), color});
+}
+
+}  // namespace
+
+Cast cast_of(const SceneModel& scene, DrawList& list) {
+  Cast cast;
+  CastMaker maker(cast, list);
+  const SceneDescription& description = scene.description;
+  for (std::size_t r = 0; r < description.robots.size(); ++r)
+    for (const LinkDescription& link : description.robots[r].description.links) {
+      const int body = scene.model.find_body(name_in_scene(description, r, link.name));
+      if (body >= 0) maker.add_link(link, static_cast<std::size_t>(body), static_cast<int>(r));
+    }
+  // The geometries of bodies are the last ones, in their order.
+  const std::size_t first = scene.geometries.size() - description.bodies.size();
+  std::size_t free_bodies = 0;
+  for (std::size_t b = 0; b < description.bodies.size(); ++b)
+    add_body(scene.geometries[first + b], description.bodies[b], free_bodies, maker, cast, list);
+  for (const SceneConstraint& c : scene.constraints)
+    if (c.type == SceneConstraint::Type::distance)
+      cast.ties.push_back(
+          {static_cast<std::size_t>(c.a), static_cast<std::size_t>(c.b), c.X_AC.p, c.X_BC.p});
+  return cast;
+}
+
+Cast cast_of(const RobotDescription& robot, const Model<double>& model, DrawList& list) {
+  Cast cast;
+  CastMaker maker(cast, list);
+  for (const LinkDescription& link : robot.links) {
+    const int body = model.find_body(link.name);
+    if (body >= 0) maker.add_link(link, static_cast<std::size_t>(body), 0);
+  }
+  return cast;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,30 @@
+// The KVR beside the DVR: translucent, where the two do not coincide.
+#include "app/show/overlays.h"
+#include "app/show/palette.h"
+
+namespace twinarm {
+namespace {
+
+// Surfaces at the same place would flicker.
+bool is_apart(const Pose& a, const Pose& b, double length) {
+  return (a.p - b.p).norm() > 1e-4 * length || (a.R - b.R).norm() > 1e-4;
+}
+
+}  // namespace
+
+void show_twins(Stage& stage, const Moment& moment) {
+  bool any = false;
+  for (const ShownTwin& twin : moment.twins)
+    for (const CastPart& part : stage.cast.parts) {
+      if (part.robot != static_cast<int>(twin.robot)) continue;
+      const Pose& X_WL = twin.X_WL[part.body];
+      if (!is_apart(X_WL, moment.k.X_WL[part.body], stage.scales.length)) continue;
+      add_mesh_instance(stage.list, part.mesh, X_WL * part.X_LM, palette::kGhost, part.scale);
+      any = true;
+    }
+  if (any)
+    stage.list.legend.push_back(
+        {palette::kGhostSwatch, "kinematic twin: moved by the hand, has no mass"});
+}
+
+}  // namespace twinarm

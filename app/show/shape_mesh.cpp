@@ -1,0 +1,110 @@
+#include "app/show/shape_mesh.h"
+
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include "collision/convex_hull.h"
+#include "collision/import/mesh_geometry.h"
+
+namespace twinarm {
+namespace {
+
+// A profile in the half-plane (radius, z), from the lowest point to the highest, turned about z.
+// The ends lie on the axis.
+TriangleMesh turned(const std::vector<Eigen::Vector2d>& profile) {
+  constexpr int kAround = 48;
+  TriangleMesh mesh;
+  const auto row = [](std::size_t i) { return static_cast<int>(i) * kAround; };
+  for (const Eigen::Vector2d& p : profile)
+    for (int k = 0; k < kAround; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kAround;
+      mesh.vertices.emplace_back(p.x() * std::cos(angle), p.x() * std::sin(angle), p.y());
+    }
+  for (std::size_t i = 0; i + 1 < profile.size(); ++i)
+    for (int k = 0; k < kAround; ++k) {
+      const int next = (k + 1) % kAround;
+      const int a = row(i) + k, b = row(i) + next, c = row(i + 1) + next, d = row(i + 1) + k;
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
+    }
+  return mesh;  // triangles without area, at the poles, are dropped where normals are made
+}
+
+TriangleMesh capsule(double radius, double length) {
+  constexpr int kArc = 12;  // of a quarter circle
+  std::vector<Eigen::Vector2d> profile;
+  for (const double side : {-0.5, 0.5})
+    for (int i = 0; i <= kArc; ++i) {
+      const double share = static_cast<double>(i) / kArc;
+      const double latitude = 0.5 * std::numbers::pi * (side < 0 ? share - 1 : share);
+      const bool on_axis = (side < 0 && i == 0) || (side > 0 && i == kArc);
+      profile.emplace_back(on_axis ? 0 : radius * std::cos(latitude),
+                           side * length + radius * std::sin(latitude));
+    }
+  return turned(profile);
+}
+
+TriangleMesh hull_of(const MeshGeometry& geometry) {
+  const ConvexHull hull = convex_hull(load_mesh(geometry).vertices);
+  return {hull.vertices, hull.triangles};
+}
+
+// A tube of no thickness, seen from outside.
+ShapeLook cylinder(double radius, double length, DrawList& list) {
+  return {list.unit_mesh(UnitShape::cylinder),
+          {Matrix3::Identity(), Vector3(0, 0, -0.5 * length)},
+          Vector3(radius, radius, length),
+          false};
+}
+
+ShapeLook sphere(const Vector3& semi_axes, DrawList& list) {
+  return {list.unit_mesh(UnitShape::sphere), {}, semi_axes, false};
+}
+
+ShapeLook hollow(ShapeLook look) {
+  look.is_hollow = true;
+  return look;
+}
+
+struct Look {
+  DrawList& list;
+  using Maybe = std::optional<ShapeLook>;
+  Maybe operator()(const BoxGeometry& box) const {
+    return ShapeLook{list.unit_mesh(UnitShape::box), {}, box.size, false};
+  }
+  Maybe operator()(const SphereGeometry& s) const {
+    return sphere(Vector3::Constant(s.radius), list);
+  }
+  Maybe operator()(const EllipsoidSpec& e) const { return sphere(e.semi_axes, list); }
+  Maybe operator()(const CylinderGeometry& c) const { return cylinder(c.radius, c.length, list); }
+  Maybe operator()(const CapsuleGeometry& c) const {
+    return ShapeLook{list.register_mesh(capsule(c.radius, c.length)), {}, Vector3::Ones(), false};
+  }
+  Maybe operator()(const HollowSphereSpec& s) const {
+    return hollow(sphere(Vector3::Constant(s.radius), list));
+  }
+  Maybe operator()(const HollowCylinderSpec& c) const {
+    return hollow(cylinder(c.radius, c.length, list));
+  }
+  Maybe operator()(const HalfSpaceSpec&) const { return std::nullopt; }
+  Maybe operator()(const MeshSpec& spec) const {
+    const MeshId mesh = list.register_mesh(spec.convex ? hull_of(spec.mesh) : load_mesh(spec.mesh));
+    return ShapeLook{mesh, {}, Vector3::Ones(), false};
+  }
+  Maybe operator()(const MeshGeometry& geometry) const {
+    return ShapeLook{list.register_mesh(load_mesh(geometry)), {}, Vector3::Ones(), false};
+  }
+};
+
+}  // namespace
+
+std::optional<ShapeLook> look_of(const ShapeSpec& shape, DrawList& list) {
+  return std::visit(Look{list}, shape);
+}
+
+ShapeLook look_of(const PartGeometry& geometry, DrawList& list) {
+  return *std::visit(Look{list}, geometry);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,26 @@
+// What the shapes of scenes and robots look like: a mesh of a DrawList and its scale, in the
+// shape's frame G.
+#pragma once
+
+#include <optional>
+
+#include "app/render/draw_list.h"
+#include "app/scene/scene_description.h"
+
+namespace twinarm {
+
+struct ShapeLook {
+  MeshId mesh = 0;
+  Pose X_GM;                        // the mesh's own frame M in that of the shape
+  Vector3 scale = Vector3::Ones();  // of the mesh, in M
+  bool is_hollow = false;           // one looks into it: to be drawn translucent
+};
+
+// Nothing for a half-space, which has no extent of its own. A mesh of a scene is drawn as contacts
+// have it: its convex hull, unless it says otherwise. Throws InputError for a mesh that cannot be
+// read.
+std::optional<ShapeLook> look_of(const ShapeSpec& shape, DrawList& list);
+// A visual of a robot's file: its mesh as it is.
+ShapeLook look_of(const PartGeometry& geometry, DrawList& list);
+
+}  // namespace twinarm
