@@ -1,4 +1,4 @@
-// Reading triangle meshes from files: STL, OBJ, glTF and GLB.
+// Triangle meshes from files: STL, OBJ, PLY, DAE, glTF and GLB.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,7 @@ namespace twinarm {
 
 // The mesh in `file` with all its parts in one list, vertices welded, coordinates times `scale`
 // (0.001 for a file in millimetres). The axes are those of the file; so a glTF file is y-up.
-// Throws InputError (file, rule, remedy) if the file is missing, unreadable, too large (64 MiB),
-// of another format, malformed, without triangles, or holds a coordinate that is not finite.
-// Files that the model names (glTF buffers, OBJ materials) are opened only inside its own folder.
+// Throws InputError where read_model() (model_file.h) does, or where nothing has three corners.
 TriangleMesh load_mesh(const std::filesystem::path& file, double scale);
 
 // Each directed edge occurs once and its reverse occurs once: the surface has no border, and all

@@ -24,7 +24,7 @@ ARROWS = {
 # directly or through a header of ours.
 LIBRARIES = {
     "fcl": (r"fcl/|ccd/", {"collision/broad_phase.cpp", "tests/collision/fcl_oracle.cpp"}),
-    "assimp": (r"assimp/", {"collision/mesh_file.cpp"}),
+    "assimp": (r"assimp/", {"collision/model_file.cpp"}),
     "qhull": (r"libqhull", {"collision/convex_hull.cpp"}),
     "tinyxml2": (r"tinyxml2", {"collision/import/urdf.cpp", "collision/import/urdf_joint.cpp",
                                "collision/import/urdf_shapes.cpp",

@@ -135,8 +135,7 @@ TEST_CASE("missing, foreign, malformed, empty and non-finite files are refused w
   CHECK(mentions(refusal(folder.path / "none.stl"), "no such file"));
   CHECK(mentions(refusal(folder.path), "not a file"));
   CHECK(mentions(refusal(folder.write("cad.step", "ISO-10303-21;")), "not a mesh format"));
-  CHECK(
-      mentions(refusal(folder.write("mesh.ply", "ply\nformat ascii 1.0\n")), "not a mesh format"));
+  CHECK(mentions(refusal(folder.write("mesh.off", "OFF\n")), "not a mesh format"));
   CHECK(
       mentions(refusal(folder.write("cut.stl", binary_stl(box).substr(0, 300))), "cannot be read"));
   CHECK(refusal(folder.write("words.stl", "this is no mesh")) != "accepted");

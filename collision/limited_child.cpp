@@ -1,0 +1,127 @@
+// fork, two limits, and a pipe that carries the result home. See limited_child.h.
+#include "collision/limited_child.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <new>
+#include <string_view>
+#include <system_error>
+
+namespace twinarm {
+namespace {
+
+// How the child ends, where no signal ends it.
+constexpr int kDone = 0, kOutOfMemory = 3, kThrew = 4, kCannotSend = 5;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;  // sanitizers reserve terabytes of addresses
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+#else
+constexpr bool kSanitized = false;
+#endif
+
+[[noreturn]] void fail(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+void limit(int what, rlim_t most) {
+  const rlimit both{most, most};
+  setrlimit(static_cast<__rlimit_resource_t>(what), &both);
+}
+
+bool send(int pipe, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t sent = write(pipe, bytes.data(), bytes.size());
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(sent));
+  }
+  return true;
+}
+
+[[noreturn]] void be_child(const std::function<std::string()>& work, const ChildLimits& limits,
+                           int pipe) {
+  // Whatever the program does with signals, the child ends at once and without a word.
+  for (const int each : {SIGINT, SIGTERM, SIGPIPE, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
+    std::signal(each, SIG_DFL);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, limits.cpu_seconds);
+  if (!kSanitized) limit(RLIMIT_AS, limits.bytes);
+  int end = kDone;
+  try {
+    if (!send(pipe, work())) end = kCannotSend;
+  } catch (const std::bad_alloc&) {
+    end = kOutOfMemory;
+  } catch (...) {
+    end = kThrew;
+  }
+  _exit(end);  // neither destructors nor buffers of the parent's program
+}
+
+std::string receive(int pipe) {
+  std::string bytes;
+  std::array<char, 1 << 16> some;
+  while (true) {
+    const ssize_t got = read(pipe, some.data(), some.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return bytes;
+    bytes.append(some.data(), static_cast<std::size_t>(got));
+  }
+}
+
+std::string fault_of(int status, const ChildLimits& limits) {
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    if (signal == SIGXCPU || signal == SIGKILL)
+      return "takes more than " + std::to_string(limits.cpu_seconds) + " s of computing";
+    if (signal == SIGINT || signal == SIGTERM) return "was interrupted";
+    return "crashes";
+  }
+  switch (WEXITSTATUS(status)) {
+    case kDone:
+      return "";
+    case kOutOfMemory:
+      return "takes more than " + std::to_string(limits.bytes >> 30) + " GiB of memory";
+    default:
+      return "fails";
+  }
+}
+
+}  // namespace
+
+ChildResult run_limited(const std::function<std::string()>& work, const ChildLimits& limits) {
+  std::array<int, 2> ends;
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) fail("pipe");
+  const pid_t child = fork();
+  if (child < 0) {
+    close(ends[0]), close(ends[1]);
+    fail("fork");
+  }
+  if (child == 0) {
+    close(ends[0]);
+    be_child(work, limits, ends[1]);
+  }
+  close(ends[1]);
+  ChildResult result;
+  result.bytes = receive(ends[0]);
+  close(ends[0]);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) fail("waitpid");
+  result.fault = fault_of(status, limits);
+  if (!result.fault.empty()) result.bytes.clear();
+  return result;
+}
+
+}  // namespace twinarm
