@@ -30,6 +30,11 @@ MeshId DrawList::register_mesh(DrawMesh mesh) {
   return meshes.size() - 1;
 }
 
+TextureId DrawList::register_texture(std::shared_ptr<const Image> texture) {
+  textures.push_back(std::move(texture));
+  return textures.size() - 1;
+}
+
 MeshId DrawList::unit_mesh(UnitShape shape) {
   const auto found = units_.find(shape);
   if (found != units_.end()) return found->second;
@@ -58,7 +63,7 @@ void add_mesh_instance(DrawList& list, MeshId mesh, const Pose& X_WM, const Colo
   assert(mesh < list.meshes.size());
   if (!X_WM.R.allFinite() || !X_WM.p.allFinite() || !scale.allFinite()) return;
   if (!(scale.minCoeff() > 0)) return;
-  list.instances.push_back({mesh, X_WM, scale, color, shininess, false});
+  list.instances.push_back({mesh, X_WM, scale, color, shininess, false, std::nullopt});
 }
 
 void add_box(DrawList& list, const Pose& X_WM, const Vector3& size, const Color& color) {

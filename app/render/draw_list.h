@@ -12,10 +12,12 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/render/draw_mesh.h"
+#include "app/render/image.h"
 #include "collision/mesh.h"
 #include "solver/pose.h"
 
@@ -25,7 +27,8 @@ struct Color {
   float r = 0, g = 0, b = 0, a = 1;
 };
 
-using MeshId = std::size_t;  // index into DrawList::meshes
+using MeshId = std::size_t;     // index into DrawList::meshes
+using TextureId = std::size_t;  // index into DrawList::textures
 
 // A mesh at a place: p_W = X_WM * (scale * p_M), componentwise.
 struct Instance {
@@ -35,6 +38,7 @@ struct Instance {
   Color color{0.7f, 0.7f, 0.7f, 1.0f};
   float shininess = 0.35f;    // 0 = chalk, 1 = polished
   bool seen_through = false;  // faintly to be seen where it is behind or inside of bodies
+  std::optional<TextureId> texture;  // times the colour, where the mesh has uv; not on ghosts
 };
 
 enum class Align { left, center, right };
@@ -92,6 +96,7 @@ struct Background {
 class DrawList {
  public:
   std::vector<std::shared_ptr<const DrawMesh>> meshes;  // append only, by the functions below
+  std::vector<std::shared_ptr<const Image>> textures;   // likewise; their alpha is not looked at
   std::vector<Instance> instances;
   std::vector<Label> labels;
   std::string title;
@@ -104,6 +109,7 @@ class DrawList {
 
   MeshId register_mesh(const TriangleMesh& mesh) { return register_mesh(make_draw_mesh(mesh)); }
   MeshId register_mesh(DrawMesh mesh);
+  TextureId register_texture(std::shared_ptr<const Image> texture);
   MeshId unit_mesh(UnitShape shape);  // registers it at its first use
   MeshId unit_spring(double aspect);  // likewise, for the nearest of a few aspects
   void clear_frame();                 // instances, labels, bars, title, legend

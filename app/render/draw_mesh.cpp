@@ -33,6 +33,7 @@ std::vector<int> weld(const std::vector<Vector3>& vertices) {
 }
 
 struct Facet {
+  std::size_t triangle;          // of the mesh
   Triangle vertex;               // welded indices
   Vector3 normal;                // unit length
   std::array<double, 3> weight;  // at each corner: angle times twice the area
@@ -46,9 +47,11 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
   const std::vector<int> first = weld(mesh.vertices);
   std::vector<Facet> facets;
   facets.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
     std::array<Vector3, 3> p;
     Facet facet;
+    facet.triangle = f;
     for (std::size_t k = 0; k < 3; ++k) {
       assert(t[k] >= 0 && static_cast<std::size_t>(t[k]) < mesh.vertices.size());
       facet.vertex[k] = first[static_cast<std::size_t>(t[k])];
@@ -81,6 +84,20 @@ std::vector<std::vector<Corner>> corners_by_vertex(const std::vector<Facet>& fac
   return around;
 }
 
+// The mean of the facets around a vertex that lie within the crease angle of the corner's own.
+Vector3 normal_at(const Corner& corner, const std::vector<Corner>& around,
+                  const std::vector<Facet>& facets) {
+  static const double crease_cosine = std::cos(kCreaseAngle);
+  const Facet& facet = facets[corner.facet];
+  Vector3 sum = Vector3::Zero();
+  for (const Corner& other : around) {
+    const Facet& neighbour = facets[other.facet];
+    if (neighbour.normal.dot(facet.normal) >= crease_cosine)
+      sum += neighbour.weight[other.corner] * neighbour.normal;
+  }
+  return sum.normalized();
+}
+
 std::array<float, 3> to_float(const Vector3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
@@ -100,9 +117,9 @@ void set_bounds(DrawMesh& mesh, const std::vector<Vector3>& vertices) {
 
 }  // namespace
 
-DrawMesh make_draw_mesh(const TriangleMesh& mesh, double crease_angle) {
+DrawMesh make_draw_mesh(const TriangleMesh& mesh, const std::vector<CornerUv>& uv) {
+  assert(uv.empty() || uv.size() == mesh.triangles.size());
   const std::vector<Facet> facets = make_facets(mesh);
-  const double crease_cosine = std::cos(crease_angle);
   const auto around = corners_by_vertex(facets, mesh.vertices.size());
 
   DrawMesh result;
@@ -110,24 +127,20 @@ DrawMesh make_draw_mesh(const TriangleMesh& mesh, double crease_angle) {
   for (std::size_t v = 0; v < around.size(); ++v) {
     const std::size_t begin = result.positions.size();  // of the vertices made from this one
     for (const Corner& corner : around[v]) {
-      const Facet& facet = facets[corner.facet];
-      Vector3 sum = Vector3::Zero();
-      for (const Corner& other : around[v]) {
-        const Facet& neighbour = facets[other.facet];
-        if (neighbour.normal.dot(facet.normal) >= crease_cosine) {
-          sum += neighbour.weight[other.corner] * neighbour.normal;
-        }
-      }
-      const std::array<float, 3> normal = to_float(sum.normalized());
-      // Corners that came to the same normal share one vertex.
-      const auto found = std::find(result.normals.begin() + static_cast<std::ptrdiff_t>(begin),
-                                   result.normals.end(), normal);
-      const auto index = static_cast<std::uint32_t>(found - result.normals.begin());
-      if (found == result.normals.end()) {
+      const std::array<float, 3> normal = to_float(normal_at(corner, around[v], facets));
+      const std::array<float, 2> place =
+          uv.empty() ? std::array<float, 2>{} : uv[facets[corner.facet].triangle][corner.corner];
+      // Corners that came to the same normal, and place in the texture, share one vertex.
+      std::size_t index = begin;
+      while (index < result.normals.size() &&
+             (result.normals[index] != normal || (!uv.empty() && result.uv[index] != place)))
+        ++index;
+      if (index == result.normals.size()) {
         result.positions.push_back(to_float(mesh.vertices[v]));
         result.normals.push_back(normal);
+        if (!uv.empty()) result.uv.push_back(place);
       }
-      result.triangles[corner.facet][corner.corner] = index;
+      result.triangles[corner.facet][corner.corner] = static_cast<std::uint32_t>(index);
     }
   }
   set_bounds(result, mesh.vertices);

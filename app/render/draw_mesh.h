@@ -15,9 +15,11 @@
 namespace twinarm {
 
 struct DrawMesh {
-  std::vector<std::array<float, 3>> positions;          // in M [m]
-  std::vector<std::array<float, 3>> normals;            // in M, unit length, one per position
+  std::vector<std::array<float, 3>> positions;  // in M [m]
+  std::vector<std::array<float, 3>> normals;    // in M, unit length, one per position
+  std::vector<std::array<float, 2>> uv;         // in a texture, one per position; empty: none
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
+  bool two_sided = false;                               // an open surface, to be seen from within
 
   // A sphere that holds the mesh, in M [m]: painters fit shadows and depth range with it.
   Vector3 bound_center = Vector3::Zero();
@@ -25,14 +27,18 @@ struct DrawMesh {
 };
 
 // Edges whose two facets turn by less than this are drawn round, others sharp.
-constexpr double kCreaseAngle = 35.0 * 3.14159265358979323846 / 180.0;
+inline constexpr double kCreaseAngle = 35.0 * 3.14159265358979323846 / 180.0;
 
 // Vertices at the same place are welded first (STL gives each facet its own). The normal of a
 // triangle's corner is the mean of the facets around that vertex that lie within the crease angle
 // of the triangle, weighted by their area and their angle there: the large flat faces of a casting
 // then stay flat to the eye, and its small fillets take up the whole turn. Facets without area are
 // dropped. Cost: the sum of squared valences.
-DrawMesh make_draw_mesh(const TriangleMesh& mesh, double crease_angle = kCreaseAngle);
+//
+// `uv`: where each corner of each triangle lies in a texture, (0, 0) at its top left and (1, 1) at
+// its bottom right; empty for none.
+using CornerUv = std::array<std::array<float, 2>, 3>;
+DrawMesh make_draw_mesh(const TriangleMesh& mesh, const std::vector<CornerUv>& uv = {});
 
 enum class UnitShape {
   box,       // edge 1, centred

@@ -21,6 +21,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::count)> kUni
     "key_direction",
     "sky_direction",
     "color",
+    "picture",
     "shininess",
     "key_shadow",
     "sky_shadow",
@@ -55,9 +56,10 @@ void upload(const GlTable& gl, GLenum target, GLuint buffer, const std::vector<E
                 GL_STATIC_DRAW);
 }
 
-void set_attribute(const GlTable& gl, GLuint index) {
+// Of the buffer that is bound, whose elements have so many numbers.
+void set_attribute(const GlTable& gl, GLuint index, GLint numbers) {
   gl.EnableVertexAttribArray(index);
-  gl.VertexAttribPointer(index, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+  gl.VertexAttribPointer(index, numbers, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
 void check_framebuffer(const GlTable& gl, const std::string& what) {
@@ -94,10 +96,14 @@ GpuMesh::GpuMesh(const GlTable& gl, const DrawMesh& mesh)
   gl.BindVertexArray(array_);
   gl.GenBuffers(static_cast<GLsizei>(buffers_.size()), buffers_.data());
   upload(gl, GL_ARRAY_BUFFER, buffers_[0], mesh.positions);
-  set_attribute(gl, 0);
+  set_attribute(gl, 0, 3);
   upload(gl, GL_ARRAY_BUFFER, buffers_[1], mesh.normals);
-  set_attribute(gl, 1);
+  set_attribute(gl, 1, 3);
   upload(gl, GL_ELEMENT_ARRAY_BUFFER, buffers_[2], mesh.triangles);
+  if (!mesh.uv.empty()) {
+    upload(gl, GL_ARRAY_BUFFER, buffers_[3], mesh.uv);
+    set_attribute(gl, 2, 2);
+  }
   gl.BindVertexArray(0);
 }
 
@@ -109,6 +115,20 @@ GpuMesh::~GpuMesh() {
 void GpuMesh::draw() const {
   gl_.BindVertexArray(array_);
   gl_.DrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+}
+
+GpuTexture::GpuTexture(const GlTable& gl, const Image& image) : gl_(gl) {
+  gl.GenTextures(1, &id_);
+  gl.BindTexture(GL_TEXTURE_2D, id_);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, image.width, image.height, 0, GL_RGBA,
+                GL_UNSIGNED_BYTE, image.rgba.data());
+  gl.GenerateMipmap(GL_TEXTURE_2D);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
+GpuTexture::~GpuTexture() {
+  gl_.DeleteTextures(1, &id_);
 }
 
 ShadowMap::ShadowMap(const GlTable& gl, int side) : side_px(side) {

@@ -11,6 +11,7 @@
 
 #include "app/render/draw_mesh.h"
 #include "app/render/gl_table.h"
+#include "app/render/image.h"
 
 namespace twinarm {
 
@@ -26,6 +27,7 @@ enum class Uniform : std::size_t {
   key_direction,
   sky_direction,
   color,
+  picture,
   shininess,
   key_shadow,
   sky_shadow,
@@ -66,7 +68,7 @@ class Program {
   std::array<GLint, static_cast<std::size_t>(Uniform::count)> location_{};
 };
 
-// A DrawMesh in vertex buffers: attribute 0 position, 1 normal.
+// A DrawMesh in vertex buffers: attribute 0 position, 1 normal, 2 place in a texture.
 class GpuMesh {
  public:
   GpuMesh(const GlTable& gl, const DrawMesh& mesh);
@@ -78,8 +80,22 @@ class GpuMesh {
  private:
   const GlTable& gl_;
   GLuint array_ = 0;
-  std::array<GLuint, 3> buffers_{};  // positions, normals, indices
+  std::array<GLuint, 4> buffers_{};  // positions, normals, indices, uv
   GLsizei index_count_ = 0;
+};
+
+// An image as an sRGB texture with mipmaps, repeated beyond its edges.
+class GpuTexture {
+ public:
+  GpuTexture(const GlTable& gl, const Image& image);
+  ~GpuTexture();
+  GpuTexture(const GpuTexture&) = delete;
+  GpuTexture& operator=(const GpuTexture&) = delete;
+  GLuint id() const { return id_; }
+
+ private:
+  const GlTable& gl_;
+  GLuint id_ = 0;
 };
 
 // A square depth texture seen from a light; compares in the sampler (hardware PCF, 2 x 2 texels).

@@ -17,9 +17,9 @@
   X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindRenderbuffer)           \
   X(BindTexture) X(BindVertexArray) X(BlendFunc) X(BlitFramebuffer) X(BufferData)                 \
   X(CheckFramebufferStatus) X(Clear) X(ColorMask) X(CompileShader) X(CreateProgram) \
-  X(CreateShader) X(DeleteBuffers) X(DeleteShader) X(DeleteVertexArrays)              \
+  X(CreateShader) X(DeleteBuffers) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays)              \
   X(DepthFunc) X(DepthMask) X(Disable) X(DrawArrays) X(DrawBuffer) X(DrawElements) X(Enable)      \
-  X(EnableVertexAttribArray) X(FramebufferRenderbuffer) X(FramebufferTexture2D) X(GenBuffers)     \
+  X(EnableVertexAttribArray) X(FramebufferRenderbuffer) X(FramebufferTexture2D) X(GenBuffers) X(GenerateMipmap)     \
   X(GenFramebuffers) X(GenRenderbuffers) X(GenTextures) X(GenVertexArrays) X(GetError)            \
   X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv)          \
   X(GetUniformLocation) X(LinkProgram) X(PixelStorei) X(PolygonOffset) X(ReadBuffer)              \

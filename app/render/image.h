@@ -1,4 +1,4 @@
-// Image: a picture in memory, and PNG out of it (libpng ends here).
+// Image: a picture in memory, PNG out of it, PNG and JPEG into it.
 //
 // Rows run from the top to the bottom, pixels from left to right, four sRGB bytes each: red, green,
 // blue, alpha (255 = opaque).
@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace twinarm {
@@ -32,5 +33,9 @@ std::string encode_png(const Image& image);
 // Writes the file under a temporary name beside `path` and renames it: who watches the folder never
 // sees half a picture. Throws InputError where the folder cannot be written.
 void write_png(const std::string& path, const Image& image);
+
+// The picture in the bytes of a PNG or JPEG file; `name` is what errors call it. Throws InputError
+// where it is neither, broken, or larger than 67 million pixels.
+Image decode_image(const std::string& name, std::string_view bytes);
 
 }  // namespace twinarm

@@ -2,13 +2,12 @@
 #include "app/render/scene_pass.h"
 
 #include <cmath>
-#include <iterator>
 
 namespace twinarm {
 namespace {
 
-constexpr int kKeyMapSide = 2048, kSkyMapSide = 1024;  // [texels]
-constexpr int kKeyUnit = 0, kSkyUnit = 1;              // texture units
+constexpr int kKeyMapSide = 2048, kSkyMapSide = 1024;        // [texels]
+constexpr int kKeyUnit = 0, kSkyUnit = 1, kPictureUnit = 2;  // texture units
 
 // IEC 61966-2-1.
 float linear(float encoded) {
@@ -17,6 +16,11 @@ float linear(float encoded) {
 
 Eigen::Vector3f linear(const Color& c) {
   return {linear(c.r), linear(c.g), linear(c.b)};
+}
+
+ShaderVariant with_texture(ShaderVariant variant) {
+  variant.textured = true;
+  return variant;
 }
 
 // Moves the picture by a part of a pixel: an offset times w, which the division takes out again.
@@ -37,6 +41,8 @@ ScenePass::ScenePass(const GlTable& gl, int width, int height, const ShaderVaria
       canvas_(gl, width, height, multisampled),
       key_map_(gl, kKeyMapSide),
       solid_(gl, solid_vertex_shader(variant), solid_fragment_shader(variant)),
+      textured_(gl, solid_vertex_shader(with_texture(variant)),
+                solid_fragment_shader(with_texture(variant))),
       ghost_(gl, solid_vertex_shader(variant), ghost_fragment_shader()),
       depth_(gl, depth_vertex_shader(), depth_fragment_shader()),
       floor_(gl, floor_vertex_shader(variant), floor_fragment_shader(variant)),
@@ -50,7 +56,7 @@ void ScenePass::prepare(const DrawList& list) {
   bounds_ = bound_scene(list);
   clip_from_world_ =
       make_clip_from_world(list.camera, static_cast<double>(width_) / height_, bounds_);
-  forget_unused_meshes();
+  forget_unused();
   items_.clear();
   for (const Instance& instance : list.instances) add_item(list, instance);
 }
@@ -58,7 +64,13 @@ void ScenePass::prepare(const DrawList& list) {
 void ScenePass::add_item(const DrawList& list, const Instance& instance) {
   const Vector3& scale = instance.scale;
   Item item;
-  item.mesh = &upload(list.meshes[instance.mesh]);
+  const std::shared_ptr<const DrawMesh>& mesh = list.meshes[instance.mesh];
+  item.mesh = &upload(mesh);
+  item.two_sided = mesh->two_sided;
+  item.ghost = instance.color.a < 1;
+  item.texture = instance.texture && !mesh->uv.empty() && !item.ghost
+                     ? &upload(list.textures[*instance.texture])
+                     : nullptr;
   item.world_from_mesh.setIdentity();
   item.world_from_mesh.topLeftCorner<3, 3>() = (instance.X_WM.R * scale.asDiagonal()).cast<float>();
   item.world_from_mesh.topRightCorner<3, 1>() = instance.X_WM.p.cast<float>();
@@ -67,7 +79,6 @@ void ScenePass::add_item(const DrawList& list, const Instance& instance) {
   item.normal_from_mesh = (instance.X_WM.R * inverse.asDiagonal()).cast<float>();
   item.color << linear(instance.color), instance.color.a;
   item.shininess = instance.shininess;
-  item.ghost = instance.color.a < 1;
   item.seen_through = instance.seen_through;
   if (item.world_from_mesh.allFinite() && item.normal_from_mesh.allFinite()) {
     items_.push_back(item);
@@ -80,14 +91,19 @@ const GpuMesh& ScenePass::upload(const std::shared_ptr<const DrawMesh>& mesh) {
   return cache_.try_emplace(mesh.get(), gl_, mesh).first->second.gpu;
 }
 
-void ScenePass::forget_unused_meshes() {
-  for (auto it = cache_.begin(); it != cache_.end();) {
-    it = it->second.source.use_count() == 1 ? cache_.erase(it) : std::next(it);
-  }
+const GpuTexture& ScenePass::upload(const std::shared_ptr<const Image>& image) {
+  const auto found = textures_.find(image.get());
+  if (found != textures_.end()) return found->second.gpu;
+  return textures_.try_emplace(image.get(), gl_, image).first->second.gpu;
+}
+
+void ScenePass::forget_unused() {
+  const auto is_unused = [](const auto& entry) { return entry.second.source.use_count() == 1; };
+  std::erase_if(cache_, is_unused);
+  std::erase_if(textures_, is_unused);
 }
 
 void ScenePass::draw(const LightSample& sample) {
-  gl_.Enable(GL_CULL_FACE);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LEQUAL);
   draw_shadow(key_map_, sample.key_W);
@@ -117,6 +133,7 @@ void ScenePass::draw_shadow(const ShadowMap& map, const Vector3& towards_light_W
   for (const Item& item : items_) {
     if (item.ghost) continue;
     depth_.set(Uniform::world_from_mesh, item.world_from_mesh);
+    cull(item.two_sided);
     item.mesh->draw();
   }
   gl_.Disable(GL_POLYGON_OFFSET_FILL);
@@ -142,20 +159,32 @@ void ScenePass::set_frame(const Program& program, const LightSample& sample) con
   gl_.BindTexture(GL_TEXTURE_2D, key_map_.texture);
 }
 
-void ScenePass::draw_items(const Program& program, bool ghosts) const {
+// Closed bodies show no inside; of open surfaces both sides are seen.
+void ScenePass::cull(bool two_sided) const {
+  two_sided ? gl_.Disable(GL_CULL_FACE) : gl_.Enable(GL_CULL_FACE);
+}
+
+void ScenePass::draw_items(const Program& program, bool ghosts, bool textured) const {
   for (const Item& item : items_) {
-    if (item.ghost != ghosts) continue;
+    if (item.ghost != ghosts || (item.texture != nullptr) != textured) continue;
     program.set(Uniform::world_from_mesh, item.world_from_mesh);
     program.set(Uniform::normal_from_mesh, item.normal_from_mesh);
     program.set(Uniform::color, item.color);
     program.set(Uniform::shininess, item.shininess);
+    if (item.texture) gl_.BindTexture(GL_TEXTURE_2D, item.texture->id());
+    cull(item.two_sided);
     item.mesh->draw();
   }
+  cull(false);
 }
 
 void ScenePass::draw_solids(const LightSample& sample) const {
   set_frame(solid_, sample);
   draw_items(solid_, false);
+  set_frame(textured_, sample);
+  textured_.set(Uniform::picture, kPictureUnit);
+  gl_.ActiveTexture(GL_TEXTURE0 + kPictureUnit);
+  draw_items(textured_, false, true);
 }
 
 void ScenePass::set_backdrop(const Program& program) const {

@@ -44,8 +44,16 @@ class ScenePass {
     std::shared_ptr<const DrawMesh> source;  // keeps the address, which is the key, from reuse
     GpuMesh gpu;
   };
+  struct CachedTexture {
+    CachedTexture(const GlTable& gl, std::shared_ptr<const Image> image)
+        : source(std::move(image)), gpu(gl, *source) {}
+    std::shared_ptr<const Image> source;  // likewise
+    GpuTexture gpu;
+  };
   struct Item {
     const GpuMesh* mesh;
+    const GpuTexture* texture;  // or none
+    bool two_sided;
     Eigen::Matrix4f world_from_mesh;
     Eigen::Matrix3f normal_from_mesh;
     Eigen::Vector4f color;  // linear
@@ -57,7 +65,8 @@ class ScenePass {
   Eigen::Matrix4f light_clip_from_world(const Vector3& towards_light_W) const;
   void draw_shadow(const ShadowMap& map, const Vector3& towards_light_W);
   void set_frame(const Program& program, const LightSample& sample) const;
-  void draw_items(const Program& program, bool ghosts) const;
+  void draw_items(const Program& program, bool ghosts, bool textured = false) const;
+  void cull(bool two_sided) const;
   void draw_solids(const LightSample& sample) const;
   void draw_floor(const LightSample& sample) const;
   void draw_background() const;
@@ -65,16 +74,18 @@ class ScenePass {
   void draw_ghosts(const LightSample& sample) const;
   void set_backdrop(const Program& program) const;
   const GpuMesh& upload(const std::shared_ptr<const DrawMesh>& mesh);
-  void forget_unused_meshes();
+  const GpuTexture& upload(const std::shared_ptr<const Image>& image);
+  void forget_unused();
 
   const GlTable& gl_;
   int width_, height_;
   Canvas canvas_;
   ShadowMap key_map_;
   std::optional<ShadowMap> sky_map_;
-  Program solid_, ghost_, depth_, floor_, background_;
+  Program solid_, textured_, ghost_, depth_, floor_, background_;
   GLuint no_vertices_ = 0;  // vertex array for shaders that make their own vertices
   std::unordered_map<const DrawMesh*, CachedMesh> cache_;
+  std::unordered_map<const Image*, CachedTexture> textures_;
 
   // The frame at hand.
   const DrawList* list_ = nullptr;

@@ -15,7 +15,8 @@ namespace {
 
 std::string header(const ShaderVariant& variant) {
   return "#version 330 core\n#define SHADOW_TAPS " + std::to_string(variant.shadow_taps) + "\n" +
-         (variant.sky_sample ? "#define SKY_SAMPLE\n" : "");
+         (variant.sky_sample ? "#define SKY_SAMPLE\n" : "") +
+         (variant.textured ? "#define TEXTURED\n" : "");
 }
 
 // Shared by the vertex shaders of lit surfaces. The normal offset moves the point that is looked up
@@ -43,8 +44,17 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 uniform mat4 world_from_mesh;
 uniform mat3 normal_from_mesh;
+#ifdef TEXTURED
+layout(location = 2) in vec2 uv;
+out vec2 uv_picture;
+#endif
 
-void main() { place((world_from_mesh * vec4(position, 1.0)).xyz, normal_from_mesh * normal); }
+void main() {
+#ifdef TEXTURED
+  uv_picture = uv;
+#endif
+  place((world_from_mesh * vec4(position, 1.0)).xyz, normal_from_mesh * normal);
+}
 )";
 
 // Corners of a square from the vertex number; ground = (centre x, y, height, half side).
@@ -101,9 +111,17 @@ const char* const kSolidFragment = R"(
 uniform vec4 color;
 uniform float shininess;
 const vec3 KEY = vec3(0.86, 0.82, 0.76), SKY = vec3(0.33, 0.36, 0.40), BOUNCE = vec3(0.17);
+#ifdef TEXTURED
+in vec2 uv_picture;
+uniform sampler2D picture;
+#endif
 
 void main() {
-  vec3 n = normalize(n_world), v = normalize(eye - p_world);
+  vec3 n = normalize(gl_FrontFacing ? n_world : -n_world), v = normalize(eye - p_world);
+  vec3 paint = color.rgb;
+#ifdef TEXTURED
+  paint *= texture(picture, uv_picture).rgb;
+#endif
   float visible = key_visible(), sky = sky_light(n);
   vec3 light = KEY * max(dot(n, key_direction), 0.0) * visible + SKY * sky +
                BOUNCE * (0.5 - 0.5 * n.z);
@@ -118,7 +136,7 @@ void main() {
   float fresnel = grazing * grazing * grazing * grazing;
   float ceiling = smoothstep(-0.1, 0.9, reflect(-v, n).z) * (0.3 + 0.7 * min(sky, 1.0));
   float gloss = visible * (0.10 * wide + 0.45 * tight) + ceiling * (0.05 + 0.35 * fresnel);
-  color_out = dithered(color.rgb * light + shininess * gloss, 1.0);
+  color_out = dithered(paint * light + shininess * gloss, 1.0);
 }
 )";
 

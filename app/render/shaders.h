@@ -11,7 +11,8 @@ namespace twinarm {
 struct ShaderVariant {
   int shadow_taps = 4;  // 1 or 4, each the mean of 2 x 2 texels
   bool sky_sample =
-      false;  // the sky is one direction with a shadow map of its own (studio quality)
+      false;              // the sky is one direction with a shadow map of its own (studio quality)
+  bool textured = false;  // the colour is multiplied by a texture's
 };
 
 std::string solid_vertex_shader(const ShaderVariant& variant);

@@ -58,7 +58,7 @@ LIBRARIES = {
                         "app/render/shaders.cpp"}),
     "FreeType": (r"ft2build|freetype/", {"app/render/lettering.cpp"}),
     "zlib": (r"zlib\.h", {"app/record/recording.cpp"}),
-    "PNG": (r"png\.h", {"app/render/image.cpp"}),
+    "PNG": (r"png\.h", {"app/render/image.cpp", "app/render/image_decode.cpp"}),
 }
 # Parts of the program that are libraries of their own, so that tests can look at them.
 TESTS_OF_LIBRARY = {"tests/scene/": "app/scene/", "tests/inspect/": "app/inspect/",
