@@ -58,6 +58,8 @@ LIBRARIES = {
                         "app/render/shaders.cpp"}),
     "FreeType": (r"ft2build|freetype/", {"app/render/lettering.cpp"}),
     "zlib": (r"zlib\.h", {"app/record/recording.cpp"}),
+    "turbojpeg": (r"turbojpeg\.h", {"app/render/image_decode.cpp",
+                                    "tests/render/test_visual_model.cpp"}),
     "PNG": (r"png\.h", {"app/render/image.cpp", "app/render/image_decode.cpp"}),
 }
 # Parts of the program that are libraries of their own, so that tests can look at them.

@@ -2,13 +2,16 @@
 #include "app/render/visual_model.h"
 
 #include <doctest/doctest.h>
+#include <turbojpeg.h>
 
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include "app/render/mend_winding.h"
 #include "app/render/painter.h"
@@ -171,6 +174,23 @@ TEST_CASE("a picture that is broken is told, and the mesh drawn without it") {
     REQUIRE(model.parts.size() == 1);
     CHECK(!model.parts[0].texture);
   }
+}
+
+TEST_CASE("a JPEG's quarters come back as they were, but for what its compression loses") {
+  Image image = quarters(64);
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  const tjhandle encoder = tjInitCompress();
+  tjCompress2(encoder, image.rgba.data(), 64, 0, 64, TJPF_RGBA, &bytes, &size, TJSAMP_444, 95, 0);
+  const std::string jpeg(reinterpret_cast<const char*>(bytes), size);
+  tjFree(bytes);
+  tjDestroy(encoder);
+  Image again = decode_image("x", jpeg);
+  REQUIRE(again.rgba.size() == image.rgba.size());
+  for (const auto& [x, y] : {std::pair(16, 16), {48, 16}, {16, 48}, {48, 48}})
+    for (int c = 0; c < 4; ++c) CHECK(std::abs(again.pixel(x, y)[c] - image.pixel(x, y)[c]) < 8);
+  for (std::size_t cut = 0; cut < size; cut += 40)
+    CHECK_THROWS_AS(decode_image("x", jpeg.substr(0, cut)), InputError);
 }
 
 TEST_CASE("what PNG encodes, decoding gives back") {
