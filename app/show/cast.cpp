@@ -10,10 +10,12 @@
 namespace twinarm {
 namespace {
 
-// A link that the file gives no colour has one of ours, so that neighbours are told apart.
-Color color_of(const VisualPart& visual, std::size_t body) {
-  if (visual.material.empty() && visual.color.isApprox(Vector4(0.7, 0.7, 0.7, 1.0)))
-    return palette::body(body);
+// What the robot's file says rules, then the mesh's own colours and textures; a link without any
+// has a colour of ours, so that neighbours are told apart.
+Color color_of(const VisualPart& visual, ShapeLook& look, std::size_t body) {
+  if (visual.material.empty() && visual.color.isApprox(VisualPart().color))
+    return look.color.value_or(look.texture ? Color{1, 1, 1, 1} : palette::body(body));
+  look.texture.reset();
   const Eigen::Vector4f c = visual.color.cast<float>();
   return {c(0), c(1), c(2), c(3)};
 }
@@ -43,16 +45,17 @@ class CastMaker {
     part.X_LM = X_LG * look.X_GM;
     part.scale = look.scale;
     part.color = color;
+    part.texture = look.texture;
     set_bounds_of(part, *list_.meshes[look.mesh]);
     cast_.parts.push_back(part);
   }
 
   // Visuals; in place of what cannot be drawn of them, all collision shapes.
   void add_link(const LinkDescription& link, std::size_t body, int robot) {
-    std::vector<ShapeLook> looks;
+    std::vector<std::vector<ShapeLook>> looks;  // by visual
     try {
       for (const VisualPart& visual : link.visuals)
-        looks.push_back(look_of(visual.geometry, list_));
+        looks.push_back(looks_of(visual.geometry, list_, cast_.notes));
     } catch (const InputError& error) {
       const Fault& fault = error.faults().front();
       cast_.notes.push_back(fmt::format("link '{}' is drawn by its collision shapes: {}: {}",
@@ -62,7 +65,10 @@ class CastMaker {
       return;
     }
     for (std::size_t i = 0; i < looks.size(); ++i)
-      add(body, robot, looks[i], link.visuals[i].X_LG(), color_of(link.visuals[i], body));
+      for (ShapeLook& look : looks[i]) {
+        const Color color = color_of(link.visuals[i], look, body);
+        add(body, robot, look, link.visuals[i].X_LG(), color);
+      }
     if (!link.visuals.empty() || link.collisions.empty()) return;
     cast_.notes.push_back(
         fmt::format("link '{}' has no visual: it is drawn by its collision shapes", link.name));
@@ -72,7 +78,8 @@ class CastMaker {
  private:
   void add_collisions(const LinkDescription& link, std::size_t body, int robot) {
     for (const CollisionPart& part : link.collisions) try {
-        add(body, robot, look_of(part.geometry, list_), part.X_LG(), palette::body(body));
+        for (const ShapeLook& look : looks_of(part.geometry, list_, cast_.notes))
+          add(body, robot, look, part.X_LG(), palette::body(body));
       } catch (const InputError& error) {
         const Fault& fault = error.faults().front();
         cast_.notes.push_back(fmt::format("of link '{}' a collision shape is missing: {}: {}",

@@ -17,6 +17,7 @@ struct CastPart {
   Pose X_LM;  // of the mesh in the link's frame
   Vector3 scale = Vector3::Ones();
   Color color;
+  std::optional<TextureId> texture;
   Vector3 low_M = Vector3::Zero(), high_M = Vector3::Zero();  // bounds, scaled, in M [m]
 };
 

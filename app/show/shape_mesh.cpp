@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
+#include "app/render/visual_model.h"
 #include "collision/convex_hull.h"
 #include "collision/import/mesh_geometry.h"
 
@@ -50,16 +53,22 @@ TriangleMesh hull_of(const MeshGeometry& geometry) {
   return {hull.vertices, hull.triangles};
 }
 
+ShapeLook placed(MeshId mesh, const Vector3& scale = Vector3::Ones(), const Pose& X_GM = {}) {
+  ShapeLook look;
+  look.mesh = mesh;
+  look.scale = scale;
+  look.X_GM = X_GM;
+  return look;
+}
+
 // A tube of no thickness, seen from outside.
 ShapeLook cylinder(double radius, double length, DrawList& list) {
-  return {list.unit_mesh(UnitShape::cylinder),
-          {Matrix3::Identity(), Vector3(0, 0, -0.5 * length)},
-          Vector3(radius, radius, length),
-          false};
+  return placed(list.unit_mesh(UnitShape::cylinder), {radius, radius, length},
+                {Matrix3::Identity(), Vector3(0, 0, -0.5 * length)});
 }
 
 ShapeLook sphere(const Vector3& semi_axes, DrawList& list) {
-  return {list.unit_mesh(UnitShape::sphere), {}, semi_axes, false};
+  return placed(list.unit_mesh(UnitShape::sphere), semi_axes);
 }
 
 ShapeLook hollow(ShapeLook look) {
@@ -71,7 +80,7 @@ struct Look {
   DrawList& list;
   using Maybe = std::optional<ShapeLook>;
   Maybe operator()(const BoxGeometry& box) const {
-    return ShapeLook{list.unit_mesh(UnitShape::box), {}, box.size, false};
+    return placed(list.unit_mesh(UnitShape::box), box.size);
   }
   Maybe operator()(const SphereGeometry& s) const {
     return sphere(Vector3::Constant(s.radius), list);
@@ -79,7 +88,7 @@ struct Look {
   Maybe operator()(const EllipsoidSpec& e) const { return sphere(e.semi_axes, list); }
   Maybe operator()(const CylinderGeometry& c) const { return cylinder(c.radius, c.length, list); }
   Maybe operator()(const CapsuleGeometry& c) const {
-    return ShapeLook{list.register_mesh(capsule(c.radius, c.length)), {}, Vector3::Ones(), false};
+    return placed(list.register_mesh(capsule(c.radius, c.length)));
   }
   Maybe operator()(const HollowSphereSpec& s) const {
     return hollow(sphere(Vector3::Constant(s.radius), list));
@@ -89,13 +98,23 @@ struct Look {
   }
   Maybe operator()(const HalfSpaceSpec&) const { return std::nullopt; }
   Maybe operator()(const MeshSpec& spec) const {
-    const MeshId mesh = list.register_mesh(spec.convex ? hull_of(spec.mesh) : load_mesh(spec.mesh));
-    return ShapeLook{mesh, {}, Vector3::Ones(), false};
-  }
-  Maybe operator()(const MeshGeometry& geometry) const {
-    return ShapeLook{list.register_mesh(load_mesh(geometry)), {}, Vector3::Ones(), false};
+    return placed(list.register_mesh(spec.convex ? hull_of(spec.mesh) : load_mesh(spec.mesh)));
   }
 };
+
+std::vector<ShapeLook> parts_of(const MeshGeometry& geometry, DrawList& list,
+                                std::vector<std::string>& notes) {
+  VisualModel model = load_visual(file_of(geometry), geometry.scale);
+  for (const std::string& note : model.notes)
+    notes.push_back("mesh '" + geometry.name + "': " + note);
+  std::vector<ShapeLook> looks;
+  for (VisualMesh& part : model.parts) {
+    looks.push_back(placed(list.register_mesh(std::move(part.mesh))));
+    looks.back().color = part.color;
+    if (part.texture) looks.back().texture = list.register_texture(part.texture);
+  }
+  return looks;
+}
 
 }  // namespace
 
@@ -103,8 +122,16 @@ std::optional<ShapeLook> look_of(const ShapeSpec& shape, DrawList& list) {
   return std::visit(Look{list}, shape);
 }
 
-ShapeLook look_of(const PartGeometry& geometry, DrawList& list) {
-  return *std::visit(Look{list}, geometry);
+std::vector<ShapeLook> looks_of(const PartGeometry& geometry, DrawList& list,
+                                std::vector<std::string>& notes) {
+  return std::visit(
+      [&](const auto& shape) -> std::vector<ShapeLook> {
+        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, MeshGeometry>)
+          return parts_of(shape, list, notes);
+        else
+          return {*Look{list}(shape)};
+      },
+      geometry);
 }
 
 }  // namespace twinarm

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/render/draw_list.h"
 #include "app/scene/scene_description.h"
@@ -14,13 +16,17 @@ struct ShapeLook {
   Pose X_GM;                        // the mesh's own frame M in that of the shape
   Vector3 scale = Vector3::Ones();  // of the mesh, in M
   bool is_hollow = false;           // one looks into it: to be drawn translucent
+  std::optional<Color> color;       // where a file of meshes states one
+  std::optional<TextureId> texture;
 };
 
 // Nothing for a half-space, which has no extent of its own. A mesh of a scene is drawn as contacts
 // have it: its convex hull, unless it says otherwise. Throws InputError for a mesh that cannot be
 // read.
 std::optional<ShapeLook> look_of(const ShapeSpec& shape, DrawList& list);
-// A visual of a robot's file: its mesh as it is.
-ShapeLook look_of(const PartGeometry& geometry, DrawList& list);
+// A collision shape or a visual of a robot's file. Of a mesh, all parts with their own colours and
+// textures; what was mended or left out of it is noted.
+std::vector<ShapeLook> looks_of(const PartGeometry& geometry, DrawList& list,
+                                std::vector<std::string>& notes);
 
 }  // namespace twinarm

@@ -39,9 +39,12 @@ void draw_planes(Stage& stage, const Moment& moment) {
 }
 
 void draw_bodies(Stage& stage, const Moment& moment) {
-  for (const CastPart& part : stage.cast.parts)
+  for (const CastPart& part : stage.cast.parts) {
+    const std::size_t before = stage.list.instances.size();
     add_mesh_instance(stage.list, part.mesh, moment.k.X_WL[part.body] * part.X_LM, part.color,
                       part.scale);
+    if (stage.list.instances.size() > before) stage.list.instances.back().texture = part.texture;
+  }
   const double thin = 0.004 * stage.extent.radius();
   for (const CastTie& tie : stage.cast.ties)
     add_rod(stage.list, moment.k.X_WL[tie.a] * tie.p_La, moment.k.X_WL[tie.b] * tie.p_Lb, thin,

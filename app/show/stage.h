@@ -29,7 +29,7 @@ struct Scales {
   void widen_run(const Model<double>& model, const Moment& moment);  // all but contact forces
   void widen_contacts(const Moment& moment);
   void widen(const Scales& other);
-  double radius() const { return 0.006 * length; }                      // of rods and arrows [m]
+  double radius() const { return 0.006 * length; }  // of rods and arrows [m]
   // A round number of metres per newton, by which the largest is drawn as a third of the scene.
   double metres_per(double largest) const;
 };
