@@ -36,8 +36,16 @@ void make_folder(const std::filesystem::path& folder, const char* option) {
 }
 
 std::string read_whole_file(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    throw InputError({{file.string(), 0, "", "the file does not exist",
+                       "check the name, and the folder that you are in"}});
+  if (std::filesystem::is_directory(file, ignored))
+    throw InputError({{file.string(), 0, "", "is a folder", "name a file in it"}});
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError({{file.string(), 0, "", "the file cannot be read", ""}});
+  if (!stream)
+    throw InputError({{file.string(), 0, "", "the file cannot be read",
+                       "check its permissions: ls -l shows them"}});
   std::stringstream content;
   content << stream.rdbuf();
   return content.str();

@@ -1,6 +1,7 @@
 #include "app/dynamics/dynamics.h"
 
 #include "solver/dynamics.h"
+#include "solver/first_bad.h"
 #include "solver/forward_dynamics.h"
 #include "solver/world.h"
 
@@ -49,6 +50,9 @@ void forward(const RobotInput& input, const std::vector<Force<double>>& f_ext, D
   ForwardDynamics forward_dynamics(input.model);
   forward_dynamics(x, forces, w);
   d.qdd = by_rows(input.coordinates, x, w.qdd);
+  if (const BadQuantity bad = first_bad_quantity(input.model, forces, w); bad.body > 0)
+    d.first_bad =
+        std::string("'") + bad.name + "' of link '" + input.model.body_name[bad.body] + "'";
 }
 
 void inverse(const RobotInput& input, const std::vector<Force<double>>& f_ext, const Kinematics& k,
@@ -101,7 +105,8 @@ Dynamics compute_dynamics(const RobotInput& input) {
   crba(model, x, w);
   const auto nv = static_cast<Eigen::Index>(model.nv);
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  d.mass_matrix = P.transpose() * Eigen::Map<const RowMajor>(w.M.data(), nv, nv) * P;
+  const Eigen::MatrixXd M = P.transpose() * Eigen::Map<const RowMajor>(w.M.data(), nv, nv) * P;
+  d.mass_matrix = 0.5 * (M + M.transpose());  // products round; both triangles have the same digits
 
   kinematics(model, x, w);
   d.kinetic_energy = kinetic_energy(model, x, w);

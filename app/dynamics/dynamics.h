@@ -16,6 +16,7 @@ struct Dynamics {
   Eigen::VectorXd bias, gravity;  // gravity: the bias at rest
   Vector3 base_force, base_torque;  // on the root link for the given qdd, about its origin, world
   double kinetic_energy = 0, potential_energy = 0, mass = 0;
+  std::string first_bad;  // what is not finite first in the order of the passes; empty: nothing
   Vector3 com, linear_momentum, angular_momentum;  // the latter about the world's origin
 };
 

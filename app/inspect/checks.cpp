@@ -56,6 +56,13 @@ std::vector<Check> run_checks(const Inspection& in, const CheckTolerances& toler
   add("balance", "wrenches on each body sum to zero", balance_errors(in), algebra);
   add("momentum", "rate of each body's momentum, by differences", momentum_errors(in),
       tolerances.momentum);
+  const std::vector<NamedError> loops = loop_errors(in);
+  if (loops.empty()) return checks;
+  Check closed{"loops", "they stay closed: g'' = 0, by differences of poses", 0, tolerances.loops,
+               ""};
+  for (const auto& [name, error] : loops)
+    if (as_error(error) > closed.error) closed.error = as_error(error), closed.worst = name;
+  checks.push_back(std::move(closed));
   return checks;
 }
 

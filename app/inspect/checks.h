@@ -13,8 +13,11 @@
 //   momentum  each body's rate of momentum, by central differences along the motion
 //             (Richardson's extrapolation to order 8), against the wrenches on it
 //   balance   the wrenches on each body and its inertia sum to zero (balance.h)
+//   loops     what closed loops, gears and followers ask of poses, differenced twice along the
+//             motion that was found: it stays closed (loop_check.cpp)
 //
-// Errors are parts of the largest number of what is compared, per body; a check tells the worst.
+// Errors are parts of the largest number of what is compared, per body or loop; a check tells the
+// worst.
 // Cost O(n^4) at worst, by the Schur complements of all subtrees.
 #pragma once
 
@@ -29,13 +32,13 @@ namespace twinarm {
 struct Check {
   std::string name, meaning;
   double error = 0, tolerance = 0;
-  std::string worst;  // the body where the error is
+  std::string worst;  // the body, or the constraint, where the error is
   bool pass() const { return error <= tolerance; }
 };
 
 struct CheckTolerances {
-  double algebra = 1e-10;  // of all but:
-  double momentum = 1e-9;
+  double algebra = 1e-10;                // of all but:
+  double momentum = 1e-9, loops = 1e-9;  // by differences
 };
 
 std::vector<Check> run_checks(const Inspection& in, const CheckTolerances& tolerances = {});
@@ -53,5 +56,10 @@ struct WholeErrors {
   Errors tau, a, f, qdd;
 };
 WholeErrors whole_errors(const Inspection& in);
+struct NamedError {
+  std::string name;  // of the constraint, or of the joint that follows
+  double error;
+};
+std::vector<NamedError> loop_errors(const Inspection& in);
 
 }  // namespace twinarm

@@ -46,10 +46,12 @@ Actor actor_of(std::string source, const Forces<double>& added) {
   return actor;
 }
 
-Inspection::Inspection(const Model<double>& model_of, State<double> at, std::vector<Actor> acting)
+Inspection::Inspection(const Model<double>& model_of, State<double> at, std::vector<Actor> acting,
+                       std::vector<LoopClosure> closed)
     : model(model_of),
       x(std::move(at)),
       actors(std::move(acting)),
+      loops(std::move(closed)),
       forces(sum_of(model, actors)),
       k(model),
       w(model),

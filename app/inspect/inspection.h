@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/kinematics.h"
+#include "solver/loop_closure.h"
 #include "solver/trace.h"
 #include "solver/workspace.h"
 
@@ -41,13 +42,15 @@ struct Inspection {
   const Model<double>& model;
   State<double> x;
   std::vector<Actor> actors;
-  Forces<double> forces;  // their sum
+  std::vector<LoopClosure> loops;  // that `actors` keep closed; for a check
+  Forces<double> forces;           // their sum
   Kinematics k;
   Workspace<double> w;
   FullTrace<double> trace;
 
   // The model must outlive it.
-  Inspection(const Model<double>& model, State<double> x, std::vector<Actor> actors);
+  Inspection(const Model<double>& model, State<double> x, std::vector<Actor> actors,
+             std::vector<LoopClosure> loops = {});
 
   std::size_t body_count() const { return model.parent.size(); }
   std::size_t parent(std::size_t i) const { return static_cast<std::size_t>(model.parent[i]); }

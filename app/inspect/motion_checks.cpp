@@ -5,31 +5,12 @@
 
 #include "app/inspect/balance.h"
 #include "app/inspect/checks.h"
+#include "app/inspect/motion_curve.h"
 #include "solver/convert.h"
 #include "solver/dynamics.h"
 
 namespace twinarm {
 namespace {
-
-constexpr std::size_t kPose = 7;  // numbers of q of a prescribed joint before its velocity
-
-// q exp(shift) of every joint, also of those whose motion is given; shift = qd times a number.
-template <class S>
-void move(const Model<S>& model, const std::vector<S>& qd, const S& by, State<S>& x) {
-  std::vector<S> shift(qd.size());
-  for (std::size_t k = 0; k < qd.size(); ++k) shift[k] = by * qd[k];
-  for (std::size_t i = 1; i < model.parent.size(); ++i) {
-    S* q = x.q.data() + model.iq[i];
-    if (model.joint[i] == JointType::prescribed) {
-      const Vec3<S> v = transpose_times(quaternion_E(q + 3), Vec3<S>{q[10], q[11], q[12]});
-      q[0] = q[0] + by * v.x, q[1] = q[1] + by * v.y, q[2] = q[2] + by * v.z;
-      const std::array<S, 3> turn{by * q[7], by * q[8], by * q[9]};
-      turn_quaternion(q + 3, turn.data(), q + 3);
-    } else {
-      visit_joint(model, i, [&](auto joint) { joint.integrate(q, shift.data() + model.iv[i], q); });
-    }
-  }
-}
 
 // A curve with the velocity and the acceleration of the motion at s = 0.
 State<double> on_the_way(const Inspection& in, double s) {
@@ -116,11 +97,8 @@ Errors momentum_errors(const Inspection& in) {
     for (std::size_t i = 1; i < in.body_count(); ++i) level[i] = (level[i] - before[i]) / (2 * s);
     s /= 2;
   }
-  double factor = 4;  // the error is a series in s^2
-  for (std::size_t last = kLevels; last-- > 1; factor *= 4)
-    for (std::size_t k = 0; k < last; ++k)
-      for (std::size_t i = 1; i < in.body_count(); ++i)
-        rate[k][i] = rate[k + 1][i] + (rate[k + 1][i] - rate[k][i]) / (factor - 1);
+  for (std::size_t i = 1; i < in.body_count(); ++i)
+    rate[0][i] = extrapolated<kLevels>([&](std::size_t level) { return rate[level][i]; });
 
   Errors errors(in.body_count());
   for (std::size_t i = 1; i < in.body_count(); ++i) {

@@ -73,11 +73,13 @@ Matrix6 LinkAxes::show(const ArticulatedInertia<double>& a) const {
   const auto turned = [&](const Mat3<double>& block) {
     return Matrix3(R_LB_ * to_eigen(block) * R_LB_.transpose());
   };
+  // Turning rounds; both triangles are to show the same digits.
+  const auto symmetric = [](const Matrix3& m) { return Matrix3(0.5 * (m + m.transpose())); };
   Matrix6 shown;
-  shown.topLeftCorner<3, 3>() = turned(full(a.I));
+  shown.topLeftCorner<3, 3>() = symmetric(turned(full(a.I)));
   shown.topRightCorner<3, 3>() = turned(a.H);
   shown.bottomLeftCorner<3, 3>() = shown.topRightCorner<3, 3>().transpose();
-  shown.bottomRightCorner<3, 3>() = turned(full(a.M));
+  shown.bottomRightCorner<3, 3>() = symmetric(turned(full(a.M)));
   return shown;
 }
 Matrix6 LinkAxes::show(const Transform<double>&) const {

@@ -80,10 +80,9 @@ void print_replay_json(const Recording& recording, const Replay& exact, const Re
 int run_replay(const ReplayOptions& options) {
   std::vector<Change> changes;
   for (const std::string& text : options.changes) changes.push_back(parse_change(text));
-  if (!options.plot.empty() && (changes.empty() || options.plot.extension() != ".svg"))
-    throw InputError(
-        {{"", 0, "--plot", changes.empty() ? "there is one branch only" : "is drawn as SVG",
-          changes.empty() ? "give --set too" : "give a name that ends in .svg"}});
+  if (!options.plot.empty() && changes.empty())
+    throw InputError({{"", 0, "--plot", "there is one branch only", "give --set too"}});
+  if (!options.plot.empty()) check_plot(options.plot);
   const Recording recording(options.recording);
   for (const std::string& note : recording.notes()) fmt::print(stderr, "twinarm: {}\n", note);
   const std::size_t first = recording.at(options.from, "--from");
@@ -94,11 +93,12 @@ int run_replay(const ReplayOptions& options) {
   if (options.json) {
     print_replay_json(recording, exact, fork ? &*fork : nullptr, options.changes);
   } else {
-    fmt::print("taken up at t = {} s, step {}: hash {:016x}, again {:016x}\n", exact.from,
+    fmt::print("taken up at t = {:.9g} s, step {}: hash {:016x}, again {:016x}\n", exact.from,
                exact.step, exact.hash, exact.hash_again);
     fmt::print(
         "{} of {} recorded frames after it have the same bits{}\n", exact.equal, exact.compared,
-        same ? "" : fmt::format("; the first that differs is at t = {} s", exact.first_different));
+        same ? ""
+             : fmt::format("; the first that differs is at t = {:.9g} s", exact.first_different));
     if (fork) print_fork(recording, exact, *fork);
   }
   if (fork && !options.plot.empty())

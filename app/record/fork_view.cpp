@@ -4,41 +4,75 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "app/output_file.h"
 #include "app/study/gnuplot.h"
 #include "app/text_table.h"
 #include "collision/import/number_text.h"
+#include "solver/fault.h"
 
 namespace twinarm {
 namespace {
 
-constexpr std::size_t kTableRows = 20, kTableColumns = 4, kCurves = 4;
+constexpr std::size_t kTableRows = 20, kTableWidth = 98, kCurves = 4;
 
-// Which values part most, the most first; quaternions and all else alike.
-std::vector<std::size_t> parted(const Recording& recording, const Replay& fork) {
+// What moves as one: the numbers of a quaternion, and the three of a place.
+std::string motion_of(const RecordedColumn& column, const Replay& fork) {
+  const std::string before_last = column.name.substr(0, column.name.rfind('/'));
+  if (column.name.starts_with("q/")) return column.unit == "1" ? before_last : column.name;
+  for (const std::string& body : fork.bodies)
+    if (before_last == "links/" + body) return before_last;
+  return "";  // links follow from coordinates, velocities and energies from them too
+}
+
+struct Parted {
+  std::size_t column;
+  double by;
+};
+
+// Of each motion the value that parts most; the most first.
+std::vector<Parted> parted(const Recording& recording, const Replay& fork) {
   std::vector<double> most(recording.header().columns.size());
   for (std::size_t n = 0; n < fork.frames.size(); ++n) {
     const RecordedFrame recorded = recording.frame(fork.first + n);
     for (std::size_t c = 0; c < most.size(); ++c)
       most[c] = std::max(most[c], std::abs(fork.frames[n].values[c] - recorded.values[c]));
   }
-  std::vector<std::size_t> order;
-  for (std::size_t c = 0; c < most.size(); ++c)
-    if (recording.header().columns[c].name.starts_with("q/") ||
-        recording.header().columns[c].name.starts_with("links/"))
-      order.push_back(c);
+  std::map<std::string, Parted> by_motion;
+  for (std::size_t c = 0; c < most.size(); ++c) {
+    const std::string motion = motion_of(recording.header().columns[c], fork);
+    if (motion.empty()) continue;
+    Parted& found = by_motion.try_emplace(motion, Parted{c, most[c]}).first->second;
+    if (most[c] > found.by) found = {c, most[c]};
+  }
+  std::vector<Parted> order;
+  for (const auto& [motion, found] : by_motion) order.push_back(found);
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return most[a] > most[b]; });
+                   [](const Parted& a, const Parted& b) { return a.by > b.by; });
   return order;
 }
 
 void print_values(const Recording& recording, const Replay& fork) {
-  std::vector<std::size_t> columns = parted(recording, fork);
-  columns.resize(std::min(columns.size(), kTableColumns));
+  constexpr std::size_t widest_number = 12, between = 2;
+  std::vector<std::size_t> columns;
   std::vector<std::string> headings{"t [s]"};
-  for (const std::size_t c : columns)
-    for (const char* branch : {"recorded ", "fork "})
-      headings.push_back(branch + with_unit(recording.header().columns[c]));
+  std::size_t width = widest_number;
+  const std::vector<Parted> all = parted(recording, fork);
+  for (const auto& [c, by] : all) {
+    if (by == 0) break;
+    const RecordedColumn& column = recording.header().columns[c];
+    const std::string heading = column.name + " [" + column.unit + "]";
+    width += std::max(heading.size(), widest_number) + widest_number + 2 * between;
+    if (!columns.empty() && width > kTableWidth) break;
+    columns.push_back(c);
+    headings.insert(headings.end(), {heading, "fork"});
+  }
+  if (columns.empty()) {
+    fmt::print("no value of the fork differs from the recording\n");
+    return;
+  }
+  fmt::print("\n");
   TextTable table(std::move(headings));
   const std::size_t count = fork.frames.size();
   const std::size_t stride = std::max<std::size_t>(1, (count + kTableRows - 1) / kTableRows);
@@ -127,6 +161,10 @@ std::vector<std::string> parted_rows(const ComparedLedgers& ledgers) {
   return names;
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.parent_path().empty() ? "." : file.parent_path();
+}
+
 std::string panel_at(double bottom, double top, const std::string& label) {
   return fmt::format(
       "set bmargin at screen {}\nset tmargin at screen {}\nset lmargin at screen 0.095\n"
@@ -135,6 +173,15 @@ std::string panel_at(double bottom, double top, const std::string& label) {
 }
 
 }  // namespace
+
+void check_plot(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (file.extension() != ".svg" || std::filesystem::is_directory(file, ignored))
+    throw InputError(
+        {{file.string(), 0, "--plot", "is drawn as SVG, a file", "give a name that ends in .svg"}});
+  require_writable_folder(folder_of(file), "--plot");
+  const Gnuplot is_there(folder_of(file));
+}
 
 std::string with_unit(const RecordedColumn& column) {
   return column.name + "[" + column.unit + "]";
@@ -162,19 +209,21 @@ void print_fork(const Recording& recording, const Replay& recorded, const Replay
 
 void draw_fork(const Recording& recording, const Replay& recorded, const Replay& fork,
                const std::vector<std::string>& changes, const std::filesystem::path& file) {
-  const std::vector<std::size_t> columns = parted(recording, fork);
-  if (columns.empty()) return;
-  const RecordedColumn& column = recording.header().columns[columns.front()];
+  const std::vector<Parted> found = parted(recording, fork);
+  if (found.empty())
+    throw InputError({{file.string(), 0, "--plot", "nothing moves that could be drawn", ""}});
+  const std::size_t shown = found.front().column;
+  const RecordedColumn& column = recording.header().columns[shown];
   std::vector<double> t, first, second;
   for (std::size_t n = 0; n < fork.frames.size(); ++n) {
     t.push_back(fork.frames[n].t);
-    first.push_back(recording.frame(fork.first + n).values[columns.front()]);
-    second.push_back(fork.frames[n].values[columns.front()]);
+    first.push_back(recording.frame(fork.first + n).values[shown]);
+    second.push_back(fork.frames[n].values[shown]);
   }
   std::string change;
   for (const std::string& text : changes) change += (change.empty() ? "" : ", ") + text;
-  const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
-  Gnuplot gnuplot(folder);
+  Gnuplot gnuplot(folder_of(file));
+  make_folder(folder_of(file), "--plot");
   std::string script = fmt::format(
       "set multiplot\nset xrange [{}:{}]\nset key at screen 0.735,0.93 left top Left reverse\n{}"
       "set format x ''\nset label 1 {} at screen 0.095,0.965 textcolor '#333333'\n"

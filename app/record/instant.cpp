@@ -33,8 +33,9 @@ bool is_recording(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string start(8, '\0');
   stream.read(start.data(), 8);
-  if (stream) return start == std::string(recording_format::kMagic, 8);
+  if (stream && start == std::string(recording_format::kMagic, 8)) return true;
   std::error_code ignored;
+  if (file.extension() == ".twinrec" && std::filesystem::exists(file, ignored)) return true;
   return !std::filesystem::exists(file, ignored) && std::filesystem::exists(part_of(file), ignored);
 }
 
@@ -48,8 +49,16 @@ RecordedInstant open_instant(const std::filesystem::path& file, std::optional<do
   options.integrator = "semi-implicit";
   options.step = recording.header().step;
   options.tolerance.reset();
-  RecordedInstant instant{prepare_simulation(options), simulation_memory(frame.memory), frame.t,
-                          files};
+  auto prepared = [&] {
+    try {
+      return prepare_simulation(options);
+    } catch (const InputError& error) {
+      throw files->as_typed(error);
+    }
+  }();
+  RecordedInstant instant{std::move(prepared), simulation_memory(frame.memory), frame.t, {}, files};
+  for (std::size_t i = 0; i < frame.rows.size(); ++i)
+    instant.ledger.push_back({recording.rows()[frame.rows[i]], frame.works[i]});
   Memory memory = instant.memory;
   State<double> x(instant.prepared.input.robot.model);
   memory.visit(x.q);

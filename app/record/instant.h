@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/record/unpack.h"
+#include "app/simulate/ledger.h"
 #include "app/simulate/simulate_input.h"
 #include "solver/memory.h"
 
@@ -18,6 +19,7 @@ struct RecordedInstant {
   SimulatePlan prepared;  // its state is that of the instant; so are the points of wrenches
   Memory memory;          // for Simulation::visit_memory of a simulation that is built alike
   double t = 0;           // of the frame [s]
+  std::vector<LedgerRow> ledger;  // up to it [J]
   // The files that it was made from: meshes are read when contacts are set up, which is later.
   std::shared_ptr<const UnpackedRun> files;
 };

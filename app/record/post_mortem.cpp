@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -18,7 +19,9 @@ std::string short_text(double value) {
 // The ledger where the last steps begin and where they end.
 struct LastSteps {
   std::map<std::string, double> before, after;
-  long first = 0, count = 0;
+  long first = -1, last = 0;
+  long count() const { return last - std::max(first, 1L) + 1; }  // the start is no step
+  std::string words() const { return count() == 1 ? "step" : fmt::format("{} steps", count()); }
 };
 
 LastSteps run_again(const SimulatePlan& prepared, RecordingHeader header,
@@ -38,7 +41,8 @@ LastSteps run_again(const SimulatePlan& prepared, RecordingHeader header,
   RunWatch watch;
   watch.look = [&](RunView& run) {
     if (run.step() <= last - kLastSteps) return;
-    if (found.count++ == 0) {
+    found.last = run.step();
+    if (found.first < 0) {
       found.first = run.step();
       note(run, found.before);
     }
@@ -91,6 +95,19 @@ std::string beyond_limit(const Suspect& s) {
                      short_text(s.limit), s.scheme);
 }
 
+// The limits are about the start: what has moved since may be beyond one that was near then.
+bool is_near(const Suspect& s) {
+  return s.step > 0.5 * s.largest_step;
+}
+std::string near_limit(const Suspect& s, double h) {
+  return fmt::format(
+      "nearest its limit of linear theory about the start: {}, w h = {} where at most {} holds "
+      "({}): "
+      "the limit falls where less inertia meets it, or several pull at once; a step of {} s has "
+      "twice the room",
+      s.name, short_text(s.product), short_text(s.limit), s.scheme, short_text(0.5 * h));
+}
+
 void say_suspects(PostMortem& found, double h) {
   bool any = false;
   for (const Suspect& s : found.suspects) {
@@ -99,7 +116,9 @@ void say_suspects(PostMortem& found, double h) {
     found.words.push_back("behind it: " + beyond_limit(s));
     found.words.push_back(remedy_of(s, h));
   }
-  if (!any)
+  if (!any && !found.suspects.empty() && is_near(found.suspects.front()))
+    found.words.push_back(near_limit(found.suspects.front(), h));
+  else if (!any)
     found.words.emplace_back(
         "no coupling and no damper of a joint is beyond its limit of linear theory about the "
         "start: look for a short step, a contact or an actuator that drives it");
@@ -112,9 +131,13 @@ std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared) {
       "at t = {} s the ledger's row '{}' has come to {} J, more than the kinetic energy there was "
       "at {} s, and grows without bound: the run creates energy",
       short_text(alarm.t), alarm.row, short_text(alarm.work), short_text(alarm.since));
-  for (const Suspect& s : find_suspects(prepared))
-    if (s.step > s.largest_step)
-      return words + "; behind it: " + beyond_limit(s) + "; " + remedy_of(s, prepared.run.step);
+  const std::vector<Suspect> suspects = find_suspects(prepared);
+  const double h = prepared.run.step;
+  if (!suspects.empty() && suspects.front().step > suspects.front().largest_step)
+    return words + "; behind it: " + beyond_limit(suspects.front()) + "; " +
+           remedy_of(suspects.front(), h);
+  if (!suspects.empty() && is_near(suspects.front()))
+    return words + "; " + near_limit(suspects.front(), h);
   return words + (prepared.run.is_adaptive()
                       ? "; give a smaller --tolerance"
                       : fmt::format("; give a shorter step than {} s, or --integrator dopri5 where "
@@ -136,15 +159,13 @@ void explain(const SimulatePlan& prepared, RecordingHeader header,
     const LastSteps steps = run_again(prepared, std::move(header), file, result);
     find_row(steps, found);
     if (!found.row.empty())
-      found.words.push_back(
-          fmt::format("the ledger's row '{}' grew most: by {} J in the last {} "
-                      "steps",
-                      found.row, short_text(found.row_growth), steps.count));
+      found.words.push_back(fmt::format("the ledger's row '{}' grew most: by {} J in the last {}",
+                                        found.row, short_text(found.row_growth), steps.words()));
     found.recording = file.string();
     found.words.push_back(
-        fmt::format("its last {} steps are in {}: look with `twinarm inspect {} "
-                    "--at {}`",
-                    steps.count, found.recording, found.recording, number_text(found.time)));
+        fmt::format("its last {} {} in {}: look with `twinarm inspect {} --at {}`", steps.words(),
+                    steps.count() == 1 ? "is" : "are", found.recording, found.recording,
+                    number_text(found.time)));
   } catch (const InputError& error) {
     found.words.push_back(std::string("its last steps are not kept: ") + error.what());
   }

@@ -33,7 +33,12 @@ Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
   };
   using namespace recording_format;
   if (bytes_.size() < kStart || bytes_.compare(0, 8, kMagic, 8) != 0)
-    refuse("it is no recording", "give a file that `twinarm simulate --record FILE` wrote");
+    refuse(bytes_.empty()
+               ? "it is empty: the run that was to write it did not begin, or the disk was full"
+           : std::string(kMagic, 8).starts_with(bytes_.substr(0, 8))
+               ? "it is cut short within its first bytes"
+               : "it is no recording",
+           "give a file that `twinarm simulate --record FILE` wrote");
   if (const std::uint32_t version = number_at(bytes_, 8); version != kVersion)
     refuse(
         fmt::format("its format is version {}; this program reads version {}", version, kVersion),
@@ -53,6 +58,11 @@ void Recording::read_blocks() {
   std::size_t at = kStart;
   std::string what;
   while (at < bytes_.size()) {
+    if (!end_.empty()) {
+      notes_.push_back(fmt::format(
+          "{} bytes after the mark of its end do not belong to it: left out", bytes_.size() - at));
+      return;
+    }
     const bool has_head = bytes_.size() - at >= kBefore + kAfter;
     const std::size_t size = has_head ? number_at(bytes_, at + 1) : 0;
     if (!has_head || size > bytes_.size() - at - kBefore - kAfter) {

@@ -27,15 +27,7 @@ void add_ledgers(const RunView& run, Replay& branch, RecordedFrame& frame) {
   }
 }
 
-}  // namespace
-
-Replay replay(const Recording& recording, std::size_t first, const std::vector<Change>& changes) {
-  const UnpackedRun files(recording.header());
-  SimulateOptions options = files.options(changes);
-  options.energy_bound = HUGE_VAL;  // the recording says where to stop
-  SimulatePlan prepared = prepare_simulation(options);
-  prepared.run.times.clear();
-
+Replay run_on(const Recording& recording, std::size_t first, const SimulatePlan& prepared) {
   const RecordedFrame begin = recording.frame(first);
   const RecordedFrame last = recording.frame(recording.size() - 1);
   Replay found;
@@ -43,6 +35,10 @@ Replay replay(const Recording& recording, std::size_t first, const std::vector<C
   found.from = found.to = begin.t;
   found.first = first;
   found.hash = begin.hash;
+  if (prepared.input.scene)
+    for (int b = prepared.input.scene->robot_bodies + 1;
+         b < prepared.input.robot.model.body_count(); ++b)
+      found.bodies.push_back(prepared.input.robot.model.body_name[static_cast<std::size_t>(b)]);
   std::size_t next = first;
   RunWatch watch;
   watch.look = [&](RunView& run) {
@@ -68,6 +64,21 @@ Replay replay(const Recording& recording, std::size_t first, const std::vector<C
   const RunStart start{begin.memory, last.step};
   run_plan(prepared.input, prepared.run, watch, &start);
   return found;
+}
+
+}  // namespace
+
+Replay replay(const Recording& recording, std::size_t first, const std::vector<Change>& changes) {
+  const UnpackedRun files(recording.header());
+  SimulateOptions options = files.options(changes);
+  options.energy_bound = HUGE_VAL;  // the recording says where to stop
+  try {
+    SimulatePlan prepared = prepare_simulation(options);
+    prepared.run.times.clear();
+    return run_on(recording, first, prepared);
+  } catch (const InputError& error) {
+    throw files.as_typed(error, changes);
+  }
 }
 
 }  // namespace twinarm

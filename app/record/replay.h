@@ -18,6 +18,7 @@ struct Replay {
   std::uint64_t hash_again = 0;
   std::size_t compared = 0, equal = 0;           // frames after it, by hash
   double first_different = -1;                   // [s]; negative: none
+  std::vector<std::string> bodies;               // free ones of a scene, which no coordinate tells
   std::vector<RecordedFrame> frames;             // of the branch, at the steps that are recorded
   std::vector<std::string> rows, momentum_rows;  // names of the numbers in the frames' ledgers
 };

@@ -28,8 +28,14 @@ std::vector<std::string> parts_of(const std::string& path) {
   return parts;
 }
 
-void write_toml_value(TomlValue& value, const std::string& text) {
+// No file has such a line: faults in what a change wrote are known by it.
+int line_of_change(std::size_t change) {
+  return -1 - static_cast<int>(change);
+}
+
+void write_toml_value(TomlValue& value, const std::string& text, int line) {
   const auto number = parse_number(text);
+  value.line = line;
   value.text = text;
   value.number = number.value_or(text == "true" ? 1 : 0);
   value.kind = number                              ? TomlValue::Kind::number
@@ -55,7 +61,7 @@ Change parse_change(const std::string& text) {
   return {text.substr(0, equal), text.substr(equal + 1)};
 }
 
-void apply(const Change& change, TomlValue& scene, FaultList& faults) {
+void apply(const Change& change, int line, TomlValue& scene, FaultList& faults) {
   const auto fault = [&](const std::string& rule, const std::string& remedy) {
     faults.add({"", 0, "--set " + change.path, rule, remedy});
   };
@@ -69,7 +75,7 @@ void apply(const Change& change, TomlValue& scene, FaultList& faults) {
   std::vector<std::string> names;
   for (const TomlValue& member : scene.members) names.push_back(member.key);
   if (!list) return fault("the scene has no '" + name + "'", name_remedy(name, names, "keys"));
-  if (parts.size() == 1) return write_toml_value(*list, change.value);
+  if (parts.size() == 1) return write_toml_value(*list, change.value, line);
   std::vector<TomlValue*> items;
   for (std::size_t i = 0; i < list->items.size(); ++i) {
     const TomlValue* own_name = list->items[i].find("name");
@@ -87,9 +93,8 @@ void apply(const Change& change, TomlValue& scene, FaultList& faults) {
       item->members.emplace_back();
       value = &item->members.back();
       value->key = parts.back();
-      value->line = item->line;
     }
-    write_toml_value(*value, change.value);
+    write_toml_value(*value, change.value, line);
   }
 }
 
@@ -133,22 +138,46 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
   options.robot.model = copy_of(options.robot.model);
   if (!options.robot.state.empty()) options.robot.state = copy_of(options.robot.state);
   const bool is_scene = options.robot.model.extension() == ".toml";
-  std::vector<Change> of_scene;
+  std::vector<std::pair<Change, int>> of_scene;  // and their lines
   FaultList faults;
-  for (const Change& change : changes)
-    if (change.path == "gravity")
-      options.robot.gravity = change.value;
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    if (changes[i].path == "gravity")
+      options.robot.gravity = changes[i].value;
     else if (is_scene)
-      of_scene.push_back(change);
+      of_scene.emplace_back(changes[i], line_of_change(i));
     else
-      faults.add({"", 0, "--set " + change.path, "a robot alone has gravity to be changed, no more",
+      faults.add({"", 0, "--set " + changes[i].path,
+                  "a robot alone has gravity to be changed, no more",
                   "write --set gravity=x,y,z, or record a scene"});
   faults.check();
   options.change_scene = [this, of_scene](TomlValue& tree, FaultList& found) {
     lead_to_copies(tree);
-    for (const Change& change : of_scene) apply(change, tree, found);
+    for (std::size_t i = 0; i < of_scene.size(); ++i)
+      apply(of_scene[i].first, of_scene[i].second, tree, found);
   };
   return options;
+}
+
+InputError UnpackedRun::as_typed(const InputError& error,
+                                 const std::vector<Change>& changes) const {
+  const std::string folder = folder_.string();
+  const auto by_original = [&](std::string& text) {
+    for (std::size_t at; (at = text.find(folder)) != std::string::npos;)
+      text.erase(at, folder.size());
+  };
+  std::vector<Fault> faults = error.faults();
+  for (Fault& fault : faults) {
+    for (std::string* text : {&fault.file, &fault.where, &fault.rule, &fault.remedy})
+      by_original(*text);
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      const std::string typed = "--set " + changes[i].path + "=" + changes[i].value;
+      if (fault.line == line_of_change(i))
+        fault = {"", 0, typed, fault.where + ": " + fault.rule, fault.remedy};
+      else if (changes[i].path == "gravity" && fault.where == "--gravity")
+        fault = {"", 0, typed, fault.rule, "write --set gravity=0,0,-9.81"};
+    }
+  }
+  return InputError(std::move(faults));
 }
 
 }  // namespace twinarm

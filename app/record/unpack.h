@@ -18,8 +18,9 @@ struct Change {
 };
 // Throws InputError for what has no '='.
 Change parse_change(const std::string& text);
-// To a scene's tree; adds a fault where the path leads nowhere.
-void apply(const Change& change, TomlValue& scene, FaultList& faults);
+// To a scene's tree; adds a fault where the path leads nowhere. `line`: what it writes stands
+// there.
+void apply(const Change& change, int line, TomlValue& scene, FaultList& faults);
 
 // The recording's files in a temporary folder, which goes with it.
 class UnpackedRun {
@@ -31,6 +32,9 @@ class UnpackedRun {
 
   // What the run was given, its paths those of the copies.
   SimulateOptions options(const std::vector<Change>& changes = {}) const;
+  // Faults of such a run: copies by the names of their originals, and what a change brought in by
+  // that change.
+  InputError as_typed(const InputError& error, const std::vector<Change>& changes = {}) const;
 
  private:
   std::filesystem::path copy_of(const std::filesystem::path& original) const;

@@ -47,8 +47,10 @@ class MomentumLedger {
   void visit_memory(Memory& memory);
 
   // Of the energy ledger: `constraint/NAME`, `constraint/NAME/stabilisation`, `joint/NAME/mimic`,
-  // `contact/stabilisation`.
-  std::vector<LedgerRow> energy_rows(const Simulation& simulation) const;
+  // `contact/stabilisation` (of joint limits alone: `joint/NAME/limit/stabilisation`, of several
+  // `joint/limits/stabilisation`). `contacts` may be null.
+  std::vector<LedgerRow> energy_rows(const Simulation& simulation,
+                                     const SceneContacts* contacts) const;
   // `numerical` last. `contacts` may be null.
   std::vector<MomentumRow> rows(const Simulation& simulation, const SceneContacts* contacts) const;
 

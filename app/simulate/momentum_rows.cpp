@@ -2,8 +2,22 @@
 #include "app/simulate/momentum_ledger.h"
 
 namespace twinarm {
+namespace {
 
-std::vector<LedgerRow> MomentumLedger::energy_rows(const Simulation& simulation) const {
+// Whose the moving apart is. Where bodies can touch and joints have limits it is of both, in one
+// equation.
+std::string name_of_separation(const Model<double>& model, const SceneContacts* contacts) {
+  if (!contacts || contacts->contacts() || !contacts->limits()) return "contact/stabilisation";
+  const std::vector<JointLimits::Limit>& limits = contacts->limits()->limits();
+  if (limits.size() > 1) return "joint/limits/stabilisation";
+  return "joint/" + model.joint_name[static_cast<std::size_t>(limits.front().body)] +
+         "/limit/stabilisation";
+}
+
+}  // namespace
+
+std::vector<LedgerRow> MomentumLedger::energy_rows(const Simulation& simulation,
+                                                   const SceneContacts* contacts) const {
   std::vector<LedgerRow> rows;
   const std::vector<LoopClosure>& loops = simulation.dynamics().bilateral().loops().loops();
   for (std::size_t l = 0; l < loop_count_; ++l) {
@@ -15,7 +29,8 @@ std::vector<LedgerRow> MomentumLedger::energy_rows(const Simulation& simulation)
     for (std::size_t i = 1; i < model.parent.size(); ++i)
       if (model.dofs(i) > 0 && model.iv[i] == model.mimics[m].follower && mimics_[m] != 0)
         rows.push_back({"joint/" + model.joint_name[i] + "/mimic", mimics_[m]});
-  if (separation_.work != 0) rows.push_back({"contact/stabilisation", separation_.work});
+  if (separation_.work != 0)
+    rows.push_back({name_of_separation(model, contacts), separation_.work});
   return rows;
 }
 
@@ -66,7 +81,7 @@ std::vector<MomentumRow> MomentumLedger::rows(const Simulation& simulation,
   for (std::size_t l = 0; l < loop_count_; ++l)
     add("constraint/" + loops[l].name + "/stabilisation", stabilisation_[l]);
   if (!separation_.impulse.isZero(0) || !separation_.moment.isZero(0))
-    add("contact/stabilisation", separation_);
+    add(name_of_separation(input_.model, contacts), separation_);
   for (std::size_t t = 0; t < trees_.size(); ++t) add("joint/" + trees_[t].joint, through[t]);
   Exchange rest = contents(moved_, now_) - contents(moved_, start_);
   for (const MomentumRow& row : rows) rest += Exchange{0, -row.linear, -row.angular};

@@ -105,7 +105,7 @@ class Run : public RunView {
       all.insert(all.end() - 1, rows.begin(), rows.end());
     };
     if (contacts_) add(contacts_->rows());
-    add(momentum_->energy_rows(sim_));
+    add(momentum_->energy_rows(sim_, contacts()));
     return all;
   }
   std::vector<MomentumRow> momentum() const override { return momentum_->rows(sim_, contacts()); }

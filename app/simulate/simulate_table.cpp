@@ -66,7 +66,8 @@ std::string momentum_table(const SimulateResult& result) {
   };
   MomentumRow sum{"change of momentum", Vector3::Zero(), Vector3::Zero()};
   for (const MomentumRow& row : shortened(result.momentum)) {
-    line(row);
+    const bool is_zero = row.linear.isZero(0) && row.angular.isZero(0);
+    if (!is_zero || kind_of(row.name).empty()) line(row);
     sum_up(sum, row);
   }
   line(sum);
@@ -100,8 +101,9 @@ class TableOutput : public RunOutput {
     const std::string steps = plan_.is_adaptive()
                                   ? fmt::format("tolerance {}", cell(plan_.tolerance))
                                   : fmt::format("step {} s", cell(plan_.step));
-    fmt::print("{}: {} steps of {}, {}\n\n{}\n", input_.robot.name, result.steps,
-               integrator_name(plan_.integrator), steps, samples_.str());
+    fmt::print("{}: {} step{} of {}, {}\n\n{}{}\n", input_.robot.name, result.steps,
+               result.steps == 1 ? "" : "s", integrator_name(plan_.integrator), steps,
+               samples_.str(), left_out());
     TextTable ledger({"work on the bodies, 0 to " + cell(result.end) + " s", "[J]"});
     double sum = 0;
     for (const LedgerRow& row : shortened(result.ledger)) {
@@ -110,7 +112,10 @@ class TableOutput : public RunOutput {
     }
     ledger.add({"change of kinetic energy", cell(sum)});
     fmt::print("{}\n{}", ledger.str(), momentum_table(result));
-    if (result.contacts > 0) fmt::print("\n{} contact points press at the end\n", result.contacts);
+    if (result.contacts > 0)
+      fmt::print("\n{} at the end\n",
+                 result.contacts == 1 ? "1 contact point presses"
+                                      : fmt::format("{} contact points press", result.contacts));
     const char* space = "\n";
     for (const auto* warnings : {&input_.warnings, &result.warnings})
       for (const std::string& warning : *warnings) {
@@ -122,6 +127,13 @@ class TableOutput : public RunOutput {
  private:
   // Of the bodies of a scene the first few have columns.
   int end_of_bodies() const { return std::min(input_.model.body_count(), first_body_ + 3); }
+  std::string left_out() const {
+    const int bodies = input_.model.body_count() - first_body_,
+              shown = end_of_bodies() - first_body_;
+    if (bodies <= shown) return "";
+    return fmt::format("({} of {} bodies are not shown: --csv and --json have them all)\n",
+                       bodies - shown, bodies);
+  }
 
   std::vector<std::string> headings() const {
     const Coordinates& coordinates = input_.coordinates;

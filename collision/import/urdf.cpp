@@ -95,8 +95,13 @@ const XMLElement& open_robot(tinyxml2::XMLDocument& document, UrdfSource& source
     source.fault(0, "", "the file has more than 64 MiB",
                  "give a URDF file; meshes stand in theirs");
   } else if (document.LoadFile(source.file().c_str()) != tinyxml2::XML_SUCCESS) {
+    // Where an end tag is missing, the line is that of the element's beginning.
+    const bool may_be_open = document.ErrorID() == tinyxml2::XML_ERROR_PARSING ||
+                             document.ErrorID() == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT;
     source.fault(document.ErrorLineNum(), "", "not well-formed XML: " + xml_error_text(document),
-                 "mend the XML at or shortly before this line");
+                 may_be_open ? "mend the XML near this line, or close the element that begins here "
+                               "(is there a </robot> at the end?)"
+                             : "mend the XML at or shortly before this line");
   } else {
     robot = document.RootElement();
     if (robot && std::string(robot->Name()) != "robot") {

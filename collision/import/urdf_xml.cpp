@@ -166,6 +166,11 @@ Origin UrdfSource::origin(const XMLElement& parent, const std::string& where) {
   Origin origin;
   origin.xyz = vector3(*element, "xyz", where, Vector3(Vector3::Zero())).value_or(origin.xyz);
   origin.rpy = vector3(*element, "rpy", where, Vector3(Vector3::Zero())).value_or(origin.rpy);
+  constexpr double kFullTurn = 6.3;
+  if (origin.rpy.lpNorm<Eigen::Infinity>() > kFullTurn)
+    warn(element->GetLineNum(), where,
+         "rpy = '" + std::string(element->Attribute("rpy")) + "' is more than a full turn",
+         "angles are in radians: 90 degrees are 1.5707963267948966");
   if (!element->FindAttribute("quat_xyzw")) return origin;
   if (element->FindAttribute("rpy"))
     fault(element->GetLineNum(), where, "its <origin> has both rpy and quat_xyzw", "give one");

@@ -8,7 +8,7 @@ import sys
 import unittest
 
 import robot_command
-from robot_command import RobotCommand, joint, link, robot
+from robot_command import PENDULUM, RobotCommand, joint, link, robot
 
 
 class Faults(RobotCommand):
@@ -83,6 +83,19 @@ class Faults(RobotCommand):
         self.told(self.errors(self.ARM, "--gravity", "0,0,nan"), ["--gravity", "nan"])
         self.told(self.errors(self.ARM, "--speed"), ["--speed"])
         self.told(self.errors("scene.toml"), ["scene.toml", "a scene"])
+
+    def test_what_is_not_finite_is_not_printed_but_told_with_its_cause(self):
+        for qd, name in ((1e200, "qd of joint 'hinge', 1e+200"),):
+            error, = self.errors(PENDULUM, state={"q": {"hinge": 0.1}, "qd": {"hinge": qd}})
+            self.assertIn("kinetic_energy", error)
+            self.assertIn(name, error)
+        self.assertEqual(self.run_it(PENDULUM, state={"qd": {"hinge": 1e100}}).returncode, 0)
+
+    def test_a_folder_is_told_to_be_one(self):
+        error, = self.errors("assets/robots")
+        self.assertIn("is a folder; name the robot's URDF", error)
+        error, = self.errors(PENDULUM, state=self.folder / "none.json")
+        self.assertIn("does not exist; check the name", error)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ import sys
 import unittest
 
 import robot_command
+from recording_command import DRIVEN
 from robot_command import PENDULUM, ROOT, RobotCommand, add, cross, joint, link, robot
 
 S103 = "assets/robots/s103/s103.urdf"
@@ -143,6 +144,26 @@ class Inspect(RobotCommand):
             self.assertIn(part, text)
 
 
+    def test_options_that_have_no_meaning_for_a_robot_are_refused(self):
+        error, = self.errors(S103, "--step", "0.01")
+        self.assertIn("--step", error)
+        self.assertIn("leave it out", error)
+
+    def test_both_triangles_of_a_matrix_show_the_same_digits(self):
+        found = self.answer(PUMA, state=ROOT / "assets/states/puma_qn_moving.json")
+        for step in found["passes"]:
+            for quantity in step["quantities"]:
+                if quantity["name"] in ("I", "IA", "Ia"):
+                    m = quantity["value"]
+                    self.assertEqual(m, [list(column) for column in zip(*m)], step["body"])
+
+    def test_no_rounding_is_printed_as_if_it_were_a_number(self):
+        for model, state in ((S103, STATE), (PUMA, ROOT / "assets/states/puma_qn_moving.json")):
+            page = self.run_it(model, state=state).stdout.split("CHECKS by")[0]
+            page = re.sub(r"but for \S+ of", "", page)
+            self.assertEqual(re.findall(r"\S*e-(?:1[4-9]|[2-9]\d)\b", page), [])
+
+
 class InspectScenes(RobotCommand):
     command = "inspect"
     check_sums, wrenches_on = Inspect.check_sums, Inspect.wrenches_on
@@ -164,6 +185,27 @@ class InspectScenes(RobotCommand):
             up = [w["force"][2] for w in body["wrenches"]
                   if w["source"].startswith("contact/") and w["force"][2] > 0]
             self.assertAlmostEqual(sum(up), (11 - number) * 9.81, places=6)
+
+    def test_closed_loops_are_checked_by_differences_of_poses_at_rest_and_in_motion(self):
+        for scene in ("slider_crank", "four_bar", "cradle"):
+            check, = (c for c in self.scene(scene)["checks"] if c["name"] == "loops")
+            self.assertTrue(check["pass"], check)
+        self.assertFalse([c for c in self.scene("box_stack")["checks"] if c["name"] == "loops"])
+        file = self.folder / "scene.toml"
+        file.write_text(DRIVEN.replace('integrator = "rk4"', ""))
+        check, = (c for c in self.answer(str(file))["checks"] if c["name"] == "loops")
+        self.assertTrue(check["pass"], check)
+
+    def test_a_contact_of_several_points_is_read_out_by_its_name(self):
+        every = [f["source"] for f in self.scene("box_stack", "--body", "box1")["forces"]]
+        pair = next(s for s in every if s.startswith("contact/") and s.endswith("/1"))[:-2]
+        points = sorted(s for s in every if s.startswith(pair + "/"))
+        self.assertGreater(len(points), 1)
+        for name in (pair, pair[len("contact/"):]):
+            found = self.scene("box_stack", "--force", name)["forces"]
+            self.assertEqual(sorted(f["source"] for f in found), points)
+        found = self.scene("box_stack", "--force", points[1])["forces"]
+        self.assertEqual([f["source"] for f in found], [points[1]])
 
     def test_a_coupling_is_read_out_by_its_name_on_the_link_it_pulls(self):
         urdf = self.folder / "test.urdf"

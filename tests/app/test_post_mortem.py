@@ -6,6 +6,7 @@
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -37,6 +38,16 @@ class Instants(RecordingCommand):
         self.assertLess(by_body["low"]["residual"], 1e-10)
         self.assertTrue(any(w["source"].startswith("contact/")
                             for w in by_body["low"]["wrenches"]))
+
+    def test_an_instant_has_the_ledger_up_to_it(self):
+        file = self.record(BOXES % "", "--duration", 0.4)
+        frame = [f for f in self.exported(file)["frames"] if f["t"] <= 0.3 + 1e-9][-1]
+        answer = json.loads(self.twinarm("inspect", file, "--at", 0.3, "--json").stdout)
+        self.assertEqual(answer["ledger"], frame["ledger"])
+        page = self.twinarm("inspect", file, "--at", 0.3).stdout
+        self.assertIn("WORK ON THE BODIES", page)
+        self.assertIn("contact/floor-low/friction", page)
+        self.assertLessEqual(max(map(len, page.splitlines())), 100)
 
     def test_times_outside_and_options_that_do_not_go_are_refused(self):
         file = self.record(PENDULUM, "--duration", 0.1)
@@ -104,6 +115,19 @@ class PostMortems(RecordingCommand):
             self.record(HELD % (limit * part, 0, ""), "--duration", 5)
             self.assertNotIn("alarm", json.loads(self.simulated.stdout))
 
+    def test_a_spring_near_its_limit_is_named_where_none_is_beyond_it(self):
+        """Two springs of 0.8 of the limit each pull at one joint: only together are they too stiff."""
+        limit = 4 * 0.5 / 0.001 ** 2
+        other = (HELD % (limit * 0.8, 0, "")).split("[[coupling]]")[1].replace('"pull"', '"other"')
+        self.record(HELD % (limit * 0.8, 0, "") + "[[coupling]]" + other, "--duration", 60,
+                    "--post-mortem", self.folder / "last.twinrec", code=3)
+        answer = json.loads(self.simulated.stdout)
+        words = "\n".join(answer["post_mortem"]["words"])
+        self.assertIn("nearest its limit", words)
+        self.assertIn("coupling 'pull'", words)
+        steps = int(re.search(r"its last (\d+) steps are in", words)[1])
+        self.assertLessEqual(steps, answer["post_mortem"]["step"])
+
     def test_a_method_that_always_gains_is_told_by_an_alarm_alone(self):
         """Explicit Euler on a spring: energy grows by 1 + (w h)^2 in each step, and runs on."""
         self.record(HELD % (100, 0, ""), "--duration", 20, "--integrator", "euler")
@@ -128,6 +152,8 @@ class PostMortems(RecordingCommand):
                               "--energy-bound", -1, "--record-every", 0)
         for words in ("--energy-bound", "--record-every", "--record FILE"):
             self.assertIn(words, errors)
+        self.assertIn("--record: its file has no name", self.refused(
+            "simulate", self.folder / "test.urdf", "--duration", 1, "--record", ""))
         self.assertIn("cannot be written", self.refused(
             "simulate", self.folder / "test.urdf", "--duration", 1, "--record",
             self.folder / "none" / "run.twinrec"))

@@ -96,7 +96,11 @@ class Recordings(RecordingCommand):
             own = self.exported(file)["frames"][-1]["ledger"]
             self.close([fork["ledger"][row]["recorded"] for row in own], list(own.values()))
         table = self.twinarm("replay", file, "--from", 0.1, "--set", "coupling.stiffness=800")
-        for words in ("fork q/hinge[rad]", "coupling/pull/spring", "change of kinetic energy",
+        self.assertLessEqual(max(map(len, table.stdout.splitlines())), 100)
+        # One joint moves: it is told once, not as its link's three coordinates too.
+        self.assertEqual(table.stdout.count("[rad]"), 1)
+        self.assertNotIn("links/", table.stdout)
+        for words in ("q/hinge [rad]", "coupling/pull/spring", "change of kinetic energy",
                       "difference [J]", "momentum, 0.1 to 0.3 s"):
             self.assertIn(words, table.stdout)
 
@@ -107,6 +111,15 @@ class Recordings(RecordingCommand):
             kinetic = branch["values"]["kinetic_energy[J]"]
             gained = sum(row[branch["name"]] for row in fork["ledger"].values())
             self.close(gained, kinetic[-1] - kinetic[0])
+
+    def test_a_fork_of_free_bodies_shows_each_once_and_one_that_changes_nothing_says_so(self):
+        file = self.record(BOXES % "", "--duration", 0.2)
+        table = self.twinarm("replay", file, "--set", "gravity=0,0,-3").stdout
+        self.assertLessEqual(max(map(len, table.splitlines())), 100)
+        for body in ("low", "high"):
+            self.assertEqual(table.count(f"links/{body}/"), 1, table)
+        table = self.twinarm("replay", file, "--set", "gravity=0,0,-9.81").stdout
+        self.assertIn("no value of the fork differs", table)
 
     def test_a_fork_counts_no_work_that_the_old_spring_would_have_done(self):
         """Forked where the arm is held by a box and its target moves on: nothing else moves."""
@@ -123,6 +136,31 @@ class Recordings(RecordingCommand):
         self.twinarm("replay", file, "--from", 0.1, "--set", "coupling.stiffness=800", "--plot", plot)
         for words in ("q/hinge [rad]", "time [s]", "[J]", "recorded", "coupling.stiffness=800"):
             self.assertIn(words, plot.read_text())
+
+    def test_a_plot_that_could_not_be_drawn_is_refused_before_the_run(self):
+        file = self.record(HELD % (50, 2, ""), "--duration", 0.1)
+        for name in (self.folder / "test.urdf" / "fork.svg", self.folder / "fork.pdf"):
+            error = self.refused("replay", file, "--set", "coupling.stiffness=800", "--plot", name)
+            self.assertIn(str(name.parent), error)
+        fork = self.folder / "new" / "folder" / "fork.svg"
+        if shutil.which("gnuplot"):
+            self.twinarm("replay", file, "--set", "coupling.stiffness=800", "--plot", fork)
+            self.assertTrue(fork.exists())
+
+    def test_faults_of_a_change_name_what_was_typed_and_no_copy_of_the_files(self):
+        file = self.record(HELD % (50, 2, ""), "--duration", 0.1)
+        for change, words in (("coupling.stiffness=-1", "negative"),
+                              ("coupling.pull.stiffness=stiff", "number"),
+                              ("coupling.treatment=magic", "magic"),
+                              ("gravity=0,1", "2 numbers"), ("gravity=down", "down")):
+            error = self.refused("replay", file, "--set", change)
+            self.assertIn("--set " + change, error)
+            self.assertIn(words, error)
+            for word in ("twinarm-replay", "--gravity"):
+                self.assertNotIn(word, error)
+        # What the scene itself does not allow then, by the name of the file that was recorded.
+        error = self.refused("replay", file, "--set", "coupling.link=nothing")
+        self.assertNotIn("twinarm-replay", error)
 
     def test_what_a_fork_cannot_change_is_refused(self):
         file = self.record(HELD % (50, 2, ""), "--duration", 0.1)
@@ -198,7 +236,15 @@ class Damage(RecordingCommand):
                                 for n in exported["notes"]), exported["notes"])
         for cut in (0, 5, 11, 12, 20, frames[0] - 1):
             file.write_bytes(data[:cut])
-            self.assertIn(str(file), self.refused("export", file, "--csv"))
+            for command in (("export", file, "--csv"), ("replay", file), ("inspect", file)):
+                error = self.refused(*command)
+                self.assertIn(str(file), error)
+                self.assertIn("empty" if cut == 0 else "cut short", error)
+        file.write_bytes(data + b"more of something else")
+        exported = self.exported(file)
+        self.assertEqual(len(exported["frames"]), 6)
+        self.assertEqual(len(exported["notes"]), 1)
+        self.assertIn("22 bytes after", exported["notes"][0])
 
     def test_a_flipped_bit_ends_what_is_read_and_is_said(self):
         file = self.record(PENDULUM, "--duration", 0.05, "--step", 0.01, state={"q": {"hinge": 1}})
@@ -222,7 +268,8 @@ class Damage(RecordingCommand):
             self.assertIn("version 2", error)
         file.write_bytes(b"not at all")
         self.assertIn("no recording", self.refused("export", file, "--csv"))
-        self.assertIn("cannot be read", self.refused("export", self.folder / "none", "--csv"))
+        self.assertIn("does not exist; check", self.refused("export", self.folder / "none", "--csv"))
+        self.assertIn("is a folder", self.refused("export", self.folder, "--csv"))
 
     def test_a_run_that_is_killed_leaves_what_it_had_flushed(self):
         (self.folder / "test.urdf").write_text(PENDULUM)

@@ -94,6 +94,30 @@ class Motions(RobotCommand):
         for key in ("q", "qd", "base"):
             self.close([*self.end(again)[key].values()], [*self.end(whole)[key].values()], 1e-11)
 
+    def test_the_ledger_of_an_undamped_double_pendulum_closes_and_shows_what_a_method_creates(self):
+        """Two rods let go from the level, 10 s: chaotic, and nothing may take or give energy."""
+        rod = lambda name: link(name, 1, (0, 0, -0.5), (1 / 12, 0, 0, 1 / 12, 0, 1e-4))
+        urdf = robot('<link name="base"/>', rod("a"), rod("b"),
+                     joint("first", "continuous", "base", "a", axis="0 1 0"),
+                     joint("second", "continuous", "a", "b", xyz="0 0 -1", axis="0 1 0"))
+        start = {"q": {"first": math.pi / 2, "second": 0}}
+        run = lambda *options: self.answer(urdf, "--duration", 10, "--every", 0.01, *options,
+                                           state=start)
+        exact = run("--integrator", "dopri5", "--tolerance", "1e-11")
+        most = max(sample["kinetic_energy"] for sample in exact["samples"])
+        self.assertGreater(most, 10)
+        self.assertLess(abs(exact["ledger"]["numerical"]), 1e-9 * most)
+        for sample in exact["samples"]:
+            self.assertLess(abs(sample["kinetic_energy"] + sample["potential_energy"] -
+                                exact["samples"][0]["potential_energy"]), 1e-9 * most)
+        # Semi-implicit Euler's row is what its states have gained, as it is.
+        rough = run("--step", "0.001")
+        first, last = rough["samples"][0], rough["samples"][-1]
+        gained = (last["kinetic_energy"] + last["potential_energy"] - first["kinetic_energy"] -
+                  first["potential_energy"])
+        self.assertLess(abs(rough["ledger"]["numerical"] - gained), 1e-11 * most)
+        self.assertGreater(abs(gained), 1e-5)
+
     def test_a_follower_keeps_its_ratio_along_the_run(self):
         urdf = robot('<link name="base"/>', link("a"), link("b"),
                      joint("lead", "continuous", "base", "a", axis="0 1 0"),
@@ -158,6 +182,15 @@ class Samples(RobotCommand):
         out = self.run_it(PENDULUM, "--duration", 0.2, "--every", 0.1, state=LEVEL).stdout
         for word in ("t [s]", "hinge [rad]", "kinetic [J]", "gravity", "numerical"):
             self.assertIn(word, out)
+
+    def test_the_table_says_what_it_leaves_out(self):
+        out = self.run_it("assets/scenes/box_stack.toml", "--duration", 0.001).stdout
+        self.assertIn(" 1 step of ", out)
+        self.assertIn("(7 of 10 bodies are not shown: --csv and --json have them all)", out)
+        # Boxes push only their neighbours and the floor: nothing else has a row of momentum.
+        for line in out.split("momentum, 0 to")[1].splitlines():
+            if line.startswith("contact/"):
+                self.assertTrue(any(float(n) for n in line.split()[1:]), line)
 
 
 if __name__ == "__main__":

@@ -50,6 +50,8 @@ const Odd kOddLines[] = {
     {"ixx=\"0.01\" ixy=\"0\" ixz=\"0\" iyy=\"0.02\" iyz=\"0\" izz=\"0.025\"",
      "ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"", 7,
      "link 'arm1': its inertia is zero: a point mass of 2 kg"},
+    {"xyz=\"0.2 0 0\"", "xyz=\"0.2 0 0\" rpy=\"0 90 0\"", 5,
+     "rpy = '0 90 0' is more than a full turn"},
     {"value=\"2\"", "value=\"0\"", 6, "link 'arm1': its mass is 0, but its inertia is not"},
 };
 

@@ -69,6 +69,9 @@ int run_inspect(const InspectOptions& options) {
     faults.add({"", 0, "--at", "is for a recording", "give one, or --state"});
   if (options.step && is_recorded)
     faults.add({"", 0, "--step", "a recording has its own step", "leave it out"});
+  else if (options.step && options.robot.model.extension() != ".toml")
+    faults.add({"", 0, "--step", "a robot alone takes no step: what is told is of one instant",
+                "leave it out, or give a scene"});
   const RobotOptions& given = options.robot;
   if (is_recorded && (!given.state.empty() || !given.gravity.empty() || given.floating ||
                       !given.friction || !given.armature || given.strict))
@@ -82,6 +85,7 @@ int run_inspect(const InspectOptions& options) {
     memory = std::move(instant.memory);
     files = std::move(instant.files);
     t = instant.t;
+    view.ledger = std::move(instant.ledger);
     return std::move(instant.prepared);
   });
   std::optional<Inspected> inspected;
@@ -102,7 +106,7 @@ int run_inspect(const InspectOptions& options) {
                       Integrator::semi_implicit)
     inspected->warnings.emplace_back(
         "the forces are those of a semi-implicit step, not of the scene's integrator");
-  const Inspection in(input.robot.model, inspected->x, inspected->actors);
+  const Inspection in(input.robot.model, inspected->x, inspected->actors, inspected->loops);
   std::vector<Check> checks = run_checks(in);
   if (is_scene) checks.push_back(step_check(in, inspected->qdd_of_step));
 

@@ -1,6 +1,8 @@
 // Pass 1: how the body moves, and what it takes by itself.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "app/inspect/command/pass_pages.h"
 #include "app/inspect/command/pass_words.h"
 
@@ -54,7 +56,13 @@ void write_first_pass(const Inspection& in, std::size_t i, Sheet& sheet) {
   std::vector<std::pair<std::string, Vector6>> terms{{"v x* I v", axes.show(gyroscopic)}};
   if (!axes.show(in.forces.f_ext[i]).isZero(0))
     terms.emplace_back("- f_ext", axes.show(-in.forces.f_ext[i]));
-  sheet.sum(terms, "p", axes.show(own_force(in, i)));
+  const Motion<double>& v = in.w.v[i];
+  const Force<double> h = in.model.I[i] * v;
+  const auto length = [](const Vec3<double>& a) { return std::sqrt(dot(a, a)); };
+  const double shift = length(v.w) * length(h.f),
+               turn = length(v.w) * length(h.n) + length(v.v) * length(h.f);
+  sheet.sum(terms, "p", axes.show(own_force(in, i)),
+            (Vector6() << Vector3::Constant(turn), Vector3::Constant(shift)).finished());
 }
 
 }  // namespace twinarm

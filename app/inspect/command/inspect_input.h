@@ -16,6 +16,7 @@ struct Inspected {
   std::vector<std::string> warnings;
   // Of a scene: accelerations of the step that was run, to be found again. Empty for a URDF.
   std::vector<double> qdd_of_step;
+  std::vector<LoopClosure> loops;  // of a scene
 };
 
 // Friction, mimics, given torques and wrenches at the state.

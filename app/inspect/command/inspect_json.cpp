@@ -152,6 +152,11 @@ std::string inspect_json(const Inspection& in, const InspectView& view,
     json.end_object();
   }
   json.end_array();
+  if (!view.ledger.empty()) {
+    json.key("ledger").begin_object();
+    for (const LedgerRow& row : view.ledger) json.key(row.name).number(row.work);
+    json.end_object();
+  }
   json.key("axes").text(view.axes);
   json.key("about").text(view.about);
   json.key("warnings").texts(view.warnings);

@@ -7,6 +7,7 @@
 #include "app/inspect/balance.h"
 #include "app/inspect/checks.h"
 #include "app/inspect/inspection.h"
+#include "app/simulate/ledger.h"
 
 namespace twinarm {
 
@@ -18,6 +19,7 @@ struct InspectView {
   std::vector<std::string> forces;               // sources to be read out; none: all
   bool forces_alone = false;                     // pages for people tell of nothing else
   std::string title;
+  std::vector<LedgerRow> ledger;  // of a recording, up to its instant [J]
   std::vector<std::string> warnings;
 };
 

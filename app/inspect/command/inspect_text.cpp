@@ -1,7 +1,9 @@
 // The pages for people, one after the other: passes, wrenches, forces by name, checks.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "app/inspect/command/force_pages.h"
 #include "app/inspect/command/inspect_output.h"
@@ -39,6 +41,25 @@ void write_checks(const std::vector<Check>& checks, Sheet& sheet) {
   sheet.line(table.str());
 }
 
+// The largest rows, one after the other; what did nothing is left out.
+void write_ledger(std::vector<LedgerRow> rows, Sheet& sheet) {
+  constexpr std::size_t most = 24;
+  if (rows.empty()) return;
+  double change = 0;
+  for (const LedgerRow& row : rows) change += row.work;
+  std::erase_if(rows, [](const LedgerRow& row) { return row.work == 0; });
+  std::stable_sort(rows.begin(), rows.end(), [](const LedgerRow& a, const LedgerRow& b) {
+    return std::abs(a.work) > std::abs(b.work);
+  });
+  std::string text = " ";
+  for (std::size_t i = 0; i < std::min(rows.size(), most); ++i)
+    text += fmt::format(" {} {},", rows[i].name, cell(rows[i].work));
+  if (rows.size() > most) text += fmt::format(" and {} smaller ones,", rows.size() - most);
+  sheet.title("WORK ON THE BODIES since the start of the run [J]", "the largest first");
+  sheet.line(
+      wrapped(text + fmt::format(" together {}, the change of kinetic energy", cell(change))));
+}
+
 }  // namespace
 
 std::string inspect_text(const Inspection& in, const InspectView& view,
@@ -54,6 +75,7 @@ std::string inspect_text(const Inspection& in, const InspectView& view,
     write_balances(in, view, sheet);
   }
   write_named_forces(in, view, sheet);
+  if (!view.forces_alone) write_ledger(view.ledger, sheet);
   write_checks(checks, sheet);
   for (const std::string& warning : view.warnings) sheet.line(wrapped("warning: " + warning));
   return sheet.str();

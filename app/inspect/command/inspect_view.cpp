@@ -23,6 +23,14 @@ std::size_t index_of_body(const std::string& option, const std::string& name,
   return 0;
 }
 
+// Also all points of a contact, "contact/A-B/1", by the contact's name.
+bool is_called(const std::string& name, const std::string& wanted) {
+  const std::string rest = name.substr(std::min(wanted.size(), name.size()));
+  const bool is_point = rest.size() > 1 && rest[0] == '/' &&
+                        rest.find_first_not_of("0123456789", 1) == std::string::npos;
+  return name == wanted || (is_point && name.starts_with(wanted));
+}
+
 void read_axes(const std::string& text, const Model<double>& model, InspectView& view,
                FaultList& faults) {
   view.axes = text;
@@ -92,7 +100,7 @@ void read_forces(const InspectOptions& options, const std::vector<Actor>& actors
   for (const std::string& wanted : options.forces) {
     bool found = false;
     for (const std::string& name : names)
-      if (name == wanted || name.substr(name.find('/') + 1) == wanted) {
+      if (is_called(name, wanted) || is_called(name.substr(name.find('/') + 1), wanted)) {
         view.forces.push_back(name);
         found = true;
       }

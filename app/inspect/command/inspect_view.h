@@ -12,7 +12,8 @@ void read_passes(const InspectOptions& options, InspectView& view, FaultList& fa
 // --body, --axes, --about: names of bodies.
 void read_bodies(const InspectOptions& options, const Model<double>& model, InspectView& view,
                  FaultList& faults);
-// --force: the whole name of a force, or what stands after its first slash.
+// --force: the whole name of a force, or what stands after its first slash; of a contact with
+// several points without their numbers all of them.
 void read_forces(const InspectOptions& options, const std::vector<Actor>& actors, InspectView& view,
                  FaultList& faults);
 

@@ -34,7 +34,7 @@ std::vector<Actor> given_actors(const RobotInput& input) {
 
 Inspected inspect_robot(const RobotInput& input) {
   const Model<double>& model = input.model;
-  Inspected inspected{input.state.x, given_actors(input), input.warnings, {}};
+  Inspected inspected{input.state.x, given_actors(input), input.warnings, {}, {}};
   Forces<double> forces(model);
   for (const Actor& actor : inspected.actors) {
     for (const Actor::OnBody& on : actor.bodies) forces.f_ext[on.body] += on.f;

@@ -68,6 +68,7 @@ class FirstStep {
     add_limits();
     add_bilateral();
     inspected.actors = std::move(actors_);
+    inspected.loops = sim_.dynamics().bilateral().loops().loops();
     return inspected;
   }
 

@@ -46,8 +46,9 @@ void write_joint(const Inspection& in, std::size_t i, const LinkAxes& axes, doub
   const Eigen::MatrixXd D = axes.square(in.w.D);
   sheet.heading("U = IA S", "force that a unit acceleration of the joint takes (n; f)",
                 "kg m^2, kg m; kg m, kg");
+  // Beside all of IA: of what a shifting joint does not turn, nothing but rounding is left.
   write_columns(sheet, "U", U,
-                axes.show(in.w.IA[i]).cwiseAbs() * S.cwiseAbs().rowwise().maxCoeff());
+                axes.show(in.w.IA[i]).cwiseAbs().rowwise().maxCoeff() * S.cwiseAbs().maxCoeff());
   const Eigen::MatrixXd StU = S.transpose() * U, rotor = D - StU;
   const char* meaning = "felt at the joint: ancestors locked, descendants free";
   if (axes.nv() == 1) {

@@ -76,10 +76,11 @@ void Sheet::row(std::string_view label, const Vector6& six, const Vector6& size)
 }
 
 void Sheet::sum(const std::vector<std::pair<std::string, Vector6>>& terms, std::string_view name,
-                const Vector6& total) {
+                const Vector6& total, const Vector6& made_of) {
   Vector6 size = total.cwiseAbs();
   for (const auto& term : terms) size = size.cwiseMax(term.second.cwiseAbs());
   const bool told = terms.size() > 1 && !size.isZero(0);
+  size = size.cwiseMax(made_of);
   for (const auto& [label, value] : terms)
     if (told) row(label, value, size);
   if (told) line(std::string(6 + kLabel, ' ') + std::string(6 * kColumn + 3, '-'));

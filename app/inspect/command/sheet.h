@@ -29,8 +29,9 @@ class Sheet {
   // What is rounding beside `size` is 0; turning and shifting parts have sizes of their own.
   void row(std::string_view label, const Vector6& six, const Vector6& size);
   // Terms, a line, and what they add up to. What is one term alone, or zero, is not repeated.
+  // `made_of`: sizes of what the terms are differences of, beside which rounding is 0.
   void sum(const std::vector<std::pair<std::string, Vector6>>& terms, std::string_view name,
-           const Vector6& total);
+           const Vector6& total, const Vector6& made_of = Vector6::Zero());
   void matrix(const Eigen::MatrixXd& m);
   const std::string& str() const { return text_; }
 

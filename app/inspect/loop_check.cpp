@@ -1,0 +1,155 @@
+// Closed loops, gears and followers: the acceleration that was found keeps them closed.
+//
+// A loop asks for g(q, t) = 0, so along the motion g'' = J qdd + gamma = 0. Neither J nor gamma is
+// looked at: g is made of poses alone, along a curve with the velocity and the acceleration of the
+// motion, and differenced twice,
+//   g'' = (g(s) - 2 g(0) + g(-s)) / s^2 + series in s^2,
+// with Richardson's extrapolation to order 8. g as in solver/loop_closure.h, by the pose of C_b in
+// C_a; of a distance half of its square over it, which has the same g'' where g = g' = 0 and no
+// root. Errors are parts of the largest of: accelerations of both ends, gravity, and what pushes
+// over the mass that it pushes, for g'' is what they leave. Cost O(n) a loop.
+#include <algorithm>
+#include <cmath>
+
+#include "app/inspect/checks.h"
+#include "app/inspect/motion_curve.h"
+
+namespace twinarm {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+bool is_of_joints(const LoopClosure& loop) {
+  return loop.type == LoopType::gear || loop.type == LoopType::locked;
+}
+
+// Poses to the second order in s.
+State<double> poses_on_the_way(const Inspection& in, double s) {
+  State<double> x = in.x;
+  std::vector<double> mean = in.x.qd;
+  for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += 0.5 * s * in.w.qdd[k];
+  for (std::size_t i = 1; i < in.body_count(); ++i)
+    if (in.model.joint[i] == JointType::prescribed) {
+      // (w; v) and its rate in body axes, which turn: p'' = R (v' + w x v).
+      double* q = x.q.data() + in.model.iq[i];
+      const Vec3<double> turned =
+          cross(Vec3<double>{q[7], q[8], q[9]}, Vec3<double>{q[10], q[11], q[12]});
+      for (std::size_t k = 0; k < 6; ++k) q[kPose + k] += 0.5 * s * q[kPose + 6 + k];
+      q[10] += 0.5 * s * turned.x, q[11] += 0.5 * s * turned.y, q[12] += 0.5 * s * turned.z;
+    }
+  move(in.model, mean, s, x);
+  return x;
+}
+
+// g, then the places and the axes of both ends.
+VectorXd rows_and_ends(const Inspection& in, const LoopClosure& loop, double s, double distance,
+                       Kinematics& k) {
+  const State<double> x = poses_on_the_way(in, s);
+  const auto a = static_cast<std::size_t>(loop.body_a), b = static_cast<std::size_t>(loop.body_b);
+  const auto rows = static_cast<Index>(facts_of(loop.type).rows);
+  if (is_of_joints(loop)) {
+    VectorXd all(3);
+    all[1] = x.q[in.model.iq[a]];
+    all[2] = loop.type == LoopType::gear ? loop.ratio * x.q[in.model.iq[b]] : 0;
+    all[0] = all[1] - all[2] - loop.offset;
+    return all;
+  }
+  forward_kinematics(in.model, x, k);
+  const Pose X_WCa = k.X_WL[a] * loop.X_LaC, X_WCb = k.X_WL[b] * loop.X_LbC;
+  const Pose X_CaCb = X_WCa.inverse() * X_WCb;
+  VectorXd all(rows + 24);
+  if (loop.type == LoopType::distance)
+    all[0] = X_CaCb.p.squaredNorm() / (2 * distance);
+  else
+    all.head<3>() = X_CaCb.p;
+  const Matrix3& R = X_CaCb.R;
+  if (loop.type == LoopType::hinge) all.segment<2>(3) << R(0, 2), R(1, 2);
+  if (loop.type == LoopType::weld) all.segment<3>(3) << R(1, 2), R(2, 0), R(0, 1);
+  all.tail<24>() << X_WCa.p, X_WCb.p, X_WCa.R.reshaped(), X_WCb.R.reshaped();
+  return all;
+}
+
+// A time in which neither end moves far; of joints, what carries them does not count. 0: nothing
+// moves it.
+double step_of_loop(const Inspection& in, const LoopClosure& loop) {
+  double fastest = 0;
+  for (const int end : {loop.body_a, loop.body_b}) {
+    double rate = 0, acceleration = 0;
+    for (auto i = static_cast<std::size_t>(end); i > 0; i = is_of_joints(loop) ? 0 : in.parent(i)) {
+      for (std::size_t dof = in.model.iv[i]; dof < in.model.iv[i] + in.model.dofs(i); ++dof)
+        rate += std::abs(in.x.qd[dof]), acceleration += std::abs(in.w.qdd[dof]);
+      if (in.model.joint[i] != JointType::prescribed) continue;
+      const double* q = in.x.q.data() + in.model.iq[i];
+      for (std::size_t k = kPose; k < kPose + 6; ++k)
+        rate += std::abs(q[k]), acceleration += std::abs(q[k + 6]);
+    }
+    fastest = std::max({fastest, rate, std::sqrt(acceleration)});
+  }
+  return fastest > 0 ? 0.5 / fastest : 0;
+}
+
+// What the accelerations are made of.
+double largest_push(const Inspection& in) {
+  double largest = std::max(to_eigen(in.model.gravity).norm(), 1e-300);
+  for (const Actor& actor : in.actors)
+    for (const Actor::OnBody& on : actor.bodies)
+      if (const double m = in.model.I[on.body].m; m > 0)
+        largest = std::max(largest, to_eigen(in.force_of(on).f).norm() / m);
+  return largest;
+}
+
+double loop_error(const Inspection& in, const LoopClosure& loop, double push, Kinematics& k) {
+  const double first = step_of_loop(in, loop);
+  if (first == 0) return 0;
+  const Vector3 gap = k.X_WL[static_cast<std::size_t>(loop.body_a)] * loop.X_LaC.p -
+                      k.X_WL[static_cast<std::size_t>(loop.body_b)] * loop.X_LbC.p;
+  const double distance = std::max(gap.norm(), 1e-300);
+  const VectorXd now = rows_and_ends(in, loop, 0, distance, k);
+  const VectorXd second = extrapolated<4>([&](std::size_t level) {
+    const double s = std::ldexp(first, -static_cast<int>(level));
+    return VectorXd((rows_and_ends(in, loop, s, distance, k) - 2 * now +
+                     rows_and_ends(in, loop, -s, distance, k)) /
+                    (s * s));
+  });
+  forward_kinematics(in.model, in.x, k);
+  const auto rows = static_cast<Index>(facts_of(loop.type).rows);
+  return second.head(rows).lpNorm<Eigen::Infinity>() /
+         std::max(push, second.tail(second.size() - rows).lpNorm<Eigen::Infinity>());
+}
+
+// A follower is geared to its leader.
+std::vector<LoopClosure> with_followers(const Model<double>& model,
+                                        std::vector<LoopClosure> loops) {
+  const auto body_of = [&](std::size_t dof) {
+    int body = 1;
+    while (model.dofs(static_cast<std::size_t>(body)) == 0 ||
+           model.iv[static_cast<std::size_t>(body)] != dof)
+      ++body;
+    return body;
+  };
+  for (const Mimic& mimic : model.mimics) {
+    LoopClosure gear;
+    gear.type = LoopType::gear;
+    gear.body_a = body_of(mimic.follower), gear.body_b = body_of(mimic.leader);
+    gear.ratio = mimic.ratio;
+    gear.name = model.joint_name[static_cast<std::size_t>(gear.body_a)];
+    loops.push_back(std::move(gear));
+  }
+  return loops;
+}
+
+}  // namespace
+
+std::vector<NamedError> loop_errors(const Inspection& in) {
+  std::vector<NamedError> errors;
+  const std::vector<LoopClosure> loops = with_followers(in.model, in.loops);
+  if (loops.empty()) return errors;
+  const double push = largest_push(in);
+  Kinematics k = in.k;
+  for (const LoopClosure& loop : loops)
+    errors.push_back({loop.name, loop_error(in, loop, push, k)});
+  return errors;
+}
+
+}  // namespace twinarm
