@@ -18,6 +18,11 @@ std::optional<RobotDescription> read_model_file(const RobotOptions& options, Fau
                 "give a robot's URDF, or run the scene with `twinarm simulate`"});
     return std::nullopt;
   }
+  if (file.extension() == ".twinrec") {
+    faults.add({file.string(), 0, "model", "is a recording",
+                "give a robot's URDF; `twinarm inspect` and `twinarm replay` open recordings"});
+    return std::nullopt;
+  }
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
     faults.add({file.string(), 0, "model", "is a folder", "name the robot's URDF in it"});

@@ -132,7 +132,8 @@ void print_ledgers(const ComparedLedgers& ledgers, double from, double to) {
   TextTable works({"work on the bodies, " + span, "recorded [J]", "fork [J]", "difference [J]"});
   double recorded = 0, fork = 0;
   for (const ComparedWork& row : ledgers.works) {
-    works.add({row.name, cell(row.recorded), cell(row.fork), cell(row.fork - row.recorded)});
+    if (row.recorded != 0 || row.fork != 0)
+      works.add({row.name, cell(row.recorded), cell(row.fork), cell(row.fork - row.recorded)});
     recorded += row.recorded, fork += row.fork;
   }
   works.add({"change of kinetic energy", cell(recorded), cell(fork), cell(fork - recorded)});
@@ -179,8 +180,8 @@ void check_plot(const std::filesystem::path& file) {
   if (file.extension() != ".svg" || std::filesystem::is_directory(file, ignored))
     throw InputError(
         {{file.string(), 0, "--plot", "is drawn as SVG, a file", "give a name that ends in .svg"}});
-  require_writable_folder(folder_of(file), "--plot");
   const Gnuplot is_there(folder_of(file));
+  make_folder(folder_of(file), "--plot");
 }
 
 std::string with_unit(const RecordedColumn& column) {
@@ -223,7 +224,6 @@ void draw_fork(const Recording& recording, const Replay& recorded, const Replay&
   std::string change;
   for (const std::string& text : changes) change += (change.empty() ? "" : ", ") + text;
   Gnuplot gnuplot(folder_of(file));
-  make_folder(folder_of(file), "--plot");
   std::string script = fmt::format(
       "set multiplot\nset xrange [{}:{}]\nset key at screen 0.735,0.93 left top Left reverse\n{}"
       "set format x ''\nset label 1 {} at screen 0.095,0.965 textcolor '#333333'\n"

@@ -30,7 +30,7 @@ ComparedLedgers compared_ledgers(const Replay& recorded, const Replay& fork);
 
 // The values that part most, then both ledgers, with the differences.
 void print_fork(const Recording& recording, const Replay& recorded, const Replay& fork);
-// Before a long run: throws InputError where the figure could not be drawn.
+// Before a long run: makes the folder. Throws InputError where the figure could not be drawn.
 void check_plot(const std::filesystem::path& file);
 // The value that parts most over the rows of the ledger that do. Throws InputError.
 void draw_fork(const Recording& recording, const Replay& recorded, const Replay& fork,

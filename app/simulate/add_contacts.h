@@ -35,6 +35,11 @@ class SceneContacts {
   // Of the last step; null where nothing may touch, and where no joint is limited.
   const ContactConstraints* contacts() const { return contacts_ ? &*contacts_ : nullptr; }
   const JointLimits* limits() const { return limits_ ? &*limits_ : nullptr; }
+  // In the step that was taken last, a side step included: whether joints beyond their limits were
+  // moved back, and no bodies apart, which would be one equation.
+  bool only_limits_were_passed() const {
+    return limits_ && limits_->wants_separation() && !(contacts_ && contacts_->wants_separation());
+  }
 
  private:
   void add_geometries();

@@ -53,6 +53,7 @@ void MomentumLedger::visit_memory(Memory& memory) {
   for (auto* sums : {&sums_, &stabilisation_})
     for (Exchange& sum : *sums) sum.visit_memory(memory);
   separation_.visit_memory(memory);
+  limit_separation_.visit_memory(memory);
   memory.visit(mimics_);
   for (State<double>* x : {&start_, &now_}) {
     memory.visit(x->q);
@@ -62,7 +63,8 @@ void MomentumLedger::visit_memory(Memory& memory) {
 }
 
 void MomentumLedger::add_step(double h, std::span<const double> weights,
-                              const std::vector<State<double>>& inner, const Simulation& after) {
+                              const std::vector<State<double>>& inner, const Simulation& after,
+                              bool by_limits) {
   using Side = SceneCouplings::Side;
   const State<double>& end = after.state();
   if (rule_ == Rule::at_start) {
@@ -103,7 +105,7 @@ void MomentumLedger::add_step(double h, std::span<const double> weights,
     stabilisation_[l] += account.stabilisation()[l];
   }
   for (std::size_t i = 0; i < mimics_.size(); ++i) mimics_[i] += account.mimics()[i];
-  separation_ += account.separation();
+  (by_limits ? limit_separation_ : separation_) += account.separation();
   now_ = end;
 }
 

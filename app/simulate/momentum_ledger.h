@@ -42,13 +42,14 @@ class MomentumLedger {
   // Whether forces at inner states are of use, and with which weights, the ends included.
   bool wants_inner() const { return rule_ == Rule::integral; }
   // A step of h, from the state of the last call (or the start), that `after` has just taken.
+  // `by_limits`: SceneContacts::only_limits_were_passed().
   void add_step(double h, std::span<const double> weights, const std::vector<State<double>>& inner,
-                const Simulation& after);
+                const Simulation& after, bool by_limits);
   void visit_memory(Memory& memory);
 
   // Of the energy ledger: `constraint/NAME`, `constraint/NAME/stabilisation`, `joint/NAME/mimic`,
-  // `contact/stabilisation` (of joint limits alone: `joint/NAME/limit/stabilisation`, of several
-  // `joint/limits/stabilisation`). `contacts` may be null.
+  // `contact/stabilisation`; of joint limits `joint/NAME/limit/stabilisation`, of several limits
+  // `joint/limits/stabilisation`. `contacts` may be null.
   std::vector<LedgerRow> energy_rows(const Simulation& simulation,
                                      const SceneContacts* contacts) const;
   // `numerical` last. `contacts` may be null.
@@ -89,7 +90,7 @@ class MomentumLedger {
   std::vector<Exchange> sums_;  // by the places above
   std::vector<Exchange> stabilisation_;
   std::vector<double> mimics_;
-  Exchange separation_;
+  Exchange separation_, limit_separation_;  // of contacts; in steps where only limits were passed
   State<double> start_, now_;
   Kinematics k_, k_end_;
   mutable Workspace<double> w_;

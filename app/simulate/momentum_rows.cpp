@@ -4,14 +4,11 @@
 namespace twinarm {
 namespace {
 
-// Whose the moving apart is. Where bodies can touch and joints have limits it is of both, in one
-// equation.
-std::string name_of_separation(const Model<double>& model, const SceneContacts* contacts) {
-  if (!contacts || contacts->contacts() || !contacts->limits()) return "contact/stabilisation";
-  const std::vector<JointLimits::Limit>& limits = contacts->limits()->limits();
-  if (limits.size() > 1) return "joint/limits/stabilisation";
-  return "joint/" + model.joint_name[static_cast<std::size_t>(limits.front().body)] +
-         "/limit/stabilisation";
+std::string name_of_limits(const Model<double>& model, const SceneContacts* contacts) {
+  if (!contacts || !contacts->limits() || contacts->limits()->limits().size() != 1)
+    return "joint/limits/stabilisation";
+  const int body = contacts->limits()->limits().front().body;
+  return "joint/" + model.joint_name[static_cast<std::size_t>(body)] + "/limit/stabilisation";
 }
 
 }  // namespace
@@ -29,8 +26,9 @@ std::vector<LedgerRow> MomentumLedger::energy_rows(const Simulation& simulation,
     for (std::size_t i = 1; i < model.parent.size(); ++i)
       if (model.dofs(i) > 0 && model.iv[i] == model.mimics[m].follower && mimics_[m] != 0)
         rows.push_back({"joint/" + model.joint_name[i] + "/mimic", mimics_[m]});
-  if (separation_.work != 0)
-    rows.push_back({name_of_separation(model, contacts), separation_.work});
+  if (separation_.work != 0) rows.push_back({"contact/stabilisation", separation_.work});
+  if (limit_separation_.work != 0)
+    rows.push_back({name_of_limits(model, contacts), limit_separation_.work});
   return rows;
 }
 
@@ -81,7 +79,9 @@ std::vector<MomentumRow> MomentumLedger::rows(const Simulation& simulation,
   for (std::size_t l = 0; l < loop_count_; ++l)
     add("constraint/" + loops[l].name + "/stabilisation", stabilisation_[l]);
   if (!separation_.impulse.isZero(0) || !separation_.moment.isZero(0))
-    add(name_of_separation(input_.model, contacts), separation_);
+    add("contact/stabilisation", separation_);
+  if (!limit_separation_.impulse.isZero(0) || !limit_separation_.moment.isZero(0))
+    add(name_of_limits(input_.model, contacts), limit_separation_);
   for (std::size_t t = 0; t < trees_.size(); ++t) add("joint/" + trees_[t].joint, through[t]);
   Exchange rest = contents(moved_, now_) - contents(moved_, start_);
   for (const MomentumRow& row : rows) rest += Exchange{0, -row.linear, -row.angular};

@@ -203,6 +203,7 @@ class Run : public RunView {
     const StepReport report = take();
     if (report.interrupted) return stop_for_interrupt(t);
     ++result_.steps;
+    const bool by_limits = contacts_ && contacts_->only_limits_were_passed();
     if (!report.finite || !report.reached) {
       // Of the samples of this step only those at its start are good.
       for (; has_sample_within && next_ < plan_.times.size() &&
@@ -220,7 +221,7 @@ class Run : public RunView {
     for (const double part : ledger_->inner_nodes())
       inner_.push_back(step_aside(*before_, part * report.h, t));
     ledger_->add_step(report.h, inner_, sim_.state());
-    momentum_->add_step(report.h, ledger_->weights(), inner_, sim_);
+    momentum_->add_step(report.h, ledger_->weights(), inner_, sim_, by_limits);
     result_.end = t_next;
     limits_.look(t_next, sim_.state());
     if (watch_.look) watch_.look(*this);

@@ -94,6 +94,8 @@ class Faults(RobotCommand):
     def test_a_folder_is_told_to_be_one(self):
         error, = self.errors("assets/robots")
         self.assertIn("is a folder; name the robot's URDF", error)
+        error, = self.errors("run.twinrec")
+        self.assertIn("is a recording", error)
         error, = self.errors(PENDULUM, state=self.folder / "none.json")
         self.assertIn("does not exist; check the name", error)
 

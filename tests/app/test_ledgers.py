@@ -149,6 +149,22 @@ class Ledgers(RecordingCommand):
             self.assertLess(found["linear"], tolerance, contact)
             self.close(found["rows"]["constraint/hook"] / exact, 1, tolerance, contact)
 
+    def test_a_joint_that_is_moved_back_to_its_limit_has_a_row_of_its_own(self):
+        """Let go 0.1 rad beyond it, alone and beside a ball that rests on a floor."""
+        (self.folder / "test.urdf").write_text(robot(
+            '<link name="base"/>', link("rod"),
+            joint("hinge", "revolute", "base", "rod", axis="0 1 0",
+                  more='<limit lower="-0.2" upper="0.2" effort="1" velocity="1"/>')))
+        arm = '[[robot]]\nname = "arm"\nmodel = "test.urdf"\nq = { hinge = 0.3 }\n'
+        ball = ('[[body]]\nname = "ball"\nshape = { sphere = { radius = 0.1 } }\nmass = 1\n'
+                'position = [3, 0, -4.9]\n')
+        scene = self.folder / "limit.toml"
+        for text in (arm, arm + FLOOR + ball):
+            scene.write_text(text)
+            rows = self.balance(scene, "--duration", 0.1)["rows"]
+            self.assertGreater(abs(rows["joint/hinge/limit/stabilisation"]), 1e-3)
+            self.assertNotIn("contact/stabilisation", rows)
+
     def test_with_dormand_prince_the_ledgers_close_where_the_scene_is_smooth(self):
         for name in ("four_bar", "slider_crank"):
             found = self.balance(ROOT / "assets" / "scenes" / (name + ".toml"), "--integrator",

@@ -184,6 +184,11 @@ class ModesOfLoops(RobotCommand):
         mode, = self.answer(scene)["modes"]
         self.close(mode["frequency"], math.sqrt(12 * 9 / (0.2 * 9 + 0.5)), 1e-10)
 
+    def test_a_state_without_a_finite_linear_system_is_refused(self):
+        error, = self.errors("assets/robots/s103/s103.urdf",
+                             state={"qd": {"joint1": 1e200, "joint2": 1e200}})
+        self.assertIn("not finite", error)
+
 
 if __name__ == "__main__":
     robot_command.PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())

@@ -122,7 +122,7 @@ TEST_CASE("the acceleration of the dense equations keeps every loop closed; with
       CHECK_FALSE(bad.pass());
       CHECK(bad.worst == facts.name);
     }
-    MESSAGE(facts.name, ": ", worst);
+    MESSAGE(std::string(facts.name), ": ", worst);
   }
   CHECK(moving > 60);
 }

@@ -21,7 +21,8 @@ std::string short_number(double value, double scale) {
   if (std::isnan(value)) return "nan";
   if (std::abs(value) <= kRounding * scale) return "0";
   std::string text = fmt::format("{:.5g}", value);
-  if (text.find('e') != std::string::npos || text.size() > 10) text = fmt::format("{:.4g}", value);
+  const std::size_t length = text.size() - (value < 0 ? 1 : 0);  // a sign costs no digit
+  if (text.find('e') != std::string::npos || length > 9) text = fmt::format("{:.4g}", value);
   return text;
 }
 
