@@ -36,8 +36,6 @@ template <class S, class Trace = NoTrace>
       w.Xup[i] = joint_transform(joint, q, w.sin.data() + iq, w.cos.data() + iq) * model.Xtree[i];
       w.v[i] = w.Xup[i] * w.v[p] + vJ;
       w.c[i] = crm(w.v[i], vJ) + joint.cJ(q, qd);
-      w.IA[i] = model.I[i];
-      if (forces.has_impedance) w.IA[i] += forces.impedance[i];
       w.pA[i] = crf(w.v[i], model.I[i] * w.v[i]) - forces.f_ext[i];
       remember(S_i, w.S_.data() + model.iv[i]);
     });
@@ -45,6 +43,8 @@ template <class S, class Trace = NoTrace>
 
   // pass 2, tips to base: articulated-body inertias and bias forces
   for (std::size_t i = n_bodies; i-- > 1;) {
+    if (model.last_child[i] == 0) w.IA[i] = model.I[i];  // a tip; others begin at their last child
+    if (forces.has_impedance) w.IA[i] += forces.impedance[i];
     visit_joint(model, forces.armature, i, [&](auto joint, auto felt) TWINARM_KERNEL {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const std::size_t iv = model.iv[i];
@@ -60,7 +60,10 @@ template <class S, class Trace = NoTrace>
         const auto Ia = felt_inertia(felt, w.IA[i], U, factors);  // IA - U D^-1 U^T
         const Force<S> pa = w.pA[i] + Ia * w.c[i] + times(U, solve(factors, u));
         w.pA[p] += transpose_times(w.Xup[i], pa);
-        add_congruence(w.Xup[i], Ia, w.IA[p]);  // IA_p += X^T Ia X
+        if (model.last_child[p] == static_cast<int>(i))  // IA_p = I_p + X^T Ia X
+          add_congruence(w.Xup[i], Ia, ArticulatedInertia<S>(model.I[p]), w.IA[p]);
+        else  // IA_p += X^T Ia X
+          add_congruence(w.Xup[i], Ia, w.IA[p], w.IA[p]);
         trace.felt(i, Ia, pa);
       }
       store(U, w.U, iv), store(D, w.D, w.iD[i]);

@@ -1,30 +1,11 @@
 // The same model and state in another scalar: float, Dual<N>, Batch<N>.
 #pragma once
 
+#include "solver/convert_spatial.h"
 #include "solver/model.h"
 
 namespace twinarm {
 
-template <class T, class S>
-Vec3<T> convert(const Vec3<S>& a) {
-  return {T(a.x), T(a.y), T(a.z)};
-}
-template <class T, class S>
-Mat3<T> convert(const Mat3<S>& a) {
-  return {convert<T>(a.r0), convert<T>(a.r1), convert<T>(a.r2)};
-}
-template <class T, class S>
-Sym3<T> convert(const Sym3<S>& a) {
-  return {T(a.xx), T(a.yy), T(a.zz), T(a.xy), T(a.xz), T(a.yz)};
-}
-template <class T, class S>
-Transform<T> convert(const Transform<S>& a) {
-  return {convert<T>(a.E), convert<T>(a.r)};
-}
-template <class T, class S>
-Inertia<T> convert(const Inertia<S>& a) {
-  return {T(a.m), convert<T>(a.h), convert<T>(a.I)};
-}
 template <class T, class S>
 T convert(const S& a) {
   return T(a);
@@ -43,12 +24,13 @@ Model<T> convert(const Model<double>& m) {
   out.body_name = m.body_name;
   out.joint_name = m.joint_name;
   out.parent = m.parent;
+  out.last_child = m.last_child;
   out.joint = m.joint;
   out.pitch = convert_all<T>(m.pitch);
   out.iq = m.iq;
   out.iv = m.iv;
-  out.Xtree = convert_all<T>(m.Xtree);
-  out.I = convert_all<T>(m.I);
+  out.Xtree = convert_all<Constant<T>>(m.Xtree);
+  out.I = convert_all<Constant<T>>(m.I);
   out.turn = convert_all<T>(m.turn);
   out.gravity = convert<T>(m.gravity);
   out.nq = m.nq;

@@ -34,8 +34,13 @@ inline bool any_lane(const LanesOf<4>::Mask& m) {
   return any_lane(__builtin_shufflevector(m, m, 0, 1) | __builtin_shufflevector(m, m, 2, 3));
 }
 inline bool any_lane(const LanesOf<8>::Mask& m) {
+#if defined(__AVX512DQ__)  // by the lanes' signs
+  using Signs = long long __attribute__((vector_size(64)));
+  return __builtin_ia32_cvtq2mask512(reinterpret_cast<const Signs&>(m)) != 0;
+#else
   return any_lane(__builtin_shufflevector(m, m, 0, 1, 2, 3) |
                   __builtin_shufflevector(m, m, 4, 5, 6, 7));
+#endif
 }
 
 // How many doubles a register holds at the level that a unit is compiled for.

@@ -9,9 +9,11 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "solver/convert_spatial.h"
 #include "solver/joint.h"
 #include "solver/spatial.h"
 
@@ -25,16 +27,33 @@ struct Mimic {
   double ratio = 1, offset = 0;
 };
 
+// By body, and the same in all lanes of S: kept once, and spread over the lanes where it is read.
+// That takes no instruction more than to load them, and an Nth of the memory: batches fill caches.
+template <template <class> class T, class S>
+class Spread {
+ public:
+  Spread() = default;
+  Spread(std::vector<T<Constant<S>>> once) : once_(std::move(once)) {}  // NOLINT: as a vector
+  T<S> operator[](std::size_t i) const { return convert<S>(once_[i]); }
+
+ private:
+  std::vector<T<Constant<S>>> once_;
+};
+template <template <class> class T, class S>
+using Constants =
+    std::conditional_t<std::is_same_v<S, Constant<S>>, std::vector<T<S>>, Spread<T, S>>;
+
 template <class S>
 struct Model {
   std::vector<std::string> body_name;   // the link's name in the user's file
   std::vector<std::string> joint_name;  // of the joint that carries the body; empty for the base
   std::vector<int> parent;
+  std::vector<int> last_child;  // of a body's children that with the highest number; 0: a tip
   std::vector<JointType> joint;
   std::vector<S> pitch;             // of screws [m/rad]; 0 for all others
   std::vector<std::size_t> iq, iv;  // first coordinate and first velocity of joint i
-  std::vector<Transform<S>> Xtree;  // from the parent's body frame to joint i at q_i = identity
-  std::vector<Inertia<S>> I;        // about the body's origin, body axes [kg, kg m, kg m^2]
+  Constants<Transform, S> Xtree;    // from the parent's body frame to joint i at q_i = identity
+  Constants<Inertia, S> I;          // about the body's origin, body axes [kg, kg m, kg m^2]
   std::vector<Mat3<S>> turn;        // R_BL
   Vec3<S> gravity{S(0), S(0), S(-9.81)};  // world axes [m/s^2]
   std::size_t nq = 0, nv = 0;
@@ -60,8 +79,8 @@ void visit_joint(const Model<S>& model, std::size_t i, F&& f) {
 // The same with how its Ia is formed: a hinge is told apart from a geared one.
 template <class S, class F>
 void visit_joint(const Model<S>& model, const std::vector<S>& more_armature, std::size_t i, F&& f) {
-  if (model.joint[i] == JointType::revolute && !is_nonzero(model.armature[model.iv[i]]) &&
-      !is_nonzero(more_armature[model.iv[i]]))
+  if (model.joint[i] == JointType::revolute &&
+      !is_nonzero(model.armature[model.iv[i]] + more_armature[model.iv[i]]))
     return f(RevoluteJoint<S>{}, HingeZeros{});
   visit_joint(model, i, [&](auto joint) { f(joint, FullInertia{}); });
 }

@@ -194,6 +194,9 @@ Model<double> ModelBuilder::build() const {
     append(body, model, R_LB);
   }
   faults.check();
+  model.last_child.resize(model.parent.size());
+  for (int i = 1; i < model.body_count(); ++i)
+    model.last_child[static_cast<std::size_t>(model.parent[static_cast<std::size_t>(i)])] = i;
   add_mimics_to(model, faults);
   check_felt_inertia(model, faults);
   faults.check();

@@ -26,6 +26,14 @@ inline bool is_nonzero(float x) {
   return x != 0;
 }
 
+// The scalar of what is the same in all lanes of S: S itself where it has none.
+template <class S>
+struct ConstantOf {
+  using type = S;
+};
+template <class S>
+using Constant = typename ConstantOf<S>::type;
+
 template <class S>
 struct SinCos {
   S sin, cos;

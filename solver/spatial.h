@@ -247,29 +247,31 @@ template <class S>
 ArticulatedInertia<S> outer(const Force<S>& a, const Force<S>& b) {
   return {symmetric_part_of(outer(a.n, b.n)), outer(a.n, b.f), symmetric_part_of(outer(a.f, b.f))};
 }
-// Adds to `sum` the part of an inertia [0 H; H^T M] about a point, seen from a point r before it:
+// sum = before + the part of an inertia [0 H; H^T M] about a point, seen from a point r before it:
 //   H' = H + [r]x M,   I' = [r]x H^T + ([r]x H'^T)^T   (symmetric: six outputs).
 template <class S>
-void add_shifted(const Vec3<S>& r, const Mat3<S>& H, const Sym3<S>& M, ArticulatedInertia<S>& sum) {
-  sum.M += M;
+void add_shifted(const Vec3<S>& r, const Mat3<S>& H, const Sym3<S>& M,
+                 const ArticulatedInertia<S>& before, ArticulatedInertia<S>& sum) {
+  sum.M = before.M + M;
   const Mat3<S> Hs{H.r0 + r.y * M.row2() - r.z * M.row1(), H.r1 + r.z * M.row0() - r.x * M.row2(),
                    H.r2 + r.x * M.row1() - r.y * M.row0()};
-  sum.H += Hs;
+  sum.H = before.H + Hs;
   const Vec3<S>&p0 = H.r0, &p1 = H.r1, &p2 = H.r2, &q0 = Hs.r0, &q1 = Hs.r1, &q2 = Hs.r2;
-  sum.I.xx = sum.I.xx + r.y * p0.z - r.z * p0.y + r.y * q0.z - r.z * q0.y;
-  sum.I.yy = sum.I.yy + r.z * p1.x - r.x * p1.z + r.z * q1.x - r.x * q1.z;
-  sum.I.zz = sum.I.zz + r.x * p2.y - r.y * p2.x + r.x * q2.y - r.y * q2.x;
-  sum.I.xy = sum.I.xy + r.y * p1.z - r.z * p1.y + r.z * q0.x - r.x * q0.z;
-  sum.I.xz = sum.I.xz + r.y * p2.z - r.z * p2.y + r.x * q0.y - r.y * q0.x;
-  sum.I.yz = sum.I.yz + r.z * p2.x - r.x * p2.z + r.x * q1.y - r.y * q1.x;
+  sum.I.xx = before.I.xx + r.y * p0.z - r.z * p0.y + r.y * q0.z - r.z * q0.y;
+  sum.I.yy = before.I.yy + r.z * p1.x - r.x * p1.z + r.z * q1.x - r.x * q1.z;
+  sum.I.zz = before.I.zz + r.x * p2.y - r.y * p2.x + r.x * q2.y - r.y * q2.x;
+  sum.I.xy = before.I.xy + r.y * p1.z - r.z * p1.y + r.z * q0.x - r.x * q0.z;
+  sum.I.xz = before.I.xz + r.y * p2.z - r.z * p2.y + r.x * q0.y - r.y * q0.x;
+  sum.I.yz = before.I.yz + r.z * p2.x - r.x * p2.z + r.x * q1.y - r.y * q1.x;
 }
-// parent += X^T IA X: the inertia of a child as its parent feels it, RBDA (2.66), by rotation and
-// shift. Added piece by piece, so that little has to be kept in registers.
+// parent = before + X^T IA X: the inertia of a child as its parent feels it, RBDA (2.66), by
+// rotation and shift. Added piece by piece, so that little has to be kept in registers; before may
+// be parent.
 template <class S>
 void add_congruence(const Transform<S>& X, const ArticulatedInertia<S>& a,
-                    ArticulatedInertia<S>& parent) {
+                    const ArticulatedInertia<S>& before, ArticulatedInertia<S>& parent) {
   const Sym3<S> M = rotate_back(X.E, a.M);
-  add_shifted(X.r, transpose(X.E) * (a.H * X.E), M, parent);
+  add_shifted(X.r, transpose(X.E) * (a.H * X.E), M, before, parent);
   parent.I += rotate_back(X.E, a.I);
 }
 

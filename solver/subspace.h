@@ -218,11 +218,11 @@ struct HingeInertia {
 };
 template <class S>
 void add_congruence(const Transform<S>& X, const HingeInertia<S>& a,
-                    ArticulatedInertia<S>& parent) {
+                    const ArticulatedInertia<S>& before, ArticulatedInertia<S>& parent) {
   const Vec3<S>&e0 = X.E.r0, &e1 = X.E.r1;
   const Sym3<S> M = rotate_back(X.E, a.M);
   const Vec3<S> h0 = transpose_times(X.E, a.h0), h1 = transpose_times(X.E, a.h1);  // rows of H E
-  add_shifted(X.r, {e0.x * h0 + e1.x * h1, e0.y * h0 + e1.y * h1, e0.z * h0 + e1.z * h1}, M,
+  add_shifted(X.r, {e0.x * h0 + e1.x * h1, e0.y * h0 + e1.y * h1, e0.z * h0 + e1.z * h1}, M, before,
               parent);
   const Vec3<S> i0 = a.xx * e0 + a.xy * e1, i1 = a.xy * e0 + a.yy * e1;  // rows of I E
   Sym3<S>& I = parent.I;
