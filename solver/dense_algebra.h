@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace twinarm {
 
@@ -18,6 +19,21 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& A);
 // `threshold` times the largest count as zero (0: below the rounding errors of A's size).
 Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
                                   double threshold = 0);
+
+// How many columns of A are independent (pivots below `threshold` times the largest count as zero),
+// and all columns' numbers in the order in which a QR factorization takes them.
+struct PivotedColumns {
+  Eigen::Index rank;
+  std::vector<Eigen::Index> order;
+};
+PivotedColumns pivoted_columns(const Eigen::MatrixXd& A, double threshold);
+
+// A = U diag(values) V^T, V square. Descending.
+struct SingularValues {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd V;
+};
+SingularValues singular_values(const Eigen::MatrixXd& A);
 
 // A x = x lambda. In any order.
 struct Eigensystem {

@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <Eigen/SVD>
 
 #include "solver/dense_algebra.h"
 
@@ -25,6 +26,18 @@ VectorXd shortest_solution(const MatrixXd& A, const VectorXd& b, double threshol
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(A.rows(), A.cols());
   if (threshold > 0) solver.setThreshold(threshold);
   return solver.compute(A).solve(b);
+}
+
+PivotedColumns pivoted_columns(const MatrixXd& A, double threshold) {
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(A);
+  qr.setThreshold(threshold);
+  const auto& order = qr.colsPermutation().indices();
+  return {qr.rank(), {order.begin(), order.end()}};
+}
+
+SingularValues singular_values(const MatrixXd& A) {
+  const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeFullV);
+  return {svd.singularValues(), svd.matrixV()};
 }
 
 }  // namespace twinarm

@@ -1,8 +1,8 @@
 #include "app/inspect/linear_loops.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solver/dense_algebra.h"
 #include "solver/forward_dynamics.h"
@@ -117,11 +117,9 @@ Split split_by(const MatrixXd& J) {
   std::vector<Index> order(static_cast<std::size_t>(n));
   for (Index k = 0; k < n; ++k) order[static_cast<std::size_t>(k)] = k;
   if (J.rows() > 0) {
-    Eigen::ColPivHouseholderQR<MatrixXd> qr(J * weight.asDiagonal());
-    qr.setThreshold(kDependentRows);
-    rank = qr.rank();
-    for (Index k = 0; k < n; ++k)
-      order[static_cast<std::size_t>(k)] = qr.colsPermutation().indices()[k];
+    PivotedColumns columns = pivoted_columns(J * weight.asDiagonal(), kDependentRows);
+    rank = columns.rank;
+    order = std::move(columns.order);
   }
   split.follow.assign(order.begin(), order.begin() + rank);
   split.lead.assign(order.begin() + rank, order.end());

@@ -1,6 +1,5 @@
 #include "app/inspect/linear_system.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -178,10 +177,9 @@ std::vector<Mode> modes_of(const Eigen::MatrixXd& given) {
   A.bottomRightCorner(n, n) *= T;
   A.bottomLeftCorner(n, n) *= T * T;
 
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullV);
-  const Index rank = (svd.singularValues().array() > kNull * svd.singularValues()[0]).count();
-  const Eigen::MatrixXd Q = svd.matrixV().leftCols(rank);
-  const Eigen::MatrixXd Z = svd.matrixV().rightCols(2 * n - rank);
+  const SingularValues sigma = singular_values(A);
+  const Index rank = (sigma.values.array() > kNull * sigma.values[0]).count();
+  const Eigen::MatrixXd Q = sigma.V.leftCols(rank), Z = sigma.V.rightCols(2 * n - rank);
   for (Index z = 0; z < Z.cols(); ++z)
     modes.push_back(mode_of(0, Z.col(z).cast<std::complex<double>>()));
 

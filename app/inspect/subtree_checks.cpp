@@ -1,5 +1,4 @@
 // D, U, u and pA from the equations of motion of each subtree.
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -7,6 +6,7 @@
 
 #include "app/inspect/checks.h"
 #include "app/inspect/second_way.h"
+#include "solver/dense_algebra.h"
 
 namespace twinarm {
 namespace {
@@ -37,7 +37,7 @@ class Subtree {
       : in_(in), second_(second), body_(body), rows_(second.rows_of(body)) {
     M_ii_ = second.M()(rows_.own, rows_.own);
     M_id_ = second.M()(rows_.own, rows_.below);
-    if (!rows_.below.empty()) M_dd_.compute(second.M()(rows_.below, rows_.below));
+    M_dd_ = second.M()(rows_.below, rows_.below);
   }
 
   double D_error() const {
@@ -87,15 +87,14 @@ class Subtree {
 
  private:
   Eigen::MatrixXd solve_below(const Eigen::MatrixXd& b) const {
-    return rows_.below.empty() ? b : Eigen::MatrixXd(M_dd_.solve(b));
+    return rows_.below.empty() ? b : solve_symmetric(M_dd_, b);
   }
 
   const Inspection& in_;
   SecondWay& second_;
   std::size_t body_;
   SecondWay::Rows rows_;
-  Eigen::MatrixXd M_ii_, M_id_;
-  Eigen::LDLT<Eigen::MatrixXd> M_dd_;
+  Eigen::MatrixXd M_ii_, M_id_, M_dd_;
 };
 
 // Of the wrenches at a body: a force that is small because large ones cancel is held against those.

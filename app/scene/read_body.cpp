@@ -1,7 +1,6 @@
-#include <Eigen/Eigenvalues>
-
 #include "app/scene/scene_reader.h"
 #include "collision/import/number_text.h"
+#include "solver/dense_algebra.h"
 
 namespace twinarm {
 namespace {
@@ -22,8 +21,7 @@ std::optional<Matrix3> read_inertia(SceneTable& table, SceneDescription& scene) 
   const double xx = (*given)[0], yy = (*given)[1], zz = (*given)[2];
   const double xy = (*given)[3], xz = (*given)[4], yz = (*given)[5];
   const Matrix3 I = (Matrix3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
-  const Vector3 principal =
-      Eigen::SelfAdjointEigenSolver<Matrix3>(I, Eigen::EigenvaluesOnly).eigenvalues();  // ascending
+  const Vector3 principal = symmetric_eigenvalues(I);  // ascending
   if (!(principal[0] > 0))
     table.fault(
         "inertia",

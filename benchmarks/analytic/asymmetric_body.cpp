@@ -5,7 +5,7 @@
 // Attitude: H keeps its direction; the axis a of dn, e1 or e3, goes round it at
 //   psi' = H (2T - h_a^2 / I_a) / (H^2 - h_a^2),   h = I w,
 // and by the integral of that (of the third kind) and h itself the attitude is known.
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "benchmarks/analytic/smooth_cases.h"

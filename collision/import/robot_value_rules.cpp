@@ -1,10 +1,10 @@
 // The numbers of each link and joint.
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <string>
 
 #include "collision/import/number_text.h"
 #include "collision/import/robot_rules.h"
+#include "solver/dense_algebra.h"
 
 namespace twinarm {
 namespace {
@@ -18,8 +18,7 @@ constexpr double kRounding = 1e-12;
 // A <= B <= C are those of a body of positive density only if A > 0 and A + B >= C: each moment is
 // an integral of two of x^2, y^2, z^2.
 void physical_moments(RuleBook& book, const LinkDescription& link, bool strict) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(link.inertia, Eigen::EigenvaluesOnly);
-  const Vector3 moments = solver.eigenvalues();  // ascending
+  const Vector3 moments = symmetric_eigenvalues(link.inertia);  // ascending
   std::string rule;
   if (!(moments[0] > kRounding * moments.cwiseAbs().maxCoeff()))
     rule = "its inertia is not positive definite";
