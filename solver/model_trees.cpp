@@ -36,7 +36,7 @@ void ModelTrees::add_to(ImpulseProblem& problem, const Forces<double>* forces,
   for (std::size_t i = n; i-- > 1;) {
     if (tree_[i] == ImpulseConstraint::no_tree) continue;
     const auto parent = static_cast<std::size_t>(model.parent[i]);
-    if (parent > 0) add_congruence(w.Xup[i], Ic_[i], Ic_[parent]);
+    if (parent > 0) add_congruence(w.Xup[i], Ic_[i], Ic_[parent], Ic_[parent]);
     const auto size = static_cast<std::size_t>(size_[tree_[i]]);
     double* M = problem.M(tree_[i]);
     for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof) {
