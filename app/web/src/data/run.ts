@@ -1,0 +1,99 @@
+// What a page knows of a run, whoever tells it: a page's own data (embedded.ts), or a program that
+// still runs. World frame: z up, metres, radians; colours sRGB, one byte a channel.
+
+// A quantity over the frames.
+export interface Channel {
+  name: string; // "q/arm/joint1", "coupling/pull_arm1"
+  unit: string; // SI
+  // What it is: coordinate, target and error belong together by `of`.
+  kind: 'coordinate' | 'target' | 'error' | 'energy' | 'coupling' | 'contact' | 'position' | 'rate';
+  of: string; // joint, coupling, pair, body
+  values: Float64Array; // one per frame
+}
+
+// Entries of a draw list, column by column; frame f has the entries first[f] to first[f + 1].
+export interface InstanceColumns {
+  first: Uint32Array;
+  mesh: Uint16Array;
+  flags: Uint8Array; // 1: also seen faintly where bodies hide it
+  shininess: Uint8Array; // 255: polished
+  color: Uint8Array; // r, g, b, a
+  position: Float32Array; // x, y, z
+  turn: Int16Array; // quaternion x, y, z, w in units of 1/32767
+  scale: Float32Array; // x, y, z
+}
+export interface LabelColumns {
+  first: Uint32Array;
+  text: Uint32Array; // index into texts
+  position: Float32Array;
+  offset: Int16Array; // pixels to the right and down
+}
+
+export interface LegendLine {
+  color: [number, number, number];
+  text: string;
+}
+
+export interface Layer {
+  name: string; // "bodies", "ghost", "couplings", ..
+  what: string;
+  shown: boolean; // at first
+  legend: LegendLine[];
+  instances: InstanceColumns;
+  labels: LabelColumns;
+}
+
+export interface MeshData {
+  position: Float32Array;
+  normal: Float32Array;
+  index: Uint32Array;
+}
+
+export interface LedgerData {
+  rows: string[];
+  end: string[]; // joules at the end, all digits
+  works: Float64Array; // frame by frame, row by row within a frame
+}
+
+export interface View {
+  eye: [number, number, number];
+  target: [number, number, number];
+  up: [number, number, number];
+  fieldOfView: number; // vertical
+  light: [number, number, number]; // towards the light
+  radius: number; // of what is seen
+  ground: { visible: boolean; height: number; cell: number; cellsPerMajor: number };
+}
+
+export interface Run {
+  title: string;
+  facts: [string, string][]; // name and value
+  tables: { title: string; head: string[]; rows: string[][] }[];
+  files: { name: string; text: string }[];
+  notes: string[];
+  command: string;
+  times: Float64Array;
+  channels: Channel[];
+  ledger: LedgerData;
+  bodies: string[]; // that have position channels
+  meshes: MeshData[];
+  layers: Layer[];
+  texts: string[]; // of labels
+  view: View;
+}
+
+// The last frame at or before t.
+export function frameAt(times: Float64Array, t: number): number {
+  let low = 0;
+  let high = times.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (times[middle] <= t + 1e-9) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}
+
+export function channelOf(run: Run, name: string): Channel | undefined {
+  return run.channels.find((channel) => channel.name === name);
+}

@@ -1,0 +1,55 @@
+// Elements in one call. Texts are set as texts: names of a file cannot become tags.
+export function element<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Record<string, string> = {},
+  ...children: (Node | string)[]
+): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  made.append(...children);
+  return made;
+}
+
+export function button(
+  label: string | SVGSVGElement,
+  title: string,
+  act: () => void,
+  className = '',
+): HTMLButtonElement {
+  const made = element('button', { type: 'button', title, class: className }, label);
+  if (typeof label !== 'string' || label.length < 3) made.setAttribute('aria-label', title);
+  made.addEventListener('click', act);
+  return made;
+}
+
+// Drawn, as not every system has letters for them. Paths in a square of 16.
+const ICONS = {
+  first: 'M3 3h2v10H3zM13 3v10L6 8z',
+  back: 'M11 3v10L4 8z',
+  play: 'M4 2.5v11l9-5.5z',
+  pause: 'M4 3h3v10H4zM9 3h3v10H9z',
+  on: 'M5 3v10l7-5z',
+  last: 'M11 3h2v10h-2zM3 3v10l7-5z',
+  theme: 'M8 1a7 7 0 1 0 0 14A7 7 0 0 0 8 1zm0 2v10A5 5 0 0 1 8 3z',
+};
+
+export function icon(name: keyof typeof ICONS): SVGSVGElement {
+  const space = 'http://www.w3.org/2000/svg';
+  const made = document.createElementNS(space, 'svg');
+  made.setAttribute('viewBox', '0 0 16 16');
+  made.setAttribute('class', 'icon');
+  made.setAttribute('aria-hidden', 'true');
+  const path = document.createElementNS(space, 'path');
+  path.setAttribute('d', ICONS[name]);
+  made.append(path);
+  return made;
+}
+
+// Digits that people read; all of them stand in the tables.
+export function short(value: number | null | undefined): string {
+  if (value === null || value === undefined || !Number.isFinite(value)) return '–';
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  if (size < 1e-3 || size >= 1e6) return value.toExponential(2).replaceAll('-', '−');
+  return value.toPrecision(4).replaceAll('-', '−');
+}

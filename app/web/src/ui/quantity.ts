@@ -1,0 +1,90 @@
+// A quantity of a pass: numbers by their shape, 6 x 6 as a map of its sizes; unit, frame and
+// equation at the pointer.
+import type { Quantity } from '../data/inspection';
+import { element, short } from './dom';
+
+const AXES = ['x', 'y', 'z'];
+
+function cell(value: number, className = ''): HTMLTableCellElement {
+  return element('td', { class: `number ${className}`, title: String(value) }, short(value));
+}
+
+// Angular part first, as in the book; each half has a unit of its own.
+function six(values: number[], unit: string): HTMLElement {
+  const units = unit.split(';').map((text) => text.trim());
+  const rows = [values.slice(0, 3), values.slice(3)].map((half, i) =>
+    element(
+      'tr',
+      {},
+      ...half.map((value) => cell(value)),
+      element('td', { class: 'unit' }, units[i] ?? units[0]),
+    ),
+  );
+  const heads = AXES.map((axis) => element('th', { scope: 'col' }, axis));
+  return element(
+    'table',
+    { class: 'six' },
+    element('thead', {}, element('tr', {}, ...heads, element('th'))),
+    element('tbody', {}, ...rows),
+  );
+}
+
+// Colours by the size within each 3 x 3 block: blocks have different units.
+function heat(rows: number[][]): HTMLElement {
+  const largest = new Map<string, number>();
+  const block = (i: number, k: number) => `${Math.floor(i / 3)}${Math.floor(k / 3)}`;
+  rows.forEach((row, i) =>
+    row.forEach((value, k) =>
+      largest.set(block(i, k), Math.max(largest.get(block(i, k)) ?? 0, Math.abs(value))),
+    ),
+  );
+  const lines = rows.map((row, i) =>
+    element(
+      'tr',
+      {},
+      ...row.map((value, k) => {
+        const most = largest.get(block(i, k)) ?? 0;
+        const share = most > 0 ? Math.abs(value) / most : 0;
+        const made = cell(value, value < 0 ? 'minus' : 'plus');
+        made.style.setProperty('--share', `${Math.round(62 * share)}%`);
+        if (share < 1e-12) made.classList.add('none');
+        return made;
+      }),
+    ),
+  );
+  return element('table', { class: 'heat' }, element('tbody', {}, ...lines));
+}
+
+function valueOf({ value, unit }: Quantity): HTMLElement {
+  if (typeof value === 'number')
+    return element('p', { class: 'one', title: String(value) }, short(value), ` ${unit}`);
+  if (Array.isArray(value[0])) {
+    const rows = value as number[][];
+    if (rows.length === 6 && rows[0].length === 6) return heat(rows);
+    if (rows[0].length === 6) return element('div', {}, ...rows.map((row) => six(row, unit)));
+    return heat(rows);
+  }
+  const numbers = value as number[];
+  if (numbers.length === 6) return six(numbers, unit);
+  const parts = numbers.map((n) => element('span', { title: String(n) }, `${short(n)}, `));
+  return element('p', { class: 'one' }, ...parts, unit);
+}
+
+export function quantityCard(quantity: Quantity): HTMLElement {
+  const fact = (name: string, text: string) => [element('dt', {}, name), element('dd', {}, text)];
+  const tip = element(
+    'dl',
+    { class: 'tip', role: 'tooltip' },
+    ...fact('is', quantity.meaning),
+    ...fact('unit', quantity.unit),
+    ...fact('frame', quantity.frame),
+    ...fact('from', quantity.equation),
+  );
+  return element(
+    'article',
+    { class: 'quantity', tabindex: '0', 'data-quantity': quantity.name },
+    element('h4', {}, quantity.name, element('span', {}, quantity.meaning)),
+    valueOf(quantity),
+    tip,
+  );
+}

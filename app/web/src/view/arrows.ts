@@ -1,0 +1,60 @@
+// Arrows that a page adds to the picture by itself: forces on the body that is looked at.
+import * as THREE from 'three';
+
+export interface Arrow {
+  from: [number, number, number];
+  along: [number, number, number]; // world axes, metres
+  color: string;
+}
+
+const UP = new THREE.Vector3(0, 1, 0); // the axis of three's cylinders and cones
+
+export class Arrows {
+  private readonly group = new THREE.Group();
+  private readonly shaft = new THREE.CylinderGeometry(1, 1, 1, 16).translate(0, 0.5, 0);
+  private readonly head = new THREE.ConeGeometry(1, 1, 20).translate(0, 0.5, 0);
+
+  constructor(
+    scene: THREE.Scene,
+    private readonly thickness: number,
+  ) {
+    scene.add(this.group);
+  }
+
+  // In the place of those before. Seen through bodies: most of them begin inside of one.
+  set(arrows: Arrow[]): void {
+    for (const mesh of this.group.children as THREE.Mesh<THREE.BufferGeometry, THREE.Material>[])
+      mesh.material.dispose();
+    this.group.clear();
+    for (const arrow of arrows) this.add(arrow);
+  }
+
+  private add({ from, along, color }: Arrow): void {
+    const direction = new THREE.Vector3(...along);
+    const length = direction.length();
+    if (!(length > 0)) return;
+    direction.divideScalar(length);
+    const head = Math.min(6.5 * this.thickness, 0.6 * length);
+    const start = new THREE.Vector3(...from);
+    const neck = start.clone().addScaledVector(direction, length - head);
+    this.put(this.shaft, start, direction, this.thickness, length - head, color);
+    this.put(this.head, neck, direction, 2.4 * this.thickness, head, color);
+  }
+
+  private put(
+    geometry: THREE.BufferGeometry,
+    at: THREE.Vector3,
+    direction: THREE.Vector3,
+    radius: number,
+    length: number,
+    color: string,
+  ): void {
+    const material = new THREE.MeshBasicMaterial({ color, depthTest: false, transparent: true });
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.position.copy(at);
+    mesh.quaternion.setFromUnitVectors(UP, direction);
+    mesh.scale.set(radius, length, radius);
+    mesh.renderOrder = 20;
+    this.group.add(mesh);
+  }
+}

@@ -1,0 +1,88 @@
+// Texts at points of the world: over the picture, in the page's own letters, never hidden by
+// bodies. They step aside from one another by whole lines; a thin line leads to the point.
+import type { LabelColumns } from '../data/run';
+import type { Stage } from './stage';
+
+const SVG = 'http://www.w3.org/2000/svg';
+const LINE = 17; // pixels from one line to the next
+
+interface Box {
+  left: number;
+  top: number;
+  right: number;
+  bottom: number;
+}
+
+interface Item {
+  text: HTMLSpanElement;
+  leader: SVGLineElement;
+}
+
+export class Labels {
+  private readonly items: Item[] = [];
+  private readonly leaders: SVGSVGElement;
+
+  constructor(private readonly host: HTMLElement) {
+    this.leaders = document.createElementNS(SVG, 'svg');
+    host.append(this.leaders);
+  }
+
+  paint(stage: Stage, texts: string[], parts: { columns: LabelColumns; frame: number }[]): void {
+    const taken: Box[] = [];
+    let used = 0;
+    for (const { columns, frame } of parts)
+      for (let i = columns.first[frame]; i < columns.first[frame + 1]; ++i) {
+        const [x, y, z] = columns.position.subarray(3 * i, 3 * i + 3);
+        const point = stage.project(x, y, z);
+        if (!point) continue;
+        const [right, down] = columns.offset.subarray(2 * i, 2 * i + 2);
+        const text = texts[columns.text[i]];
+        const box = place(point.x + right, point.y + down, 7 * text.length + 6, taken);
+        if (box.right > this.host.clientWidth) continue;
+        this.put(this.item(used++), text, box, point);
+      }
+    for (let i = used; i < this.items.length; ++i) {
+      this.items[i].text.hidden = true;
+      this.items[i].leader.style.display = 'none';
+    }
+  }
+
+  private put(item: Item, text: string, box: Box, point: { x: number; y: number }): void {
+    item.text.hidden = false;
+    if (item.text.textContent !== text) item.text.textContent = text;
+    item.text.style.transform = `translate(${box.left}px, ${box.top}px)`;
+    const end = { x: box.left - 2, y: 0.5 * (box.top + box.bottom) };
+    const long = Math.hypot(end.x - point.x, end.y - point.y) > 12;
+    item.leader.style.display = long ? '' : 'none';
+    for (const [name, value] of Object.entries({ x1: point.x, y1: point.y, x2: end.x, y2: end.y }))
+      item.leader.setAttribute(name, value.toFixed(1));
+  }
+
+  private item(i: number): Item {
+    if (!this.items[i]) {
+      const text = document.createElement('span');
+      const leader = document.createElementNS(SVG, 'line');
+      this.host.append(text);
+      this.leaders.append(leader);
+      this.items[i] = { text, leader };
+    }
+    return this.items[i];
+  }
+}
+
+function place(x: number, y: number, width: number, taken: Box[]): Box {
+  let chosen: Box | null = null;
+  for (const lines of [0, -1, 1, -2, 2, -3, 3, -4, 4]) {
+    const top = y - 0.5 * LINE + lines * LINE;
+    const box = { left: x, top, right: x + width, bottom: top + LINE };
+    chosen ??= box;
+    const free = taken.every(
+      (t) => t.right < box.left || t.left > box.right || t.bottom <= box.top || t.top >= box.bottom,
+    );
+    if (!free) continue;
+    chosen = box;
+    break;
+  }
+  taken.push(chosen!);
+  return chosen!;
+}

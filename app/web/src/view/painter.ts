@@ -1,0 +1,199 @@
+// A draw list painted by three.js: entries with the same mesh and surface are one instanced mesh.
+import * as THREE from 'three';
+import type { InstanceColumns, MeshData } from '../data/run';
+
+// Frames a and b of one layer, and how far between the two.
+export interface Part {
+  columns: InstanceColumns;
+  a: number;
+  b: number;
+  share: number;
+  alpha?: number; // 0 to 255, in the place of that of the entries
+  shadow?: boolean; // whether its entries throw one
+}
+
+const SEEN_THROUGH = 1;
+// How an entry is drawn: with a shadow, without, over what hides it, translucent.
+const [BODY, SOLID, HIDDEN, GHOST] = [0, 1, 2, 3];
+const ORDER = { solid: 0, hidden: 5, ghostDepth: 6, ghost: 7 };
+
+function geometryOf(mesh: MeshData): THREE.BufferGeometry {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(mesh.position, 3));
+  geometry.setAttribute('normal', new THREE.BufferAttribute(mesh.normal, 3));
+  geometry.setIndex(new THREE.BufferAttribute(mesh.index, 1));
+  return geometry;
+}
+
+// Instances of one mesh and one surface.
+class Batch {
+  readonly meshes: THREE.InstancedMesh[] = [];
+  count = 0;
+  private capacity = 0;
+
+  constructor(
+    private readonly scene: THREE.Scene,
+    private readonly geometry: THREE.BufferGeometry,
+    private readonly materials: { material: THREE.Material; order: number; shadow: boolean }[],
+  ) {}
+
+  add(matrix: THREE.Matrix4, color: THREE.Color): void {
+    if (this.count === this.capacity) this.grow();
+    matrix.toArray(this.meshes[0].instanceMatrix.array, 16 * this.count);
+    color.toArray(this.meshes[0].instanceColor!.array, 3 * this.count);
+    this.count += 1;
+  }
+
+  finish(): void {
+    for (const mesh of this.meshes) {
+      mesh.count = this.count;
+      mesh.visible = this.count > 0;
+      mesh.instanceMatrix.needsUpdate = true;
+      mesh.instanceColor!.needsUpdate = true;
+    }
+  }
+
+  // All materials share matrices and colours.
+  private grow(): void {
+    const before = this.meshes[0];
+    this.capacity = Math.max(4, 2 * this.capacity);
+    const matrices = new THREE.InstancedBufferAttribute(new Float32Array(16 * this.capacity), 16);
+    const colors = new THREE.InstancedBufferAttribute(new Float32Array(3 * this.capacity), 3);
+    if (before) {
+      matrices.array.set(before.instanceMatrix.array);
+      colors.array.set(before.instanceColor!.array);
+    }
+    for (const mesh of this.meshes) {
+      this.scene.remove(mesh);
+      mesh.dispose();
+    }
+    this.meshes.length = 0;
+    for (const { material, order, shadow } of this.materials) {
+      const mesh = new THREE.InstancedMesh(this.geometry, material, this.capacity);
+      mesh.instanceMatrix = matrices;
+      mesh.instanceColor = colors;
+      mesh.frustumCulled = false;
+      mesh.castShadow = shadow;
+      mesh.receiveShadow = order === ORDER.solid;
+      mesh.renderOrder = order;
+      this.scene.add(mesh);
+      this.meshes.push(mesh);
+    }
+  }
+}
+
+function surface(shininess: number): THREE.MeshStandardMaterial {
+  return new THREE.MeshStandardMaterial({ roughness: 0.85 - 0.5 * shininess, metalness: 0.05 });
+}
+
+// Depth first, then colour where nearest: a shell shows one surface and not its inside. Both are
+// pushed back a little: a ghost in the place of a body vanishes instead of flickering.
+function ghostMaterials(shininess: number, alpha: number) {
+  const pushed = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 };
+  const depth = new THREE.MeshBasicMaterial({ colorWrite: false, transparent: true, ...pushed });
+  const color = surface(shininess);
+  color.setValues({ transparent: true, opacity: alpha, depthWrite: false, ...pushed });
+  return [
+    { material: depth, order: ORDER.ghostDepth, shadow: false },
+    { material: color, order: ORDER.ghost, shadow: false },
+  ];
+}
+
+// What lies behind bodies, laid over them.
+function hiddenMaterials(shininess: number, alpha: number) {
+  const color = surface(shininess);
+  color.setValues({
+    transparent: true,
+    opacity: 0.45 * alpha,
+    depthFunc: THREE.GreaterDepth,
+    depthWrite: false,
+  });
+  return [{ material: color, order: ORDER.hidden, shadow: false }];
+}
+
+function materialsOf(kind: number, shininess: number, alpha: number) {
+  if (kind === HIDDEN) return hiddenMaterials(shininess, alpha);
+  if (kind === GHOST) return ghostMaterials(shininess, alpha);
+  return [{ material: surface(shininess), order: ORDER.solid, shadow: kind === BODY }];
+}
+
+export class Painter {
+  private readonly geometries: THREE.BufferGeometry[];
+  private readonly batches = new Map<number, Batch>();
+  private readonly matrix = new THREE.Matrix4();
+  private readonly position = new THREE.Vector3();
+  private readonly turn = new THREE.Quaternion();
+  private readonly otherPosition = new THREE.Vector3();
+  private readonly otherTurn = new THREE.Quaternion();
+  private readonly scale = new THREE.Vector3();
+  private readonly otherScale = new THREE.Vector3();
+  private readonly color = new THREE.Color();
+
+  constructor(
+    private readonly scene: THREE.Scene,
+    meshes: MeshData[],
+  ) {
+    this.geometries = meshes.map(geometryOf);
+  }
+
+  paint(parts: Part[]): void {
+    for (const batch of this.batches.values()) batch.count = 0;
+    for (const part of parts) this.add(part);
+    for (const batch of this.batches.values()) batch.finish();
+  }
+
+  private add({ columns, a, b, share, alpha, shadow }: Part): void {
+    const from = columns.first[a];
+    const to = columns.first[a + 1];
+    const other = columns.first[b];
+    // Between two frames only where both have the same entries.
+    let between = share > 0 && columns.first[b + 1] - other === to - from;
+    for (let i = 0; between && i < to - from; ++i)
+      between = columns.mesh[from + i] === columns.mesh[other + i];
+    for (let i = from; i < to; ++i) {
+      this.place(columns, i, this.position, this.turn, this.scale);
+      if (between) {
+        this.place(columns, other + i - from, this.otherPosition, this.otherTurn, this.otherScale);
+        this.position.lerp(this.otherPosition, share);
+        this.turn.slerp(this.otherTurn, share);
+        this.scale.lerp(this.otherScale, share);
+      }
+      this.matrix.compose(this.position, this.turn, this.scale);
+      const [red, green, blue] = columns.color.subarray(4 * i, 4 * i + 3);
+      this.color.setRGB(red / 255, green / 255, blue / 255, THREE.SRGBColorSpace);
+      this.put(columns, i, alpha ?? columns.color[4 * i + 3], shadow ?? false);
+    }
+  }
+
+  private put(columns: InstanceColumns, i: number, alpha: number, shadow: boolean): void {
+    const mesh = columns.mesh[i];
+    const shininess = columns.shininess[i];
+    const kind = alpha < 255 ? GHOST : shadow ? BODY : SOLID;
+    this.batch(mesh, alpha, shininess, kind).add(this.matrix, this.color);
+    if (columns.flags[i] & SEEN_THROUGH)
+      this.batch(mesh, alpha, shininess, HIDDEN).add(this.matrix, this.color);
+  }
+
+  private batch(mesh: number, alpha: number, shininess: number, kind: number): Batch {
+    const key = ((mesh * 256 + alpha) * 256 + shininess) * 4 + kind;
+    let batch = this.batches.get(key);
+    if (!batch) {
+      const materials = materialsOf(kind, shininess / 255, alpha / 255);
+      batch = new Batch(this.scene, this.geometries[mesh], materials);
+      this.batches.set(key, batch);
+    }
+    return batch;
+  }
+
+  private place(
+    columns: InstanceColumns,
+    i: number,
+    position: THREE.Vector3,
+    turn: THREE.Quaternion,
+    scale: THREE.Vector3,
+  ): void {
+    position.fromArray(columns.position, 3 * i);
+    turn.fromArray(columns.turn, 4 * i).normalize();
+    scale.fromArray(columns.scale, 3 * i);
+  }
+}

@@ -1,0 +1,162 @@
+// The 3-D view: light, floor, camera, and the draw list of the moment.
+import * as THREE from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import type { MeshData, View } from '../data/run';
+import { Arrows } from './arrows';
+import { Ground } from './ground';
+import { Painter, type Part } from './painter';
+
+export type ViewName = 'start' | 'front' | 'side' | 'top';
+
+// From the target to the eye. Top: x to the right, y up.
+const DIRECTIONS: Record<Exclude<ViewName, 'start'>, [number, number, number]> = {
+  front: [0, -1, 0.07],
+  side: [1, 0, 0.07],
+  top: [0, -0.001, 1],
+};
+
+export class Stage {
+  readonly camera: THREE.PerspectiveCamera;
+  readonly controls: OrbitControls;
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly painter: Painter;
+  private readonly ground: Ground;
+  readonly arrows: Arrows;
+  private readonly sun = new THREE.DirectionalLight(0xffffff, 2.2);
+  private readonly sky = new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.5);
+  private followed: THREE.Vector3 | null = null;
+
+  constructor(
+    private readonly host: HTMLElement,
+    private readonly view: View,
+    meshes: MeshData[],
+    private readonly changed: () => void,
+  ) {
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    const canvas = this.renderer.domElement;
+    canvas.setAttribute('aria-label', 'the robot, to be turned, moved and zoomed');
+    host.prepend(canvas);
+
+    const degrees = (view.fieldOfView * 180) / Math.PI;
+    this.camera = new THREE.PerspectiveCamera(degrees, 1, 0.01 * view.radius, 60 * view.radius);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.minDistance = 0.15 * view.radius;
+    this.controls.maxDistance = 20 * view.radius;
+    this.controls.addEventListener('change', changed);
+    this.addLights();
+    this.ground = new Ground(this.scene, view);
+    this.arrows = new Arrows(this.scene, 0.008 * view.radius);
+    this.painter = new Painter(this.scene, meshes);
+    this.look('start');
+    new ResizeObserver(() => this.resize()).observe(host);
+    this.resize();
+  }
+
+  // Nothing is drawn before draw().
+  paint(parts: Part[]): void {
+    this.painter.paint(parts);
+  }
+
+  draw(): void {
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  look(name: ViewName): void {
+    const { eye, target } = this.view;
+    const distance = new THREE.Vector3(...eye).distanceTo(new THREE.Vector3(...target));
+    this.controls.target.set(...target);
+    if (name === 'start') {
+      this.camera.position.set(...eye);
+    } else {
+      const direction = new THREE.Vector3(...DIRECTIONS[name]).normalize();
+      this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
+    }
+    if (this.followed) this.followed = null;
+    this.controls.update();
+    this.changed();
+  }
+
+  // Moves along with a point; null: stays.
+  follow(point: [number, number, number] | null): void {
+    if (!point) {
+      this.followed = null;
+      return;
+    }
+    const now = new THREE.Vector3(...point);
+    const shift = now.clone().sub(this.followed ?? this.controls.target);
+    this.camera.position.add(shift);
+    this.controls.target.add(shift);
+    this.followed = now;
+    this.controls.update();
+  }
+
+  // Radians about the target; a factor of the distance.
+  orbit(around: number, up: number, closer: number): void {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const length = offset.length() * closer;
+    const azimuth = Math.atan2(offset.y, offset.x) + around;
+    const limit = Math.PI / 2 - 0.001;
+    const rise = Math.asin(THREE.MathUtils.clamp(offset.z / offset.length(), -1, 1)) + up;
+    const elevation = THREE.MathUtils.clamp(rise, -limit, limit);
+    this.camera.position
+      .set(
+        Math.cos(elevation) * Math.cos(azimuth),
+        Math.cos(elevation) * Math.sin(azimuth),
+        Math.sin(elevation),
+      )
+      .multiplyScalar(THREE.MathUtils.clamp(length, 0.15 * this.view.radius, 20 * this.view.radius))
+      .add(this.controls.target);
+    this.controls.update();
+  }
+
+  // Pixels from the upper left of the view; null: behind the camera.
+  project(x: number, y: number, z: number): { x: number; y: number } | null {
+    const p = new THREE.Vector3(x, y, z).project(this.camera);
+    if (p.z > 1 || p.z < -1) return null;
+    const { clientWidth, clientHeight } = this.host;
+    return { x: (0.5 + 0.5 * p.x) * clientWidth, y: (0.5 - 0.5 * p.y) * clientHeight };
+  }
+
+  setTheme(dark: boolean): void {
+    this.ground.setTheme(dark);
+    this.sky.groundColor.set(dark ? 0x4a525e : 0xa3a7ad);
+    this.sky.intensity = dark ? 1.35 : 1.6;
+    this.changed();
+  }
+
+  private addLights(): void {
+    const target = new THREE.Vector3(...this.view.target);
+    const reach = 1.9 * this.view.radius;
+    this.sky.position.set(0, 0, 1);
+    this.sun.position
+      .set(...this.view.light)
+      .normalize()
+      .multiplyScalar(3 * reach)
+      .add(target);
+    this.sun.target.position.copy(target);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(2048, 2048);
+    const box = this.sun.shadow.camera;
+    box.left = box.bottom = -reach;
+    box.right = box.top = reach;
+    box.near = reach;
+    box.far = 5 * reach;
+    this.sun.shadow.normalBias = 0.004 * this.view.radius;
+    this.sun.shadow.radius = 3;
+    this.scene.add(this.sky, this.sun, this.sun.target);
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.host;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setSize(clientWidth, clientHeight);
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+    this.changed();
+  }
+}
