@@ -39,6 +39,8 @@ struct DynamicsOptions {
 int run_dynamics(const DynamicsOptions& options);
 
 struct InspectOptions {
+  std::filesystem::path html;        // a page; empty: text on stdout
+  std::vector<std::string> command;  // as it was typed
   RobotOptions robot;
   std::vector<std::string> passes, bodies;  // none: all
   std::string axes = "world";               // of the wrenches: world, link, or a body's name
@@ -60,6 +62,7 @@ int run_simulate(const SimulateOptions& options);
 
 struct ExportOptions {
   std::filesystem::path recording;
+  std::filesystem::path page;  // an HTML file with all of the run; empty: text on stdout
   bool json = false, csv = false;
 };
 int run_export(const ExportOptions& options);

@@ -125,6 +125,7 @@ void add_inspect(CLI::App& app, InspectOptions& options, std::function<int()>& c
                       "read out these alone: coupling/NAME, contact/A-B, constraint/NAME ..");
   inspect->add_option("--at", options.at, "seconds; of a recording; its end if not given");
   inspect->add_option("--step", options.step, "of a scene: seconds; the scene's if not given");
+  inspect->add_option("--html", options.html, "write a page that steps through the passes");
   inspect->add_flag("--json", options.json, "print one JSON object on stdout");
   inspect->callback([&] { command = [&] { return run_inspect(options); }; });
 }
@@ -175,10 +176,13 @@ void add_simulate(CLI::App& app, SimulateOptions& options, std::function<int()>&
 
 void add_recordings(CLI::App& app, ExportOptions& exported, ReplayOptions& replayed,
                     std::function<int()>& command) {
-  CLI::App* out = app.add_subcommand("export",
-                                     "Print a recording as CSV or JSON, units in the headers\n\n"
-                                     "Example:  twinarm export out/run.twinrec --csv");
+  CLI::App* out =
+      app.add_subcommand("export",
+                         "A recording as CSV or JSON, units in the headers, or as a page that "
+                         "replays it in any browser\n\n"
+                         "Example:  twinarm export out/run.twinrec out/run.html");
   out->add_option("recording", exported.recording, "of `twinarm simulate --record`")->required();
+  out->add_option("page", exported.page, "write one HTML file: picture, plots, ledger, settings");
   out->add_flag("--json", exported.json, "print one JSON object on stdout");
   out->add_flag("--csv", exported.csv, "print one row a frame on stdout");
   out->callback([&] { command = [&] { return run_export(exported); }; });
@@ -282,6 +286,7 @@ int main(int argc, char** argv) {
   ModesOptions modes;
   SimulateOptions simulate;
   simulate.command.assign(argv, argv + argc);
+  inspect.command = simulate.command;
   ExportOptions exported;
   ReplayOptions replayed;
   RenderOptions render;

@@ -1,4 +1,4 @@
-// `twinarm export`: a recording as CSV or JSON.
+// `twinarm export`: a recording as CSV or JSON, or as a page (app/web).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "app/interrupt.h"
 #include "app/json_writer.h"
 #include "app/record/recording_reader.h"
+#include "app/web/export_page.h"
 #include "collision/import/number_text.h"
 
 namespace twinarm {
@@ -183,9 +184,10 @@ void print_recording_json(const Recording& recording) {
 }  // namespace
 
 int run_export(const ExportOptions& options) {
+  if (!options.page.empty()) return export_page(options);
   if (options.json == options.csv)
     throw InputError({{"", 0, "--csv, --json", options.json ? "both are given" : "neither is given",
-                       "give one of them"}});
+                       "give one of them, or the name of a page"}});
   const Recording recording(options.recording);
   for (const std::string& note : recording.notes()) fmt::print(stderr, "twinarm: {}\n", note);
   options.json ? print_recording_json(recording) : print_recording_csv(recording);

@@ -57,7 +57,7 @@ LIBRARIES = {
                         "app/render/painter.cpp", "app/render/scene_pass.cpp",
                         "app/render/shaders.cpp"}),
     "FreeType": (r"ft2build|freetype/", {"app/render/lettering.cpp"}),
-    "zlib": (r"zlib\.h", {"app/record/recording.cpp"}),
+    "zlib": (r"zlib\.h", {"app/record/recording.cpp", "app/web/page_bytes.cpp"}),
     "turbojpeg": (r"turbojpeg\.h", {"app/render/image_decode.cpp",
                                     "tests/render/test_visual_model.cpp"}),
     "PNG": (r"png\.h", {"app/render/image.cpp", "app/render/image_decode.cpp"}),

@@ -9,7 +9,9 @@
 #include "app/inspect/command/inspect_output.h"
 #include "app/inspect/command/inspect_view.h"
 #include "app/record/instant.h"
+#include "app/web/inspect_page.h"
 #include "solver/first_bad.h"
+#include "solver/whole_file.h"
 
 namespace twinarm {
 namespace {
@@ -117,6 +119,11 @@ int run_inspect(const InspectOptions& options) {
                         is_recorded    ? fmt::format("recorded, t = {:.9g} s", t)
                         : file.empty() ? "at its start, no state file"
                                        : "state " + file);
+  if (!options.html.empty()) {
+    const InspectedWords words{input.robot.robot.name, view.title, options.command};
+    write_whole_file(options.html,
+                     inspect_page(input, inspected->x, inspect_json(in, view, checks), words));
+  }
   fmt::print("{}\n",
              options.json ? inspect_json(in, view, checks) : inspect_text(in, view, checks));
   const bool all_pass =

@@ -1,0 +1,51 @@
+// The draw lists of a film, packed: layer by layer, each in columns over all frames, as
+// src/data/run.ts has them. The lists are those of the painter of pictures; nothing is drawn anew.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/show/stage.h"
+#include "app/web/page_bytes.h"
+
+namespace twinarm {
+
+struct PageLayer {
+  std::string name, what;
+  bool shown = false;  // at first
+  std::vector<LegendLine> legend;
+  // Frame f has the entries first[f] to first[f + 1].
+  std::vector<std::uint32_t> first{0}, first_label{0};
+  std::vector<std::uint16_t> mesh;
+  std::vector<std::uint32_t> text;
+  std::vector<std::uint8_t> flags, shininess, color;
+  std::vector<float> position, scale, label_position;
+  std::vector<std::int16_t> turn, label_offset;
+};
+
+class PageLayers {
+ public:
+  explicit PageLayers(Stage& stage);
+  void add_frame(const Moment& moment);
+  // Layers "body/NAME" with what belongs to that body alone; of the one frame of a page.
+  void add_apart(const Moment& moment);
+  void show_at_first(const std::vector<std::string>& names);
+  // Keys meshes, layers, texts.
+  void write(JsonWriter& json, PageBytes& bytes) const;
+
+ private:
+  void add_entries(PageLayer& layer, std::size_t first_instance, std::size_t first_label);
+  std::uint32_t number_of(const std::string& text);
+
+  Stage& stage_;
+  std::vector<PageLayer> layers_;   // the bodies, then the overlays
+  std::vector<std::string> texts_;  // of labels, each once
+  std::map<std::string, std::uint32_t> numbers_;
+};
+
+// Key view: camera, light, floor.
+void write_view(JsonWriter& json, const Stage& stage);
+
+}  // namespace twinarm

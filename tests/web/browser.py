@@ -1,0 +1,181 @@
+"""A headless Chromium that tests drive, by its debugging pipe: no port, no package.
+
+    with Browser() as page:
+        page.open("file:///tmp/run.html")
+        page.evaluate("1 + 1")
+"""
+import base64
+import contextlib
+import json
+import os
+import select
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+
+PROGRAMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+KEYS = {" ": "Space", "ArrowLeft": "ArrowLeft", "ArrowRight": "ArrowRight", "Home": "Home",
+        "End": "End"}
+CODES = {" ": 32, "ArrowLeft": 37, "ArrowRight": 39, "Home": 36, "End": 35}
+
+
+def find_browser():
+    """Its path, or None."""
+    return next((path for path in map(shutil.which, PROGRAMS) if path), None)
+
+
+class Browser:
+    def __init__(self, width=1280, height=720, timeout=90, dark=False):
+        self.timeout = timeout
+        self.errors = []  # of the console, and exceptions
+        self.requests = []  # whatever the page asked for besides itself
+        self.waiting = b""
+        self.events = []
+        self.number = 0
+        self.folder = tempfile.mkdtemp(prefix="twinarm-browser-")
+        to_browser, ours = os.pipe()
+        theirs, from_browser = os.pipe()
+        # One file for all streams: nothing blocks on a pipe that nobody reads.
+        command = [find_browser(), "--headless=new", "--no-sandbox", "--disable-dev-shm-usage",
+                   "--no-first-run", "--disable-extensions", "--disable-background-networking",
+                   "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                   "--hide-scrollbars", f"--window-size={width},{height}",
+                   f"--user-data-dir={self.folder}", "--remote-debugging-pipe", "about:blank"]
+
+        def take_pipes():  # the browser reads 3 and writes 4
+            os.setsid()
+            a, b = os.dup(to_browser), os.dup(from_browser)
+            os.dup2(a, 3)
+            os.dup2(b, 4)
+            os.set_inheritable(3, True)
+            os.set_inheritable(4, True)
+
+        self.process = subprocess.Popen(command, preexec_fn=take_pipes, close_fds=False,
+                                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.DEVNULL)
+        os.close(to_browser)
+        os.close(from_browser)
+        self.pipe_in, self.pipe_out = theirs, ours
+        self.session = None
+        target = self.call("Target.createTarget", url="about:blank")
+        attached = self.call("Target.attachToTarget", targetId=target["targetId"], flatten=True)
+        self.session = attached["sessionId"]
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            self.call(f"{domain}.enable")
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                  deviceScaleFactor=1, mobile=False)
+        self.prefer(dark)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait()
+        os.close(self.pipe_in)
+        os.close(self.pipe_out)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def send(self, method, **values):
+        self.number += 1
+        message = {"id": self.number, "method": method, "params": values}
+        if self.session:
+            message["sessionId"] = self.session
+        os.write(self.pipe_out, json.dumps(message).encode() + b"\0")
+        return self.number
+
+    def receive(self, deadline):
+        while b"\0" not in self.waiting:
+            left = deadline - time.monotonic()
+            if left <= 0 or not select.select([self.pipe_in], [], [], left)[0]:
+                raise TimeoutError("the browser does not answer")
+            got = os.read(self.pipe_in, 1 << 20)
+            if not got:
+                raise EOFError("the browser ended")
+            self.waiting += got
+        message, _, self.waiting = self.waiting.partition(b"\0")
+        message = json.loads(message)
+        self.note(message)
+        return message
+
+    def note(self, message):
+        method, values = message.get("method"), message.get("params", {})
+        if method == "Runtime.exceptionThrown":
+            self.errors.append(json.dumps(values["exceptionDetails"])[:800])
+        elif method == "Runtime.consoleAPICalled" and values["type"] in ("error", "warning", "assert"):
+            self.errors.append(json.dumps(values["args"])[:800])
+        elif method == "Log.entryAdded" and values["entry"]["level"] in ("error", "warning"):
+            self.errors.append(values["entry"]["text"])
+        elif method == "Network.requestWillBeSent":
+            self.requests.append(values["request"]["url"][:200])
+
+    def call(self, method, **values):
+        number = self.send(method, **values)
+        deadline = time.monotonic() + self.timeout
+        while True:
+            message = self.receive(deadline)
+            if message.get("id") != number:
+                continue
+            if "error" in message:
+                raise RuntimeError(f"{method}: {message['error']}")
+            return message["result"]
+
+    def prefer(self, dark):
+        self.call("Emulation.setEmulatedMedia", features=[
+            {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+
+    def evaluate(self, expression):
+        result = self.call("Runtime.evaluate", expression=expression, returnByValue=True,
+                           awaitPromise=True)
+        if "exceptionDetails" in result:
+            raise RuntimeError(json.dumps(result["exceptionDetails"])[:800])
+        return result["result"].get("value")
+
+    def wait_for(self, expression):
+        deadline = time.monotonic() + self.timeout
+        while not self.evaluate(expression):
+            if time.monotonic() > deadline:
+                raise TimeoutError(f"never true: {expression}; the console says {self.errors}")
+            time.sleep(0.1)
+
+    def open(self, url):
+        """Opens it and waits until the page says that it is ready, and has drawn."""
+        self.call("Page.navigate", url="about:blank")
+        self.requests.clear()
+        self.errors.clear()
+        self.call("Page.navigate", url=url)
+        self.wait_for("document.documentElement?.dataset.ready === 'true'")
+        self.frames(2)
+
+    def frames(self, count):
+        """Lets the page draw so many times."""
+        self.evaluate("new Promise(done => { let n = %d; const next = () => n-- > 0 ? "
+                      "requestAnimationFrame(next) : done(true); next(); })" % count)
+
+    def press(self, key, text=None):
+        named = {"key": key, "code": KEYS.get(key, ""),
+                 "windowsVirtualKeyCode": CODES.get(key, ord(key[0].upper()))}
+        if len(key) == 1:
+            named["text"] = text or key
+        self.call("Input.dispatchKeyEvent", type="keyDown", **named)
+        self.call("Input.dispatchKeyEvent", type="keyUp", key=key, code=named["code"])
+        self.frames(2)
+
+    def drag(self, start, end, button="left"):
+        def mouse(kind, at):
+            self.call("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button=button,
+                      buttons=1, clickCount=1)
+        mouse("mouseMoved", start)
+        mouse("mousePressed", start)
+        mouse("mouseMoved", [(a + b) / 2 for a, b in zip(start, end)])
+        mouse("mouseMoved", end)
+        mouse("mouseReleased", end)
+        self.frames(2)
+
+    def picture(self, file):
+        shot = self.call("Page.captureScreenshot", format="png")
+        with open(file, "wb") as out:
+            out.write(base64.b64decode(shot["data"]))

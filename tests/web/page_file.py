@@ -1,0 +1,46 @@
+"""A page as the program wrote it, read without a browser."""
+import array
+import base64
+import json
+import re
+import subprocess
+import zlib
+
+ARRAYS = {"u8": "B", "i8": "b", "u16": "H", "i16": "h", "u32": "I", "f32": "f", "f64": "d"}
+
+
+def run(program, *words, code=0):
+    """The finished process; it has ended with that code."""
+    done = subprocess.run([program, *map(str, words)], capture_output=True, text=True, check=False,
+                          timeout=300)
+    if done.returncode != code:
+        raise AssertionError(f"{words}: {done.returncode}\n{done.stderr}")
+    return done
+
+
+def is_missing(done):
+    """Whether the program was built without its pages; says so."""
+    missing = done.returncode == 2 and "there is no page to fill in" in done.stderr
+    if missing:
+        print(f"skipped: {done.stderr.strip()}")
+    return missing
+
+
+def with_arrays(value, block):
+    """The page's JSON with its arrays in the place of what points to them."""
+    if isinstance(value, list):
+        return [with_arrays(item, block) for item in value]
+    if not isinstance(value, dict):
+        return value
+    if set(value) == {"at", "count", "type"}:
+        found = array.array(ARRAYS[value["type"]])
+        found.frombytes(block[value["at"]:value["at"] + value["count"] * found.itemsize])
+        return found.tolist()
+    return {key: with_arrays(item, block) for key, item in value.items()}
+
+
+def data_of(html):
+    """What the page carries."""
+    text = re.search(r'<script type="application/json" id="run">(.*?)</script>', html, re.S)
+    block = re.search(r'id="run-bytes">(.*?)</script>', html, re.S)
+    return with_arrays(json.loads(text[1]), zlib.decompress(base64.b64decode(block[1])))

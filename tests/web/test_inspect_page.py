@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""The page of `inspect --html`: the JSON of `inspect --json`, and a walk through the passes.
+
+    test_inspect_page.py PATH/TO/twinarm [FOLDER_FOR_PICTURES]
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from browser import Browser, find_browser
+from page_file import data_of, is_missing, run
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = sys.argv.pop(1)
+PICTURES = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else None
+ROBOT = ROOT / "assets" / "robots" / "s103" / "s103.urdf"
+STATE = {"q": {"joint1": 0.6, "joint2": -0.8}, "qd": {"joint1": 1.0, "joint2": -2.0},
+         "tau": {"joint1": 1.5}}
+
+
+class InspectPage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        folder = pathlib.Path(cls.temporary.name)
+        state = folder / "state.json"
+        state.write_text(json.dumps(STATE), encoding="utf-8")
+        cls.file = folder / "page.html"
+        done = run(PROGRAM, "inspect", ROBOT, "--state", state, "--json", "--html", cls.file)
+        cls.told = json.loads(done.stdout)
+        cls.html = cls.file.read_text(encoding="utf-8")
+        cls.page = data_of(cls.html)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_it_carries_what_json_tells(self):
+        self.assertEqual(json.loads(self.page["inspection"]), self.told)
+
+    def test_each_body_has_a_layer_of_its_own_and_together_they_are_the_robot(self):
+        def entries(layer):
+            return len(layer["instances"]["mesh"])
+        apart = {layer["name"]: entries(layer) for layer in self.page["layers"]
+                 if layer["name"].startswith("body/")}
+        bodies = {step["body"] for step in self.told["passes"]}
+        self.assertEqual(set(apart), {f"body/{name}" for name in bodies} | {"body/world"})
+        whole = next(layer for layer in self.page["layers"] if layer["name"] == "bodies")
+        self.assertEqual(sum(apart.values()), entries(whole))
+        self.assertGreater(apart["body/arm2"], 0)
+
+    def test_it_asks_nobody_for_anything_and_is_small(self):
+        self.assertIn("default-src 'none'", self.html)
+        self.assertLess(len(self.html), 5e6)
+
+    @unittest.skipUnless(find_browser(), "no Chromium here: scripts/setup --lab installs it")
+    def test_keys_step_through_the_passes_and_show_the_numbers(self):
+        with Browser(*((1280, 720) if PICTURES else (840, 480))) as browser:
+            browser.open(self.file.as_uri())
+            steps = self.told["passes"]
+            wanted = [(step["pass"], step["body"]) for step in steps]
+            walked = []
+            for _ in steps:
+                state = browser.evaluate("window.twinarm.page.state")
+                walked.append((state["pass"], state["body"]))
+                self.check_numbers(browser, steps[state["step"] - 1])
+                browser.press("ArrowRight")
+            self.assertEqual(walked, wanted)
+            browser.press("2")
+            browser.press("ArrowRight")
+            browser.press("ArrowLeft")
+            state = browser.evaluate("window.twinarm.page.state")
+            self.assertEqual((state["pass"], state["body"]), (2, "gripper"))
+            for number, (step, theme) in enumerate(((3, "light"), (8, "dark"), (13, "light"))):
+                if PICTURES:
+                    PICTURES.mkdir(parents=True, exist_ok=True)
+                    browser.open(f"{self.file.as_uri()}#step={step}&theme={theme}")
+                    browser.picture(PICTURES / f"inspect_{number}.png")
+            self.assertEqual(browser.errors, [])
+
+    def check_numbers(self, browser, step):
+        """All digits stand where the pointer rests."""
+        shown = browser.evaluate(
+            "Object.fromEntries([...document.querySelectorAll('[data-quantity]')].map(card => "
+            "[card.dataset.quantity, [...card.querySelectorAll('[title]')].map(e => e.title)]))")
+        for quantity in step["quantities"]:
+            value = quantity["value"]
+            numbers = [value] if not isinstance(value, list) else [
+                n for row in value for n in (row if isinstance(row, list) else [row])]
+            self.assertEqual([float(text) for text in shown[quantity["name"]]], numbers)
+
+
+def bundle_is_there():
+    """False, with a line, where the program was built without its pages."""
+    with tempfile.TemporaryDirectory() as folder:
+        done = subprocess.run([PROGRAM, "inspect", ROBOT, "--html", f"{folder}/page.html"],
+                              check=False, capture_output=True, text=True, timeout=60)
+    return not is_missing(done)
+
+
+if __name__ == "__main__":
+    if bundle_is_there():
+        unittest.main()

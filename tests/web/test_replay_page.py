@@ -1,0 +1,283 @@
+#!/usr/bin/env python3
+"""The page of a recording: what it carries, and what a browser makes of it.
+
+    test_replay_page.py PATH/TO/twinarm [FOLDER_FOR_PICTURES]
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from browser import Browser, find_browser
+from page_file import data_of, is_missing, run
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = sys.argv.pop(1)
+PICTURES = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else None
+SCENES = ROOT / "assets" / "scenes"
+
+
+def twinarm(*words, code=0):
+    return run(PROGRAM, *words, code=code)
+
+
+class Page:
+    """A recording of some scene, its page, and both read back."""
+
+    def __init__(self, folder, scene, *options):
+        self.recording = folder / f"{pathlib.Path(scene).stem}.twinrec"
+        self.file = self.recording.with_suffix(".html")
+        twinarm("simulate", scene, "--record", self.recording, "--json", *options)
+        self.said = json.loads(twinarm("export", self.recording, self.file, "--json").stdout)
+        self.html = self.file.read_text(encoding="utf-8")
+        self.run = data_of(self.html)
+        self.exported = json.loads(twinarm("export", self.recording, "--json").stdout)
+
+    def channel(self, name):
+        return next(c["values"] for c in self.run["channels"] if c["name"] == name)
+
+    def layer(self, name):
+        return next(layer for layer in self.run["layers"] if layer["name"] == name)
+
+    def exported_frames(self):
+        by_time = {frame["t"]: frame for frame in self.exported["frames"]}
+        return [by_time[t] for t in self.run["times"]]
+
+
+class Pages(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        folder = pathlib.Path(cls.temporary.name)
+        cls.arm = Page(folder, SCENES / "robot_beside_obstacles.toml")
+        cls.ball = Page(folder, SCENES / "bouncing_ball.toml", "--duration", 1)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+
+class Contents(Pages):
+    def test_all_numbers_are_those_of_the_recording(self):
+        for page in (self.arm, self.ball):
+            frames = page.exported_frames()
+            for i, column in enumerate(page.exported["columns"]):
+                self.assertEqual(page.channel(column["name"]), [f["values"][i] for f in frames])
+            rows = page.run["ledger"]["rows"]
+            works = page.run["ledger"]["works"]
+            for n, frame in enumerate(frames):
+                got = dict(zip(rows, works[n * len(rows):(n + 1) * len(rows)]))
+                self.assertEqual({k: v for k, v in got.items() if v}, {
+                    k: v for k, v in frame["ledger"].items() if v})
+            end = dict(zip(rows, map(float, page.run["ledger"]["end"])))
+            self.assertEqual(end, {row: frames[-1]["ledger"].get(row, 0) for row in rows})
+
+    def test_the_first_and_the_last_recorded_frame_are_in_it(self):
+        for page in (self.arm, self.ball):
+            times = [frame["t"] for frame in page.exported["frames"]]
+            self.assertEqual((page.run["times"][0], page.run["times"][-1]), (times[0], times[-1]))
+            self.assertEqual(page.run["times"], sorted(set(page.run["times"])))
+
+    def test_a_ball_is_drawn_where_it_was(self):
+        layer = self.ball.layer("bodies")["instances"]
+        names = [f"links/ball/{axis}" for axis in "xyz"]
+        moved = [self.ball.channel(name) for name in names]
+        for frame in range(len(self.ball.run["times"])):
+            entries = range(layer["first"][frame], layer["first"][frame + 1])
+            places = [layer["position"][3 * i:3 * i + 3] for i in entries]
+            wanted = [values[frame] for values in moved]
+            off = min(max(abs(a - b) for a, b in zip(p, wanted)) for p in places)
+            self.assertLess(off, 1e-6)
+
+    def test_error_is_the_dynamic_less_the_kinematic_robot(self):
+        errors = [c for c in self.arm.run["channels"] if c["kind"] == "error"]
+        self.assertTrue(errors)
+        for error in errors:
+            of = error["of"]
+            pairs = zip(self.arm.channel(f"q/{of}"), self.arm.channel(f"target/{of}"))
+            self.assertEqual(error["values"], [a - b for a, b in pairs])
+
+    def test_command_and_settings_are_told(self):
+        facts = dict(self.arm.run["facts"])
+        self.assertEqual(facts["step"], "1 ms")
+        self.assertEqual(facts["integrator"], self.arm.exported["integrator"])
+        self.assertEqual(facts["seed"], str(self.arm.exported["seed"]))
+        self.assertEqual(facts["twinarm"], self.arm.exported["program"])
+        self.assertIn("simulate", self.arm.run["command"])
+        files = {file["name"]: file["text"] for file in self.arm.run["files"]}
+        scene = (SCENES / "robot_beside_obstacles.toml").read_text(encoding="utf-8")
+        self.assertEqual(files["robot_beside_obstacles.toml"], scene)
+
+    def test_it_asks_nobody_for_anything_and_is_small(self):
+        for page in (self.arm, self.ball):
+            self.assertLess(page.said["bytes"], 5e6)
+            self.assertEqual(page.said["bytes"], page.file.stat().st_size)
+            self.assertIn("default-src 'none'", page.html)
+            head = page.html[:page.html.index('id="run"')]
+            self.assertNotRegex(head, r"(src|href)\s*=|@import|url\(\s*['\"]?http")
+
+    def test_licences_of_what_it_contains_are_in_it(self):
+        for words in ("three.js authors", "Leon Sorokin", "Permission is hereby granted"):
+            self.assertIn(words, self.arm.html)
+
+    def test_wrong_names_and_options_are_refused_together(self):
+        said = twinarm("export", self.ball.recording, "page.txt", "--csv", code=2).stderr
+        self.assertIn("page.txt", said)
+        self.assertIn("--csv", said)
+        twinarm("export", self.ball.recording, "/nonexistent/page.html", code=2)
+
+
+@unittest.skipUnless(find_browser(), "no Chromium here: scripts/setup --lab installs it")
+class InTheBrowser(Pages):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        # Drawn by the processor: where nobody looks, a small window is quicker.
+        cls.browser = Browser(*((1280, 720) if PICTURES else (840, 480)))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.__exit__()
+        super().tearDownClass()
+
+    def open(self, page, hash_="", dark=False):
+        self.browser.prefer(dark)
+        self.browser.open(page.file.as_uri() + hash_)
+        return self.browser
+
+    def picture(self, browser, name):
+        if PICTURES:
+            PICTURES.mkdir(parents=True, exist_ok=True)
+            browser.picture(PICTURES / f"{name}.png")
+
+    def check_quiet(self, browser, page):
+        self.assertEqual(browser.errors, [])
+        others = [url for url in browser.requests
+                  if not url.startswith((page.file.as_uri(), "data:", "blob:", "about:"))]
+        self.assertEqual(others, [])
+
+    def test_it_opens_from_a_file_without_a_word_in_the_console(self):
+        for dark in (False, True):
+            browser = self.open(self.arm, "#t=1.5", dark=dark)
+            self.picture(browser, f"arm_{'dark' if dark else 'light'}")
+            self.check_quiet(browser, self.arm)
+
+    def test_numbers_read_back_in_the_page_are_those_of_the_recording(self):
+        browser = self.open(self.arm)
+        frames = self.arm.exported_frames()
+        for i, column in enumerate(self.arm.exported["columns"]):
+            got = browser.evaluate("Array.from(window.twinarm.run.channels.find("
+                                   f"c => c.name === {json.dumps(column['name'])}).values)")
+            self.assertEqual(got, [frame["values"][i] for frame in frames])
+        shown = browser.evaluate("Object.fromEntries([...document.querySelectorAll('[data-row]')]"
+                                 ".map(cell => [cell.dataset.row, cell.textContent]))")
+        for row, text in shown.items():
+            self.assertEqual(float(text), frames[-1]["ledger"].get(row, 0))
+        self.assertEqual(set(shown), set(self.arm.run["ledger"]["rows"]))
+        facts = browser.evaluate("Object.fromEntries([...document.querySelectorAll('[data-fact]')]"
+                                 ".map(cell => [cell.dataset.fact, cell.textContent]))")
+        self.assertEqual(facts, dict(self.arm.run["facts"]))
+
+    def test_scrubbing_and_keys_move_the_clock_and_the_robot(self):
+        browser = self.open(self.arm)
+        state = "window.twinarm.page.state"
+        seen = []
+        for share in (0.2, 0.5, 0.8):
+            box = browser.evaluate("(() => { const b = document.querySelector('.transport input')"
+                                   ".getBoundingClientRect(); return [b.x, b.y, b.width, b.height];"
+                                   " })()")
+            at = (box[0] + share * box[2], box[1] + box[3] / 2)
+            browser.drag((at[0] - 3, at[1]), at)
+            time = browser.evaluate(f"{state}.time")
+            self.assertAlmostEqual(time, share * self.arm.run["times"][-1], delta=0.1)
+            seen.append(self.pixels(browser))
+            self.picture(browser, f"arm_at_{int(100 * share)}")
+        self.assertEqual(len(set(seen)), 3)
+        browser.press("Home")
+        self.assertEqual(browser.evaluate(f"{state}.frame"), 0)
+        browser.press("ArrowRight")
+        browser.press("ArrowRight")
+        browser.press("ArrowLeft")
+        self.assertEqual(browser.evaluate(f"{state}.frame"), 1)
+        browser.press("End")
+        last = len(self.arm.run["times"]) - 1
+        self.assertEqual(browser.evaluate(f"{state}.frame"), last)
+        browser.press(" ")
+        browser.wait_for(f"{state}.playing && {state}.time > 0.05")
+        browser.press(" ")
+        self.assertFalse(browser.evaluate(f"{state}.playing"))
+        self.check_quiet(browser, self.arm)
+
+    def pixels(self, browser):
+        """The picture of the stage, without plots and numbers."""
+        browser.evaluate("document.querySelectorAll('.switches, .legend, .views, .labels')"
+                         ".forEach(e => e.style.visibility = 'hidden')")
+        box = browser.evaluate("(() => { const b = document.querySelector('.stage')"
+                               ".getBoundingClientRect(); return [b.x, b.y, b.width, b.height]; })()")
+        clip = dict(zip(("x", "y", "width", "height"), box), scale=1)
+        return browser.call("Page.captureScreenshot", format="png", clip=clip)["data"]
+
+    def test_every_layer_can_be_shown_and_hidden(self):
+        browser = self.open(self.arm, "#t=1.5")
+        names = browser.evaluate("[...document.querySelectorAll('[data-layer]')]"
+                                 ".map(box => box.dataset.layer)")
+        self.assertLessEqual({"ghost", "couplings", "contacts", "joints", "com", "trails", "labels"},
+                             set(names))
+        before = browser.evaluate("window.twinarm.page.state.layers")
+        for number in range(1, 10):
+            browser.press(str(number))
+        after = browser.evaluate("window.twinarm.page.state.layers")
+        self.assertEqual(set(before) ^ set(after), set(names[:9]))
+        self.picture(browser, "arm_other_layers")
+        for name in names:
+            browser.evaluate(f"document.querySelector('[data-layer={name}]').checked || "
+                             f"document.querySelector('[data-layer={name}]').click()")
+        browser.frames(2)
+        self.picture(browser, "arm_all_layers")
+        self.assertEqual(set(browser.evaluate("window.twinarm.page.state.layers")),
+                         {"bodies", *names})
+        self.check_quiet(browser, self.arm)
+
+    def test_plots_ledger_and_settings_are_to_be_seen(self):
+        browser = self.open(self.arm, "#t=2")
+        plots = browser.evaluate("[...document.querySelectorAll('.plot')].map(plot => plot.id)")
+        self.assertLessEqual({"plot-angles", "plot-error", "plot-ledger", "plot-couplings",
+                              "plot-contacts"}, set(plots))
+        for key, name in (("l", "ledger"), ("u", "setup"), ("p", "plots")):
+            browser.press(key)
+            self.picture(browser, f"arm_{name}")
+        shown = browser.evaluate("document.querySelector('#command').textContent")
+        self.assertEqual(shown, self.arm.run["command"])
+        browser.press("t")
+        self.assertEqual(browser.evaluate("document.documentElement.dataset.theme"), "dark")
+        self.check_quiet(browser, self.arm)
+
+    def test_a_drag_turns_the_view(self):
+        browser = self.open(self.ball, "#t=0.5")
+        before = browser.evaluate("window.twinarm.page.state.eye")
+        browser.drag((500, 400), (600, 380))
+        self.assertNotEqual(before, browser.evaluate("window.twinarm.page.state.eye"))
+        browser.press("r")
+        after = browser.evaluate("window.twinarm.page.state.eye")
+        for a, b in zip(before, after):
+            self.assertAlmostEqual(a, b, places=9)
+        self.picture(browser, "ball")
+        self.check_quiet(browser, self.ball)
+
+
+def bundle_is_there():
+    """False, with a line, where the program was built without its pages."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "run.twinrec"
+        twinarm("simulate", SCENES / "bouncing_ball.toml", "--duration", 0.01, "--record", file,
+                "--json")
+        done = subprocess.run([PROGRAM, "export", file, file.with_suffix(".html")], check=False,
+                              capture_output=True, text=True, timeout=60)
+    return not is_missing(done)
+
+
+if __name__ == "__main__":
+    if bundle_is_there():
+        unittest.main()
