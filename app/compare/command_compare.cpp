@@ -10,6 +10,7 @@
 #include "app/compare/compare.h"
 #include "app/compare/page.h"
 #include "app/interrupt.h"
+#include "app/output_file.h"
 #include "app/progress.h"
 #include "solver/whole_file.h"
 
