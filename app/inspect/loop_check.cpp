@@ -86,7 +86,7 @@ double step_of_loop(const Inspection& in, const LoopClosure& loop) {
     }
     fastest = std::max({fastest, rate, std::sqrt(acceleration)});
   }
-  return fastest > 0 ? 0.25 / fastest : 0;
+  return fastest > 0 ? 0.5 / fastest : 0;
 }
 
 // What the accelerations are made of.
