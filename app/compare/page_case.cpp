@@ -62,7 +62,7 @@ std::string readings_table(const TrajectoryCase& c) {
   for (const Reading& r : readings_of(c)) {
     const double off = r.seen - r.exact;
     html += fmt::format("<tr><td>{}<td>{:.15g}<td>{:.15g}<td>{}\n", typeset_words(r.name), r.seen,
-                        r.exact, off == 0 ? "0" : fmt::format("{:.1e}", off));
+                        r.exact + 0.0, off == 0 ? "0" : fmt::format("{:.1e}", off));
   }
   return html + "</tbody></table>\n";
 }

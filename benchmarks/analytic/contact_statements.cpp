@@ -7,7 +7,7 @@ const std::vector<CaseStatement>& contact_statements() {
   static const std::vector<CaseStatement> all = {
       {"E1",
        "A ball falls from h = 1 m onto a floor, with a restitution of e = 0.8. It meets the floor "
-       "for the n-th time at <p>t<sub>n</sub> = √(2h/g) (1 + 2(e + e<sup>2</sup> + … + "
+       "for the nth time at <p>t<sub>n</sub> = √(2h/g) (1 + 2(e + e<sup>2</sup> + … + "
        "e<sup>n−1</sup>)), v<sub>n</sub> = e<sup>n−1</sup> √(2 g h)</p>"},
       {"E1-rest",
        "The same ball bounces without end in a time that has one: from <p>t = √(2h/g) (1 + e)/(1 − "
@@ -123,6 +123,9 @@ const std::vector<CaseStatement>& contact_statements() {
        "at "
        "4.156 s by an independent integration of rolling, <p>v = −ω × r</p> with r from the centre "
        "of mass to the contact."},
+      {"E10-spin",
+       "The same stone in steps that locate their events: rolling then loses nothing, <p>v = −ω × "
+       "r</p> and the spin after it has turned round is that of the independent integration."},
       {"E10-other",
        "The same stone, spun the other way, goes on for 20 s: <p>ω<sub>z</sub>(t) &gt; 0</p>"},
       {"E11",
