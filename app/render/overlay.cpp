@@ -81,7 +81,7 @@ std::vector<double> lines_to_try(double before) {
 // letters over letters cannot be read.
 std::optional<Placed> place_free(const Image& image, Lettering& lettering, const Label& label,
                                  double top_px, const Vector2d& anchor_px, TakenRoom& taken,
-                                 LabelMemory::Place* before) {
+                                 LabelMemory* memory) {
   constexpr double kGlide = 0.3;  // of the way, in each picture
   const double line_px = 1.25 * label.size_px;
   const auto low = [&](const Placed& p) {
@@ -94,13 +94,16 @@ std::optional<Placed> place_free(const Image& image, Lettering& lettering, const
     return place(image, lettering, label, top_px,
                  anchor_px + label.offset_px + Vector2d(0, down_px));
   };
-  for (const double line : lines_to_try(before ? before->line : 0)) {
+  LabelMemory::Place* before = memory ? memory->find_or_add(label.text) : nullptr;
+  const bool is_new = !before || memory->is_new(*before);
+  for (const double line : lines_to_try(is_new ? 0 : before->line)) {
     const Placed found = placed_at(line * line_px);
     if (!taken.is_free(low(found), high(found))) continue;
     taken.take(low(found), high(found));
     if (!before) return found;
     before->line = line;
-    before->shift_px += kGlide * (line * line_px - before->shift_px);
+    before->picture = memory->picture();
+    before->shift_px += (is_new ? 1 : kGlide) * (line * line_px - before->shift_px);
     return placed_at(before->shift_px);
   }
   return std::nullopt;
@@ -152,8 +155,7 @@ void draw_leader(Image& image, const Label& label, const Placed& text, const Vec
 
 void draw_world_label(Image& image, Lettering& lettering, const Label& label, double top_px,
                       const Vector2d& anchor_px, TakenRoom& taken, LabelMemory* memory) {
-  LabelMemory::Place* before = memory ? memory->find_or_add(label.text) : nullptr;
-  const auto text = place_free(image, lettering, label, top_px, anchor_px, taken, before);
+  const auto text = place_free(image, lettering, label, top_px, anchor_px, taken, memory);
   if (!text) return;
   draw_leader(image, label, *text, anchor_px);
   lettering.draw(image, label.text, text->start_px, label.size_px, label.color);
@@ -209,7 +211,7 @@ double draw_title(Image& image, const std::string& title, Lettering& lettering, 
 LabelMemory::Place* LabelMemory::find_or_add(const std::string& words) {
   std::string name;
   for (const char c : words)
-    if (!(c >= '0' && c <= '9') && c != '.' && c != '-' && c != '+') name += c;
+    if (std::string("0123456789.-+kMm").find(c) == std::string::npos) name += c;
   name += '#' + std::to_string(seen_[name]++);
   return &places_[name];
 }
