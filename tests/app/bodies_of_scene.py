@@ -54,7 +54,8 @@ def bodies_of(scene):
     bodies = {}
     many = len(description.get("robot", [])) > 1
     for robot in description.get("robot", []):
-        tree = xml.parse(ROOT / "assets" / robot["model"]).getroot()
+        beside = scene.parent / robot["model"]
+        tree = xml.parse(beside if beside.exists() else ROOT / "assets" / robot["model"]).getroot()
         children = {joint.find("child").get("link") for joint in tree.findall("joint")}
         for link in tree.findall("link"):
             inertial = link.find("inertial")
