@@ -25,6 +25,15 @@ function geometryOf(mesh: MeshData): THREE.BufferGeometry {
   return geometry;
 }
 
+// A point of a contact is a ball of few pixels: a hundred of them would cost as much as all robots.
+function coarser(mesh: MeshData, fine: THREE.BufferGeometry): THREE.BufferGeometry {
+  const p = mesh.position;
+  if (mesh.index.length < 3 * 500) return fine;
+  for (let i = 0; i < p.length; i += 3)
+    if (Math.abs(Math.hypot(p[i], p[i + 1], p[i + 2]) - 1) > 1e-3) return fine; // no unit ball
+  return new THREE.SphereGeometry(1, 14, 9);
+}
+
 // Instances of one mesh and one surface.
 class Batch {
   readonly meshes: THREE.InstancedMesh[] = [];
@@ -132,8 +141,10 @@ export class Painter {
   constructor(
     private readonly scene: THREE.Scene,
     meshes: MeshData[],
+    private readonly small: number, // size of what is drawn coarsely
   ) {
-    this.geometries = meshes.map(geometryOf);
+    const fine = meshes.map(geometryOf);
+    this.geometries = [...fine, ...meshes.map((mesh, i) => coarser(mesh, fine[i]))];
   }
 
   paint(parts: Part[]): void {
@@ -166,7 +177,8 @@ export class Painter {
   }
 
   private put(columns: InstanceColumns, i: number, alpha: number, shadow: boolean): void {
-    const mesh = columns.mesh[i];
+    const isSmall = Math.max(this.scale.x, this.scale.y, this.scale.z) < this.small;
+    const mesh = columns.mesh[i] + (isSmall ? this.geometries.length / 2 : 0);
     const shininess = columns.shininess[i];
     const kind = alpha < 255 ? GHOST : shadow ? BODY : SOLID;
     this.batch(mesh, alpha, shininess, kind).add(this.matrix, this.color);

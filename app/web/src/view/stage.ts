@@ -50,7 +50,7 @@ export class Stage {
     this.addLights();
     this.ground = new Ground(this.scene, view);
     this.arrows = new Arrows(this.scene, 0.008 * view.radius);
-    this.painter = new Painter(this.scene, meshes);
+    this.painter = new Painter(this.scene, meshes, 0.03 * view.radius);
     this.look('start');
     new ResizeObserver(() => this.resize()).observe(host);
     this.resize();
