@@ -75,14 +75,19 @@ void say_first_bad(PostMortem& found) {
         found.pass > 0 ? fmt::format("in pass {}", found.pass) : "an input of the passes"));
 }
 
+// Half of w h at the limit of linear theory. Nearer to it a spring that does not die out still
+// swings with several times its energy (semi-implicit: 1 / (1 - (w h / 2)^2)), and where it swings
+// the limit is no longer that of the start.
 std::string remedy_of(const Suspect& s, double h) {
+  constexpr double kPart = 0.5;
   std::string remedy;
   if (s.largest_step > 0)
     remedy =
-        fmt::format("a step of {} s would hold", short_text(0.9 * s.largest_step * h / s.step));
+        fmt::format("a step of {} s would hold", short_text(kPart * s.largest_step * h / s.step));
   if (s.largest_gain > 0)
-    remedy += fmt::format("{}a {} of {} {} would hold at this step", remedy.empty() ? "" : "; ",
-                          s.gain, short_text(0.9 * s.largest_gain), s.unit);
+    remedy += fmt::format(
+        "{}a {} of {} {} would hold at this step", remedy.empty() ? "" : "; ", s.gain,
+        short_text((s.gain == "stiffness" ? kPart * kPart : kPart) * s.largest_gain), s.unit);
   if (s.is_coupling)
     remedy += std::string(remedy.empty() ? "" : "; ") +
               "treatment = \"implicit\" with the integrator semi-implicit would hold";

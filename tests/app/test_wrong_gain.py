@@ -6,6 +6,7 @@ springs, each remedy that it offers works, and the last steps can be opened.
 """
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import unittest
@@ -38,6 +39,12 @@ class WrongGain(RobotCommand):
         suspect = json.loads(broken.stdout)["post_mortem"]["suspects"][0]
         self.assertIn("'hard'", suspect["name"])
         self.assertGreater(suspect["w_h"], suspect["limit"])
+        # What the words advise has room: the spring, which swings for ever, keeps to its energy.
+        step, gain = (float(re.search(pattern, broken.stderr).group(1)) for pattern in
+                      (r"a step of (\S+) s would hold", r"a stiffness of (\S+) N m/rad would hold"))
+        for run in (self.run_with(9e5, "--energy-bound", 5e4, step=step),
+                    self.run_with(gain, "--energy-bound", 0.06 * gain)):
+            self.assertEqual(run.returncode, 0, run.stderr)
         for run in (self.run_with(9e5, step=0.99 * suspect["largest_step"]),
                     self.run_with(0.99 * suspect["largest_gain"]),
                     self.run_with(9e5, treatment="implicit")):
