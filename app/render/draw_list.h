@@ -36,8 +36,8 @@ struct Instance {
   Pose X_WM;
   Vector3 scale = Vector3::Ones();  // positive
   Color color{0.7f, 0.7f, 0.7f, 1.0f};
-  float shininess = 0.35f;    // 0 = chalk, 1 = polished
-  bool seen_through = false;  // faintly to be seen where it is behind or inside of bodies
+  float shininess = 0.35f;           // 0 = chalk, 1 = polished
+  bool seen_through = false;         // faintly to be seen where it is behind or inside of bodies
   std::optional<TextureId> texture;  // times the colour, where the mesh has uv; not on ghosts
 };
 
