@@ -174,9 +174,10 @@ std::string small_svg(const std::string& svg) {
   remove_all(small, "rgb(228, 228, 228)", "#e4e4e4");
   remove_all(small, "rgb( 85,  85,  85)", "#555");
   for (const auto& [colour, kind] : {std::pair{"#e4e4e4", "g"}, {"#555", "k"}})
-    small = with_each(
-        small, drawn, fmt::format("<g class=l>\n<path stroke='{}'  d=", colour), "</g>",
-        [kind](std::string_view line) { return fmt::format("<path class={} d={}", kind, line); });
+    small = with_each(small, drawn, fmt::format("<g class=l>\n<path stroke='{}'  d=", colour),
+                      "</g>", [kind = kind](std::string_view line) {
+                        return fmt::format("<path class={} d={}", kind, line);
+                      });
   small = with_each(small, drawn, "<use href='#", "/>", plain_mark);
   // Browsers would show these names where the pointer is.
   small = with_each(small, drawn, "<title>", "</title>", [](std::string_view) { return ""; });
