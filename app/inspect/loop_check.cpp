@@ -86,7 +86,9 @@ double step_of_loop(const Inspection& in, const LoopClosure& loop) {
     }
     fastest = std::max({fastest, rate, std::sqrt(acceleration)});
   }
-  return fastest > 0 ? 0.5 / fastest : 0;
+  // Of the square of a distance the rates are twice those of the ends.
+  const double part = loop.type == LoopType::distance ? 0.25 : 0.5;
+  return fastest > 0 ? part / fastest : 0;
 }
 
 // What the accelerations are made of.
