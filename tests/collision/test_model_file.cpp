@@ -182,7 +182,7 @@ TEST_CASE("work in a child returns its bytes, many or none") {
   CHECK(result.bytes == many);
 }
 
-TEST_CASE("a child that crashes, throws, never ends or takes all memory leaves a sentence") {
+TEST_CASE("a child that crashes, throws or never ends leaves a sentence") {
   CHECK(run_limited([]() -> std::string { std::abort(); }).fault == "crashes");
   CHECK(run_limited([]() -> std::string { throw 7; }).fault == "fails");
   const ChildResult slow = run_limited(
