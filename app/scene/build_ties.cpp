@@ -132,6 +132,8 @@ void build_couplings(SceneModel& scene) {
     made.absolute_damper = given.absolute_damper;
     made.rate = given.rate;
     made.target = given.target.kind;
+    made.delay = given.delay;
+    made.speed = given.speed;
     made.rest = scene.start;
     made.rest.qd.assign(scene.model.nv, 0);
     set_coordinates(scene, made.robot, given.target.q, made.rest);

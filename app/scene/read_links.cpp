@@ -86,6 +86,22 @@ void read_target(SceneReader& reader, SceneTable& table, const RobotDescription&
   }
 }
 
+// How late and how fast the motion of the target is seen.
+void read_pace(SceneTable& table, CouplingDescription& coupling) {
+  using Kind = CouplingTarget::Kind;
+  const Kind target = coupling.target.kind;
+  const bool moves = target != Kind::start && target != Kind::state;
+  coupling.delay = table.not_negative("delay").value_or(0);
+  if (coupling.delay > 0 && !moves)
+    table.fault("delay", "the target stands still: seen late, it is the same",
+                "leave it out, or give a target that moves");
+  const auto speed = table.positive("speed");
+  coupling.speed = speed.value_or(1);
+  if (speed && target != Kind::paper && target != Kind::trace)
+    table.fault("speed", "is of a target that is a motion by name or a trace",
+                "leave it out, or give target = \"paper\" or a trace file");
+}
+
 }  // namespace
 
 void SceneReader::read_coupling(const TomlValue& value, std::size_t index) {
@@ -115,9 +131,9 @@ void SceneReader::read_coupling(const TomlValue& value, std::size_t index) {
   const RobotDescription& description = robot ? robot->description : nobody;
   read_link(table, description, coupling);
   if (robot && !description.links.empty())
-    read_target(*this, table, description, coupling.target);
+    read_target(*this, table, description, coupling.target), read_pace(table, coupling);
   else
-    table.find("target");
+    for (const char* key : {"target", "delay", "speed"}) table.find(key);
   table.done();
   scene.couplings.push_back(std::move(coupling));
 }

@@ -7,6 +7,7 @@
 #include "collision/import/number_text.h"
 #include "coupling/automatic_motion.h"
 #include "coupling/linear.h"
+#include "coupling/paced_hand.h"
 #include "coupling/recorded_trace.h"
 #include "coupling/torsional.h"
 
@@ -62,8 +63,8 @@ int hold_steps(const SceneModel& scene, const SceneCoupling& coupling, double h,
   return 1;
 }
 
-std::unique_ptr<HandSource> make_hand(const SceneModel& scene, const SceneCoupling& coupling,
-                                      FaultList& faults) {
+std::unique_ptr<HandSource> hand_of_target(const SceneModel& scene, const SceneCoupling& coupling,
+                                           FaultList& faults) {
   switch (coupling.target) {
     case CouplingTarget::Kind::paper:
       return std::make_unique<AutomaticMotion>(HandMapping{});
@@ -84,6 +85,13 @@ std::unique_ptr<HandSource> make_hand(const SceneModel& scene, const SceneCoupli
       break;
   }
   return std::make_unique<RestingHand>();
+}
+
+std::unique_ptr<HandSource> make_hand(const SceneModel& scene, const SceneCoupling& coupling,
+                                      FaultList& faults) {
+  auto hand = hand_of_target(scene, coupling, faults);
+  if (coupling.delay == 0 && coupling.speed == 1) return hand;
+  return std::make_unique<PacedHand>(std::move(hand), coupling.delay, coupling.speed);
 }
 
 }  // namespace

@@ -122,6 +122,8 @@ struct CouplingDescription {
   Treatment treatment = Treatment::implicit;
   bool absolute_damper = false;  // against the link's own velocity, and not that of the target
   double rate = 0;               // [Hz] at which the force is computed; 0: every step
+  double delay = 0;  // [s]: the kinematic side is seen this late; before, at its start, at rest
+  double speed = 1;  // a motion or trace is played this many times faster
   CouplingTarget target;
 };
 

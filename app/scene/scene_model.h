@@ -50,6 +50,7 @@ struct SceneCoupling {
   // The kinematic side: a second copy of the whole model, of which the hand moves joints of this
   // robot; the others stand as in `rest`.
   CouplingTarget::Kind target = CouplingTarget::Kind::start;
+  double delay = 0, speed = 1;  // coupling/paced_hand.h
   std::size_t robot = 0;
   State<double> rest;
   std::vector<std::string> turned;  // joints of the model that the hand turns, at most three

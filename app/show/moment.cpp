@@ -10,7 +10,8 @@ namespace twinarm {
 namespace {
 
 bool same_motion(const SceneCoupling& a, const SceneCoupling& b) {
-  return a.robot == b.robot && a.target == b.target && a.trace == b.trace && a.rest.q == b.rest.q;
+  return a.robot == b.robot && a.target == b.target && a.trace == b.trace && a.rest.q == b.rest.q &&
+         a.delay == b.delay && a.speed == b.speed;
 }
 
 // One coupling for each kinematic side that is to be seen. Where one of a robot's couplings leads

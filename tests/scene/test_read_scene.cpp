@@ -137,6 +137,16 @@ TEST_CASE(
   check_fault(linear + "link = 'arm1'\nmeasure = 'joint'\n", 8, "of a torsional coupling");
   check_fault(linear + "link = 'arm1'\nrate = 100\ntreatment = 'implicit'\n", 8, "is explicit");
   check_fault(linear + "link = 'arm1'\ntarget = 'pepar'\n", 8, "'pepar' does not exist");
+  const std::string late = linear + "link = 'arm1'\ntarget = 'paper'\n";
+  CHECK(scene_faults(late + "delay = 0.0314\nspeed = 0.5\n").empty());
+  check_fault(late + "delay = -1\n", 9, "must not be negative");
+  check_fault(late + "delay = 'long'\n", 9, "must be a number");
+  check_fault(late + "speed = 0\n", 9, "must be positive");
+  check_fault(late + "speed = inf\n", 9, "must be finite");
+  check_fault(linear + "link = 'arm1'\ndelay = 0.1\n", 8, "the target stands still");
+  check_fault(linear + "link = 'arm1'\nspeed = 2\n", 8, "a motion by name or a trace");
+  check_fault(linear + "link = 'arm1'\ntarget = { q = { joint1 = 1 } }\nspeed = 2\n", 9,
+              "a motion by name or a trace");
   check_fault(linear + "link = 'arm1'\ntarget = { q = { joint9 = 1 } }\n", 8, "no such joint");
   check_fault(pull + "type = 'torsional'\nlink = 'base'\nmeasure = 'joint'\n", 7,
               "not one degree of freedom");

@@ -154,6 +154,48 @@ TEST_CASE("scene: targets are a state, the paper's motion, a trace") {
   CHECK(q(couplings.target(2, 0.5).x, "joint2") == doctest::Approx(0.4));
 }
 
+TEST_CASE("scene: a late, fast target is the motion of speed (t - delay), its velocity likewise") {
+  const double delay = 0.12345, speed = 1.7;  // no number of steps of 1 ms
+  SceneModel scene = built(
+      "[[robot]]\nname = 'r'\nmodel = 'robots/findings_set0/findings_set0.urdf'\n[[coupling]]\n"
+      "type = 'torsional'\nmeasure = 'joint'\nlink = 'arm1'\nstiffness = 10\ndamping = 1\n"
+      "treatment = 'explicit'\ntarget = 'paper'\ndelay = 0.12345\nspeed = 1.7\n");
+  using Side = SceneCouplings::Side;
+  const double pi = 3.14159265358979323846;
+  SceneCouplings couplings(scene, 0.001);
+  const auto at = [&](double t, Side side = Side::after) {
+    const State<double>& x = couplings.target(0, t, side).x;
+    return std::pair{x.q[0], x.qd[0]};
+  };
+  for (const double t : {0.0, 0.05, 0.12}) {  // not seen yet: at the start, at rest
+    CHECK(at(t).first == doctest::Approx(pi / 2));
+    CHECK(at(t).second == 0);
+  }
+  for (const double t : {0.13, 0.4, 0.7}) {  // the first sweep, from pi/2 at -pi rad/s
+    CHECK(at(t).first == doctest::Approx(pi / 2 - pi * speed * (t - delay)).epsilon(1e-12));
+    CHECK(at(t).second == doctest::Approx(-pi * speed).epsilon(1e-12));
+  }
+  // The corners: where it begins to move, and where it turns back.
+  CHECK(at(delay, Side::before).second == 0);
+  CHECK(at(delay, Side::after).second == doctest::Approx(-pi * speed));
+  CHECK(at(delay + 1 / speed, Side::before).second == doctest::Approx(-pi * speed));
+  CHECK(at(delay + 1 / speed, Side::after).second == doctest::Approx(pi * speed));
+  CHECK(at(9).first == doctest::Approx(-pi / 2));  // three sweeps, and it is over
+  CHECK(at(9).second == 0);
+
+  // What pulls sees the same: k (q_K - q_D) + b (qd_K - qd_D) at the late instant.
+  Kinematics k(scene.model);
+  State<double> x = scene.start;
+  x.t = 0.4;
+  forward_kinematics(scene.model, x, k);
+  couplings.source(0).begin_step(k, x.t, 0.001);
+  Forces<double> forces(scene.model);
+  couplings.source(0).add_forces(x, k, forces);
+  const double q_K = pi / 2 - pi * speed * (0.4 - delay);
+  CHECK(couplings.coupling(0).readings()[0].size ==
+        doctest::Approx(10 * (q_K - x.q[0]) - pi * speed).epsilon(1e-12));
+}
+
 TEST_CASE("scene: a device that is not there, and a rate that is no part of the steps, are told") {
   const std::string pull =
       "[[robot]]\nname = 'r'\nmodel = 'robots/findings_set0/findings_set0.urdf'\n[[coupling]]\n"
