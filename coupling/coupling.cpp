@@ -19,13 +19,15 @@ Coupling::Coupling(std::string name, const Model<double>& model, KinematicRobot&
     const std::string where = "coupling '" + name_ + "', spring '" + spring.name + "'";
     if (spring.body <= 0 || spring.body >= model.body_count())
       faults.add({"", 0, where, "it names no moving link", "name a link of the robot"});
-    if (!(spring.k >= 0))
-      faults.add({"", 0, where,
-                  "stiffness is " + std::to_string(spring.k) + ", must not be negative",
-                  "give a stiffness of at least 0"});
-    if (!(spring.b >= 0))
-      faults.add({"", 0, where, "damping is " + std::to_string(spring.b) + ", must not be negative",
-                  "give a damping of at least 0"});
+    const auto check = [&](double gain, const std::string& what) {
+      if (gain >= 0) return;
+      faults.add({"", 0, where, what + " is " + std::to_string(gain) + ", must not be negative",
+                  "give a " + what + " of at least 0"});
+    };
+    check(spring.k, "stiffness");
+    check(spring.b, "damping");
+    check(spring.k_turn, "stiffness of the turn");
+    check(spring.b_turn, "damping of the turn");
   }
   faults.check();
 }
@@ -34,7 +36,36 @@ void Coupling::visit_memory(Memory& memory) {
   for (SpringReading& reading : readings_) {
     for (Vector3* v : {&reading.p_K, &reading.p_D, &reading.pull}) memory.visit(*v);
     memory.visit(reading.size);
+    memory.visit(reading.m_star);
   }
+}
+
+Eigen::MatrixXd Coupling::joint_row(int body) const {
+  Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(model_.nv));
+  row(0, static_cast<Eigen::Index>(model_.iv[static_cast<std::size_t>(body)])) = 1;
+  return row;
+}
+
+void Coupling::check_one_dof() const {
+  FaultList faults;
+  for (const Spring& spring : springs_) {
+    const auto i = static_cast<std::size_t>(spring.body);
+    if (model_.dofs(i) == 1) continue;
+    faults.add({"", 0, "coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
+                "the joint has " + std::to_string(model_.dofs(i)) + " degrees of freedom, not one",
+                "name links on revolute, prismatic or screw joints"});
+  }
+  faults.check();
+}
+
+Coupling::JointSpace::JointSpace(std::size_t nv) {
+  const auto n = static_cast<Eigen::Index>(nv);
+  K = B = Eigen::MatrixXd::Zero(n, n);
+}
+
+void Coupling::JointSpace::add(double k, double b, const Eigen::Ref<const Eigen::MatrixXd>& J) {
+  K += k * J.transpose() * J;
+  B += b * J.transpose() * J;
 }
 
 Vector3 rotation_vector(const Matrix3& R) {

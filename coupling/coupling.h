@@ -15,12 +15,14 @@ namespace twinarm {
 
 // One spring-damper. Torsional: between the orientations (or joint angles) of the link in the KVR
 // and in the DVR, k [N m/rad], b [N m s/rad]. Linear: between the points p_L of the link in both,
-// k [N/m], b [N s/m]. On a prismatic joint, `joint` measure: k [N/m], b [N s/m].
+// k [N/m], b [N s/m]. On a prismatic joint, `joint` measure: k [N/m], b [N s/m]. In six dimensions:
+// k, b at the point, k_turn, b_turn between the orientations.
 struct Spring {
   std::string name;
   int body = 0;
-  Vector3 p_L = Vector3::Zero();  // link axes, from the link's origin; linear couplings only
+  Vector3 p_L = Vector3::Zero();  // link axes, from the link's origin; of couplings at a point
   double k = 0, b = 0;
+  double k_turn = 0, b_turn = 0;  // of couplings in six dimensions
 };
 
 enum class Measure {
@@ -33,6 +35,8 @@ struct SpringReading {
   Vector3 p_K = Vector3::Zero(), p_D = Vector3::Zero();  // ends in the KVR and the DVR, world [m]
   Vector3 pull = Vector3::Zero();  // force [N] or couple [N m] on the DVR, world axes
   double size = 0;                 // |pull|; of a joint spring the torque, or force, with its sign
+  double m_star = 0;  // over a step the pull lessens by m* times the acceleration of the measured
+                      // quantity: the weightless inertia [kg, kg m^2]
 };
 
 class Coupling : public ForceSource {
@@ -42,6 +46,7 @@ class Coupling : public ForceSource {
 
   const std::string& name() const { return name_; }
   const std::vector<Spring>& springs() const { return springs_; }
+  // By spring. In six dimensions the forces of all springs, and then the couples of all.
   const std::vector<SpringReading>& readings() const { return readings_; }
   // The pulls, which may be held over many steps. The kinematic robot is a function of time, unless
   // its rates are differences: that is not remembered here.
@@ -50,10 +55,18 @@ class Coupling : public ForceSource {
   // K_q and B_q about zero offset at a pose: tau = K_q (q_K - q_D) + B_q (qd_K - qd_D).
   struct JointSpace {
     Eigen::MatrixXd K, B;
+    explicit JointSpace(std::size_t nv);  // zero
+    // J^T k J and J^T b J.
+    void add(double k, double b, const Eigen::Ref<const Eigen::MatrixXd>& J);
   };
   virtual JointSpace joint_space(const Kinematics& k) const = 0;
 
  protected:
+  // d(coordinate of the joint that carries the body)/dq, 1 x nv.
+  Eigen::MatrixXd joint_row(int body) const;
+  // Faults of springs on joints that have not one degree of freedom. Throws InputError.
+  void check_one_dof() const;
+
   std::string name_;
   const Model<double>& model_;
   KinematicRobot& kvr_;

@@ -8,11 +8,14 @@
 #pragma once
 
 #include "coupling/coupling.h"
+#include "coupling/hold.h"
 
 namespace twinarm {
 
 class LinearCoupling final : public Coupling {
  public:
+  // hold_steps > 0: the force is computed every hold_steps steps and held between (explicit only);
+  // 0: at every step and stage.
   LinearCoupling(std::string name, const Model<double>& model, KinematicRobot& kvr,
                  std::vector<Spring> springs, Treatment treatment, int hold_steps = 0);
 
@@ -21,19 +24,11 @@ class LinearCoupling final : public Coupling {
                   Forces<double>& forces) noexcept override;
   bool needs_semi_implicit() const override { return treatment_ != Treatment::explicit_; }
   JointSpace joint_space(const Kinematics& k) const override;
-  void visit_memory(Memory& memory) override {
-    Coupling::visit_memory(memory);
-    memory.visit(steps_);
-  }
+  void visit_memory(Memory& memory) override;
 
  private:
   Treatment treatment_;
-  int hold_steps_, steps_ = 0;
-  bool fresh_ = true;
+  Hold hold_;
 };
-
-// K_q = sum_p J_p^T k_p J_p and B_q likewise, of springs at points of links.
-Coupling::JointSpace joint_space_of_points(const Model<double>& model, const Kinematics& k,
-                                           const std::vector<Spring>& springs);
 
 }  // namespace twinarm

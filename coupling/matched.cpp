@@ -2,13 +2,27 @@
 
 #include <utility>
 
-#include "coupling/linear.h"
+#include "coupling/pull.h"
+#include "solver/fault.h"
 
 namespace twinarm {
 
 MatchedTorsional::MatchedTorsional(std::string name, const Model<double>& model,
                                    KinematicRobot& kvr, std::vector<Spring> springs)
-    : Coupling(std::move(name), model, kvr, std::move(springs)) {}
+    : Coupling(std::move(name), model, kvr, std::move(springs)), iq_(model.nv) {
+  FaultList faults;
+  for (std::size_t i = 1; i < model.parent.size(); ++i)
+    if (model.dofs(i) == 1) iq_[model.iv[i]] = model.iq[i];
+  for (const Spring& spring : springs_)
+    for (int body = spring.body; body > 0; body = model.parent[static_cast<std::size_t>(body)]) {
+      const auto i = static_cast<std::size_t>(body);
+      if (model.dofs(i) > 1)
+        faults.add({"", 0, "coupling '" + name_ + "', joint '" + model.joint_name[i] + "'",
+                    "the joint has " + std::to_string(model.dofs(i)) + " degrees of freedom",
+                    "the matched law takes joints of one; choose a linear coupling"});
+    }
+  faults.check();
+}
 
 void MatchedTorsional::begin_step(const Kinematics&, double t, double h) noexcept {
   kvr_.begin_step(t, h);
@@ -28,8 +42,8 @@ void MatchedTorsional::add_forces(const State<double>& x, const Kinematics&,
     };
     Vector3 pull = Vector3::Zero();
     for_each_column([&](std::size_t dof, const Vector3& J) {
-      const double e = target.x.q[dof] - x.q[dof], e_dot = target.x.qd[dof] - x.qd[dof];
-      pull += (spring.k * e + spring.b * e_dot) * J;
+      const double e = target.x.q[iq_[dof]] - x.q[iq_[dof]];
+      pull += (spring.k * e + spring.b * (target.x.qd[dof] - x.qd[dof])) * J;
     });
     for_each_column([&](std::size_t dof, const Vector3& J) { forces.tau[dof] += J.dot(pull); });
     readings_[s] = {p_K, p_K, pull, pull.norm()};

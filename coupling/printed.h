@@ -47,10 +47,11 @@ class PrintedTorsional final : public Coupling {
                   Forces<double>& forces) noexcept override;
   // Of the vector damper. The folded and the unsigned one have no linear part: B_q = 0.
   JointSpace joint_space(const Kinematics& k) const override;
+  void visit_memory(Memory& memory) override;
 
  private:
-  struct Memory {  // of one spring: orientations (or joint turns) at the last evaluations
-    Matrix3 R_K, R_D;
+  struct Past {  // of one spring: orientations (or joint turns) at the last evaluations
+    Matrix3 R_K = Matrix3::Identity(), R_D = Matrix3::Identity();
     Vector3 step_K = Vector3::Zero(), step_D = Vector3::Zero();  // last step rotations, world
   };
   Matrix3 orientation(const Spring& spring, const Kinematics& k) const;
@@ -58,7 +59,7 @@ class PrintedTorsional final : public Coupling {
                   double interval) const;
 
   PrintedOptions options_;
-  std::vector<Memory> memory_;
+  std::vector<Past> past_;
   int steps_ = 0;
 };
 
@@ -70,14 +71,15 @@ class PrintedLinear final : public Coupling {
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
   JointSpace joint_space(const Kinematics& k) const override;
+  void visit_memory(Memory& memory) override;
 
  private:
-  struct Memory {  // of one spring: mass positions at the last evaluation, and their last steps
-    Vector3 p_K, p_D;
+  struct Past {  // of one spring: mass positions at the last evaluation, and their last steps
+    Vector3 p_K = Vector3::Zero(), p_D = Vector3::Zero();
     Vector3 step_K = Vector3::Zero(), step_D = Vector3::Zero();
   };
   PrintedOptions options_;
-  std::vector<Memory> memory_;
+  std::vector<Past> past_;
   int steps_ = 0;
 };
 

@@ -1,7 +1,7 @@
 #include <utility>
 
-#include "coupling/linear.h"
 #include "coupling/printed.h"
+#include "coupling/pull.h"
 #include "solver/spring.h"
 
 namespace twinarm {
@@ -10,7 +10,7 @@ PrintedLinear::PrintedLinear(std::string name, const Model<double>& model, Kinem
                              std::vector<Spring> springs, PrintedOptions options)
     : Coupling(std::move(name), model, kvr, std::move(springs)),
       options_(options),
-      memory_(springs_.size()) {}
+      past_(springs_.size()) {}
 
 void PrintedLinear::begin_step(const Kinematics& k, double t, double h) noexcept {
   kvr_.begin_step(t, h);
@@ -21,18 +21,18 @@ void PrintedLinear::begin_step(const Kinematics& k, double t, double h) noexcept
       options_.difference == Difference::per_frame ? 1.0 : h * options_.hold_steps;
   for (std::size_t s = 0; s < springs_.size(); ++s) {
     const Spring& spring = springs_[s];
-    Memory& memory = memory_[s];
+    Past& past = past_[s];
     const Vector3 p_K = kvr_.start().k.position(spring.body, spring.p_L);
     const Vector3 p_D = k.position(spring.body, spring.p_L);
-    const Vector3 old_step_K = memory.step_K, old_step_D = memory.step_D;
-    memory.step_K = first ? Vector3::Zero() : Vector3(p_K - memory.p_K);
-    memory.step_D = first ? Vector3::Zero() : Vector3(p_D - memory.p_D);
-    memory.p_K = p_K;
-    memory.p_D = p_D;
+    const Vector3 old_step_K = past.step_K, old_step_D = past.step_D;
+    past.step_K = first ? Vector3::Zero() : Vector3(p_K - past.p_K);
+    past.step_D = first ? Vector3::Zero() : Vector3(p_D - past.p_D);
+    past.p_K = p_K;
+    past.p_D = p_D;
 
     const bool older = options_.difference == Difference::older;
-    const Vector3 v_K = (older ? old_step_K : memory.step_K) / interval;
-    const Vector3 v_D = (older ? old_step_D : memory.step_D) / interval;
+    const Vector3 v_K = (older ? old_step_K : past.step_K) / interval;
+    const Vector3 v_D = (older ? old_step_D : past.step_D) / interval;
     SpringReading& reading = readings_[s];
     reading.p_K = p_K;
     reading.p_D = p_D;
@@ -50,6 +50,13 @@ void PrintedLinear::add_forces(const State<double>&, const Kinematics& k,
 
 Coupling::JointSpace PrintedLinear::joint_space(const Kinematics& k) const {
   return joint_space_of_points(model_, k, springs_);
+}
+
+void PrintedLinear::visit_memory(Memory& memory) {
+  Coupling::visit_memory(memory);
+  memory.visit(steps_);
+  for (Past& past : past_)
+    for (Vector3* v : {&past.p_K, &past.p_D, &past.step_K, &past.step_D}) memory.visit(*v);
 }
 
 }  // namespace twinarm

@@ -22,7 +22,7 @@ PrintedTorsional::PrintedTorsional(std::string name, const Model<double>& model,
                                    PrintedOptions options)
     : Coupling(std::move(name), model, kvr, std::move(springs)),
       options_(options),
-      memory_(springs_.size()) {}
+      past_(springs_.size()) {}
 
 // Of the link in the world, or relative to its parent link.
 Matrix3 PrintedTorsional::orientation(const Spring& spring, const Kinematics& k) const {
@@ -54,18 +54,18 @@ void PrintedTorsional::begin_step(const Kinematics& k, double t, double h) noexc
   for (std::size_t s = 0; s < springs_.size(); ++s) {
     const Spring& spring = springs_[s];
     const auto i = static_cast<std::size_t>(spring.body);
-    Memory& memory = memory_[s];
+    Past& past = past_[s];
     const Matrix3 R_K = orientation(spring, kvr_.start().k), R_D = orientation(spring, k);
-    const Vector3 old_step_K = memory.step_K, old_step_D = memory.step_D;
-    memory.step_K = first ? Vector3::Zero() : rotation_vector(R_K * memory.R_K.transpose());
-    memory.step_D = first ? Vector3::Zero() : rotation_vector(R_D * memory.R_D.transpose());
-    memory.R_K = R_K;
-    memory.R_D = R_D;
+    const Vector3 old_step_K = past.step_K, old_step_D = past.step_D;
+    past.step_K = first ? Vector3::Zero() : rotation_vector(R_K * past.R_K.transpose());
+    past.step_D = first ? Vector3::Zero() : rotation_vector(R_D * past.R_D.transpose());
+    past.R_K = R_K;
+    past.R_D = R_D;
 
     const bool older = options_.difference == Difference::older;
     const Vector3 restoring = spring.k * (R_D * rotation_vector(R_D.transpose() * R_K));
-    const Vector3 pull = restoring + damping(spring, older ? old_step_K : memory.step_K,
-                                             older ? old_step_D : memory.step_D, interval);
+    const Vector3 pull = restoring + damping(spring, older ? old_step_K : past.step_K,
+                                             older ? old_step_D : past.step_D, interval);
     SpringReading& reading = readings_[s];
     // A joint's orientation stands in its parent's axes.
     const auto parent = static_cast<std::size_t>(model_.parent[i]);
@@ -88,16 +88,24 @@ void PrintedTorsional::add_forces(const State<double>&, const Kinematics& k,
 }
 
 Coupling::JointSpace PrintedTorsional::joint_space(const Kinematics& k) const {
-  const auto n = static_cast<Eigen::Index>(model_.nv);
-  JointSpace sum{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
+  JointSpace sum(model_.nv);
   for (const Spring& spring : springs_) {
     Eigen::Matrix3Xd J = rotation_jacobian(model_, k, spring.body);
     if (options_.measure == Measure::joint)
       J -= rotation_jacobian(model_, k, model_.parent[static_cast<std::size_t>(spring.body)]);
-    sum.K += spring.k * J.transpose() * J;
-    if (options_.damper == Damper::vector_) sum.B += spring.b * J.transpose() * J;
+    sum.add(spring.k, options_.damper == Damper::vector_ ? spring.b : 0, J);
   }
   return sum;
+}
+
+void PrintedTorsional::visit_memory(Memory& memory) {
+  Coupling::visit_memory(memory);
+  memory.visit(steps_);
+  for (Past& past : past_) {
+    for (Matrix3* R : {&past.R_K, &past.R_D})
+      for (Eigen::Index c = 0; c < 9; ++c) memory.visit((*R)(c));
+    for (Vector3* v : {&past.step_K, &past.step_D}) memory.visit(*v);
+  }
 }
 
 }  // namespace twinarm

@@ -9,6 +9,8 @@
 #pragma once
 
 #include "coupling/coupling.h"
+#include "coupling/hold.h"
+#include "coupling/treatment.h"
 
 namespace twinarm {
 
@@ -25,21 +27,15 @@ class TorsionalCoupling final : public Coupling {
                   Forces<double>& forces) noexcept override;
   bool needs_semi_implicit() const override { return treatment_ != Treatment::explicit_; }
   JointSpace joint_space(const Kinematics& k) const override;
-  void visit_memory(Memory& memory) override {
-    Coupling::visit_memory(memory);
-    memory.visit(steps_);
-  }
+  void visit_memory(Memory& memory) override;
 
  private:
-  void pull_world(std::size_t s, const State<double>& x, const Kinematics& k,
-                  Forces<double>& forces);
-  void pull_joint(std::size_t s, const State<double>& x, const Kinematics& k,
-                  Forces<double>& forces);
+  void pull_joint(std::size_t s, const TreatmentTerms& terms, const State<double>& x,
+                  const Kinematics& k, Forces<double>& forces);
 
   Measure measure_;
   Treatment treatment_;
-  int hold_steps_, steps_ = 0;
-  bool fresh_ = true;  // compute the couple in the next add_forces
+  Hold hold_;
 };
 
 }  // namespace twinarm

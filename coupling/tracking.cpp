@@ -3,28 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/linear.h"
-#include "coupling/matched.h"
-#include "coupling/torsional.h"
-
 namespace twinarm {
-
-std::unique_ptr<Coupling> make_coupling(const CouplingSpec& spec, const Model<double>& model,
-                                        KinematicRobot& kvr) {
-  using Type = CouplingSpec::Type;
-  if (spec.type == Type::matched)
-    return std::make_unique<MatchedTorsional>(spec.name, model, kvr, spec.springs);
-  const bool torsional = spec.type == Type::torsional;
-  if (spec.printed && torsional)
-    return std::make_unique<PrintedTorsional>(spec.name, model, kvr, spec.springs, spec.options);
-  if (spec.printed)
-    return std::make_unique<PrintedLinear>(spec.name, model, kvr, spec.springs, spec.options);
-  if (torsional)
-    return std::make_unique<TorsionalCoupling>(spec.name, model, kvr, spec.springs, spec.measure,
-                                               spec.treatment, spec.hold_steps);
-  return std::make_unique<LinearCoupling>(spec.name, model, kvr, spec.springs, spec.treatment,
-                                          spec.hold_steps);
-}
 
 TrackingError tracking_error(const TrackingSeries& series) {
   TrackingError error;

@@ -6,26 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "coupling/coupling.h"
-#include "coupling/printed.h"
+#include "coupling/coupling_spec.h"
 #include "solver/simulation.h"
 
 namespace twinarm {
-
-// A coupling as plain data: what a calibration file, a report and a scene can hold.
-struct CouplingSpec {
-  enum class Type { torsional, linear, matched };
-  std::string name;
-  Type type = Type::torsional;
-  bool printed = false;  // the paper's own equations (PrintedOptions), or the consistent form
-  PrintedOptions options;
-  Measure measure = Measure::world;            // consistent torsional
-  Treatment treatment = Treatment::explicit_;  // consistent
-  int hold_steps = 0;                          // consistent; 0: every step and stage
-  std::vector<Spring> springs;
-};
-std::unique_ptr<Coupling> make_coupling(const CouplingSpec& spec, const Model<double>& model,
-                                        KinematicRobot& kvr);
 
 // One run, by step: joint angles are those of DrivenJoints::turned.
 struct TrackingSeries {

@@ -11,7 +11,8 @@ struct TreatmentTerms {
   const KvrSample* damper_target;  // velocity of the KVR that the damper pulls to
   double look_ahead;               // [s]: the spring sees the DVR at x + look_ahead v
   double m_star(double k, double b) const { return weight_b * b + weight_k * k; }
-  double weight_b, weight_k;  // [s], [s^2]
+  double weight_b, weight_k;      // [s], [s^2]
+  bool sees_target_moves = true;  // false: an absolute damper, against the link's own velocity
 };
 
 inline TreatmentTerms terms_of(Treatment treatment, KinematicRobot& kvr, double t, double h) {

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "coupling/prediction.h"
+#include "coupling/target_radius.h"
 #include "solver/energy.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/solver/random_tree.h"
@@ -156,4 +157,110 @@ TEST_CASE("an implicit point spring is stable up to its target's largest radius,
     CHECK_FALSE(grows(0.995 * predicted));
     CHECK(grows(1.005 * predicted));
   }
+}
+
+namespace {
+
+// A metre of twenty rods, straight along x, in its plane; held at its tip by one implicit spring at
+// w h = 100 (of the stiffest mode), whose target stands `off` metres to the side.
+struct HeldTip {
+  static constexpr double h = 1e-3, length = 0.05;
+  static constexpr int links = 20;
+  Model<double> model;
+  Spring spring{"tip", links, {length, 0, 0}, 1, 0};
+  std::unique_ptr<Coupled> system;
+
+  HeldTip(double off, double zeta) {
+    ModelBuilder builder;
+    const double m = 0.1, I = m * length * length / 12;
+    for (int i = 1; i <= links; ++i)
+      builder.add_body("rod" + std::to_string(i), i - 1, "joint" + std::to_string(i),
+                       JointType::revolute, {Matrix3::Identity(), {i == 1 ? 0 : length, 0, 0}},
+                       Vector3::UnitZ(),
+                       {m, {length / 2, 0, 0}, Vector3(0.1 * I, I, I).asDiagonal()});
+    model = builder.build();
+    SteadyHand hand;
+    hand.angle[0] = off;  // of the root: the tip is 1 m out
+    const State<double> straight(model);
+    CouplingSpec spec;
+    spec.type = CouplingSpec::Type::linear;
+    spec.treatment = Treatment::implicit;
+    spec.springs = {spring};
+    const Coupled unit(model, hand, {"joint1"}, spec, straight);
+    const double wh = 100;
+    spring.k = wh * wh / (h * h) /
+               squared_frequencies(mass_matrix(model, straight),
+                                   unit.coupling->joint_space(unit.simulation.kinematics()).K)
+                   .maxCoeff();
+    spring.b = 2 * zeta * spring.k * h / wh;
+    spec.springs = {spring};
+    system =
+        std::make_unique<Coupled>(model, hand, std::vector<std::string>{"joint1"}, spec, straight);
+  }
+  Vector3 offset() const {
+    return system->kvr.start().k.position(links, spring.p_L) -
+           system->simulation.kinematics().position(links, spring.p_L);
+  }
+  double energy() const {
+    return kinetic_energy(model, system->simulation.state()) +
+           0.5 * spring.k * offset().squaredNorm();
+  }
+  TargetRadius radius() const {
+    return nearest_target_radius(model, system->simulation.state(), system->simulation.kinematics(),
+                                 system->kvr.start().k, spring, h);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a tip held at w h = 100 comes in from 7 mm, and energy falls; from 71 mm it is lost") {
+  for (const double zeta : {0.0, 0.7}) {
+    CAPTURE(zeta);
+    HeldTip near(0.007, zeta);
+    const double first = near.energy();
+    double most = 0, ratio = 0;
+    for (int n = 0; n < 600; ++n) {
+      ratio = std::max(ratio, near.radius().ratio());
+      CHECK(near.system->simulation.step(HeldTip::h).finite);
+      most = std::max(most, near.energy());
+    }
+    CHECK(most < 1.5 * first);
+    CHECK(near.offset().norm() < 1e-3);
+    CHECK(ratio < 0.7);  // of the limit of the geometric stiffness
+
+    // Here the limit is passed in the first steps, before the energy has grown.
+    HeldTip far(0.071, zeta);
+    const double before = far.energy();
+    CHECK(far.radius().ratio() < 1);
+    int passed = -1, grown = -1;
+    for (int n = 1; n <= 60 && grown < 0; ++n) {
+      far.system->simulation.step(HeldTip::h);
+      if (passed < 0 && far.radius().ratio() > 1) passed = n;
+      if (!(far.energy() < 10 * before)) grown = n;
+    }
+    CHECK(passed > 0);
+    CHECK(passed < grown);
+  }
+}
+
+TEST_CASE("the limit of the target's radius is that of the joint that folds: one link, any axis") {
+  Random random(23);
+  ModelBuilder builder;
+  builder.add_body("base", 0, "slide", JointType::prismatic, {random.rotation(), random.vector(1)},
+                   random.vector(1), {3, random.vector(0.1), 0.1 * Matrix3::Identity()});
+  builder.add_body("link", 1, "joint1", JointType::revolute, {random.rotation(), random.vector(1)},
+                   random.vector(1), {2, Vector3::Zero(), 0.05 * Matrix3::Identity()});
+  const Model<double> model = builder.build();
+  const State<double> x(model);
+  Kinematics D(model);
+  forward_kinematics(model, x, D);
+  const Spring spring{"spring", 2, random.vector(0.4), 1e6, 30};
+  const TargetRadius found = nearest_target_radius(model, x, D, D, spring, 1e-3);
+  // r = |dp/dq| of a hinge; I is the inertia that the mass matrix has on its diagonal.
+  const double r = point_jacobian(model, D, 2, D.position(2, spring.p_L)).col(1).norm();
+  CHECK(found.body == 2);
+  CHECK(found.r == doctest::Approx(r).epsilon(1e-12));
+  CHECK(found.R_K == doctest::Approx(r).epsilon(1e-12));
+  CHECK(found.largest ==
+        doctest::Approx(largest_target_radius(mass_matrix(model, x)(1, 1), r, 1e6, 30, 1e-3)));
 }
