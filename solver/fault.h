@@ -6,7 +6,6 @@
 
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace twinarm {
@@ -20,46 +19,26 @@ struct Fault {
 };
 
 // "robot.urdf:12: link 'arm1': mass is -3 kg, must be positive; give <mass value=...>"
-inline std::string to_string(const Fault& fault) {
-  std::string text;
-  if (!fault.file.empty()) {
-    text += fault.file;
-    if (fault.line > 0) text += ":" + std::to_string(fault.line);
-    text += ": ";
-  }
-  if (!fault.where.empty()) text += fault.where + ": ";
-  text += fault.rule;
-  if (!fault.remedy.empty()) text += "; " + fault.remedy;
-  return text;
-}
+std::string to_string(const Fault& fault);
 
 // Bad input, with all its faults. what() has one line per fault.
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(std::vector<Fault> faults)
-      : std::runtime_error(join(faults)), faults_(std::move(faults)) {}
+  explicit InputError(std::vector<Fault> faults);
+  ~InputError() override;
   const std::vector<Fault>& faults() const { return faults_; }
 
  private:
-  static std::string join(const std::vector<Fault>& faults) {
-    std::string text;
-    for (const Fault& fault : faults) text += (text.empty() ? "" : "\n") + to_string(fault);
-    return text;
-  }
   std::vector<Fault> faults_;
 };
 
 // Collects faults; check() throws them together. One per reader.
 class FaultList {
  public:
-  void add(Fault fault) { faults_.push_back(std::move(fault)); }
-  void add(const std::vector<Fault>& more) {
-    faults_.insert(faults_.end(), more.begin(), more.end());
-  }
+  void add(Fault fault);
+  void add(const std::vector<Fault>& more);
   bool empty() const { return faults_.empty(); }
-  void check() const {
-    if (!faults_.empty()) throw InputError(faults_);
-  }
+  void check() const;
 
  private:
   std::vector<Fault> faults_;
