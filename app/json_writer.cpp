@@ -10,8 +10,8 @@ namespace {
 
 // Quoted and escaped; bytes that are no UTF-8 are replaced.
 std::string quoted(std::string_view text) {
-  const nlohmann::json json = std::string(text);
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  const nlohmann::ordered_json json = std::string(text);
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace

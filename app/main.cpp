@@ -19,16 +19,17 @@ enum ExitCode { kDone = 0, kBadInput = 2, kInternal = 4, kInterrupted = 130 };
 
 // All faults at once: on stderr for people, on stdout for machines too.
 int tell(const InputError& error, bool as_json) {
-  nlohmann::json errors = nlohmann::json::array();
+  using Json = nlohmann::ordered_json;  // the one flavour of this program: it is compiled once
+  Json errors = Json::array();
   for (const Fault& fault : error.faults()) {
     fmt::print(stderr, "twinarm: {}\n", to_string(fault));
     errors.push_back({{"file", fault.file},
                       {"line", fault.line},
-                      {"where", fault.where},
+                      {"remedy", fault.remedy},
                       {"rule", fault.rule},
-                      {"remedy", fault.remedy}});
+                      {"where", fault.where}});
   }
-  if (as_json) fmt::print("{}\n", nlohmann::json{{"errors", errors}}.dump(1));
+  if (as_json) fmt::print("{}\n", Json{{"errors", errors}}.dump(1));
   return kBadInput;
 }
 

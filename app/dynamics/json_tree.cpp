@@ -30,7 +30,7 @@ struct CountingIterator {
 };
 
 // What the parser meets, put into a tree.
-class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
+class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
  public:
   TreeBuilder(const std::filesystem::path& file, const int& line)
       : file_(file.string()), line_(line) {}
@@ -46,7 +46,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     item.text = value;
     return add(std::move(item));
   }
-  bool binary(nlohmann::json::binary_t&) override { return false; }
+  bool binary(nlohmann::ordered_json::binary_t&) override { return false; }
   bool start_object(std::size_t) override { return open(JsonValue::Kind::object); }
   bool start_array(std::size_t) override { return open(JsonValue::Kind::list); }
   bool end_object() override { return close(); }
@@ -174,8 +174,8 @@ JsonValue read_json(const std::filesystem::path& file) {
   const std::string text = without_nan(read_whole_file(file));
   int line = 1;
   TreeBuilder tree(file, line);
-  nlohmann::json::sax_parse(CountingIterator{text.data(), &line},
-                            CountingIterator{text.data() + text.size(), &line}, &tree);
+  nlohmann::ordered_json::sax_parse(CountingIterator{text.data(), &line},
+                                    CountingIterator{text.data() + text.size(), &line}, &tree);
   tree.faults.check();
   return std::move(tree.root);
 }

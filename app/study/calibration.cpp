@@ -11,7 +11,7 @@
 
 namespace twinarm {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 double CalibrationEntry::value(const std::string& parameter) const {
   for (const Parameter& p : parameters)
@@ -73,21 +73,18 @@ void write_calibration(const Calibration& calibration, const std::filesystem::pa
   root["about"] =
       "Gains that the paper does not publish, found by search. Made by `twinarm study "
       "--recalibrate`; objective, bounds and numbers of each entry: docs/study.md.";
-  root["optimiser"] = calibration.optimiser;
-  root["seed"] = calibration.seed;
   root["entries"] = json::array();
   for (const auto& [name, entry] : calibration.entries) {
-    json item = {{"name", name},
-                 {"rate_hz", entry.rate},
-                 {"parameters", json::array()},
-                 {"objective", entry.objective},
-                 {"evaluations", entry.evaluations},
-                 {"numbers", entry.numbers}};
+    json item = {{"evaluations", entry.evaluations}, {"name", name},
+                 {"numbers", entry.numbers},         {"objective", entry.objective},
+                 {"parameters", json::array()},      {"rate_hz", entry.rate}};
     for (const Parameter& p : entry.parameters)
       item["parameters"].push_back(
-          {{"name", p.name}, {"low", p.low}, {"high", p.high}, {"value", p.value}});
+          {{"high", p.high}, {"low", p.low}, {"name", p.name}, {"value", p.value}});
     root["entries"].push_back(item);
   }
+  root["optimiser"] = calibration.optimiser;
+  root["seed"] = calibration.seed;
   write_whole_file(file, root.dump(1) + "\n");
 }
 
