@@ -1,6 +1,5 @@
 #include "coupling/prediction.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -73,7 +72,7 @@ MatrixXd step_matrix(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B, Sc
   MatrixXd felt = M;  // inertia that the step feels
   if (scheme == Scheme::implicit_damper || scheme == Scheme::implicit) felt += h * B;
   if (scheme == Scheme::implicit) felt += h * h * K;
-  const MatrixXd inverse = felt.llt().solve(MatrixXd::Identity(n, n));
+  const MatrixXd inverse = Cholesky(felt).inverse();
   const MatrixXd spring = scheme == Scheme::implicit ? MatrixXd(B + h * K) : B;
   MatrixXd A(2 * n, 2 * n);
   A.bottomLeftCorner(n, n) = -h * inverse * K;
@@ -112,13 +111,13 @@ double largest_stable_step(const MatrixXd& M, const MatrixXd& K, const MatrixXd&
 
 VectorXd peak_after_jump(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B, const VectorXd& V,
                          double time) {
-  const Eigen::LLT<MatrixXd> solve(M);
+  const Cholesky factors(M);
   const double stiffest = std::sqrt(squared_frequencies(M, K).maxCoeff());
   const double most_damped = squared_frequencies(M, B).maxCoeff();
   const double dt = std::min(time / 100, 0.02 / std::max(stiffest, most_damped));
   VectorXd e = VectorXd::Zero(V.size()), v = V, peak = e;
   const auto a = [&](const VectorXd& x, const VectorXd& xd) {
-    return VectorXd(-solve.solve(K * x + B * xd));
+    return VectorXd(-factors.solve(K * x + B * xd));
   };
   for (double t = 0; t < time; t += dt) {  // classical Runge-Kutta
     const VectorXd a1 = a(e, v);

@@ -2,6 +2,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <cassert>
 
 #include "solver/dense_algebra.h"
 
@@ -12,6 +13,20 @@ using Eigen::VectorXd;
 
 MatrixXd solve_symmetric(const MatrixXd& M, const MatrixXd& B) {
   return M.ldlt().solve(B);
+}
+
+Cholesky::Cholesky(const MatrixXd& M) : L(M.llt().matrixL()) {}
+VectorXd Cholesky::solve(const VectorXd& b) const {
+  VectorXd x = b;
+  L.triangularView<Eigen::Lower>().solveInPlace(x);
+  L.triangularView<Eigen::Lower>().adjoint().solveInPlace(x);
+  return x;
+}
+MatrixXd Cholesky::inverse() const {
+  MatrixXd X = MatrixXd::Identity(L.rows(), L.cols());
+  L.triangularView<Eigen::Lower>().solveInPlace(X);
+  L.triangularView<Eigen::Lower>().adjoint().solveInPlace(X);
+  return X;
 }
 
 VectorXd solve_pivoted(const MatrixXd& A, const VectorXd& b) {
@@ -36,7 +51,8 @@ PivotedColumns pivoted_columns(const MatrixXd& A, double threshold) {
 }
 
 SingularValues singular_values(const MatrixXd& A) {
-  const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeFullV);
+  assert(A.rows() == A.cols());  // others need a QR first, in two more kinds
+  const Eigen::JacobiSVD<MatrixXd, Eigen::NoQRPreconditioner> svd(A, Eigen::ComputeFullV);
   return {svd.singularValues(), svd.matrixV()};
 }
 

@@ -1,7 +1,7 @@
 // The parts of the impulse solver: the envelope factors, the cone's algebra, the blocks of M.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <random>
 
 #include "solver/dynamics.h"

@@ -1,7 +1,7 @@
 // Rows of loop closures: by differences of g along the motion, by virtual work; what is refused.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <limits>
 
 #include "benchmarks/analytic/loop_cases.h"
