@@ -15,8 +15,9 @@
 
 namespace twinarm::TWINARM_ISA {
 
-template <class S, class Trace = NoTrace>
-[[gnu::flatten]] void aba(const Model<S>& model, const State<S>& x, const Forces<S>& forces,
+// M: a Model<S>, or what can be asked the same (coupling/batch_model.h).
+template <class S, class M, class Trace = NoTrace>
+[[gnu::flatten]] void aba(const M& model, const State<S>& x, const Forces<S>& forces,
                           Workspace<S>& w, Trace&& trace = {}) {
   const std::size_t n_bodies = model.parent.size();
   forget(w.v), forget(w.c), forget(w.IA), forget(w.pA), forget(w.a), forget(w.qdd);
@@ -40,6 +41,7 @@ template <class S, class Trace = NoTrace>
       remember(S_i, w.S_.data() + model.iv[i]);
     });
   }
+  trace.moved();
 
   // pass 2, tips to base: articulated-body inertias and bias forces
   for (std::size_t i = n_bodies; i-- > 1;) {

@@ -38,6 +38,7 @@ class FaultList {
   void add(Fault fault);
   void add(const std::vector<Fault>& more);
   bool empty() const { return faults_.empty(); }
+  const std::vector<Fault>& faults() const { return faults_; }
   void check() const;
 
  private:

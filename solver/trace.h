@@ -10,6 +10,7 @@
 namespace twinarm {
 
 struct NoTrace {
+  void moved() const {}  // between pass 1 and pass 2
   template <class... T>
   void felt(const T&...) const {}
 };
@@ -20,6 +21,7 @@ struct FullTrace {
   std::vector<ArticulatedInertia<S>> Ia;  // IA - U D^-1 U^T: felt through the joint
   std::vector<Force<S>> pa;               // pA + Ia c + U D^-1 u
   explicit FullTrace(std::size_t body_count) : Ia(body_count), pa(body_count) {}
+  void moved() const {}
   template <class Inertia>
   void felt(std::size_t i, const Inertia& Ia_i, const Force<S>& pa_i) {
     Ia[i] = ArticulatedInertia<S>(Ia_i);

@@ -1,0 +1,115 @@
+#include "coupling/batch_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace twinarm {
+namespace {
+
+using SpringType = CouplingSpec::Type;
+
+bool is_at_joint(const BatchSpring& spring) {
+  return spring.type == SpringType::torsional && spring.measure == Measure::joint;
+}
+
+double* put(const Vector3& v, double* out) {
+  return std::copy_n(v.data(), 3, out);
+}
+
+// Reads one spring's numbers off the KVR, and writes them one after another.
+struct SpringOnKvr {
+  const Model<double>& model;
+  const BatchSpring& spring;
+  Vector3 p_L;
+  std::size_t carrier;  // the link that the spring's link is fixed to, or itself
+
+  double* pose(const KvrSample& kvr, double* out) const {
+    const auto i = static_cast<std::size_t>(spring.body);
+    if (is_at_joint(spring)) return *out = kvr.x.q[model.iq[i]], out + 1;
+    if (spring.type == SpringType::linear) return put(kvr.k.position(spring.body, p_L), out);
+    for (int column = 0; column < 3; ++column)  // E = R^T, by rows
+      out = put(kvr.k.R_WB[carrier].col(column), out);
+    return out;
+  }
+  double* velocity(const KvrSample& kvr, double* out) const {
+    const auto i = static_cast<std::size_t>(spring.body);
+    if (is_at_joint(spring)) return *out = kvr.x.qd[model.iv[i]], out + 1;
+    if (spring.type == SpringType::linear)
+      return put(kvr.k.velocity(spring.body, kvr.k.position(spring.body, p_L)), out);
+    return put(kvr.k.w_WL[i], out);
+  }
+};
+
+}  // namespace
+
+HandSample ShiftedHand::sample(double t, double toward) const {
+  const double middle = 0.5 * (t + toward) - delay_;
+  HandSample hand = middle < 0 ? hand_.sample(0, 1)
+                               : hand_.sample(speed_ * (t - delay_), speed_ * (toward - delay_));
+  for (double& rate : hand.theta_dot) rate *= middle < 0 ? 0 : speed_;
+  return hand;
+}
+
+BatchMotion::BatchMotion(const BatchSetup& setup)
+    : joints(setup.targets.front().joints.turned.size()) {
+  for (const BatchSpring& spring : setup.springs) {
+    places.push_back({motion_stride, energy_stride});
+    const bool at_joint = is_at_joint(spring);
+    const std::size_t pose = at_joint ? 1 : spring.type == SpringType::linear ? 3 : 9;
+    const std::size_t velocity = at_joint ? 1 : 3;
+    motion_stride += pose + velocity;
+    if (setup.energy) energy_stride += pose + 2 * velocity;
+  }
+}
+
+void BatchMotion::fill(const BatchSetup& setup, const LumpedModel& lumped, const BatchCell& cell) {
+  steps = static_cast<std::size_t>(std::max(0L, std::lround(setup.duration / cell.h)));
+  motion.assign(steps * motion_stride, 0);
+  energy.assign((steps + 1) * energy_stride, 0);
+  q_K.assign((steps + 1) * joints, 0);
+
+  std::vector<ShiftedHand> hands;
+  std::vector<KinematicRobot> kvrs;
+  hands.reserve(setup.targets.size());
+  for (const BatchTarget& target : setup.targets) {
+    hands.emplace_back(*target.hand, cell.speed, cell.delay);
+    kvrs.emplace_back(*setup.model, hands.back(), target.mapping, target.joints);
+    kvrs.back().stand_at(target.rest);
+  }
+  double t = setup.start.t;
+  for (std::size_t n = 0; n < steps; ++n, t += cell.h) {
+    for (KinematicRobot& kvr : kvrs) kvr.begin_step(t, cell.h);
+    fill_step(n, setup, lumped, cell, kvrs);
+  }
+}
+
+void BatchMotion::fill_step(std::size_t n, const BatchSetup& setup, const LumpedModel& lumped,
+                            const BatchCell& cell, std::vector<KinematicRobot>& kvrs) {
+  const Model<double>& model = *setup.model;
+  for (std::size_t s = 0; s < setup.springs.size(); ++s) {
+    const BatchSpring& spring = setup.springs[s];
+    const auto body = static_cast<std::size_t>(spring.body);
+    const SpringOnKvr of{model, spring, cell.springs[s].p_L, lumped.origin[lumped.carrier[body]]};
+    const KvrSample &start = kvrs[spring.target].start(), &end = kvrs[spring.target].end();
+    const bool implicit = spring.treatment == Treatment::implicit;
+    const bool explicit_ = spring.treatment == Treatment::explicit_;
+    double* out = of.pose(implicit ? end : start, &motion[n * motion_stride + places[s].motion]);
+    of.velocity(explicit_ ? start : end, out);
+    if (!setup.energy) continue;
+    const std::size_t here = n * energy_stride + places[s].energy;
+    const auto velocities = static_cast<std::size_t>(of.pose(start, &energy[here]) - &energy[0]);
+    const std::size_t one = is_at_joint(spring) ? 1 : 3, next = velocities + energy_stride;
+    of.velocity(start, &energy[velocities + one]);  // after t
+    of.velocity(end, &energy[next]);                // before t + h
+    of.pose(end, &energy[here + energy_stride]);    // as the next step's start, but for the last
+  }
+  for (std::size_t j = 0; j < joints; ++j) {
+    const auto body =
+        static_cast<std::size_t>(model.find_joint(setup.targets.front().joints.turned[j]));
+    const std::size_t iq = model.iq[body];
+    if (n == 0) q_K[j] = kvrs.front().start().x.q[iq];
+    q_K[(n + 1) * joints + j] = kvrs.front().end().x.q[iq];
+  }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,33 @@
+// The KVR's motion over a run as a table, one row for each step: what all lanes of a batch read.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "coupling/batch_lump.h"
+#include "coupling/batch_run.h"
+
+namespace twinarm {
+
+// Rows as LanePull in batch_work.h describes them, and the measured joints' coordinates.
+struct BatchMotion {
+  struct Place {
+    std::size_t motion, energy;  // where a spring's numbers begin in a row
+  };
+  std::vector<Place> places;  // by spring
+  std::size_t motion_stride = 0, energy_stride = 0, joints = 0;
+  std::size_t steps = 0;
+  std::vector<double> motion;  // steps rows
+  std::vector<double> energy;  // steps + 1 rows; none where nobody wants energies
+  std::vector<double> q_K;     // steps + 1 rows
+
+  explicit BatchMotion(const BatchSetup& setup);
+  // Of a cell's step, motion and levers. Looks at the hands as Simulation's couplings do.
+  void fill(const BatchSetup& setup, const LumpedModel& lumped, const BatchCell& cell);
+
+ private:
+  void fill_step(std::size_t n, const BatchSetup& setup, const LumpedModel& lumped,
+                 const BatchCell& cell, std::vector<KinematicRobot>& kvrs);
+};
+
+}  // namespace twinarm

@@ -1,0 +1,344 @@
+#include "coupling/batch_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "coupling/batch_lump.h"
+#include "coupling/batch_motion.h"
+#include "coupling/batch_work.h"
+#include "solver/convert.h"
+#include "solver/dynamics.h"
+#include "solver/energy.h"
+
+namespace twinarm {
+
+// batch_kernel.cpp defines these, one for each level of coupling/CMakeLists.txt.
+namespace generic {
+void run_batch(BatchWork<Batch<2>>& work);
+}
+#ifdef TWINARM_HAS_LEVELS
+namespace v3 {
+void run_batch(BatchWork<Batch<4>>& work);
+}
+namespace v4 {
+void run_batch(BatchWork<Batch<8>>& work);
+}
+#endif
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+template <class V>
+void set_lane(V& all, std::size_t lane, double value) {
+  all.set(static_cast<int>(lane), value);
+}
+template <class S>
+void set_lane(Vec3<S>& all, std::size_t lane, const Vec3<double>& value) {
+  set_lane(all.x, lane, value.x), set_lane(all.y, lane, value.y), set_lane(all.z, lane, value.z);
+}
+template <class S>
+void set_lane(Inertia<S>& all, std::size_t lane, const Inertia<double>& value) {
+  set_lane(all.m, lane, value.m);
+  set_lane(all.h, lane, value.h);
+  const auto part = [&](S Sym3<S>::*to, double Sym3<double>::*from) {
+    set_lane(all.I.*to, lane, value.I.*from);
+  };
+  part(&Sym3<S>::xx, &Sym3<double>::xx), part(&Sym3<S>::yy, &Sym3<double>::yy);
+  part(&Sym3<S>::zz, &Sym3<double>::zz), part(&Sym3<S>::xy, &Sym3<double>::xy);
+  part(&Sym3<S>::xz, &Sym3<double>::xz), part(&Sym3<S>::yz, &Sym3<double>::yz);
+}
+template <class S>
+double lane_of(const S& all, std::size_t lane) {
+  return all[static_cast<int>(lane)];
+}
+
+PullKind kind_of(const BatchSpring& spring) {
+  if (spring.type == CouplingSpec::Type::linear) return PullKind::linear;
+  return spring.measure == Measure::world ? PullKind::world : PullKind::joint;
+}
+
+// m* of the treatment (solver/spring.h).
+double m_star(Treatment treatment, double h, const BatchCell::Gains& gains) {
+  const double by_damper = treatment == Treatment::explicit_ ? 0 : h * gains.b;
+  return by_damper + (treatment == Treatment::implicit ? h * h * gains.k : 0);
+}
+
+// A weightless flywheel, or a particle at p.
+Inertia<double> weightless(PullKind kind, double m, const Vec3<double>& p) {
+  if (kind == PullKind::world) return {0, {}, Sym3<double>::scaled_identity(m)};
+  return {m,
+          m * p,
+          {m * (p.y * p.y + p.z * p.z), m * (p.x * p.x + p.z * p.z), m * (p.x * p.x + p.y * p.y),
+           -m * p.x * p.y, -m * p.x * p.z, -m * p.y * p.z}};
+}
+
+// Cells of equal key share a table, and so may share a batch.
+std::vector<double> key_of(const BatchCell& cell) {
+  std::vector<double> key{cell.h, cell.speed, cell.delay};
+  for (const BatchCell::Gains& gains : cell.springs)
+    key.insert(key.end(), {gains.p_L.x(), gains.p_L.y(), gains.p_L.z()});
+  return key;
+}
+
+}  // namespace
+
+class BatchRun::Driver {
+ public:
+  virtual ~Driver() = default;
+  virtual void run(std::span<const BatchCell> cells, std::span<BatchResult> out) = 0;
+  virtual std::size_t lanes() const = 0;
+};
+
+template <int N>
+class BatchRun::DriverOf final : public Driver {
+ public:
+  using S = Batch<N>;
+  using Work = BatchWork<S>;
+  using Kernel = void (*)(Work&);
+
+  DriverOf(const BatchSetup& setup, Kernel kernel)
+      : setup_(setup),
+        kernel_(kernel),
+        lumped_(*setup.model),
+        motion_(setup),
+        work_(convert<S>(lumped_.model)),
+        one_lane_(lumped_.model) {
+    work_.owner = this;
+    work_.stopped = [](Work& work, std::size_t lane, std::size_t step) {
+      static_cast<DriverOf*>(work.owner)->stop(lane, step);
+    };
+    work_.has_energy = setup_.energy;
+    prepare_bodies();
+    prepare_pulls();
+    for (const std::string& joint : setup_.targets.front().joints.turned)
+      work_.measured.push_back(
+          setup_.model->iq[static_cast<std::size_t>(setup_.model->find_joint(joint))]);
+    for (auto* by_joint : {&work_.error_sum, &work_.error_max, &work_.error_last})
+      by_joint->resize(work_.measured.size());
+  }
+
+  std::size_t lanes() const override { return N; }
+
+  void run(std::span<const BatchCell> cells, std::span<BatchResult> out) override {
+    std::vector<std::pair<std::vector<double>, std::size_t>> order;
+    order.reserve(cells.size());
+    for (std::size_t c = 0; c < cells.size(); ++c) order.emplace_back(key_of(cells[c]), c);
+    std::stable_sort(order.begin(), order.end());
+    for (std::size_t first = 0; first < order.size();) {
+      if (key_ != order[first].first) {
+        key_ = order[first].first;
+        motion_.fill(setup_, lumped_, cells[order[first].second]);
+      }
+      count_ = 0;
+      while (count_ < N && first < order.size() && order[first].first == key_) {
+        const std::size_t c = order[first++].second;
+        cell_[count_] = &cells[c];
+        result_[count_] = &out[c];
+        ++count_;
+      }
+      run_batch();
+    }
+  }
+
+ private:
+  void prepare_bodies() {
+    const std::size_t n = lumped_.model.parent.size();
+    work_.model.I_own.resize(n);
+    work_.model.I_felt.resize(n);
+    work_.E.resize(n);
+    work_.o.resize(n);
+    work_.a_bias.resize(n);
+    work_.a_bias[0] = {{}, -work_.model.gravity};
+    work_.is_placed.assign(n, 0);
+    for (const double b : lumped_.model.damping) work_.has_damping |= b != 0;
+  }
+  void prepare_pulls() {
+    for (std::size_t s = 0; s < setup_.springs.size(); ++s) {
+      const BatchSpring& spring = setup_.springs[s];
+      const auto body = static_cast<std::size_t>(spring.body);
+      LanePull<S> pull;
+      pull.kind = kind_of(spring);
+      pull.body = lumped_.carrier[body];
+      pull.iq = setup_.model->iq[body];
+      pull.iv = setup_.model->iv[body];
+      pull.motion = motion_.places[s].motion;
+      pull.energy = motion_.places[s].energy;
+      pull.is_absolute = spring.absolute_damper;
+      work_.pulls.push_back(pull);
+      const bool at_joint = pull.kind == PullKind::joint;
+      work_.has_joint_pulls |= at_joint;
+      work_.has_bias |= !at_joint && spring.treatment != Treatment::explicit_;
+      for (std::size_t i = at_joint ? 0 : pull.body; i > 0;
+           i = static_cast<std::size_t>(lumped_.model.parent[i]))
+        work_.is_placed[i] = 1;
+    }
+  }
+
+  void run_batch() {
+    work_.steps = motion_.steps;
+    work_.motion = motion_.motion.data();
+    work_.energy = motion_.energy.data();
+    work_.q_K = motion_.q_K.data();
+    work_.motion_stride = motion_.motion_stride;
+    work_.energy_stride = motion_.energy_stride;
+    work_.lanes_running = count_;
+    for (std::size_t lane = 0; lane < N; ++lane) load(lane, *cell_[std::min(lane, count_ - 1)]);
+    start_measures();
+    for (std::size_t lane = 0; lane < N; ++lane) {
+      runs_[lane] = lane < count_;
+      if (!runs_[lane]) park(lane);
+    }
+    kernel_(work_);
+    for (std::size_t lane = 0; lane < count_; ++lane)
+      if (runs_[lane]) store(lane);
+  }
+
+  void load(std::size_t lane, const BatchCell& cell) {
+    set_lane(work_.h, lane, cell.h);
+    set_lane(work_.bound, lane, setup_.bound);
+    for (std::size_t i = 0; i < setup_.start.q.size(); ++i)
+      set_lane(work_.x.q[i], lane, setup_.start.q[i]);
+    for (std::size_t i = 0; i < setup_.start.qd.size(); ++i) {
+      set_lane(work_.x.qd[i], lane, setup_.start.qd[i]);
+      set_lane(work_.forces.armature[i], lane, cell.h * lumped_.model.damping[i]);
+    }
+    std::vector<Inertia<double>> inertias = lumped_.inertias(cell.mass_factor);
+    for (std::size_t i = 0; i < inertias.size(); ++i)
+      set_lane(work_.model.I_own[i], lane, inertias[i]);
+    for (std::size_t s = 0; s < work_.pulls.size(); ++s)
+      load_pull(s, lane, cell, inertias[work_.pulls[s].body]);
+    for (std::size_t i = 0; i < inertias.size(); ++i)
+      set_lane(work_.model.I_felt[i], lane, inertias[i]);
+  }
+  void load_pull(std::size_t s, std::size_t lane, const BatchCell& cell, Inertia<double>& felt) {
+    const BatchSpring& spring = setup_.springs[s];
+    const BatchCell::Gains& gains = cell.springs[s];
+    const auto body = static_cast<std::size_t>(spring.body);
+    LanePull<S>& pull = work_.pulls[s];
+    const double look_ahead = spring.treatment == Treatment::implicit ? cell.h : 0;
+    const double m = m_star(spring.treatment, cell.h, gains);
+    const Transform<double>& X = lumped_.X[body];
+    const Vec3<double> p =
+        X.r + transpose_times(X.E, setup_.model->turn[body] * from_eigen(gains.p_L));
+    set_lane(pull.k, lane, gains.k);
+    set_lane(pull.b, lane, gains.b);
+    set_lane(pull.kb, lane, gains.k * look_ahead + gains.b);
+    set_lane(pull.b_seen, lane, spring.absolute_damper ? 0 : gains.b);
+    set_lane(pull.m_star, lane, m);
+    set_lane(pull.p_B, lane, p);
+    set_lane(pull.kp, lane, gains.k * p);
+    if (pull.kind == PullKind::joint) {
+      S& armature = work_.forces.armature[pull.iv];
+      set_lane(armature, lane, lane_of(armature, lane) + m);
+    } else {
+      add_congruence(Transform<double>{}, weightless(pull.kind, m, p), felt);
+    }
+  }
+
+  void start_measures() {
+    for (S* sum : {&work_.work, &work_.hand_work, &work_.hand_work_least}) *sum = S(0);
+    work_.window_error.fill(S(0));
+    for (std::size_t j = 0; j < work_.measured.size(); ++j) {
+      const double e = std::abs(motion_.q_K[j] - setup_.start.q[work_.measured[j]]);
+      work_.error_max[j] = S(e);
+      work_.error_sum[j] = S(0.5 * e);
+      work_.error_last[j] = S(e);
+      const double largest = std::max(e, work_.window_error[0][0]);
+      work_.window_error[0] = S(largest);
+    }
+  }
+
+  // The lane stands still at the start from now on.
+  void park(std::size_t lane) {
+    set_lane(work_.h, lane, 0);
+    set_lane(work_.bound, lane, kInfinite);
+    for (std::size_t i = 0; i < setup_.start.q.size(); ++i)
+      set_lane(work_.x.q[i], lane, setup_.start.q[i]);
+    for (S& qd : work_.x.qd) set_lane(qd, lane, 0);
+  }
+  void stop(std::size_t lane, std::size_t step) {
+    runs_[lane] = false;
+    --work_.lanes_running;
+    BatchResult& result = *result_[lane];
+    result.steps = step;
+    result.finished = false;
+    result.max_error.assign(work_.measured.size(), kInfinite);
+    result.mean_error.assign(work_.measured.size(), kInfinite);
+    for (std::size_t q = 0; q < BatchResult::kWindows; ++q)
+      result.window_error[q] = step > (q + 1) * motion_.steps / BatchResult::kWindows
+                                   ? lane_of(work_.window_error[q], lane)
+                                   : kInfinite;
+    result.energy_created = kInfinite;
+    result.hand_work_least = -kInfinite;
+    park(lane);
+  }
+
+  void store(std::size_t lane) {
+    BatchResult& result = *result_[lane];
+    result.steps = motion_.steps;
+    result.finished = true;
+    result.max_error.clear();
+    result.mean_error.clear();
+    const auto steps = static_cast<double>(std::max<std::size_t>(motion_.steps, 1));
+    for (std::size_t j = 0; j < work_.measured.size(); ++j) {
+      const double last = lane_of(work_.error_last[j], lane);
+      result.max_error.push_back(lane_of(work_.error_max[j], lane));
+      result.mean_error.push_back((lane_of(work_.error_sum[j], lane) - 0.5 * last) / steps);
+    }
+    for (std::size_t q = 0; q < BatchResult::kWindows; ++q)
+      result.window_error[q] = lane_of(work_.window_error[q], lane);
+    if (setup_.energy) store_energies(lane, result);
+  }
+  void store_energies(std::size_t lane, BatchResult& result) {
+    one_lane_.I = lumped_.inertias(cell_[lane]->mass_factor);
+    const auto energy = [&](const State<double>& x) {
+      return kinetic_energy(one_lane_, x) + potential_energy(one_lane_, x);
+    };
+    State<double> end = setup_.start;
+    for (std::size_t i = 0; i < end.q.size(); ++i) end.q[i] = lane_of(work_.x.q[i], lane);
+    for (std::size_t i = 0; i < end.qd.size(); ++i) end.qd[i] = lane_of(work_.x.qd[i], lane);
+    result.energy_created = energy(end) - energy(setup_.start) +
+                            lane_of(work_.spring_energy, lane) -
+                            lane_of(work_.spring_energy_at_start, lane) - lane_of(work_.work, lane);
+    result.hand_work_least = lane_of(work_.hand_work_least, lane);
+  }
+
+  BatchSetup setup_;
+  Kernel kernel_;
+  LumpedModel lumped_;
+  BatchMotion motion_;
+  Work work_;
+  Model<double> one_lane_;
+  std::vector<double> key_;  // of the table in motion_
+
+  std::size_t count_ = 0;  // cells of the batch
+  std::array<const BatchCell*, N> cell_{};
+  std::array<BatchResult*, N> result_{};
+  std::array<bool, N> runs_{};
+};
+
+BatchRun::BatchRun(const BatchSetup& setup) {
+  FaultList faults;
+  faults.add(batch_faults(setup));
+  faults.check();
+#ifdef TWINARM_HAS_LEVELS
+  if (best_isa() == Isa::v4) driver_ = std::make_unique<DriverOf<8>>(setup, &v4::run_batch);
+  if (best_isa() == Isa::v3) driver_ = std::make_unique<DriverOf<4>>(setup, &v3::run_batch);
+#endif
+  if (!driver_) driver_ = std::make_unique<DriverOf<2>>(setup, &generic::run_batch);
+}
+BatchRun::~BatchRun() = default;
+BatchRun::BatchRun(BatchRun&&) noexcept = default;
+BatchRun& BatchRun::operator=(BatchRun&&) noexcept = default;
+
+void BatchRun::run(std::span<const BatchCell> cells, std::span<BatchResult> out) noexcept {
+  driver_->run(cells, out);
+}
+std::size_t BatchRun::lanes() const {
+  return driver_->lanes();
+}
+
+}  // namespace twinarm
