@@ -43,10 +43,12 @@ struct SpringOnKvr {
 }  // namespace
 
 HandSample ShiftedHand::sample(double t, double toward) const {
-  const double middle = 0.5 * (t + toward) - delay_;
-  HandSample hand = middle < 0 ? hand_.sample(0, 1)
-                               : hand_.sample(speed_ * (t - delay_), speed_ * (toward - delay_));
-  for (double& rate : hand.theta_dot) rate *= middle < 0 ? 0 : speed_;
+  constexpr double kSameTime = 1e-9;  // [s]: a step that begins with the motion, to rounding
+  const double since = t - delay_;
+  const bool waits = std::abs(since) < kSameTime ? toward < t : since < 0;
+  HandSample hand =
+      waits ? hand_.sample(0, 1) : hand_.sample(speed_ * since, speed_ * (toward - delay_));
+  for (double& rate : hand.theta_dot) rate *= waits ? 0 : speed_;
   return hand;
 }
 
