@@ -68,6 +68,10 @@ std::vector<Fault> batch_faults(const BatchSetup& setup) {
         faults.add({"", 0, "joint '" + joint + "'", "the robot has no such joint",
                     "name a joint that the hand turns"});
   for (std::size_t s = 0; s < setup.springs.size(); ++s) check_spring(setup, s, faults);
+  for (const std::size_t iq : setup.measured)
+    if (iq >= model.nq)
+      faults.add({"", 0, "measured", "there is no coordinate " + std::to_string(iq),
+                  "the robot has " + std::to_string(model.nq)});
   if (!(setup.duration > 0) || !std::isfinite(setup.duration))
     faults.add({"", 0, "duration", "is " + std::to_string(setup.duration) + " s",
                 "give a positive number of seconds"});

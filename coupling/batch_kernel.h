@@ -12,6 +12,8 @@
 // Callers include coupling/batch_run.h.
 #pragma once
 
+#include <algorithm>
+
 #include "coupling/batch_work.h"
 #include "solver/aba.h"
 #include "solver/rotation_log.h"
@@ -56,9 +58,10 @@ Vec3<S> turn_between(const Mat3<S>& E_D, const double* E_K) {
 }
 
 template <class S>
-TWINARM_KERNEL void pull_world(BatchWork<S>& b, const LanePull<S>& pull, const double* row) {
+TWINARM_KERNEL void pull_world(BatchWork<S>& b, LanePull<S>& pull, const double* row) {
   const Mat3<S>& E = b.E[pull.body];
   const Vec3<S> phi = turn_between(E, row), w_K = E * spread3<S>(row + 9);
+  if (b.has_energy) pull.phi = phi;
   Vec3<S> n = pull.k * phi + pull.b_seen * w_K - pull.kb * b.w.v[pull.body].w;
   if (b.has_bias) n += pull.m_star * b.a_bias[pull.body].w;
   b.w.pA[pull.body].n += -n;
@@ -80,13 +83,14 @@ TWINARM_KERNEL void pull_linear(BatchWork<S>& b, const LanePull<S>& pull, const 
   pA.f = pA.f - f;
 }
 
-// What a spring's ends are for the energies, in body axes; of a joint the first component alone.
+// A spring for the energies, in body axes; of a joint the first component alone.
 template <class S>
 struct PullEnds {
-  Vec3<S> offset, v_D, v_before, v_after;
+  Vec3<S> offset, v_D, v_before, v_after;  // of the target just before and after the moment
 };
 template <class S>
-PullEnds<S> ends_of(const BatchWork<S>& b, const LanePull<S>& pull, const double* row) {
+PullEnds<S> ends_of(const BatchWork<S>& b, const LanePull<S>& pull, const double* row,
+                    bool corner) {
   if (pull.kind == PullKind::joint)
     return {{S(row[0]) - b.x.q[pull.iq], S(0), S(0)},
             {b.x.qd[pull.iv], S(0), S(0)},
@@ -94,40 +98,52 @@ PullEnds<S> ends_of(const BatchWork<S>& b, const LanePull<S>& pull, const double
             {S(row[2]), S(0), S(0)}};
   const Mat3<S>& E = b.E[pull.body];
   const Motion<S>& v = b.w.v[pull.body];
-  if (pull.kind == PullKind::world)
-    return {turn_between(E, row), v.w, E * spread3<S>(row + 9), E * spread3<S>(row + 12)};
-  return {E * (spread3<S>(row) - b.o[pull.body]) - pull.p_B, plus_cross(v.v, v.w, pull.p_B),
-          E * spread3<S>(row + 3), E * spread3<S>(row + 6)};
+  const std::size_t velocity = pull.kind == PullKind::world ? 9 : 3;
+  const Vec3<S> after = E * spread3<S>(row + velocity + 3);
+  const Vec3<S> before = corner ? E * spread3<S>(row + velocity) : after;
+  if (pull.kind == PullKind::linear)
+    return {E * (spread3<S>(row) - b.o[pull.body]) - pull.p_B, plus_cross(v.v, v.w, pull.p_B),
+            before, after};
+  // At a corner the step that follows may have another length, or be none.
+  return {pull.is_implicit || corner ? turn_between(E, row) : pull.phi, v.w, before, after};
 }
 
-// Powers at the moment of step n, of which half belongs to the step before and half to this one.
+template <class S>
+struct HandAndWork {
+  S hand, counted;
+};
+// Power of the hand, and of what counts in the ledger. An absolute damper stands on the ground.
+template <class S>
+HandAndWork<S> powers_of(const LanePull<S>& pull, const PullEnds<S>& e, const Vec3<S>& v_K) {
+  const S spring = pull.k * dot(e.offset, v_K), across = dot(e.v_D, v_K);
+  const S b_hand = pull.is_absolute ? S(0) : pull.b;
+  return {spring + b_hand * (dot(v_K, v_K) - across),
+          spring + pull.b_seen * across - pull.b * dot(e.v_D, e.v_D)};
+}
+
+// At the moment of step n: half of each power belongs to the step before, half to this one.
 template <class S>
 TWINARM_KERNEL void add_works(BatchWork<S>& b, std::size_t n) {
   const double* row = b.energy + n * b.energy_stride;
-  const S before = n > 0 ? S(0.5) * b.h : S(0), after = n < b.steps ? S(0.5) * b.h : S(0);
+  const bool corner = b.is_corner[n] != 0;
+  const S before = S(0.5) * b.h_before, after = n < b.steps ? S(0.5) * b.h : S(0);
+  S hand_before = b.hand_work, hand_after(0), work = b.work, held(0);
   for (std::size_t d = 0; b.has_damping && d < b.x.qd.size(); ++d)
-    b.work = b.work - (before + after) * (b.model.damping[d] * b.x.qd[d] * b.x.qd[d]);
-  S hand_after(0);
-  b.spring_energy = S(0);
+    work = work - (before + after) * (b.model.damping[d] * b.x.qd[d] * b.x.qd[d]);
   for (const LanePull<S>& pull : b.pulls) {
-    const PullEnds<S> e = ends_of(b, pull, row + pull.energy);
-    const Vec3<S> spring = pull.k * e.offset;
-    b.spring_energy = b.spring_energy + S(0.5) * dot(spring, e.offset);
-    for (const bool is_after : {false, true}) {
-      const Vec3<S>& v_K = is_after ? e.v_after : e.v_before;
-      const Vec3<S> damper = pull.b_seen * v_K - pull.b * e.v_D;
-      const S on_spring = dot(spring, v_K);
-      const S& part = is_after ? after : before;
-      b.work = b.work + part * (on_spring + dot(damper, e.v_D));
-      // An absolute damper stands on the ground: the hand does not move that end.
-      S hand = on_spring;
-      if (!pull.is_absolute) hand = hand + dot(damper, v_K);
-      (is_after ? hand_after : b.hand_work) = (is_after ? hand_after : b.hand_work) + part * hand;
-    }
+    const PullEnds<S> e = ends_of(b, pull, row + pull.energy, corner);
+    const HandAndWork<S> now = powers_of(pull, e, e.v_after);
+    const HandAndWork<S> was = corner ? powers_of(pull, e, e.v_before) : now;
+    work = work + before * was.counted + after * now.counted;
+    hand_before = hand_before + before * was.hand;
+    hand_after = hand_after + after * now.hand;
+    if (corner) held = held + S(0.5) * pull.k * dot(e.offset, e.offset);
   }
-  if (n == 0) b.spring_energy_at_start = b.spring_energy;
-  b.hand_work_least = select(b.hand_work < b.hand_work_least, b.hand_work, b.hand_work_least);
-  b.hand_work = b.hand_work + hand_after;
+  b.work = work;
+  b.hand_work_least = select(hand_before < b.hand_work_least, hand_before, b.hand_work_least);
+  b.hand_work = hand_before + hand_after;
+  if (n == 0) b.spring_energy_at_start = held;
+  if (n == b.steps) b.spring_energy = held;
 }
 
 // The hook of aba(): what acts by where the bodies are.
@@ -140,11 +156,11 @@ struct LanePulls {
   void felt(const T&...) const {}
   void moved() const {
     place_bodies(b);
-    if (b.has_energy) add_works(b, n);
-    for (const LanePull<S>& pull : b.pulls) {
+    for (LanePull<S>& pull : b.pulls) {
       if (pull.kind == PullKind::world) pull_world(b, pull, row + pull.motion);
       if (pull.kind == PullKind::linear) pull_linear(b, pull, row + pull.motion);
     }
+    if (b.has_energy) add_works(b, n);
     b.model.I = b.model.I_felt.data();
   }
 };
@@ -179,8 +195,8 @@ TWINARM_KERNEL void measure(BatchWork<S>& b, std::size_t n, S& largest) {
   for (std::size_t j = 0; j < b.measured.size(); ++j) {
     const S e = magnitude(S(q_K[j]) - b.x.q[b.measured[j]]);
     inside &= e < b.bound;
+    b.error_integral[j] = b.error_integral[j] + b.h * (e + b.error_last[j]);
     b.error_last[j] = e;
-    b.error_sum[j] = b.error_sum[j] + e;
     b.error_max[j] = larger(b.error_max[j], e);
     largest = larger(largest, e);
   }
@@ -192,9 +208,9 @@ TWINARM_KERNEL void measure(BatchWork<S>& b, std::size_t n, S& largest) {
 
 template <class S>
 void run_steps(BatchWork<S>& b) {
-  std::size_t n = 0;
+  std::size_t n = b.first;
   for (std::size_t window = 0; window < b.kWindows; ++window) {
-    const std::size_t end = (window + 1) * b.steps / b.kWindows;
+    const std::size_t end = std::min(b.last, (window + 1) * b.steps / b.kWindows);
     S largest = b.window_error[window];
     for (; n < end && b.lanes_running > 0; ++n) {
       const double* row = b.motion + n * b.motion_stride;
@@ -202,14 +218,15 @@ void run_steps(BatchWork<S>& b) {
       b.model.I = b.model.I_own.data();
       aba(b.model, b.x, b.forces, b.w, LanePulls<S>{b, row, n});
       integrate(b);
+      b.h_before = b.h;
       measure(b, n, largest);
     }
     b.window_error[window] = largest;
   }
-  if (!b.has_energy || b.lanes_running == 0) return;
-  b.model.I = b.model.I_own.data();  // the powers at the end
-  const LanePulls<S> last{b, b.motion, b.steps};
-  aba(b.model, b.x, b.forces, b.w, last);
+  if (!b.has_energy || b.last < b.steps || b.lanes_running == 0) return;
+  b.model.I = b.model.I_own.data();  // the powers at the end; the motion's last row will do
+  aba(b.model, b.x, b.forces, b.w,
+      LanePulls<S>{b, b.motion + (b.steps - 1) * b.motion_stride, b.steps});
 }
 
 }  // namespace twinarm::TWINARM_ISA

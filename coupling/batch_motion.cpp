@@ -52,8 +52,7 @@ HandSample ShiftedHand::sample(double t, double toward) const {
   return hand;
 }
 
-BatchMotion::BatchMotion(const BatchSetup& setup)
-    : joints(setup.targets.front().joints.turned.size()) {
+BatchMotion::BatchMotion(const BatchSetup& setup) : joints(setup.measured.size()) {
   for (const BatchSpring& spring : setup.springs) {
     places.push_back({motion_stride, energy_stride});
     const bool at_joint = is_at_joint(spring);
@@ -65,7 +64,12 @@ BatchMotion::BatchMotion(const BatchSetup& setup)
 }
 
 void BatchMotion::fill(const BatchSetup& setup, const LumpedModel& lumped, const BatchCell& cell) {
-  steps = static_cast<std::size_t>(std::max(0L, std::lround(setup.duration / cell.h)));
+  constexpr double kSameTime = 1e-9;  // parts of a step
+  const double whole = std::floor(setup.duration / cell.h + kSameTime);
+  const double rest = setup.duration - whole * cell.h;
+  const bool has_rest = rest > kSameTime * cell.h;
+  steps = static_cast<std::size_t>(whole) + (has_rest ? 1 : 0);
+  last_step = has_rest ? rest : cell.h;
   motion.assign(steps * motion_stride, 0);
   energy.assign((steps + 1) * energy_stride, 0);
   q_K.assign((steps + 1) * joints, 0);
@@ -80,18 +84,33 @@ void BatchMotion::fill(const BatchSetup& setup, const LumpedModel& lumped, const
   }
   double t = setup.start.t;
   for (std::size_t n = 0; n < steps; ++n, t += cell.h) {
-    for (KinematicRobot& kvr : kvrs) kvr.begin_step(t, cell.h);
+    for (KinematicRobot& kvr : kvrs) kvr.begin_step(t, n + 1 < steps ? cell.h : last_step);
     fill_step(n, setup, lumped, cell, kvrs);
   }
+  if (setup.energy) find_corners(setup, cell.h);
+}
+
+void BatchMotion::find_corners(const BatchSetup& setup, double h) {
+  is_corner.assign(steps + 1, 0);
+  is_corner.front() = is_corner.back() = 1;
+  if (last_step != h) is_corner[steps - 1] = 1;
+  for (std::size_t n = 1; n < steps; ++n)
+    for (std::size_t s = 0; s < places.size(); ++s) {
+      const bool at_joint = is_at_joint(setup.springs[s]);
+      const std::size_t size = at_joint ? 1 : 3;
+      const std::size_t next = s + 1 < places.size() ? places[s + 1].energy : energy_stride;
+      const double* after = &energy[n * energy_stride + next - size];
+      if (!std::equal(after, after + size, after - size)) is_corner[n] = 1;
+    }
 }
 
 void BatchMotion::fill_step(std::size_t n, const BatchSetup& setup, const LumpedModel& lumped,
                             const BatchCell& cell, std::vector<KinematicRobot>& kvrs) {
-  const Model<double>& model = *setup.model;
   for (std::size_t s = 0; s < setup.springs.size(); ++s) {
     const BatchSpring& spring = setup.springs[s];
     const auto body = static_cast<std::size_t>(spring.body);
-    const SpringOnKvr of{model, spring, cell.springs[s].p_L, lumped.origin[lumped.carrier[body]]};
+    const SpringOnKvr of{*setup.model, spring, cell.springs[s].p_L,
+                         lumped.origin[lumped.carrier[body]]};
     const KvrSample &start = kvrs[spring.target].start(), &end = kvrs[spring.target].end();
     const bool implicit = spring.treatment == Treatment::implicit;
     const bool explicit_ = spring.treatment == Treatment::explicit_;
@@ -106,9 +125,7 @@ void BatchMotion::fill_step(std::size_t n, const BatchSetup& setup, const Lumped
     of.pose(end, &energy[here + energy_stride]);    // as the next step's start, but for the last
   }
   for (std::size_t j = 0; j < joints; ++j) {
-    const auto body =
-        static_cast<std::size_t>(model.find_joint(setup.targets.front().joints.turned[j]));
-    const std::size_t iq = model.iq[body];
+    const std::size_t iq = setup.measured[j];
     if (n == 0) q_K[j] = kvrs.front().start().x.q[iq];
     q_K[(n + 1) * joints + j] = kvrs.front().end().x.q[iq];
   }

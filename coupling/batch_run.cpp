@@ -113,10 +113,8 @@ class BatchRun::DriverOf final : public Driver {
     work_.has_energy = setup_.energy;
     prepare_bodies();
     prepare_pulls();
-    for (const std::string& joint : setup_.targets.front().joints.turned)
-      work_.measured.push_back(
-          setup_.model->iq[static_cast<std::size_t>(setup_.model->find_joint(joint))]);
-    for (auto* by_joint : {&work_.error_sum, &work_.error_max, &work_.error_last})
+    work_.measured = setup_.measured;
+    for (auto* by_joint : {&work_.error_integral, &work_.error_max, &work_.error_last})
       by_joint->resize(work_.measured.size());
   }
 
@@ -167,6 +165,7 @@ class BatchRun::DriverOf final : public Driver {
       pull.motion = motion_.places[s].motion;
       pull.energy = motion_.places[s].energy;
       pull.is_absolute = spring.absolute_damper;
+      pull.is_implicit = spring.treatment == Treatment::implicit;
       work_.pulls.push_back(pull);
       const bool at_joint = pull.kind == PullKind::joint;
       work_.has_joint_pulls |= at_joint;
@@ -181,45 +180,62 @@ class BatchRun::DriverOf final : public Driver {
     work_.steps = motion_.steps;
     work_.motion = motion_.motion.data();
     work_.energy = motion_.energy.data();
+    work_.is_corner = motion_.is_corner.data();
     work_.q_K = motion_.q_K.data();
     work_.motion_stride = motion_.motion_stride;
     work_.energy_stride = motion_.energy_stride;
     work_.lanes_running = count_;
-    for (std::size_t lane = 0; lane < N; ++lane) load(lane, *cell_[std::min(lane, count_ - 1)]);
-    start_measures();
     for (std::size_t lane = 0; lane < N; ++lane) {
       runs_[lane] = lane < count_;
+      load(lane, *cell_[std::min(lane, count_ - 1)]);
       if (!runs_[lane]) park(lane);
     }
+    start_measures();
+    const bool shorter = motion_.last_step != cell_[0]->h;
+    work_.first = 0;
+    work_.last = shorter ? motion_.steps - 1 : motion_.steps;
     kernel_(work_);
+    if (shorter && work_.lanes_running > 0) {
+      for (std::size_t lane = 0; lane < N; ++lane) load_step(lane, motion_.last_step);
+      work_.first = work_.last;
+      work_.last = motion_.steps;
+      kernel_(work_);
+    }
     for (std::size_t lane = 0; lane < count_; ++lane)
       if (runs_[lane]) store(lane);
   }
 
   void load(std::size_t lane, const BatchCell& cell) {
-    set_lane(work_.h, lane, cell.h);
     set_lane(work_.bound, lane, setup_.bound);
+    set_lane(work_.h_before, lane, 0);
     for (std::size_t i = 0; i < setup_.start.q.size(); ++i)
       set_lane(work_.x.q[i], lane, setup_.start.q[i]);
-    for (std::size_t i = 0; i < setup_.start.qd.size(); ++i) {
+    for (std::size_t i = 0; i < setup_.start.qd.size(); ++i)
       set_lane(work_.x.qd[i], lane, setup_.start.qd[i]);
-      set_lane(work_.forces.armature[i], lane, cell.h * lumped_.model.damping[i]);
-    }
-    std::vector<Inertia<double>> inertias = lumped_.inertias(cell.mass_factor);
-    for (std::size_t i = 0; i < inertias.size(); ++i)
-      set_lane(work_.model.I_own[i], lane, inertias[i]);
-    for (std::size_t s = 0; s < work_.pulls.size(); ++s)
-      load_pull(s, lane, cell, inertias[work_.pulls[s].body]);
-    for (std::size_t i = 0; i < inertias.size(); ++i)
-      set_lane(work_.model.I_felt[i], lane, inertias[i]);
+    inertias_[lane] = lumped_.inertias(cell.mass_factor);
+    for (std::size_t i = 0; i < inertias_[lane].size(); ++i)
+      set_lane(work_.model.I_own[i], lane, inertias_[lane][i]);
+    load_step(lane, cell.h);
   }
-  void load_pull(std::size_t s, std::size_t lane, const BatchCell& cell, Inertia<double>& felt) {
+  // What depends on the length of the step.
+  void load_step(std::size_t lane, double h) {
+    if (lane < count_ && !runs_[lane]) return;
+    const BatchCell& cell = *cell_[std::min(lane, count_ - 1)];
+    set_lane(work_.h, lane, lane < count_ ? h : 0);
+    for (std::size_t i = 0; i < setup_.start.qd.size(); ++i)
+      set_lane(work_.forces.armature[i], lane, h * lumped_.model.damping[i]);
+    std::vector<Inertia<double>> felt = inertias_[lane];
+    for (std::size_t s = 0; s < work_.pulls.size(); ++s)
+      load_pull(s, lane, cell.springs[s], h, felt[work_.pulls[s].body]);
+    for (std::size_t i = 0; i < felt.size(); ++i) set_lane(work_.model.I_felt[i], lane, felt[i]);
+  }
+  void load_pull(std::size_t s, std::size_t lane, const BatchCell::Gains& gains, double h,
+                 Inertia<double>& felt) {
     const BatchSpring& spring = setup_.springs[s];
-    const BatchCell::Gains& gains = cell.springs[s];
     const auto body = static_cast<std::size_t>(spring.body);
     LanePull<S>& pull = work_.pulls[s];
-    const double look_ahead = spring.treatment == Treatment::implicit ? cell.h : 0;
-    const double m = m_star(spring.treatment, cell.h, gains);
+    const double look_ahead = spring.treatment == Treatment::implicit ? h : 0;
+    const double m = m_star(spring.treatment, h, gains);
     const Transform<double>& X = lumped_.X[body];
     const Vec3<double> p =
         X.r + transpose_times(X.E, setup_.model->turn[body] * from_eigen(gains.p_L));
@@ -244,7 +260,7 @@ class BatchRun::DriverOf final : public Driver {
     for (std::size_t j = 0; j < work_.measured.size(); ++j) {
       const double e = std::abs(motion_.q_K[j] - setup_.start.q[work_.measured[j]]);
       work_.error_max[j] = S(e);
-      work_.error_sum[j] = S(0.5 * e);
+      work_.error_integral[j] = S(0);
       work_.error_last[j] = S(e);
       const double largest = std::max(e, work_.window_error[0][0]);
       work_.window_error[0] = S(largest);
@@ -282,11 +298,10 @@ class BatchRun::DriverOf final : public Driver {
     result.finished = true;
     result.max_error.clear();
     result.mean_error.clear();
-    const auto steps = static_cast<double>(std::max<std::size_t>(motion_.steps, 1));
     for (std::size_t j = 0; j < work_.measured.size(); ++j) {
-      const double last = lane_of(work_.error_last[j], lane);
+      const double twice = lane_of(work_.error_integral[j], lane);
       result.max_error.push_back(lane_of(work_.error_max[j], lane));
-      result.mean_error.push_back((lane_of(work_.error_sum[j], lane) - 0.5 * last) / steps);
+      result.mean_error.push_back(0.5 * twice / setup_.duration);
     }
     for (std::size_t q = 0; q < BatchResult::kWindows; ++q)
       result.window_error[q] = lane_of(work_.window_error[q], lane);
@@ -318,6 +333,7 @@ class BatchRun::DriverOf final : public Driver {
   std::array<const BatchCell*, N> cell_{};
   std::array<BatchResult*, N> result_{};
   std::array<bool, N> runs_{};
+  std::array<std::vector<Inertia<double>>, N> inertias_;  // of its lumped bodies
 };
 
 BatchRun::BatchRun(const BatchSetup& setup) {

@@ -61,10 +61,10 @@ struct BatchSetup {
   State<double> start;
   std::vector<BatchTarget> targets;
   std::vector<BatchSpring> springs;
-  double duration = 0;  // [s], round(duration / h) steps
+  std::vector<std::size_t> measured;  // coordinates whose error against the first target is wanted
+  double duration = 0;                // [s]; where it is no multiple of h the last step is shorter
   double bound = 1e3;   // a cell stops where |q_K - q_D| of a measured joint is not below this
   bool energy = false;  // compute energy_created and hand_work_least too
-  // Whose error is measured: the joints that the hand of the first target turns, in its order.
 };
 
 // One run. Vectors by spring and by body of the model.
@@ -81,7 +81,7 @@ struct BatchCell {
 
 struct BatchResult {
   static constexpr std::size_t kWindows = 4;
-  std::size_t steps = 0;  // taken; less than round(duration / h) where the cell has stopped
+  std::size_t steps = 0;  // taken; less than the whole run's where the cell has stopped
   bool finished = false;  // false: it left all bounds
   // By measured joint, over t = 0, h, 2h ...; maximum and time average (trapezoidal) as
   // tracking_error(). All infinite in a cell that has stopped, as are the quarters from then on.

@@ -60,7 +60,9 @@ struct LanePull {
   S k, b, kb;  // stiffness, damping; k look_ahead + b: what meets the link's own velocity
   S b_seen;    // b, or 0 of an absolute damper, which does not see the target move
   bool is_absolute = false;
-  S m_star;         // weightless inertia of the treatment
+  S m_star;  // weightless inertia of the treatment
+  bool is_implicit = false;
+  Vec3<S> phi;      // world, not implicit: the offset of this step, for the energies
   Vec3<S> p_B, kp;  // linear: the point in body axes, and k times it
 };
 
@@ -72,9 +74,10 @@ struct BatchWork {
   State<S> x;
   Forces<S> forces;  // f_ext stays zero
   Workspace<S> w;
-  S h;      // 0 in a lane that stands still
-  S bound;  // infinite in such a lane
-  std::size_t steps = 0;
+  S h;                                         // 0 in a lane that stands still
+  S h_before;                                  // of the step before; 0 at the start
+  S bound;                                     // infinite in a lane that stands still
+  std::size_t steps = 0, first = 0, last = 0;  // of the run; those that the kernel is to take
 
   // By body, where springs need them: world to body axes, origin, bias acceleration.
   std::vector<char> is_placed;
@@ -86,11 +89,12 @@ struct BatchWork {
 
   // Tables by step: `motion` has steps rows, the others steps + 1.
   const double *motion = nullptr, *energy = nullptr, *q_K = nullptr;
+  const char* is_corner = nullptr;  // of a row of `energy`: the two velocities or steps differ
   std::size_t motion_stride = 0, energy_stride = 0;
 
   // By measured joint.
-  std::vector<std::size_t> measured;  // coordinates
-  std::vector<S> error_sum, error_max, error_last;
+  std::vector<std::size_t> measured;                     // coordinates
+  std::vector<S> error_integral, error_max, error_last;  // twice the integral
   std::array<S, kWindows> window_error;
   // Sums of powers by the trapezoidal rule: of all that counts in the ledger; of the hand. And what
   // the springs hold [J].

@@ -87,6 +87,8 @@ struct Bench {
       setup.springs.push_back(spring);
     }
     setup.duration = 0.4;
+    for (const int body : {1, 2, 3})
+      setup.measured.push_back(model.iq[static_cast<std::size_t>(body)]);
     setup.energy = true;
   }
   Bench(const Bench&) = delete;
@@ -128,7 +130,10 @@ class OneByOne {
     Simulation simulation(model_, setup_.start);
     for (const auto& coupling : couplings_) simulation.add(*coupling);
     BatchResult result;
-    const auto steps = static_cast<std::size_t>(std::lround(setup_.duration / cell_.h));
+    const auto steps = static_cast<std::size_t>(std::ceil(setup_.duration / cell_.h - 1e-6));
+    const auto length = [&](std::size_t n) {
+      return std::min(cell_.h, setup_.duration - static_cast<double>(n) * cell_.h);
+    };
     TrackingSeries series;
     series.q_K.resize(3), series.q_D.resize(3);
     const double held = held_energy(simulation);
@@ -136,12 +141,13 @@ class OneByOne {
     Powers power = powers(simulation, 1e-6);
     look(simulation, series);
     for (result.steps = 0; result.steps < steps;) {
-      simulation.step(cell_.h);
+      const double h = length(result.steps);
+      simulation.step(h);
       ++result.steps;
       if (!look(simulation, series)) return result;
       const Powers before = powers(simulation, -1e-6);
-      work += 0.5 * cell_.h * (power.counted + before.counted);
-      hand_work += 0.5 * cell_.h * (power.hand + before.hand);
+      work += 0.5 * h * (power.counted + before.counted);
+      hand_work += 0.5 * h * (power.hand + before.hand);
       result.hand_work_least = std::min(result.hand_work_least, hand_work);
       power = powers(simulation, 1e-6);
     }
