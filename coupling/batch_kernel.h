@@ -33,20 +33,34 @@ S larger(const S& a, const S& b) {
   return select(a < b, b, a);
 }
 
-// What the bodies on the way to the springs' links have, from pass 1.
+// What the bodies on the way to the springs' links have, from pass 1. A hinge whose axes at home
+// are its parent's turns about z alone, with a third of the products.
 template <class S>
 TWINARM_KERNEL void place_bodies(BatchWork<S>& b) {
   for (std::size_t i = 1; i < b.E.size(); ++i) {
-    if (!b.is_placed[i]) continue;
+    if (b.place[i] == Place::none) continue;
     const auto p = static_cast<std::size_t>(b.model.parent[i]);
     const Transform<S>& X = b.w.Xup[i];
     if (p == 0) {
       b.E[i] = X.E, b.o[i] = X.r;
-    } else {
-      b.o[i] = b.o[p] + transpose_times(b.E[p], X.r);
-      b.E[i] = X.E * b.E[p];
+      if (b.has_bias) b.a_bias[i] = X * b.a_bias[0] + b.w.c[i];
+      continue;
     }
-    if (b.has_bias) b.a_bias[i] = X * b.a_bias[p] + b.w.c[i];
+    const Mat3<S>& E = b.E[p];
+    b.o[i] = b.o[p] + transpose_times(E, X.r);
+    if (b.place[i] == Place::general) {
+      b.E[i] = X.E * E;
+      if (b.has_bias) b.a_bias[i] = X * b.a_bias[p] + b.w.c[i];
+      continue;
+    }
+    const S &c = X.E.r0.x, &s = X.E.r0.y;
+    b.E[i] = {c * E.r0 + s * E.r1, c * E.r1 - s * E.r0, E.r2};
+    if (!b.has_bias) continue;
+    const Motion<S>& a = b.a_bias[p];
+    const Vec3<S> v = minus_cross(a.v, X.r, a.w);
+    b.a_bias[i] = Motion<S>{{c * a.w.x + s * a.w.y, c * a.w.y - s * a.w.x, a.w.z},
+                            {c * v.x + s * v.y, c * v.y - s * v.x, v.z}} +
+                  b.w.c[i];
   }
 }
 
@@ -189,21 +203,30 @@ TWINARM_KERNEL void integrate(BatchWork<S>& b) {
 
 // Errors after step n; lanes that have left all bounds stop.
 template <class S>
-TWINARM_KERNEL void measure(BatchWork<S>& b, std::size_t n, S& largest) {
+TWINARM_KERNEL void measure(BatchWork<S>& b, std::size_t n) {
   const double* q_K = b.q_K + (n + 1) * b.measured.size();
-  auto inside = S(0) < S(1);
+  S sum(0);
   for (std::size_t j = 0; j < b.measured.size(); ++j) {
     const S e = magnitude(S(q_K[j]) - b.x.q[b.measured[j]]);
-    inside &= e < b.bound;
+    sum = sum + e;
     b.error_integral[j] = b.error_integral[j] + b.h * (e + b.error_last[j]);
     b.error_last[j] = e;
-    b.error_max[j] = larger(b.error_max[j], e);
-    largest = larger(largest, e);
+    b.window_error_of[j] = larger(b.window_error_of[j], e);
   }
-  const auto outside = ~inside;
+  const auto outside = ~(sum < b.bound);  // NaN too
   if (!any_lane(outside)) return;
   for (std::size_t lane = 0; lane < sizeof(S) / sizeof(double); ++lane)
     if (outside[lane]) b.stopped(b, lane, n + 1);
+}
+
+// The quarter's largest errors, by joint and of all, go where the run's are.
+template <class S>
+void end_window(BatchWork<S>& b, std::size_t window) {
+  for (std::size_t j = 0; j < b.measured.size(); ++j) {
+    b.error_max[j] = larger(b.error_max[j], b.window_error_of[j]);
+    b.window_error[window] = larger(b.window_error[window], b.window_error_of[j]);
+    b.window_error_of[j] = S(0);
+  }
 }
 
 template <class S>
@@ -211,7 +234,6 @@ void run_steps(BatchWork<S>& b) {
   std::size_t n = b.first;
   for (std::size_t window = 0; window < b.kWindows; ++window) {
     const std::size_t end = std::min(b.last, (window + 1) * b.steps / b.kWindows);
-    S largest = b.window_error[window];
     for (; n < end && b.lanes_running > 0; ++n) {
       const double* row = b.motion + n * b.motion_stride;
       if (b.has_joint_pulls || b.has_damping) pull_joints(b, row);
@@ -219,9 +241,9 @@ void run_steps(BatchWork<S>& b) {
       aba(b.model, b.x, b.forces, b.w, LanePulls<S>{b, row, n});
       integrate(b);
       b.h_before = b.h;
-      measure(b, n, largest);
+      measure(b, n);
     }
-    b.window_error[window] = largest;
+    end_window(b, window);
   }
   if (!b.has_energy || b.last < b.steps || b.lanes_running == 0) return;
   b.model.I = b.model.I_own.data();  // the powers at the end; the motion's last row will do

@@ -114,7 +114,8 @@ class BatchRun::DriverOf final : public Driver {
     prepare_bodies();
     prepare_pulls();
     work_.measured = setup_.measured;
-    for (auto* by_joint : {&work_.error_integral, &work_.error_max, &work_.error_last})
+    for (auto* by_joint :
+         {&work_.error_integral, &work_.error_max, &work_.error_last, &work_.window_error_of})
       by_joint->resize(work_.measured.size());
   }
 
@@ -150,7 +151,7 @@ class BatchRun::DriverOf final : public Driver {
     work_.o.resize(n);
     work_.a_bias.resize(n);
     work_.a_bias[0] = {{}, -work_.model.gravity};
-    work_.is_placed.assign(n, 0);
+    work_.place.assign(n, Place::none);
     for (const double b : lumped_.model.damping) work_.has_damping |= b != 0;
   }
   void prepare_pulls() {
@@ -172,8 +173,13 @@ class BatchRun::DriverOf final : public Driver {
       work_.has_bias |= !at_joint && spring.treatment != Treatment::explicit_;
       for (std::size_t i = at_joint ? 0 : pull.body; i > 0;
            i = static_cast<std::size_t>(lumped_.model.parent[i]))
-        work_.is_placed[i] = 1;
+        work_.place[i] = is_hinge_in_line(i) ? Place::hinge_in_line : Place::general;
     }
+  }
+
+  bool is_hinge_in_line(std::size_t i) const {
+    const Matrix3 E = to_eigen(lumped_.model.Xtree[i].E);
+    return lumped_.model.joint[i] == JointType::revolute && E == Matrix3::Identity();
   }
 
   void run_batch() {
@@ -259,11 +265,10 @@ class BatchRun::DriverOf final : public Driver {
     work_.window_error.fill(S(0));
     for (std::size_t j = 0; j < work_.measured.size(); ++j) {
       const double e = std::abs(motion_.q_K[j] - setup_.start.q[work_.measured[j]]);
-      work_.error_max[j] = S(e);
+      work_.error_max[j] = S(0);
+      work_.window_error_of[j] = S(e);
       work_.error_integral[j] = S(0);
       work_.error_last[j] = S(e);
-      const double largest = std::max(e, work_.window_error[0][0]);
-      work_.window_error[0] = S(largest);
     }
   }
 

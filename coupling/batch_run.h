@@ -63,7 +63,7 @@ struct BatchSetup {
   std::vector<BatchSpring> springs;
   std::vector<std::size_t> measured;  // coordinates whose error against the first target is wanted
   double duration = 0;                // [s]; where it is no multiple of h the last step is shorter
-  double bound = 1e3;   // a cell stops where |q_K - q_D| of a measured joint is not below this
+  double bound = 1e3;   // a cell stops where |q_K - q_D|, summed over them, is not below this
   bool energy = false;  // compute energy_created and hand_work_least too
 };
 

@@ -66,6 +66,9 @@ struct LanePull {
   Vec3<S> p_B, kp;  // linear: the point in body axes, and k times it
 };
 
+// How a body is placed: not at all, or by its Xup, which may be a turn about z alone.
+enum class Place : char { none, general, hinge_in_line };
+
 template <class S>
 struct BatchWork {
   static constexpr std::size_t kWindows = 4;
@@ -80,7 +83,7 @@ struct BatchWork {
   std::size_t steps = 0, first = 0, last = 0;  // of the run; those that the kernel is to take
 
   // By body, where springs need them: world to body axes, origin, bias acceleration.
-  std::vector<char> is_placed;
+  std::vector<Place> place;
   bool has_bias = false, has_joint_pulls = false, has_damping = false, has_energy = false;
   std::vector<Mat3<S>> E;
   std::vector<Vec3<S>> o;
@@ -95,6 +98,7 @@ struct BatchWork {
   // By measured joint.
   std::vector<std::size_t> measured;                     // coordinates
   std::vector<S> error_integral, error_max, error_last;  // twice the integral
+  std::vector<S> window_error_of;
   std::array<S, kWindows> window_error;
   // Sums of powers by the trapezoidal rule: of all that counts in the ledger; of the hand. And what
   // the springs hold [J].
