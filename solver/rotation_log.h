@@ -22,9 +22,13 @@ S half_angle_over_sine(const S& t) {
       7.544864801663231e-08, 4.87790832458816e-08,  6.17590303419651e-07,   2.240565232768444e-06,
       9.729544549290022e-06, 4.162075796079643e-05, 0.00018037588401229585, 0.0007936507209106702,
       0.0035714285758257002, 0.016666666666531462,  0.0833333333333349,     0.5};
-  S f(c[0]);
-  for (std::size_t i = 1; i < c.size(); ++i) f = f * t + S(c[i]);
-  return f;
+  const S t2 = t * t;
+  S odd(c[0]), even(c[1]);  // two chains side by side
+  for (std::size_t i = 2; i < c.size(); i += 2) {
+    odd = odd * t2 + S(c[i]);
+    even = even * t2 + S(c[i + 1]);
+  }
+  return even + odd * t;
 }
 
 // atan(y / x) for x, y >= 0 and not both zero, in [0, pi/2]: the rational approximation of the
