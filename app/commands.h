@@ -58,6 +58,26 @@ struct ModesOptions {
 };
 int run_modes(const ModesOptions& options);
 
+struct CouplingPredictOptions {
+  RobotOptions robot;           // its model: a scene
+  std::optional<double> step;   // [s]; left out: the scene's
+  std::string integrator;       // empty: the scene's
+  double turn = 180, time = 1;  // of the target [deg, or mm], [s]
+  std::optional<double> wall;   // [N/m]
+  bool json = false;
+};
+int run_coupling_predict(const CouplingPredictOptions& options);
+
+struct CouplingGainsOptions {
+  RobotOptions robot;  // its model: a scene; empty: gains from the options below
+  std::optional<double> frequency, damping_ratio;  // [Hz], 1
+  std::optional<double> stiffness, inertia;
+  double damping = 0;
+  std::string solref, impedance;  // "a,b"; "d" or "d,dmax"
+  bool json = false;
+};
+int run_coupling_gains(const CouplingGainsOptions& options);
+
 int run_simulate(const SimulateOptions& options);
 
 struct ExportOptions {

@@ -1,0 +1,141 @@
+// `twinarm coupling predict` and `twinarm coupling gains`.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/commands.h"
+#include "app/coupling/equivalents.h"
+#include "app/coupling/predicted.h"
+#include "collision/import/number_text.h"
+
+namespace twinarm {
+namespace {
+
+void check_positive(const std::string& option, double value, FaultList& faults) {
+  if (value > 0 && std::isfinite(value)) return;
+  faults.add({"", 0, option, "must be positive, is " + number_text(value), ""});
+}
+void check_not_negative(const std::string& option, double value, FaultList& faults) {
+  if (value >= 0 && std::isfinite(value)) return;
+  faults.add({"", 0, option, "must not be negative, is " + number_text(value), ""});
+}
+
+// A scene that has couplings, and its step.
+SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<double>& step,
+                               const std::string& integrator, FaultList& faults) {
+  if (robot.model.extension() != ".toml")
+    faults.add({robot.model.string(), 0, "", "is no scene, and only a scene has couplings",
+                "write a scene with a [[robot]] and a [[coupling]] (docs/scenes.md)"});
+  faults.check();
+  SimulateOptions simulate;
+  simulate.robot = robot;
+  simulate.duration = 1;
+  simulate.step = step;
+  simulate.integrator = integrator;
+  auto prepared = attempt(faults, [&] { return prepare_simulation(simulate); });
+  faults.check();
+  if (prepared->input.couplings->size() == 0)
+    throw InputError({{robot.model.string(), 0, "scene", "it has no coupling",
+                       "write a [[coupling]] (docs/scenes.md)"}});
+  return std::move(*prepared);
+}
+
+}  // namespace
+
+int run_coupling_predict(const CouplingPredictOptions& options) {
+  FaultList faults;
+  check_positive("--turn", options.turn, faults);
+  check_positive("--time", options.time, faults);
+  if (options.wall) check_positive("--wall", *options.wall, faults);
+  SimulatePlan prepared =
+      prepare_couplings(options.robot, options.step, options.integrator, faults);
+  const PredictTask task{options.turn * std::numbers::pi / 180, options.time, options.wall};
+  const Predicted found = predict_couplings(prepared, task);
+  fmt::print("{}\n", options.json ? predicted_json(found, task) : predicted_table(found, task));
+  return 0;
+}
+
+namespace {
+
+struct Asked {
+  std::optional<SpringResponse> response;  // --frequency, --damping-ratio
+  std::optional<Solref> solref;
+  MujocoImpedance impedance;
+};
+
+Asked read_asked(const CouplingGainsOptions& options, FaultList& faults) {
+  Asked asked;
+  if (options.frequency.has_value() != options.damping_ratio.has_value()) {
+    faults.add({"", 0, "--frequency, --damping-ratio", "go together", "give both, or neither"});
+  } else if (options.frequency) {
+    check_positive("--frequency", *options.frequency, faults);
+    check_not_negative("--damping-ratio", *options.damping_ratio, faults);
+    asked.response = {2 * std::numbers::pi * *options.frequency, *options.damping_ratio};
+  }
+  if (!options.solref.empty()) {
+    const std::vector<double> two = parse_list("--solref", options.solref, faults);
+    if (two.size() == 2 && ((two[0] > 0 && two[1] > 0) || (two[0] <= 0 && two[1] <= 0)))
+      asked.solref = {two[0], two[1]};
+    else
+      faults.add({"", 0, "--solref", "'" + options.solref + "' is no solref",
+                  "give timeconst,dampratio, both positive, or -stiffness,-damping"});
+  }
+  if (!options.impedance.empty()) {
+    const std::vector<double> d = parse_list("--impedance", options.impedance, faults);
+    const bool good = !d.empty() && d.size() <= 2 && d.front() > 0 && d.front() < 1 &&
+                      d.back() > 0 && d.back() < 1;
+    if (good)
+      asked.impedance = {d.front(), d.back()};
+    else
+      faults.add({"", 0, "--impedance", "'" + options.impedance + "' is none",
+                  "give d, or d,dmax, each above 0 and below 1"});
+  }
+  return asked;
+}
+
+// Without a scene: an inertia, and gains in one of four ways.
+Equivalents bare_equivalents(const CouplingGainsOptions& options, const Asked& asked,
+                             FaultList& faults) {
+  const int ways = (options.stiffness ? 1 : 0) + (asked.response ? 1 : 0) + (asked.solref ? 1 : 0);
+  if (!options.inertia)
+    faults.add({"", 0, "--inertia", "is needed where there is no scene",
+                "give what the spring moves [kg or kg m^2], or a scene"});
+  else
+    check_positive("--inertia", *options.inertia, faults);
+  if (ways != 1)
+    faults.add(
+        {"", 0, "gains", fmt::format("are given in {} ways", ways),
+         "give one of --stiffness and --damping, --frequency and --damping-ratio, --solref"});
+  if (options.stiffness) check_positive("--stiffness", *options.stiffness, faults);
+  check_not_negative("--damping", options.damping, faults);
+  faults.check();
+  const SpringGains gains = asked.response ? gains_of(*asked.response, *options.inertia)
+                            : asked.solref
+                                ? gains_of(*asked.solref, *options.inertia, asked.impedance)
+                                : SpringGains{*options.stiffness, options.damping};
+  return equivalents_of(gains, *options.inertia, asked.impedance);
+}
+
+}  // namespace
+
+int run_coupling_gains(const CouplingGainsOptions& options) {
+  FaultList faults;
+  const Asked asked = read_asked(options, faults);
+  std::vector<Equivalents> all;
+  double step = 0.001;
+  if (options.robot.model.empty()) {
+    all.push_back(bare_equivalents(options, asked, faults));
+  } else {
+    if (options.stiffness || options.inertia || asked.solref)
+      faults.add({"", 0, "--stiffness, --inertia, --solref", "are for gains without a scene",
+                  "leave the scene out, or these"});
+    SimulatePlan prepared = prepare_couplings(options.robot, {}, "semi-implicit", faults);
+    step = prepared.run.step;
+    all = scene_equivalents(prepared.input, asked.response, asked.impedance);
+  }
+  fmt::print("{}\n", options.json ? equivalents_json(all) : equivalents_table(all, step));
+  return 0;
+}
+
+}  // namespace twinarm

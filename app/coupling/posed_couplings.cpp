@@ -1,0 +1,131 @@
+#include "app/coupling/posed_couplings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/dynamics.h"
+#include "solver/spring.h"
+
+namespace twinarm {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+std::string kind_of(const SceneCoupling& spec) {
+  if (spec.type == CouplingDescription::Type::linear) return "linear";
+  return spec.measure == Measure::world ? "torsional, world" : "torsional, joint";
+}
+
+}  // namespace
+
+PosedCouplings::PosedCouplings(SimulateInput& input)
+    : input_(input), model_(input.robot.model), x_(input.robot.state.x), k_(model_) {
+  std::fill(x_.qd.begin(), x_.qd.end(), 0.0);
+  forward_kinematics(model_, x_, k_);
+  const Coordinates& coordinates = input_.robot.coordinates;
+  P_ = coordinates.P(model_, x_).leftCols(coordinates.rows());
+  all_M_ = mass_matrix(model_, x_);
+  for (const NamedJoint& joint : coordinates.all())
+    velocities_ = std::max(velocities_, joint.iv + joint.nv);
+  for (const Mimic& mimic : model_.mimics) velocities_ = std::max(velocities_, mimic.follower + 1);
+}
+
+VectorXd PosedCouplings::gravity() const {
+  Workspace<double> w(model_);
+  rnea(model_, x_, std::vector<double>(model_.nv), std::vector<Force<double>>(k_.X_WL.size()), w);
+  return P_.transpose() * Eigen::Map<const VectorXd>(w.tau.data(), static_cast<Index>(model_.nv));
+}
+
+MatrixXd PosedCouplings::joint_damping() const {
+  const Eigen::Map<const VectorXd> damping(model_.damping.data(), static_cast<Index>(model_.nv));
+  return by_rows(damping.asDiagonal());
+}
+
+// The spring and the damper of a coupling, its kinematic side held still.
+void PosedCouplings::push(std::size_t c, const State<double>& x, const Kinematics& k,
+                          Forces<double>& forces) {
+  const SceneCoupling& spec = input_.couplings->spec(c);
+  const CouplingEnds ends = input_.couplings->ends(c, x, k);
+  const Vector3 pull = spec.spring.k * ends.offset - spec.spring.b * ends.velocity;
+  const int body = spec.spring.body;
+  if (spec.type == CouplingDescription::Type::linear)
+    add_point_force(k, body, k.position(body, spec.spring.p_L), pull, forces);
+  else if (spec.measure == Measure::world)
+    add_couple(k, body, pull, forces);
+  else
+    forces.tau[model_.iv[static_cast<std::size_t>(body)]] += pull.x();
+}
+
+// d(what the coupling measures)/dqd.
+MatrixXd PosedCouplings::jacobian(const SceneCoupling& spec) const {
+  const int body = spec.spring.body;
+  if (spec.type == CouplingDescription::Type::linear)
+    return point_jacobian(model_, k_, body, k_.position(body, spec.spring.p_L));
+  if (spec.measure == Measure::world) return rotation_jacobian(model_, k_, body);
+  MatrixXd row = MatrixXd::Zero(1, static_cast<Index>(model_.nv));
+  row(0, static_cast<Index>(model_.iv[static_cast<std::size_t>(body)])) = 1;
+  return row;
+}
+
+double PosedCouplings::felt_inertia(std::size_t c) const {
+  const MatrixXd J = jacobian(input_.couplings->spec(c)) * P_;
+  Eigen::Matrix3Xd rows = Eigen::Matrix3Xd::Zero(3, J.cols());
+  rows.topRows(J.rows()) = J;
+  return principal_inertias(M(), rows)[0];
+}
+
+// About every turning joint below the point, with the inertia that is felt there when the others
+// are held.
+void PosedCouplings::add_arms(const SceneCoupling& spec, const Vector3& offset, double h,
+                              PredictedCoupling& found) const {
+  const Vector3 p = k_.position(spec.spring.body, spec.spring.p_L), target = p + offset;
+  for_each_dof_below(
+      model_, k_, spec.spring.body,
+      [&](std::size_t dof, const Vector3& w, const Vector3&, const Vector3& o) {
+        if (w.norm() < 0.5) return;  // a slide
+        const auto distance = [&](const Vector3& point) { return w.cross(point - o).norm(); };
+        const auto after = std::upper_bound(model_.iv.begin() + 1, model_.iv.end(), dof);
+        const auto body = static_cast<std::size_t>(after - model_.iv.begin()) - 1;
+        const double r = distance(p), R_K = distance(target), k = spec.spring.k;
+        const double I = all_M_(static_cast<Index>(dof), static_cast<Index>(dof));
+        if (r < 1e-9) return;  // it does not turn this joint
+        found.arms.push_back({model_.joint_name[body], r, R_K,
+                              largest_target_radius(I, r, k, spec.spring.b, h), k * r * R_K});
+      });
+}
+
+PredictedCoupling PosedCouplings::coupling(std::size_t c, double h) {
+  const SceneCoupling& spec = input_.couplings->spec(c);
+  PredictedCoupling found;
+  found.name = spec.name;
+  found.kind = kind_of(spec);
+  found.treatment = spec.treatment;
+  found.is_linear = spec.type == CouplingDescription::Type::linear;
+  found.absolute_damper = spec.absolute_damper;
+  found.rate = spec.rate;
+  found.gains = {spec.spring.k, spec.spring.b};
+  const Vector3 offset = input_.couplings->ends(c, x_, k_).offset;
+  found.offset = offset.norm();
+  const TangentStiffness tangent = tangent_stiffness(
+      model_, x_,
+      [&](const State<double>& x, const Kinematics& k, Forces<double>& forces) {
+        push(c, x, k, forces);
+      },
+      velocities_);
+  const MatrixXd J = jacobian(spec) * P_, square = J.transpose() * J;
+  found.K = by_rows(tangent.K);
+  found.K_zero = spec.spring.k * square;
+  found.B = spec.spring.b * square;
+  const SpringModes modes = spring_modes(M(), found.K, found.B);
+  if (modes.size() > 0) {
+    const Index last = modes.size() - 1;
+    found.alone = {modes.omega(last), modes.zeta(last)};
+  }
+  if (found.is_linear) add_arms(spec, offset, h, found);
+  return found;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,37 @@
+// The couplings of a scene about one state at rest: stiffness, damping and lever arms of each, with
+// the kinematic side held still.
+#pragma once
+
+#include "app/coupling/predicted.h"
+
+namespace twinarm {
+
+class PosedCouplings {
+ public:
+  explicit PosedCouplings(SimulateInput& input);
+  // By rows (app/coupling/predicted.h).
+  Eigen::MatrixXd M() const { return by_rows(all_M_); }
+  Eigen::MatrixXd joint_damping() const;
+  Eigen::VectorXd gravity() const;  // what holds the robots up: G of M qdd + C + G = tau
+  PredictedCoupling coupling(std::size_t c, double h);
+  // What the coupling feels where it is felt least, all else free [kg or kg m^2].
+  double felt_inertia(std::size_t c) const;
+
+ private:
+  Eigen::MatrixXd by_rows(const Eigen::MatrixXd& by_velocity) const {
+    return P_.transpose() * by_velocity * P_;
+  }
+  void push(std::size_t c, const State<double>& x, const Kinematics& k, Forces<double>& forces);
+  Eigen::MatrixXd jacobian(const SceneCoupling& spec) const;
+  void add_arms(const SceneCoupling& spec, const Vector3& offset, double h,
+                PredictedCoupling& found) const;
+
+  SimulateInput& input_;
+  const Model<double>& model_;
+  State<double> x_;
+  Kinematics k_;
+  Eigen::MatrixXd P_, all_M_;
+  std::size_t velocities_ = 0;  // of the robots, which come first
+};
+
+}  // namespace twinarm

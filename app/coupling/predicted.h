@@ -1,0 +1,90 @@
+// What `twinarm coupling predict` says of the couplings of a scene in one state.
+//
+// All matrices by the rows of the robots' joint values (app/dynamics/coordinates.h), followers
+// eliminated; free bodies are left out. About the state at rest, the kinematic side held still.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/simulate/simulate_input.h"
+#include "coupling/gains.h"
+#include "coupling/prediction.h"
+
+namespace twinarm {
+
+// What the follower is asked to do, and the wall that it meets.
+struct PredictTask {
+  double distance = 0, time = 1;  // of the target along a mode [rad or m], [s]
+  std::optional<double> wall;     // stiffness [N/m]
+};
+
+// The arm of a point spring about a joint below it.
+struct SpringArm {
+  std::string joint;
+  double radius = 0, target_radius = 0;  // of the link's point and of its target [m]
+  double largest_target_radius = 0;      // with the step of the scene [m]
+  double largest_torque = 0;             // k r R_K, at a right angle [N m]
+};
+
+struct PredictedCoupling {
+  std::string name, kind;
+  Treatment treatment = Treatment::implicit;
+  bool is_linear = true, absolute_damper = false;
+  double rate = 0;                  // [Hz]; 0: every step
+  SpringGains gains;                // N/m, N s/m, or N m/rad, N m s/rad
+  double offset = 0;                // of the target [m or rad]
+  Eigen::MatrixXd K, K_zero, B;     // as it is; without the geometric part; damping
+  SpringResponse alone;             // its fastest mode, were there no other
+  std::vector<SpringArm> arms;      // linear only
+  std::optional<double> with_wall;  // the wall through this coupling [N/m]
+  double geometric() const { return (K - K_zero).cwiseAbs().maxCoeff(); }
+};
+
+// The errors behind a target that goes `distance` in `time` along a mode [rad or m].
+struct ModeErrors {
+  double start = 0, reversal = 0;  // at a jump to, and a reversal of, distance/time
+  std::array<double, 4> smooth{};  // cubic, quintic, cosine, bang-bang
+  double absolute_lag = 0;         // of an absolute damper, at distance/time
+  double weld_lag = 0;             // of a mocap weld with this frequency
+};
+
+struct PredictedMode {
+  double omega = 0, zeta = 0;
+  Eigen::VectorXd shape;  // by rows, its largest part 1
+  ModeErrors errors;
+};
+
+struct SchemeLimit {
+  Scheme scheme;
+  double largest_step = 0;           // [s]
+  double by_ratio = 0, by_zeta = 0;  // factors of the stiffness at the scene's step
+  bool is_the_scenes = false;
+};
+
+struct Predicted {
+  std::vector<std::string> rows;
+  std::vector<bool> is_angle;  // of rows; else a length
+  std::vector<PredictedCoupling> couplings;
+  Eigen::MatrixXd M, K, B;  // of all couplings
+  std::vector<PredictedMode> modes;
+  std::vector<SchemeLimit> limits;
+  Integrator integrator = Integrator::semi_implicit;
+  std::string stepped;      // how the scene steps them, in words
+  double step = 0;          // [s]
+  double largest_step = 0;  // of the scene as it is stepped
+  double growth = 1;        // of an error in a step; not for dopri5
+  Eigen::VectorXd sag;      // by rows; not a number where nothing holds
+  std::vector<std::string> warnings;
+};
+
+// Throws InputError where there is nothing to be predicted.
+Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task);
+
+std::string predicted_table(const Predicted& found, const PredictTask& task);
+std::string predicted_json(const Predicted& found, const PredictTask& task);
+
+}  // namespace twinarm

@@ -1,0 +1,76 @@
+// How far a follower on a spring-damper stays behind a target that moves.
+//
+// One degree of freedom, e = q_K - q_D, a relative damper (it is given the target's velocity):
+//   e'' + 2 z w e' + w^2 e = a_K(t).
+// A jump V of the target's velocity is e'(0) = V. An absolute damper brakes the follower's own
+// velocity: 2 z w v_K(t) stands on the right as well.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace twinarm {
+
+// Largest |e_j| after the target's velocity jumps by V (e = 0, e' = V), per coordinate; linear
+// theory about the pose, within the given time [s].
+Eigen::VectorXd peak_after_jump(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
+                                const Eigen::MatrixXd& B, const Eigen::VectorXd& V, double time);
+
+// One degree of freedom: (V/w) exp(-z acos(z)/sqrt(1 - z^2)), V/(e w) at z = 1.
+double peak_after_jump(double V, double omega, double zeta);
+
+// Steady lag behind a target of constant speed v, of a damper that does not see that speed.
+double absolute_damper_lag(double v, double omega, double zeta);  // 2 z v / w
+// Of MuJoCo's weld to a mocap body, dampratio 1: an absolute damper with w = 1/timeconst.
+double mocap_weld_lag(double v, double timeconst);  // 2 v timeconst
+
+// Ways to move from 0 to `distance` in `time`, at rest before and after.
+enum class TargetMove {
+  ramp,       // constant speed: it jumps at both ends
+  cubic,      // D (3 s^2 - 2 s^3), s = t/T
+  quintic,    // D (10 s^3 - 15 s^4 + 6 s^5)
+  cosine,     // D (1 - cos pi s) / 2
+  bang_bang,  // the largest acceleration, one half each way
+};
+const char* name_of(TargetMove move);
+// 6, 10/sqrt(3), pi^2/2, 4 D/T^2; infinite for the ramp.
+double largest_acceleration(TargetMove move, double distance, double time);
+
+// The closed-form error behind such a move, from rest with e = 0.
+class FollowingError {
+ public:
+  enum class Damper { relative, absolute };
+  FollowingError(TargetMove move, double distance, double time, double omega, double zeta,
+                 Damper damper = Damper::relative);
+  // At a time t >= 0; after the move it dies out.
+  double at(double t) const;
+  // The largest |e| of all times.
+  double peak() const;
+
+ private:
+  // From `start` on, s = t - start: f(s) = sum_n power[n] s^n + c cos(W s) + d sin(W s) stands on
+  // the right; the particular solution has the same form.
+  struct Forcing {
+    std::vector<double> power;
+    double c = 0, d = 0;
+  };
+  struct Piece {
+    double start = 0, jump = 0;  // of the target's velocity at its start
+    Forcing right, particular;
+    double e = 0, e_dot = 0;  // of the free motion at its start
+  };
+  void add_piece(double start, double jump, const Forcing& acceleration, const Forcing& velocity);
+  void solve();
+  struct Motion {
+    double e, e_dot;
+  };
+  Motion of_particular(const Piece& piece, double s) const;
+  Motion free_motion(double e, double e_dot, double s) const;
+  Motion in_piece(const Piece& piece, double s) const;
+
+  double time_, omega_, zeta_, turn_;  // turn_: W [rad/s]
+  Damper damper_;
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,230 @@
+#!/usr/bin/env python3
+"""`twinarm coupling predict` and `twinarm coupling gains`: closed forms, runs, and what is refused.
+
+    test_coupling_command.py PATH/TO/twinarm
+"""
+import json
+import math
+import pathlib
+import sys
+import unittest
+
+import robot_command
+from robot_command import PENDULUM, RobotCommand, joint, link, robot
+
+INERTIA = 0.5
+HINGE = robot('<link name="base"/>', link("rod", 1, (0, 0, 0), (1, 0, 0, 1, 0, INERTIA)),
+              joint("hinge", "continuous", "base", "rod"))
+PUMA = "assets/robots/puma560/puma560.urdf"
+BESIDE = "assets/scenes/robot_beside_obstacles.toml"
+
+
+def coupling(**keys):
+    lines = ["[[coupling]]"]
+    for key, value in keys.items():
+        lines.append(f"{key} = {json.dumps(value)}")
+    return "\n".join(lines) + "\n"
+
+
+class CouplingCommand(RobotCommand):
+    command = "coupling"
+
+    def scene(self, urdf, text, head=""):
+        """`urdf` is XML or a path below the project."""
+        model = urdf
+        if urdf.startswith("<"):
+            (self.folder / "test.urdf").write_text(urdf)
+            model = "test.urdf"
+        else:
+            model = str(robot_command.ROOT / urdf)
+        scene = self.folder / "scene.toml"
+        scene.write_text(f'{head}\n[[robot]]\nname = "arm"\nmodel = "{model}"\n{text}')
+        return str(scene)
+
+    def run_sub(self, sub, *arguments):
+        self.command = "coupling"
+        return self.run_it(sub, *arguments)
+
+    def predict(self, scene, *options, state=None):
+        return self.answer("predict", scene, *options, state=state)
+
+    def gains(self, *options):
+        return self.answer("gains", *options)["couplings"]
+
+
+class Predict(CouplingCommand):
+    def torsional(self, k=30.0, b=0.4, **more):
+        keys = dict(name="pull", type="torsional", measure="joint", link="rod", stiffness=k,
+                    damping=b)
+        return coupling(**{**keys, **more})
+
+    def test_a_hinge_has_its_frequency_its_damping_and_the_limits_of_the_table(self):
+        k, b = 30.0, 0.4
+        found = self.predict(self.scene(HINGE, self.torsional(k, b, treatment="explicit")))
+        w, z = math.sqrt(k / INERTIA), b / (2 * math.sqrt(k * INERTIA))
+        mode, = found["modes"]
+        self.close([mode["frequency"], mode["damping_ratio"], mode["shape"]["hinge"]], [w, z, 1],
+                   1e-9)
+        limits = {row["scheme"]: row for row in found["limits"]}
+        root = math.sqrt(1 + z * z)
+        for scheme, wh in (("explicit Euler", 2 * z), ("semi-implicit Euler", 2 * (root - z)),
+                           ("semi-implicit Euler, damper implicit", 2 * (root + z))):
+            self.close(limits[scheme]["largest_step"], wh / w, 1e-7)
+            # At the scene's step of 1 ms: the same limit, reached by a stiffer spring.
+            if scheme != "explicit Euler":
+                self.close(limits[scheme]["stiffness_factor_same_zeta"] / (wh / (w * 1e-3)) ** 2, 1,
+                           1e-6)
+        self.assertIsNone(limits["spring and damper implicit"]["largest_step"])
+        self.assertEqual([s for s, row in limits.items() if row["is_the_scenes"]],
+                         ["semi-implicit Euler"])
+        self.close(found["scene"]["largest_step"], 2 * (root - z) / w, 1e-7)
+        self.assertTrue(found["scene"]["stable"])
+
+    def test_the_scheme_of_the_scene_is_marked_whatever_it_is(self):
+        for treatment, integrator, scheme in (
+                ("explicit", "euler", "explicit Euler"),
+                ("explicit", "rk4", "Runge-Kutta of order 4"),
+                ("semi-implicit", "semi-implicit", "semi-implicit Euler, damper implicit"),
+                ("implicit", "semi-implicit", "spring and damper implicit"),
+                ("explicit", "verlet", None)):
+            scene = self.scene(HINGE, self.torsional(treatment=treatment))
+            found = self.predict(scene, "--integrator", integrator)
+            marked = [row["scheme"] for row in found["limits"] if row["is_the_scenes"]]
+            self.assertEqual(marked, [scheme] if scheme else [], treatment)
+
+    def test_errors_behind_a_target_are_the_closed_forms(self):
+        k, b = 1250.0, 50.0  # w = 50, z = 1
+        found = self.predict(self.scene(HINGE, self.torsional(k, b)))
+        mode, = found["modes"]
+        v, w = math.pi, 50
+        errors = mode["errors"]
+        self.close(errors["start"], v / (math.e * w), 1e-6)
+        self.close(errors["reversal"], 2 * v / (math.e * w), 1e-6)
+        self.close(math.degrees(errors["absolute_damper_lag"]), 7.2, 1e-9)
+        self.close(math.degrees(errors["mocap_weld_lag"]), 7.2, 1e-9)
+        self.close(errors["quintic"] / (5.7735 * math.pi / w ** 2), 1, 0.05)
+        slower = self.predict(self.scene(HINGE, self.torsional(k, b)), "--turn", "90", "--time", "2")
+        self.close(slower["modes"][0]["errors"]["start"], v / 4 / (math.e * w), 1e-6)
+
+    def test_a_scene_beyond_its_limit_is_warned_of_and_runs_away_at_the_limit_told(self):
+        scene = self.scene(HINGE, self.torsional(3e5, 300, treatment="explicit"))
+        limit = self.predict(scene)["scene"]["largest_step"]
+        bad = self.predict(scene, "--step", str(1.02 * limit))
+        self.assertFalse(bad["scene"]["stable"])
+        self.assertIn("beyond its limit", "".join(bad["warnings"]))
+        self.assertNotIn("beyond", "".join(self.predict(scene, "--step", str(0.98 * limit))
+                                           ["warnings"]))
+        state = self.folder / "off.json"
+        state.write_text('{"q": {"hinge": 1e-6}}')
+        for part, runs_away in ((0.99, False), (1.01, True)):
+            result = json.loads(self.simulate(scene, state, part * limit))
+            end = abs(result["samples"][-1]["q"]["hinge"])
+            self.assertEqual(end > 1e-5, runs_away, (part, end))
+
+    def simulate(self, scene, state, step):
+        self.command = "simulate"
+        result = self.run_it(scene, "--duration", str(2000 * step), "--step", str(step), "--json",
+                             state=state)
+        self.command = "coupling"
+        self.assertIn(result.returncode, (0, 3), result.stderr)
+        return result.stdout
+
+    def test_off_its_target_a_point_spring_is_softer_by_the_cosine(self):
+        k, r, e = 400.0, 0.3, 0.6
+        scene = self.scene(HINGE, coupling(name="pull", type="linear", link="rod",
+                                           point=[r, 0, 0], stiffness=k))
+        found = self.predict(scene, state={"q": {"hinge": e}})
+        one, = found["couplings"]
+        self.close(one["K"][0][0], k * r * r * math.cos(e), 1e-8)
+        self.close(one["K_zero_offset"][0][0], k * r * r, 1e-12)
+        self.close(one["offset"], 2 * r * math.sin(e / 2), 1e-12)
+        arm, = one["arms"]
+        h = 1e-3
+        self.close([arm["radius"], arm["target_radius"], arm["largest_torque"]], [r, r, k * r * r])
+        self.close(arm["largest_target_radius"],
+                   (4 * INERTIA + 2 * r * r * h * h * k) / (h * h * k * r), 1e-9)
+        # Past a right angle it pushes away.
+        over = self.predict(scene, state={"q": {"hinge": 2.0}})
+        self.assertIn("push away", "".join(over["warnings"]))
+
+    def test_the_sag_is_torque_over_stiffness_and_what_nothing_holds_has_none(self):
+        k = 600.0
+        scene = self.scene(PENDULUM, coupling(name="pull", type="torsional", measure="joint",
+                                              link="bob", stiffness=k))
+        found = self.predict(scene, state={"q": {"hinge": 0.5}})
+        self.close(abs(found["sag"]["hinge"]), 9.81 * math.sin(0.5) / k, 1e-9)
+        puma = self.scene(PUMA, coupling(name="pull", type="torsional", measure="joint",
+                                         link="link6", stiffness=5)) if False else None
+        self.assertIsNone(puma)
+
+    def test_a_wall_through_a_coupling_is_two_springs_in_series(self):
+        scene = self.scene(HINGE, coupling(name="pull", type="linear", link="rod",
+                                           point=[0.3, 0, 0], stiffness=700))
+        one, = self.predict(scene, "--wall", "2000")["couplings"]
+        self.close(one["through_wall"], 700 * 2000 / 2700)
+        one, = self.predict(scene)["couplings"]
+        self.assertIsNone(one["through_wall"])
+
+    def test_the_papers_robot_has_a_table_with_every_part(self):
+        result = self.run_it("predict", BESIDE, "--wall", "1000")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for words in ("K_q", "B_q", "Modes", "reversal", "bang-bang", "weld lag", "largest step",
+                      "<- this scene", "Sag", "R_K at most", "in series", "Runge-Kutta", "N/m"):
+            self.assertIn(words, result.stdout)
+        found = self.predict(BESIDE)
+        self.assertEqual(found["rows"], ["joint1", "joint2", "joint3", "gripper_lift"])
+        total = [[sum(c["K"][i][j] for c in found["couplings"]) for j in range(4)]
+                 for i in range(4)]
+        self.close(total, found["K"], 1e-9)
+
+    def test_what_has_no_coupling_is_refused(self):
+        error, = self.errors("predict", self.scene(HINGE, ""))
+        self.assertIn("no coupling", error)
+        error, = self.errors("predict", PUMA)
+        self.assertIn("no scene", error)
+
+    def test_all_faults_of_the_options_are_told_at_once(self):
+        scene = self.scene(HINGE, self.torsional())
+        errors = self.errors("predict", scene, "--turn", "-1", "--time", "0", "--wall", "-5")
+        self.assertEqual(len(errors), 3, errors)
+
+
+class Gains(CouplingCommand):
+    def test_solref_there_and_back(self):
+        one, = self.gains("--inertia", "3", "--solref", "0.02,0.7")
+        self.close([one["frequency"], one["damping_ratio"]], [1 / 0.014, 0.7], 1e-12)
+        self.close(one["solref"], [0.02, 0.7], 1e-12)
+        k, b = one["gains"]["stiffness"], one["gains"]["damping"]
+        self.close([k, b], [3 / 0.014 ** 2, 2 * 0.7 * 3 / 0.014], 1e-12)
+        self.close(one["solref_direct"], [-k / 3, -b / 3], 1e-12)
+        again, = self.gains("--inertia", "3", "--solref",
+                            f"{one['solref_direct'][0]},{one['solref_direct'][1]}")
+        self.close(again["gains"]["stiffness"] / k, 1, 1e-12)
+        self.close([one["drive_force"]["stiffness"], one["drive_acceleration"]["stiffness"]],
+                   [k, k / 3], 1e-12)
+
+    def test_the_gains_of_a_frequency_give_a_scene_that_frequency(self):
+        one, = self.gains(self.scene(HINGE, coupling(name="pull", type="linear", link="rod",
+                                                     point=[0.3, 0, 0], stiffness=100)),
+                          "--frequency", "5", "--damping-ratio", "0.4")
+        self.close(one["inertia"], INERTIA / 0.09, 1e-9)
+        self.close(one["torsional"]["stiffness"], 100 * 0.09, 1e-9)
+        wanted = one["wanted"]
+        found = self.predict(self.scene(HINGE, coupling(
+            name="pull", type="linear", link="rod", point=[0.3, 0, 0],
+            stiffness=wanted["stiffness"], damping=wanted["damping"])))
+        mode, = found["modes"]
+        self.close([mode["frequency"], mode["damping_ratio"]], [2 * math.pi * 5, 0.4], 1e-8)
+
+    def test_what_cannot_be_meant_is_refused_all_at_once(self):
+        errors = self.errors("gains", "--frequency", "5", "--solref", "0.02,-1", "--impedance", "2")
+        text = "\n".join(errors)
+        for word in ("--damping-ratio", "no solref", "--impedance", "--inertia", "0 ways"):
+            self.assertIn(word, text)
+        errors = self.errors("gains", "--inertia", "1")
+        self.assertIn("0 ways", "\n".join(errors))
+
+
+if __name__ == "__main__":
+    robot_command.PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main()
