@@ -13,26 +13,39 @@ namespace twinarm {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-VectorXd peak_after_jump(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B, const VectorXd& V,
-                         double time) {
+JumpErrors errors_of_jumps(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B,
+                           const std::vector<SpeedJump>& jumps, double duration) {
   const MatrixXd inverse = inverse_of(M), of_e = -inverse * K, of_v = -inverse * B;
   const double stiffest = std::sqrt(std::max(0.0, squared_frequencies(M, K).maxCoeff()));
   const double most_damped = squared_frequencies(M, B).maxCoeff();
-  const double dt = std::min(time / 100, 0.02 / std::max(stiffest, most_damped));
-  VectorXd e = VectorXd::Zero(V.size()), v = V, peak = e;
+  const double longest = std::min(duration / 100, 0.02 / std::max(stiffest, most_damped));
   const auto a = [&](const VectorXd& x, const VectorXd& xd) {
     return VectorXd(of_e * x + of_v * xd);
   };
-  for (double t = 0; t < time; t += dt) {  // classical Runge-Kutta
-    const VectorXd a1 = a(e, v);
-    const VectorXd v2 = v + dt / 2 * a1, a2 = a(e + dt / 2 * v, v2);
-    const VectorXd v3 = v + dt / 2 * a2, a3 = a(e + dt / 2 * v2, v3);
-    const VectorXd v4 = v + dt * a3, a4 = a(e + dt * v3, v4);
-    e += dt / 6 * (v + 2 * v2 + 2 * v3 + v4);
-    v += dt / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
-    peak = peak.cwiseMax(e.cwiseAbs());
+  VectorXd e = VectorXd::Zero(M.rows()), v = e;
+  JumpErrors errors{e, e};
+  for (std::size_t j = 0; j < jumps.size(); ++j) {
+    v += jumps[j].V;
+    const double stretch = (j + 1 < jumps.size() ? jumps[j + 1].t : duration) - jumps[j].t;
+    const auto steps = static_cast<long>(std::ceil(stretch / longest));
+    const double dt = stretch / static_cast<double>(steps);
+    for (long n = 0; n < steps; ++n) {  // classical Runge-Kutta
+      const VectorXd before = e.cwiseAbs(), a1 = a(e, v);
+      const VectorXd v2 = v + dt / 2 * a1, a2 = a(e + dt / 2 * v, v2);
+      const VectorXd v3 = v + dt / 2 * a2, a3 = a(e + dt / 2 * v2, v3);
+      const VectorXd v4 = v + dt * a3, a4 = a(e + dt * v3, v4);
+      e += dt / 6 * (v + 2 * v2 + 2 * v3 + v4);
+      v += dt / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+      errors.peak = errors.peak.cwiseMax(e.cwiseAbs());
+      errors.mean += dt / 2 / duration * (before + e.cwiseAbs());
+    }
   }
-  return peak;
+  return errors;
+}
+
+VectorXd peak_after_jump(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B, const VectorXd& V,
+                         double time) {
+  return errors_of_jumps(M, K, B, {{0, V}}, time).peak;
 }
 
 double peak_after_jump(double V, double omega, double zeta) {

@@ -16,6 +16,18 @@ namespace twinarm {
 Eigen::VectorXd peak_after_jump(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
                                 const Eigen::MatrixXd& B, const Eigen::VectorXd& V, double time);
 
+// The same of several jumps, one after the other: largest and mean |e_j| from 0 to `duration` [s].
+struct SpeedJump {
+  double t = 0;
+  Eigen::VectorXd V;
+};
+struct JumpErrors {
+  Eigen::VectorXd peak, mean;
+};
+JumpErrors errors_of_jumps(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
+                           const Eigen::MatrixXd& B, const std::vector<SpeedJump>& jumps,
+                           double duration);
+
 // One degree of freedom: (V/w) exp(-z acos(z)/sqrt(1 - z^2)), V/(e w) at z = 1.
 double peak_after_jump(double V, double omega, double zeta);
 

@@ -78,8 +78,9 @@ void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
   for (const auto& [law, runs] : by_law)
     for (const RunResult* run : runs)
       if (run->stable) {
-        low = std::min({low, run->max_deg[0], run->max_deg[1]});
-        high = std::max(high, largest(*run));
+        const double theory[] = {std::abs(run->peak_deg[0]), std::abs(run->peak_deg[1])};
+        low = std::min({low, run->max_deg[0], run->max_deg[1], theory[0], theory[1]});
+        high = std::max({high, largest(*run), theory[0], theory[1]});
       }
   script += fmt::format("set yrange [{}:{}]\n", low / 1.3, high * 1.3);
   for (std::size_t j = 0; j < 2; ++j) {
@@ -92,13 +93,16 @@ void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
                : "unset ylabel\nunset key");
     std::string plots;
     for (const LawStyle& law : kTrialLaws) {
-      std::vector<double> x, y;
+      std::vector<double> x, y, theory;
       for (const RunResult* run : by_law[law.name]) {
         x.push_back(run->spec.rate);
         y.push_back(run->stable ? run->max_deg[j] : NAN);
+        theory.push_back(run->stable ? std::abs(run->peak_deg[j]) : NAN);
       }
       if (!x.empty())
-        plots += (plots.empty() ? "plot " : ", ") + gnuplot.data({x, y}) + " " + line_style(law);
+        plots += (plots.empty() ? "plot " : ", ") + gnuplot.data({x, y}) + " " + line_style(law) +
+                 ", " + gnuplot.data({x, theory}) +
+                 fmt::format(" with lines lw 1 dt (2,3) lc '{}' notitle", law.colour);
     }
     script += plots + "\n";
   }
@@ -169,7 +173,7 @@ void draw_ablations(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
   if (runs.empty()) return;
   if (high == 0) high = 1;
   std::string tics, labels;
-  std::vector<double> y[2], x[2];
+  std::vector<double> y[2], x[2], theory[2];
   const auto rows = static_cast<double>(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const double row = rows - static_cast<double>(i);
@@ -179,6 +183,7 @@ void draw_ablations(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
     for (std::size_t j = 0; j < 2; ++j) {
       const double size = runs[i]->stable ? runs[i]->max_deg[j] : 1.05 * high;
       x[j].push_back(size);
+      theory[j].push_back(std::min(std::abs(runs[i]->peak_deg[j]), 1.15 * high));
       y[j].push_back(row + (j == 0 ? 0.19 : -0.19));
       labels += fmt::format("set label {} at {},{} left offset 0.5,0 font ',11'\n",
                             in_quotes(runs[i]->stable ? fmt::format("{:.1f}", size) : "unstable"),
@@ -194,15 +199,19 @@ void draw_ablations(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
            fmt::format(" with boxxyerror fillstyle solid noborder lc '{}' title 'joint {}'", colour,
                        j + 1);
   };
+  const auto marks = [&](std::size_t j, const char* title) {
+    return gnuplot.data({theory[j], y[j]}) +
+           fmt::format(" with points pt 13 ps 0.7 lc '#111111' {}", title);
+  };
   gnuplot.draw("ablations", "Largest error of each change to the torsional law", 900,
                110 + 46 * static_cast<int>(runs.size()),
                fmt::format("set ytics ({}) scale 0 font ',11.5'\nset border 1\nset grid noytics\n"
                            "set xrange [0:{}]\nset yrange [0.4:{}]\n"
                            "set xlabel 'largest error [°], 60 Hz, automatic motion'\n"
                            "set lmargin at screen 0.37\nset rmargin at screen 0.97\n"
-                           "set key at graph 1,1.0 right bottom horizontal\n{}plot {}, {}",
+                           "set key at graph 1,1.0 right bottom horizontal\n{}plot {}, {}, {}, {}",
                            tics, 1.18 * high, rows + 0.6, labels, bars(0, palette::torsional),
-                           bars(1, "#C58AD0")));
+                           bars(1, "#C58AD0"), marks(0, "title 'by theory'"), marks(1, "notitle")));
 }
 
 void draw_prediction(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {

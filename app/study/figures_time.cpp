@@ -81,11 +81,15 @@ void draw_angles(Gnuplot& gnuplot, const std::string& name, const RunResult& run
         std::distance(error.begin(), std::max_element(error.begin(), error.end())));
     script += panel(static_cast<int>(j), fmt::format("joint {} [°]", j + 1), series.t.back());
     script += angle_axis(q_K, q_D);
+    const std::string theory =  // a hand follows no law
+        run.spec.name < std::string("E3")
+            ? ""
+            : fmt::format("; by linear theory {:.1f}°", run.motion_max_deg[j]);
     script += fmt::format(
         "set arrow 1 from {0},{1} to {0},{2} nohead lw 3 lc '#111111' front\n"
-        "set label 1 'largest error {3:.1f}° at {0:.2f} s (black bar)' at graph 0,1 left offset "
+        "set label 1 'largest error {3:.1f}° at {0:.2f} s (black bar){4}' at graph 0,1 left offset "
         "0,0.6 font ',11.5' textcolor '#111111'\n",
-        series.t[at], q_K[at], q_D[at], error[at]);
+        series.t[at], q_K[at], q_D[at], error[at], theory);
     script += fmt::format(
         "plot {} with lines lw 4.5 lc '{}' title 'KVR (moved by the hand)', "
         "{} with lines lw {} lc '{}' title 'DVR (simulated)'\n",
@@ -102,7 +106,15 @@ void draw_errors(Gnuplot& gnuplot, const RunResult& torsional, const RunResult& 
   for (std::size_t j = 0; j < 2; ++j) {
     script += panel(static_cast<int>(j), fmt::format("|error|, joint {} [°]", j + 1),
                     torsional.series.t.back());
-    script += value_axis(error_deg(torsional.series, j), error_deg(linear.series, j));
+    std::vector<double> shown[] = {error_deg(torsional.series, j), error_deg(linear.series, j)};
+    shown[0].push_back(std::abs(torsional.peak_deg[j]));
+    shown[1].push_back(std::abs(linear.peak_deg[j]));
+    script += "unset arrow\n" + value_axis(shown[0], shown[1]);
+    for (const auto& [run, colour] :
+         {std::pair{&torsional, palette::torsional}, std::pair{&linear, palette::linear}})
+      script += fmt::format(
+          "set arrow from 0,first {0} to {1},first {0} nohead dt (2,3) lw 1.2 lc '{2}'\n",
+          std::abs(run->peak_deg[j]), run->series.t.back(), colour);
     for (int reversal = 1; reversal < torsional.series.t.back() - 0.01; ++reversal)
       script += fmt::format(
           "set arrow from {0},graph 0 to {0},graph 1 nohead dt (4,4) lw 1 "

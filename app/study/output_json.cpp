@@ -31,7 +31,9 @@ ordered_json run_json(const RunResult& run) {
           {"prediction",
            {{"frequency", run.frequency},
             {"step_limit", run.step_limit},
-            {"peak_deg", by_joint(run.peak_deg)}}}};
+            {"peak_deg", by_joint(run.peak_deg)},
+            {"max_deg", by_joint(run.motion_max_deg)},
+            {"mean_deg", by_joint(run.motion_mean_deg)}}}};
 }
 
 ordered_json reproduction_json(const RunResult& run) {

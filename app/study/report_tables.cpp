@@ -29,6 +29,10 @@ std::string pair_of(const std::array<double, 2>& values) {
   return degrees(values[0]) + " / " + degrees(values[1]);
 }
 
+std::array<double, 2> absolute(const std::array<double, 2>& values) {
+  return {std::abs(values[0]), std::abs(values[1])};
+}
+
 // ---- variants
 // ------------------------------------------------------------------------------------
 
@@ -44,19 +48,17 @@ std::string variant_row(const RunResult& run, bool with_group) {
                                 escaped(run_words(run.spec.name, with_group)), run.spec.rate,
                                 gains_words(g.k1, g.k2), gains_words(g.b1, g.b2));
   for (std::size_t j = 0; j < 2; ++j)
-    row += fmt::format("<td class=\"big{}\">{}</td><td>{}</td><td>{}</td>", j == 0 ? " first" : "",
-                       run.stable ? degrees(run.max_deg[j]) : "<span class=no>unstable</span>",
-                       degrees(std::abs(run.peak_deg[j])),
-                       run.stable ? degrees(run.mean_deg[j]) : "–");
-  // The theory is that of a force recomputed at every step from the newest difference.
-  const bool covered =
-      run.spec.held_substeps == 1 && run.spec.coupling.options.difference != Difference::older;
-  const bool too_long = run.spec.step() > run.step_limit;
-  const std::string limit = covered ? rounded(1e3 * run.step_limit) : "–";
+    row += fmt::format(
+        "<td class=\"big{}\">{}</td><td>{}</td><td>{}</td><td>{}</td>", j == 0 ? " first" : "",
+        run.stable ? degrees(run.max_deg[j]) : "<span class=no>unstable</span>",
+        degrees(std::abs(run.peak_deg[j])), run.stable ? degrees(run.mean_deg[j]) : "–",
+        degrees(run.motion_mean_deg[j]));
+  const bool too_long = run.interval() > run.step_limit;
+  const std::string limit = std::isinf(run.step_limit) ? "none" : rounded(1e3 * run.step_limit);
   return row + fmt::format("<td class=first>{} / {}</td><td>{}</td><td>{}</td></tr>\n",
                            rounded(run.frequency[0]), rounded(run.frequency[1]),
-                           rounded(1e3 * run.spec.step()),
-                           covered && too_long ? "<span class=no>" + limit + "</span>" : limit);
+                           rounded(1e3 * run.interval()),
+                           too_long ? "<span class=no>" + limit + "</span>" : limit);
 }
 
 std::string variant_group(const std::vector<RunResult>& variants, const Group& group) {
@@ -68,11 +70,11 @@ std::string variant_group(const std::vector<RunResult>& variants, const Group& g
   return fmt::format(
              "<h3>{}</h3>\n<p>{}</p>\n<div class=scroll><table class=dense><thead>\n"
              "<tr><th rowspan=2>run</th><th rowspan=2>rate<br>Hz</th><th rowspan=2>k"
-             "</th><th rowspan=2>b</th><th colspan=3 class=first>joint 1, degrees</th>"
-             "<th colspan=3>joint 2, degrees</th><th rowspan=2 class=first>natural<br>rad/s</th>"
-             "<th rowspan=2>step<br>ms</th><th rowspan=2>limit<br>ms</th></tr>\n"
-             "<tr><th class=first>max</th><th>predicted</th><th>mean</th><th>max</th>"
-             "<th>predicted</th><th>mean</th></tr></thead>\n<tbody>",
+             "</th><th rowspan=2>b</th><th colspan=4 class=first>joint 1, degrees</th>"
+             "<th colspan=4>joint 2, degrees</th><th rowspan=2 class=first>natural<br>rad/s</th>"
+             "<th rowspan=2>interval<br>ms</th><th rowspan=2>limit<br>ms</th></tr>\n"
+             "<tr><th class=first>max</th><th>predicted</th><th>mean</th><th>predicted</th>"
+             "<th>max</th><th>predicted</th><th>mean</th><th>predicted</th></tr></thead>\n<tbody>",
              group.title, group.text) +
          rows + "</tbody></table></div>\n";
 }
@@ -95,7 +97,9 @@ std::string rates_section(const StudyResults& results, const Gallery& gallery) {
       "rate, the one k and b with the smallest largest errors, searched over several sweep times "
       "so "
       "that no resonance is exploited. The table shows the paper's own motion, sweeps of 1 s; the "
-      "step is 1/rate. Largest error in degrees, joint 1 / joint 2.</p>\n"
+      "step is 1/rate. Largest error in degrees, joint 1 / joint 2; below it, small, the peak "
+      "after "
+      "a reversal that linear theory predicts.</p>\n"
       "<div class=scroll><table><thead><tr><th>rate</th>";
   for (const auto& [law, words] : laws) html += fmt::format("<th>{}</th>", words);
   html += "</tr></thead><tbody>\n";
@@ -104,7 +108,8 @@ std::string rates_section(const StudyResults& results, const Gallery& gallery) {
     for (const auto& [law, words] : laws) {
       const RunResult* run = find(results.variants, fmt::format("trial/{}/{:g}", law, rate));
       html += !run          ? "<td>–</td>"
-              : run->stable ? "<td>" + pair_of(run->max_deg) + "</td>"
+              : run->stable ? "<td>" + pair_of(run->max_deg) + "<br><small>" +
+                                  pair_of(absolute(run->peak_deg)) + "</small></td>"
                             : "<td class=no>unstable</td>";
     }
     html += "</tr>\n";
@@ -114,7 +119,8 @@ std::string rates_section(const StudyResults& results, const Gallery& gallery) {
              "rates",
              "<b>Largest error against the update rate</b>, both axes logarithmic. "
              "A line of slope −1 means: the error is proportional to the step, because the step "
-             "limits the gains.");
+             "limits the gains. Thin and dotted: the peak after a reversal that linear theory "
+             "predicts for the same gains.");
 }
 
 std::string variants_section(const StudyResults& results, const Gallery& gallery) {
@@ -141,11 +147,12 @@ std::string variants_section(const StudyResults& results, const Gallery& gallery
   if (html.empty()) return "";
   return "<h2 id=variants>Variants, with their predictions</h2>\n<p>Automatic motion. "
          "<i>Predicted</i>: the largest error after one reversal by linear theory about the start "
-         "pose, for comparison with the measured maximum. <i>Natural</i>: both natural "
-         "frequencies. "
-         "<i>Limit</i>: the largest stable step of that scheme; in red where the step is longer; "
-         "none is given "
-         "for a force that is held or a difference that is older. "
+         "pose, beside the measured maximum; beside the measured mean that of the whole motion, "
+         "its "
+         "jumps one after the other. <i>Natural</i>: both natural frequencies. "
+         "<i>Interval</i>: between two evaluations of the coupling. <i>Limit</i>: the largest "
+         "stable one of that scheme, of a force that is held and of an older difference too; in "
+         "red where the interval is longer. "
          "k and b: on link 1; on link 2 where it differs; N m/rad and N m s/rad (torsional), N/m "
          "and N s/m (linear). The damper "
          "as printed has no linear part, so its prediction is undamped.</p>\n" +

@@ -29,8 +29,13 @@ TrackingSeries track(const StudyRobot& robot, const HandSource& hand, const RunS
   return system.run();
 }
 
-Scheme scheme_of(const CouplingSpec& spec, Integrator integrator) {
-  if (integrator == Integrator::euler) return Scheme::euler;
+Scheme scheme_of(const RunSpec& run) {
+  const CouplingSpec& spec = run.coupling;
+  const bool older = spec.printed && spec.options.difference == Difference::older;
+  if (run.held_substeps > 1) return spec.printed ? Scheme::hold_difference : Scheme::hold;
+  if (run.integrator == Integrator::euler)
+    return spec.printed ? Scheme::euler_difference : Scheme::euler;
+  if (older) return Scheme::semi_implicit_older;
   if (spec.printed) return Scheme::semi_implicit_difference;
   switch (spec.treatment) {
     case Treatment::explicit_:
@@ -82,10 +87,17 @@ void predict(const StudyRobot& robot, RunResult& result, const State<double>& po
 
   const Eigen::VectorXd squares = squared_frequencies(M, K);
   result.frequency = {std::sqrt(std::max(0.0, squares(0))), std::sqrt(std::max(0.0, squares(1)))};
-  result.step_limit = largest_stable_step(M, K, B, scheme_of(main, spec.integrator));
-  const Eigen::Vector2d jump(-2 * std::numbers::pi, std::numbers::pi);  // at a reversal [rad/s]
-  const Eigen::VectorXd peak = peak_after_jump(M, K, B, jump, 1.0);
-  result.peak_deg = {peak(0) / kDegree, peak(1) / kDegree};
+  result.step_limit = largest_stable_step(M, K, B, scheme_of(spec));
+  const Eigen::Vector2d sweep(-std::numbers::pi, std::numbers::pi / 2);  // [rad/s]
+  const Eigen::VectorXd peak = peak_after_jump(M, K, B, 2 * sweep, 1.0);
+  const JumpErrors motion =
+      errors_of_jumps(M, K, B, {{0, sweep}, {1, -2 * sweep}, {2, 2 * sweep}}, 3);
+  for (Eigen::Index j = 0; j < 2; ++j) {
+    const auto joint = static_cast<std::size_t>(j);
+    result.peak_deg[joint] = peak(j) / kDegree;
+    result.motion_max_deg[joint] = motion.peak(j) / kDegree;
+    result.motion_mean_deg[joint] = motion.mean(j) / kDegree;
+  }
 }
 
 ProtocolErrors run_protocol(const StudyRobot& robot, const RunSpec& spec,

@@ -42,8 +42,11 @@ struct RunResult {
 
   // Linear theory about a pose; filled by predict().
   std::array<double, 2> frequency{};  // natural [rad/s], ascending
-  double step_limit = 0;              // largest stable step of the scheme [s]
-  std::array<double, 2> peak_deg{};   // predicted error after a reversal of the automatic motion
+  double step_limit = 0;  // largest stable time between two evaluations of the coupling [s]
+  std::array<double, 2> peak_deg{};  // predicted error after a reversal of the automatic motion
+  // Of the whole automatic motion, its jumps one after the other.
+  std::array<double, 2> motion_max_deg{}, motion_mean_deg{};
+  double interval() const { return 1 / spec.rate; }  // what step_limit is a limit of [s]
 };
 
 RunResult run(const StudyRobot& robot, const HandSource& hand, const RunSpec& spec);
