@@ -305,6 +305,41 @@ void add_compare(CLI::App& app, CompareOptions& options, std::function<int()>& c
   compare->callback([&] { command = [&] { return run_compare(options); }; });
 }
 
+void add_map(CLI::App& app, MapOptions& options, std::function<int()>& command) {
+  CLI::App* map = app.add_subcommand(
+      "map",
+      "A plane of two numbers of a scene: stable or not, errors, energy; each cell is a run\n\n"
+      "Example:  twinarm map assets/scenes/tracking_map.toml --x "
+      "coupling.stiffness:1e3:1e6:48:log --y step:1e-4:1e-2:48:log --svg map.svg");
+  map->add_option("scene", options.scene, "a scene in TOML; with --merge it may be left out");
+  map->add_option(
+      "--x", options.x,
+      "PATH:FROM:TO:N[:log]: a number of the scene file, its range, and how many cells");
+  map->add_option("--y", options.y, "likewise, upward");
+  map->add_option("--measure", options.measure, "stable max_error mean_error energy passivity")
+      ->capture_default_str();
+  map->add_option("--of", options.of, "the coupling whose joints' errors are measured; the first");
+  map->add_option("--duration", options.duration,
+                  "seconds; if not given, as long as the scene says");
+  map->add_option("--step", options.step, "seconds; the scene's if not given");
+  map->add_option("--integrator", options.integrator, "the scene's if not given");
+  map->add_option("--svg", options.svg, "write a picture with the limits of theory on top");
+  map->add_option("--png", options.png, "likewise, in pixels");
+  map->add_option("--csv", options.csv, "write a row for each cell, with all measures");
+  map->add_option("--work", options.work,
+                  "the file that keeps what is finished, and from which a killed map goes on; "
+                  "below out/map if not given");
+  map->add_option("--tiles", options.tiles, "how many machines share the map");
+  map->add_option("--tile", options.tile, "which part this one computes, from 0; no picture");
+  map->add_option("--merge", options.merge, "join these files of --tile");
+  map->add_option("--cell", options.cell, "IX,IY: open a cell, from 0");
+  map->add_option("--record", options.record, "of that cell: its recording; its scene goes beside");
+  map->add_option("--threads", options.threads, "all processors if not given");
+  map->add_flag("--force", options.force, "write over files that are there");
+  map->add_flag("--json", options.json, "print one JSON object on stdout");
+  map->callback([&] { command = [&] { return run_map(options); }; });
+}
+
 // The first word, where it is meant to be a command and is none.
 void check_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
@@ -332,6 +367,7 @@ int main(int argc, char** argv) {
   ReplayOptions replayed;
   RenderOptions render;
   CompareOptions compare;
+  MapOptions map;
   StudyOptions study;
   TraceOptions trace;
   std::string recipe;
@@ -344,6 +380,7 @@ int main(int argc, char** argv) {
   add_recordings(app, exported, replayed, command);
   add_render(app, render, command);
   add_compare(app, compare, command);
+  add_map(app, map, command);
   add_study(app, study, command);
   add_make_robot(app, recipe, command);
   add_trace(app, trace, command);

@@ -108,6 +108,7 @@ class Run : public RunView {
     add(momentum_->energy_rows(sim_, contacts()));
     return all;
   }
+  std::vector<LedgerRow> hand() const override { return ledger_->hand(); }
   std::vector<MomentumRow> momentum() const override { return momentum_->rows(sim_, contacts()); }
   std::string memory() override {
     Memory memory;

@@ -25,6 +25,7 @@ class RunView {
   virtual const Simulation& simulation() const = 0;
   virtual const SceneContacts* contacts() const = 0;      // null for a URDF
   virtual std::vector<LedgerRow> ledger() const = 0;      // `numerical` last
+  virtual std::vector<LedgerRow> hand() const = 0;        // work of the kinematic sides so far
   virtual std::vector<MomentumRow> momentum() const = 0;  // likewise
   virtual std::string memory() = 0;                       // all that the run goes on from
 };

@@ -141,20 +141,37 @@ std::string Gnuplot::curve(const std::vector<double>& x, const std::vector<doubl
   return data({kept_x, kept_y});
 }
 
-std::string Gnuplot::svg(const std::string& name, const std::string& title, int width, int height,
-                         const std::string& script) {
-  const std::filesystem::path made = temporary_ / (name + ".svg");
+std::string Gnuplot::run(const std::string& name, const char* extension,
+                         const std::string& terminal, const std::string& script) {
+  const std::filesystem::path made = temporary_ / (name + extension);
   const std::filesystem::path input = temporary_ / (name + ".gp");
   const std::filesystem::path messages = temporary_ / (name + ".log");
-  write_whole_file(input,
-                   fmt::format("set terminal svg size {},{} noenhanced font 'DejaVu Sans,13' "
-                               "rounded background '#FFFFFF' name '{}'\nset output '{}'\n",
-                               width, height, name, made.filename().string()) +
-                       kFigureStyle + script + "\nunset output\n");
+  write_whole_file(
+      input, fmt::format("set terminal {}\nset output '{}'\n", terminal, made.filename().string()) +
+                 kFigureStyle + script + "\nunset output\n");
   if (!run_gnuplot(temporary_, input, messages) || !std::filesystem::exists(made))
     throw std::runtime_error("gnuplot could not draw " + name + ": " +
                              (std::filesystem::exists(messages) ? read_whole_file(messages) : ""));
-  std::string drawn = read_whole_file(made);
+  return read_whole_file(made);
+}
+
+std::string Gnuplot::png(const std::string& name, int width, int height,
+                         const std::string& script) {
+  return run(name, ".png",
+             fmt::format("pngcairo size {},{} noenhanced font 'DejaVu Sans,11' rounded background "
+                         "'#FFFFFF'",
+                         width, height),
+             script);
+}
+
+std::string Gnuplot::svg(const std::string& name, const std::string& title, int width, int height,
+                         const std::string& script) {
+  std::string drawn =
+      run(name, ".svg",
+          fmt::format("svg size {},{} noenhanced font 'DejaVu Sans,13' rounded background "
+                      "'#FFFFFF' name '{}'",
+                      width, height, name),
+          script);
   // Ids of their own, so that many figures can stand in one page; fonts that other systems have;
   // a title that says what it is.
   for (const char* id : {"gnuplot_canvas", "textbox", "greybox"}) {

@@ -39,11 +39,16 @@ class Gnuplot {
   // reader says.
   std::string svg(const std::string& name, const std::string& title, int width, int height,
                   const std::string& script);
+  // The same as a PNG of so many pixels.
+  std::string png(const std::string& name, int width, int height, const std::string& script);
   // Makes folder/name.svg of it.
   void draw(const std::string& name, const std::string& title, int width, int height,
             const std::string& script);
 
  private:
+  // What gnuplot writes for this terminal.
+  std::string run(const std::string& name, const char* extension, const std::string& terminal,
+                  const std::string& script);
   std::filesystem::path folder_, temporary_;
   int files_ = 0;
 };

@@ -1,0 +1,113 @@
+#include "app/map/cell_measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/simulate/run_end.h"
+#include "solver/energy.h"
+
+namespace twinarm {
+namespace {
+
+constexpr double kMostCreated = 100, kTurns = 25, kHair = 1e-3;  // the last one in metres
+constexpr int kLooksAtTwin = 64;
+
+bool is_moved(const SceneCoupling& coupling) {
+  return coupling.target != CouplingTarget::Kind::start &&
+         coupling.target != CouplingTarget::Kind::state;
+}
+
+// Of the twin on its way; a twin at rest has none.
+double largest_twin_energy(const SimulatePlan& plan, std::size_t c) {
+  SceneCouplings& couplings = *plan.input.couplings;
+  if (!is_moved(couplings.spec(c))) return 0;
+  const Model<double>& model = plan.input.robot.model;
+  const double height = potential_energy(model, couplings.target(c, 0).x);
+  double largest = 0;
+  for (int i = 0; i <= kLooksAtTwin; ++i) {
+    const State<double>& x = couplings.target(c, plan.run.duration * i / kLooksAtTwin).x;
+    largest =
+        std::max(largest, kinetic_energy(model, x) + std::abs(potential_energy(model, x) - height));
+  }
+  return largest;
+}
+
+double created(const std::vector<LedgerRow>& ledger) {
+  double sum = 0;
+  for (const LedgerRow& row : ledger)
+    if (row.name == "numerical" ||
+        (row.name.starts_with("coupling/") && row.name.ends_with("/implicit")))
+      sum += row.work;
+  return sum;
+}
+
+}  // namespace
+
+MeasuredJoints measured_joints(const SceneModel& scene, std::size_t coupling) {
+  MeasuredJoints joints;
+  joints.coupling = coupling;
+  if (scene.couplings.empty()) return joints;
+  const Model<double>& model = scene.model;
+  const SceneCoupling& of = scene.couplings[coupling];
+  const auto add = [&](std::size_t body) {
+    if (model.dofs(body) != 1) return;
+    joints.iq.push_back(model.iq[body]);
+    joints.names.push_back(model.joint_name[body]);
+    (model.joint[body] == JointType::prismatic ? joints.slide : joints.turn) = true;
+  };
+  for (const std::string& name : of.turned) add(static_cast<std::size_t>(model.find_joint(name)));
+  for (int body = is_moved(of) ? 0 : of.spring.body; body > 0;
+       body = model.parent[static_cast<std::size_t>(body)])
+    add(static_cast<std::size_t>(body));
+  return joints;
+}
+
+double energy_by_right(const SimulatePlan& plan) {
+  const Model<double>& model = plan.input.robot.model;
+  const State<double>& start = plan.input.robot.state.x;
+  double sum = kinetic_energy(model, start) + kHair * weight_of(model), twin = 0;
+  if (!plan.input.couplings) return sum;
+  SceneCouplings& couplings = *plan.input.couplings;
+  Kinematics k(model);
+  forward_kinematics(model, start, k);
+  for (std::size_t c = 0; c < couplings.size(); ++c) {
+    sum += 0.5 * couplings.spec(c).spring.k * couplings.ends(c, start, k).offset.squaredNorm();
+    twin = std::max(twin, largest_twin_energy(plan, c));
+  }
+  return sum + kTurns * twin;
+}
+
+CellMeasure::CellMeasure(const SimulatePlan& plan, MeasuredJoints joints)
+    : plan_(plan), joints_(std::move(joints)) {
+  before_.assign(joints_.iq.size(), 0);
+  integral_.assign(joints_.iq.size(), 0);
+}
+
+void CellMeasure::look(RunView& run) {
+  const State<double>& x = run.simulation().state();
+  if (joints_.iq.empty()) return;
+  const State<double>& twin = plan_.input.couplings->target(joints_.coupling, x.t).x;
+  for (std::size_t j = 0; j < joints_.iq.size(); ++j) {
+    const double e = std::abs(twin.q[joints_.iq[j]] - x.q[joints_.iq[j]]);
+    largest_ = std::max(largest_, e);
+    integral_[j] += 0.5 * (x.t - t_before_) * (before_[j] + e);
+    before_[j] = e;
+  }
+  t_before_ = x.t;
+  double put_in = 0;
+  for (const LedgerRow& row : run.hand()) put_in += row.work;
+  least_put_in_ = std::min(least_put_in_, put_in);
+}
+
+CellValues CellMeasure::values(const SimulateResult& result) const {
+  const double energy = created(result.ledger);
+  if (result.post_mortem || !(energy <= kMostCreated * energy_by_right(plan_)))
+    return unstable_cell();
+  double mean = 0;
+  for (const double sum : integral_) mean = std::max(mean, sum / plan_.run.duration);
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  return {1, joints_.iq.empty() ? none : largest_, joints_.iq.empty() ? none : mean, energy,
+          least_put_in_};
+}
+
+}  // namespace twinarm

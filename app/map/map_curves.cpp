@@ -1,0 +1,243 @@
+#include "app/map/map_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <optional>
+
+#include "coupling/prediction.h"
+#include "solver/dense_algebra.h"
+
+namespace twinarm {
+namespace {
+
+using Eigen::MatrixXd;
+
+constexpr double kRound = 1e-9;  // of the unit circle
+constexpr int kPoses = 24;       // along the twin's way
+constexpr int kMostColumns = 96, kRows = 48;
+constexpr int kHalvings = 12;  // of a row
+
+// About a pose. Of all couplings, and of those whose spring, and whose damper, is implicit.
+struct LinearStep {
+  MatrixXd M, K, B, added_K, added_B;
+};
+
+// Of a method whose step is a polynomial of its matrix: the truncated exponential of its order.
+std::optional<int> polynomial_order(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::euler:
+      return 1;
+    case Integrator::midpoint:
+    case Integrator::heun:
+      return 2;
+    case Integrator::rk4:
+      return 4;
+    default:
+      return std::nullopt;
+  }
+}
+
+bool is_semi_implicit(Integrator integrator) {
+  return integrator == Integrator::semi_implicit || integrator == Integrator::semi_implicit_xv;
+}
+
+double largest_growth(const LinearStep& s, Integrator integrator, double h) {
+  const Eigen::Index n = s.M.rows();
+  const MatrixXd one = MatrixXd::Identity(n, n);
+  MatrixXd A(2 * n, 2 * n);
+  if (is_semi_implicit(integrator)) {
+    const MatrixXd felt = s.M + h * s.added_B + h * h * s.added_K, inverse = inverse_of(felt);
+    A.bottomLeftCorner(n, n) = -h * inverse * s.K;
+    A.bottomRightCorner(n, n) = one - h * inverse * (s.B + h * s.added_K);
+    A.topLeftCorner(n, n) = one + h * A.bottomLeftCorner(n, n);
+    A.topRightCorner(n, n) = h * A.bottomRightCorner(n, n);
+    return eigenvalues_of(A).cwiseAbs().maxCoeff();
+  }
+  const MatrixXd inverse = inverse_of(s.M);
+  A.topLeftCorner(n, n).setZero();
+  A.topRightCorner(n, n) = one;
+  A.bottomLeftCorner(n, n) = -inverse * s.K;
+  A.bottomRightCorner(n, n) = -inverse * s.B;
+  double largest = 0;
+  for (const std::complex<double> lambda : eigenvalues_of(A)) {
+    std::complex<double> term = 1, sum = 1;
+    for (int i = 1; i <= *polynomial_order(integrator); ++i) {
+      term *= h * lambda / static_cast<double>(i);
+      sum += term;
+    }
+    largest = std::max(largest, std::abs(sum));
+  }
+  return largest;
+}
+
+LinearStep linear_step(const SimulatePlan& plan, const State<double>& x) {
+  const Model<double>& model = plan.input.robot.model;
+  const SceneCouplings& couplings = *plan.input.couplings;
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  const auto n = static_cast<Eigen::Index>(model.nv);
+  const MatrixXd none = MatrixXd::Zero(n, n);
+  LinearStep step{mass_matrix(model, x), none, none, none, none};
+  for (std::size_t c = 0; c < couplings.size(); ++c) {
+    const Coupling::JointSpace space = couplings.coupling(c).joint_space(k);
+    const Treatment treatment = couplings.spec(c).treatment;
+    step.K += space.K;
+    step.B += space.B;
+    if (treatment == Treatment::implicit) step.added_K += space.K;
+    if (treatment != Treatment::explicit_) step.added_B += space.B;
+  }
+  return step;
+}
+
+bool is_stable_at(const SimulatePlan& plan, const State<double>& x) {
+  return largest_growth(linear_step(plan, x), plan.run.integrator, plan.run.step) <= 1 + kRound;
+}
+
+bool is_implicit_point(const SceneCoupling& coupling) {
+  return coupling.type == CouplingDescription::Type::linear &&
+         coupling.treatment == Treatment::implicit;
+}
+
+bool is_stable_on_the_way(const SimulatePlan& plan) {
+  SceneCouplings& couplings = *plan.input.couplings;
+  for (std::size_t c = 0; c < couplings.size(); ++c)
+    for (int i = 0; i <= kPoses && !couplings.spec(c).turned.empty(); ++i)
+      if (!is_stable_at(plan, couplings.target(c, plan.run.duration * i / kPoses).x)) return false;
+  return true;
+}
+
+// For each hinge that turns the link of an implicit point spring: how far its axis is from the
+// link's point and from the target.
+bool is_within_geometry(const SimulatePlan& plan) {
+  SceneCouplings& couplings = *plan.input.couplings;
+  const Model<double>& model = plan.input.robot.model;
+  const State<double>& x = plan.input.robot.state.x;
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  const MatrixXd M = mass_matrix(model, x);
+  for (std::size_t c = 0; c < couplings.size(); ++c) {
+    const SceneCoupling& spec = couplings.spec(c);
+    if (!is_implicit_point(spec)) continue;
+    const Vector3 p = k.position(spec.spring.body, spec.spring.p_L);
+    const Vector3 target = couplings.target(c, 0).k.position(spec.spring.body, spec.spring.p_L);
+    for (auto i = static_cast<std::size_t>(spec.spring.body); i > 0;
+         i = static_cast<std::size_t>(model.parent[i])) {
+      if (model.joint[i] != JointType::revolute) continue;
+      const auto radius = [&](const Vector3& point) {  // the axis is z of the body
+        return (point - k.X_WL[i].p).cross(Vector3(k.R_WB[i].col(2))).norm();
+      };
+      const auto iv = static_cast<Eigen::Index>(model.iv[i]);
+      if (radius(target) >
+          largest_target_radius(M(iv, iv), radius(p), spec.spring.k, spec.spring.b, plan.run.step))
+        return false;
+    }
+  }
+  return true;
+}
+
+// Where `good` changes, along columns of the map. A branch that a column has no more is ended.
+class BoundarySearch {
+ public:
+  using Good = std::function<bool(const SimulatePlan&)>;
+  explicit BoundarySearch(const MapJob& job) : job_(job) {}
+
+  MapCurve find(const std::string& name, const Good& good) const {
+    const int columns = std::min(job_.nx(), kMostColumns);
+    std::vector<std::vector<double>> places;  // [column][branch], along y
+    for (int i = 0; i < columns; ++i) places.push_back(column(column_at(i, columns), good));
+    std::size_t branches = 0;
+    for (const auto& column : places) branches = std::max(branches, column.size());
+    MapCurve curve{name, {}, {}};
+    for (std::size_t b = 0; b < branches; ++b) {
+      if (b > 0) add(curve, NAN, NAN);
+      for (int i = 0; i < columns; ++i) {
+        const auto& column = places[static_cast<std::size_t>(i)];
+        if (b < column.size())
+          add(curve, job_.x.at(column_at(i, columns)), job_.y.at(column[b]));
+        else if (!curve.x.empty() && !std::isnan(curve.x.back()))
+          add(curve, NAN, NAN);
+      }
+    }
+    while (!curve.x.empty() && std::isnan(curve.x.back())) curve.x.pop_back(), curve.y.pop_back();
+    return curve;
+  }
+
+ private:
+  static void add(MapCurve& curve, double x, double y) {
+    curve.x.push_back(x);
+    curve.y.push_back(y);
+  }
+  double column_at(int i, int columns) const {
+    return static_cast<double>(i) * (job_.nx() - 1) / (columns - 1);
+  }
+  std::vector<double> column(double u, const Good& good) const {
+    const auto at = [&](double v) { return good(prepare_cell(job_, job_.x.at(u), job_.y.at(v))); };
+    const double length = job_.ny() - 1;
+    const int rows = std::min(job_.ny() - 1, kRows);
+    std::vector<double> found;
+    bool before = at(0);
+    for (int i = 1; i <= rows; ++i) {
+      double low = length * (i - 1) / rows, high = length * i / rows;
+      const bool now = at(high);
+      if (now != before) {
+        for (int n = 0; n < kHalvings; ++n)
+          (at(0.5 * (low + high)) == before ? low : high) = 0.5 * (low + high);
+        found.push_back(0.5 * (low + high));
+      }
+      before = now;
+    }
+    return found;
+  }
+  const MapJob& job_;
+};
+
+bool has_theory(const SimulatePlan& plan) {
+  const SceneModel& scene = *plan.input.scene;
+  const Integrator integrator = plan.run.integrator;
+  if (scene.couplings.empty() || !scene.constraints.empty()) return false;
+  if (!is_semi_implicit(integrator) && !polynomial_order(integrator)) return false;
+  return std::all_of(scene.couplings.begin(), scene.couplings.end(),
+                     [](const SceneCoupling& c) { return c.rate == 0; });
+}
+
+std::string scheme_words(const SimulatePlan& plan) {
+  const auto& couplings = plan.input.scene->couplings;
+  const auto is_all = [&](Treatment treatment) {
+    return std::all_of(couplings.begin(), couplings.end(),
+                       [&](const SceneCoupling& c) { return c.treatment == treatment; });
+  };
+  if (!is_semi_implicit(plan.run.integrator)) return integrator_name(plan.run.integrator);
+  if (is_all(Treatment::explicit_)) return name_of(Scheme::semi_implicit);
+  if (is_all(Treatment::semi_implicit)) return name_of(Scheme::implicit_damper);
+  if (is_all(Treatment::implicit)) return name_of(Scheme::implicit);
+  return "semi-implicit Euler, each coupling in its treatment";
+}
+
+}  // namespace
+
+bool is_stable_in_theory(const SimulatePlan& plan) {
+  return is_stable_at(plan, plan.input.robot.state.x);
+}
+
+std::vector<MapCurve> theory_curves(const MapJob& job) {
+  std::vector<MapCurve> curves;
+  const SimulatePlan corner = prepare_cell(job, job.x.from, job.y.from);
+  if (!has_theory(corner)) return curves;
+  const auto& couplings = corner.input.scene->couplings;
+  const BoundarySearch search(job);
+  const auto add = [&](const std::string& name, const BoundarySearch::Good& good) {
+    MapCurve curve = search.find(name, good);
+    if (!curve.x.empty()) curves.push_back(std::move(curve));
+  };
+  add(scheme_words(corner) + ", start pose", is_stable_in_theory);
+  if (std::any_of(couplings.begin(), couplings.end(),
+                  [](const SceneCoupling& c) { return !c.turned.empty(); }))
+    add("the same, worst pose of the twin", is_stable_on_the_way);
+  if (std::any_of(couplings.begin(), couplings.end(), is_implicit_point))
+    add("geometric limit of an implicit point spring", is_within_geometry);
+  return curves;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,195 @@
+#include "app/map/map_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/map/scene_path.h"
+#include "app/nearest_name.h"
+#include "app/record/record_run.h"
+#include "collision/import/number_text.h"
+
+namespace twinarm {
+namespace {
+
+// No file has such lines: faults in what an axis wrote are known by them.
+constexpr int kLineOfX = -1, kLineOfY = -2;
+constexpr double kMostMapCells = 4.2e6, kMostSteps = 1e8;  // of a map, of a cell
+
+MapMeasure parse_measure(const std::string& name, FaultList& faults) {
+  const auto found = std::find(kMapMeasures.begin(), kMapMeasures.end(), name);
+  if (found != kMapMeasures.end()) return static_cast<MapMeasure>(found - kMapMeasures.begin());
+  const std::vector<std::string> names(kMapMeasures.begin(), kMapMeasures.end());
+  faults.add({"", 0, "--measure", name.empty() ? "is missing" : "'" + name + "' is not known",
+              name_remedy(name, names, "measures")});
+  return MapMeasure::stable;
+}
+
+InputError told_by_axis(const InputError& error, const MapJob& job, double x, double y) {
+  std::vector<Fault> faults = error.faults();
+  const auto by = [](const char* option, const MapAxis& axis, double value, const Fault& fault) {
+    return Fault{"", 0, option + (" " + axis.path + " = " + number_text(value)),
+                 fault.where + ": " + fault.rule, fault.remedy};
+  };
+  for (Fault& fault : faults)
+    if (fault.line == kLineOfX)
+      fault = by("--x", job.x, x, fault);
+    else if (fault.line == kLineOfY)
+      fault = by("--y", job.y, y, fault);
+  return InputError(std::move(faults));
+}
+
+// Whose joints are measured, and in which unit.
+void check_couplings(const SceneModel& scene, const std::string& of, MapJob& job,
+                     FaultList& faults) {
+  const bool is_error =
+      job.measure == MapMeasure::max_error || job.measure == MapMeasure::mean_error;
+  const bool needs = is_error || job.measure == MapMeasure::passivity || !of.empty();
+  job.error_unit = "rad";
+  job.unit = is_error ? "rad" : job.measure == MapMeasure::stable ? "1" : "J";
+  const std::string option = std::string("--measure ") + name_of(job.measure);
+  if (needs && scene.couplings.empty())
+    return faults.add({scene.description.file.string(), 0, option, "the scene has no coupling",
+                       "measure stable or energy, or add a [[coupling]]"});
+  std::vector<std::string> names;
+  for (const SceneCoupling& coupling : scene.couplings) names.push_back(coupling.name);
+  const auto found = std::find(names.begin(), names.end(), of);
+  if (!of.empty() && found == names.end())
+    return faults.add(
+        {"", 0, "--of", "there is no coupling '" + of + "'", name_remedy(of, names, "couplings")});
+  if (!of.empty()) job.measured_coupling = static_cast<std::size_t>(found - names.begin());
+  const MeasuredJoints joints = measured_joints(scene, job.measured_coupling);
+  if (joints.slide && !joints.turn) job.error_unit = "m";
+  if (!is_error) return;
+  job.unit = job.error_unit;
+  if (joints.iq.empty() || (joints.slide && joints.turn))
+    faults.add({"", 0, option,
+                joints.iq.empty() ? "no joint of one degree of freedom carries what is pulled"
+                                  : "some of the measured joints turn and some slide",
+                "name another coupling with --of; " + name_remedy("", names, "couplings")});
+}
+
+std::string content_hash(const MapJob& job, const SimulatePlan& base) {
+  std::string all;
+  for (const RecordedFile& file : header_of(job.run, base, {}).files)
+    all += std::to_string(file.bytes.size()) + ":" + file.bytes;
+  return fmt::format("{:016x}", hash_of(all));
+}
+
+void check_plan(const MapJob& job, const SimulatePlan& plan, double x, double y) {
+  const double steps = plan.run.duration / plan.run.step;
+  if (plan.run.is_adaptive() || (steps >= 1 && steps <= kMostSteps)) return;
+  throw InputError(
+      {{"", 0,
+        fmt::format("--x {} = {}, --y {} = {}", job.x.path, number_text(x), job.y.path,
+                    number_text(y)),
+        fmt::format("a run of {} s in steps of {} s {}", short_number_text(plan.run.duration),
+                    short_number_text(plan.run.step),
+                    steps < 1 ? "has no whole step" : "has more than 1e8 of them"),
+        "choose other steps, or --duration"}});
+}
+
+// Faults of the scene itself hide those of the axes.
+void check_scene(MapJob& job, const std::string& of, FaultList& faults) {
+  const SimulatePlan base = prepare_simulation(job.run);
+  check_couplings(*base.input.scene, of, job, faults);
+  job.identity.push_back("content " + content_hash(job, base));
+  for (const double y : {job.y.from, job.y.to})
+    for (const double x : {job.x.from, job.x.to})
+      attempt(faults, [&] {
+        check_plan(job, prepare_cell(job, x, y), x, y);
+        return true;
+      });
+}
+
+std::string or_scene(const std::optional<double>& value) {
+  return value ? number_text(*value) : "as the scene says";
+}
+
+void check_axes(const MapJob& job, const MapOptions& options, FaultList& faults) {
+  if (job.x.path == job.y.path)
+    faults.add({"", 0, "--y", "is the same number as --x", "give two numbers of the scene"});
+  for (const auto& [name, axis] : {std::pair{"--x", &job.x}, std::pair{"--y", &job.y}}) {
+    if (axis->path == "step" && options.step)
+      faults.add({"", 0, "--step", std::string(name) + " varies it", "leave one of them out"});
+    if (axis->path == "duration" && options.duration)
+      faults.add({"", 0, "--duration", std::string(name) + " varies it", "leave one of them out"});
+  }
+  if (static_cast<double>(job.nx()) * job.ny() > kMostMapCells)
+    faults.add({"", 0, "--x, --y", fmt::format("{} x {} cells are too many", job.nx(), job.ny()),
+                "give at most four million"});
+}
+
+// Of faults at the corners of a map each is told once.
+void check_once(const FaultList& faults) {
+  try {
+    faults.check();
+  } catch (const InputError& error) {
+    std::vector<Fault> once;
+    for (const Fault& fault : error.faults())
+      if (std::none_of(once.begin(), once.end(),
+                       [&](const Fault& other) { return to_string(other) == to_string(fault); }))
+        once.push_back(fault);
+    throw InputError(std::move(once));
+  }
+}
+
+}  // namespace
+
+void put_in(const MapJob& job, double x, double y, TomlValue& scene, FaultList& faults) {
+  set_number(scene, job.x.path, x, kLineOfX, "--x", faults);
+  set_number(scene, job.y.path, y, kLineOfY, "--y", faults);
+}
+
+SimulatePlan prepare_cell(const MapJob& job, double x, double y) {
+  SimulateOptions options = job.run;
+  options.change_scene = [&](TomlValue& scene, FaultList&) {
+    FaultList faults;
+    put_in(job, x, y, scene, faults);
+    faults.check();
+  };
+  try {
+    return prepare_simulation(options);
+  } catch (const InputError& error) {
+    throw told_by_axis(error, job, x, y);
+  }
+}
+
+MapJob read_map_job(const MapOptions& options) {
+  FaultList faults;
+  MapJob job;
+  if (options.scene.empty())
+    faults.add(
+        {"", 0, "command line", "no scene is given", "twinarm map SCENE.toml --x .. --y .."});
+  else if (options.scene.extension() != ".toml")
+    faults.add({options.scene.string(), 0, "", "is no scene",
+                "give a scene in TOML, with the robot in it"});
+  const auto axis = [&](const char* name, const std::string& text, MapAxis& into) {
+    if (text.empty()) return faults.add({"", 0, name, "is missing", "give PATH:FROM:TO:N[:log]"});
+    if (const auto found = parse_axis(name, text, faults)) into = *found;
+  };
+  axis("--x", options.x, job.x);
+  axis("--y", options.y, job.y);
+  job.measure = parse_measure(options.measure, faults);
+  job.run.robot.model = options.scene;
+  job.run.duration = options.duration;
+  job.run.step = options.step;
+  job.run.integrator = options.integrator;
+  faults.check();
+  check_axes(job, options, faults);
+  job.scene = read_toml(options.scene);
+  job.x_unit = unit_of_number(job.scene, job.x.path);
+  job.y_unit = unit_of_number(job.scene, job.y.path);
+  job.identity = {
+      "x " + job.x.text(),
+      "y " + job.y.text(),
+      "of " + (options.of.empty() ? "the first coupling" : options.of),
+      "duration " + or_scene(options.duration),
+      "step " + or_scene(options.step),
+      "integrator " + (options.integrator.empty() ? "as the scene says" : options.integrator)};
+  check_scene(job, options.of, faults);
+  check_once(faults);
+  return job;
+}
+
+}  // namespace twinarm

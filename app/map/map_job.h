@@ -1,0 +1,39 @@
+// What a map is of: a scene, two of its numbers, a measure. The same job gives the same bytes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/map/cell_measure.h"
+#include "app/map/map_axis.h"
+#include "app/scene/toml_tree.h"
+#include "app/simulate/simulate_input.h"
+
+namespace twinarm {
+
+struct MapJob {
+  MapAxis x, y;
+  MapMeasure measure = MapMeasure::stable;
+  std::size_t measured_coupling = 0;  // whose twin errors refer to
+  SimulateOptions run;                // of the scene as it stands in its file
+  TomlValue scene;
+  std::string x_unit, y_unit, unit, error_unit;  // `unit` is the measure's
+  // By lines, what must be the same in files that belong together (app/map/tile_file.h). All
+  // measures are computed at once: which one is shown is not among them.
+  std::vector<std::string> identity;
+
+  int nx() const { return x.count; }
+  int ny() const { return y.count; }
+};
+
+// Reads the scene, and runs nothing. Throws InputError with all faults: of the options, the axes,
+// and of the scene at the corners of the map.
+MapJob read_map_job(const MapOptions& options);
+
+// The scene with the two numbers put in; u as in MapAxis::at().
+void put_in(const MapJob& job, double x, double y, TomlValue& scene, FaultList& faults);
+// Ready to run. Throws InputError, which tells what an axis brought in by that axis.
+SimulatePlan prepare_cell(const MapJob& job, double x, double y);
+
+}  // namespace twinarm

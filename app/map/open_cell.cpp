@@ -1,0 +1,112 @@
+#include "app/map/open_cell.h"
+
+#include <fmt/format.h>
+
+#include "app/interrupt.h"
+#include "app/map/toml_text.h"
+#include "app/record/record_run.h"
+#include "collision/import/number_text.h"
+#include "solver/whole_file.h"
+
+namespace twinarm {
+namespace {
+
+// Files that lie beside the scene are named from the root: the copy may lie elsewhere.
+void name_from_root(const std::filesystem::path& folder, TomlValue& value) {
+  std::error_code ignored;
+  if (value.kind == TomlValue::Kind::text && !value.text.empty() &&
+      std::filesystem::is_regular_file(folder / value.text, ignored))
+    value.text = std::filesystem::absolute(folder / value.text).lexically_normal().string();
+  for (TomlValue& item : value.items) name_from_root(folder, item);
+  for (TomlValue& member : value.members) name_from_root(folder, member);
+}
+
+TomlValue& member_or_new(TomlValue& table, const std::string& key) {
+  for (TomlValue& member : table.members)
+    if (member.key == key) return member;
+  table.members.emplace_back();
+  table.members.back().key = key;
+  return table.members.back();
+}
+
+// The scene of the cell, with what the command line said in its place.
+TomlValue scene_of_cell(const MapJob& job, double x, double y) {
+  TomlValue scene = job.scene;
+  FaultList faults;
+  put_in(job, x, y, scene, faults);
+  faults.check();
+  const auto number = [&](const char* key, const std::optional<double>& value) {
+    if (!value) return;
+    TomlValue& member = member_or_new(scene, key);
+    member.kind = TomlValue::Kind::number;
+    member.number = *value;
+  };
+  number("step", job.run.step);
+  number("duration", job.run.duration);
+  if (!job.run.integrator.empty()) {
+    TomlValue& member = member_or_new(scene, "integrator");
+    member.kind = TomlValue::Kind::text;
+    member.text = job.run.integrator;
+  }
+  name_from_root(job.run.robot.model.parent_path(), scene);
+  return scene;
+}
+
+CellValues record_cell(const MapJob& job, const OpenedCell& cell,
+                       const std::filesystem::path& recording) {
+  SimulateOptions options;
+  options.robot.model = cell.scene;
+  options.record = recording;
+  const SimulatePlan plan = prepare_simulation(options);
+  CellMeasure measure(plan, measured_joints(*plan.input.scene, job.measured_coupling));
+  RunRecorder recorder(
+      recording,
+      header_of(options, plan,
+                {"twinarm", "simulate", cell.scene.string(), "--record", recording.string()}),
+      plan);
+  RunWatch watch;
+  watch.sample = [](double, const State<double>&) {};
+  watch.interrupted = is_interrupted;
+  watch.look = [&](RunView& run) {
+    measure.look(run);
+    recorder.look(run);
+  };
+  watch.tick = [](double) { check_interrupt(); };
+  try {
+    const SimulateResult result = run_plan(plan.input, plan.run, watch);
+    recorder.finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
+    return measure.values(result);
+  } catch (const Interrupted&) {
+    recorder.finish("interrupted");
+    throw;
+  }
+}
+
+}  // namespace
+
+std::pair<int, int> parse_cell(const std::string& text, const MapJob& job) {
+  const std::size_t comma = text.find(',');
+  const auto ix = parse_number(text.substr(0, comma));
+  const auto iy = comma == std::string::npos ? std::nullopt : parse_number(text.substr(comma + 1));
+  const auto is_one_of = [](const std::optional<double>& i, int count) {
+    return i && *i >= 0 && *i < count && *i == static_cast<int>(*i);
+  };
+  if (is_one_of(ix, job.nx()) && is_one_of(iy, job.ny()))
+    return {static_cast<int>(*ix), static_cast<int>(*iy)};
+  throw InputError({{"", 0, "--cell", "'" + text + "' is no cell of this map",
+                     fmt::format("write IX,IY, from 0,0 to {},{}", job.nx() - 1, job.ny() - 1)}});
+}
+
+OpenedCell open_cell(const MapJob& job, int ix, int iy, const std::filesystem::path& recording) {
+  OpenedCell cell{ix, iy, job.x.at(ix), job.y.at(iy), {}, recording, ""};
+  cell.scene.replace_extension(".toml");
+  write_whole_file(cell.scene, fmt::format("# Cell {},{} of a map of {}: {} = {}, {} = {}\n", ix,
+                                           iy, job.run.robot.model.filename().string(), job.x.path,
+                                           number_text(cell.x), job.y.path, number_text(cell.y)) +
+                                   to_toml(scene_of_cell(job, cell.x, cell.y)));
+  cell.values = record_cell(job, cell, recording);
+  cell.command = "twinarm simulate " + cell.scene.string();
+  return cell;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,14 @@
+// A tree of TOML as text again (app/scene/toml_tree.h).
+#pragma once
+
+#include <string>
+
+#include "app/scene/toml_tree.h"
+
+namespace twinarm {
+
+// Comments are gone; numbers are written in the fewest digits that read back as they were. Tables
+// of lists stand under [[key]], all other tables in one line.
+std::string to_toml(const TomlValue& root);
+
+}  // namespace twinarm
