@@ -65,6 +65,7 @@ void check_outputs(const MapOptions& options, FaultList& faults) {
   check_output("--svg", options.svg, ".svg", options.force, faults);
   check_output("--png", options.png, ".png", options.force, faults);
   check_output("--csv", options.csv, ".csv", options.force, faults);
+  if (!options.merge.empty()) check_output("--work", options.work, "", options.force, faults);
   if (!options.record.empty()) {
     std::filesystem::path scene = options.record;
     scene.replace_extension(".toml");

@@ -107,9 +107,9 @@ void SceneReader::read_robot(const TomlValue& value) {
   if (readable) {
     robot.q = read_joints(table, "q", robot.description, false);
     robot.qd = read_joints(table, "qd", robot.description, true);
+    lock_joints(table, robot);
   } else {
-    table.find("q");
-    table.find("qd");
+    for (const char* key : {"q", "qd", "lock"}) table.find(key);
   }
   table.done();
   scene.robots.push_back(std::move(robot));

@@ -33,6 +33,7 @@ struct SceneReader {
   Pose read_pose(SceneTable& table);
   JointValueMap read_joints(SceneTable& table, const char* key, const RobotDescription& robot,
                             bool velocities);
+  void lock_joints(SceneTable& table, RobotInScene& robot);
   std::optional<ShapeSpec> read_shape(SceneTable& body);
   // Absolute, relative to the scene, or below assets/; a fault where it is nowhere.
   std::optional<std::filesystem::path> find_file(SceneTable& table, const std::string& key,
