@@ -72,9 +72,12 @@ class MapCommand(unittest.TestCase):
 class Maps(MapCommand):
     # Stability against docs/coupling.md, section 4.
 
+    seen = []  # names of work files
+
     def agrees_with(self, is_stable, treatment, *options, y="step:0.005:0.15:30"):
         plane = self.map(self.scene(treatment), "--x", "coupling.damping:0.5:20:6", "--y", y,
-                         *options, name=f"{treatment}{len(options)}.twinmap")
+                         *options, name=f"{treatment}{len(self.seen)}.twinmap")
+        self.seen.append(treatment)
         seen = set()
         for iy, h in enumerate(plane["y"]):
             for ix, b in enumerate(plane["x"]):
@@ -260,7 +263,7 @@ class Faults(MapCommand):
                             ("step:0.1:0.2:4:lag", "write log"), ("step:0.1", "is no axis"),
                             ("coupling.damping:0:1:2", "is the same number as --x")):
             self.assertIn(words, self.faults(scene, "--x", axis, *y), axis)
-        told = self.faults(scene, "--x", "step:0:1:1", "--y", "y:5:3:2:log", "--measure", "eror")
+        told = self.faults(scene, "--x", "step:0:1:1", "--y", "y:5:3:2:log", "--measure", "max_eror")
         for words in ("from 2 to 4096", "smaller value first", "did you mean 'max_error'"):
             self.assertIn(words, told)
         self.assertIn("leave one of them out", self.faults(scene, *self.AXES, "--step", 0.1))
