@@ -62,7 +62,7 @@ MeasuredJoints measured_joints(const SceneModel& scene, std::size_t coupling) {
   return joints;
 }
 
-double energy_by_right(const SimulatePlan& plan) {
+double energy_by_right(const SimulatePlan& plan, bool with_springs) {
   const Model<double>& model = plan.input.robot.model;
   const State<double>& start = plan.input.robot.state.x;
   double sum = kinetic_energy(model, start) + kHair * weight_of(model), twin = 0;
@@ -71,10 +71,15 @@ double energy_by_right(const SimulatePlan& plan) {
   Kinematics k(model);
   forward_kinematics(model, start, k);
   for (std::size_t c = 0; c < couplings.size(); ++c) {
-    sum += 0.5 * couplings.spec(c).spring.k * couplings.ends(c, start, k).offset.squaredNorm();
+    if (with_springs)
+      sum += 0.5 * couplings.spec(c).spring.k * couplings.ends(c, start, k).offset.squaredNorm();
     twin = std::max(twin, largest_twin_energy(plan, c));
   }
   return sum + kTurns * twin;
+}
+
+bool within_reach(double created, double by_right) {
+  return created <= kMostCreated * by_right;
 }
 
 CellMeasure::CellMeasure(const SimulatePlan& plan, MeasuredJoints joints)
@@ -101,8 +106,7 @@ void CellMeasure::look(RunView& run) {
 
 CellValues CellMeasure::values(const SimulateResult& result) const {
   const double energy = created(result.ledger);
-  if (result.post_mortem || !(energy <= kMostCreated * energy_by_right(plan_)))
-    return unstable_cell();
+  if (result.post_mortem || !within_reach(energy, energy_by_right(plan_))) return unstable_cell();
   double mean = 0;
   for (const double sum : integral_) mean = std::max(mean, sum / plan_.run.duration);
   const double none = std::numeric_limits<double>::quiet_NaN();

@@ -48,8 +48,10 @@ struct MeasuredJoints {
 // carry its link.
 MeasuredJoints measured_joints(const SceneModel& scene, std::size_t coupling);
 
-// A above [J].
-double energy_by_right(const SimulatePlan& plan);
+// A above [J], or what it is without the springs.
+double energy_by_right(const SimulatePlan& plan, bool with_springs = true);
+// Whether a run that created so much energy is stable. What is not a number is not.
+bool within_reach(double created, double by_right);
 
 class CellMeasure {
  public:

@@ -119,7 +119,7 @@ class OnCluster(unittest.TestCase):
         host = socket.gethostname().split(".")[0]
         (self.folder / "slurm.conf").write_text(CONF.format(
             host=host, ctld=free_port(), node=free_port(), folder=self.folder, user="root"))
-        (self.folder / "cgroup.conf").write_text("CgroupPlugin=disabled\n")
+        (self.folder / "cgroup.conf").write_text("CgroupPlugin=cgroup/v1\n")
         self.daemon("munged", "--foreground", "--force", "--key-file", key, "--socket",
                     self.folder / "munge.socket", "--pid-file", self.folder / "munged.pid",
                     "--log-file", self.folder / "munged.log", "--seed-file",
