@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "app/record/record_run.h"
 #include "collision/import/number_text.h"
+#include "coupling/target_radius.h"
 
 namespace twinarm {
 namespace {
@@ -16,13 +18,43 @@ std::string short_text(double value) {
   return short_number_text(value);
 }
 
+// An implicit point spring whose target lay too far out: what the treatment leaves explicit, the
+// turning of the lever arm, has a limit of its own (coupling/target_radius.h).
+struct PassedRadius {
+  long step = 0;
+  double time = 0;
+  std::string coupling, joint;
+  TargetRadius radius;
+};
+
 // The ledger where the last steps begin and where they end.
 struct LastSteps {
   std::map<std::string, double> before, after;
+  std::optional<PassedRadius> passed;  // the first in them
   long first = -1, last = 0;
   long count() const { return last - std::max(first, 1L) + 1; }  // the start is no step
   std::string words() const { return count() == 1 ? "step" : fmt::format("{} steps", count()); }
 };
+
+std::optional<PassedRadius> passed_radius(const SimulatePlan& prepared, const RunView& run) {
+  SceneCouplings* couplings = prepared.input.couplings.get();
+  const Simulation& simulation = run.simulation();
+  const State<double>& x = simulation.state();
+  for (std::size_t c = 0; couplings && c < couplings->size(); ++c) {
+    const SceneCoupling& spec = couplings->spec(c);
+    if (spec.treatment != Treatment::implicit || !spec.is_external() ||
+        spec.type != CouplingDescription::Type::linear)
+      continue;
+    const TargetRadius radius =
+        nearest_target_radius(simulation.model(), x, simulation.kinematics(),
+                              couplings->target(c, x.t).k, spec.spring, prepared.run.step);
+    if (radius.ratio() > 1)
+      return PassedRadius{run.step(), x.t, spec.name,
+                          simulation.model().joint_name[static_cast<std::size_t>(radius.body)],
+                          radius};
+  }
+  return std::nullopt;
+}
 
 LastSteps run_again(const SimulatePlan& prepared, RecordingHeader header,
                     const std::filesystem::path& file, const SimulateResult& result) {
@@ -47,6 +79,7 @@ LastSteps run_again(const SimulatePlan& prepared, RecordingHeader header,
       note(run, found.before);
     }
     if (run.step() == last) note(run, found.after);
+    if (!found.passed) found.passed = passed_radius(prepared, run);
     recorder.write(run);
   };
   const RunStart start{result.checkpoint, last};
@@ -113,8 +146,26 @@ std::string near_limit(const Suspect& s, double h) {
       s.name, short_text(s.product), short_text(s.limit), s.scheme, short_text(0.5 * h));
 }
 
-void say_suspects(PostMortem& found, double h) {
+std::string passed_words(const PassedRadius& p) {
+  return fmt::format(
+      "behind it: coupling '{}', a point spring that passed its geometric limit at step {}, t = {} "
+      "s: about joint '{}' its target lay at a radius of {} m, and with the point at {} m at most "
+      "{} m holds at this step (h^2 k r R_K < 4 I + 2 r^2 (h^2 k + h b))",
+      p.coupling, p.step, short_text(p.time), p.joint, short_text(p.radius.R_K),
+      short_text(p.radius.r), short_text(p.radius.largest));
+}
+
+void say_suspects(PostMortem& found, double h, const std::optional<PassedRadius>& passed) {
   bool any = false;
+  if (passed) {
+    any = true;
+    found.words.push_back(passed_words(*passed));
+    found.words.emplace_back(
+        "a target that is led up step by step would hold, or springs on more links, or a coupling "
+        "of type \"torsional\"; no stiffness does, where the spring is stiff: the limit is then "
+        "twice "
+        "the point's radius");
+  }
   for (const Suspect& s : found.suspects) {
     if (s.step <= s.largest_step) continue;
     any = true;
@@ -159,9 +210,16 @@ void explain(const SimulatePlan& prepared, RecordingHeader header,
         "an alarm came at t = {} s: the ledger's row '{}' grew without bound, to {} J",
         short_text(result.alarm->t), result.alarm->row, short_text(result.alarm->work)));
   found.suspects = find_suspects(prepared);
-  say_suspects(found, prepared.run.step);
+  std::optional<LastSteps> again;
+  std::string not_kept;
   try {
-    const LastSteps steps = run_again(prepared, std::move(header), file, result);
+    again = run_again(prepared, std::move(header), file, result);
+  } catch (const InputError& error) {
+    not_kept = error.what();
+  }
+  say_suspects(found, prepared.run.step, again ? again->passed : std::nullopt);
+  if (again) {
+    const LastSteps& steps = *again;
     find_row(steps, found);
     if (!found.row.empty())
       found.words.push_back(fmt::format("the ledger's row '{}' grew most: by {} J in the last {}",
@@ -171,8 +229,8 @@ void explain(const SimulatePlan& prepared, RecordingHeader header,
         fmt::format("its last {} {} in {}: look with `twinarm inspect {} --at {}`", steps.words(),
                     steps.count() == 1 ? "is" : "are", found.recording, found.recording,
                     number_text(found.time)));
-  } catch (const InputError& error) {
-    found.words.push_back(std::string("its last steps are not kept: ") + error.what());
+  } else {
+    found.words.push_back("its last steps are not kept: " + not_kept);
   }
 }
 

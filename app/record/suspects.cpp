@@ -5,6 +5,7 @@
 
 #include "app/record/post_mortem.h"
 #include "coupling/prediction.h"
+#include "coupling/stable_pd.h"
 #include "solver/dense_algebra.h"
 #include "solver/dynamics.h"
 
@@ -29,13 +30,25 @@ double largest_part(Good good) {
 struct StepMethod {
   bool known = true;
   Scheme scheme = Scheme::implicit;
+  bool (*stable)(double alpha, double beta) = nullptr;  // of a method that is no Scheme
   double undamped = 0;  // limit of w h of a method that prediction.h has not; 0: it has
   std::string name;
 };
 
 StepMethod step_method_of(const SceneCoupling& coupling, Integrator integrator) {
   StepMethod method;
-  if (coupling.rate > 0) return {true, Scheme::hold, 0, "held force"};
+  // Their steps are none of prediction.h's schemes, or have no linear part.
+  if (coupling.printed || coupling.law == CouplingSpec::Type::weld_like ||
+      coupling.law == CouplingSpec::Type::god_object) {
+    method.known = false;
+    return method;
+  }
+  if (coupling.law == CouplingSpec::Type::stable_pd) {
+    method.stable = stable_pd_is_stable;
+    method.name = "stable PD";
+    return method;
+  }
+  if (coupling.rate > 0) return {true, Scheme::hold, nullptr, 0, "held force"};
   if (coupling.treatment == Treatment::implicit) method.scheme = Scheme::implicit;
   if (coupling.treatment == Treatment::semi_implicit) method.scheme = Scheme::implicit_damper;
   if (coupling.treatment != Treatment::explicit_) {
@@ -88,7 +101,8 @@ bool all_hold(const StepMethod& method, const std::vector<CouplingMode>& modes, 
   return std::all_of(modes.begin(), modes.end(), [&](const CouplingMode& mode) {
     const double alpha = part * mode.w * mode.w * h * h;
     if (method.undamped > 0) return alpha <= method.undamped * method.undamped;
-    return is_stable(method.scheme, alpha, (mode.w > 0 ? 1 : part) * mode.damping * h);
+    const double beta = (mode.w > 0 ? 1 : part) * mode.damping * h;
+    return method.stable ? method.stable(alpha, beta) : is_stable(method.scheme, alpha, beta);
   });
 }
 
@@ -178,6 +192,7 @@ std::vector<Suspect> find_suspects(const SimulatePlan& prepared) {
   if (input.scene)
     for (std::size_t c = 0; c < input.couplings->size(); ++c) {
       const SceneCoupling& spec = input.couplings->spec(c);
+      if (spec.leader != c) continue;
       const StepMethod method = step_method_of(spec, prepared.run.integrator);
       if (method.known)
         suspects.push_back(

@@ -1,15 +1,14 @@
 #include "app/scene/scene_couplings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "collision/import/number_text.h"
 #include "coupling/automatic_motion.h"
-#include "coupling/linear.h"
 #include "coupling/paced_hand.h"
 #include "coupling/recorded_trace.h"
-#include "coupling/torsional.h"
 
 namespace twinarm {
 namespace {
@@ -22,17 +21,11 @@ class RestingHand final : public HandSource {
   std::string description() const override { return "at rest"; }
 };
 
-class RewindableCoupling : public ForceSource, public Rewindable {
+// A coupling whose memory can be put aside. The kinematic robot is a function of time alone, and
+// needs none of that.
+class Kept final : public ForceSource, public Rewindable {
  public:
-  virtual const Coupling& coupling() const = 0;
-};
-
-// A coupling whose held force and readings can be put aside. The kinematic robot is a function of
-// time alone, and needs none of that.
-template <class C>
-class Kept final : public RewindableCoupling {
- public:
-  explicit Kept(C coupling) : coupling_(std::move(coupling)) {}
+  explicit Kept(std::unique_ptr<Coupling> coupling) : coupling_(std::move(coupling)) {}
   void begin_step(const Kinematics& k, double t, double h) noexcept override {
     coupling_->begin_step(k, t, h);
   }
@@ -41,13 +34,21 @@ class Kept final : public RewindableCoupling {
     coupling_->add_forces(x, k, forces);
   }
   bool needs_semi_implicit() const override { return coupling_->needs_semi_implicit(); }
-  void keep() override { kept_.emplace(*coupling_); }
-  void go_back() noexcept override { coupling_.emplace(*kept_); }
+  void keep() override {
+    Memory memory;
+    coupling_->visit_memory(memory);
+    kept_ = memory.bytes();
+  }
+  void go_back() noexcept override {
+    Memory memory(kept_);
+    coupling_->visit_memory(memory);
+  }
   void visit_memory(Memory& memory) override { coupling_->visit_memory(memory); }
-  const Coupling& coupling() const override { return *coupling_; }
+  const Coupling& coupling() const { return *coupling_; }
 
  private:
-  std::optional<C> coupling_, kept_;
+  std::unique_ptr<Coupling> coupling_;
+  std::string kept_;
 };
 
 // Steps between two evaluations of a force that is held; 0: none is held.
@@ -56,11 +57,29 @@ int hold_steps(const SceneModel& scene, const SceneCoupling& coupling, double h,
   if (coupling.rate == 0) return 0;
   const double steps = 1 / (coupling.rate * h), whole = std::round(steps);
   if (whole >= 1 && std::abs(steps - whole) <= 1e-6 * whole) return static_cast<int>(whole);
-  faults.add({scene.description.file.string(), coupling.line, "coupling '" + coupling.name + "'",
+  faults.add({scene.description.file.string(), coupling.line,
+              "coupling '" + coupling.coupling + "'",
               "between two evaluations at " + short_number_text(coupling.rate) + " Hz lie " +
                   short_number_text(steps) + " steps of " + short_number_text(h) + " s",
               "choose rate and step so that it is a whole number"});
   return 1;
+}
+
+// The matched law measures J_K (q_K - q_D): its rates are J_K qd_K and J_K qd_D.
+CouplingEnds matched_ends(const Model<double>& model, const Spring& spring, const KvrSample& kvr,
+                          const State<double>& x) {
+  CouplingEnds ends;
+  const Eigen::Matrix3Xd J =
+      point_jacobian(model, kvr.k, spring.body, kvr.k.position(spring.body, spring.p_L));
+  for (int body = spring.body; body > 0; body = model.parent[static_cast<std::size_t>(body)]) {
+    const auto i = static_cast<std::size_t>(body);
+    if (model.dofs(i) != 1) continue;
+    const Vector3 column = J.col(static_cast<Eigen::Index>(model.iv[i]));
+    ends.offset += column * (kvr.x.q[model.iq[i]] - x.q[model.iq[i]]);
+    ends.velocity += column * x.qd[model.iv[i]];
+    ends.target_velocity += column * kvr.x.qd[model.iv[i]];
+  }
+  return ends;
 }
 
 std::unique_ptr<HandSource> hand_of_target(const SceneModel& scene, const SceneCoupling& coupling,
@@ -77,8 +96,8 @@ std::unique_ptr<HandSource> hand_of_target(const SceneModel& scene, const SceneC
       break;
     case CouplingTarget::Kind::device:
       faults.add({scene.description.file.string(), coupling.line,
-                  "coupling '" + coupling.name + "', target", "no hand device is connected here",
-                  "give a state, \"paper\" or a trace file"});
+                  "coupling '" + coupling.coupling + "', target",
+                  "no hand device is connected here", "give a state, \"paper\" or a trace file"});
       break;
     case CouplingTarget::Kind::start:
     case CouplingTarget::Kind::state:
@@ -96,6 +115,7 @@ std::unique_ptr<HandSource> make_hand(const SceneModel& scene, const SceneCoupli
 
 }  // namespace
 
+// A coupling at work.
 struct SceneCouplings::Tie {
   Tie(const SceneModel& scene, const SceneCoupling& spec, double h, FaultList& faults)
       : hand(make_hand(scene, spec, faults)),
@@ -104,31 +124,46 @@ struct SceneCouplings::Tie {
         shown(scene.model, *hand, {}, {spec.turned, "", 0, 0}) {
     kvr.stand_at(spec.rest);
     shown.stand_at(spec.rest);
-    const int hold = hold_steps(scene, spec, h, faults);
-    if (spec.type == CouplingDescription::Type::linear)
-      source = std::make_unique<Kept<LinearCoupling>>(
-          LinearCoupling(spec.name, scene.model, kvr, {spec.spring}, spec.treatment, hold));
-    else
-      source = std::make_unique<Kept<TorsionalCoupling>>(TorsionalCoupling(
-          spec.name, scene.model, kvr, {spec.spring}, spec.measure, spec.treatment, hold));
+    CouplingSpec law;
+    law.name = spec.coupling;
+    law.type = spec.law;
+    law.printed = spec.printed;
+    law.measure = spec.measure;
+    law.treatment = spec.treatment;
+    law.hold_steps = hold_steps(scene, spec, h, faults);
+    law.options.hold_steps = std::max(1, law.hold_steps);
+    law.reference = spec.reference;
+    law.springs = spec.springs;
+    try {
+      source = std::make_unique<Kept>(make_coupling(law, scene.model, kvr));
+    } catch (const InputError& error) {
+      for (Fault fault : error.faults()) {
+        fault.file = scene.description.file.string();
+        fault.line = spec.line;
+        faults.add(fault);
+      }
+    }
   }
 
   std::unique_ptr<HandSource> hand;
   KinematicRobot kvr, shown;
-  std::unique_ptr<RewindableCoupling> source;
+  std::unique_ptr<Kept> source;
 };
 
 SceneCouplings::SceneCouplings(const SceneModel& scene, double h) : scene_(scene) {
   FaultList faults;
-  for (const SceneCoupling& coupling : scene.couplings)
-    ties_.push_back(std::make_unique<Tie>(scene, coupling, h, faults));
+  for (std::size_t c = 0; c < scene.couplings.size(); ++c)
+    if (scene.couplings[c].leader == c)
+      ties_.push_back(std::make_shared<Tie>(scene, scene.couplings[c], h, faults));
+    else
+      ties_.push_back(ties_.back());
   faults.check();
 }
 
 SceneCouplings::~SceneCouplings() = default;
 
-ForceSource& SceneCouplings::source(std::size_t c) {
-  return *ties_[c]->source;
+ForceSource* SceneCouplings::source(std::size_t c) {
+  return spec(c).leader == c ? ties_[c]->source.get() : nullptr;
 }
 
 const Coupling& SceneCouplings::coupling(std::size_t c) const {
@@ -147,7 +182,9 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
   const KvrSample& kvr = target(c, x.t, side);
   const auto i = static_cast<std::size_t>(spec.spring.body);
   CouplingEnds ends;
-  if (spec.type == CouplingDescription::Type::linear) {
+  if (spec.law == CouplingSpec::Type::matched) {
+    ends = matched_ends(scene_.model, spec.spring, kvr, x);
+  } else if (spec.type == CouplingDescription::Type::linear) {
     const Vector3 p_D = k.position(spec.spring.body, spec.spring.p_L);
     const Vector3 p_K = kvr.k.position(spec.spring.body, spec.spring.p_L);
     ends = {p_K - p_D, k.velocity(spec.spring.body, p_D), kvr.k.velocity(spec.spring.body, p_K)};
@@ -164,24 +201,14 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
 
 Vector3 SceneCouplings::pull(std::size_t c) const {
   const SceneCoupling& spec = scene_.couplings[c];
-  const SpringReading& reading = coupling(c).readings()[0];
+  const SpringReading& reading = coupling(c).readings()[spec.reading(c)];
   const bool at_joint =
       spec.type == CouplingDescription::Type::torsional && spec.measure == Measure::joint;
   return at_joint ? Vector3(reading.size, 0, 0) : reading.pull;
 }
 
-double SceneCouplings::m_star(std::size_t c, double h) const {
-  const SceneCoupling& spec = scene_.couplings[c];
-  const double by_damper = h * spec.spring.b, by_spring = h * h * spec.spring.k;
-  switch (spec.treatment) {
-    case Treatment::explicit_:
-      return 0;
-    case Treatment::semi_implicit:
-      return by_damper;
-    case Treatment::implicit:
-      break;
-  }
-  return by_damper + by_spring;
+double SceneCouplings::m_star(std::size_t c) const {
+  return coupling(c).readings()[scene_.couplings[c].reading(c)].m_star;
 }
 
 }  // namespace twinarm

@@ -1,4 +1,5 @@
-// The couplings of a scene at work: each with a hand, a kinematic robot and its springs.
+// The couplings of a scene at work: each with a hand, a kinematic robot and its springs. Numbered
+// by their pulls (SceneCoupling).
 #pragma once
 
 #include <memory>
@@ -32,7 +33,8 @@ class SceneCouplings {
   ~SceneCouplings();
 
   std::size_t size() const { return ties_.size(); }
-  ForceSource& source(std::size_t c);             // for Simulation::add; Rewindable
+  // For Simulation::add; Rewindable. nullptr where an earlier pull has it already.
+  ForceSource* source(std::size_t c);
   const Coupling& coupling(std::size_t c) const;  // its readings are of the last evaluation
   // The kinematic side at a time, with the velocity of the motion after or before it: they differ
   // at a corner. Not that of the source: asking does not change the run. Valid until the next call.
@@ -43,14 +45,14 @@ class SceneCouplings {
                     Side side = Side::after);
   // The pull of the last evaluation, in the same components.
   Vector3 pull(std::size_t c) const;
-  // The weightless mass that the treatment adds in a step of h (docs/coupling.md).
-  double m_star(std::size_t c, double h) const;
+  // The weightless inertia that the treatment added in the last step (docs/coupling.md).
+  double m_star(std::size_t c) const;
   const SceneCoupling& spec(std::size_t c) const { return scene_.couplings[c]; }
 
  private:
   struct Tie;
   const SceneModel& scene_;
-  std::vector<std::unique_ptr<Tie>> ties_;
+  std::vector<std::shared_ptr<Tie>> ties_;  // by pull
 };
 
 }  // namespace twinarm

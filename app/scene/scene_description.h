@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "collision/import/robot_description.h"
-#include "coupling/coupling.h"
+#include "coupling/coupling_spec.h"
 #include "solver/force_source.h"
 #include "solver/integrator.h"
 #include "solver/pose.h"
@@ -111,14 +111,19 @@ struct CouplingTarget {
 };
 
 struct CouplingDescription {
+  // How it pulls: at a point of the link, or by turning it.
   enum class Type { linear, torsional };
   std::string name;
   int line = 0;
+  CouplingSpec::Type law = CouplingSpec::Type::linear;
+  bool printed = false;
   Type type = Type::linear;
-  std::string robot, link;
-  Vector3 point = Vector3::Zero();   // link axes; linear only
-  Measure measure = Measure::world;  // torsional only
+  std::string robot, link;           // a god object has no link: it drives all joints
+  Vector3 point = Vector3::Zero();   // link axes; of laws that pull at a point
+  Measure measure = Measure::world;  // of laws that turn
   double stiffness = 0, damping = 0;
+  double turn_stiffness = 0, turn_damping = 0;  // bushing
+  WeldReference reference;                      // weld
   Treatment treatment = Treatment::implicit;
   bool absolute_damper = false;  // against the link's own velocity, and not that of the target
   double rate = 0;               // [Hz] at which the force is computed; 0: every step

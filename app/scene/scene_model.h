@@ -38,12 +38,19 @@ struct SceneMotion {
   MotionLaw law;
 };
 
+// One pull of a coupling. A coupling in six dimensions is two of them, NAME/force and NAME/couple;
+// a god object one for each joint, NAME/JOINT. Each is drawn, recorded and booked by itself.
 struct SceneCoupling {
-  std::string name;
+  std::string name, coupling;  // of the pull, of its coupling
   int line = 0;
-  CouplingDescription::Type type = CouplingDescription::Type::linear;
-  Spring spring;
+  std::size_t leader = 0;  // the first pull of the same coupling, in SceneModel::couplings
+  CouplingSpec::Type law = CouplingSpec::Type::linear;
+  bool printed = false;
+  CouplingDescription::Type type = CouplingDescription::Type::linear;  // how this pull acts
+  Spring spring;  // with the gains of this pull
   Measure measure = Measure::world;
+  std::vector<Spring> springs;  // of the leader: all of the coupling's
+  WeldReference reference;
   Treatment treatment = Treatment::implicit;
   bool absolute_damper = false;
   double rate = 0;  // [Hz]; 0: every step
@@ -55,6 +62,20 @@ struct SceneCoupling {
   State<double> rest;
   std::vector<std::string> turned;  // joints of the model that the hand turns, at most three
   std::filesystem::path trace;
+
+  bool leads() const { return !springs.empty(); }
+  // Of its readings, which one this pull is (coupling/coupling.h).
+  std::size_t reading(std::size_t index) const { return index - leader; }
+  // It acts from outside: on the link alone, and not through joints.
+  bool is_external() const {
+    return law != CouplingSpec::Type::matched &&
+           (type == CouplingDescription::Type::linear || measure == Measure::world);
+  }
+  // It belongs to the semi-implicit step: its treatment, or the law itself, sees the step's end.
+  bool needs_semi_implicit() const;
+  // What it does besides a spring and a damper at the ends of the step: the ledger's third row.
+  // nullptr where there is nothing.
+  const char* third_row() const;
 };
 
 // The frames C of both coincide at the start: origin at the point, z along the axis.

@@ -29,6 +29,18 @@ struct SceneReader {
   }
   // Required, without a stroke, taken by nobody else; the table's faults bear it from then on.
   std::string read_name(SceneTable& table, const char* kind);
+  // Of a coupling or constraint: KINDn where it is left out; taken by no other of them.
+  template <class Items>
+  static std::string read_item_name(SceneTable& table, const char* kind, std::size_t index,
+                                    const Items& others) {
+    const std::string name = table.text("name").value_or(kind + std::to_string(index));
+    table.rename(std::string(kind) + " '" + name + "'");
+    for (const auto& other : others)
+      if (other.name == name)
+        table.fault("name", "the name is taken already",
+                    std::string("give each ") + kind + " its own name");
+    return name;
+  }
   Surface read_surface(SceneTable& table);
   Pose read_pose(SceneTable& table);
   JointValueMap read_joints(SceneTable& table, const char* key, const RobotDescription& robot,

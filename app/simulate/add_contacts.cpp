@@ -40,8 +40,8 @@ void check_contacts(const SceneModel& scene, Integrator integrator, FaultList& f
   const std::string file = scene.description.file.string();
   if (scene.description.contact == ContactMode::event)
     for (const SceneCoupling& coupling : scene.couplings)
-      if (coupling.treatment != Treatment::explicit_)
-        faults.add({file, coupling.line, "coupling '" + coupling.name + "'",
+      if (coupling.leads() && coupling.needs_semi_implicit())
+        faults.add({file, coupling.line, "coupling '" + coupling.coupling + "'",
                     "its treatment does not go with contact = \"event\"",
                     "give treatment = \"explicit\", or contact = \"rigid\""});
   if (scene.may_touch() && integrator != Integrator::semi_implicit)

@@ -124,8 +124,8 @@ void Ledger::add_step(double h, const std::vector<State<double>>& inner, const S
 // (pull h - m* (v' - v)) . (v + v')/2, less what spring and damper have already.
 void Ledger::add_implicit(double h, const State<double>& end) {
   for (std::size_t c = 0; c < coupling_count(); ++c) {
-    const double m_star = couplings_->m_star(c, h);
-    if (m_star == 0) continue;
+    if (!couplings_->spec(c).third_row()) continue;
+    const double m_star = couplings_->m_star(c);
     forward_kinematics(input_.model, now_, k_);
     const CouplingEnds before = couplings_->ends(c, now_, k_);
     forward_kinematics(input_.model, end, k_);
@@ -184,9 +184,9 @@ std::vector<LedgerRow> Ledger::rows() const {
     const double spring = hand->work - (elastic_energy(c, now_) - elastic_energy(c, start_));
     rows.push_back({hand->name, spring});
     rows.push_back(*damper);
-    if (couplings_->spec(c).treatment == Treatment::explicit_) continue;
-    rows.push_back({"coupling/" + couplings_->spec(c).name + "/implicit",
-                    implicit_[c] - spring - damper->work});
+    if (const char* third = couplings_->spec(c).third_row())
+      rows.push_back({"coupling/" + couplings_->spec(c).name + "/" + third,
+                      implicit_[c] - spring - damper->work});
   }
   double rest = kinetic_energy(model, now_) - kinetic_energy(model, start_);
   for (const LedgerRow& row : rows) rest -= row.work;

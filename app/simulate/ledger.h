@@ -11,8 +11,9 @@
 // the rise of k e^2 / 2, for e' = v_K - v; row `damper` is the power of the damper on the link. An
 // implicit treatment pulls with what it had at the start of the step less m* dv/h, dv the change of
 // the link's velocity; what that works besides, over (v + v')/2, is its row `implicit`: numerical
-// damping. `hand` is the work of the kinematic side, the pull over v_K; it does not count in the
-// sum.
+// damping. What a law as printed works besides a spring and a relative damper is `as_printed`, and
+// all that a god object works `drive`. `hand` is the work of the kinematic side, the pull over v_K;
+// it does not count in the sum.
 #pragma once
 
 #include <span>

@@ -142,9 +142,10 @@ namespace {
 // between two bodies.
 void add_pull(double part, const SceneCoupling& spec, const Vector3& pull, const Kinematics& k,
               Exchange& sum) {
+  if (!spec.is_external()) return;
   if (spec.type == CouplingDescription::Type::linear)
     sum.add_wrench(part, k.position(spec.spring.body, spec.spring.p_L), pull, Vector3::Zero());
-  else if (spec.measure == Measure::world)
+  else
     sum.add_wrench(part, Vector3::Zero(), Vector3::Zero(), pull);
 }
 
@@ -154,7 +155,7 @@ void add_pull(double part, const SceneCoupling& spec, const Vector3& pull, const
 void MomentumLedger::add_couplings(double part, const State<double>& x, SceneCouplings::Side side) {
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
-    if (spec.rate > 0) {  // held from step to step
+    if (spec.rate > 0 || spec.printed) {  // held from step to step
       add_pull(part, spec, couplings_->pull(c), k_, sums_[coupling(c)]);
       continue;
     }
@@ -170,7 +171,7 @@ void MomentumLedger::add_pulls(double h, const State<double>& at, const State<do
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
     Vector3 impulse = h * couplings_->pull(c);
-    if (const double m_star = couplings_->m_star(c, h); m_star != 0) {
+    if (const double m_star = couplings_->m_star(c); m_star != 0) {
       State<double> then = at;  // velocities of the end where the forces were found: J dqd
       then.qd = end.qd;
       forward_kinematics(input_.model, then, k_end_);

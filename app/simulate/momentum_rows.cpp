@@ -62,7 +62,7 @@ std::vector<MomentumRow> MomentumLedger::rows(const Simulation& simulation,
             static_cast<int>(wrenches_[i].body()));
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
-    if (spec.type == CouplingDescription::Type::linear || spec.measure == Measure::world)
+    if (spec.is_external())
       between("coupling/" + spec.name, sums_[coupling(c)], 0, spec.spring.body);
   }
   if (contacts && contacts->contacts())

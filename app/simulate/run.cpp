@@ -69,7 +69,7 @@ class Run : public RunView {
     for (GivenWrench& wrench : wrenches_) sim_.add(wrench);
     if (simulated.scene) {
       for (std::size_t c = 0; c < simulated.couplings->size(); ++c)
-        sim_.add(simulated.couplings->source(c));
+        if (ForceSource* source = simulated.couplings->source(c)) sim_.add(*source);
       for (const SceneMotion& motion : simulated.scene->motions)
         sim_.prescribe(motion.body, motion.law);
     }

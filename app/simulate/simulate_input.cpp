@@ -38,14 +38,20 @@ void choose_contact(const std::string& name, SceneDescription* scene, FaultList&
 
 void check_treatments(const SceneModel& scene, const RunPlan& plan, FaultList& faults) {
   for (const SceneCoupling& coupling : scene.couplings) {
+    if (!coupling.leads()) continue;
     const auto fault = [&](std::string rule, std::string remedy) {
       faults.add({scene.description.file.string(), coupling.line,
-                  "coupling '" + coupling.name + "'", std::move(rule), std::move(remedy)});
+                  "coupling '" + coupling.coupling + "'", std::move(rule), std::move(remedy)});
     };
-    if (coupling.treatment != Treatment::explicit_ && !facts_of(plan.integrator).implicit_force)
+    if (coupling.needs_semi_implicit() && !facts_of(plan.integrator).implicit_force)
       fault(std::string("its treatment goes with the semi-implicit integrators only, not with ") +
                 integrator_name(plan.integrator),
-            "give treatment = \"explicit\", or --integrator semi-implicit");
+            std::string(facts_of(coupling.law, coupling.printed).treatments ==
+                                    CouplingFacts::Treatments::all &&
+                                coupling.law != CouplingSpec::Type::weld_like
+                            ? "give treatment = \"explicit\", or "
+                            : "give ") +
+                "--integrator semi-implicit");
     if (coupling.rate > 0 && plan.is_adaptive())
       fault("a held force goes with steps of one size", "leave 'rate' out, or change --integrator");
   }

@@ -71,8 +71,9 @@ std::vector<Row> coupling_rows(const SceneModel& scene) {
     const bool is_linear = c.type == CouplingDescription::Type::linear;
     rows.push_back(
         {c.name,
-         is_linear ? "linear"
-                   : (c.measure == Measure::joint ? "torsional, joint" : "torsional, world"),
+         facts_of(c.law, c.printed).name + std::string(is_linear ? ", at a point"
+                                                       : c.measure == Measure::joint ? ", joint"
+                                                                                     : ", world"),
          scene.model.body_name[static_cast<std::size_t>(c.spring.body)], number_text(c.spring.k),
          number_text(c.spring.b), treatments[static_cast<std::size_t>(c.treatment)],
          c.rate > 0 ? number_text(c.rate) + " Hz" : "each step",

@@ -114,9 +114,9 @@ TEST_CASE("scene: a coupling without target pulls back to where the robot starte
   const Vector3 chord = target.k.position(pull.spring.body, pull.spring.p_L) -
                         k.position(pull.spring.body, pull.spring.p_L);
   CHECK(chord.norm() == doctest::Approx(2 * 0.2 * std::sin(0.05)).epsilon(1e-12));
-  couplings.source(0).begin_step(k, 0, 0.001);
+  couplings.source(0)->begin_step(k, 0, 0.001);
   Forces<double> forces(scene.model);
-  couplings.source(0).add_forces(x, k, forces);
+  couplings.source(0)->add_forces(x, k, forces);
   CHECK(close(couplings.coupling(0).readings()[0].pull, 300 * chord, 1e-12));
 }
 
@@ -188,9 +188,9 @@ TEST_CASE("scene: a late, fast target is the motion of speed (t - delay), its ve
   State<double> x = scene.start;
   x.t = 0.4;
   forward_kinematics(scene.model, x, k);
-  couplings.source(0).begin_step(k, x.t, 0.001);
+  couplings.source(0)->begin_step(k, x.t, 0.001);
   Forces<double> forces(scene.model);
-  couplings.source(0).add_forces(x, k, forces);
+  couplings.source(0)->add_forces(x, k, forces);
   const double q_K = pi / 2 - pi * speed * (0.4 - delay);
   CHECK(couplings.coupling(0).readings()[0].size ==
         doctest::Approx(10 * (q_K - x.q[0]) - pi * speed).epsilon(1e-12));
@@ -222,11 +222,11 @@ TEST_CASE("scene: an absolute damper brakes the link, a relative one follows the
     SceneCouplings couplings(scene, 0.001);
     Kinematics k(scene.model);
     forward_kinematics(scene.model, scene.start, k);
-    couplings.source(0).begin_step(k, 0.25, 0.001);
+    couplings.source(0)->begin_step(k, 0.25, 0.001);
     State<double> x = scene.start;
     x.t = 0.25;
     Forces<double> forces(scene.model);
-    couplings.source(0).add_forces(x, k, forces);
+    couplings.source(0)->add_forces(x, k, forces);
     const double wanted = absolute ? 0 : -5 * 3.14159265358979;  // the target turns at -pi rad/s
     CHECK(couplings.coupling(0).readings()[0].size == doctest::Approx(wanted));
   }

@@ -31,7 +31,8 @@ class FirstStep {
     for (const Wrench& wrench : input.robot.state.wrenches) wrenches_.emplace_back(wrench, k_);
     sim_.add(torques_);
     for (GivenWrench& wrench : wrenches_) sim_.add(wrench);
-    for (std::size_t c = 0; c < input.couplings->size(); ++c) sim_.add(input.couplings->source(c));
+    for (std::size_t c = 0; c < input.couplings->size(); ++c)
+      if (ForceSource* source = input.couplings->source(c)) sim_.add(*source);
     for (const SceneMotion& motion : input.scene->motions) sim_.prescribe(motion.body, motion.law);
     sim_.set_integrator(Integrator::semi_implicit);
     sim_.constrain_accelerations();
@@ -75,10 +76,12 @@ class FirstStep {
  private:
   void add_couplings() {
     for (std::size_t c = 0; c < input_.couplings->size(); ++c) {
+      ForceSource* source = input_.couplings->source(c);
+      if (!source) continue;  // a further pull of the one before
       Forces<double> added(model_);
-      input_.couplings->source(c).add_forces(x_, k_, added);
+      source->add_forces(x_, k_, added);
       const SceneCoupling& spec = input_.couplings->spec(c);
-      actors_.push_back(actor_of("coupling/" + spec.name, added));
+      actors_.push_back(actor_of("coupling/" + spec.coupling, added));
       if (spec.type == CouplingDescription::Type::linear)
         actors_.back().point_W = k_.position(spec.spring.body, spec.spring.p_L);
     }

@@ -50,7 +50,7 @@ void EnergyBooks::add_step(const State<double>& x, double h) {
   double pulled = 0, by_hand = 0;
   for (std::size_t c = 0; c < couplings_.size(); ++c) {
     const CouplingEnds a = couplings_.ends(c, x_, k_), b = couplings_.ends(c, between_, k_end_);
-    const Vector3 change = couplings_.m_star(c, h) * (b.velocity - a.velocity);
+    const Vector3 change = couplings_.m_star(c) * (b.velocity - a.velocity);
     const Vector3 pull = h * couplings_.pull(c) - change;
     pulled += pull.dot(b.velocity);
     by_hand += pull.dot(a.target_velocity);

@@ -44,7 +44,8 @@ class Episode {
         shoves_(masses_of(scene_), made_.push, chance_),
         books_(scene_, couplings_, shoves_) {
     sim_.add(shoves_);
-    for (std::size_t c = 0; c < couplings_.size(); ++c) sim_.add(couplings_.source(c));
+    for (std::size_t c = 0; c < couplings_.size(); ++c)
+      if (ForceSource* source = couplings_.source(c)) sim_.add(*source);
     add_contacts();
     add_limits();
     books_.begin(sim_.state());

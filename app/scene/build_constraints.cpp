@@ -1,5 +1,4 @@
-// Couplings and constraints, from names to bodies of the model.
-#include "app/dynamics/coordinates.h"
+// Constraints, from names to bodies of the model.
 #include "app/scene/scene_builder.h"
 #include "solver/fault.h"
 #include "solver/kinematics.h"
@@ -7,22 +6,6 @@
 
 namespace twinarm {
 namespace {
-
-// Joints that the hand turns: the robot's first three of one degree of freedom.
-std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot) {
-  std::vector<std::string> names;
-  const Coordinates coordinates(scene.model, false);
-  const std::string prefix = name_in_scene(scene.description, robot, "");
-  for (const JointDescription& joint : scene.description.robots[robot].description.joints)
-    if (joint.dofs() == 1 && !joint.mimic && names.size() < 3) names.push_back(prefix + joint.name);
-  return names;
-}
-
-std::size_t robot_named(const SceneDescription& scene, const std::string& name) {
-  std::size_t r = 0;
-  while (scene.robots[r].name != name) ++r;  // the reader has seen it
-  return r;
-}
 
 class ConstraintBuilder {
  public:
@@ -116,33 +99,6 @@ class ConstraintBuilder {
 
 void build_constraints(SceneModel& scene) {
   ConstraintBuilder(scene).build();
-}
-
-void build_couplings(SceneModel& scene) {
-  for (const CouplingDescription& given : scene.description.couplings) {
-    SceneCoupling made;
-    made.name = given.name;
-    made.line = given.line;
-    made.type = given.type;
-    made.robot = robot_named(scene.description, given.robot);
-    const int body = body_of(scene, {-1, static_cast<int>(made.robot), given.link});
-    made.spring = {given.name, body, given.point, given.stiffness, given.damping};
-    made.measure = given.measure;
-    made.treatment = given.treatment;
-    made.absolute_damper = given.absolute_damper;
-    made.rate = given.rate;
-    made.target = given.target.kind;
-    made.delay = given.delay;
-    made.speed = given.speed;
-    made.rest = scene.start;
-    made.rest.qd.assign(scene.model.nv, 0);
-    set_coordinates(scene, made.robot, given.target.q, made.rest);
-    if (made.target == CouplingTarget::Kind::paper || made.target == CouplingTarget::Kind::trace ||
-        made.target == CouplingTarget::Kind::device)
-      made.turned = turned_joints(scene, made.robot);
-    made.trace = given.target.trace;
-    scene.couplings.push_back(std::move(made));
-  }
 }
 
 }  // namespace twinarm

@@ -1,0 +1,118 @@
+// Couplings, from names to bodies of the model, and into their pulls.
+#include "app/dynamics/coordinates.h"
+#include "app/scene/scene_builder.h"
+#include "coupling/god_object.h"
+#include "coupling/weld_like.h"
+#include "solver/fault.h"
+
+namespace twinarm {
+namespace {
+
+using Law = CouplingSpec::Type;
+using Pull = CouplingDescription::Type;
+
+// Joints that the hand turns: the robot's first three of one degree of freedom.
+std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot) {
+  std::vector<std::string> names;
+  const Coordinates coordinates(scene.model, false);
+  const std::string prefix = name_in_scene(scene.description, robot, "");
+  for (const JointDescription& joint : scene.description.robots[robot].description.joints)
+    if (joint.dofs() == 1 && !joint.mimic && names.size() < 3) names.push_back(prefix + joint.name);
+  return names;
+}
+
+std::size_t robot_named(const SceneDescription& scene, const std::string& name) {
+  std::size_t r = 0;
+  while (scene.robots[r].name != name) ++r;  // the reader has seen it
+  return r;
+}
+
+// All but the pulls.
+SceneCoupling without_pulls(const SceneModel& scene, const CouplingDescription& given) {
+  SceneCoupling made;
+  made.name = made.coupling = given.name;
+  made.line = given.line;
+  made.leader = scene.couplings.size();
+  made.law = given.law;
+  made.printed = given.printed;
+  made.type = given.type;
+  made.measure = given.measure;
+  made.reference = given.reference;
+  made.treatment = given.treatment;
+  made.absolute_damper = given.absolute_damper;
+  made.rate = given.rate;
+  made.robot = robot_named(scene.description, given.robot);
+  made.target = given.target.kind;
+  made.delay = given.delay;
+  made.speed = given.speed;
+  made.rest = scene.start;
+  made.rest.qd.assign(scene.model.nv, 0);
+  set_coordinates(scene, made.robot, given.target.q, made.rest);
+  if (made.target == CouplingTarget::Kind::paper || made.target == CouplingTarget::Kind::trace ||
+      made.target == CouplingTarget::Kind::device)
+    made.turned = turned_joints(scene, made.robot);
+  made.trace = given.target.trace;
+  return made;
+}
+
+void add_pull(SceneModel& scene, SceneCoupling made, const std::string& part, Pull type,
+              const Spring& spring) {
+  if (scene.couplings.size() != made.leader) made.springs.clear();
+  if (!part.empty()) made.name += "/" + part;
+  made.type = type;
+  made.spring = spring;
+  made.spring.name = made.name;
+  scene.couplings.push_back(std::move(made));
+}
+
+void add_six_dimensions(SceneModel& scene, SceneCoupling made, const Spring& spring) {
+  made.springs = {spring};
+  add_pull(scene, made, "force", Pull::linear, spring);
+  Spring turn = spring;
+  turn.k = spring.k_turn, turn.b = spring.b_turn;
+  add_pull(scene, made, "couple", Pull::torsional, turn);
+}
+
+void add_god_object(SceneModel& scene, SceneCoupling made, FaultList& faults) {
+  const auto [first, last] = scene.bodies_of_robot(made.robot);
+  made.springs = god_object_joints(scene.model, first, last);
+  made.measure = Measure::joint;
+  for (const Spring& joint : made.springs)
+    add_pull(scene, made, scene.model.joint_name[static_cast<std::size_t>(joint.body)],
+             Pull::torsional, joint);
+  if (made.springs.empty())
+    faults.add({scene.description.file.string(), made.line, "coupling '" + made.name + "'",
+                "its robot has no joint to drive", "name a robot that can move"});
+}
+
+}  // namespace
+
+void build_couplings(SceneModel& scene) {
+  FaultList faults;
+  for (const CouplingDescription& given : scene.description.couplings) {
+    SceneCoupling made = without_pulls(scene, given);
+    if (given.law == Law::god_object) {
+      add_god_object(scene, std::move(made), faults);
+      continue;
+    }
+    const int body = body_of(scene, {-1, static_cast<int>(made.robot), given.link});
+    if (given.law == Law::weld_like) {
+      add_six_dimensions(
+          scene, std::move(made),
+          weld_spring(given.name, scene.model, scene.start, body, given.point, given.reference));
+      continue;
+    }
+    const Spring spring{given.name,        body,          given.point,
+                        given.stiffness,   given.damping, given.turn_stiffness,
+                        given.turn_damping};
+    if (given.law == Law::bushing) {
+      add_six_dimensions(scene, std::move(made), spring);
+      continue;
+    }
+    made.springs = {spring};
+    add_pull(scene, std::move(made), "", given.type, spring);
+  }
+  faults.check();
+}
+
+}  // namespace twinarm
