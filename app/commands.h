@@ -18,7 +18,7 @@ struct StudyOptions {
   std::string device;            // "synthetic" or "trace"; empty: a trace if one is given
   std::optional<unsigned> seed;  // left out: the settings' seed
   std::filesystem::path trace;
-  bool recalibrate = false, paper_view = false, json = false;
+  bool recalibrate = false, identify = false, paper_view = false, json = false;
   std::filesystem::path assets;  // empty: found beside the program
 };
 int run_study(const StudyOptions& options);

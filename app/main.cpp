@@ -47,6 +47,9 @@ void add_study(CLI::App& app, StudyOptions& options, std::function<int()>& comma
   study->add_option("--trace", options.trace, "CSV of a recorded hand, for E1 and E2");
   study->add_flag("--recalibrate", options.recalibrate,
                   "search the unpublished gains again and write them to the assets (minutes)");
+  study->add_flag("--identify", options.identify,
+                  "ask again what the paper's Table 2 leaves open, and write it to the assets "
+                  "(some ten minutes)");
   study->add_flag("--paper-view", options.paper_view,
                   "hide the ghost in pictures, as the paper does");
   study->add_flag("--json", options.json, "print one JSON object on stdout");

@@ -47,10 +47,11 @@ void write_calibration(const Calibration& calibration, const std::filesystem::pa
 
 // How the box of the parameters is searched, in the logarithm of each. NLopt's implementations.
 enum class Method {
-  rugged,     // controlled random search (Price 1983, Kaelo and Ali 2006), then subplex: for the
-              // folded law, whose error jumps from one gain to the next
-  multistart  // multi-level single linkage over a Sobol sequence (Kucherenko and Sytsko 2005) with
-              // subplex (Rowan 1990) as local search: for the others
+  rugged,      // controlled random search (Price 1983, Kaelo and Ali 2006), then subplex: for the
+               // folded law, whose error jumps from one gain to the next
+  multistart,  // multi-level single linkage over a Sobol sequence (Kucherenko and Sytsko 2005)
+               // with subplex (Rowan 1990) as local search: for the others
+  local        // subplex alone, from the values that the parameters have
 };
 // The same seed gives the same result. Writes the values, the objective and the evaluations.
 void minimise(CalibrationEntry& entry, Method method, unsigned seed, int evaluations,

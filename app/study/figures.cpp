@@ -278,6 +278,7 @@ void write_figures(const StudyResults& results, const std::filesystem::path& fol
   draw_ablations(gnuplot, results.variants);
   draw_prediction(gnuplot, results.variants);
   draw_obstacle(gnuplot, results.obstacle);
+  draw_identification(gnuplot, results);
 }
 
 }  // namespace twinarm

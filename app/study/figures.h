@@ -14,6 +14,7 @@ namespace twinarm {
 //   search                   best fit to the paper's rows against the rate
 //   ablations                largest error of each change to the law
 //   prediction               predicted peak after a reversal beside the measured maximum
+//   identify                 how far the paper's rows hold each parameter
 //   obstacle                 the run into the box, both couplings
 // A figure without data is not made. Throws InputError where gnuplot or the folder is missing.
 void write_figures(const StudyResults& results, const std::filesystem::path& folder);

@@ -17,4 +17,7 @@ void draw_search(Gnuplot& gnuplot, const StudyResults& results);
 void draw_ablations(Gnuplot& gnuplot, const std::vector<RunResult>& variants);
 void draw_prediction(Gnuplot& gnuplot, const std::vector<RunResult>& variants);
 
+// figures_identify.cpp
+void draw_identification(Gnuplot& gnuplot, const StudyResults& results);
+
 }  // namespace twinarm

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlopt.hpp>
 
@@ -72,9 +73,13 @@ void minimise(CalibrationEntry& entry, Method method, unsigned seed, int evaluat
   }
   const auto n = static_cast<unsigned>(middle.size());
   Search search{entry, objective, middle, HUGE_VAL, 0};
-  const int global = evaluations * 4 / 5;
+  const int global = method == Method::local ? 0 : evaluations * 4 / 5;
   nlopt::opt local(nlopt::LN_SBPLX, n);
-  if (method == Method::rugged) {
+  if (method == Method::local) {
+    for (std::size_t i = 0; i < n; ++i)
+      search.best[i] = std::clamp(std::log(entry.parameters[i].value), low[i], high[i]);
+    local.set_initial_step(0.1);
+  } else if (method == Method::rugged) {
     nlopt::opt crs(nlopt::GN_CRS2_LM, n);
     crs.set_population(40 * n);
     optimise(crs, low, high, global, search, middle);

@@ -147,6 +147,7 @@ void write_report(const StudyResults& results, const std::filesystem::path& fold
       {"variants", "Variants", variants_section(results, gallery)},
       {"obstacle", "Obstacle", obstacle_section(results, gallery)},
       {"search", "Search", search_section(results, gallery)},
+      {"open", "What stays open", identification_section(results, gallery)},
       {"parameters", "Parameters", parameters_section(results)}};
   write_whole_file(folder / "report.html", page(results, sections));
 }

@@ -38,6 +38,9 @@ std::string obstacle_section(const StudyResults& results, const Gallery& gallery
 std::string rates_section(const StudyResults& results, const Gallery& gallery);
 std::string variants_section(const StudyResults& results, const Gallery& gallery);
 
+// report_identify.cpp: what the paper's numbers cannot tell
+std::string identification_section(const StudyResults& results, const Gallery& gallery);
+
 // report_parameters.cpp: where the numbers come from
 std::string search_section(const StudyResults& results, const Gallery& gallery);
 std::string parameters_section(const StudyResults& results);

@@ -7,6 +7,7 @@
 
 #include "app/study/calibrate.h"
 #include "app/study/calibration.h"
+#include "app/study/identify.h"
 #include "app/study/study_run.h"
 
 namespace twinarm {
@@ -59,6 +60,7 @@ struct StudyResults {
   std::string settings_text;  // settings.toml as it was used
   Calibration calibration;
   std::vector<SearchRow> search;
+  std::vector<Identification> identifications;  // what Table 2 leaves open
   // Parameters of the robot for the report: link, mass [kg], and the unit of the paper.
   std::vector<std::pair<std::string, double>> link_masses;
 };

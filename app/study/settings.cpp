@@ -91,6 +91,7 @@ StudySettings read_settings(const std::filesystem::path& assets) {
   s.stop_damping = read.number("auxiliary.stop_damping");
   s.rates_hz = read.numbers("protocol.rates_hz");
   s.search_rates_hz = read.numbers("protocol.search_rates_hz");
+  s.identification_rates_hz = read.numbers("protocol.identification_rates_hz");
   s.sweep_times = read.numbers("protocol.sweep_times");
   s.held_physics_hz = read.number("protocol.held_physics_hz");
   s.implicit_frequency_hz = read.number("protocol.implicit_frequency_hz");

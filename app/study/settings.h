@@ -28,7 +28,7 @@ struct StudySettings {
   double auxiliary_frequency_hz = 0, auxiliary_damping_ratio = 0;
   double stop_stiffness = 0, stop_damping = 0;
 
-  std::vector<double> rates_hz, search_rates_hz, sweep_times;
+  std::vector<double> rates_hz, search_rates_hz, identification_rates_hz, sweep_times;
   double held_physics_hz = 0, implicit_frequency_hz = 0, implicit_damping_ratio = 0;
 
   unsigned seed = 1;

@@ -63,6 +63,8 @@ StudyResults compute(const StudyOptions& options, const StudyInputs& inputs, con
   for (const LinkDescription& link : inputs.s103.links)
     results.link_masses.emplace_back(link.name, link.mass);
   fill_search_table(inputs.settings, results);
+  results.identifications =
+      read_identifications(inputs.settings.assets / "study" / "identification.json");
 
   const StudyRobot robot = StudyRobot::s103(inputs.settings, inputs.s103, results.arm2_mass_scale);
   progress.stage("E1 to E4", 0.02);
@@ -131,6 +133,12 @@ int run_study(const StudyOptions& options) {
     Progress progress(false);
     calibration = calibrate(inputs, progress);
     write_calibration(calibration, calibration_file);
+  }
+  if (options.identify) {
+    Progress progress(false);
+    const std::vector<Identification> found = identify(inputs, progress);
+    write_identifications(found, assets / "study" / "identification.json");
+    progress.finish();
   }
   for (const char* part : {"figures", "csv", "pictures"}) make_folder(options.out / part);
 

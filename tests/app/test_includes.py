@@ -36,6 +36,7 @@ LIBRARIES = {
     "nlohmann": (r"nlohmann/", {"app/compare/compare_output.cpp",
                                 "app/dynamics/json_tree.cpp", "app/json_writer.cpp",
                                 "app/main.cpp", "app/study/calibration.cpp",
+                                "app/study/identification_file.cpp",
                                 "app/study/output_json.cpp"}),
     "CLI11": (r"CLI/", {"app/main.cpp"}),
     "Google Benchmark": (r"benchmark/", {"benchmarks/speed/timing.cpp"}),

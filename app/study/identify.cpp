@@ -1,0 +1,267 @@
+#include "app/study/identify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <mutex>
+
+#include "app/interrupt.h"
+#include "solver/dense_algebra.h"
+
+namespace twinarm {
+namespace {
+
+constexpr double kHalfDigit = 0.05;  // [deg]
+constexpr unsigned kSeed = 1;
+constexpr int kFitEvaluations = 1600, kRefitEvaluations = 80;
+// Held values of a profile, as factors of the best one: walked outwards, each from its neighbour.
+constexpr std::array<double, 5> kFactors{1.1, 1.3, 2, 4, 10};
+
+FamilyLaw consistent(const char* name, const char* words, CouplingSpec::Type type, Measure measure,
+                     Treatment treatment) {
+  FamilyLaw law{name, words, {}};
+  law.coupling.name = name;
+  law.coupling.type = type;
+  law.coupling.measure = measure;
+  law.coupling.treatment = treatment;
+  return law;
+}
+
+// One row, one law, one rate: parameters to the four numbers and back.
+class Question {
+ public:
+  Question(const StudyInputs& inputs, const FamilyLaw& law, std::string row, double rate)
+      : inputs_(inputs), law_(law), row_(std::move(row)), rate_(rate) {}
+
+  Identification answer() const;
+
+ private:
+  std::vector<Parameter> parameters() const;
+  RunResult run_with(const CalibrationEntry& entry, double sweep) const;
+  double misfit(const CalibrationEntry& entry) const {
+    return table_misfit(run_with(entry, 1), paper_table().at(row_));
+  }
+  Eigen::MatrixXd sensitivity(const CalibrationEntry& entry) const;
+  ProfilePoint refit(CalibrationEntry& entry, std::size_t held) const;
+  Profile profile(const CalibrationEntry& best, std::size_t held) const;
+
+  const StudyInputs& inputs_;
+  const FamilyLaw& law_;
+  std::string row_;
+  double rate_;
+};
+
+std::vector<Parameter> Question::parameters() const {
+  const bool points = law_.coupling.type != CouplingSpec::Type::torsional;
+  const double k_low = points ? 100 : 3, k_high = points ? 1e7 : 3e5;  // [N/m], [N m/rad]
+  const double b_low = points ? 0.1 : 3e-3, b_high = points ? 3e4 : 1e3;
+  return {{"k1", k_low, k_high, 0},
+          {"b1", b_low, b_high, 0},
+          {"k2", k_low, k_high, 0},
+          {"b2", b_low, b_high, 0},
+          {"arm2_mass_scale", 0.2, 4, 0}};
+}
+
+RunResult Question::run_with(const CalibrationEntry& entry, double sweep) const {
+  const StudyRobot robot =
+      StudyRobot::s103(inputs_.settings, inputs_.s103, entry.value("arm2_mass_scale"));
+  RunSpec spec;
+  spec.name = row_;
+  spec.coupling = law_.coupling;
+  spec.rate = rate_;
+  if (!law_.coupling.printed) spec.kvr_rates = KvrRates::backward_difference;
+  spec.gains = entry.gains();
+  return run(robot, AutomaticMotion(HandMapping{}, sweep), spec);
+}
+
+// d x_i / d log theta_j by central differences, in half digits; columns of parameters that stand at
+// a bound are as true as the others: a bound is only where the search ends.
+Eigen::MatrixXd Question::sensitivity(const CalibrationEntry& entry) const {
+  constexpr double step = 1e-3;
+  Eigen::MatrixXd S(4, static_cast<Eigen::Index>(entry.parameters.size()));
+  const auto numbers = [&](std::size_t j, double factor) {
+    CalibrationEntry moved = entry;
+    moved.parameters[j].value *= factor;
+    const RunResult r = run_with(moved, 1);
+    return Eigen::Vector4d(r.max_deg[0], r.max_deg[1], r.mean_deg[0], r.mean_deg[1]);
+  };
+  for (std::size_t j = 0; j < entry.parameters.size(); ++j)
+    S.col(static_cast<Eigen::Index>(j)) =
+        (numbers(j, std::exp(step)) - numbers(j, std::exp(-step))) / (2 * step * kHalfDigit);
+  return S;
+}
+
+// Fits all parameters but one again, from where they stand.
+ProfilePoint Question::refit(CalibrationEntry& entry, std::size_t held) const {
+  const Parameter fixed = entry.parameters[held];
+  CalibrationEntry free = entry;
+  free.parameters.erase(free.parameters.begin() + static_cast<std::ptrdiff_t>(held));
+  const auto whole = [&](const CalibrationEntry& some) {
+    CalibrationEntry all = entry;
+    all.parameters = some.parameters;
+    all.parameters.insert(all.parameters.begin() + static_cast<std::ptrdiff_t>(held), fixed);
+    return all;
+  };
+  minimise(free, Method::local, kSeed, kRefitEvaluations,
+           [&](const CalibrationEntry& some) { return misfit(whole(some)); });
+  entry = whole(free);
+  return {fixed.value, free.objective, run_with(entry, kOtherSweep).max_deg};
+}
+
+Profile Question::profile(const CalibrationEntry& best, std::size_t held) const {
+  Profile profile;
+  const Parameter& p = best.parameters[held];
+  profile.parameter = p.name;
+  profile.points.push_back({p.value, best.objective, run_with(best, kOtherSweep).max_deg});
+  for (const bool up : {false, true}) {
+    CalibrationEntry walker = best;
+    for (const double factor : kFactors) {
+      check_interrupt();
+      const double value = up ? p.value * factor : p.value / factor;
+      if (value < p.low || value > p.high) break;
+      walker.parameters[held].value = value;
+      profile.points.push_back(refit(walker, held));
+    }
+  }
+  std::sort(profile.points.begin(), profile.points.end(),
+            [](const ProfilePoint& a, const ProfilePoint& b) { return a.value < b.value; });
+  return profile;
+}
+
+Identification Question::answer() const {
+  Identification found;
+  found.row = row_;
+  found.law = law_.name;
+  found.fit.name = fmt::format("{}/{}/{:g}", row_, law_.name, rate_);
+  found.fit.rate = rate_;
+  found.fit.parameters = parameters();
+  const bool folds = law_.coupling.printed && law_.coupling.type == CouplingSpec::Type::torsional;
+  minimise(found.fit, folds ? Method::rugged : Method::multistart, kSeed, kFitEvaluations,
+           [this](const CalibrationEntry& entry) { return misfit(entry); });
+  for (std::size_t j = 0; j < found.fit.parameters.size(); ++j)
+    found.profiles.push_back(profile(found.fit, j));
+  const RunResult best = run_with(found.fit, 1);
+  found.fit.numbers = {{"max1_deg", best.max_deg[0]},
+                       {"max2_deg", best.max_deg[1]},
+                       {"mean1_deg", best.mean_deg[0]},
+                       {"mean2_deg", best.mean_deg[1]}};
+  const SingularValues values = singular_values(sensitivity(found.fit));
+  for (Eigen::Index i = 0; i < values.V.cols(); ++i) {
+    // Four numbers cannot hold five parameters: the last direction moves nothing at all.
+    found.singular_values.push_back(i < values.values.size() ? values.values(i) : 0);
+    const Eigen::VectorXd v = values.V.col(i);
+    found.directions.emplace_back(v.begin(), v.end());
+  }
+  return found;
+}
+
+}  // namespace
+
+const std::vector<FamilyLaw>& family_laws() {
+  using Type = CouplingSpec::Type;
+  static const std::vector<FamilyLaw> laws = [] {
+    std::vector<FamilyLaw> all{
+        {"printed-torsional", "torsional, as printed", e3_spec("world-", 0).coupling},
+        {"printed-linear", "linear, as printed", e4_spec(0).coupling},
+        consistent("torsional-world", "torsional, world orientation", Type::torsional,
+                   Measure::world, Treatment::explicit_),
+        consistent("torsional-joint", "torsional, joint angle", Type::torsional, Measure::joint,
+                   Treatment::explicit_),
+        consistent("linear", "linear", Type::linear, Measure::world, Treatment::explicit_),
+        consistent("torsional-world-implicit", "torsional, world orientation, implicit",
+                   Type::torsional, Measure::world, Treatment::implicit),
+        consistent("torsional-joint-implicit", "torsional, joint angle, implicit", Type::torsional,
+                   Measure::joint, Treatment::implicit),
+        consistent("linear-implicit", "linear, implicit", Type::linear, Measure::world,
+                   Treatment::implicit)};
+    return all;
+  }();
+  return laws;
+}
+
+const FamilyLaw& family_law(const std::string& name) {
+  for (const FamilyLaw& law : family_laws())
+    if (law.name == name) return law;
+  throw std::out_of_range("no law " + name);
+}
+
+double table_misfit(const RunResult& result, const PaperRow& row) {
+  if (!result.stable) return 1e5;
+  double worst = 0;
+  for (std::size_t j = 0; j < 2; ++j)
+    worst = std::max({worst, std::abs(result.max_deg[j] - row.max_deg[j]) / kHalfDigit,
+                      std::abs(result.mean_deg[j] - row.mean_deg[j]) / kHalfDigit});
+  return worst;
+}
+
+double Identification::allowance() const {
+  return std::max(1.0, 2 * fit.objective);
+}
+
+Identification::Interval Identification::interval(const Profile& profile) const {
+  const std::vector<ProfilePoint>& points = profile.points;
+  const auto best = static_cast<std::size_t>(
+      std::min_element(points.begin(), points.end(),
+                       [](const auto& a, const auto& b) { return a.misfit < b.misfit; }) -
+      points.begin());
+  const auto end = [&](int step, double& value, bool& open) {
+    std::size_t i = best;
+    for (;; i = static_cast<std::size_t>(static_cast<int>(i) + step)) {
+      open = step < 0 ? i == 0 : i + 1 == points.size();
+      value = points[i].value;
+      if (open) return;
+      const ProfilePoint& next = points[static_cast<std::size_t>(static_cast<int>(i) + step)];
+      if (next.misfit <= allowance()) continue;
+      const double inside = std::log(std::max(points[i].misfit, 1e-12));
+      const double share = (std::log(allowance()) - inside) / (std::log(next.misfit) - inside);
+      value *= std::pow(next.value / value, std::clamp(share, 0.0, 1.0));
+      return;
+    }
+  };
+  Interval found;
+  end(-1, found.low, found.open_low);
+  end(1, found.high, found.open_high);
+  return found;
+}
+
+std::vector<Identification> identify(const StudyInputs& inputs, Progress& progress) {
+  struct Asked {
+    std::string row;
+    const FamilyLaw* law;
+    double rate;
+  };
+  std::vector<Asked> asked;  // the long ones first
+  std::vector<double> rates = inputs.settings.identification_rates_hz;
+  std::sort(rates.rbegin(), rates.rend());
+  for (const double rate : rates)
+    for (const char* row : {"E3", "E4"})
+      for (const FamilyLaw& law : family_laws()) asked.push_back({row, &law, rate});
+  std::vector<Identification> found(asked.size());
+  double all = 0, done = 0;  // in steps of the simulation
+  for (const Asked& a : asked) all += a.rate;
+  progress.stage("what Table 2 leaves open", 1);
+  std::mutex mutex;
+  std::size_t next = 0;
+  const auto work = [&] {
+    for (;;) {
+      std::size_t mine = 0;
+      {
+        const std::scoped_lock lock(mutex);
+        if (next == asked.size()) return;
+        mine = next++;
+      }
+      const Asked& a = asked[mine];
+      found[mine] = Question(inputs, *a.law, a.row, a.rate).answer();
+      const std::scoped_lock lock(mutex);
+      progress.advance((done += a.rate) / all);
+    }
+  };
+  auto second = std::async(std::launch::async, work);
+  work();
+  second.get();
+  return found;
+}
+
+}  // namespace twinarm
