@@ -56,18 +56,19 @@ void KinematicRobot::stand_at(const State<double>& x) {
 void KinematicRobot::begin_step(double t, double h) {
   if (started_ && start_.x.t == t && end_.x.t == t + h) return;
   if (started_ && end_.x.t == t) std::swap(start_, end_);  // its pose is known already
-  set(start_, t, t + h);
-  set(end_, t + h, t);
+  // Kinematics are the dear part: once a step, for the start was the end of the step before.
+  const bool start_moved = look(start_, t, t + h);
+  bool end_moved = look(end_, t + h, t);
   middle_.x.t = std::numeric_limits<double>::quiet_NaN();
   if (rates_ == KvrRates::backward_difference) {
     for (std::size_t j = 0; j < iq_.size(); ++j) {
-      start_.x.qd[iv_[j]] = difference_[j];
       difference_[j] = (end_.x.q[iq_[j]] - start_.x.q[iq_[j]]) / h;
+      end_moved = end_moved || end_.x.qd[iv_[j]] != difference_[j];
       end_.x.qd[iv_[j]] = difference_[j];
     }
-    forward_kinematics(model_, start_.x, start_.k);
-    forward_kinematics(model_, end_.x, end_.k);
   }
+  if (start_moved) pose(start_);
+  if (end_moved) pose(end_);
   started_ = true;
 }
 
@@ -79,6 +80,10 @@ const KvrSample& KinematicRobot::at(double t) {
 }
 
 void KinematicRobot::set(KvrSample& sample, double t, double toward) const {
+  if (look(sample, t, toward)) pose(sample);
+}
+
+bool KinematicRobot::look(KvrSample& sample, double t, double toward) const {
   const HandSample hand = hand_.sample(t, toward);
   bool changed = std::isnan(sample.x.t);
   const auto put = [&](double& place, double value) {
@@ -88,12 +93,16 @@ void KinematicRobot::set(KvrSample& sample, double t, double toward) const {
   sample.x.t = t;
   for (std::size_t j = 0; j < iq_.size(); ++j) {
     put(sample.x.q[iq_[j]], mapping_.robot_angle(hand, j));
-    if (rates_ != KvrRates::none) put(sample.x.qd[iv_[j]], mapping_.robot_rate(hand, j));
+    if (rates_ == KvrRates::from_hand) put(sample.x.qd[iv_[j]], mapping_.robot_rate(hand, j));
+    if (rates_ == KvrRates::backward_difference) put(sample.x.qd[iv_[j]], difference_[j]);
   }
   if (gripper_ > 0)
     put(sample.x.q[model_.iq[static_cast<std::size_t>(gripper_)]],
         hand.button ? gripper_closed_ : gripper_open_);
-  if (!changed) return;
+  return changed;
+}
+
+void KinematicRobot::pose(KvrSample& sample) const {
   apply_mimics(model_, sample.x);
   forward_kinematics(model_, sample.x, sample.k);
 }

@@ -51,6 +51,9 @@ class KinematicRobot {
 
  private:
   void set(KvrSample& sample, double t, double toward) const;
+  // The hand's angles and rates into the sample; false: nothing has changed.
+  bool look(KvrSample& sample, double t, double toward) const;
+  void pose(KvrSample& sample) const;
 
   const Model<double>& model_;
   const HandSource& hand_;

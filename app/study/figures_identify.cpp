@@ -33,7 +33,8 @@ void draw_identification(Gnuplot& gnuplot, const StudyResults& results) {
     tics += fmt::format("{}{} {}", l == 0 ? "" : ", ", in_quotes(laws[l].words),
                         rows - 1 - static_cast<double>(l));
   std::string script = fmt::format(
-      "set multiplot\nset logscale x\nset xrange [{}:{}]\nset yrange [-0.6:{}]\n"
+      "set multiplot\nset tics scale 0.5\nset logscale x\nset xrange [{}:{}]\nset yrange "
+      "[-0.6:{}]\n"
       "set xtics ('1/10' 0.1, '1/3' 0.333, '1' 1, '3' 3, '10' 10)\nunset key\nset grid x\n",
       1 / kWidest, kWidest, rows - 0.4);
   for (std::size_t r = 0; r < 2; ++r) {
@@ -61,7 +62,7 @@ void draw_identification(Gnuplot& gnuplot, const StudyResults& results) {
           "set bmargin at screen {}\n{}\n{}\nset title '{}' offset 0,-0.6\n",
           0.26 + 0.148 * static_cast<double>(p), 0.395 + 0.148 * static_cast<double>(p),
           r == 0 ? 0.94 : 0.46, r == 0 ? 0.56 : 0.08,
-          p == 0 ? "set ytics (" + tics + ")" : "set ytics format ''",
+          p == 0 ? "set ytics (" + tics + ")" : "unset ytics",
           r == 1 ? "set xlabel 'over the best'" : "unset xlabel",
           fmt::format("{}, {}", row, names[p]));
       std::string plots;

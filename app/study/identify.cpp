@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kHalfDigit = 0.05;  // [deg]
 constexpr unsigned kSeed = 1;
-constexpr int kFitEvaluations = 1600, kRefitEvaluations = 80;
+constexpr int kFitEvaluations = 4000, kRefitEvaluations = 150, kRounds = 3;
 // Held values of a profile, as factors of the best one: walked outwards, each from its neighbour.
 constexpr std::array<double, 5> kFactors{1.1, 1.3, 2, 4, 10};
 
@@ -45,7 +45,8 @@ class Question {
   }
   Eigen::MatrixXd sensitivity(const CalibrationEntry& entry) const;
   ProfilePoint refit(CalibrationEntry& entry, std::size_t held) const;
-  Profile profile(const CalibrationEntry& best, std::size_t held) const;
+  // `better`: the best fit that was met on the way.
+  Profile profile(const CalibrationEntry& best, std::size_t held, CalibrationEntry& better) const;
 
   const StudyInputs& inputs_;
   const FamilyLaw& law_;
@@ -107,10 +108,12 @@ ProfilePoint Question::refit(CalibrationEntry& entry, std::size_t held) const {
   minimise(free, Method::local, kSeed, kRefitEvaluations,
            [&](const CalibrationEntry& some) { return misfit(whole(some)); });
   entry = whole(free);
+  entry.objective = free.objective;
   return {fixed.value, free.objective, run_with(entry, kOtherSweep).max_deg};
 }
 
-Profile Question::profile(const CalibrationEntry& best, std::size_t held) const {
+Profile Question::profile(const CalibrationEntry& best, std::size_t held,
+                          CalibrationEntry& better) const {
   Profile profile;
   const Parameter& p = best.parameters[held];
   profile.parameter = p.name;
@@ -123,6 +126,7 @@ Profile Question::profile(const CalibrationEntry& best, std::size_t held) const 
       if (value < p.low || value > p.high) break;
       walker.parameters[held].value = value;
       profile.points.push_back(refit(walker, held));
+      if (walker.objective < better.objective) better = walker;
     }
   }
   std::sort(profile.points.begin(), profile.points.end(),
@@ -140,8 +144,18 @@ Identification Question::answer() const {
   const bool folds = law_.coupling.printed && law_.coupling.type == CouplingSpec::Type::torsional;
   minimise(found.fit, folds ? Method::rugged : Method::multistart, kSeed, kFitEvaluations,
            [this](const CalibrationEntry& entry) { return misfit(entry); });
-  for (std::size_t j = 0; j < found.fit.parameters.size(); ++j)
-    found.profiles.push_back(profile(found.fit, j));
+  // A profile that meets a better fit than the best begins the search anew from there.
+  for (int round = 0; round < kRounds; ++round) {
+    CalibrationEntry better = found.fit;
+    found.profiles.clear();
+    for (std::size_t j = 0; j < found.fit.parameters.size(); ++j)
+      found.profiles.push_back(profile(found.fit, j, better));
+    if (better.objective > 0.95 * found.fit.objective || round + 1 == kRounds) break;
+    minimise(better, Method::local, kSeed, kFitEvaluations / 4,
+             [this](const CalibrationEntry& entry) { return misfit(entry); });
+    better.evaluations += found.fit.evaluations;
+    found.fit = better;
+  }
   const RunResult best = run_with(found.fit, 1);
   found.fit.numbers = {{"max1_deg", best.max_deg[0]},
                        {"max2_deg", best.max_deg[1]},

@@ -81,6 +81,26 @@ ordered_json search_json(const StudyResults& results) {
   return rows;
 }
 
+// What a row leaves open of a law's parameters (docs/study.md).
+ordered_json identification_json(const Identification& found) {
+  ordered_json json = {{"row", found.row},
+                       {"law", found.law},
+                       {"rate", found.fit.rate},
+                       {"misfit", found.fit.objective},
+                       {"numbers", found.fit.numbers},
+                       {"singular_values", found.singular_values},
+                       {"parameters", ordered_json::array()}};
+  for (std::size_t j = 0; j < found.profiles.size(); ++j) {
+    const Identification::Interval in = found.interval(found.profiles[j]);
+    json["parameters"].push_back({{"name", found.profiles[j].parameter},
+                                  {"value", found.fit.parameters[j].value},
+                                  {"low", in.low},
+                                  {"high", in.high},
+                                  {"open", {in.open_low, in.open_high}}});
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string study_json(const StudyResults& results, const std::string& report_path) {
@@ -99,6 +119,9 @@ std::string study_json(const StudyResults& results, const std::string& report_pa
   root["obstacle"] = ordered_json::array();
   for (const ObstacleRun& run : results.obstacle) root["obstacle"].push_back(obstacle_json(run));
   root["search"] = search_json(results);
+  root["left_open"] = ordered_json::array();
+  for (const Identification& found : results.identifications)
+    root["left_open"].push_back(identification_json(found));
   root["answer"] = results.answer;
   root["optimiser"] = results.calibration.optimiser;
   root["calibration_seed"] = results.calibration.seed;

@@ -123,9 +123,12 @@ std::string identification_section(const StudyResults& results, const Gallery& g
          "<b>Max at half speed</b>: what all these parameters, equally good on the row, say of "
          "sweeps of 2 s.</p>\n" +
          verdict(all) + row_table(all, "E3") + row_table(all, "E4") +
-         gallery.figure("identify",
-                        "How far each parameter can go, relative to its best value, per law. E3 "
-                        "above, E4 below; a bar that ends at the frame is open.");
+         gallery.figure(
+             "identify",
+             "How far each parameter can go, relative to its best value, per law; "
+             "within a law the lower rate stands above. E3 above, E4 below. Wide and "
+             "coloured: the law agrees with the row to the digit. Thin and grey: it does "
+             "not. A bar that ends at the frame is open.");
 }
 
 }  // namespace twinarm

@@ -72,10 +72,21 @@ class CommandLine(unittest.TestCase):
         self.assertLessEqual({"trial/printed-linear/60", "held/printed-linear/60-held",
                               "implicit/linear/1000", "ablation/folded"}, names)
         self.assertEqual(len(study["answer"]), 5)
+        self.assertGreaterEqual(len(study["left_open"]), 16)
+        for fit in study["left_open"]:  # what is said of a fit follows from its four numbers
+            numbers = [fit["numbers"][f"{kind}{joint}_deg"]
+                       for kind in ("max", "mean") for joint in (1, 2)]
+            misfit = max(abs(value - number) / 0.05
+                         for value, number in zip(numbers, published[fit["row"]]))
+            self.assertAlmostEqual(fit["misfit"], misfit, delta=1e-9 * misfit, msg=fit)
+            self.assertLess(fit["singular_values"][-1], 1e-9)  # four numbers, five parameters
+            for parameter in fit["parameters"]:
+                self.assertLessEqual(parameter["low"], parameter["value"] * (1 + 1e-12))
+                self.assertGreaterEqual(parameter["high"], parameter["value"] * (1 - 1e-12))
         report = pathlib.Path(study["report"]).read_text(encoding="utf-8")
         for outside in ("src=\"http", "href=\"http", "@import", "<script src"):
             self.assertNotIn(outside, report)
-        self.assertEqual(report.count("<svg"), 10)
+        self.assertEqual(report.count("<svg"), 11)
         self.assertEqual(report.count("data:image/png;base64"), 5)
         self.assertEqual([f for f in self.written() if f.endswith(".tmp")], [])
 
