@@ -21,6 +21,7 @@ void draw_identification(Gnuplot& gnuplot, const StudyResults& results) {
   if (all.empty()) return;
   constexpr const char* kColours[] = {palette::torsional, palette::linear};
   const std::vector<std::string> names{"k1", "b1", "k2", "b2", "mass of arm 2"};
+  const std::vector<std::string> keys{"k1", "b1", "k2", "b2", "arm2_mass_scale"};
   std::vector<double> rates;
   for (const Identification& found : all) rates.push_back(found.fit.rate);
   std::sort(rates.begin(), rates.end());
@@ -49,8 +50,12 @@ void draw_identification(Gnuplot& gnuplot, const StudyResults& results) {
             laws.begin());
         const auto rate = static_cast<double>(
             std::find(rates.begin(), rates.end(), found.fit.rate) - rates.begin());
-        const Identification::Interval in = found.interval(found.profiles[p]);
-        const double best = found.fit.parameters[p].value;
+        const auto profile =
+            std::find_if(found.profiles.begin(), found.profiles.end(),
+                         [&](const Profile& some) { return some.parameter == keys[p]; });
+        if (profile == found.profiles.end()) continue;
+        const Identification::Interval in = found.interval(*profile);
+        const double best = found.fit.value(keys[p]);
         Bars& bars = found.fit.objective <= 1 ? agree : fall_short;
         bars.y.push_back(rows - 1 - law +
                          each * ((static_cast<double>(rates.size()) - 1) / 2 - rate));

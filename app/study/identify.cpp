@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kHalfDigit = 0.05;  // [deg]
 constexpr unsigned kSeed = 1;
-constexpr int kFitEvaluations = 4000, kRefitEvaluations = 150, kRounds = 3;
+constexpr int kFitEvaluations = 3000, kRefitEvaluations = 100, kRounds = 3;
 // Held values of a profile, as factors of the best one: walked outwards, each from its neighbour.
 constexpr std::array<double, 5> kFactors{1.1, 1.3, 2, 4, 10};
 
@@ -27,6 +27,15 @@ FamilyLaw consistent(const char* name, const char* words, CouplingSpec::Type typ
   law.coupling.measure = measure;
   law.coupling.treatment = treatment;
   return law;
+}
+
+// Of welds of the points that linear springs hold, at the start pose.
+Gains weld_gains(const StudyRobot& robot, const CouplingSpec& weld) {
+  std::vector<Spring> springs = robot.springs(0, 0, 0, 0);
+  for (Spring& spring : springs)
+    spring = weld_spring(spring.name, robot.dvr_model(weld.type), robot.start_state(), spring.body,
+                         spring.p_L, weld.reference);
+  return {springs[0].k, springs[0].b, springs[1].k, springs[1].b};
 }
 
 // One row, one law, one rate: parameters to the four numbers and back.
@@ -55,7 +64,11 @@ class Question {
 };
 
 std::vector<Parameter> Question::parameters() const {
-  const bool points = law_.coupling.type != CouplingSpec::Type::torsional;
+  if (law_.coupling.type == CouplingSpec::Type::weld_like)
+    return {{"time_constant", 1e-3, 1, 0},
+            {"damping_ratio", 0.01, 10, 0},
+            {"arm2_mass_scale", 0.2, 4, 0}};
+  const bool points = facts_of(law_.coupling.type, law_.coupling.printed).at_point;
   const double k_low = points ? 100 : 3, k_high = points ? 1e7 : 3e5;  // [N/m], [N m/rad]
   const double b_low = points ? 0.1 : 3e-3, b_high = points ? 3e4 : 1e3;
   return {{"k1", k_low, k_high, 0},
@@ -73,7 +86,13 @@ RunResult Question::run_with(const CalibrationEntry& entry, double sweep) const 
   spec.coupling = law_.coupling;
   spec.rate = rate_;
   if (!law_.coupling.printed) spec.kvr_rates = KvrRates::backward_difference;
-  spec.gains = entry.gains();
+  if (law_.coupling.type == CouplingSpec::Type::weld_like) {
+    spec.coupling.reference.time_constant = entry.value("time_constant");
+    spec.coupling.reference.damping_ratio = entry.value("damping_ratio");
+    spec.gains = weld_gains(robot, spec.coupling);
+  } else {
+    spec.gains = entry.gains();
+  }
   return run(robot, AutomaticMotion(HandMapping{}, sweep), spec);
 }
 
@@ -189,7 +208,13 @@ const std::vector<FamilyLaw>& family_laws() {
         consistent("torsional-joint-implicit", "torsional, joint angle, implicit", Type::torsional,
                    Measure::joint, Treatment::implicit),
         consistent("linear-implicit", "linear, implicit", Type::linear, Measure::world,
-                   Treatment::implicit)};
+                   Treatment::implicit),
+        consistent("matched", "torsional, full K_q of a linear one", Type::matched, Measure::world,
+                   Treatment::explicit_),
+        consistent("stable-pd", "stable PD at the joints", Type::stable_pd, Measure::joint,
+                   Treatment::explicit_),
+        consistent("weld", "weld of the points, as MuJoCo's", Type::weld_like, Measure::world,
+                   Treatment::explicit_)};
     return all;
   }();
   return laws;

@@ -17,7 +17,9 @@
 
 namespace twinarm {
 
-// A coupling whose gains are asked for. Gains per link: k1, b1, k2, b2.
+// A coupling whose gains are asked for. Gains per link: k1, b1, k2, b2; of a weld its time constant
+// and damping ratio. Not asked: a bushing, which is a linear coupling with more gains, and the god
+// object, which has none and no error.
 struct FamilyLaw {
   std::string name, words;
   CouplingSpec coupling;

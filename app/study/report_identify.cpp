@@ -13,15 +13,24 @@ namespace {
 // before one of the four numbers moves by half of its last digit.
 constexpr double kOpenFactor = 1.25;
 
-std::string interval_cell(const Identification& found, const Profile& profile, double best) {
-  const Identification::Interval in = found.interval(profile);
-  std::string cell = fmt::format("<td>{}<br><span class=small>", rounded(best));
+std::string short_name(const std::string& parameter) {
+  if (parameter == "arm2_mass_scale") return "m";
+  if (parameter == "time_constant") return "T";
+  if (parameter == "damping_ratio") return "ζ";
+  return escaped(parameter);
+}
+
+std::string parameter_words(const Identification& found, std::size_t j) {
+  const Identification::Interval in = found.interval(found.profiles[j]);
+  std::string words =
+      fmt::format("<span class=value>{} = {} <span class=small>",
+                  short_name(found.fit.parameters[j].name), rounded(found.fit.parameters[j].value));
   if (in.open_low && in.open_high)
-    cell += "<span class=no>open</span>";
+    words += "<span class=no>open</span>";
   else
-    cell += fmt::format("{}{} .. {}{}", in.open_low ? "&lt; " : "", rounded(in.low),
-                        in.open_high ? "&gt; " : "", rounded(in.high));
-  return cell + "</span></td>";
+    words += fmt::format("[{}{}, {}{}]", in.open_low ? "&lt; " : "", rounded(in.low),
+                         in.open_high ? "&gt; " : "", rounded(in.high));
+  return words + "</span></span> ";
 }
 
 // The combinations that the row does not hold: "k1 b1^-0.9", those parts that weigh.
@@ -68,8 +77,9 @@ std::string law_row(const Identification& found) {
       fmt::format("<tr><td class=text>{}</td><td>{:g}</td><td><span class={}>{}</span></td>",
                   escaped(family_law(found.law).words), found.fit.rate, agrees ? "yes" : "no",
                   rounded(found.fit.objective));
-  for (std::size_t j = 0; j < found.profiles.size(); ++j)
-    html += interval_cell(found, found.profiles[j], found.fit.parameters[j].value);
+  html += "<td class=text>";
+  for (std::size_t j = 0; j < found.profiles.size(); ++j) html += parameter_words(found, j);
+  html += "</td>";
   return html + fmt::format("<td class=text>{}</td><td>{}</td></tr>\n", open_combinations(found),
                             other_motion(found));
 }
@@ -82,8 +92,8 @@ std::string row_table(const std::vector<Identification>& all, const std::string&
   if (rows.empty()) return "";
   return "<h3>" + row +
          "</h3>\n<div class=scroll><table class=dense><thead><tr><th class=text>law</th>"
-         "<th>rate<br>Hz</th><th>misfit</th><th>k1</th><th>b1</th><th>k2</th><th>b2</th>"
-         "<th>mass of<br>arm 2</th><th class=text>not held</th>"
+         "<th>rate<br>Hz</th><th>misfit</th><th class=text>parameters, and how far they can go</th>"
+         "<th class=text>not held</th>"
          "<th>max at half speed,<br>degrees, joints 1 / 2</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div>\n";
 }
@@ -114,9 +124,10 @@ std::string identification_section(const StudyResults& results, const Gallery& g
   const std::vector<Identification>& all = results.identifications;
   if (all.empty()) return "";
   return "<h2 id=open>What Table 2 leaves open</h2>\n<p>For each law with its own gains per link "
-         "and one unknown mass: five parameters, and four published numbers to a tenth of a "
-         "degree. <b>Misfit</b>: the largest distance of the four in half digits (0.05°); up to 1 "
-         "the row cannot tell. Under each value: how far the parameter can go while all others are "
+         "and one unknown mass m (of arm 2, over the assumed one): five parameters, and four "
+         "published numbers to a tenth of a degree. <b>Misfit</b>: the largest distance of the "
+         "four in half digits (0.05°); up to 1 "
+         "the row cannot tell. In brackets: how far the parameter can go while all others are "
          "fitted again and the misfit stays within 1 (or twice the best one, where none agrees); "
          "<span class=no>open</span>: over the whole range that was asked. <b>Not held</b>: "
          "products of parameters that can change by a quarter before the row shows it. "

@@ -79,7 +79,8 @@ class CommandLine(unittest.TestCase):
             misfit = max(abs(value - number) / 0.05
                          for value, number in zip(numbers, published[fit["row"]]))
             self.assertAlmostEqual(fit["misfit"], misfit, delta=1e-9 * misfit, msg=fit)
-            self.assertLess(fit["singular_values"][-1], 1e-9)  # four numbers, five parameters
+            if len(fit["parameters"]) == 5:  # of which four numbers cannot hold a combination
+                self.assertEqual(fit["singular_values"][-1], 0)
             for parameter in fit["parameters"]:
                 self.assertLessEqual(parameter["low"], parameter["value"] * (1 + 1e-12))
                 self.assertGreaterEqual(parameter["high"], parameter["value"] * (1 - 1e-12))
