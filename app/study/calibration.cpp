@@ -11,7 +11,7 @@
 
 namespace twinarm {
 
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 double CalibrationEntry::value(const std::string& parameter) const {
   for (const Parameter& p : parameters)
@@ -47,15 +47,15 @@ Calibration read_calibration(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream) throw fail("the calibration cannot be opened");
   try {
-    const json root = json::parse(stream);
+    const ordered_json root = ordered_json::parse(stream);
     Calibration calibration;
     calibration.optimiser = root.at("optimiser");
     calibration.seed = root.at("seed");
-    for (const json& item : root.at("entries")) {
+    for (const ordered_json& item : root.at("entries")) {
       CalibrationEntry entry;
       entry.name = item.at("name");
       entry.rate = item.at("rate_hz");
-      for (const json& p : item.at("parameters"))
+      for (const ordered_json& p : item.at("parameters"))
         entry.parameters.push_back({p.at("name"), p.at("low"), p.at("high"), p.at("value")});
       entry.objective = item.at("objective");
       entry.evaluations = item.at("evaluations");
@@ -63,21 +63,24 @@ Calibration read_calibration(const std::filesystem::path& file) {
       calibration.entries[entry.name] = entry;
     }
     return calibration;
-  } catch (const json::exception& error) {
+  } catch (const ordered_json::exception& error) {
     throw fail(fmt::format("it is not a calibration: {}", error.what()));
   }
 }
 
 void write_calibration(const Calibration& calibration, const std::filesystem::path& file) {
-  json root;
+  ordered_json root;
   root["about"] =
       "Gains that the paper does not publish, found by search. Made by `twinarm study "
       "--recalibrate`; objective, bounds and numbers of each entry: docs/study.md.";
-  root["entries"] = json::array();
+  root["entries"] = ordered_json::array();
   for (const auto& [name, entry] : calibration.entries) {
-    json item = {{"evaluations", entry.evaluations}, {"name", name},
-                 {"numbers", entry.numbers},         {"objective", entry.objective},
-                 {"parameters", json::array()},      {"rate_hz", entry.rate}};
+    ordered_json item = {{"evaluations", entry.evaluations},
+                         {"name", name},
+                         {"numbers", entry.numbers},
+                         {"objective", entry.objective},
+                         {"parameters", ordered_json::array()},
+                         {"rate_hz", entry.rate}};
     for (const Parameter& p : entry.parameters)
       item["parameters"].push_back(
           {{"high", p.high}, {"low", p.low}, {"name", p.name}, {"value", p.value}});

@@ -10,32 +10,32 @@
 
 namespace twinarm {
 
-using nlohmann::json;
+using nlohmann::ordered_json;
 
 void write_identifications(const std::vector<Identification>& all,
                            const std::filesystem::path& file) {
-  json root;
+  ordered_json root;
   root["about"] =
       "What Table 2 leaves open of a coupling's gains. Made by `twinarm study --identify`; what "
       "stands here: docs/study.md.";
   root["optimiser"] = optimiser_name();
-  root["entries"] = json::array();
+  root["entries"] = ordered_json::array();
   for (const Identification& found : all) {
-    json item = {{"row", found.row},
-                 {"law", found.law},
-                 {"rate_hz", found.fit.rate},
-                 {"misfit", found.fit.objective},
-                 {"evaluations", found.fit.evaluations},
-                 {"numbers", found.fit.numbers},
-                 {"singular_values", found.singular_values},
-                 {"directions", found.directions},
-                 {"parameters", json::array()},
-                 {"profiles", json::array()}};
+    ordered_json item = {{"row", found.row},
+                         {"law", found.law},
+                         {"rate_hz", found.fit.rate},
+                         {"misfit", found.fit.objective},
+                         {"evaluations", found.fit.evaluations},
+                         {"numbers", found.fit.numbers},
+                         {"singular_values", found.singular_values},
+                         {"directions", found.directions},
+                         {"parameters", ordered_json::array()},
+                         {"profiles", ordered_json::array()}};
     for (const Parameter& p : found.fit.parameters)
       item["parameters"].push_back(
           {{"name", p.name}, {"low", p.low}, {"high", p.high}, {"value", p.value}});
     for (const Profile& profile : found.profiles) {
-      json points = json::array();
+      ordered_json points = ordered_json::array();
       for (const ProfilePoint& p : profile.points)
         points.push_back({p.value, p.misfit, p.other_max_deg[0], p.other_max_deg[1]});
       item["profiles"].push_back({{"parameter", profile.parameter}, {"points", points}});
@@ -53,8 +53,8 @@ std::vector<Identification> read_identifications(const std::filesystem::path& fi
   if (!stream) throw fail("the identification cannot be opened");
   try {
     std::vector<Identification> all;
-    const json root = json::parse(stream);
-    for (const json& item : root.at("entries")) {
+    const ordered_json root = ordered_json::parse(stream);
+    for (const ordered_json& item : root.at("entries")) {
       Identification& found = all.emplace_back();
       found.row = item.at("row");
       found.law = item.at("law");
@@ -65,17 +65,17 @@ std::vector<Identification> read_identifications(const std::filesystem::path& fi
       found.fit.numbers = item.at("numbers").get<std::map<std::string, double>>();
       found.singular_values = item.at("singular_values").get<std::vector<double>>();
       found.directions = item.at("directions").get<std::vector<std::vector<double>>>();
-      for (const json& p : item.at("parameters"))
+      for (const ordered_json& p : item.at("parameters"))
         found.fit.parameters.push_back({p.at("name"), p.at("low"), p.at("high"), p.at("value")});
-      for (const json& p : item.at("profiles")) {
+      for (const ordered_json& p : item.at("profiles")) {
         Profile& profile = found.profiles.emplace_back();
         profile.parameter = p.at("parameter");
-        for (const json& point : p.at("points"))
+        for (const ordered_json& point : p.at("points"))
           profile.points.push_back({point.at(0), point.at(1), {point.at(2), point.at(3)}});
       }
     }
     return all;
-  } catch (const json::exception& error) {
+  } catch (const ordered_json::exception& error) {
     throw fail(fmt::format("it is not an identification: {}", error.what()));
   }
 }

@@ -14,8 +14,8 @@ namespace twinarm {
 namespace {
 
 constexpr double kHalfDigit = 0.05;  // [deg]
-constexpr unsigned kSeed = 1;
-constexpr int kFitEvaluations = 3000, kRefitEvaluations = 100, kRounds = 3;
+constexpr unsigned kIdentifySeed = 1;
+constexpr int kFirstEvaluations = 3000, kRefitEvaluations = 100, kRounds = 3;
 // Held values of a profile, as factors of the best one: walked outwards, each from its neighbour.
 constexpr std::array<double, 5> kFactors{1.1, 1.3, 2, 4, 10};
 
@@ -124,7 +124,7 @@ ProfilePoint Question::refit(CalibrationEntry& entry, std::size_t held) const {
     all.parameters.insert(all.parameters.begin() + static_cast<std::ptrdiff_t>(held), fixed);
     return all;
   };
-  minimise(free, Method::local, kSeed, kRefitEvaluations,
+  minimise(free, Method::local, kIdentifySeed, kRefitEvaluations,
            [&](const CalibrationEntry& some) { return misfit(whole(some)); });
   entry = whole(free);
   entry.objective = free.objective;
@@ -161,7 +161,7 @@ Identification Question::answer() const {
   found.fit.rate = rate_;
   found.fit.parameters = parameters();
   const bool folds = law_.coupling.printed && law_.coupling.type == CouplingSpec::Type::torsional;
-  minimise(found.fit, folds ? Method::rugged : Method::multistart, kSeed, kFitEvaluations,
+  minimise(found.fit, folds ? Method::rugged : Method::multistart, kIdentifySeed, kFirstEvaluations,
            [this](const CalibrationEntry& entry) { return misfit(entry); });
   // A profile that meets a better fit than the best begins the search anew from there.
   for (int round = 0; round < kRounds; ++round) {
@@ -170,7 +170,7 @@ Identification Question::answer() const {
     for (std::size_t j = 0; j < found.fit.parameters.size(); ++j)
       found.profiles.push_back(profile(found.fit, j, better));
     if (better.objective > 0.95 * found.fit.objective || round + 1 == kRounds) break;
-    minimise(better, Method::local, kSeed, kFitEvaluations / 4,
+    minimise(better, Method::local, kIdentifySeed, kFirstEvaluations / 4,
              [this](const CalibrationEntry& entry) { return misfit(entry); });
     better.evaluations += found.fit.evaluations;
     found.fit = better;

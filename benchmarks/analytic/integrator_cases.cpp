@@ -31,7 +31,7 @@ constexpr double kGoldenStep = 0.01;
 
 constexpr double kSquare = 100;  // w^2 [rad^2/s^2]
 
-CaseScene oscillator() {
+CaseScene undamped_oscillator() {
   ModelBuilder builder;
   builder.set_gravity(Vector3::Zero());
   builder.add_body("mass", 0, "slide", JointType::prismatic, {}, Vector3::UnitX(),
@@ -52,7 +52,7 @@ TrajectoryCase invariant(Integrator integrator) {
               "<p>semi-implicit v<sup>2</sup> + w<sup>2</sup>x<sup>2</sup> &minus; h "
               "w<sup>2</sup>x v, verlet v<sup>2</sup> + w<sup>2</sup>x<sup>2</sup>(1 "
               "&minus; h<sup>2</sup>w<sup>2</sup>/4)</p>",
-          .scene = oscillator,
+          .scene = undamped_oscillator,
           .times = {1, 100, 10000},
           .readings = {"invariant [m2/s2]"},
           .observe =

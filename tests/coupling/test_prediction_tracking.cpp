@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "coupling/prediction.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/coupling/two_link.h"
 
