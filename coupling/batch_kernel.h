@@ -71,23 +71,53 @@ Vec3<S> turn_between(const Mat3<S>& E_D, const double* E_K) {
   return rotation_vector(Mat3<S>{row(E_D.r0), row(E_D.r1), row(E_D.r2)});
 }
 
+// What a spring does to the sums of powers [W]: of the hand, and of what counts in the ledger.
+// Given the products of its offset, the link's velocity and the target's, each with another.
 template <class S>
-TWINARM_KERNEL void pull_world(BatchWork<S>& b, LanePull<S>& pull, const double* row) {
-  const Mat3<S>& E = b.E[pull.body];
+struct SpringPowers {
+  S hand, counted;
+  SpringPowers(const LanePull<S>& pull, const S& e_vK, const S& vD_vK, const S& vK_vK,
+               const S& vD_vD) {
+    const S spring = pull.k * e_vK;
+    hand = spring + pull.b_seen * (vK_vK - vD_vK);  // an absolute damper stands on the ground
+    counted = spring + pull.b_seen * vD_vK - pull.b * vD_vD;
+  }
+  SpringPowers(const LanePull<S>& pull, const Vec3<S>& e, const Vec3<S>& v_D, const Vec3<S>& v_K)
+      : SpringPowers(pull, dot(e, v_K), dot(v_D, v_K), dot(v_K, v_K), dot(v_D, v_D)) {}
+};
+template <class S>
+void add(BatchWork<S>& b, const SpringPowers<S>& powers) {
+  b.hand_power = b.hand_power + powers.hand;
+  b.power = b.power + powers.counted;
+}
+
+// `energy`: the spring's numbers for the sums of powers, or null where they are not wanted now.
+template <class S>
+TWINARM_KERNEL void pull_world(BatchWork<S>& b, const LanePull<S>& pull, const double* row,
+                               const double* energy) {
+  const Mat3<S> E = b.E[pull.body];
   const Vec3<S> phi = turn_between(E, row), w_K = E * spread3<S>(row + 9);
-  if (b.has_energy) pull.phi = phi;
-  Vec3<S> n = pull.k * phi + pull.b_seen * w_K - pull.kb * b.w.v[pull.body].w;
+  const Vec3<S> w_D = b.w.v[pull.body].w;
+  Vec3<S> n = pull.k * phi + pull.b_seen * w_K - pull.kb * w_D;
   if (b.has_bias) n += pull.m_star * b.a_bias[pull.body].w;
   b.w.pA[pull.body].n += -n;
+  if (!energy) return;
+  if (pull.sees == Sees::start)
+    add(b, SpringPowers<S>(pull, phi, w_D, w_K));
+  else
+    add(b, SpringPowers<S>(pull, pull.sees == Sees::end ? turn_between(E, energy) : phi, w_D,
+                           E * spread3<S>(energy + 12)));
 }
 
 template <class S>
-TWINARM_KERNEL void pull_linear(BatchWork<S>& b, const LanePull<S>& pull, const double* row) {
+TWINARM_KERNEL void pull_linear(BatchWork<S>& b, const LanePull<S>& pull, const double* row,
+                                const double* energy) {
+  const Mat3<S> E = b.E[pull.body];
   const Motion<S>& v = b.w.v[pull.body];
-  const Vec3<S>& p = pull.p_B;
-  const Vec3<S> towards =
-      pull.k * (spread3<S>(row) - b.o[pull.body]) + pull.b_seen * spread3<S>(row + 3);
-  Vec3<S> f = b.E[pull.body] * towards - pull.kp - pull.kb * plus_cross(v.v, v.w, p);
+  const Vec3<S>&p = pull.p_B, &o = b.o[pull.body];
+  const Vec3<S> v_D = plus_cross(v.v, v.w, p);
+  const Vec3<S> towards = pull.k * (spread3<S>(row) - o) + pull.b_seen * spread3<S>(row + 3);
+  Vec3<S> f = E * towards - pull.kp - pull.kb * v_D;
   if (b.has_bias) {
     const Motion<S>& a = b.a_bias[pull.body];
     f += pull.m_star * plus_cross(a.v, a.w, p);
@@ -95,16 +125,18 @@ TWINARM_KERNEL void pull_linear(BatchWork<S>& b, const LanePull<S>& pull, const 
   Force<S>& pA = b.w.pA[pull.body];
   pA.n = minus_cross(pA.n, p, f);
   pA.f = pA.f - f;
+  if (energy)
+    add(b,
+        SpringPowers<S>(pull, E * (spread3<S>(energy) - o) - p, v_D, E * spread3<S>(energy + 6)));
 }
 
-// A spring for the energies, in body axes; of a joint the first component alone.
+// A spring at a corner of the motion, in body axes; of a joint the first component alone.
 template <class S>
 struct PullEnds {
   Vec3<S> offset, v_D, v_before, v_after;  // of the target just before and after the moment
 };
 template <class S>
-PullEnds<S> ends_of(const BatchWork<S>& b, const LanePull<S>& pull, const double* row,
-                    bool corner) {
+PullEnds<S> ends_of(const BatchWork<S>& b, const LanePull<S>& pull, const double* row) {
   if (pull.kind == PullKind::joint)
     return {{S(row[0]) - b.x.q[pull.iq], S(0), S(0)},
             {b.x.qd[pull.iv], S(0), S(0)},
@@ -113,51 +145,58 @@ PullEnds<S> ends_of(const BatchWork<S>& b, const LanePull<S>& pull, const double
   const Mat3<S>& E = b.E[pull.body];
   const Motion<S>& v = b.w.v[pull.body];
   const std::size_t velocity = pull.kind == PullKind::world ? 9 : 3;
-  const Vec3<S> after = E * spread3<S>(row + velocity + 3);
-  const Vec3<S> before = corner ? E * spread3<S>(row + velocity) : after;
+  const Vec3<S> before = E * spread3<S>(row + velocity), after = E * spread3<S>(row + velocity + 3);
   if (pull.kind == PullKind::linear)
     return {E * (spread3<S>(row) - b.o[pull.body]) - pull.p_B, plus_cross(v.v, v.w, pull.p_B),
             before, after};
-  // At a corner the step that follows may have another length, or be none.
-  return {pull.is_implicit || corner ? turn_between(E, row) : pull.phi, v.w, before, after};
+  return {turn_between(E, row), v.w, before, after};
 }
 
+// The moment of step n: half of each power belongs to the step before, half to this one.
 template <class S>
-struct HandAndWork {
-  S hand, counted;
-};
-// Power of the hand, and of what counts in the ledger. An absolute damper stands on the ground.
-template <class S>
-HandAndWork<S> powers_of(const LanePull<S>& pull, const PullEnds<S>& e, const Vec3<S>& v_K) {
-  const S spring = pull.k * dot(e.offset, v_K), across = dot(e.v_D, v_K);
-  const S b_hand = pull.is_absolute ? S(0) : pull.b;
-  return {spring + b_hand * (dot(v_K, v_K) - across),
-          spring + pull.b_seen * across - pull.b * dot(e.v_D, e.v_D)};
-}
-
-// At the moment of step n: half of each power belongs to the step before, half to this one.
-template <class S>
-TWINARM_KERNEL void add_works(BatchWork<S>& b, std::size_t n) {
+TWINARM_KERNEL void add_works_at_corner(BatchWork<S>& b, std::size_t n) {
   const double* row = b.energy + n * b.energy_stride;
-  const bool corner = b.is_corner[n] != 0;
   const S before = S(0.5) * b.h_before, after = n < b.steps ? S(0.5) * b.h : S(0);
-  S hand_before = b.hand_work, hand_after(0), work = b.work, held(0);
-  for (std::size_t d = 0; b.has_damping && d < b.x.qd.size(); ++d)
-    work = work - (before + after) * (b.model.damping[d] * b.x.qd[d] * b.x.qd[d]);
+  S hand_before = b.hand_work, hand_after(0), held(0);
+  b.work = b.work + (before + after) * b.power;  // of the joints' damping
   for (const LanePull<S>& pull : b.pulls) {
-    const PullEnds<S> e = ends_of(b, pull, row + pull.energy, corner);
-    const HandAndWork<S> now = powers_of(pull, e, e.v_after);
-    const HandAndWork<S> was = corner ? powers_of(pull, e, e.v_before) : now;
-    work = work + before * was.counted + after * now.counted;
+    const PullEnds<S> e = ends_of(b, pull, row + pull.energy);
+    const SpringPowers<S> was(pull, e.offset, e.v_D, e.v_before),
+        is(pull, e.offset, e.v_D, e.v_after);
+    b.work = b.work + before * was.counted + after * is.counted;
     hand_before = hand_before + before * was.hand;
-    hand_after = hand_after + after * now.hand;
-    if (corner) held = held + S(0.5) * pull.k * dot(e.offset, e.offset);
+    hand_after = hand_after + after * is.hand;
+    held = held + S(0.5) * pull.k * dot(e.offset, e.offset);
   }
-  b.work = work;
   b.hand_work_least = select(hand_before < b.hand_work_least, hand_before, b.hand_work_least);
   b.hand_work = hand_before + hand_after;
   if (n == 0) b.spring_energy_at_start = held;
   if (n == b.steps) b.spring_energy = held;
+}
+
+// Elsewhere both halves are the same; the springs have added their powers while they pulled.
+template <class S>
+TWINARM_KERNEL void add_works(BatchWork<S>& b, std::size_t n) {
+  const double* row = b.energy + n * b.energy_stride;
+  for (const LanePull<S>& pull : b.pulls) {
+    if (pull.kind != PullKind::joint) continue;
+    const double* target = row + pull.energy;
+    const S e = S(target[0]) - b.x.q[pull.iq], v_K(target[2]);
+    const S& v_D = b.x.qd[pull.iv];
+    add(b, SpringPowers<S>(pull, e * v_K, v_D * v_K, v_K * v_K, v_D * v_D));
+  }
+  b.work = b.work + b.h * b.power;
+  const S half = S(0.5) * b.h * b.hand_power, before = b.hand_work + half;
+  b.hand_work_least = select(before < b.hand_work_least, before, b.hand_work_least);
+  b.hand_work = before + half;
+}
+
+template <class S>
+void start_powers(BatchWork<S>& b) {
+  b.power = b.hand_power = S(0);
+  if (b.has_damping)
+    for (std::size_t d = 0; d < b.x.qd.size(); ++d)
+      b.power = b.power - b.model.damping[d] * b.x.qd[d] * b.x.qd[d];
 }
 
 // The hook of aba(): what acts by where the bodies are.
@@ -170,11 +209,18 @@ struct LanePulls {
   void felt(const T&...) const {}
   void moved() const {
     place_bodies(b);
-    for (LanePull<S>& pull : b.pulls) {
-      if (pull.kind == PullKind::world) pull_world(b, pull, row + pull.motion);
-      if (pull.kind == PullKind::linear) pull_linear(b, pull, row + pull.motion);
+    const bool smooth = b.has_energy && b.is_corner[n] == 0;
+    if (b.has_energy) start_powers(b);
+    for (const LanePull<S>& pull : b.pulls) {
+      const double* target = row + pull.motion;
+      const double* energy = smooth ? b.energy + n * b.energy_stride + pull.energy : nullptr;
+      if (pull.kind == PullKind::world) pull_world(b, pull, target, energy);
+      if (pull.kind == PullKind::linear) pull_linear(b, pull, target, energy);
     }
-    if (b.has_energy) add_works(b, n);
+    if (smooth)
+      add_works(b, n);
+    else if (b.has_energy)
+      add_works_at_corner(b, n);
     b.model.I = b.model.I_felt.data();
   }
 };

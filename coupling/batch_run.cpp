@@ -8,6 +8,7 @@
 #include "coupling/batch_lanes.h"
 #include "coupling/batch_lump.h"
 #include "coupling/batch_motion.h"
+#include "coupling/batch_spring.h"
 #include "coupling/batch_work.h"
 #include "solver/convert.h"
 #include "solver/dynamics.h"
@@ -31,26 +32,6 @@ void run_batch(BatchWork<Batch<8>>& work);
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-PullKind kind_of(const BatchSpring& spring) {
-  if (spring.type == CouplingSpec::Type::linear) return PullKind::linear;
-  return spring.measure == Measure::world ? PullKind::world : PullKind::joint;
-}
-
-// m* of the treatment (solver/spring.h).
-double m_star(Treatment treatment, double h, const BatchCell::Gains& gains) {
-  const double by_damper = treatment == Treatment::explicit_ ? 0 : h * gains.b;
-  return by_damper + (treatment == Treatment::implicit ? h * h * gains.k : 0);
-}
-
-// A weightless flywheel, or a particle at p.
-Inertia<double> weightless(PullKind kind, double m, const Vec3<double>& p) {
-  if (kind == PullKind::world) return {0, {}, Sym3<double>::scaled_identity(m)};
-  return {m,
-          m * p,
-          {m * (p.y * p.y + p.z * p.z), m * (p.x * p.x + p.z * p.z), m * (p.x * p.x + p.y * p.y),
-           -m * p.x * p.y, -m * p.x * p.z, -m * p.y * p.z}};
-}
 
 // Cells of equal key share a table, and so may share a batch.
 std::vector<double> key_of(const BatchCell& cell) {
@@ -142,8 +123,7 @@ class BatchRun::DriverOf final : public Driver {
       pull.iv = setup_.model->iv[body];
       pull.motion = motion_.places[s].motion;
       pull.energy = motion_.places[s].energy;
-      pull.is_absolute = spring.absolute_damper;
-      pull.is_implicit = spring.treatment == Treatment::implicit;
+      pull.sees = sees_of(spring.treatment);
       work_.pulls.push_back(pull);
       const bool at_joint = pull.kind == PullKind::joint;
       work_.has_joint_pulls |= at_joint;
@@ -209,32 +189,15 @@ class BatchRun::DriverOf final : public Driver {
       set_lane(work_.forces.armature[i], lane, h * lumped_.model.damping[i]);
     std::vector<Inertia<double>> felt = inertias_[lane];
     for (std::size_t s = 0; s < work_.pulls.size(); ++s)
-      load_pull(s, lane, cell.springs[s], h, felt[work_.pulls[s].body]);
+      load_spring(work_, s, lane, setup_.springs[s], cell.springs[s], h, point_of(s, cell),
+                  felt[work_.pulls[s].body]);
     for (std::size_t i = 0; i < felt.size(); ++i) set_lane(work_.model.I_felt[i], lane, felt[i]);
   }
-  void load_pull(std::size_t s, std::size_t lane, const BatchCell::Gains& gains, double h,
-                 Inertia<double>& felt) {
-    const BatchSpring& spring = setup_.springs[s];
-    const auto body = static_cast<std::size_t>(spring.body);
-    LanePull<S>& pull = work_.pulls[s];
-    const double look_ahead = spring.treatment == Treatment::implicit ? h : 0;
-    const double m = m_star(spring.treatment, h, gains);
+  // The spring's point in the axes of the lumped body.
+  Vec3<double> point_of(std::size_t s, const BatchCell& cell) const {
+    const auto body = static_cast<std::size_t>(setup_.springs[s].body);
     const Transform<double>& X = lumped_.X[body];
-    const Vec3<double> p =
-        X.r + transpose_times(X.E, setup_.model->turn[body] * from_eigen(gains.p_L));
-    set_lane(pull.k, lane, gains.k);
-    set_lane(pull.b, lane, gains.b);
-    set_lane(pull.kb, lane, gains.k * look_ahead + gains.b);
-    set_lane(pull.b_seen, lane, spring.absolute_damper ? 0 : gains.b);
-    set_lane(pull.m_star, lane, m);
-    set_lane(pull.p_B, lane, p);
-    set_lane(pull.kp, lane, gains.k * p);
-    if (pull.kind == PullKind::joint) {
-      S& armature = work_.forces.armature[pull.iv];
-      set_lane(armature, lane, lane_of(armature, lane) + m);
-    } else {
-      add_congruence(Transform<double>{}, weightless(pull.kind, m, p), felt);
-    }
+    return X.r + transpose_times(X.E, setup_.model->turn[body] * from_eigen(cell.springs[s].p_L));
   }
 
   void start_measures() {

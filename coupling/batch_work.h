@@ -52,6 +52,8 @@ void visit_joint(const LaneModel<S>& model, const std::vector<S>& more_armature,
 // and in a row for the energies likewise, at the step's start whatever the treatment, with the
 // velocities before and after that moment.
 enum class PullKind { world, linear, joint };
+// Which moment of the step spring and damper see: its start, its start and its end, its end.
+enum class Sees { start, both, end };
 template <class S>
 struct LanePull {
   PullKind kind = PullKind::world;
@@ -59,10 +61,8 @@ struct LanePull {
   std::size_t motion = 0, energy = 0;  // where its numbers begin in a row of each table
   S k, b, kb;  // stiffness, damping; k look_ahead + b: what meets the link's own velocity
   S b_seen;    // b, or 0 of an absolute damper, which does not see the target move
-  bool is_absolute = false;
-  S m_star;  // weightless inertia of the treatment
-  bool is_implicit = false;
-  Vec3<S> phi;      // world, not implicit: the offset of this step, for the energies
+  S m_star;    // weightless inertia of the treatment
+  Sees sees = Sees::start;
   Vec3<S> p_B, kp;  // linear: the point in body axes, and k times it
 };
 
@@ -103,6 +103,7 @@ struct BatchWork {
   // Sums of powers by the trapezoidal rule: of all that counts in the ledger; of the hand. And what
   // the springs hold [J].
   S work, hand_work, hand_work_least, spring_energy, spring_energy_at_start;
+  S power, hand_power;  // at the moment, while springs add theirs
 
   // A lane stops at its first step that leaves the bounds; `stopped` takes its results.
   std::size_t lanes_running = 0;

@@ -24,6 +24,9 @@ def level_objects():
     for folder in sorted((BUILD / "solver" / "CMakeFiles").glob("twinarm_passes_*.dir")):
         level, scalar = re.fullmatch(r"twinarm_passes_([^_]+)_(.+)\.dir", folder.name).groups()
         found += [(level, scalar, path) for path in folder.glob("*.o")]
+    for folder in sorted((BUILD / "coupling" / "CMakeFiles").glob("twinarm_batch_*.dir")):
+        level = folder.stem.rpartition("_")[2]
+        found += [(level, "runs side by side", path) for path in folder.glob("*.o")]
     return found
 
 
@@ -55,19 +58,21 @@ class Levels(unittest.TestCase):
             if level == "generic":
                 continue
             functions = defined_functions(path)
-            self.assertTrue(any("table" in name for name in functions), path)
+            self.assertTrue(any("table" in name or "run_batch" in name for name in functions), path)
             strays = [name for name in functions if not carries(level, name)]
             with self.subTest(level=level, scalar=scalar):
                 self.assertEqual(strays, [])
 
     def test_no_level_but_generic_is_used_without_asking_the_processor(self):
-        """Only solver/dynamics.cpp, which asks, refers to the tables of the levels."""
-        for path in sorted((BUILD / "solver" / "CMakeFiles" / "twinarm_solver.dir").glob("*.o")):
+        """Only solver/dynamics.cpp and coupling/batch_run.cpp, which ask, refer to the levels."""
+        paths = [path for room in ("solver", "coupling")
+                 for path in (BUILD / room / "CMakeFiles" / f"twinarm_{room}.dir").glob("*.o")]
+        for path in sorted(paths):
             text = subprocess.run(["nm", "--undefined-only", str(path)], check=True, text=True,
                                   stdout=subprocess.PIPE).stdout
             uses = [line.split()[-1] for line in text.splitlines()
                     if any(carries(level, line) for level in LEVELS)]
-            self.assertEqual(uses != [], path.name == "dynamics.cpp.o", path)
+            self.assertEqual(uses != [], path.name in ("dynamics.cpp.o", "batch_run.cpp.o"), path)
 
 
 if __name__ == "__main__":
