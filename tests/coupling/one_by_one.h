@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "coupling/batch_run.h"
+#include "coupling/tracking.h"
 #include "solver/energy.h"
-#include "tests/coupling/two_link.h"
 #include "tests/solver/random_tree.h"
 
 namespace twinarm::testing {

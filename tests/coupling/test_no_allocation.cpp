@@ -4,6 +4,8 @@
 #include <cstring>
 
 #include "tests/coupling/laws.h"
+#include "tests/coupling/one_by_one.h"
+#include "tests/coupling/one_joint.h"
 #include "tests/coupling/two_link.h"
 #include "tests/solver/count_allocations.h"
 
@@ -113,4 +115,18 @@ TEST_CASE("a coupling that is implicit in the step is refused by rk4 and by expl
           System({spec_of(law, TwoLink().springs(1, 1)), integrator}, KvrRates::from_hand),
           std::invalid_argument);
   }
+}
+
+TEST_CASE("runs side by side take nothing from the heap in a step: a longer run takes no more") {
+  Random random(86);
+  CellBench bench(tree_for_lanes(random), kBatchLaws[0], Treatment::implicit, false);
+  const std::vector<BatchCell> cells(9, bench.random_cell(random));
+  std::vector<BatchResult> results(cells.size());
+  const auto allocations_over = [&](double duration) {
+    bench.setup.duration = duration;
+    BatchRun batch(bench.setup);
+    batch.run(cells, results);  // results have their sizes from now on
+    return allocations_in([&] { batch.run(cells, results); });
+  };
+  CHECK(allocations_over(0.4) == allocations_over(0.1));
 }
