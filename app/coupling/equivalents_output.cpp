@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -19,8 +20,20 @@ std::string gains_words(const SpringGains& gains, bool is_linear) {
                    : pair(gains.k, gains.b, "N m/rad", "N m s/rad");
 }
 
+// Three columns of words, all to the left.
+class Lines {
+ public:
+  void add(const std::array<std::string, 3>& words) {
+    text_ += fmt::format("  {:<20} {:<38} {}\n", words[0], words[1], words[2]);
+  }
+  const std::string& str() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
 std::string one_table(const Equivalents& e, double step) {
-  TextTable table({"as", "", "means"});
+  Lines table;
   const auto hertz = e.response.omega / (2 * std::numbers::pi);
   table.add({"spring and damper", gains_words(e.gains, e.is_linear), "as it is"});
   table.add(

@@ -15,8 +15,9 @@ using Eigen::VectorXd;
 namespace {
 
 std::string kind_of(const SceneCoupling& spec) {
-  if (spec.type == CouplingDescription::Type::linear) return "linear";
-  return spec.measure == Measure::world ? "torsional, world" : "torsional, joint";
+  const char* law = facts_of(spec.law, spec.printed).name;
+  if (spec.type == CouplingDescription::Type::linear) return law;
+  return std::string(law) + (spec.measure == Measure::world ? ", world" : ", joint");
 }
 
 }  // namespace
@@ -103,29 +104,40 @@ PredictedCoupling PosedCouplings::coupling(std::size_t c, double h) {
   found.name = spec.name;
   found.kind = kind_of(spec);
   found.treatment = spec.treatment;
+  found.law = spec.law;
+  found.printed = spec.printed;
   found.is_linear = spec.type == CouplingDescription::Type::linear;
   found.absolute_damper = spec.absolute_damper;
   found.rate = spec.rate;
   found.gains = {spec.spring.k, spec.spring.b};
   const Vector3 offset = input_.couplings->ends(c, x_, k_).offset;
   found.offset = offset.norm();
-  const TangentStiffness tangent = tangent_stiffness(
-      model_, x_,
-      [&](const State<double>& x, const Kinematics& k, Forces<double>& forces) {
-        push(c, x, k, forces);
-      },
-      velocities_);
   const MatrixXd J = jacobian(spec) * P_, square = J.transpose() * J;
-  found.K = by_rows(tangent.K);
   found.K_zero = spec.spring.k * square;
-  found.B = spec.spring.b * square;
-  const SpringModes modes = spring_modes(M(), found.K, found.B);
+  // The damper as printed folds the speeds: it has no linear part.
+  const bool folded = spec.printed && spec.law == CouplingSpec::Type::torsional;
+  found.B = (folded ? 0 : spec.spring.b) * square;
+  found.felt = MatrixXd::Zero(square.rows(), square.cols());
+  if (spec.law == CouplingSpec::Type::weld_like && spec.spring.b > 0)
+    found.felt = spec.spring.b / spec.reference.damping() * square;
+  found.K = spec.law == CouplingSpec::Type::matched ? found.K_zero : tangent(c);
+  const SpringModes modes = spring_modes(M() + found.felt, found.K, found.B);
   if (modes.size() > 0) {
     const Index last = modes.size() - 1;
     found.alone = {modes.omega(last), modes.zeta(last)};
   }
   if (found.is_linear) add_arms(spec, offset, h, found);
   return found;
+}
+
+MatrixXd PosedCouplings::tangent(std::size_t c) {
+  const TangentStiffness found = tangent_stiffness(
+      model_, x_,
+      [&](const State<double>& x, const Kinematics& k, Forces<double>& forces) {
+        push(c, x, k, forces);
+      },
+      velocities_);
+  return by_rows(found.K);
 }
 
 }  // namespace twinarm

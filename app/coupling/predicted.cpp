@@ -37,7 +37,10 @@ std::optional<Scheme> scheme_of_scene(const std::vector<PredictedCoupling>& coup
                                       Integrator integrator) {
   const PredictedCoupling& first = couplings.front();
   for (const PredictedCoupling& c : couplings)
-    if (c.treatment != first.treatment || c.rate > 0) return {};
+    if (c.treatment != first.treatment || c.printed != first.printed || c.rate > 0) return {};
+  if (first.printed)
+    return integrator == Integrator::euler ? Scheme::euler_difference
+                                           : Scheme::semi_implicit_difference;
   if (first.treatment == Treatment::implicit) return Scheme::implicit;
   if (first.treatment == Treatment::semi_implicit) return Scheme::implicit_damper;
   switch (integrator) {
@@ -150,7 +153,20 @@ void add_warnings(const SceneModel& scene, Predicted& found) {
                     "of {:g} s; take another --integrator, more damping, or treatment = "
                     "\"implicit\"",
                     found.growth, found.step));
+  for (const SceneCoupling& spec : scene.couplings)
+    if (spec.delay > 0)
+      warn(
+          fmt::format("'{}' sees its target {:g} s late: at a speed v it stands that much times v "
+                      "behind, whatever its gains",
+                      spec.name, spec.delay));
   for (const PredictedCoupling& c : found.couplings) {
+    if (c.law == CouplingSpec::Type::god_object)
+      warn(fmt::format("'{}' is a constraint, not a spring: it is left out", c.name));
+    if (c.printed && !c.is_linear)
+      warn(
+          fmt::format("'{}': the torsional damper as printed has no linear part; it is predicted "
+                      "without one",
+                      c.name));
     if (c.absolute_damper)
       warn(
           fmt::format("'{}' has an absolute damper: besides the errors behind a moving target it "
@@ -188,6 +204,7 @@ Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
       coupling.with_wall = series_stiffness(coupling.gains.k, *task.wall);
     found.K += coupling.K;
     found.B += coupling.B;
+    found.M += coupling.felt;
   }
   if (!found.K.allFinite() || !found.M.allFinite())
     throw InputError(

@@ -34,10 +34,13 @@ struct PredictedCoupling {
   std::string name, kind;
   Treatment treatment = Treatment::implicit;
   bool is_linear = true, absolute_damper = false;
-  double rate = 0;                  // [Hz]; 0: every step
-  SpringGains gains;                // N/m, N s/m, or N m/rad, N m s/rad
-  double offset = 0;                // of the target [m or rad]
+  double rate = 0;    // [Hz]; 0: every step
+  SpringGains gains;  // N/m, N s/m, or N m/rad, N m s/rad
+  double offset = 0;  // of the target [m or rad]
+  CouplingSpec::Type law = CouplingSpec::Type::linear;
+  bool printed = false;
   Eigen::MatrixXd K, K_zero, B;     // as it is; without the geometric part; damping
+  Eigen::MatrixXd felt;             // inertia that the law adds (coupling/weld_like.h)
   SpringResponse alone;             // its fastest mode, were there no other
   std::vector<SpringArm> arms;      // linear only
   std::optional<double> with_wall;  // the wall through this coupling [N/m]

@@ -6,8 +6,9 @@
 #include "collision/import/robot_model.h"
 #include "collision/import/urdf.h"
 #include "coupling/gains.h"
-#include "coupling/linear.h"
 #include "coupling/prediction.h"
+#include "coupling/pull.h"
+#include "tests/coupling/one_joint.h"
 #include "tests/coupling/two_link.h"
 #include "tests/solver/random_tree.h"
 
@@ -16,7 +17,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-bool same(const SpringGains& a, const SpringGains& b) {
+bool same_gains(const SpringGains& a, const SpringGains& b) {
   return a.k == doctest::Approx(b.k).epsilon(1e-12) && a.b == doctest::Approx(b.b).epsilon(1e-12);
 }
 
@@ -48,16 +49,16 @@ TEST_CASE("every conversion of gains leads back, at any size, damping and impeda
     const SpringGains gains{size(-2, 6), size(-3, 4)};
     const double inertia = size(-4, 3), r = size(-2, 1);
     const MujocoImpedance impedance{random.uniform(0.1, 0.99), random.uniform(0.1, 0.999)};
-    CHECK(same(gains_of(response_of(gains, inertia), inertia), gains));
-    CHECK(same(linear_of_torsional(torsional_of_linear(gains, r), r), gains));
+    CHECK(same_gains(gains_of(response_of(gains, inertia), inertia), gains));
+    CHECK(same_gains(linear_of_torsional(torsional_of_linear(gains, r), r), gains));
     const Solref standard = solref_of(gains, inertia, impedance);
     CHECK_FALSE(standard.is_direct());
-    CHECK(same(gains_of(standard, inertia, impedance), gains));
+    CHECK(same_gains(gains_of(standard, inertia, impedance), gains));
     const Solref direct = direct_solref_of(gains, inertia, impedance);
     CHECK(direct.is_direct());
-    CHECK(same(gains_of(direct, inertia, impedance), gains));
+    CHECK(same_gains(gains_of(direct, inertia, impedance), gains));
     for (const auto mode : {Drive::Mode::force, Drive::Mode::acceleration})
-      CHECK(same(gains_of(drive_of(gains, inertia, mode), inertia), gains));
+      CHECK(same_gains(gains_of(drive_of(gains, inertia, mode), inertia), gains));
   }
 }
 

@@ -1,6 +1,7 @@
 // Sag, torque at large angles and series stiffness, against where the real stepper comes to rest.
 #include <doctest/doctest.h>
 
+#include "coupling/prediction.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/coupling/two_link.h"
 
@@ -23,7 +24,7 @@ Model<double> level_arm(int links) {
 }
 
 // Where it rests under its weight, the target level, after a long time of heavy damping.
-std::vector<double> rest(const Model<double>& model, CouplingSpec spec) {
+std::vector<double> resting_pose(const Model<double>& model, CouplingSpec spec) {
   spec.treatment = Treatment::implicit;
   Coupled system(model, {}, {}, spec, State<double>(model));
   for (int n = 0; n < 40000; ++n) system.simulation.step(1e-3);
@@ -38,10 +39,11 @@ TEST_CASE(
   // The weight's torque falls as the link does: at the sag q it is m g l cos q, which is the load.
   const Model<double> model = level_arm(1);
   const double k = 40;
-  const double q = rest(model, torsional({{"s", 1, Vector3::Zero(), k, 10}}, Measure::joint))[0];
+  const double q =
+      resting_pose(model, torsional({{"s", 1, Vector3::Zero(), k, 10}}, Measure::joint))[0];
   CHECK(q == doctest::Approx(torsional_sag(kMass * kG * kArm * std::cos(q), k)).epsilon(1e-6));
   const double k_L = 300, r = 0.3;
-  const double p = rest(model, linear({{"s", 1, {r, 0, 0}, k_L, 100}}))[0];
+  const double p = resting_pose(model, linear({{"s", 1, {r, 0, 0}, k_L, 100}}))[0];
   const auto sag = linear_sag(kMass * kG * kArm * std::cos(p), k_L, r);
   REQUIRE(sag);
   CHECK(p == doctest::Approx(*sag).epsilon(1e-6));
@@ -79,7 +81,7 @@ TEST_CASE("a chain sags by K_q^-1 G, for torsional springs and for linear ones")
     // m g about each axis: both masses on the inner one.
     const Eigen::Vector2d load(kMass * kG * kArm + kMass * kG * 2 * kArm, kMass * kG * kArm);
     const Eigen::VectorXd sag = chain_sag(system.coupling->joint_space(k).K, load);
-    const std::vector<double> q = rest(model, spec);
+    const std::vector<double> q = resting_pose(model, spec);
     CHECK(q[0] == doctest::Approx(sag[0]).epsilon(2e-3));
     CHECK(q[1] == doctest::Approx(sag[1]).epsilon(2e-3));
   }

@@ -1,7 +1,7 @@
 // K_q and B_q about a pose, with their geometric part, against second derivatives by hand.
 #include <doctest/doctest.h>
 
-#include "coupling/linear.h"
+#include "coupling/prediction.h"
 #include "solver/dense_algebra.h"
 #include "solver/spring.h"
 #include "tests/coupling/one_joint.h"
