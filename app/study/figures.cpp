@@ -183,7 +183,8 @@ void draw_ablations(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
     for (std::size_t j = 0; j < 2; ++j) {
       const double size = runs[i]->stable ? runs[i]->max_deg[j] : 1.05 * high;
       x[j].push_back(size);
-      theory[j].push_back(std::min(std::abs(runs[i]->peak_deg[j]), 1.15 * high));
+      theory[j].push_back(runs[i]->stable ? std::min(std::abs(runs[i]->peak_deg[j]), 1.15 * high)
+                                          : NAN);
       y[j].push_back(row + (j == 0 ? 0.19 : -0.19));
       labels += fmt::format("set label {} at {},{} left offset 0.5,0 font ',11'\n",
                             in_quotes(runs[i]->stable ? fmt::format("{:.1f}", size) : "unstable"),

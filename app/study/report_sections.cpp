@@ -247,7 +247,8 @@ std::string findings_section(const StudyResults& results, const Gallery& gallery
                         "<b>One change at a time</b> to the torsional law at 60 Hz. The top "
                         "row is the law with its damper mended, at its own best gains; each "
                         "other row changes one thing and keeps those gains, but for the "
-                        "last, which has gains of its own. A bar marked unstable has no size.");
+                        "last, which has gains of its own. A bar marked unstable has no size. "
+                        "Diamonds: the peak after a reversal by linear theory.");
 }
 
 std::string obstacle_section(const StudyResults& results, const Gallery& gallery) {
