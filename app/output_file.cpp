@@ -5,8 +5,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "solver/fault.h"
-
 namespace twinarm {
 namespace {
 
@@ -33,6 +31,19 @@ void make_folder(const std::filesystem::path& folder, const char* option) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw cannot_write(folder, ": " + error.message(), option);
+}
+
+void check_place(const std::filesystem::path& file, FaultList& faults) {
+  std::error_code error;
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (std::filesystem::is_directory(file, error))
+    faults.add({file.string(), 0, "", "is a folder", "name a file in it"});
+  else if (!std::filesystem::is_directory(folder, error))
+    faults.add({file.string(), 0, "", "there is no folder '" + folder.string() + "'",
+                "make it: mkdir -p " + folder.string()});
+  else if (access(folder.c_str(), W_OK | X_OK) != 0)
+    faults.add({file.string(), 0, "", "the file cannot be written: no permission in its folder",
+                "choose a folder that can be written"});
 }
 
 std::string read_whole_file(const std::filesystem::path& file) {

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "solver/fault.h"
+
 namespace twinarm {
 
 // Whether the folder is there and can be written, or could be made; makes nothing. Throws
@@ -11,6 +13,8 @@ namespace twinarm {
 void require_writable_folder(const std::filesystem::path& folder, const char* option = "--out");
 // With all that is above it. Throws likewise.
 void make_folder(const std::filesystem::path& folder, const char* option = "--out");
+// Adds a fault where a file cannot be written: to be told before the work, and not after it.
+void check_place(const std::filesystem::path& file, FaultList& faults);
 std::string read_whole_file(const std::filesystem::path& file);
 
 }  // namespace twinarm

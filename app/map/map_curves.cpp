@@ -103,7 +103,7 @@ bool is_implicit_point(const SceneCoupling& coupling) {
 bool is_stable_on_the_way(const SimulatePlan& plan) {
   SceneCouplings& couplings = *plan.input.couplings;
   for (std::size_t c = 0; c < couplings.size(); ++c)
-    for (int i = 0; i <= kPoses && !couplings.spec(c).turned.empty(); ++i)
+    for (int i = 0; i <= kPoses && !couplings.spec(c).driven.turned.empty(); ++i)
       if (!is_stable_at(plan, couplings.target(c, plan.run.duration * i / kPoses).x)) return false;
   return true;
 }
@@ -233,7 +233,7 @@ std::vector<MapCurve> theory_curves(const MapJob& job) {
   };
   add(scheme_words(corner) + ", start pose", is_stable_in_theory);
   if (std::any_of(couplings.begin(), couplings.end(),
-                  [](const SceneCoupling& c) { return !c.turned.empty(); }))
+                  [](const SceneCoupling& c) { return !c.driven.turned.empty(); }))
     add("the same, worst pose of the twin", is_stable_on_the_way);
   if (std::any_of(couplings.begin(), couplings.end(), is_implicit_point))
     add("geometric limit of an implicit point spring", is_within_geometry);

@@ -19,22 +19,51 @@ void add_file(std::vector<RecordedFile>& files, const std::filesystem::path& fil
     files.push_back({path, read_whole_file(file)});
 }
 
+// Files beside a mesh that it names: materials, and their textures; buffers of glTF.
+void add_companions(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
+  constexpr int kMost = 1000;  // files of a folder that are looked at
+  static const std::vector<std::string> naming{".obj", ".mtl", ".dae", ".gltf"};
+  if (std::find(naming.begin(), naming.end(), file.extension()) == naming.end()) return;
+  const std::string text = files.back().bytes;
+  std::error_code error;
+  int looked_at = 0;
+  for (const auto& other :
+       std::filesystem::recursive_directory_iterator(file.parent_path(), error)) {
+    if (++looked_at > kMost) return;
+    const std::size_t before = files.size();
+    if (text.find(other.path().filename().string()) != std::string::npos)
+      add_file(files, other.path());
+    if (files.size() > before) add_companions(files, other.path());
+  }
+}
+
+void add_mesh_file(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
+  const std::size_t before = files.size();
+  add_file(files, file);
+  if (files.size() > before) add_companions(files, file);
+}
+
 template <class Geometry>
 void add_mesh(std::vector<RecordedFile>& files, const Geometry& geometry) {
-  if (const auto* mesh = std::get_if<MeshGeometry>(&geometry)) add_file(files, mesh->file);
+  if (const auto* mesh = std::get_if<MeshGeometry>(&geometry)) add_mesh_file(files, mesh->file);
+}
+
+void add_meshes_of(const RobotDescription& robot, std::vector<RecordedFile>& files) {
+  for (const LinkDescription& link : robot.links) {
+    for (const VisualPart& part : link.visuals) add_mesh(files, part.geometry);
+    for (const CollisionPart& part : link.collisions) add_mesh(files, part.geometry);
+  }
 }
 
 // All that the scene needs again: robots with their meshes, meshes of bodies, traces of hands.
 void add_files_of(const SceneDescription& scene, std::vector<RecordedFile>& files) {
   for (const RobotInScene& robot : scene.robots) {
     add_file(files, robot.description.file);
-    for (const LinkDescription& link : robot.description.links) {
-      for (const VisualPart& part : link.visuals) add_mesh(files, part.geometry);
-      for (const CollisionPart& part : link.collisions) add_mesh(files, part.geometry);
-    }
+    add_meshes_of(robot.description, files);
   }
   for (const BodyDescription& body : scene.bodies)
-    if (const auto* mesh = std::get_if<MeshSpec>(&body.shape)) add_file(files, mesh->mesh.file);
+    if (const auto* mesh = std::get_if<MeshSpec>(&body.shape))
+      add_mesh_file(files, mesh->mesh.file);
   for (const CouplingDescription& coupling : scene.couplings)
     add_file(files, coupling.target.trace);
 }
@@ -106,6 +135,7 @@ RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& pr
   header.step = prepared.run.step;
   header.duration = prepared.run.duration;
   header.columns = columns_of(prepared.input.robot);
+  add_meshes_of(prepared.input.robot.robot, header.files);
   if (!prepared.input.scene) return header;
   const SceneModel& scene = *prepared.input.scene;
   add_files_of(scene.description, header.files);

@@ -192,7 +192,7 @@ std::vector<Suspect> find_suspects(const SimulatePlan& prepared) {
   if (input.scene)
     for (std::size_t c = 0; c < input.couplings->size(); ++c) {
       const SceneCoupling& spec = input.couplings->spec(c);
-      if (spec.leader != c) continue;
+      if (spec.leader != c || spec.outside) continue;  // a stop mostly does not act
       const StepMethod method = step_method_of(spec, prepared.run.integrator);
       if (method.known)
         suspects.push_back(

@@ -39,6 +39,7 @@ SceneCoupling without_pulls(const SceneModel& scene, const CouplingDescription& 
   made.measure = given.measure;
   made.reference = given.reference;
   made.treatment = given.treatment;
+  made.outside = given.outside;
   made.absolute_damper = given.absolute_damper;
   made.rate = given.rate;
   made.robot = robot_named(scene.description, given.robot);
@@ -48,10 +49,14 @@ SceneCoupling without_pulls(const SceneModel& scene, const CouplingDescription& 
   made.rest = scene.start;
   made.rest.qd.assign(scene.model.nv, 0);
   set_coordinates(scene, made.robot, given.target.q, made.rest);
-  if (made.target == CouplingTarget::Kind::paper || made.target == CouplingTarget::Kind::trace ||
-      made.target == CouplingTarget::Kind::device)
-    made.turned = turned_joints(scene, made.robot);
+  if (given.target.is_hand()) made.driven.turned = turned_joints(scene, made.robot);
+  if (!given.target.gripper.empty())
+    made.driven.gripper = name_in_scene(scene.description, made.robot, given.target.gripper);
+  made.driven.gripper_open = given.target.open;
+  made.driven.gripper_closed = given.target.closed;
   made.trace = given.target.trace;
+  made.seed = given.target.seed;
+  made.duration = given.target.duration;
   return made;
 }
 

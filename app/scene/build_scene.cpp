@@ -116,6 +116,8 @@ class SceneBuilder {
       const RobotInScene& robot = description().robots[r];
       ModelOptions options = options_;
       options.floating = robot.floating;
+      options.mass_scale = robot.mass_scale;
+      options.added_masses = robot.payloads;
       attempt(robot.line, "robot '" + robot.name + "'", [&] {
         add_robot(builder_, robot.description, options, prefix_of(description(), r), robot.X_WR);
       });

@@ -1,4 +1,7 @@
 // Couplings: spring-dampers and other pulls after a kinematic twin.
+#include <algorithm>
+#include <cmath>
+
 #include "app/nearest_name.h"
 #include "app/scene/scene_reader.h"
 
@@ -120,12 +123,65 @@ void read_pull(SceneTable& table, const CouplingFacts& facts, CouplingDescriptio
       coupling.absolute_damper = *damper == 1;
 }
 
+// A soft stop: the spring-damper acts outside of these two coordinates of the joint.
+void read_outside(SceneTable& table, CouplingDescription& coupling) {
+  const auto ends = table.numbers("outside", 2);
+  if (!ends) return;
+  coupling.outside = {(*ends)[0], (*ends)[1]};
+  if (!((*ends)[0] <= (*ends)[1]))
+    table.fault("outside", "the first is above the second", "give [lower, upper]");
+  const bool at_joint =
+      coupling.type == CouplingDescription::Type::torsional && coupling.measure == Measure::joint;
+  if (!at_joint || coupling.treatment != Treatment::implicit || table.has("target"))
+    table.fault("outside", "a stop is a torsional coupling at a joint, implicit, without a target",
+                "give type = \"torsional\", measure = \"joint\", and leave the others out");
+}
+
+// The joint that the button of the hand moves.
+void read_gripper(SceneReader& reader, SceneTable& table, const RobotDescription& robot,
+                  CouplingTarget& target) {
+  const TomlValue* value = table.table("gripper");
+  if (!value) return;
+  if (!target.is_hand())
+    table.fault("gripper", "no hand moves this target", "give one, as target = \"paper\"");
+  SceneTable gripper = reader.open(*value, table.where() + ", gripper");
+  for (const char* key : {"joint", "open", "closed"})
+    gripper.missing(key, "give { joint = \"..\", open = 0, closed = 0.06 }");
+  target.gripper = gripper.text("joint").value_or("");
+  target.open = gripper.number("open").value_or(0);
+  target.closed = gripper.number("closed").value_or(0);
+  gripper.done();
+  std::vector<std::string> names;
+  for (const JointDescription& joint : robot.joints)
+    if (joint.dofs() == 1 && !joint.mimic) names.push_back(joint.name);
+  if (!target.gripper.empty() &&
+      std::find(names.begin(), names.end(), target.gripper) == names.end())
+    gripper.fault("joint", "there is no such joint of one degree of freedom",
+                  name_remedy(target.gripper, names, "joints"));
+}
+
+void read_synthetic(SceneTable& hand, CouplingTarget& target) {
+  target.kind = CouplingTarget::Kind::synthetic;
+  const double seed = hand.not_negative("seed").value_or(1);
+  if (!(seed <= 4294967295.0) || seed != std::floor(seed))
+    hand.fault("seed", "must be a whole number below 2^32", "give seed = 1");
+  else
+    target.seed = static_cast<unsigned>(seed);
+  target.duration = hand.positive("duration").value_or(20);
+  if (target.duration > 1e5)
+    hand.fault("duration", "must be at most 100000 s", "give a shorter one");
+}
+
 void read_target(SceneReader& reader, SceneTable& table, const RobotDescription& robot,
                  CouplingTarget& target) {
   const TomlValue* value = table.find("target");
   if (!value) return;
   if (value->kind == TomlValue::Kind::table) {
     SceneTable state = reader.open(*value, table.where() + ", target");
+    if (state.has("seed")) {
+      read_synthetic(state, target);
+      return state.done();
+    }
     target.kind = CouplingTarget::Kind::state;
     target.q = reader.read_joints(state, "q", robot, false);
     return state.done();
@@ -145,14 +201,14 @@ void read_target(SceneReader& reader, SceneTable& table, const RobotDescription&
 void read_pace(SceneTable& table, CouplingDescription& coupling) {
   using Kind = CouplingTarget::Kind;
   const Kind target = coupling.target.kind;
-  const bool moves = target != Kind::start && target != Kind::state;
+  const bool moves = coupling.target.is_hand();
   coupling.delay = table.not_negative("delay").value_or(0);
   if (coupling.delay > 0 && !moves)
     table.fault("delay", "the target stands still: seen late, it is the same",
                 "leave it out, or give a target that moves");
   const auto speed = table.positive("speed");
   coupling.speed = speed.value_or(1);
-  if (speed && target != Kind::paper && target != Kind::trace)
+  if (speed && target != Kind::paper && target != Kind::trace && target != Kind::synthetic)
     table.fault("speed", "is of a target that is a motion by name or a trace",
                 "leave it out, or give target = \"paper\" or a trace file");
 }
@@ -179,10 +235,14 @@ void SceneReader::read_coupling(const TomlValue& value, std::size_t index) {
   const RobotDescription& description = robot ? robot->description : nobody;
   if (fits(table, "link", coupling.law != Law::god_object, "a god object drives all joints"))
     read_link(table, description, coupling);
-  if (robot && !description.links.empty())
-    read_target(*this, table, description, coupling.target), read_pace(table, coupling);
-  else
-    for (const char* key : {"target", "delay", "speed"}) table.find(key);
+  read_outside(table, coupling);
+  if (robot && !description.links.empty()) {
+    read_target(*this, table, description, coupling.target);
+    read_gripper(*this, table, description, coupling.target);
+    read_pace(table, coupling);
+  } else {
+    for (const char* key : {"target", "delay", "speed", "gripper"}) table.find(key);
+  }
   table.done();
   scene.couplings.push_back(std::move(coupling));
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/nearest_name.h"
 #include "app/scene/scene_reader.h"
@@ -33,6 +34,42 @@ bool normalise(double* q) {
   if (!(std::abs(length - 1) <= 1e-6)) return false;
   for (int c = 0; c < 4; ++c) q[c] /= length;
   return true;
+}
+
+// Masses of links by factors, and particles on links.
+void read_masses(SceneReader& reader, SceneTable& table, RobotInScene& robot) {
+  std::vector<std::string> links;
+  for (const LinkDescription& link : robot.description.links) links.push_back(link.name);
+  const auto check_link = [&](SceneTable& where, const std::string& key, const std::string& name) {
+    if (std::find(links.begin(), links.end(), name) == links.end())
+      where.fault(key, "there is no link '" + name + "'", name_remedy(name, links, "links"));
+  };
+  if (const TomlValue* scales = table.table("mass_scale")) {
+    SceneTable factors = reader.open(*scales, table.where() + ", mass_scale");
+    for (const TomlValue& value : scales->members) {
+      check_link(factors, value.key, value.key);
+      if (const auto factor = factors.positive(value.key)) robot.mass_scale[value.key] = *factor;
+    }
+  }
+  for (const TomlValue* value : table.tables("payload")) {
+    SceneTable payload = reader.open(*value, table.where() + ", payload");
+    payload.missing("link", "name the link that carries it");
+    payload.missing("mass", "give it in kg");
+    PointMass mass{payload.text("link").value_or(""),
+                   payload.vector("point").value_or(Vector3::Zero()),
+                   payload.not_negative("mass").value_or(0)};
+    if (!mass.link.empty()) check_link(payload, "link", mass.link);
+    payload.done();
+    robot.payloads.push_back(std::move(mass));
+  }
+}
+
+void drop_limits(RobotDescription& robot) {
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  for (JointDescription& joint : robot.joints) {
+    joint.lower = -kNowhere;
+    joint.upper = kNowhere;
+  }
 }
 
 }  // namespace
@@ -104,12 +141,15 @@ void SceneReader::read_robot(const TomlValue& value) {
         faults.add(error.faults());
       }
     }
+  const bool limits = table.flag("limits").value_or(true);
   if (readable) {
+    if (!limits) drop_limits(robot.description);
+    read_masses(*this, table, robot);
     robot.q = read_joints(table, "q", robot.description, false);
     robot.qd = read_joints(table, "qd", robot.description, true);
     lock_joints(table, robot);
   } else {
-    for (const char* key : {"q", "qd", "lock"}) table.find(key);
+    for (const char* key : {"q", "qd", "lock", "mass_scale", "payload"}) table.find(key);
   }
   table.done();
   scene.robots.push_back(std::move(robot));

@@ -7,8 +7,10 @@
 
 #include "collision/import/number_text.h"
 #include "coupling/automatic_motion.h"
+#include "coupling/joint_stops.h"
 #include "coupling/paced_hand.h"
 #include "coupling/recorded_trace.h"
+#include "coupling/synthetic_operator.h"
 
 namespace twinarm {
 namespace {
@@ -94,6 +96,8 @@ std::unique_ptr<HandSource> hand_of_target(const SceneModel& scene, const SceneC
         faults.add(error.faults());
       }
       break;
+    case CouplingTarget::Kind::synthetic:
+      return std::make_unique<SyntheticOperator>(coupling.seed, coupling.duration);
     case CouplingTarget::Kind::device:
       faults.add({scene.description.file.string(), coupling.line,
                   "coupling '" + coupling.coupling + "', target",
@@ -113,15 +117,20 @@ std::unique_ptr<HandSource> make_hand(const SceneModel& scene, const SceneCoupli
   return std::make_unique<PacedHand>(std::move(hand), coupling.delay, coupling.speed);
 }
 
+JointStops::Stop stop_of(const SceneCoupling& spec) {
+  return {spec.spring.body, spec.outside->first, spec.outside->second, spec.spring.k,
+          spec.spring.b};
+}
+
 }  // namespace
 
 // A coupling at work.
 struct SceneCouplings::Tie {
   Tie(const SceneModel& scene, const SceneCoupling& spec, double h, FaultList& faults)
       : hand(make_hand(scene, spec, faults)),
-        kvr(scene.model, *hand, {}, {spec.turned, "", 0, 0},
+        kvr(scene.model, *hand, {}, spec.driven,
             spec.absolute_damper ? KvrRates::none : KvrRates::from_hand),
-        shown(scene.model, *hand, {}, {spec.turned, "", 0, 0}) {
+        shown(scene.model, *hand, {}, spec.driven) {
     kvr.stand_at(spec.rest);
     shown.stand_at(spec.rest);
     CouplingSpec law;
@@ -134,6 +143,11 @@ struct SceneCouplings::Tie {
     law.options.hold_steps = std::max(1, law.hold_steps);
     law.reference = spec.reference;
     law.springs = spec.springs;
+    if (spec.outside) {
+      source = std::make_unique<Kept>(std::make_unique<JointStops>(
+          spec.coupling, scene.model, kvr, std::vector<JointStops::Stop>{stop_of(spec)}));
+      return;
+    }
     try {
       source = std::make_unique<Kept>(make_coupling(law, scene.model, kvr));
     } catch (const InputError& error) {
@@ -195,6 +209,10 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
     ends.offset.x() = kvr.x.q[iq] - x.q[iq];
     ends.velocity.x() = x.qd[iv];
     ends.target_velocity.x() = kvr.x.qd[iv];
+    if (spec.outside) {  // a stop stands still; between the stops nothing is stretched or damped
+      ends.offset.x() = stop_of(spec).way_back(x.q[iq]);
+      ends.target_velocity.x() = ends.offset.x() == 0 ? x.qd[iv] : 0;
+    }
   }
   return ends;
 }

@@ -9,10 +9,12 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "collision/import/robot_description.h"
+#include "collision/import/robot_model.h"
 #include "coupling/coupling_spec.h"
 #include "solver/force_source.h"
 #include "solver/integrator.h"
@@ -91,7 +93,9 @@ struct RobotInScene {
   Vector3 linear_velocity = Vector3::Zero(), angular_velocity = Vector3::Zero();  // floating only
   JointValueMap q, qd;
   Surface surface;
-  bool collide = true;  // false: nothing touches it
+  bool collide = true;                       // false: nothing touches it
+  std::map<std::string, double> mass_scale;  // by link; of mass and inertia
+  std::vector<PointMass> payloads;
 };
 
 // Names in pairs and constraints: a body, "robot/link", "world"; in a pair also a robot: all of it.
@@ -104,10 +108,18 @@ struct PairDescription {
 };
 
 struct CouplingTarget {
-  enum class Kind { start, state, paper, trace, device };
+  enum class Kind { start, state, paper, trace, device, synthetic };
   Kind kind = Kind::start;
   JointValueMap q;              // of a state
   std::filesystem::path trace;  // CSV of a hand
+  unsigned seed = 1;            // of a synthetic hand
+  double duration = 20;         // likewise [s]
+  // The joint that the button moves; empty: none. The coordinate where it is up, and where pressed.
+  std::string gripper;
+  double open = 0, closed = 0;
+
+  // Moved by a hand, or by what stands for one.
+  bool is_hand() const { return kind != Kind::start && kind != Kind::state; }
 };
 
 struct CouplingDescription {
@@ -125,6 +137,8 @@ struct CouplingDescription {
   double turn_stiffness = 0, turn_damping = 0;  // bushing
   WeldReference reference;                      // weld
   Treatment treatment = Treatment::implicit;
+  // A soft stop: it acts where the joint's coordinate is not between these two, back to them.
+  std::optional<std::pair<double, double>> outside;
   bool absolute_damper = false;  // against the link's own velocity, and not that of the target
   double rate = 0;               // [Hz] at which the force is computed; 0: every step
   double delay = 0;  // [s]: the kinematic side is seen this late; before, at its start, at rest

@@ -14,6 +14,7 @@
 
 #include "app/scene/scene_description.h"
 #include "collision/import/robot_model.h"
+#include "coupling/kinematic_robot.h"
 #include "solver/integrator_mechanism.h"
 #include "solver/model.h"
 
@@ -52,6 +53,7 @@ struct SceneCoupling {
   std::vector<Spring> springs;  // of the leader: all of the coupling's
   WeldReference reference;
   Treatment treatment = Treatment::implicit;
+  std::optional<std::pair<double, double>> outside;  // of a soft stop
   bool absolute_damper = false;
   double rate = 0;  // [Hz]; 0: every step
   // The kinematic side: a second copy of the whole model, of which the hand moves joints of this
@@ -60,8 +62,10 @@ struct SceneCoupling {
   double delay = 0, speed = 1;  // coupling/paced_hand.h
   std::size_t robot = 0;
   State<double> rest;
-  std::vector<std::string> turned;  // joints of the model that the hand turns, at most three
+  DrivenJoints driven;  // joints of the model that the hand moves
   std::filesystem::path trace;
+  unsigned seed = 1;     // of a synthetic hand
+  double duration = 20;  // likewise [s]
 
   bool leads() const { return !springs.empty(); }
   // Of its readings, which one this pull is (coupling/coupling.h).

@@ -11,7 +11,8 @@ namespace {
 
 bool same_motion(const SceneCoupling& a, const SceneCoupling& b) {
   return a.robot == b.robot && a.target == b.target && a.trace == b.trace && a.rest.q == b.rest.q &&
-         a.delay == b.delay && a.speed == b.speed;
+         a.delay == b.delay && a.speed == b.speed && a.seed == b.seed &&
+         a.driven.gripper == b.driven.gripper;
 }
 
 // One coupling for each kinematic side that is to be seen. Where one of a robot's couplings leads

@@ -109,7 +109,7 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
   for (const CouplingSpec& held : robot.auxiliary()) setup.couplings.push_back(held);
   setup.h = 1 / o.rate_hz;
   TrackingSystem system(setup);
-  JointStops stops(model, robot.stops());
+  JointStops stops("stops", model, system.kvr(), robot.stops());
   system.simulation().add(stops);
   ContactForce contact(model, {o.contact_stiffness, o.contact_dissipation, o.friction, 1e-3});
   add_geometry(inputs, model, contact);

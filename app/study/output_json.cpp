@@ -118,6 +118,13 @@ std::string study_json(const StudyResults& results, const std::string& report_pa
                                 {"holds", finding.holds}});
   root["obstacle"] = ordered_json::array();
   for (const ObstacleRun& run : results.obstacle) root["obstacle"].push_back(obstacle_json(run));
+  root["recordings"] = ordered_json::array();
+  for (const StudyRecording& run : results.recordings)
+    root["recordings"].push_back({{"name", run.name},
+                                  {"scene", run.scene.string()},
+                                  {"recording", run.recording.string()},
+                                  {"page", run.page.string()},
+                                  {"apart_deg", run.apart_deg}});
   root["search"] = search_json(results);
   root["left_open"] = ordered_json::array();
   for (const Identification& found : results.identifications)

@@ -146,6 +146,7 @@ void write_report(const StudyResults& results, const std::filesystem::path& fold
       {"rates", "Update rates", rates_section(results, gallery)},
       {"variants", "Variants", variants_section(results, gallery)},
       {"obstacle", "Obstacle", obstacle_section(results, gallery)},
+      {"recordings", "Recordings", recordings_section(results)},
       {"search", "Search", search_section(results, gallery)},
       {"open", "What stays open", identification_section(results, gallery)},
       {"parameters", "Parameters", parameters_section(results)}};

@@ -37,6 +37,7 @@ std::string obstacle_section(const StudyResults& results, const Gallery& gallery
 // report_tables.cpp: what was run beside E1 to E4
 std::string rates_section(const StudyResults& results, const Gallery& gallery);
 std::string variants_section(const StudyResults& results, const Gallery& gallery);
+std::string recordings_section(const StudyResults& results);
 
 // report_identify.cpp: what the paper's numbers cannot tell
 std::string identification_section(const StudyResults& results, const Gallery& gallery);

@@ -123,6 +123,28 @@ std::string rates_section(const StudyResults& results, const Gallery& gallery) {
              "predicts for the same gains.");
 }
 
+std::string recordings_section(const StudyResults& results) {
+  if (results.recordings.empty()) return "";
+  const auto link = [](const std::filesystem::path& file, const char* words) {
+    const std::string name = escaped("recordings/" + file.filename().string());
+    return file.empty() ? std::string("–") : fmt::format("<a href=\"{}\">{}</a>", name, words);
+  };
+  std::string html =
+      "<h2 id=recordings>Recordings</h2>\n<p>Each run again as a scene, recorded: the page "
+      "replays it in three dimensions; <code>twinarm render</code>, <code>inspect</code> and "
+      "<code>replay</code> take the recording. <i>Apart</i>: the largest difference of an angle "
+      "from the run of this report.</p>\n<div class=scroll><table><thead><tr><th>run</th>"
+      "<th class=text>what</th><th class=text>replay</th><th class=text>recording</th>"
+      "<th class=text>scene</th><th>apart, degrees</th></tr></thead><tbody>\n";
+  for (const StudyRecording& run : results.recordings)
+    html += fmt::format(
+        "<tr><td>{}</td><td class=text>{}</td><td class=text>{}</td><td class=text>{}</td>"
+        "<td class=text>{}</td><td>{}</td></tr>\n",
+        escaped(run.name), escaped(run.title), link(run.page, "page"),
+        link(run.recording, "recording"), link(run.scene, "scene"), degrees(run.apart_deg));
+  return html + "</tbody></table></div>\n";
+}
+
 std::string variants_section(const StudyResults& results, const Gallery& gallery) {
   const Group groups[] = {{{"trial/"},
                            "Gains by trial",

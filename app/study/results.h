@@ -46,14 +46,22 @@ struct SearchRow {
   const CalibrationEntry* e4 = nullptr;
 };
 
+// A run that others can open (recordings.h).
+struct StudyRecording {
+  std::string name, title;
+  std::filesystem::path scene, recording, page;  // the page may be missing: empty
+  double apart_deg = 0;  // largest difference of an angle between the scene's run and the study's
+};
+
 struct StudyResults {
   std::vector<RunResult> reproduction;  // E1, E2, E3, E4, in this order
   std::vector<RunResult> variants;
   std::vector<Finding> findings;
   std::map<std::string, ProtocolErrors> rows;  // of the two-link robots, by calibration entry
   std::vector<ObstacleRun> obstacle;           // linear, torsional
-  std::vector<std::string> answer;             // five lines, each with its number
-  std::string hand_description;                // of E1 and E2
+  std::vector<StudyRecording> recordings;
+  std::vector<std::string> answer;  // five lines, each with its number
+  std::string hand_description;     // of E1 and E2
   double arm2_mass_scale = 1;
   double seconds = 0;         // that the study took
   std::string command;        // that made it

@@ -12,6 +12,7 @@
 #include "app/study/output_csv.h"
 #include "app/study/output_json.h"
 #include "app/study/pictures.h"
+#include "app/study/recordings.h"
 #include "app/study/report.h"
 #include "app/study/variants.h"
 #include "coupling/recorded_trace.h"
@@ -31,6 +32,12 @@ std::unique_ptr<HandSource> make_hand(const StudyOptions& options, const StudySe
   if (!options.trace.empty()) return std::make_unique<RecordedTrace>(options.trace);
   return std::make_unique<SyntheticOperator>(options.seed.value_or(settings.seed),
                                              settings.operator_duration);
+}
+
+SceneHand scene_hand(const StudyOptions& options, const StudySettings& settings,
+                     const HandSource& hand) {
+  if (!options.trace.empty()) return traced_hand(hand, options.trace);
+  return synthetic_hand(hand, options.seed.value_or(settings.seed));
 }
 
 std::string command_of(const StudyOptions& options) {
@@ -74,8 +81,11 @@ StudyResults compute(const StudyOptions& options, const StudyInputs& inputs, con
   progress.stage("findings", 0.15);
   derive_findings(inputs, results, progress);
   results.answer = answer_in_words(results);
-  progress.stage("the obstacle, and pictures", 0.45);
+  progress.stage("the obstacle, and pictures", 0.4);
   run_obstacles_and_paint(inputs, robot, results, options.out, options.paper_view, progress);
+  progress.stage("recordings", 0.1);
+  results.recordings = write_recordings(inputs, robot, scene_hand(options, inputs.settings, hand),
+                                        results, options.out / "recordings", progress);
   return results;
 }
 
@@ -140,11 +150,12 @@ int run_study(const StudyOptions& options) {
     write_identifications(found, assets / "study" / "identification.json");
     progress.finish();
   }
-  for (const char* part : {"figures", "csv", "pictures"}) make_folder(options.out / part);
+  for (const char* part : {"figures", "csv", "pictures", "recordings"})
+    make_folder(options.out / part);
 
   Progress progress(false);
   StudyResults results = compute(options, inputs, *hand, calibration, progress);
-  progress.stage("figures and report", 0.2);
+  progress.stage("figures and report", 0.15);
   write_figures(results, options.out / "figures");
   progress.advance(0.6);
   write_csv(results, options.out / "csv");

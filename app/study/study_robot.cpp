@@ -48,9 +48,11 @@ StudyRobot StudyRobot::s103(const StudySettings& settings, const RobotDescriptio
   ModelOptions options;
   for (const std::string& link : links_outward(description, settings.joints.turned.at(1)))
     options.mass_scale[link] = arm2_mass_scale;
+  robot.plain_ = options;
   robot.kvr_model_ = robot.dvr_plain_ = build_model(description, options);
   for (const Mount& mount : settings.mounts)
     options.added_masses.push_back({mount.link, mount.p_L, settings.added_mass});
+  robot.weighted_ = options;
   robot.dvr_weighted_ = build_model(description, options);
 
   for (const std::string& joint : {settings.joints.turned.at(2), settings.joints.gripper})

@@ -6,6 +6,7 @@
 
 #include "app/study/settings.h"
 #include "collision/import/robot_description.h"
+#include "collision/import/robot_model.h"
 #include "coupling/joint_stops.h"
 #include "coupling/tracking.h"
 
@@ -26,6 +27,10 @@ class StudyRobot {
   const Model<double>& dvr_model(CouplingSpec::Type type) const {
     return type == CouplingSpec::Type::torsional ? dvr_plain_ : dvr_weighted_;
   }
+  // What they were made with.
+  const ModelOptions& masses(CouplingSpec::Type type) const {
+    return type == CouplingSpec::Type::torsional ? plain_ : weighted_;
+  }
   const DrivenJoints& joints() const { return joints_; }
 
   // The two springs of the studied coupling, on the links of joints 1 and 2.
@@ -40,6 +45,7 @@ class StudyRobot {
 
  private:
   std::string name_;
+  ModelOptions plain_, weighted_;
   Model<double> kvr_model_, dvr_plain_, dvr_weighted_;
   DrivenJoints joints_;
   std::vector<Mount> mounts_;

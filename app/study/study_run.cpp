@@ -24,7 +24,7 @@ TrackingSeries track(const StudyRobot& robot, const HandSource& hand, const RunS
   setup.couplings = {main};
   for (const CouplingSpec& held : robot.auxiliary()) setup.couplings.push_back(held);
   TrackingSystem system(setup);
-  JointStops stops(*setup.dvr_model, robot.stops());
+  JointStops stops("stops", *setup.dvr_model, system.kvr(), robot.stops());
   if (!robot.stops().empty()) system.simulation().add(stops);
   return system.run();
 }

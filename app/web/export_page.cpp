@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "app/json_writer.h"
+#include "app/output_file.h"
 #include "app/web/replay_page.h"
-#include "solver/fault.h"
 #include "solver/whole_file.h"
 
 namespace twinarm {
@@ -16,6 +16,7 @@ int export_page(const ExportOptions& options) {
   const std::string file = options.page.string(), end = options.page.extension().string();
   if (end != ".html" && end != ".htm")
     faults.add({file, 0, "", "is no name of a page", "let it end in .html"});
+  check_place(options.page, faults);
   faults.check();
 
   const ReplayPage page = replay_page(options.recording);

@@ -71,7 +71,7 @@ void PageChannels::find_led_joints() {
   const auto& couplings = run_.plan.input.scene->couplings;
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     if (couplings[c].target == CouplingTarget::Kind::start) continue;
-    for (const std::string& turned : couplings[c].turned) {
+    for (const std::string& turned : couplings[c].driven.turned) {
       const NamedJoint* joint = coordinates.find(turned);
       if (!joint || joint->components().size() != 1) continue;
       const std::string of = component_name(coordinates, *joint, joint->components().front());
@@ -119,9 +119,19 @@ void PageChannels::add_frame(const RecordedFrame& frame, const Moment& moment) {
   }
   add_contacts(frame);
   add_led(frame.t);
+  add_ledgers(frame);
+}
+
+void PageChannels::add_ledgers(const RecordedFrame& frame) {
   end_.assign(run_.recording->rows().size(), 0);
   for (std::size_t i = 0; i < frame.rows.size(); ++i) end_.at(frame.rows[i]) = frame.works[i];
   works_.insert(works_.end(), end_.begin(), end_.end());
+  const std::size_t first = momenta_.size();
+  momenta_.resize(first + 6 * run_.recording->momentum_rows().size(), 0);
+  for (std::size_t i = 0; i < frame.momentum_rows.size(); ++i)
+    for (std::size_t c = 0; c < 6; ++c)
+      momenta_.at(first + 6 * frame.momentum_rows[i] + c) =
+          frame.momenta.at(2 * i + c / 3)[static_cast<Eigen::Index>(c % 3)];
 }
 
 void PageChannels::write(JsonWriter& json, PageBytes& bytes) const {
@@ -143,6 +153,10 @@ void PageChannels::write(JsonWriter& json, PageBytes& bytes) const {
   for (const double work : end_) json.text(number_text(work));
   json.end_array();
   bytes.add(json, "works", works_);
+  json.end_object();
+  json.key("momentum").begin_object();
+  json.key("rows").texts(run_.recording->momentum_rows());
+  bytes.add(json, "values", momenta_);
   json.end_object();
   std::vector<std::string> bodies;
   const Model<double>& model = run_.model();

@@ -20,7 +20,7 @@ class PageChannels {
   explicit PageChannels(const FilmedRun& run);
   // The recorded frame, and the moment of the same time.
   void add_frame(const RecordedFrame& frame, const Moment& moment);
-  // Keys times, channels, ledger, bodies.
+  // Keys times, channels, ledger, momentum, bodies.
   void write(JsonWriter& json, PageBytes& bytes) const;
 
  private:
@@ -36,6 +36,7 @@ class PageChannels {
   void find_pairs();
   void add_led(double t);
   void add_contacts(const RecordedFrame& frame);
+  void add_ledgers(const RecordedFrame& frame);
   std::string name_of_geometry(int id) const;
 
   const FilmedRun& run_;
@@ -46,6 +47,8 @@ class PageChannels {
   std::size_t first_pull_ = 0, first_pair_ = 0, elastic_ = 0;
   std::vector<double> times_, works_;  // works by frame, then by row
   std::vector<double> end_;            // of the last frame, by row [J]
+  // Of the ledger of momentum by frame, by row: linear, then angular [N s], [N m s].
+  std::vector<double> momenta_;
 };
 
 }  // namespace twinarm

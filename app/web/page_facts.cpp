@@ -64,20 +64,22 @@ void write_table(JsonWriter& json, const std::string& title, const Row& head,
 }
 
 std::vector<Row> coupling_rows(const SceneModel& scene) {
-  const char* targets[] = {"start", "state", "paper", "trace", "device"};
+  const char* targets[] = {"start", "state", "paper", "trace", "device", "synthetic hand"};
   const char* treatments[] = {"explicit", "semi-implicit", "implicit"};
   std::vector<Row> rows;
   for (const SceneCoupling& c : scene.couplings) {
     const bool is_linear = c.type == CouplingDescription::Type::linear;
-    rows.push_back(
-        {c.name,
-         facts_of(c.law, c.printed).name + std::string(is_linear ? ", at a point"
-                                                       : c.measure == Measure::joint ? ", joint"
-                                                                                     : ", world"),
-         scene.model.body_name[static_cast<std::size_t>(c.spring.body)], number_text(c.spring.k),
-         number_text(c.spring.b), treatments[static_cast<std::size_t>(c.treatment)],
-         c.rate > 0 ? number_text(c.rate) + " Hz" : "each step",
-         targets[static_cast<std::size_t>(c.target)]});
+    rows.push_back({c.name,
+                    c.outside ? "stop"
+                              : facts_of(c.law, c.printed).name +
+                                    std::string(is_linear                     ? ", at a point"
+                                                : c.measure == Measure::joint ? ", joint"
+                                                                              : ", world"),
+                    scene.model.body_name[static_cast<std::size_t>(c.spring.body)],
+                    number_text(c.spring.k), number_text(c.spring.b),
+                    treatments[static_cast<std::size_t>(c.treatment)],
+                    c.rate > 0 ? number_text(c.rate) + " Hz" : "each step",
+                    targets[static_cast<std::size_t>(c.target)]});
   }
   return rows;
 }

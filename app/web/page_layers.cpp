@@ -10,6 +10,8 @@ namespace twinarm {
 namespace {
 
 constexpr std::uint8_t kSeenThrough = 1;
+constexpr std::size_t kMostTextures = 255;
+constexpr int kWidestTexture = 1024;  // [px]; wider ones are halved: a page goes by mail
 
 std::uint8_t byte_of(float share) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
@@ -24,6 +26,8 @@ void append_instance(PageLayer& layer, const Instance& instance) {
   layer.mesh.push_back(static_cast<std::uint16_t>(instance.mesh));
   layer.flags.push_back(instance.seen_through ? kSeenThrough : 0);
   layer.shininess.push_back(byte_of(instance.shininess));
+  layer.texture.push_back(static_cast<std::uint8_t>(
+      instance.texture && *instance.texture < kMostTextures ? *instance.texture + 1 : 0));
   const Color& color = instance.color;
   for (const float share : {color.r, color.g, color.b, color.a})
     layer.color.push_back(byte_of(share));
@@ -65,10 +69,53 @@ void write_mesh(JsonWriter& json, PageBytes& bytes, const DrawMesh& mesh) {
   json.begin_object();
   json.key("low").vector(low);
   json.key("high").vector(high);
+  json.key("twoSided").boolean(mesh.two_sided);
+  std::vector<float> uv;
+  for (const auto& place : mesh.uv) uv.insert(uv.end(), place.begin(), place.end());
+  bytes.add(json, "uv", uv);
   bytes.add(json, "position", position);
   bytes.add(json, "normal", normal);
   bytes.add(json, "index", index);
   json.end_object();
+}
+
+// The mean of four pixels each.
+Image halved(const Image& image) {
+  Image half;
+  half.width = std::max(1, image.width / 2);
+  half.height = std::max(1, image.height / 2);
+  half.rgba.resize(std::size_t{4} * static_cast<std::size_t>(half.width) *
+                   static_cast<std::size_t>(half.height));
+  for (int y = 0; y < half.height; ++y)
+    for (int x = 0; x < half.width; ++x)
+      for (int c = 0; c < 4; ++c) {
+        int sum = 2;
+        for (const int dy : {0, 1})
+          for (const int dx : {0, 1})
+            sum += image.pixel(std::min(2 * x + dx, image.width - 1),
+                               std::min(2 * y + dy, image.height - 1))[c];
+        half.pixel(x, y)[c] = static_cast<std::uint8_t>(sum / 4);
+      }
+  return half;
+}
+
+void write_textures(JsonWriter& json, PageBytes& bytes, const DrawList& list) {
+  json.key("textures").begin_array();
+  for (std::size_t i = 0; i < std::min(list.textures.size(), kMostTextures); ++i) {
+    Image image = *list.textures[i];
+    while (std::max(image.width, image.height) > kWidestTexture) image = halved(image);
+    const std::string png = encode_png(image);
+    json.begin_object();
+    bytes.add(json, "png", std::vector<std::uint8_t>(png.begin(), png.end()));
+    json.end_object();
+  }
+  json.end_array();
+}
+
+void write_color(JsonWriter& json, const char* key, const Color& color) {
+  json.key(key).begin_array();
+  for (const float part : {color.r, color.g, color.b}) json.count(byte_of(part));
+  json.end_array();
 }
 
 void write_layer(JsonWriter& json, PageBytes& bytes, const PageLayer& layer) {
@@ -79,9 +126,7 @@ void write_layer(JsonWriter& json, PageBytes& bytes, const PageLayer& layer) {
   json.key("legend").begin_array();
   for (const LegendLine& line : layer.legend) {
     json.begin_object();
-    json.key("color").begin_array();
-    for (const float part : {line.color.r, line.color.g, line.color.b}) json.count(byte_of(part));
-    json.end_array();
+    write_color(json, "color", line.color);
     json.key("text").text(line.text);
     json.end_object();
   }
@@ -92,6 +137,7 @@ void write_layer(JsonWriter& json, PageBytes& bytes, const PageLayer& layer) {
   bytes.add(json, "flags", layer.flags);
   bytes.add(json, "shininess", layer.shininess);
   bytes.add(json, "color", layer.color);
+  bytes.add(json, "texture", layer.texture);
   bytes.add(json, "position", layer.position);
   bytes.add(json, "turn", layer.turn);
   bytes.add(json, "scale", layer.scale);
@@ -188,6 +234,7 @@ void PageLayers::write(JsonWriter& json, PageBytes& bytes) const {
   json.key("meshes").begin_array();
   for (const auto& mesh : stage_.list.meshes) write_mesh(json, bytes, *mesh);
   json.end_array();
+  write_textures(json, bytes, stage_.list);
   json.key("layers").begin_array();
   for (const PageLayer& layer : layers_) write_layer(json, bytes, layer);
   json.end_array();
@@ -204,6 +251,8 @@ void write_view(JsonWriter& json, const Stage& stage) {
   json.key("fieldOfView").number(camera.field_of_view);
   json.key("light").vector(stage.list.light_W);
   json.key("radius").number(stage.extent.radius());
+  write_color(json, "bottom", stage.list.background.bottom);
+  write_color(json, "top", stage.list.background.top);
   json.key("ground").begin_object();
   json.key("visible").boolean(ground.visible);
   json.key("height").number(ground.height);

@@ -20,7 +20,7 @@ struct PageLayer {
   std::vector<std::uint32_t> first{0}, first_label{0};
   std::vector<std::uint16_t> mesh;
   std::vector<std::uint32_t> text;
-  std::vector<std::uint8_t> flags, shininess, color;
+  std::vector<std::uint8_t> flags, shininess, color, texture;
   std::vector<float> position, scale, label_position;
   std::vector<std::int16_t> turn, label_offset;
 };
@@ -32,7 +32,7 @@ class PageLayers {
   // Layers "body/NAME" with what belongs to that body alone; of the one frame of a page.
   void add_apart(const Moment& moment);
   void show_at_first(const std::vector<std::string>& names);
-  // Keys meshes, layers, texts.
+  // Keys meshes, textures, layers, texts.
   void write(JsonWriter& json, PageBytes& bytes) const;
 
  private:

@@ -23,9 +23,10 @@ constexpr double kMostFrames = 1500;  // of a page
 constexpr std::size_t kMostEntries = 400'000;  // of all its draw lists together
 constexpr double kAspect = 1.35;               // of the view
 
-// Between two frames, so that the last is the recording's own last one.
-double interval_of(double duration) {
-  const double rate = std::min(kMostRate, kMostFrames / duration);
+// Between two frames, so that the last is the recording's own last one. No frame comes twice.
+double interval_of(double duration, std::size_t recorded) {
+  const double own = static_cast<double>(std::max<std::size_t>(recorded, 2) - 1) / duration;
+  const double rate = std::min({kMostRate, kMostFrames / duration, own});
   return duration / std::max(1.0, std::ceil(duration * rate - 1e-6));
 }
 
@@ -36,7 +37,7 @@ FilmedRun open_film(const std::filesystem::path& file, Progress& progress) {
   options.model = file;
   FilmTimes times;
   times.is_film = last > first;
-  times.interval = interval_of(std::max(last - first, 1e-9));
+  times.interval = interval_of(std::max(last - first, 1e-9), recording.size());
   if (!times.is_film) times.at = last;
   return film_run(options, times, progress);
 }

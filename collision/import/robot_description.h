@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -143,7 +144,9 @@ struct JointDescription {
   Pose X_PJ() const { return origin.pose(); }
   // A screw may have limits: it has where lower < upper.
   bool is_limited() const {
-    return type == Type::revolute || type == Type::prismatic ||
+    constexpr double kNowhere = std::numeric_limits<double>::infinity();
+    const bool nowhere = lower == -kNowhere && upper == kNowhere;
+    return ((type == Type::revolute || type == Type::prismatic) && !nowhere) ||
            (type == Type::screw && lower < upper);
   }
   bool has_axis() const {

@@ -90,6 +90,29 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(report.count("<svg"), 11)
         self.assertEqual(report.count("data:image/png;base64"), 5)
         self.assertEqual([f for f in self.written() if f.endswith(".tmp")], [])
+        self.check_recordings({run_["name"]: run_ for run_ in study["recordings"]})
+
+    def check_recordings(self, made):
+        """Scenes that run the study's own laws, and what the other commands make of them."""
+        self.assertEqual(list(made), ["E1", "E2", "E3", "E4", "obstacle_linear",
+                                      "obstacle_torsional"])
+        for name in ("E1", "E2", "E3", "E4"):  # two programs' ways to the same numbers
+            self.assertLess(made[name]["apart_deg"], 1e-9, name)
+        for run_ in made.values():
+            again = run("replay", run_["recording"], "--json", timeout=60)
+            self.assertEqual(again.returncode, 0, run_["name"] + again.stderr)
+            if run_["page"]:
+                self.assertLess(pathlib.Path(run_["page"]).stat().st_size, 5e6)
+        checks = json.loads(run("inspect", made["E3"]["recording"], "--at", 1, "--json",
+                                timeout=60).stdout)
+        self.assertTrue(all(check["pass"] for check in checks["checks"]))
+        sources = {w["source"] for body in checks["balance"] for w in body["wrenches"]}
+        self.assertIn("coupling/pull_joint1", sources)
+        picture = self.folder / "both.png"
+        done = run("render", made["E3"]["recording"], "--beside", made["E4"]["recording"], "--png",
+                   picture, "--plot", "lag", "--size", "320x200", timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(picture.exists())
 
     # Help
 

@@ -147,6 +147,21 @@ TEST_CASE(
   check_fault(linear + "link = 'arm1'\nspeed = 2\n", 8, "a motion by name or a trace");
   check_fault(linear + "link = 'arm1'\ntarget = { q = { joint1 = 1 } }\nspeed = 2\n", 9,
               "a motion by name or a trace");
+  check_fault(linear + "link = 'arm1'\noutside = [0, 1]\n", 8, "a stop is a torsional coupling");
+  check_fault(pull + "type = 'torsional'\nmeasure = 'joint'\nlink = 'arm1'\noutside = [1, 0]\n", 9,
+              "the first is above the second");
+  check_fault(linear + "link = 'arm1'\ngripper = { joint = 'joint1', open = 0, closed = 1 }\n", 8,
+              "no hand moves this target");
+  check_fault(linear + "link = 'arm1'\ntarget = 'paper'\n" +
+                  "gripper = { joint = 'joint7', open = 0, closed = 1 }\n",
+              9, "did you mean 'joint1'");
+  check_fault(linear + "link = 'arm1'\ntarget = { seed = 0.5 }\n", 8, "must be a whole number");
+  check_fault(std::string(kArm) + "mass_scale = { arm3 = 2 }\n", 4, "there is no link 'arm3'");
+  check_fault(std::string(kArm) + "mass_scale = { arm1 = 0 }\n", 4, "must be positive, is 0");
+  check_fault(std::string(kArm) + "payload = [{ link = 'arm1', mass = -1 }]\n", 4,
+              "must not be negative");
+  check_fault(std::string(kArm) + "payload = [{ link = 'arm9', mass = 1 }]\n", 4,
+              "there is no link 'arm9'");
   check_fault(linear + "link = 'arm1'\ntarget = { q = { joint9 = 1 } }\n", 8, "no such joint");
   check_fault(pull + "type = 'torsional'\nlink = 'base'\nmeasure = 'joint'\n", 7,
               "not one degree of freedom");

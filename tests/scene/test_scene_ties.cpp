@@ -102,7 +102,7 @@ TEST_CASE("scene: a coupling without target pulls back to where the robot starte
   const SceneCoupling& pull = scene.couplings[0];
   CHECK(pull.spring.body == scene.model.find_body("left/arm1"));
   CHECK(pull.treatment == Treatment::implicit);
-  CHECK(pull.turned.empty());
+  CHECK(pull.driven.turned.empty());
 
   SceneCouplings couplings(scene, 0.001);
   Kinematics k(scene.model);

@@ -175,6 +175,21 @@ class Browser:
         mouse("mouseReleased", end)
         self.frames(2)
 
+    def colors(self, points):
+        """Of the picture as it is seen: (red, green, blue) at (x, y)."""
+        shot = self.call("Page.captureScreenshot", format="png")["data"]
+        return self.evaluate("""(async () => {
+            const image = new Image();
+            image.src = 'data:image/png;base64,' + %s;
+            await image.decode();
+            const canvas = document.createElement('canvas');
+            canvas.width = image.width;
+            canvas.height = image.height;
+            const context = canvas.getContext('2d');
+            context.drawImage(image, 0, 0);
+            return %s.map(([x, y]) => [...context.getImageData(x, y, 1, 1).data].slice(0, 3));
+        })()""" % (json.dumps(shot), json.dumps(points)))
+
     def picture(self, file):
         shot = self.call("Page.captureScreenshot", format="png")
         with open(file, "wb") as out:

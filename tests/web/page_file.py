@@ -39,6 +39,17 @@ def with_arrays(value, block):
     return {key: with_arrays(item, block) for key, item in value.items()}
 
 
+def png(rows):
+    """The bytes of a picture; rows of (red, green, blue)."""
+    def chunk(kind, data):
+        body = kind + data
+        return len(data).to_bytes(4, "big") + body + zlib.crc32(body).to_bytes(4, "big")
+    size = len(rows[0]).to_bytes(4, "big") + len(rows).to_bytes(4, "big")
+    lines = b"".join(b"\0" + b"".join(map(bytes, row)) for row in rows)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", size + b"\x08\x02\0\0\0")
+            + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
+
+
 def data_of(html):
     """What the page carries."""
     text = re.search(r'<script type="application/json" id="run">(.*?)</script>', html, re.S)

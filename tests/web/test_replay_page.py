@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 from browser import Browser, find_browser
-from page_file import data_of, is_missing, run
+from page_file import data_of, is_missing, png, run
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = sys.argv.pop(1)
@@ -21,6 +21,35 @@ SCENES = ROOT / "assets" / "scenes"
 
 def twinarm(*words, code=0):
     return run(PROGRAM, *words, code=code)
+
+
+# A flag in the plane of x and z: red at the left of who looks along y, green at the right; blue below.
+FLAG = """mtllib flag.mtl
+v 0 0 0
+v 1 0 0
+v 1 0 1
+v 0 0 1
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+usemtl cloth
+f 1/1 2/2 3/3
+f 1/1 3/3 4/4
+"""
+RED, GREEN, BLUE = (230, 20, 20), (20, 200, 20), (20, 20, 230)
+CLOTH = [[RED] * 4 + [GREEN] * 4] * 4 + [[BLUE] * 8] * 4
+POLE = """<robot name="flag"><link name="pole">
+<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+<visual><geometry><mesh filename="flag.obj"/></geometry></visual></link></robot>"""
+
+
+def write_flag(folder):
+    (folder / "flag.obj").write_text(FLAG)
+    (folder / "flag.mtl").write_text("newmtl cloth\nKd 1 1 1\nmap_Kd cloth.png\n")
+    (folder / "cloth.png").write_bytes(png(CLOTH))
+    (folder / "flag.urdf").write_text(POLE)
+    return folder / "flag.urdf"
 
 
 class Page:
@@ -53,6 +82,7 @@ class Pages(unittest.TestCase):
         folder = pathlib.Path(cls.temporary.name)
         cls.arm = Page(folder, SCENES / "robot_beside_obstacles.toml")
         cls.ball = Page(folder, SCENES / "bouncing_ball.toml", "--duration", 1)
+        cls.flag = Page(folder, write_flag(folder), "--duration", 0.1)
 
     @classmethod
     def tearDownClass(cls):
@@ -99,6 +129,16 @@ class Contents(Pages):
             pairs = zip(self.arm.channel(f"q/{of}"), self.arm.channel(f"target/{of}"))
             self.assertEqual(error["values"], [a - b for a, b in pairs])
 
+    def test_the_ledger_of_momentum_is_that_of_the_recording(self):
+        for page in (self.arm, self.ball):
+            rows, values = page.run["momentum"]["rows"], page.run["momentum"]["values"]
+            self.assertTrue(rows)
+            for n, frame in enumerate(page.exported_frames()):
+                for i, row in enumerate(rows):
+                    told = frame["momentum"].get(row, {"linear": [0] * 3, "angular": [0] * 3})
+                    at = 6 * (n * len(rows) + i)
+                    self.assertEqual(values[at:at + 6], told["linear"] + told["angular"])
+
     def test_command_and_settings_are_told(self):
         facts = dict(self.arm.run["facts"])
         self.assertEqual(facts["step"], "1 ms")
@@ -126,7 +166,8 @@ class Contents(Pages):
         said = twinarm("export", self.ball.recording, "page.txt", "--csv", code=2).stderr
         self.assertIn("page.txt", said)
         self.assertIn("--csv", said)
-        twinarm("export", self.ball.recording, "/nonexistent/page.html", code=2)
+        for place, word in (("/nonexistent/page.html", "mkdir"), ("/proc/page.html", "/proc")):
+            self.assertIn(word, twinarm("export", self.ball.recording, place, code=2).stderr)
 
 
 @unittest.skipUnless(find_browser(), "no Chromium here: scripts/setup --lab installs it")
@@ -218,6 +259,41 @@ class InTheBrowser(Pages):
                                ".getBoundingClientRect(); return [b.x, b.y, b.width, b.height]; })()")
         clip = dict(zip(("x", "y", "width", "height"), box), scale=1)
         return browser.call("Page.captureScreenshot", format="png", clip=clip)["data"]
+
+    def test_a_texture_lies_on_its_mesh_the_right_way_up(self):
+        browser = self.open(self.flag)
+        browser.evaluate("[...document.querySelectorAll('.views button')]"
+                         ".find(b => b.textContent === 'front').click()")
+        browser.frames(3)
+        self.picture(browser, "flag")
+        points = browser.evaluate("""[[0.25, 0.75], [0.75, 0.75], [0.5, 0.25]].map(([x, z]) => {
+            const box = document.querySelector('.stage').getBoundingClientRect();
+            const at = window.twinarm.page.stage.project(x, 0, z);
+            return [Math.round(box.x + at.x), Math.round(box.y + at.y)];
+        })""")
+        for got, wanted in zip(browser.colors(points), (RED, GREEN, BLUE)):
+            self.assertEqual(got.index(max(got)), wanted.index(max(wanted)), got)
+            self.assertGreater(max(got), 2 * sorted(got)[1], got)
+
+    def test_no_label_lies_under_what_stands_on_the_picture(self):
+        browser = self.open(self.arm, "#t=1.5&show=labels,couplings,forces,joints,frames")
+        hidden = """(() => {
+            const box = (e) => e.getBoundingClientRect();
+            const bars = [...document.querySelectorAll('.switches, .legend, .views')].map(box);
+            const shown = [...document.querySelectorAll('.labels span')].filter(e => !e.hidden);
+            const meet = (a, b) => a.left < b.right && b.left < a.right
+                && a.top < b.bottom && b.top < a.bottom;
+            return [shown.length, shown.filter(e => bars.some(bar => meet(box(e), bar))).length];
+        })()"""
+        seen = []
+        for _ in range(8):  # around the scene
+            browser.evaluate("window.twinarm.page.stage.orbit(0.7, 0, 1)")
+            browser.frames(2)
+            count, covered = browser.evaluate(hidden)
+            seen.append(count)
+            self.assertEqual(covered, 0)
+        self.assertGreater(max(seen), 3)
+        self.picture(browser, "arm_labels")
 
     def test_every_layer_can_be_shown_and_hidden(self):
         browser = self.open(self.arm, "#t=1.5")

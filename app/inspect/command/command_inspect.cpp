@@ -8,6 +8,7 @@
 #include "app/inspect/command/inspect_input.h"
 #include "app/inspect/command/inspect_output.h"
 #include "app/inspect/command/inspect_view.h"
+#include "app/output_file.h"
 #include "app/record/instant.h"
 #include "app/web/inspect_page.h"
 #include "solver/first_bad.h"
@@ -60,6 +61,7 @@ int run_inspect(const InspectOptions& options) {
   FaultList faults;
   InspectView view;
   read_passes(options, view, faults);
+  if (!options.html.empty()) check_place(options.html, faults);
   SimulateOptions simulate;
   simulate.robot = options.robot;
   simulate.duration = 1;

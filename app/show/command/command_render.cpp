@@ -8,6 +8,7 @@
 #include "app/interrupt.h"
 #include "app/json_writer.h"
 #include "app/nearest_name.h"
+#include "app/output_file.h"
 #include "app/progress.h"
 #include "app/show/command/film.h"
 #include "app/show/command/filmed_run.h"
@@ -57,6 +58,8 @@ void check_outputs(const RenderOptions& options, RenderPlan& plan, FaultList& fa
   if (outputs != 1)
     faults.add({"", 0, "output", fmt::format("{} are given", outputs),
                 "give one of --png FILE, --frames DIR, --mp4 FILE, --gif FILE"});
+  for (const auto* file : {&options.png, &options.mp4, &options.gif})
+    if (!file->empty()) check_place(*file, faults);
   plan.times.is_film = outputs == 1 && options.png.empty();
   if (plan.times.is_film && options.at)
     faults.add({"", 0, "--at", "is for a still", "give --from and --to, or --png FILE"});

@@ -9,7 +9,8 @@
 namespace twinarm {
 namespace {
 
-constexpr double kLeastPull = 1e-3;  // of the largest
+constexpr double kLeastPull = 1e-3;    // of the largest
+constexpr double kLeastArrow = 0.005;  // of the weight, and of that at half the scene's extent
 
 struct Drawn {
   bool force = false, couple = false;
@@ -52,12 +53,18 @@ void add_ramp_legend(Stage& stage, const Drawn& drawn) {
 
 void show_couplings(Stage& stage, const Moment& moment) {
   Drawn drawn;
+  const Model<double>& model = *stage.model;
+  const double weight = total_motion(model, moment.k).mass * to_eigen(model.gravity).norm();
   for (const ShownPull& pull : moment.pulls) {
     const bool is_force = pull.kind == ShownPull::Kind::force;
     const double largest = is_force ? stage.scales.force : stage.scales.couple;
     const double size = pull.pull_W.norm();
+    // What holds a joint against next to nothing must not look like what moves the robot.
+    const double least =
+        pull.has_ends ? 0 : kLeastArrow * weight * (is_force ? 1 : stage.scales.length);
+    if (largest < least) continue;
     (is_force ? drawn.force : drawn.couple) = true;
-    if (!(largest > 0) || size < kLeastPull * largest) continue;
+    if (!(largest > 0) || size < std::max(least, kLeastPull * largest)) continue;
     const Color color = palette::ramp(size / largest);
     if (pull.has_ends)
       draw_spring(stage, pull, color);

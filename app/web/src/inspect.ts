@@ -2,12 +2,13 @@
 // the robot beside them.
 import './style.css';
 import './inspect.css';
-import { embedded } from './data/embedded';
 import type { Balance, InspectedRobot, Inspection, PassStep } from './data/inspection';
 import { button, element, icon, short } from './ui/dom';
 import { help, listen, type Key } from './ui/keys';
 import { LayerChoice } from './ui/layers';
+import { onPaper } from './ui/paper';
 import { quantityCard } from './ui/quantity';
+import { start } from './ui/start';
 import { Tabs } from './ui/tabs';
 import { Theme, token } from './ui/theme';
 import { Labels } from './view/labels';
@@ -40,13 +41,17 @@ class Page {
     const overlays = robot.layers.filter((layer) => !layer.name.startsWith('body/'));
     this.layers = new LayerChoice(overlays, () => (this.stale = true));
     this.build();
-    this.stage = new Stage(this.host, robot.view, robot.meshes, () => (this.stale = true));
+    this.stage = new Stage(this.host, robot.view, robot, () => (this.stale = true));
     this.labels = new Labels(this.host.querySelector('.labels')!);
     const asked = new URLSearchParams(location.hash.slice(1));
     const theme = asked.get('theme');
     if (theme) this.theme.set(theme === 'dark');
     this.stage.setTheme(this.theme.dark);
     this.go(Number(asked.get('step') ?? 1) - 1);
+    onPaper(this.host, () => {
+      this.stage.resize();
+      this.paint();
+    });
     const tick = () => {
       if (this.stale) this.paint();
       requestAnimationFrame(tick);
@@ -85,7 +90,7 @@ class Page {
         'header',
         {},
         element('h1', {}, robot.title),
-        element('p', {}, robot.state),
+        element('p', {}, robot.state.replaceAll('\n', ' · ')),
         button('?', 'keys (?)', () => dialog.showModal()),
         button(icon('theme'), 'light or dark (t)', () => this.theme.set(!this.theme.dark)),
       ),
@@ -275,18 +280,8 @@ function swatch(i: number): HTMLElement {
   return made;
 }
 
-async function start(): Promise<void> {
-  const told = await embedded<Omit<InspectedRobot, 'inspection'> & { inspection: string }>();
+type Told = Omit<InspectedRobot, 'inspection'> & { inspection: string };
+start<Told>((told) => {
   const robot = { ...told, inspection: JSON.parse(told.inspection) as Inspection };
-  const page = new Page(robot);
-  Object.assign(window, { twinarm: { robot, page } });
-  document.documentElement.dataset.ready = 'true';
-}
-
-start().catch((error: unknown) => {
-  const words = error instanceof Error ? error.message : String(error);
-  document.body.append(
-    element('p', { class: 'failed', role: 'alert' }, `This page cannot be shown: ${words}`),
-  );
-  console.error(error);
+  return { robot, page: new Page(robot) };
 });

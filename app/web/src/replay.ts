@@ -1,7 +1,6 @@
 // The page of a recorded run: one clock, and all that follows it.
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
-import { embedded } from './data/embedded';
 import { channelOf, type Run } from './data/run';
 import { panelsOf } from './plots/panels';
 import { Pick } from './plots/pick';
@@ -9,8 +8,10 @@ import { Plot } from './plots/plot';
 import { button, element, icon } from './ui/dom';
 import { help, listen, type Key } from './ui/keys';
 import { LayerChoice } from './ui/layers';
+import { onPaper, PAPER } from './ui/paper';
 import { Player } from './ui/player';
-import { LedgerTable, setup } from './ui/tables';
+import { start } from './ui/start';
+import { LedgerTable, MomentumTable, setup } from './ui/tables';
 import { Tabs } from './ui/tabs';
 import { Theme } from './ui/theme';
 import { Transport } from './ui/transport';
@@ -24,7 +25,7 @@ class Page {
   private readonly labels: Labels;
   private readonly plots: Plot[];
   private readonly pick: Pick;
-  private readonly ledger: LedgerTable;
+  private readonly ledgers: (LedgerTable | MomentumTable)[];
   private readonly theme: Theme;
   private readonly tabs = new Tabs();
   private readonly followed = element('select', { title: 'what the camera follows (f)' });
@@ -39,16 +40,17 @@ class Page {
     this.layers = new LayerChoice(run.layers, () => this.moved());
     this.plots = panelsOf(run).map((spec) => new Plot(spec, this.player));
     this.pick = new Pick(run, this.player);
-    this.ledger = new LedgerTable(run, this.player);
+    this.ledgers = [new LedgerTable(run, this.player), new MomentumTable(run, this.player)];
     this.tabs.add('Plots', ...this.plots.map((plot) => plot.root), this.pick.root);
-    this.tabs.add('Ledger', this.ledger.root);
+    this.tabs.add('Ledger', ...this.ledgers.map((ledger) => ledger.root));
     this.tabs.add('Setup', setup(run));
     this.build();
-    this.stage = new Stage(this.host, run.view, run.meshes, () => (this.stale = true));
+    this.stage = new Stage(this.host, run.view, run, () => (this.stale = true));
     this.labels = new Labels(this.host.querySelector('.labels')!);
     this.player.watch(() => this.moved());
     this.takeHash();
     this.recolor();
+    onPaper(this.host, (isPaper) => this.print(isPaper));
     requestAnimationFrame((now) => this.tick(now));
   }
 
@@ -191,7 +193,7 @@ class Page {
       this.numbersStale = false;
       this.numbersAt = now;
       for (const plot of [...this.plots, this.pick]) plot.move();
-      this.ledger.show();
+      for (const ledger of this.ledgers) ledger.show();
     }
     requestAnimationFrame((next) => this.tick(next));
   }
@@ -223,6 +225,12 @@ class Page {
     );
   }
 
+  private print(isPaper: boolean): void {
+    this.stage.resize();
+    this.paint();
+    for (const plot of this.plots) plot.fit(isPaper ? PAPER : undefined);
+  }
+
   private placeOf(body: string, a: number, b: number): [number, number, number] {
     const at = (axis: string) => {
       const values = channelOf(this.run, `links/${body}/${axis}`)!.values;
@@ -239,28 +247,14 @@ function gridWords(run: Run): string {
 }
 
 function headline(run: Run): string[] {
-  const fact = (name: string) => run.facts.find(([key]) => key === name)?.[1];
+  // All digits stand below Setup.
+  const rounded = (text: string) => text.replace(/^[\d.]+/, (digits) => String(+(+digits).toPrecision(4)));
+  const fact = (name: string) => {
+    const found = run.facts.find(([key]) => key === name)?.[1];
+    return found && rounded(found);
+  };
   const words = [fact('integrator'), fact('step'), fact('duration')].filter((word) => word);
   return [words.join(' · ')];
 }
 
-declare global {
-  interface Window {
-    twinarm?: { run: Run; page: Page };
-  }
-}
-
-async function start(): Promise<void> {
-  const run = await embedded<Run>();
-  const page = new Page(run);
-  window.twinarm = { run, page };
-  document.documentElement.dataset.ready = 'true';
-}
-
-start().catch((error: unknown) => {
-  const words = error instanceof Error ? error.message : String(error);
-  document.body.append(
-    element('p', { class: 'failed', role: 'alert' }, `This page cannot be shown: ${words}`),
-  );
-  console.error(error);
-});
+start<Run>((run) => ({ run, page: new Page(run) }));

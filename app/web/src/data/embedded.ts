@@ -57,6 +57,8 @@ interface PackedMesh {
   position: Uint16Array;
   normal: Int8Array;
   index: Int16Array | Uint32Array;
+  uv: Float32Array;
+  twoSided: boolean;
 }
 
 function unpackMesh(packed: PackedMesh): MeshData {
@@ -73,18 +75,27 @@ function unpackMesh(packed: PackedMesh): MeshData {
     last = (last + packed.index[i]) >>> 0; // of unsigned differences, modulo 2^32
     index[i] = last;
   }
-  return { position, normal, index };
+  return { position, normal, index, uv: packed.uv, twoSided: packed.twoSided };
 }
 
 function textOf(id: string): string {
   return document.getElementById(id)?.textContent ?? '';
 }
 
+// No fetch: a page may load nothing, not even from itself.
+function picture({ png }: { png: Uint8Array<ArrayBuffer> }): Promise<ImageBitmap> {
+  return createImageBitmap(new Blob([png], { type: 'image/png' }));
+}
+
 // A Run, or whatever else has meshes. The program that wrote the page vouches for its shape.
-export async function embedded<T extends { meshes: MeshData[] }>(): Promise<T> {
+export async function embedded<
+  T extends { meshes: MeshData[]; textures: ImageBitmap[] },
+>(): Promise<T> {
   const plain: unknown = JSON.parse(textOf('run'));
-  const data = resolve(plain, await inflate(textOf('run-bytes'))) as Omit<T, 'meshes'> & {
+  const data = resolve(plain, await inflate(textOf('run-bytes'))) as object & {
     meshes: PackedMesh[];
+    textures: { png: Uint8Array<ArrayBuffer> }[];
   };
-  return { ...data, meshes: data.meshes.map(unpackMesh) } as unknown as T;
+  const textures = await Promise.all(data.textures.map(picture));
+  return { ...data, meshes: data.meshes.map(unpackMesh), textures } as unknown as T;
 }

@@ -58,6 +58,7 @@ export interface InspectedRobot {
   version: string;
   inspection: Inspection;
   meshes: MeshData[];
+  textures: ImageBitmap[];
   // "body/NAME" for each body, "body/world", and the overlays; of one frame.
   layers: Layer[];
   texts: string[];

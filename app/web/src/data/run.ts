@@ -18,6 +18,7 @@ export interface InstanceColumns {
   flags: Uint8Array; // 1: also seen faintly where bodies hide it
   shininess: Uint8Array; // 255: polished
   color: Uint8Array; // r, g, b, a
+  texture: Uint8Array; // 0: none, else one more than its index
   position: Float32Array; // x, y, z
   turn: Int16Array; // quaternion x, y, z, w in units of 1/32767
   scale: Float32Array; // x, y, z
@@ -47,6 +48,14 @@ export interface MeshData {
   position: Float32Array;
   normal: Float32Array;
   index: Uint32Array;
+  uv: Float32Array; // from the upper left of a texture; empty: none
+  twoSided: boolean; // an open surface
+}
+
+// Rows add up to the change of momentum: three numbers linear, three angular about the origin.
+export interface MomentumData {
+  rows: string[];
+  values: Float64Array; // frame by frame, row by row, six each
 }
 
 export interface LedgerData {
@@ -62,6 +71,8 @@ export interface View {
   fieldOfView: number; // vertical
   light: [number, number, number]; // towards the light
   radius: number; // of what is seen
+  bottom: [number, number, number]; // of the background
+  top: [number, number, number];
   ground: { visible: boolean; height: number; cell: number; cellsPerMajor: number };
 }
 
@@ -75,8 +86,10 @@ export interface Run {
   times: Float64Array;
   channels: Channel[];
   ledger: LedgerData;
+  momentum: MomentumData;
   bodies: string[]; // that have position channels
   meshes: MeshData[];
+  textures: ImageBitmap[];
   layers: Layer[];
   texts: string[]; // of labels
   view: View;

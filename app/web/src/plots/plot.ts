@@ -126,8 +126,8 @@ export class Plot {
     }
   }
 
-  private fit(): void {
-    const width = this.canvas.clientWidth;
+  // To the width of its place, or to that of a page, where a hidden one is seen too.
+  fit(width = this.canvas.clientWidth): void {
     if (this.chart && width > 0 && width !== this.chart.width)
       this.chart.setSize({ width, height: HEIGHT });
     this.move();

@@ -38,6 +38,7 @@ export class LedgerTable {
     const heads = ['work, and below it all digits of the end [J]', 'now [J]', ''];
     const head = element('tr', {}, ...heads.map((text) => element('th', { scope: 'col' }, text)));
     this.root.append(
+      element('h3', {}, 'Energy'),
       element(
         'p',
         { class: 'hint' },
@@ -71,6 +72,58 @@ export class LedgerTable {
       bar.style.width = `${share}%`;
     }
     this.sum.textContent = short(sum);
+  }
+}
+
+// The same of momentum: what pushed from outside, and how it turned about the origin.
+export class MomentumTable {
+  readonly root = element('section', { class: 'momentum' });
+  private readonly cells: HTMLTableCellElement[][] = [];
+  private readonly sums: HTMLTableCellElement[] = [];
+
+  constructor(
+    private readonly run: Run,
+    private readonly player: Player,
+  ) {
+    const numbers = () => Array.from({ length: 6 }, () => element('td', { class: 'number' }));
+    const row = (name: string, cells: HTMLTableCellElement[]) =>
+      element('tr', {}, element('th', { scope: 'row' }, name), ...cells);
+    const body = element('tbody');
+    for (const name of run.momentum.rows) {
+      this.cells.push(numbers());
+      body.append(row(name, this.cells[this.cells.length - 1]));
+    }
+    this.sums = numbers();
+    const heads = ['', 'x', 'y', 'z [N s]', 'about x', 'y', 'z [N m s]'];
+    const head = element('tr', {}, ...heads.map((text) => element('th', { scope: 'col' }, text)));
+    const foot = element('tfoot', {}, row('their sum: change of momentum', this.sums));
+    const hint =
+      'What acted from outside on all that forces move, up to the time shown; the moments are ' +
+      'about the world’s origin. All digits stand at the pointer.';
+    this.root.hidden = run.momentum.rows.length === 0;
+    this.root.append(
+      element('h3', {}, 'Momentum'),
+      element('p', { class: 'hint' }, hint),
+      element('div', { class: 'wide' }, element('table', {}, element('thead', {}, head), body, foot)),
+    );
+  }
+
+  show(): void {
+    const { rows, values } = this.run.momentum;
+    const begin = 6 * this.player.frame * rows.length;
+    const put = (cell: HTMLTableCellElement, value: number) => {
+      cell.textContent = short(value);
+      cell.title = String(value);
+    };
+    const sums = [0, 0, 0, 0, 0, 0];
+    this.cells.forEach((cells, row) =>
+      cells.forEach((cell, c) => {
+        const value = values[begin + 6 * row + c];
+        sums[c] += value;
+        put(cell, value);
+      }),
+    );
+    sums.forEach((sum, c) => put(this.sums[c], sum));
   }
 }
 

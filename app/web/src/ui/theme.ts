@@ -4,6 +4,15 @@ export class Theme {
 
   constructor(private readonly changed: () => void) {
     document.documentElement.dataset.theme = this.dark ? 'dark' : 'light';
+    // Paper is white.
+    let chosen = this.dark;
+    addEventListener('beforeprint', () => {
+      chosen = this.dark;
+      if (chosen) this.set(false);
+    });
+    addEventListener('afterprint', () => {
+      if (chosen) this.set(true);
+    });
   }
 
   set(dark: boolean): void {

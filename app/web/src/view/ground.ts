@@ -1,4 +1,5 @@
-// The floor: a metric grid that fades with the distance, and the shadows on it.
+// The floor: a metric grid that fades with the distance, and the shadows on it. The floor itself
+// takes the colour of what lies behind, so that no horizon is seen, as in the painter's studio.
 import * as THREE from 'three';
 import type { View } from '../data/run';
 
@@ -17,8 +18,6 @@ uniform float major;
 uniform float reach;
 uniform vec2 middle;
 uniform vec3 ink;
-uniform vec3 paper;
-uniform float paperShare;
 varying vec2 place;
 float lines(float size, float width) {
   vec2 at = place / size;
@@ -30,11 +29,8 @@ float lines(float size, float width) {
 void main() {
   float away = length(place - middle) / reach;
   float fade = 1.0 - smoothstep(0.25, 1.0, away);
-  float line = max(0.3 * lines(cell, 0.55), 0.6 * lines(cell * major, 0.7));
-  float cover = paperShare * fade;
-  float alpha = cover + line * fade * 0.6 * (1.0 - cover);
-  vec3 color = mix(paper, ink, line * 0.6);
-  gl_FragColor = vec4(color, alpha);
+  float line = max(0.22 * lines(cell, 0.55), 0.42 * lines(cell * major, 0.7));
+  gl_FragColor = vec4(ink, line * fade);
   #include <colorspace_fragment>
 }`;
 
@@ -56,8 +52,6 @@ export class Ground {
         reach: { value: reach },
         middle: { value: new THREE.Vector2(view.target[0], view.target[1]) },
         ink: { value: new THREE.Color() },
-        paper: { value: new THREE.Color() },
-        paperShare: { value: 0.5 },
       },
     });
     this.grid = new THREE.Mesh(plane, material);
@@ -74,10 +68,8 @@ export class Ground {
   }
 
   setTheme(dark: boolean): void {
-    const { ink, paper, paperShare } = this.grid.material.uniforms;
-    (ink.value as THREE.Color).set(dark ? 0xb6c4d4 : 0x38424f);
-    (paper.value as THREE.Color).set(dark ? 0x2a323d : 0xffffff);
-    paperShare.value = dark ? 0.55 : 0.65;
+    const { ink } = this.grid.material.uniforms;
+    (ink.value as THREE.Color).set(dark ? 0xb6c4d4 : 0x303842);
     this.shadow.material.opacity = dark ? 0.5 : 0.26;
   }
 }

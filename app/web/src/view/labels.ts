@@ -1,5 +1,6 @@
 // Texts at points of the world: over the picture, in the page's own letters, never hidden by
-// bodies. They step aside from one another by whole lines; a thin line leads to the point.
+// bodies. They step aside from one another and from what lies on the picture, by whole lines or to
+// the other side of their point; a thin line leads to it. What finds no room is left out.
 import type { LabelColumns } from '../data/run';
 import type { Stage } from './stage';
 
@@ -28,7 +29,7 @@ export class Labels {
   }
 
   paint(stage: Stage, texts: string[], parts: { columns: LabelColumns; frame: number }[]): void {
-    const taken: Box[] = [];
+    const taken = this.covered();
     let used = 0;
     for (const { columns, frame } of parts)
       for (let i = columns.first[frame]; i < columns.first[frame + 1]; ++i) {
@@ -37,8 +38,9 @@ export class Labels {
         if (!point) continue;
         const [right, down] = columns.offset.subarray(2 * i, 2 * i + 2);
         const text = texts[columns.text[i]];
-        const box = place(point.x + right, point.y + down, 7 * text.length + 6, taken);
-        if (box.right > this.host.clientWidth) continue;
+        const box = place(point, right, down, 7 * text.length + 6, taken);
+        if (!box || box.right > this.host.clientWidth || box.left < 0) continue;
+        taken.push(box);
         this.put(this.item(used++), text, box, point);
       }
     for (let i = used; i < this.items.length; ++i) {
@@ -47,11 +49,30 @@ export class Labels {
     }
   }
 
+  // Switches, legend and the like: whatever else the view holds besides its picture.
+  private covered(): Box[] {
+    const { left, top } = this.host.getBoundingClientRect();
+    const boxes: Box[] = [];
+    for (const other of this.host.parentElement?.children ?? []) {
+      if (other === this.host || other instanceof HTMLCanvasElement) continue;
+      const box = other.getBoundingClientRect();
+      if (box.width === 0) continue;
+      boxes.push({
+        left: box.left - left,
+        top: box.top - top,
+        right: box.right - left,
+        bottom: box.bottom - top,
+      });
+    }
+    return boxes;
+  }
+
   private put(item: Item, text: string, box: Box, point: { x: number; y: number }): void {
     item.text.hidden = false;
     if (item.text.textContent !== text) item.text.textContent = text;
     item.text.style.transform = `translate(${box.left}px, ${box.top}px)`;
-    const end = { x: box.left - 2, y: 0.5 * (box.top + box.bottom) };
+    const isLeft = box.right < point.x;
+    const end = { x: isLeft ? box.right + 2 : box.left - 2, y: 0.5 * (box.top + box.bottom) };
     const long = Math.hypot(end.x - point.x, end.y - point.y) > 12;
     item.leader.style.display = long ? '' : 'none';
     for (const [name, value] of Object.entries({ x1: point.x, y1: point.y, x2: end.x, y2: end.y }))
@@ -70,19 +91,23 @@ export class Labels {
   }
 }
 
-function place(x: number, y: number, width: number, taken: Box[]): Box {
-  let chosen: Box | null = null;
-  for (const lines of [0, -1, 1, -2, 2, -3, 3, -4, 4]) {
-    const top = y - 0.5 * LINE + lines * LINE;
-    const box = { left: x, top, right: x + width, bottom: top + LINE };
-    chosen ??= box;
-    const free = taken.every(
+// The nearest free place; at the right before the left.
+function place(
+  point: { x: number; y: number },
+  right: number,
+  down: number,
+  width: number,
+  taken: Box[],
+): Box | null {
+  const free = (box: Box) =>
+    taken.every(
       (t) => t.right < box.left || t.left > box.right || t.bottom <= box.top || t.top >= box.bottom,
     );
-    if (!free) continue;
-    chosen = box;
-    break;
-  }
-  taken.push(chosen!);
-  return chosen!;
+  for (const lines of [0, -1, 1, -2, 2, -3, 3, -4, 4])
+    for (const left of [point.x + right, point.x - right - width]) {
+      const top = point.y + down - 0.5 * LINE + lines * LINE;
+      const box = { left, top, right: left + width, bottom: top + LINE };
+      if (free(box)) return box;
+    }
+  return null;
 }

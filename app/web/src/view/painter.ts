@@ -22,7 +22,19 @@ function geometryOf(mesh: MeshData): THREE.BufferGeometry {
   geometry.setAttribute('position', new THREE.BufferAttribute(mesh.position, 3));
   geometry.setAttribute('normal', new THREE.BufferAttribute(mesh.normal, 3));
   geometry.setIndex(new THREE.BufferAttribute(mesh.index, 1));
+  if (mesh.uv.length > 0) geometry.setAttribute('uv', new THREE.BufferAttribute(mesh.uv, 2));
   return geometry;
+}
+
+// Rows run down, as they do in an ImageBitmap; a place outside wraps round.
+function textureOf(image: ImageBitmap): THREE.Texture {
+  const texture = new THREE.Texture(image);
+  texture.flipY = false;
+  texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
+  texture.colorSpace = THREE.SRGBColorSpace;
+  texture.anisotropy = 4;
+  texture.needsUpdate = true;
+  return texture;
 }
 
 // A point of a contact is a ball of few pixels: a hundred of them would cost as much as all robots.
@@ -32,6 +44,15 @@ function coarser(mesh: MeshData, fine: THREE.BufferGeometry): THREE.BufferGeomet
   for (let i = 0; i < p.length; i += 3)
     if (Math.abs(Math.hypot(p[i], p[i + 1], p[i + 2]) - 1) > 1e-3) return fine; // no unit ball
   return new THREE.SphereGeometry(1, 14, 9);
+}
+
+// What entries have in common that one batch draws.
+interface Look {
+  mesh: number;
+  alpha: number;
+  shininess: number;
+  kind: number;
+  texture: number; // as in the columns
 }
 
 // Instances of one mesh and one surface.
@@ -95,6 +116,13 @@ function surface(shininess: number): THREE.MeshStandardMaterial {
   return new THREE.MeshStandardMaterial({ roughness: 0.85 - 0.5 * shininess, metalness: 0.05 });
 }
 
+function solidMaterial(shininess: number, map: THREE.Texture | null, twoSided: boolean) {
+  const material = surface(shininess);
+  material.map = map;
+  if (twoSided) material.side = THREE.DoubleSide;
+  return material;
+}
+
 // Depth first, then colour where nearest: a shell shows one surface and not its inside. Both are
 // pushed back a little: a ghost in the place of a body vanishes instead of flickering.
 function ghostMaterials(shininess: number, alpha: number) {
@@ -120,14 +148,10 @@ function hiddenMaterials(shininess: number, alpha: number) {
   return [{ material: color, order: ORDER.hidden, shadow: false }];
 }
 
-function materialsOf(kind: number, shininess: number, alpha: number) {
-  if (kind === HIDDEN) return hiddenMaterials(shininess, alpha);
-  if (kind === GHOST) return ghostMaterials(shininess, alpha);
-  return [{ material: surface(shininess), order: ORDER.solid, shadow: kind === BODY }];
-}
 
 export class Painter {
   private readonly geometries: THREE.BufferGeometry[];
+  private readonly textures: THREE.Texture[];
   private readonly batches = new Map<number, Batch>();
   private readonly matrix = new THREE.Matrix4();
   private readonly position = new THREE.Vector3();
@@ -140,9 +164,11 @@ export class Painter {
 
   constructor(
     private readonly scene: THREE.Scene,
-    meshes: MeshData[],
+    private readonly meshes: MeshData[],
+    textures: ImageBitmap[],
     private readonly small: number, // size of what is drawn coarsely
   ) {
+    this.textures = textures.map(textureOf);
     const fine = meshes.map(geometryOf);
     this.geometries = [...fine, ...meshes.map((mesh, i) => coarser(mesh, fine[i]))];
   }
@@ -181,20 +207,33 @@ export class Painter {
     const mesh = columns.mesh[i] + (isSmall ? this.geometries.length / 2 : 0);
     const shininess = columns.shininess[i];
     const kind = alpha < 255 ? GHOST : shadow ? BODY : SOLID;
-    this.batch(mesh, alpha, shininess, kind).add(this.matrix, this.color);
+    // A ghost shows no texture.
+    const texture = alpha < 255 ? 0 : columns.texture[i];
+    this.batch({ mesh, alpha, shininess, kind, texture }).add(this.matrix, this.color);
     if (columns.flags[i] & SEEN_THROUGH)
-      this.batch(mesh, alpha, shininess, HIDDEN).add(this.matrix, this.color);
+      this.batch({ mesh, alpha, shininess, kind: HIDDEN, texture: 0 }).add(this.matrix, this.color);
   }
 
-  private batch(mesh: number, alpha: number, shininess: number, kind: number): Batch {
-    const key = ((mesh * 256 + alpha) * 256 + shininess) * 4 + kind;
+  private batch(look: Look): Batch {
+    const { mesh, alpha, shininess, kind, texture } = look;
+    const key = (((mesh * 256 + alpha) * 256 + shininess) * 256 + texture) * 4 + kind;
     let batch = this.batches.get(key);
     if (!batch) {
-      const materials = materialsOf(kind, shininess / 255, alpha / 255);
+      const materials = this.materialsOf(look);
       batch = new Batch(this.scene, this.geometries[mesh], materials);
       this.batches.set(key, batch);
     }
     return batch;
+  }
+
+  private materialsOf({ mesh, alpha, shininess, kind, texture }: Look) {
+    const gloss = shininess / 255;
+    if (kind === HIDDEN) return hiddenMaterials(gloss, alpha / 255);
+    if (kind === GHOST) return ghostMaterials(gloss, alpha / 255);
+    const { uv, twoSided } = this.meshes[mesh % this.meshes.length];
+    const map = texture > 0 && uv.length > 0 ? this.textures[texture - 1] : null;
+    const material = solidMaterial(gloss, map, twoSided);
+    return [{ material, order: ORDER.solid, shadow: kind === BODY }];
   }
 
   private place(

@@ -1,0 +1,194 @@
+#include "app/study/study_scene.h"
+
+#include <fmt/format.h>
+
+#include "coupling/kinematic_robot.h"
+
+namespace twinarm {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string all = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') all += '\\';
+    all += c;
+  }
+  return all + "\"";
+}
+
+// All digits; with a point, so that it is no integer.
+std::string real(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string list(const Vector3& v) {
+  return "[" + real(v.x()) + ", " + real(v.y()) + ", " + real(v.z()) + "]";
+}
+
+class SceneWriter {
+ public:
+  explicit SceneWriter(const StudyScene& scene)
+      : scene_(scene),
+        settings_(*scene.settings),
+        robot_(*scene.robot),
+        model_(robot_.dvr_model(scene.spec.coupling.type)) {}
+
+  std::string text() {
+    const RunSpec& spec = scene_.spec;
+    text_ =
+        fmt::format("# {} of the study: {}. Written by `twinarm study`.\n", spec.name, spec.title);
+    line("step", real(spec.step()));
+    line("duration", real(scene_.hand.source->duration()));
+    if (scene_.with_obstacle) line("contact", "\"compliant\"");
+    write_robot();
+    if (scene_.with_obstacle) write_obstacle();
+    write_coupling();
+    write_auxiliary();
+    write_stops();
+    return text_;
+  }
+
+ private:
+  void line(const char* key, const std::string& value) {
+    text_ += fmt::format("{} = {}\n", key, value);
+  }
+  void table(const char* name) { text_ += fmt::format("\n[[{}]]\n", name); }
+  const std::string& link_of(int body) const {
+    return model_.body_name[static_cast<std::size_t>(body)];
+  }
+
+  void write_robot() {
+    const ModelOptions& masses = robot_.masses(scene_.spec.coupling.type);
+    table("robot");
+    line("name", quoted(robot_.name()));
+    line("model", quoted(std::filesystem::absolute(settings_.urdf).lexically_normal().string()));
+    line("limits", "false");  // the gripper's stops are couplings, below
+    if (!scene_.with_obstacle) line("collide", "false");
+    std::string scales, loads;
+    for (const auto& [link, factor] : masses.mass_scale)
+      scales += (scales.empty() ? "" : ", ") + quoted(link) + " = " + real(factor);
+    for (const PointMass& load : masses.added_masses)
+      loads += (loads.empty() ? "" : ", ") + fmt::format("{{ link = {}, point = {}, mass = {} }}",
+                                                         quoted(load.link), list(load.p_L),
+                                                         real(load.mass));
+    if (!scales.empty()) line("mass_scale", "{ " + scales + " }");
+    if (!loads.empty()) line("payload", "[" + loads + "]");
+    line("q", start());
+  }
+
+  // The DVR begins on the KVR.
+  std::string start() const {
+    const KinematicRobot kvr(robot_.kvr_model(), *scene_.hand.source, HandMapping{},
+                             robot_.joints());
+    std::vector<std::string> moved = robot_.joints().turned;
+    moved.push_back(robot_.joints().gripper);
+    std::string q;
+    for (const std::string& joint : moved) {
+      const auto body = static_cast<std::size_t>(model_.find_joint(joint));
+      q += (q.empty() ? "" : ", ") + quoted(joint) + " = " + real(kvr.start().x.q[model_.iq[body]]);
+    }
+    return "{ " + q + " }";
+  }
+
+  void write_obstacle() {
+    const StudySettings::Obstacle& o = settings_.obstacle;
+    table("body");
+    line("name", "\"box\"");
+    line("fixed", "true");
+    line("shape", "{ box = { size = " + list(o.size) + " } }");
+    line("position", list(o.position));
+    // The law of the study is that of a pair.
+    table("pair");
+    line("a", quoted(robot_.name()));
+    line("b", "\"box\"");
+    line("friction", real(o.friction));
+    line("stiffness", real(o.contact_stiffness));
+    line("dissipation", real(o.contact_dissipation));
+    for (const std::string& b : {std::string("box"), robot_.name()}) {
+      table("pair");  // the base touches nothing, and no link another
+      line("a", quoted(b == "box" ? robot_.name() + "/" + link_of(1) : b));
+      line("b", quoted(b));
+      line("collide", "false");
+    }
+  }
+
+  void write_hand() {
+    const DrivenJoints& joints = robot_.joints();
+    line("target", scene_.hand.target);
+    line("gripper", fmt::format("{{ joint = {}, open = {}, closed = {} }}", quoted(joints.gripper),
+                                real(joints.gripper_open), real(joints.gripper_closed)));
+  }
+
+  void write_coupling() {
+    const CouplingSpec& coupling = scene_.spec.coupling;
+    const Gains& gains = scene_.spec.gains;
+    const bool linear = coupling.type == CouplingSpec::Type::linear;
+    for (const Spring& spring : robot_.springs(gains.k1, gains.b1, gains.k2, gains.b2)) {
+      table("coupling");
+      line("name", quoted("pull_" + spring.name));
+      line("type", quoted(facts_of(coupling.type, coupling.printed).name));
+      line("link", quoted(link_of(spring.body)));
+      if (linear) line("point", list(spring.p_L));
+      if (!coupling.printed) line("treatment", quoted(treatment_name(coupling)));
+      line("stiffness", real(spring.k));
+      line("damping", real(spring.b));
+      write_hand();
+    }
+  }
+
+  void write_auxiliary() {
+    for (const CouplingSpec& held : robot_.auxiliary())
+      for (const Spring& spring : held.springs) {
+        table("coupling");
+        line("name", quoted("hold_" + spring.name));
+        line("type", "\"torsional\"");
+        line("measure", "\"joint\"");
+        line("link", quoted(link_of(spring.body)));
+        line("stiffness", real(spring.k));
+        line("damping", real(spring.b));
+        write_hand();
+      }
+  }
+
+  void write_stops() {
+    for (const JointStops::Stop& stop : robot_.stops()) {
+      table("coupling");
+      line("name", quoted("stop_" + model_.joint_name[static_cast<std::size_t>(stop.body)]));
+      line("type", "\"torsional\"");
+      line("measure", "\"joint\"");
+      line("link", quoted(link_of(stop.body)));
+      line("outside", "[" + real(stop.lower) + ", " + real(stop.upper) + "]");
+      line("stiffness", real(stop.k));
+      line("damping", real(stop.b));
+    }
+  }
+
+  const StudyScene& scene_;
+  const StudySettings& settings_;
+  const StudyRobot& robot_;
+  const Model<double>& model_;
+  std::string text_;
+};
+
+}  // namespace
+
+SceneHand automatic_hand() {
+  static const AutomaticMotion motion{HandMapping{}};
+  return {"\"paper\"", &motion};
+}
+
+SceneHand synthetic_hand(const HandSource& source, unsigned seed) {
+  return {fmt::format("{{ seed = {}, duration = {} }}", seed, real(source.duration())), &source};
+}
+
+SceneHand traced_hand(const HandSource& source, const std::filesystem::path& trace) {
+  return {quoted(std::filesystem::absolute(trace).lexically_normal().string()), &source};
+}
+
+std::string scene_text(const StudyScene& scene) {
+  return SceneWriter(scene).text();
+}
+
+}  // namespace twinarm

@@ -1,0 +1,29 @@
+// A run of the study as a scene file (docs/scenes.md): what `simulate`, `render`, `lab` and all the
+// others take.
+#pragma once
+
+#include <string>
+
+#include "app/study/study_run.h"
+
+namespace twinarm {
+
+// Who moves the KVR: the value of a coupling's `target`, in TOML.
+struct SceneHand {
+  std::string target;
+  const HandSource* source = nullptr;  // the same
+};
+SceneHand automatic_hand();
+SceneHand synthetic_hand(const HandSource& source, unsigned seed);
+SceneHand traced_hand(const HandSource& source, const std::filesystem::path& trace);
+
+struct StudyScene {
+  const StudySettings* settings = nullptr;
+  const StudyRobot* robot = nullptr;
+  RunSpec spec;
+  SceneHand hand;
+  bool with_obstacle = false;  // and contacts
+};
+std::string scene_text(const StudyScene& scene);
+
+}  // namespace twinarm
