@@ -50,7 +50,9 @@ void PosedCouplings::push(std::size_t c, const State<double>& x, const Kinematic
                           Forces<double>& forces) {
   const SceneCoupling& spec = input_.couplings->spec(c);
   const CouplingEnds ends = input_.couplings->ends(c, x, k);
-  const Vector3 pull = spec.spring.k * ends.offset - spec.spring.b * ends.velocity;
+  // Between the limits of a stop its damper moves along.
+  const Vector3 along = spec.outside ? ends.target_velocity : Vector3(Vector3::Zero());
+  const Vector3 pull = spec.spring.k * ends.offset - spec.spring.b * (ends.velocity - along);
   const int body = spec.spring.body;
   if (spec.type == CouplingDescription::Type::linear)
     add_point_force(k, body, k.position(body, spec.spring.p_L), pull, forces);

@@ -198,6 +198,7 @@ Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
   found.K = MatrixXd::Zero(found.M.rows(), found.M.cols());
   found.B = found.K;
   for (std::size_t c = 0; c < input.couplings->size(); ++c) {
+    if (input.couplings->spec(c).outside) continue;  // a stop mostly does not act
     found.couplings.push_back(posed.coupling(c, found.step));
     PredictedCoupling& coupling = found.couplings.back();
     if (task.wall && coupling.is_linear)

@@ -55,7 +55,8 @@ MeasuredJoints measured_joints(const SceneModel& scene, std::size_t coupling) {
     joints.names.push_back(model.joint_name[body]);
     (model.joint[body] == JointType::prismatic ? joints.slide : joints.turn) = true;
   };
-  for (const std::string& name : of.driven.turned) add(static_cast<std::size_t>(model.find_joint(name)));
+  for (const std::string& name : of.driven.turned)
+    add(static_cast<std::size_t>(model.find_joint(name)));
   for (int body = is_moved(of) ? 0 : of.spring.body; body > 0;
        body = model.parent[static_cast<std::size_t>(body)])
     add(static_cast<std::size_t>(body));
