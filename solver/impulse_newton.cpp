@@ -1,6 +1,7 @@
 // The inner problem of impulse_solver.h: Newton's method on one island.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/impulse_blocks.h"
 #include "solver/impulse_solver.h"
@@ -35,7 +36,7 @@ ImpulseSolver::Round ImpulseSolver::solve_round(ImpulseProblem& problem, const I
     std::copy_n(problem.v(t), problem.size(t),
                 held_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)));
   Gradient now = gradient(problem, island, Shift::followed);
-  round.left = now.largest;
+  round.left = now.left();
   while (steps < most && now.largest > now.rounding) {
     find_direction(problem, island, false);
     move(problem, island, 1);
@@ -51,12 +52,12 @@ ImpulseSolver::Round ImpulseSolver::solve_round(ImpulseProblem& problem, const I
       for (const int t : island.trees)
         std::copy_n(held_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)),
                     problem.size(t), problem.v(t));
-      round.left = gradient(problem, island, Shift::held).largest;
+      round.left = gradient(problem, island, Shift::held).left();
       round.strayed = true;
       break;
     }
     now = then;
-    round.left = now.largest;
+    round.left = now.left();
   }
   return round;
 }
@@ -86,8 +87,40 @@ ImpulseSolver::Gradient ImpulseSolver::gradient(ImpulseProblem& problem, const I
     fastest = std::max({fastest, std::abs(u_[i][0]), std::abs(u_[i][1]), std::abs(u_[i][2])});
   }
   Gradient all = balance(problem, island);
-  all.rounding = std::max(0.01 * tolerance, 2e-14 * rho_ratio_ * fastest);
+  all.noise = rho_ratio_ * noise_;
+  all.rounding = std::max({0.01 * tolerance, 2e-14 * rho_ratio_ * fastest, all.noise});
   return all;
+}
+
+// What the rounding of u makes of the balance by way of p = l - rho u, for rho = rho0: u is a sum,
+// and where a body rolls the sum is 0, but its terms are not. As a velocity [m/s, rad/s].
+double ImpulseSolver::noise(const ImpulseProblem& problem, const Island& island) {
+  for (const int t : island.trees)
+    std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)), problem.size(t), 0.0);
+  const auto for_each_side = [&](const ImpulseConstraint& c, auto&& f) {
+    for (int side = 0; side < 2; ++side)
+      if (const int t = c.tree[side]; t != no_tree) f(problem.J(c, side), problem.size(t), t);
+  };
+  for (const int i : island.constraints) {
+    const ImpulseConstraint& c = problem.constraints()[i];
+    Vec terms{std::abs(c.b[0]), std::abs(c.b[1]), std::abs(c.b[2])};
+    for_each_side(c, [&](const double* J, int n, int t) {
+      for (int r = 0; r < c.rows; ++r)
+        for (int k = 0; k < n; ++k) terms[r] += std::abs(J[r * n + k] * problem.v(t)[k]);
+    });
+    for_each_side(c, [&](const double* J, int n, int t) {
+      for (int r = 0; r < c.rows; ++r)
+        for (int k = 0; k < n; ++k)
+          f_[problem.first(t) + static_cast<std::size_t>(k)] +=
+              rho0_[i] * terms[r] * std::abs(J[r * n + k]);
+    });
+  }
+  double largest = 0;
+  for (const int t : island.trees)
+    for (int k = 0; k < problem.size(t); ++k)
+      largest = std::max(largest, f_[problem.first(t) + static_cast<std::size_t>(k)] /
+                                      problem.M(t)[k * problem.size(t) + k]);
+  return std::numeric_limits<double>::epsilon() * largest;
 }
 
 // A disc whose radius follows the contact's p_n at this u.
@@ -105,7 +138,7 @@ void ImpulseSolver::respond_disc(const ImpulseConstraint& c, int i) {
 // rhs_ = M (v - v0) - f_
 ImpulseSolver::Gradient ImpulseSolver::balance(const ImpulseProblem& problem,
                                                const Island& island) {
-  Gradient all{0, 0, 0};
+  Gradient all;
   for (const int t : island.trees) {
     const int n = problem.size(t);
     const std::size_t at = problem.first(t);

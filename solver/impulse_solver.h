@@ -69,7 +69,9 @@ class ImpulseSolver {
   void order(const ImpulseProblem& problem, const Island& island);
   void lay_out(const ImpulseProblem& problem, const Island& island);
   struct Gradient {
-    double largest, squared, rounding;  // as velocities [m/s]; squared in the norm of diag(M)^-1
+    double largest = 0, squared = 0;  // as velocities [m/s]; squared in the norm of diag(M)^-1
+    double rounding = 0, noise = 0;   // what Newton's steps end at; of this what is no error
+    double left() const { return largest <= noise ? 0 : largest; }
   };
   struct Round {
     int steps = 0;
@@ -77,6 +79,7 @@ class ImpulseSolver {
     bool strayed = false;  // shifts that followed did not come nearer
   };
   Round solve_round(ImpulseProblem& problem, const Island& island, int most);
+  double noise(const ImpulseProblem& problem, const Island& island);
   Gradient gradient(ImpulseProblem& problem, const Island& island, Shift shift);
   void respond_disc(const ImpulseConstraint& c, int i);
   Gradient balance(const ImpulseProblem& problem, const Island& island);
@@ -124,6 +127,7 @@ class ImpulseSolver {
   std::vector<int> neighbour_begin_, neighbours_, order_, lowest_;
   std::vector<double> rhs_, DJ_;
   double rho_ratio_ = 0;  // rho / rho0 of the island that is being solved
+  double noise_ = 0;      // for rho = rho0 [m/s]
   EnvelopeLu matrix_;
   // of impulse_interior.cpp, by constraint
   std::vector<int> cones_;
