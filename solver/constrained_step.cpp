@@ -23,6 +23,7 @@ ConstrainedStep::ConstrainedStep(const Model<double>& model)
       coulomb_(model.nv),
       constraint_(model.nv),
       shift_(model.nv),
+      turning_(model.parent.size()),
       friction_guess_(model.nv),
       mimic_guess_(model.mimics.size()) {}
 
@@ -32,6 +33,7 @@ void ConstrainedStep::step(Mechanism& m, double h, StepReport& report) {
   m.begin_step(h);
   resolve_impacts(m, h, Phase::impact);
   accelerate(m, h);
+  correct_rotation(m, h);
   resolve_step(m, h);
   before_ = m.x.qd;
   kick(m, h);
@@ -194,8 +196,8 @@ void ConstrainedStep::move(Mechanism& m, double h) {
     if (model_->joint[i] != JointType::free || tree == ImpulseConstraint::no_tree ||
         problem_.size(tree) != 6 || !flies_[static_cast<std::size_t>(tree)])
       continue;
-    const Force<double>& f = m.forces.f_ext[i];
-    bool pushed = dot(f.n, f.n) + dot(f.f, f.f) > 0 || m.forces.has_impedance;
+    const Vec3<double> couple = m.forces.f_ext[i].n - turning_[i], force = m.forces.f_ext[i].f;
+    bool pushed = dot(couple, couple) + dot(force, force) > 0 || m.forces.has_impedance;
     for (std::size_t dof = model_->iv[i]; dof < model_->iv[i] + 6; ++dof)
       pushed = pushed || m.forces.tau[dof] != 0 || m.forces.armature[dof] != 0;
     for (std::size_t dof = model_->iv[i]; !pushed && dof < model_->iv[i] + 6; ++dof)

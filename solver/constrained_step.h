@@ -5,7 +5,8 @@
 //              u+ >= -e u-, what touches stays, both under Coulomb friction: touching bodies take
 //              part at once (Newton's law, simultaneous), those with a gap between in sequence.
 //   velocity   v* = v+ + h ABA(q, v+, forces);   M' (v' - v*) = J^T p,  where gaps g may close:
-//              u' >= -g/h. M' has the implicit terms that ABA solved with.
+//              u' >= -g/h. M' has the implicit terms that ABA solved with. Free bodies turn by
+//              the gyroscopic moment of their mean velocity (constrained_rotation.cpp).
 //   position   q' = q + h v'; of a body that flies under gravity alone q + h (v + v')/2
 //   separate   what penetrates by more than a slop is moved apart,
 //              by the smallest motion in the norm of M;
@@ -80,6 +81,8 @@ class ConstrainedStep {
   static constexpr int most_impacts = 50;
   int resolve_impacts(Mechanism& m, double h, Phase phase);
   void accelerate(Mechanism& m, double h);
+  bool turns_alone(const Forces<double>& forces, std::size_t body) const;
+  void correct_rotation(Mechanism& m, double h);
   bool solve_step(Mechanism& m, double h, Phase phase);
   bool looks_farther(Mechanism& m, double h);
   void resolve_step(Mechanism& m, double h);
@@ -109,6 +112,7 @@ class ConstrainedStep {
   std::vector<char> flies_, plastic_;  // by tree
   std::vector<double> before_;         // by velocity: those at the start of the second phase
   std::vector<double> damping_, coulomb_, constraint_, shift_;
+  std::vector<Vec3<double>> turning_;  // by body: couples of constrained_rotation.cpp, body axes
   std::vector<double> friction_guess_, mimic_guess_, loop_guess_, sum_, acceleration_, velocity_,
       elastic_, elastic_p_;
   std::size_t first_bilateral_ = 0;  // of the constraints in problem_

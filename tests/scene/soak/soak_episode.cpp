@@ -48,6 +48,7 @@ class Episode {
       if (ForceSource* source = couplings_.source(c)) sim_.add(*source);
     add_contacts();
     add_limits();
+    sim_.keep_account();
     books_.begin(sim_.state());
   }
 
@@ -62,7 +63,8 @@ class Episode {
         fault("a number is not finite", 0);
         break;
       }
-      books_.add_step(sim_.state(), h);
+      books_.add_step(sim_.state(), sim_.constraints().velocities_after_impacts(),
+                      sim_.account().separation().work, h);
       look_at_solver(report);
       look_at_contacts();
       look_at_energy();
@@ -136,15 +138,19 @@ class Episode {
   }
 
   void look_at_energy() {
-    // In a step with an impact the velocity terms are those after it, which nobody tells.
-    if (sim_.constraints().report().impacts == 0) {
-      result_.created = std::max(result_.created, books_.created() / books_.scale());
-      if (!(books_.created() <= bounds_.created * books_.scale()))
-        fault("constraints created energy, J", books_.created());
-    }
-    result_.excess = std::max(result_.excess, books_.excess() / books_.scale());
-    if (!(books_.excess() <= bounds_.excess * books_.scale()))
+    const double scale = books_.scale();
+    result_.created = std::max(result_.created, books_.created() / scale);
+    if (!(books_.created() <= bounds_.created * scale))
+      fault("constraints created energy, J", books_.created());
+    result_.apart = std::max(result_.apart, books_.apart() / scale);
+    result_.excess = std::max(result_.excess, books_.excess() / scale);
+    if (!(books_.excess() <= bounds_.excess * scale))
       fault("there is more energy than was put in, J", books_.excess());
+    if (scene_.robot_bodies > 0) return;
+    result_.given = result_.steps == 1 ? books_.given() / scale
+                                       : std::max(result_.given, books_.given() / scale);
+    if (!(books_.given() <= bounds_.created * scale))
+      fault("a step gave energy, J", books_.given());
   }
 
   void look_at_places() {

@@ -17,7 +17,9 @@ struct EpisodeResult {
   double residual_at = 0;  // its time [s]
   double depth = 0;        // the deepest contact at the start of a step [m]
   long deep = 0;           // steps that began deeper than a micrometre
-  double created = -1e99;  // largest of EnergyBooks, over the scale of energy
+  double created = -1e99;  // largest of EnergyBooks, over the scale of energy; 0 is none
+  double given = 0;        // likewise; 0 where there are robots
+  double apart = 0;        // likewise, of all steps up to then
   double excess = -1e99;   // likewise
   double work = 0;         // of shoves and hands, at the end [J]
   int contacts = 0;        // the most at a time
@@ -28,8 +30,8 @@ struct EpisodeResult {
 
 // What stops an episode.
 struct Bounds {
-  double created = 1e-9;   // of the scale of energy
-  double excess = 0.1;     // likewise: fast turning is of first order in h
+  double created = 1e-9;   // of the scale of energy; given likewise
+  double excess = 0.1;     // likewise: coordinates and rolling are of first order in h
   double depth = 2e-3;     // [m]
   double residual = 1e-3;  // [m/s]
 };
