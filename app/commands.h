@@ -101,7 +101,7 @@ struct RenderOptions {
   std::filesystem::path png, frames, mp4, gif;  // exactly one is given
   std::optional<double> at, from, to;           // [s]
   std::string size = "1280x720", camera = "auto", show = "ghost,couplings";
-  std::string plot = "none", quality = "normal", gl = "osmesa";
+  std::string plot = "none", quality = "normal", background = "studio", gl = "osmesa";
   std::filesystem::path beside;  // a second recording; empty: none
   double slow = 1;               // times slower than life
   std::optional<double> fps;     // left out: 30, of a GIF 25

@@ -278,6 +278,8 @@ void add_render(CLI::App& app, RenderOptions& options, std::function<int()>& com
                      "a second recording, in sync at the right of the first");
   render->add_option("--quality", options.quality, "draft, normal or studio")
       ->capture_default_str();
+  render->add_option("--background", options.background, "studio, sky or white")
+      ->capture_default_str();
   render->add_option("--gl", options.gl, "what paints: osmesa or egl")->capture_default_str();
   render->add_flag("--json", options.json, "print one JSON object on stdout");
   render->callback([&] { command = [&] { return run_render(options); }; });

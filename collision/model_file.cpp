@@ -27,7 +27,6 @@
 #include <utility>
 #include <vector>
 
-#include "collision/limited_child.h"
 #include "collision/model_packing.h"
 #include "solver/fault.h"
 
@@ -100,6 +99,15 @@ std::string lower_extension(const fs::path& file) {
   return extension;
 }
 
+// The reader of PLY looks for the end of the header for ever.
+bool has_whole_ply_header(const fs::path& file) {
+  constexpr std::size_t longest = 1u << 16;
+  std::string head(longest, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.find("\nend_header") != std::string::npos;
+}
+
 void check_file(const fs::path& file) {
   std::error_code error;
   if (!fs::exists(file, error)) refuse(file, "there is no such file", "check the path");
@@ -110,6 +118,8 @@ void check_file(const fs::path& file) {
   if (fs::file_size(file, error) > max_bytes)
     refuse(file, "the file has more than 64 MiB", "simplify the mesh");
   if (!std::ifstream(file)) refuse(file, "cannot be opened", "check the permissions of the file");
+  if (extension == ".ply" && !has_whole_ply_header(file))
+    refuse(file, "its header does not end", "export the mesh again");
 }
 
 // IEC 61966-2-1; glTF states colours linearly, the others as they are seen.
@@ -139,6 +149,9 @@ class Taker {
       part.triangles.push_back(t);
     }
     if (part.triangles.empty()) return;
+    if (mesh.HasTextureCoords(0))
+      for (unsigned i = 0; i < mesh.mNumVertices; ++i)
+        part.uv.push_back({mesh.mTextureCoords[0][i].x, 1 - mesh.mTextureCoords[0][i].y});
     if (mesh.mMaterialIndex < scene_.mNumMaterials)
       add_looks(mesh, *scene_.mMaterials[mesh.mMaterialIndex], part);
     model.parts.push_back(std::move(part));
@@ -162,13 +175,9 @@ class Taker {
       }
     }
     aiString texture;
-    if (!mesh.HasTextureCoords(0) ||
-        material.GetTexture(aiTextureType_DIFFUSE, 0, &texture) != aiReturn_SUCCESS)
-      return;
-    part.texture = texture_of(texture.C_Str());
-    if (part.texture < 0) return;
-    for (unsigned i = 0; i < mesh.mNumVertices; ++i)
-      part.uv.push_back({mesh.mTextureCoords[0][i].x, 1 - mesh.mTextureCoords[0][i].y});
+    if (mesh.HasTextureCoords(0) &&
+        material.GetTexture(aiTextureType_DIFFUSE, 0, &texture) == aiReturn_SUCCESS)
+      part.texture = texture_of(texture.C_Str());
   }
 
   std::int32_t texture_of(const std::string& name) {
@@ -227,6 +236,9 @@ void check_parts(const fs::path& file, const ModelFile& model) {
       for (const std::int32_t v : t)
         if (v < 0 || v >= count)
           refuse(file, "a triangle names a vertex that does not exist", remedy);
+    for (const auto& uv : part.uv)
+      if (!std::isfinite(uv[0]) || !std::isfinite(uv[1]))
+        refuse(file, "a texture coordinate is not a finite number", remedy);
     if (!part.uv.empty() && part.uv.size() != part.positions.size())
       refuse(file, "texture coordinates are not as many as vertices", remedy);
     if (part.texture >= static_cast<std::int32_t>(model.textures.size()))
@@ -237,9 +249,9 @@ void check_parts(const fs::path& file, const ModelFile& model) {
 
 }  // namespace
 
-ModelFile read_model(const fs::path& file) {
+ModelFile read_model(const fs::path& file, const ChildLimits& limits) {
   check_file(file);
-  const ChildResult result = run_limited([&] { return read_packed(file); });
+  const ChildResult result = run_limited([&] { return read_packed(file); }, limits);
   if (!result.fault.empty())
     refuse(file, "the reader of this format " + result.fault + " on it",
            "export the mesh again, best as STL, OBJ or GLB");

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "collision/limited_child.h"
+
 namespace twinarm {
 
 // Triangles of one material, in the file's axes and units (Collada: metres, by the unit that the
@@ -33,8 +35,8 @@ struct ModelFile {
 
 // Throws InputError (file, rule, remedy) if the file is missing, unreadable, too large (64 MiB), of
 // another format, malformed, without triangles, or holds a coordinate that is not finite; or if the
-// reader crashes on it or takes more than 20 s. Files that the model names (buffers, materials,
+// reader crashes on it or goes beyond its limits. Files that the model names (buffers, materials,
 // textures) are opened only inside its own folder.
-ModelFile read_model(const std::filesystem::path& file);
+ModelFile read_model(const std::filesystem::path& file, const ChildLimits& limits = {});
 
 }  // namespace twinarm

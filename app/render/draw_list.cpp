@@ -25,6 +25,25 @@ bool has_length(const Vector3& from_W, const Vector3& to_W) {
 
 }  // namespace
 
+Background studio_background() {
+  return {};
+}
+
+Background sky_background() {
+  Background sky;
+  sky.kind = Background::Kind::landscape;
+  sky.bottom = {0.86f, 0.89f, 0.92f, 1.0f};
+  sky.top = {0.33f, 0.50f, 0.75f, 1.0f};
+  sky.ground = {0.70f, 0.70f, 0.68f, 1.0f};
+  return sky;
+}
+
+Background white_background() {
+  Background white;
+  white.bottom = white.top = {1.0f, 1.0f, 1.0f, 1.0f};
+  return white;
+}
+
 MeshId DrawList::register_mesh(DrawMesh mesh) {
   meshes.push_back(std::make_shared<const DrawMesh>(std::move(mesh)));
   return meshes.size() - 1;

@@ -87,11 +87,18 @@ struct Ground {
   bool show_scale = true;   // says in the picture what the lines measure
 };
 
-// A studio: the colour runs from the bottom to the top of the picture, and the floor melts into it.
+// A room without corners, whose colour runs from the bottom to the top of the picture and whose
+// floor melts into it; or a landscape, whose ground a haze takes into the colour of the horizon.
 struct Background {
-  Color bottom{0.87f, 0.875f, 0.88f, 1.0f};
-  Color top{0.56f, 0.595f, 0.635f, 1.0f};
+  enum class Kind { room, landscape };
+  Kind kind = Kind::room;
+  Color bottom{0.87f, 0.875f, 0.88f, 1.0f};  // of a landscape the horizon
+  Color top{0.56f, 0.595f, 0.635f, 1.0f};    // the zenith
+  Color ground{0.62f, 0.63f, 0.63f, 1.0f};   // where fully lit; of a landscape only
 };
+Background studio_background();
+Background sky_background();
+Background white_background();  // paper
 
 class DrawList {
  public:

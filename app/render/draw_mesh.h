@@ -46,6 +46,7 @@ enum class UnitShape {
   cylinder,  // radius 1, axis z from 0 to 1
   cone,      // base radius 1 at z = 0, tip at z = 1
 };
+// With places in a texture (texture_places.h), but for the cone.
 DrawMesh make_unit_mesh(UnitShape shape);
 
 // A helical spring along z from 0 to 1, coil radius 1, with straight leads on the axis. Stretching

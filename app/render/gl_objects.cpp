@@ -14,6 +14,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::count)> kUni
     "world_from_mesh",
     "normal_from_mesh",
     "clip_from_world",
+    "world_from_clip",
     "key_from_world",
     "sky_from_world",
     "normal_offset",
@@ -26,9 +27,11 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::count)> kUni
     "key_shadow",
     "sky_shadow",
     "texel",
+    "shadow_reach",
     "size_px",
     "background_bottom",
     "background_top",
+    "background_ground",
     "ground",
     "grid"};
 static_assert(kUniformNames.back() != nullptr, "one name for each Uniform");
@@ -131,19 +134,19 @@ GpuTexture::~GpuTexture() {
   gl_.DeleteTextures(1, &id_);
 }
 
-ShadowMap::ShadowMap(const GlTable& gl, int side) : side_px(side) {
+ShadowMap::ShadowMap(const GlTable& gl, int side, bool compares) : side_px(side) {
+  const GLint filter = compares ? GL_LINEAR : GL_NEAREST;
   gl.GenTextures(1, &texture);
   gl.BindTexture(GL_TEXTURE_2D, texture);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, side, side, 0, GL_DEPTH_COMPONENT,
-                GL_UNSIGNED_INT, nullptr);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT16, side, side, 0, GL_DEPTH_COMPONENT,
+                GL_UNSIGNED_SHORT, nullptr);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE,
+                   compares ? GL_COMPARE_REF_TO_TEXTURE : GL_NONE);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-  const std::array<float, 4> far_away = {1, 1, 1, 1};
-  gl.TexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, far_away.data());
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 
   gl.GenFramebuffers(1, &framebuffer);
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -188,7 +191,7 @@ GLuint Canvas::make_framebuffer(int samples, bool with_depth) const {
 void Canvas::begin() const {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, draw_);
   gl_.Viewport(0, 0, width_, height_);
-  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl_.Clear(GL_DEPTH_BUFFER_BIT);
 }
 
 void Canvas::read(std::uint8_t* rgba) {

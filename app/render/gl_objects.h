@@ -20,6 +20,7 @@ enum class Uniform : std::size_t {
   world_from_mesh,
   normal_from_mesh,
   clip_from_world,
+  world_from_clip,
   key_from_world,
   sky_from_world,
   normal_offset,
@@ -32,9 +33,11 @@ enum class Uniform : std::size_t {
   key_shadow,
   sky_shadow,
   texel,
+  shadow_reach,
   size_px,
   background_bottom,
   background_top,
+  background_ground,
   ground,
   grid,
   count
@@ -98,19 +101,22 @@ class GpuTexture {
   GLuint id_ = 0;
 };
 
-// A square depth texture seen from a light; compares in the sampler (hardware PCF, 2 x 2 texels).
-// Beyond its border everything is lit.
+// A square depth texture seen from a light. `compares`: the sampler does, over 2 x 2 texels; else
+// it gives the nearest depth. What is drawn may take a smaller square of it, from the corner of its
+// coordinates. 16 bits: a step is a hundredth of the offset that keeps surfaces out of their own
+// shadow.
 struct ShadowMap {
-  ShadowMap(const GlTable& gl, int side_px);
+  ShadowMap(const GlTable& gl, int side_px, bool compares);
   int side_px;
   GLuint texture = 0, framebuffer = 0;
 };
 
-// The colour and depth surface of the picture: sRGB bytes, 4 samples per pixel or one.
+// The colour and depth surface of the picture: sRGB bytes, 4 samples per pixel or one. Their colour
+// is whatever was there, until it is drawn over.
 class Canvas {
  public:
   Canvas(const GlTable& gl, int width, int height, bool multisampled);
-  void begin() const;             // binds it, sets the viewport, clears
+  void begin() const;             // binds it, sets the viewport, clears the depth
   void read(std::uint8_t* rgba);  // resolves and reads 4 * width * height bytes, BOTTOM row first
 
  private:

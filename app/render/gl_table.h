@@ -15,7 +15,7 @@
 // clang-format off
 #define TWINARM_GL_FUNCTIONS(X)                                                                   \
   X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindRenderbuffer)           \
-  X(BindTexture) X(BindVertexArray) X(BlendFunc) X(BlitFramebuffer) X(BufferData)                 \
+  X(BindTexture) X(BindVertexArray) X(BlendFuncSeparate) X(BlitFramebuffer) X(BufferData)                 \
   X(CheckFramebufferStatus) X(Clear) X(ColorMask) X(CompileShader) X(CreateProgram) \
   X(CreateShader) X(DeleteBuffers) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays)              \
   X(DepthFunc) X(DepthMask) X(Disable) X(DrawArrays) X(DrawBuffer) X(DrawElements) X(Enable)      \
@@ -23,8 +23,8 @@
   X(GenFramebuffers) X(GenRenderbuffers) X(GenTextures) X(GenVertexArrays) X(GetError)            \
   X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv)          \
   X(GetUniformLocation) X(LinkProgram) X(PixelStorei) X(PolygonOffset) X(ReadBuffer)              \
-  X(ReadPixels) X(RenderbufferStorageMultisample) X(ShaderSource)          \
-  X(TexImage2D) X(TexParameterfv) X(TexParameteri) X(Uniform1f) X(Uniform1i) X(Uniform2f)         \
+  X(ReadPixels) X(RenderbufferStorageMultisample) X(Scissor) X(ShaderSource)          \
+  X(TexImage2D) X(TexParameteri) X(Uniform1f) X(Uniform1i) X(Uniform2f)         \
   X(Uniform3f) X(Uniform4f) X(UniformMatrix3fv) X(UniformMatrix4fv) X(UseProgram)                 \
   X(VertexAttribPointer) X(Viewport)
 // clang-format on

@@ -1,5 +1,5 @@
-// PNG encoding. Compression level 3, quick: at 1280x720 level 6 takes four times as long as level 1
-// (DEPENDENCIES.md, section A).
+// PNG encoding. Compression level 3, quick: at 1280x720 level 6 takes four times as long as
+// level 1.
 #include "app/render/image.h"
 
 #include <png.h>

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,5 +38,7 @@ void write_png(const std::string& path, const Image& image);
 // The picture in the bytes of a PNG or JPEG file; `name` is what errors call it. Throws InputError
 // where it is neither, broken, or larger than 67 million pixels.
 Image decode_image(const std::string& name, std::string_view bytes);
+// The same of a file, which may be missing.
+Image read_image(const std::filesystem::path& file);
 
 }  // namespace twinarm

@@ -2,7 +2,10 @@
 #include <png.h>
 #include <turbojpeg.h>
 
+#include <fstream>
 #include <memory>
+#include <sstream>
+#include <utility>
 
 #include "app/render/image.h"
 #include "solver/fault.h"
@@ -10,16 +13,18 @@
 namespace twinarm {
 namespace {
 
-constexpr int kMostPixels = 1 << 26;  // 8192 x 8192
+constexpr int kMostPixels = 1 << 26;   // 8192 x 8192
+constexpr int kLongestSide = 1 << 14;  // of a texture, in Mesa
 
 [[noreturn]] void refuse(const std::string& name, const std::string& rule) {
   throw InputError({Fault{name, 0, "picture", rule, "save it again as PNG or JPEG"}});
 }
 
 Image sized(const std::string& name, std::int64_t width, std::int64_t height) {
-  if (width < 1 || height < 1 || width * height > kMostPixels)
+  if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide ||
+      width * height > kMostPixels)
     refuse(name, "has " + std::to_string(width) + " x " + std::to_string(height) +
-                     " pixels, must have 1 to 67 million");
+                     " pixels, must have 1 to 67 million, at most 16384 along a side");
   Image image;
   image.width = static_cast<int>(width);
   image.height = static_cast<int>(height);
@@ -60,6 +65,14 @@ Image decode_image(const std::string& name, std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return decode_png(name, bytes);
   if (bytes.starts_with("\xff\xd8")) return decode_jpeg(name, bytes);
   refuse(name, "is neither a PNG nor a JPEG");
+}
+
+Image read_image(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  if (!in) refuse(file.string(), "cannot be read");
+  return decode_image(file.string(), std::move(bytes).str());
 }
 
 }  // namespace twinarm

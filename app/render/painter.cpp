@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "app/render/lettering.h"
 #include "app/render/overlay.h"
 #include "app/render/scene_pass.h"
+#include "solver/fault.h"
 
 namespace twinarm {
 namespace {
@@ -23,7 +25,19 @@ constexpr int kStudioSamples = 64;
 constexpr double kKeyDiscRadius = 0.05;  // tangent of the key light's half angle
 
 ShaderVariant variant_of(Quality quality) {
-  return {quality == Quality::normal ? 4 : 1, quality == Quality::studio};
+  return {quality == Quality::normal, quality == Quality::studio};
+}
+
+void check_camera(const Camera& camera) {
+  const auto refuse = [](const std::string& rule, const std::string& remedy) {
+    throw InputError({Fault{"", 0, "camera", rule, remedy}});
+  };
+  if (!camera.eye.allFinite() || !camera.target.allFinite() || !camera.up.allFinite())
+    refuse("a coordinate is not a finite number", "give metres");
+  if (!((camera.eye - camera.target).norm() > 0))
+    refuse("it looks at the point where it stands", "move its eye or its target");
+  if (!(camera.field_of_view > 0 && camera.field_of_view < 3.1))
+    refuse("its field of view is not between 0 and 3.1 rad", "0.55 is usual");
 }
 
 // Sub-random numbers in [0, 1): Roberts' generalised golden ratio sequences, even in every prefix.
@@ -94,13 +108,16 @@ class Mean {
   int count_ = 0;
 };
 
-// OpenGL's first row is the bottom one, and blending has left its mark in alpha.
+// OpenGL's first row is the bottom one.
 void turn_upright(Image& image) {
+  const std::size_t bytes = std::size_t{4} * static_cast<std::size_t>(image.width);
+  std::vector<std::uint8_t> row(bytes);
   for (int y = 0; y < image.height / 2; ++y) {
-    std::swap_ranges(image.pixel(0, y), image.pixel(0, y) + 4 * image.width,
-                     image.pixel(0, image.height - 1 - y));
+    std::uint8_t *above = image.pixel(0, y), *below = image.pixel(0, image.height - 1 - y);
+    std::memcpy(row.data(), above, bytes);
+    std::memcpy(above, below, bytes);
+    std::memcpy(below, row.data(), bytes);
   }
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
 }
 
 // The context is bound while a picture is painted, so that the painter may change threads between.
@@ -139,6 +156,7 @@ class Painter::Impl {
   Impl& operator=(const Impl&) = delete;
 
   Image paint(const DrawList& list, bool is_next) {
+    check_camera(list.camera);
     Image image{width_, height_, {}};
     image.rgba.resize(std::size_t{4} * static_cast<std::size_t>(width_) *
                       static_cast<std::size_t>(height_));

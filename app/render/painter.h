@@ -16,7 +16,7 @@
 
 namespace twinarm {
 
-// Times at 1280 x 720: see README.md.
+// Times: see README.md.
 enum class Quality {
   draft,   // no antialiasing, hard shadow: while the view moves
   normal,  // 4 samples a pixel, shadow with a soft edge

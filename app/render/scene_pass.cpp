@@ -1,6 +1,8 @@
 // Drawing one pass. See scene_pass.h for the order, shaders.cpp for the light.
 #include "app/render/scene_pass.h"
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace twinarm {
@@ -23,6 +25,11 @@ ShaderVariant with_texture(ShaderVariant variant) {
   return variant;
 }
 
+ShaderVariant with_horizon(ShaderVariant variant, bool horizon) {
+  variant.horizon = horizon;
+  return variant;
+}
+
 // Moves the picture by a part of a pixel: an offset times w, which the division takes out again.
 Eigen::Matrix4d shift(const Eigen::Vector2d& shift_px, int width, int height) {
   Eigen::Matrix4d X = Eigen::Matrix4d::Identity();
@@ -39,23 +46,30 @@ ScenePass::ScenePass(const GlTable& gl, int width, int height, const ShaderVaria
       width_(width),
       height_(height),
       canvas_(gl, width, height, multisampled),
-      key_map_(gl, kKeyMapSide),
+      key_map_(gl, kKeyMapSide, !variant.soft_shadow),
+      variant_(variant),
       solid_(gl, solid_vertex_shader(variant), solid_fragment_shader(variant)),
       textured_(gl, solid_vertex_shader(with_texture(variant)),
                 solid_fragment_shader(with_texture(variant))),
       ghost_(gl, solid_vertex_shader(variant), ghost_fragment_shader()),
-      depth_(gl, depth_vertex_shader(), depth_fragment_shader()),
-      floor_(gl, floor_vertex_shader(variant), floor_fragment_shader(variant)),
-      background_(gl, background_vertex_shader(), background_fragment_shader()) {
-  if (variant.sky_sample) sky_map_.emplace(gl, kSkyMapSide);
+      depth_(gl, depth_vertex_shader(), depth_fragment_shader()) {
+  if (variant.sky_sample) sky_map_.emplace(gl, kSkyMapSide, true);
   gl.GenVertexArrays(1, &no_vertices_);
 }
 
 void ScenePass::prepare(const DrawList& list) {
   list_ = &list;
   bounds_ = bound_scene(list);
-  clip_from_world_ =
-      make_clip_from_world(list.camera, static_cast<double>(width_) / height_, bounds_);
+  floor_radius_ = floor_radius(list, bounds_);
+  clip_from_world_ = make_clip_from_world(list.camera, static_cast<double>(width_) / height_,
+                                          bounds_, floor_radius_);
+  std::optional<Backdrop>& backdrop = backdrops_[has_horizon() ? 1 : 0];
+  if (!backdrop) {
+    const ShaderVariant variant = with_horizon(variant_, has_horizon());
+    backdrop.emplace(
+        Backdrop{{gl_, floor_vertex_shader(variant), floor_fragment_shader(variant)},
+                 {gl_, background_vertex_shader(), background_fragment_shader(variant)}});
+  }
   forget_unused();
   items_.clear();
   for (const Instance& instance : list.instances) add_item(list, instance);
@@ -108,11 +122,18 @@ void ScenePass::draw(const LightSample& sample) {
   gl_.DepthFunc(GL_LEQUAL);
   draw_shadow(key_map_, sample.key_W);
   if (sky_map_) draw_shadow(*sky_map_, sample.sky_W);
-  gl_.Enable(GL_FRAMEBUFFER_SRGB);
   canvas_.begin();
   draw_solids(sample);
   if (list_->ground.visible) draw_floor(sample);
-  draw_background();
+  draw_background(sample);
+  draw_blended(sample);
+}
+
+void ScenePass::draw_blended(const LightSample& sample) const {
+  const auto is_blended = [](const Item& item) { return item.ghost || item.seen_through; };
+  if (std::none_of(items_.begin(), items_.end(), is_blended)) return;
+  gl_.Enable(GL_FRAMEBUFFER_SRGB);
+  gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // stays opaque
   draw_hidden(sample);
   draw_ghosts(sample);
   gl_.Disable(GL_FRAMEBUFFER_SRGB);
@@ -122,10 +143,30 @@ Eigen::Matrix4f ScenePass::light_clip_from_world(const Vector3& towards_light_W)
   return make_light_clip_from_world(towards_light_W, bounds_.solid).cast<float>();
 }
 
+// Texels about as large as pixels show all that there is to be seen; finer ones only cost.
+int ScenePass::used_side(const ShadowMap& map) const {
+  const double texels = shadow_texels(list_->camera, bounds_, height_);
+  return static_cast<int>(std::clamp(texels, 256.0, static_cast<double>(map.side_px)));
+}
+
+// From the world into the square of the map that is used, and depth from 0 to 1.
+Eigen::Matrix4f ScenePass::shadow_from_world(const ShadowMap& map,
+                                             const Vector3& towards_light_W) const {
+  const float share = 0.5f * static_cast<float>(used_side(map)) / static_cast<float>(map.side_px);
+  Eigen::Matrix4f half = Eigen::Matrix4f::Identity();
+  half.diagonal() << share, share, 0.5f, 1;
+  half.col(3).head<3>() = half.diagonal().head<3>();
+  return half * light_clip_from_world(towards_light_W);
+}
+
 void ScenePass::draw_shadow(const ShadowMap& map, const Vector3& towards_light_W) {
+  const int side = used_side(map);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, map.framebuffer);
-  gl_.Viewport(0, 0, map.side_px, map.side_px);
+  gl_.Viewport(0, 0, side, side);
+  gl_.Enable(GL_SCISSOR_TEST);
+  gl_.Scissor(0, 0, side, side);
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
+  gl_.Scissor(4, 4, side - 8, side - 8);  // what lies too far away leaves the border empty
   gl_.Enable(GL_POLYGON_OFFSET_FILL);
   gl_.PolygonOffset(1.5f, 2.0f);  // beside the normal offset, for facets that the light grazes
   depth_.use();
@@ -137,24 +178,33 @@ void ScenePass::draw_shadow(const ShadowMap& map, const Vector3& towards_light_W
     item.mesh->draw();
   }
   gl_.Disable(GL_POLYGON_OFFSET_FILL);
+  gl_.Disable(GL_SCISSOR_TEST);
+}
+
+Eigen::Matrix4d ScenePass::shifted_clip(const LightSample& sample) const {
+  return shift(sample.shift_px, width_, height_) * clip_from_world_;
 }
 
 void ScenePass::set_frame(const Program& program, const LightSample& sample) const {
-  const Eigen::Matrix4d clip = shift(sample.shift_px, width_, height_) * clip_from_world_;
-  const int side = sky_map_ ? kSkyMapSide : kKeyMapSide;  // the coarser map rules the offset
+  const ShadowMap& sky_map = sky_map_ ? *sky_map_ : key_map_;
+  const int side = std::min(used_side(key_map_), used_side(sky_map));  // the coarser one rules
   program.use();
-  program.set(Uniform::clip_from_world, Eigen::Matrix4f(clip.cast<float>()));
-  program.set(Uniform::key_from_world, light_clip_from_world(sample.key_W));
-  program.set(Uniform::sky_from_world, light_clip_from_world(sample.sky_W));
+  program.set(Uniform::clip_from_world, Eigen::Matrix4f(shifted_clip(sample).cast<float>()));
+  program.set(Uniform::key_from_world, shadow_from_world(key_map_, sample.key_W));
+  program.set(Uniform::sky_from_world, shadow_from_world(sky_map, sample.sky_W));
   program.set(Uniform::normal_offset, static_cast<float>(3.0 * bounds_.solid.radius / side));
   program.set(Uniform::eye, Eigen::Vector3f(list_->camera.eye.cast<float>()));
   program.set(Uniform::key_direction, Eigen::Vector3f(sample.key_W.cast<float>()));
   program.set(Uniform::sky_direction, Eigen::Vector3f(sample.sky_W.cast<float>()));
   program.set(Uniform::texel, 1.0f / kKeyMapSide);
+  const auto reach = [this](const ShadowMap& map) {
+    return static_cast<float>(used_side(map) - 2) / static_cast<float>(map.side_px);
+  };
+  program.set(Uniform::shadow_reach, reach(key_map_), reach(sky_map));
   program.set(Uniform::key_shadow, kKeyUnit);
   program.set(Uniform::sky_shadow, kSkyUnit);
   gl_.ActiveTexture(GL_TEXTURE0 + kSkyUnit);
-  gl_.BindTexture(GL_TEXTURE_2D, sky_map_ ? sky_map_->texture : key_map_.texture);
+  gl_.BindTexture(GL_TEXTURE_2D, sky_map.texture);
   gl_.ActiveTexture(GL_TEXTURE0 + kKeyUnit);
   gl_.BindTexture(GL_TEXTURE_2D, key_map_.texture);
 }
@@ -190,31 +240,47 @@ void ScenePass::draw_solids(const LightSample& sample) const {
 void ScenePass::set_backdrop(const Program& program) const {
   program.set(Uniform::background_bottom, linear(list_->background.bottom));
   program.set(Uniform::background_top, linear(list_->background.top));
+  program.set(Uniform::background_ground, linear(list_->background.ground));
   program.set(Uniform::size_px, static_cast<float>(width_), static_cast<float>(height_));
 }
 
 void ScenePass::draw_floor(const LightSample& sample) const {
   const Ground& ground = list_->ground;
   const Vector3& center = list_->camera.target;
-  const double radius = floor_radius(list_->camera, bounds_);
-  set_frame(floor_, sample);
-  set_backdrop(floor_);
-  floor_.set(Uniform::ground,
-             Eigen::Vector4f(
-                 Eigen::Vector4d(center.x(), center.y(), ground.height, radius).cast<float>()));
-  floor_.set(Uniform::grid,
-             Eigen::Vector4f(Eigen::Vector4d(ground.cell, ground.cell * ground.cells_per_major,
-                                             0.008 * ground.cell, 0)
-                                 .cast<float>()));
+  const Program& floor = backdrop().floor;
+  set_frame(floor, sample);
+  set_backdrop(floor);
+  const auto set = [&](Uniform uniform, const Eigen::Vector4d& value) {
+    floor.set(uniform, Eigen::Vector4f(value.cast<float>()));
+  };
+  set(Uniform::ground, {center.x(), center.y(), ground.height, floor_radius_});
+  set(Uniform::grid, {ground.cell, ground.cell * ground.cells_per_major, 0.008 * ground.cell,
+                      has_horizon() ? 0.5 : 1.0});
   gl_.BindVertexArray(no_vertices_);
   gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-void ScenePass::draw_background() const {
-  background_.use();
-  set_backdrop(background_);
+// Where the floor fills whole rows of the picture, from below, nothing would come of it but work.
+void ScenePass::draw_background(const LightSample& sample) const {
+  const int rows =
+      list_->ground.visible
+          ? rows_all_floor(clip_from_world_,
+                           {list_->camera.target, list_->ground.height, floor_radius_}, height_)
+          : 0;
+  if (rows >= height_) return;
+  const Program& background = backdrop().background;
+  background.use();
+  set_backdrop(background);
+  background.set(Uniform::eye, Eigen::Vector3f(list_->camera.eye.cast<float>()));
+  background.set(Uniform::world_from_clip,
+                 Eigen::Matrix4f(shifted_clip(sample).inverse().cast<float>()));
+  gl_.Enable(GL_SCISSOR_TEST);
+  gl_.Scissor(0, rows, width_, height_ - rows);
+  gl_.DepthMask(GL_FALSE);
   gl_.BindVertexArray(no_vertices_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl_.DepthMask(GL_TRUE);
+  gl_.Disable(GL_SCISSOR_TEST);
 }
 
 // The parts of overlays that lie behind what has been drawn, laid over it. Depth is left as it is.
@@ -224,7 +290,6 @@ void ScenePass::draw_hidden(const LightSample& sample) const {
   gl_.DepthFunc(GL_GREATER);
   gl_.DepthMask(GL_FALSE);
   gl_.Enable(GL_BLEND);
-  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   for (const Item& item : items_) {
     if (!item.seen_through) continue;
     Eigen::Vector4f color = item.color;
@@ -250,7 +315,6 @@ void ScenePass::draw_ghosts(const LightSample& sample) const {
   draw_items(ghost_, true);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl_.Enable(GL_BLEND);
-  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   draw_items(ghost_, true);
   gl_.Disable(GL_BLEND);
   gl_.Disable(GL_POLYGON_OFFSET_FILL);

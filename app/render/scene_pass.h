@@ -1,10 +1,12 @@
 // ScenePass: one picture of the bodies, floor and background under one sample of the light.
 //
 // The order of a pass: shadow map(s) of the solids; solids; floor; background where nothing else
-// is; what is seen through bodies, faintly; ghosts, depth first. Needs the context current in every
-// call.
+// is; what is seen through bodies, faintly; ghosts, depth first. Up to the background shaders write
+// sRGB themselves; the last two are blended, in linear light, and the canvas encodes. Needs the
+// context current in every call.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -61,18 +63,28 @@ class ScenePass {
     bool ghost, seen_through;
   };
 
+  struct Backdrop {
+    Program floor, background;
+  };
+
   void add_item(const DrawList& list, const Instance& instance);
   Eigen::Matrix4f light_clip_from_world(const Vector3& towards_light_W) const;
+  Eigen::Matrix4f shadow_from_world(const ShadowMap& map, const Vector3& towards_light_W) const;
+  int used_side(const ShadowMap& map) const;
   void draw_shadow(const ShadowMap& map, const Vector3& towards_light_W);
   void set_frame(const Program& program, const LightSample& sample) const;
   void draw_items(const Program& program, bool ghosts, bool textured = false) const;
   void cull(bool two_sided) const;
   void draw_solids(const LightSample& sample) const;
   void draw_floor(const LightSample& sample) const;
-  void draw_background() const;
+  void draw_background(const LightSample& sample) const;
+  void draw_blended(const LightSample& sample) const;
   void draw_hidden(const LightSample& sample) const;
   void draw_ghosts(const LightSample& sample) const;
   void set_backdrop(const Program& program) const;
+  const Backdrop& backdrop() const { return *backdrops_[has_horizon() ? 1 : 0]; }
+  bool has_horizon() const { return list_->background.kind == Background::Kind::landscape; }
+  Eigen::Matrix4d shifted_clip(const LightSample& sample) const;
   const GpuMesh& upload(const std::shared_ptr<const DrawMesh>& mesh);
   const GpuTexture& upload(const std::shared_ptr<const Image>& image);
   void forget_unused();
@@ -82,7 +94,9 @@ class ScenePass {
   Canvas canvas_;
   ShadowMap key_map_;
   std::optional<ShadowMap> sky_map_;
-  Program solid_, textured_, ghost_, depth_, floor_, background_;
+  ShaderVariant variant_;
+  Program solid_, textured_, ghost_, depth_;
+  std::array<std::optional<Backdrop>, 2> backdrops_;  // room, landscape: made where first needed
   GLuint no_vertices_ = 0;  // vertex array for shaders that make their own vertices
   std::unordered_map<const DrawMesh*, CachedMesh> cache_;
   std::unordered_map<const Image*, CachedTexture> textures_;
@@ -91,6 +105,7 @@ class ScenePass {
   const DrawList* list_ = nullptr;
   std::vector<Item> items_;
   SceneBounds bounds_;
+  double floor_radius_ = 1;
   Eigen::Matrix4d clip_from_world_ = Eigen::Matrix4d::Identity();
 };
 

@@ -1,5 +1,5 @@
-// The painter's shaders, as GLSL 3.30 text. Vectors are in the world frame, colours linear; the
-// canvas encodes sRGB.
+// The painter's shaders, as GLSL 3.30 text. Vectors are in the world frame, colours linear; what is
+// opaque leaves the shader as sRGB, what is blended is encoded by the canvas.
 //
 // Variants are made by #define, not by uniforms: llvmpipe runs both sides of every branch.
 #pragma once
@@ -9,10 +9,11 @@
 namespace twinarm {
 
 struct ShaderVariant {
-  int shadow_taps = 4;  // 1 or 4, each the mean of 2 x 2 texels
+  bool soft_shadow = true;  // over 3 x 3 texels of a map, else 2 x 2, in the sampler
   bool sky_sample =
       false;              // the sky is one direction with a shadow map of its own (studio quality)
   bool textured = false;  // the colour is multiplied by a texture's
+  bool horizon = false;   // of floor and background: there is a sky that ends, and not one room
 };
 
 std::string solid_vertex_shader(const ShaderVariant& variant);
@@ -20,9 +21,18 @@ std::string solid_fragment_shader(const ShaderVariant& variant);
 std::string ghost_fragment_shader();  // with the solid vertex shader
 std::string depth_vertex_shader();    // bodies into a shadow map
 std::string depth_fragment_shader();
+
+// backdrop_shaders.cpp
 std::string floor_vertex_shader(const ShaderVariant& variant);
 std::string floor_fragment_shader(const ShaderVariant& variant);
 std::string background_vertex_shader();
-std::string background_fragment_shader();
+std::string background_fragment_shader(const ShaderVariant& variant);
+
+// What they share: version and variant; placing a vertex with its shadow coordinates; sRGB and
+// dither; how much of key light and sky arrives.
+std::string shader_header(const ShaderVariant& variant);
+extern const char* const kPlaceVertex;
+extern const char* const kFinishColor;
+extern const char* const kArrivingLight;
 
 }  // namespace twinarm

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/render/draw_mesh.h"
+#include "app/render/texture_places.h"
 
 namespace twinarm {
 namespace {
@@ -151,12 +152,20 @@ TriangleMesh spring(double length) {
 
 DrawMesh make_unit_mesh(UnitShape shape) {
   switch (shape) {
-    case UnitShape::box:
-      return make_draw_mesh(box());
-    case UnitShape::sphere:
-      return make_draw_mesh(sphere());
-    case UnitShape::cylinder:
-      return make_draw_mesh(cylinder());
+    case UnitShape::box: {
+      const TriangleMesh mesh = box();
+      return make_draw_mesh(mesh, places_on_box(mesh));
+    }
+    case UnitShape::sphere: {
+      const TriangleMesh mesh = sphere();
+      const auto down = [](const Vector3& p) { return std::acos(p.z()) / kPi; };
+      return make_draw_mesh(mesh, places_around_z(mesh, down));
+    }
+    case UnitShape::cylinder: {
+      const TriangleMesh mesh = cylinder();
+      const auto down = [](const Vector3& p) { return 1 - p.z(); };
+      return make_draw_mesh(mesh, places_around_z(mesh, down, 1));
+    }
     case UnitShape::cone:
       return make_draw_mesh(cone());
   }

@@ -2,6 +2,7 @@
 #include "app/render/view.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -80,20 +81,40 @@ SceneBounds bound_scene(const DrawList& list) {
   return {solid.empty() ? nothing : solid.ball(), all.empty() ? nothing : all.ball()};
 }
 
-double floor_radius(const Camera& camera, const SceneBounds& bounds) {
-  return 2.2 * std::max(viewing_distance(camera), bounds.all.radius);
+double floor_radius(const DrawList& list, const SceneBounds& bounds) {
+  const double away = list.background.kind == Background::Kind::landscape ? 9 : 2.2;
+  return away * std::max(viewing_distance(list.camera), bounds.all.radius);
 }
 
-Matrix4d make_clip_from_world(const Camera& camera, double aspect, const SceneBounds& bounds) {
+Matrix4d make_clip_from_world(const Camera& camera, double aspect, const SceneBounds& bounds,
+                              double floor_radius) {
   const double distance = viewing_distance(camera);
   const double to_scene = (camera.eye - bounds.all.center).norm();
   const double near = std::max(0.02 * distance, 0.95 * (to_scene - bounds.all.radius));
-  const double far =
-      std::max(to_scene + bounds.all.radius, distance + 1.5 * floor_radius(camera, bounds));
+  const double far = std::max(to_scene + bounds.all.radius, distance + 1.5 * floor_radius);
   // The floor may come closer to the eye than the scene does.
   const double safe_near = std::min(near, 0.1 * distance);
   return perspective(camera.field_of_view, aspect, safe_near, far) *
          look_from(camera.eye, camera.target - camera.eye, camera.up);
+}
+
+int rows_all_floor(const Matrix4d& clip_from_world, const FloorSquare& floor, int picture_height) {
+  const Matrix4d world_from_clip = clip_from_world.inverse();
+  const auto is_floor = [&](double x, double y) {  // what the line of sight through it meets
+    const Vector3 near = (world_from_clip * Eigen::Vector4d(x, y, -1, 1)).hnormalized();
+    const Vector3 far = (world_from_clip * Eigen::Vector4d(x, y, 1, 1)).hnormalized();
+    const double share = (floor.height - near.z()) / (far.z() - near.z());
+    const Vector3 off = near + share * (far - near) - floor.center;
+    return share > 0 && share < 1 && off.head<2>().cwiseAbs().maxCoeff() < 0.99 * floor.half_side;
+  };
+  // Between two points of one row, and between two rows, the square has no gap: it is convex.
+  const auto row_is_floor = [&](int row) {
+    const double y = 2.0 * row / picture_height - 1;
+    return is_floor(-1, y) && is_floor(1, y);
+  };
+  int row = 0;
+  while (row <= picture_height + 1 && row_is_floor(row)) ++row;
+  return std::max(0, row - 2);  // one is given away: pictures are shifted by a part of a pixel
 }
 
 Matrix4d make_light_clip_from_world(const Vector3& towards_light_W, const Ball& ball) {
@@ -102,6 +123,12 @@ Matrix4d make_light_clip_from_world(const Vector3& towards_light_W, const Ball& 
   scale(0, 0) = scale(1, 1) = 1 / reach;
   scale(2, 2) = -1 / reach;  // near is towards the light
   return scale * look_from(ball.center, -towards_light_W, Vector3::UnitZ());
+}
+
+double shadow_texels(const Camera& camera, const SceneBounds& bounds, int picture_height) {
+  const double pixel =
+      2 * viewing_distance(camera) * std::tan(0.5 * camera.field_of_view) / picture_height;
+  return 2 * bounds.solid.radius / pixel;
 }
 
 std::optional<Eigen::Vector2d> project(const Matrix4d& clip_from_world, const Vector3& p_W,

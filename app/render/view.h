@@ -25,14 +25,27 @@ struct SceneBounds {
 SceneBounds bound_scene(const DrawList& list);
 
 // The floor is drawn in this disc about the point that the camera looks at; its grid and its
-// shadows have faded at the rim.
-double floor_radius(const Camera& camera, const SceneBounds& bounds);
+// shadows have faded at the rim, and a landscape's ground is lost in haze.
+double floor_radius(const DrawList& list, const SceneBounds& bounds);
 
-Eigen::Matrix4d make_clip_from_world(const Camera& camera, double aspect,
-                                     const SceneBounds& bounds);
+Eigen::Matrix4d make_clip_from_world(const Camera& camera, double aspect, const SceneBounds& bounds,
+                                     double floor_radius);
+
+// How many of the picture's rows, from below, are filled by this square of the floor from end to
+// end, where nothing stands before it.
+struct FloorSquare {
+  Vector3 center;     // in W; its z does not count
+  double height = 0;  // [m]
+  double half_side = 1;
+};
+int rows_all_floor(const Eigen::Matrix4d& clip_from_world, const FloorSquare& floor,
+                   int picture_height);
 
 // Parallel light from the given direction; the ball just fits into clip space.
 Eigen::Matrix4d make_light_clip_from_world(const Vector3& towards_light_W, const Ball& ball);
+
+// How many texels across a shadow map makes them as large as the pixels at the camera's target.
+double shadow_texels(const Camera& camera, const SceneBounds& bounds, int picture_height);
 
 // Pixel of a world point, from the top left corner; nothing where it is behind the camera.
 std::optional<Eigen::Vector2d> project(const Eigen::Matrix4d& clip_from_world, const Vector3& p_W,

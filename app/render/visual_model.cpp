@@ -19,8 +19,9 @@ struct Surface {
 };
 
 // Vertices with equal coordinates are one; triangles that lose a corner by it go.
-Surface weld(const ModelPart& part, const Vector3& scale) {
+Surface weld(const ModelPart& part, const Vector3& scale, KeepPlaces keep) {
   Surface surface;
+  const bool has_uv = !part.uv.empty() && (part.texture >= 0 || keep == KeepPlaces::always);
   std::map<std::tuple<float, float, float>, int> index;
   std::vector<int> welded;
   for (const auto& [x, y, z] : part.positions) {
@@ -35,11 +36,11 @@ Surface weld(const ModelPart& part, const Vector3& scale) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto v = static_cast<std::size_t>(triangle[k]);
       t[k] = welded[v];
-      if (!part.uv.empty()) uv[k] = part.uv[v];
+      if (has_uv) uv[k] = part.uv[v];
     }
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
     surface.mesh.triangles.push_back(t);
-    if (!part.uv.empty()) surface.uv.push_back(uv);
+    if (has_uv) surface.uv.push_back(uv);
   }
   return surface;
 }
@@ -48,8 +49,9 @@ void turn(CornerUv& uv) {
   std::swap(uv[1], uv[2]);
 }
 
-VisualMesh visual_of(const ModelPart& part, const Vector3& scale, std::size_t& turned) {
-  Surface surface = weld(part, scale);
+VisualMesh visual_of(const ModelPart& part, const Vector3& scale, KeepPlaces keep,
+                     std::size_t& turned) {
+  Surface surface = weld(part, scale, keep);
   if (scale.prod() < 0) {  // a mirror shows every triangle from behind
     for (auto& t : surface.mesh.triangles) std::swap(t[1], t[2]);
     for (CornerUv& uv : surface.uv) turn(uv);
@@ -82,14 +84,14 @@ std::vector<std::shared_ptr<const Image>> pictures_of(const ModelFile& model,
 
 }  // namespace
 
-VisualModel load_visual(const std::filesystem::path& file, const Vector3& scale) {
+VisualModel load_visual(const std::filesystem::path& file, const Vector3& scale, KeepPlaces keep) {
   const ModelFile model = read_model(file);
   VisualModel visual;
   visual.notes = model.notes;
   const auto pictures = pictures_of(model, visual.notes);
   std::size_t turned = 0;
   for (const ModelPart& part : model.parts) {
-    visual.parts.push_back(visual_of(part, scale, turned));
+    visual.parts.push_back(visual_of(part, scale, keep, turned));
     if (part.texture >= 0)
       visual.parts.back().texture = pictures[static_cast<std::size_t>(part.texture)];
     if (visual.parts.back().mesh.triangles.empty()) visual.parts.pop_back();

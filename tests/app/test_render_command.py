@@ -190,9 +190,10 @@ class Render(unittest.TestCase):
 
     def test_all_faults_of_the_options_are_told_at_once(self):
         faults = self.refusals(self.ball, "--size", "0x100", "--show", "forcs", "--slow", "0",
-                               "--quality", "best", "--at", "-1", "--plot", "energie")
+                               "--quality", "best", "--at", "-1", "--plot", "energie",
+                               "--background", "ski")
         self.assertEqual(sorted(f["where"] for f in faults),
-                         ["--at", "--plot", "--quality", "--show", "--size", "--slow", "output"])
+                         ["--at", "--background", "--plot", "--quality", "--show", "--size", "--slow", "output"])
         png = self.folder / "a.png"
         for words in (["--size", "nan"], ["--size", "1e9x2"], ["--size", "16.5x16"],
                       ["--camera", "nowhere"], ["--camera", "follow:bal"], ["--from", "1"],

@@ -16,6 +16,7 @@
 #include "app/render/mend_winding.h"
 #include "app/render/painter.h"
 #include "solver/fault.h"
+#include "tests/render/quarters.h"
 
 using namespace twinarm;
 namespace fs = std::filesystem;
@@ -58,21 +59,6 @@ f 1/1 2/2 3/3
 f 1/1 3/3 4/4
 )";
 
-// Quarters: red and green above, blue and white below.
-Image quarters(int side) {
-  Image image;
-  image.width = image.height = side;
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      const bool right = x >= side / 2, low = y >= side / 2;
-      const auto on = [](bool yes) { return static_cast<std::uint8_t>(yes ? 255 : 0); };
-      for (const std::uint8_t c : {on(!right && !low), on(right && !low), on(!right && low)})
-        image.rgba.push_back(right && low ? 255 : c);
-      image.rgba.push_back(255);
-    }
-  return image;
-}
-
 VisualModel painted_square(const VisualFolder& folder, const std::string& picture) {
   folder.write("square.mtl", "newmtl painted\nKd 1 1 1\nmap_Kd picture.png\n");
   folder.write("picture.png", picture);
@@ -91,18 +77,6 @@ Image picture_of(const VisualModel& model, double from_z) {
     if (part.texture) list.instances.back().texture = list.register_texture(part.texture);
   }
   return Painter(Backend::osmesa, 120, 120).paint(list);
-}
-
-// 'r', 'g', 'b' where one of them rules, 'w' for none, at a place right and down of the middle.
-char color_at(Image image, int right, int down) {
-  const std::uint8_t* p = image.pixel(60 + right, 60 + down);
-  const auto most = std::max_element(p, p + 3), least = std::min_element(p, p + 3);
-  return *most - *least < 40 ? 'w' : "rgb"[most - p];
-}
-
-std::string quarters_of(const Image& image) {
-  return {color_at(image, -10, -10), color_at(image, 10, -10), color_at(image, -10, 10),
-          color_at(image, 10, 10)};
 }
 
 bool any_note(const VisualModel& model, const std::string& words) {

@@ -28,7 +28,7 @@ Extent random_extent(unsigned seed) {
 double reach(const Camera& camera, const Extent& extent) {
   SceneBounds bounds;
   bounds.all = bounds.solid = {extent.center(), extent.radius()};
-  const auto clip = make_clip_from_world(camera, double{kWide} / kHigh, bounds);
+  const auto clip = make_clip_from_world(camera, double{kWide} / kHigh, bounds, 1.0);
   double most = 0;
   for (const Vector3& p : extent.points()) {
     const auto pixel = project(clip, p, kWide, kHigh);
@@ -65,7 +65,7 @@ TEST_CASE("framing: in the front view x goes to the right, in the side view y, f
     const Camera camera = make_camera(parse_camera(name, model), extent, double{kWide} / kHigh);
     SceneBounds bounds;
     bounds.all = bounds.solid = {extent.center(), extent.radius()};
-    const auto clip = make_clip_from_world(camera, double{kWide} / kHigh, bounds);
+    const auto clip = make_clip_from_world(camera, double{kWide} / kHigh, bounds, 1.0);
     return *project(clip, p, kWide, kHigh);
   };
   const Vector3 c = extent.center(), x(0.1, 0, 0), y(0, 0.1, 0), z(0, 0, 0.1);

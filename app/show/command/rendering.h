@@ -16,6 +16,7 @@ namespace twinarm {
 struct PictureWish {
   int width = 0, height = 0;  // [px]
   Quality quality = Quality::normal;
+  Background background;
   Backend backend = Backend::osmesa;
   std::string camera = "auto";
   std::vector<std::string> overlays;
