@@ -50,11 +50,21 @@ bool send(int pipe, std::string_view bytes) {
   return true;
 }
 
+// Libraries may complain before they give up; what is to be said the parent says. A sanitizer's
+// words are another matter.
+void be_silent() {
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere < 0) return;
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+}
+
 [[noreturn]] void be_child(const std::function<std::string()>& work, const ChildLimits& limits,
                            int pipe) {
   // Whatever the program does with signals, the child ends at once and without a word.
   for (const int each : {SIGINT, SIGTERM, SIGPIPE, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
     std::signal(each, SIG_DFL);
+  if (!kSanitized) be_silent();
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.cpu_seconds);
   if (!kSanitized) limit(RLIMIT_AS, limits.bytes);
