@@ -50,20 +50,26 @@ void add_mesh(std::vector<RecordedFile>& files, const Geometry& geometry) {
 
 void add_meshes_of(const RobotDescription& robot, std::vector<RecordedFile>& files) {
   for (const LinkDescription& link : robot.links) {
-    for (const VisualPart& part : link.visuals) add_mesh(files, part.geometry);
+    for (const VisualPart& part : link.visuals) {
+      add_mesh(files, part.geometry);
+      add_file(files, part.texture);
+    }
     for (const CollisionPart& part : link.collisions) add_mesh(files, part.geometry);
   }
 }
 
-// All that the scene needs again: robots with their meshes, meshes of bodies, traces of hands.
+// All that the scene needs again: robots with their meshes and textures, those of bodies, traces of
+// hands.
 void add_files_of(const SceneDescription& scene, std::vector<RecordedFile>& files) {
   for (const RobotInScene& robot : scene.robots) {
     add_file(files, robot.description.file);
     add_meshes_of(robot.description, files);
   }
-  for (const BodyDescription& body : scene.bodies)
+  for (const BodyDescription& body : scene.bodies) {
     if (const auto* mesh = std::get_if<MeshSpec>(&body.shape))
       add_mesh_file(files, mesh->mesh.file);
+    add_file(files, body.texture);
+  }
   for (const CouplingDescription& coupling : scene.couplings)
     add_file(files, coupling.target.trace);
 }

@@ -67,6 +67,17 @@ void read_motion(SceneReader& reader, SceneTable& table, BodyDescription& body) 
   }
 }
 
+// What is only to be looked at.
+void read_looks(SceneReader& reader, SceneTable& table, BodyDescription& body) {
+  body.color = table.vector("color");
+  if (body.color && !(body.color->minCoeff() >= 0 && body.color->maxCoeff() <= 1))
+    table.fault("color", "red, green and blue must lie from 0 to 1", "");
+  if (const auto name = table.text("texture"))
+    body.texture = reader.find_file(table, "texture", *name).value_or("");
+  if (!body.texture.empty() && std::holds_alternative<HalfSpaceSpec>(body.shape))
+    table.fault("texture", "a half-space has none", "leave it out");
+}
+
 }  // namespace
 
 void SceneReader::read_body(const TomlValue& value) {
@@ -84,6 +95,7 @@ void SceneReader::read_body(const TomlValue& value) {
   read_mass(table, body, scene);
   body.X_WB = read_pose(table);
   body.surface = read_surface(table);
+  read_looks(*this, table, body);
   if (const auto group = table.number("group")) {
     body.group = static_cast<int>(*group);
     if (!(*group >= 0 && *group <= 31 && *group == body.group))

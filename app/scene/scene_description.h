@@ -73,7 +73,10 @@ struct BodyDescription {
   Vector3 linear_velocity = Vector3::Zero();  // of the body's origin
   Vector3 angular_velocity = Vector3::Zero();
   Surface surface;
-  int group = 0;  // bodies of one group other than 0 do not touch one another
+  std::optional<Vector3>
+      color;  // red, green, blue in [0, 1]; of a texture what it is multiplied by
+  std::filesystem::path texture;  // PNG or JPEG, absolute; empty for none
+  int group = 0;                  // bodies of one group other than 0 do not touch one another
 
   bool is_free() const { return !fixed && !motion; }
 };

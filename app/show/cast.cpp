@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+
 #include "app/scene/scene_names.h"
 #include "app/show/palette.h"
 #include "app/show/shape_mesh.h"
@@ -13,7 +18,9 @@ namespace {
 // What the robot's file says rules, then the mesh's own colours and textures; a link without any
 // has a colour of ours, so that neighbours are told apart.
 Color color_of(const VisualPart& visual, ShapeLook& look, std::size_t body) {
-  if (visual.material.empty() && visual.color.isApprox(VisualPart().color))
+  const bool says_nothing = visual.material.empty() && visual.texture.empty() &&
+                            visual.color.isApprox(VisualPart().color);
+  if (says_nothing)
     return look.color.value_or(look.texture ? Color{1, 1, 1, 1} : palette::body(body));
   look.texture.reset();
   const Eigen::Vector4f c = visual.color.cast<float>();
@@ -50,12 +57,27 @@ class CastMaker {
     cast_.parts.push_back(part);
   }
 
+  // The picture in a file, if there is one; why it is left out is noted.
+  void lay_on(const std::filesystem::path& file, const std::string& whose, ShapeLook& look) {
+    if (file.empty()) return;
+    if (look.can_be_textured) {
+      if (const auto texture = texture_in(file)) look.texture = texture;
+      return;
+    }
+    cast_.notes.push_back(
+        fmt::format("{}: the texture '{}' is left out: its shape does not say "
+                    "where a picture lies on it",
+                    whose, file.filename().string()));
+  }
+
   // Visuals; in place of what cannot be drawn of them, all collision shapes.
   void add_link(const LinkDescription& link, std::size_t body, int robot) {
     std::vector<std::vector<ShapeLook>> looks;  // by visual
     try {
       for (const VisualPart& visual : link.visuals)
-        looks.push_back(looks_of(visual.geometry, list_, cast_.notes));
+        looks.push_back(looks_of(
+            visual.geometry, list_,
+            visual.texture.empty() ? KeepPlaces::where_textured : KeepPlaces::always, cast_.notes));
     } catch (const InputError& error) {
       const Fault& fault = error.faults().front();
       cast_.notes.push_back(fmt::format("link '{}' is drawn by its collision shapes: {}: {}",
@@ -67,6 +89,7 @@ class CastMaker {
     for (std::size_t i = 0; i < looks.size(); ++i)
       for (ShapeLook& look : looks[i]) {
         const Color color = color_of(link.visuals[i], look, body);
+        lay_on(link.visuals[i].texture, "link '" + link.name + "'", look);
         add(body, robot, look, link.visuals[i].X_LG(), color);
       }
     if (!link.visuals.empty() || link.collisions.empty()) return;
@@ -78,7 +101,8 @@ class CastMaker {
  private:
   void add_collisions(const LinkDescription& link, std::size_t body, int robot) {
     for (const CollisionPart& part : link.collisions) try {
-        for (const ShapeLook& look : looks_of(part.geometry, list_, cast_.notes))
+        for (const ShapeLook& look :
+             looks_of(part.geometry, list_, KeepPlaces::where_textured, cast_.notes))
           add(body, robot, look, part.X_LG(), palette::body(body));
       } catch (const InputError& error) {
         const Fault& fault = error.faults().front();
@@ -87,8 +111,21 @@ class CastMaker {
       }
   }
 
+  std::optional<TextureId> texture_in(const std::filesystem::path& file) {
+    const auto [place, is_new] = textures_.try_emplace(file);
+    if (is_new) try {
+        place->second = list_.register_texture(std::make_shared<const Image>(read_image(file)));
+      } catch (const InputError& error) {
+        const Fault& fault = error.faults().front();
+        cast_.notes.push_back(
+            fmt::format("the texture '{}' is left out: {}", file.string(), fault.rule));
+      }
+    return place->second;
+  }
+
   Cast& cast_;
   DrawList& list_;
+  std::map<std::filesystem::path, std::optional<TextureId>> textures_;
 };
 
 void add_body(const SceneGeometry& geometry, const BodyDescription& body, std::size_t& free_bodies,
@@ -96,8 +133,15 @@ void add_body(const SceneGeometry& geometry, const BodyDescription& body, std::s
   const auto index = static_cast<std::size_t>(geometry.body);
   Color color = body.fixed ? palette::kObstacle : palette::kDriven;
   if (body.is_free()) color = palette::body(free_bodies++);
-  const std::optional<ShapeLook> look = look_of(geometry.shape, list);
-  if (look) return maker.add(index, -1, *look, geometry.X_LG, color);
+  if (!body.texture.empty()) color = {1, 1, 1, 1};
+  if (body.color) {
+    const Eigen::Vector3f c = body.color->cast<float>();
+    color = {c(0), c(1), c(2), 1};
+  }
+  if (std::optional<ShapeLook> look = look_of(geometry.shape, list)) {
+    maker.lay_on(body.texture, "body '" + body.name + "'", *look);
+    return maker.add(index, -1, *look, geometry.X_LG, color);
+  }
   const auto& half = std::get<HalfSpaceSpec>(geometry.shape);
   const Vector3 normal = geometry.X_LG.R * half.normal;
   cast.planes.push_back({index, normal, half.offset + normal.dot(geometry.X_LG.p), color});

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "app/render/visual_model.h"
+#include "app/render/texture_places.h"
 #include "collision/convex_hull.h"
 #include "collision/import/mesh_geometry.h"
 
@@ -34,7 +34,7 @@ TriangleMesh turned(const std::vector<Eigen::Vector2d>& profile) {
   return mesh;  // triangles without area, at the poles, are dropped where normals are made
 }
 
-TriangleMesh capsule(double radius, double length) {
+DrawMesh capsule(double radius, double length) {
   constexpr int kArc = 12;  // of a quarter circle
   std::vector<Eigen::Vector2d> profile;
   for (const double side : {-0.5, 0.5})
@@ -45,7 +45,9 @@ TriangleMesh capsule(double radius, double length) {
       profile.emplace_back(on_axis ? 0 : radius * std::cos(latitude),
                            side * length + radius * std::sin(latitude));
     }
-  return turned(profile);
+  const TriangleMesh mesh = turned(profile);
+  const auto down = [&](const Vector3& p) { return 0.5 - p.z() / (length + 2 * radius); };
+  return make_draw_mesh(mesh, places_around_z(mesh, down));
 }
 
 TriangleMesh hull_of(const MeshGeometry& geometry) {
@@ -53,8 +55,10 @@ TriangleMesh hull_of(const MeshGeometry& geometry) {
   return {hull.vertices, hull.triangles};
 }
 
-ShapeLook placed(MeshId mesh, const Vector3& scale = Vector3::Ones(), const Pose& X_GM = {}) {
+ShapeLook placed(const DrawList& list, MeshId mesh, const Vector3& scale = Vector3::Ones(),
+                 const Pose& X_GM = {}) {
   ShapeLook look;
+  look.can_be_textured = !list.meshes[mesh]->uv.empty();
   look.mesh = mesh;
   look.scale = scale;
   look.X_GM = X_GM;
@@ -63,12 +67,12 @@ ShapeLook placed(MeshId mesh, const Vector3& scale = Vector3::Ones(), const Pose
 
 // A tube of no thickness, seen from outside.
 ShapeLook cylinder(double radius, double length, DrawList& list) {
-  return placed(list.unit_mesh(UnitShape::cylinder), {radius, radius, length},
+  return placed(list, list.unit_mesh(UnitShape::cylinder), {radius, radius, length},
                 {Matrix3::Identity(), Vector3(0, 0, -0.5 * length)});
 }
 
 ShapeLook sphere(const Vector3& semi_axes, DrawList& list) {
-  return placed(list.unit_mesh(UnitShape::sphere), semi_axes);
+  return placed(list, list.unit_mesh(UnitShape::sphere), semi_axes);
 }
 
 ShapeLook hollow(ShapeLook look) {
@@ -80,7 +84,7 @@ struct Look {
   DrawList& list;
   using Maybe = std::optional<ShapeLook>;
   Maybe operator()(const BoxGeometry& box) const {
-    return placed(list.unit_mesh(UnitShape::box), box.size);
+    return placed(list, list.unit_mesh(UnitShape::box), box.size);
   }
   Maybe operator()(const SphereGeometry& s) const {
     return sphere(Vector3::Constant(s.radius), list);
@@ -88,7 +92,7 @@ struct Look {
   Maybe operator()(const EllipsoidSpec& e) const { return sphere(e.semi_axes, list); }
   Maybe operator()(const CylinderGeometry& c) const { return cylinder(c.radius, c.length, list); }
   Maybe operator()(const CapsuleGeometry& c) const {
-    return placed(list.register_mesh(capsule(c.radius, c.length)));
+    return placed(list, list.register_mesh(capsule(c.radius, c.length)));
   }
   Maybe operator()(const HollowSphereSpec& s) const {
     return hollow(sphere(Vector3::Constant(s.radius), list));
@@ -98,18 +102,19 @@ struct Look {
   }
   Maybe operator()(const HalfSpaceSpec&) const { return std::nullopt; }
   Maybe operator()(const MeshSpec& spec) const {
-    return placed(list.register_mesh(spec.convex ? hull_of(spec.mesh) : load_mesh(spec.mesh)));
+    return placed(list,
+                  list.register_mesh(spec.convex ? hull_of(spec.mesh) : load_mesh(spec.mesh)));
   }
 };
 
-std::vector<ShapeLook> parts_of(const MeshGeometry& geometry, DrawList& list,
+std::vector<ShapeLook> parts_of(const MeshGeometry& geometry, DrawList& list, KeepPlaces keep,
                                 std::vector<std::string>& notes) {
-  VisualModel model = load_visual(file_of(geometry), geometry.scale);
+  VisualModel model = load_visual(file_of(geometry), geometry.scale, keep);
   for (const std::string& note : model.notes)
     notes.push_back("mesh '" + geometry.name + "': " + note);
   std::vector<ShapeLook> looks;
   for (VisualMesh& part : model.parts) {
-    looks.push_back(placed(list.register_mesh(std::move(part.mesh))));
+    looks.push_back(placed(list, list.register_mesh(std::move(part.mesh))));
     looks.back().color = part.color;
     if (part.texture) looks.back().texture = list.register_texture(part.texture);
   }
@@ -122,12 +127,12 @@ std::optional<ShapeLook> look_of(const ShapeSpec& shape, DrawList& list) {
   return std::visit(Look{list}, shape);
 }
 
-std::vector<ShapeLook> looks_of(const PartGeometry& geometry, DrawList& list,
+std::vector<ShapeLook> looks_of(const PartGeometry& geometry, DrawList& list, KeepPlaces keep,
                                 std::vector<std::string>& notes) {
   return std::visit(
       [&](const auto& shape) -> std::vector<ShapeLook> {
         if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, MeshGeometry>)
-          return parts_of(shape, list, notes);
+          return parts_of(shape, list, keep, notes);
         else
           return {*Look{list}(shape)};
       },

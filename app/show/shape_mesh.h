@@ -7,17 +7,19 @@
 #include <vector>
 
 #include "app/render/draw_list.h"
+#include "app/render/visual_model.h"
 #include "app/scene/scene_description.h"
 
 namespace twinarm {
 
 struct ShapeLook {
   MeshId mesh = 0;
-  Pose X_GM;                        // the mesh's own frame M in that of the shape
-  Vector3 scale = Vector3::Ones();  // of the mesh, in M
-  bool is_hollow = false;           // one looks into it: to be drawn translucent
-  std::optional<Color> color;       // where a file of meshes states one
-  std::optional<TextureId> texture;
+  Pose X_GM;                         // the mesh's own frame M in that of the shape
+  Vector3 scale = Vector3::Ones();   // of the mesh, in M
+  bool is_hollow = false;            // one looks into it: to be drawn translucent
+  std::optional<Color> color;        // where a file of meshes states one
+  std::optional<TextureId> texture;  // likewise
+  bool can_be_textured = false;      // the mesh knows where each of its corners lies in a picture
 };
 
 // Nothing for a half-space, which has no extent of its own. A mesh of a scene is drawn as contacts
@@ -26,7 +28,7 @@ struct ShapeLook {
 std::optional<ShapeLook> look_of(const ShapeSpec& shape, DrawList& list);
 // A collision shape or a visual of a robot's file. Of a mesh, all parts with their own colours and
 // textures; what was mended or left out of it is noted.
-std::vector<ShapeLook> looks_of(const PartGeometry& geometry, DrawList& list,
+std::vector<ShapeLook> looks_of(const PartGeometry& geometry, DrawList& list, KeepPlaces keep,
                                 std::vector<std::string>& notes);
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// Where the mesh lies that a robot's file names.
+// Where the file of a mesh or texture lies that a robot's file names.
 #include "collision/import/mesh_search.h"
 
 #include <algorithm>
@@ -54,8 +54,9 @@ fs::path find_in_package(const fs::path& package, const fs::path& rest, const fs
 
 }  // namespace
 
-MeshPlace find_mesh(const std::string& name, const fs::path& folder) {
-  MeshPlace place;
+FilePlace find_named_file(const std::string& kind, const std::string& name,
+                          const fs::path& folder) {
+  FilePlace place;
   const std::size_t scheme = name.find("://");
   if (scheme == std::string::npos || name.starts_with("file://")) {
     const fs::path expected =  // an absolute path replaces the folder
@@ -67,7 +68,7 @@ MeshPlace find_mesh(const std::string& name, const fs::path& folder) {
     const bool is_package = name.starts_with("package://") || name.starts_with("model://");
     if (!is_package || slash == std::string::npos || slash == scheme + 3)
       return {{},
-              "mesh '" + name + "' has a scheme that is not known",
+              kind + " '" + name + "' has a scheme that is not known",
               "give a path relative to the URDF, or package://NAME/PATH, or file://"};
     const fs::path found = find_in_package(name.substr(scheme + 3, slash - scheme - 3),
                                            name.substr(slash + 1), folder);
@@ -75,7 +76,7 @@ MeshPlace find_mesh(const std::string& name, const fs::path& folder) {
     place.remedy = "the package was sought above and beside " + folder.string() +
                    " and in ROS_PACKAGE_PATH; put it there, or give a path relative to the URDF";
   }
-  place.rule = "mesh file '" + name + "' does not exist";
+  place.rule = kind + " file '" + name + "' does not exist";
   return place;
 }
 

@@ -1,4 +1,4 @@
-// Where the mesh lies that a robot's file names.
+// Where the file of a mesh or texture lies that a robot's file names.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace twinarm {
 
-struct MeshPlace {
+struct FilePlace {
   std::filesystem::path file;  // absolute; empty where it was not found
   std::string rule, remedy;    // then: why not, and what to do
 };
@@ -15,6 +15,8 @@ struct MeshPlace {
 // it is absolute. package://NAME/rest and model://NAME/rest: NAME is a folder that contains
 // `folder`, or lies in one that does; or a package in a folder of ROS_PACKAGE_PATH, at most two
 // levels down, or of AMENT_PREFIX_PATH (share/NAME); or, at last, `folder` itself.
-MeshPlace find_mesh(const std::string& name, const std::filesystem::path& folder);
+// `kind` is what faults call it.
+FilePlace find_named_file(const std::string& kind, const std::string& name,
+                          const std::filesystem::path& folder);
 
 }  // namespace twinarm

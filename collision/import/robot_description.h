@@ -70,7 +70,9 @@ struct VisualPart {
   Origin origin;
   PartGeometry geometry;
   std::string material;               // its name; may be empty
-  Vector4 color{0.7, 0.7, 0.7, 1.0};  // red, green, blue, opacity in [0, 1]
+  Vector4 color{0.7, 0.7, 0.7, 1.0};  // red, green, blue, opacity in [0, 1]; times the texture
+  std::string texture_name;           // as the file calls it; may be empty
+  std::filesystem::path texture;      // absolute; empty for none, and where it was not found
   Pose X_LG() const { return origin.pose(); }
 };
 

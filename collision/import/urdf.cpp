@@ -71,7 +71,7 @@ void read_inertial(const XMLElement& element, const std::string& where, LinkDesc
   }
 }
 
-LinkDescription read_link(const XMLElement& element, const MaterialColors& materials,
+LinkDescription read_link(const XMLElement& element, const UrdfMaterials& materials,
                           UrdfSource& source) {
   LinkDescription link;
   link.line = element.GetLineNum();
@@ -127,7 +127,7 @@ RobotDescription read_urdf(const std::filesystem::path& file, const UrdfOptions&
   RobotDescription robot;
   robot.file = source.file();
   robot.name = source.text(element, "name", "robot");
-  const MaterialColors materials = read_materials(element, source);
+  const UrdfMaterials materials = read_materials(element, source);
   for (const XMLElement* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) {
     const std::string name = e->Name();
     if (name == "link") robot.links.push_back(read_link(*e, materials, source));

@@ -25,7 +25,7 @@ MeshGeometry read_mesh(const XMLElement& element, const std::string& where, Urdf
         std::string("mesh scale is '") + element.Attribute("scale") + "', which flattens the mesh",
         "give three numbers that are not 0 (a negative one mirrors)");
   if (mesh.name.empty()) return mesh;
-  const MeshPlace place = find_mesh(mesh.name, source.folder());
+  const FilePlace place = find_named_file("mesh", mesh.name, source.folder());
   mesh.file = place.file;
   if (place.rule.empty()) return mesh;
   if (source.options().geometry == UrdfOptions::Geometry::required)
@@ -87,47 +87,74 @@ std::optional<Vector4> read_color(const XMLElement& material, UrdfSource& source
   return clamped;
 }
 
+// Where the picture of a <material> lies, if it names one. It is only to be looked at: where it is
+// missing, that is told. CAD exporters write empty names where there is none.
+void read_texture(const XMLElement& material, UrdfMaterial& result, UrdfSource& source) {
+  const XMLElement* texture = material.FirstChildElement("texture");
+  const char* name = texture ? texture->Attribute("filename") : nullptr;
+  if (!texture || (name && *name == '\0')) return;
+  const std::string where = material_name(material);
+  if (!name)
+    return source.warn(texture->GetLineNum(), where, "its <texture> has no 'filename'",
+                       "give filename=\"...\"");
+  result.texture_name = name;
+  const FilePlace place = find_named_file("texture", name, source.folder());
+  result.texture = place.file;
+  if (!place.rule.empty())
+    source.warn_once("texture", texture->GetLineNum(), where, place.rule, place.remedy);
+}
+
+// What a <material> element states itself, if anything.
+std::optional<UrdfMaterial> read_own_material(const XMLElement& material, UrdfSource& source) {
+  UrdfMaterial result;
+  read_texture(material, result, source);
+  const std::optional<Vector4> color = read_color(material, source);
+  if (!color && result.texture_name.empty()) return std::nullopt;
+  result.color = color.value_or(result.texture.empty() ? result.color : Vector4(1, 1, 1, 1));
+  return result;
+}
+
 void read_material(const XMLElement& visual, const std::string& where,
-                   const MaterialColors& materials, VisualPart& part, UrdfSource& source) {
+                   const UrdfMaterials& materials, VisualPart& part, UrdfSource& source) {
   const XMLElement* material = visual.FirstChildElement("material");
   if (!material) return;
   if (const char* name = material->Attribute("name")) part.material = name;
-  const XMLElement* color = material->FirstChildElement("color");
-  if (color) {  // what is wrong with it was told by read_materials
-    UrdfSource silent(source.file(), source.options());
-    part.color = read_color(*material, silent).value_or(part.color);
-  } else if (const auto known = materials.find(part.material); known != materials.end()) {
-    part.color = known->second;
-  } else if (!material->FirstChildElement("texture")) {  // told by check_vocabulary
-    source.warn_once("material " + part.material, material->GetLineNum(), where,
-                     "material '" + part.material + "' is not defined in this file",
-                     "define it with a <color> below <robot>; until then it is grey");
-  }
+  UrdfSource silent(source.file(), source.options());  // read_materials told what is wrong with it
+  std::optional<UrdfMaterial> found = read_own_material(*material, silent);
+  if (const auto known = materials.find(part.material); !found && known != materials.end())
+    found = known->second;
+  if (!found)
+    return source.warn_once("material " + part.material, material->GetLineNum(), where,
+                            "material '" + part.material + "' is not defined in this file",
+                            "define it with a <color> below <robot>; until then it is grey");
+  part.color = found->color;
+  part.texture_name = found->texture_name;
+  part.texture = found->texture;
 }
 
 }  // namespace
 
-MaterialColors read_materials(const XMLElement& robot, UrdfSource& source) {
-  MaterialColors colors;
-  const auto take = [&](const XMLElement& material) {
-    const auto color = read_color(material, source);
-    const char* name = material.Attribute("name");
-    if (color && name) colors.emplace(name, *color);
+UrdfMaterials read_materials(const XMLElement& robot, UrdfSource& source) {
+  UrdfMaterials materials;
+  const auto take = [&](const XMLElement& element) {
+    const auto material = read_own_material(element, source);
+    const char* name = element.Attribute("name");
+    if (material && name) materials.emplace(name, *material);
   };
   for (auto* m = robot.FirstChildElement("material"); m; m = m->NextSiblingElement("material")) {
     const UrdfSource::Softly softly(source, true);
     const std::string name = source.text(*m, "name", "material");
-    if (colors.count(name))
+    if (materials.count(name))
       source.warn(m->GetLineNum(), material_name(*m), "it is defined twice", "the first counts");
     take(*m);
   }
   for (auto* l = robot.FirstChildElement("link"); l; l = l->NextSiblingElement("link"))
     for (auto* v = l->FirstChildElement("visual"); v; v = v->NextSiblingElement("visual"))
       if (auto* m = v->FirstChildElement("material")) take(*m);
-  return colors;
+  return materials;
 }
 
-void read_shapes(const XMLElement& link_element, const MaterialColors& materials,
+void read_shapes(const XMLElement& link_element, const UrdfMaterials& materials,
                  LinkDescription& link, UrdfSource& source) {
   const UrdfSource::Softly softly(source,
                                   source.options().geometry == UrdfOptions::Geometry::optional);

@@ -69,13 +69,26 @@ class Writer {
   }
 
  private:
-  // One definition per name; a visual whose colour differs from it states its own.
+  // One definition per name; a visual that looks otherwise states its own.
   void materials() {
     for (const LinkDescription& link : robot_.links)
       for (const VisualPart& part : link.visuals)
-        if (!part.material.empty() && colors_.emplace(part.material, part.color).second)
-          out_ << "  <material" << attribute("name", part.material) << "><color"
-               << attribute<4>("rgba", part.color) << "/></material>\n";
+        if (!part.material.empty() && looks_.emplace(part.material, look(part)).second)
+          out_ << "  <material" << attribute("name", part.material) << ">" << look(part)
+               << "</material>\n";
+  }
+
+  std::string look(const VisualPart& part) {
+    const std::string color = "<color" + attribute<4>("rgba", part.color) + "/>";
+    if (part.texture_name.empty()) return color;
+    return color + "<texture" + attribute("filename", file_text(part.texture, part.texture_name)) +
+           "/>";
+  }
+
+  std::string file_text(const std::filesystem::path& file, const std::string& name) {
+    if (file.empty()) return name;
+    const auto relative = file.lexically_relative(folder_);
+    return (relative.empty() ? file : relative).generic_string();
   }
 
   void origin(const char* indent, const Origin& origin) {
@@ -96,9 +109,7 @@ class Writer {
     return "<capsule" + attribute("radius", capsule.radius) + attribute("length", capsule.length);
   }
   std::string shape(const MeshGeometry& mesh) {
-    const auto relative = mesh.file.lexically_relative(folder_);
-    const std::string file = (relative.empty() ? mesh.file : relative).generic_string();
-    return "<mesh" + attribute("filename", mesh.file.empty() ? mesh.name : file) +
+    return "<mesh" + attribute("filename", file_text(mesh.file, mesh.name)) +
            (mesh.scale == Vector3::Ones() ? "" : attribute<3>("scale", mesh.scale));
   }
 
@@ -125,12 +136,12 @@ class Writer {
     }
     for (const VisualPart& part : link.visuals) {
       placed_shape("visual", part);
-      const auto known = colors_.find(part.material);
-      if (known != colors_.end() && known->second == part.color)
+      const auto known = looks_.find(part.material);
+      if (known != looks_.end() && known->second == look(part))
         out_ << "      <material" << attribute("name", part.material) << "/>\n";
       else
-        out_ << "      <material" << attribute("name", part.material) << "><color"
-             << attribute<4>("rgba", part.color) << "/></material>\n";
+        out_ << "      <material" << attribute("name", part.material) << ">" << look(part)
+             << "</material>\n";
       out_ << "    </visual>\n";
     }
     for (const CollisionPart& part : link.collisions) {
@@ -178,7 +189,7 @@ class Writer {
 
   const RobotDescription& robot_;
   const std::filesystem::path folder_;
-  std::map<std::string, Vector4> colors_;
+  std::map<std::string, std::string> looks_;  // by material
   std::ostringstream out_;
 };
 

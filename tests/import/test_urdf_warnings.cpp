@@ -46,7 +46,7 @@ const Odd kOddLines[] = {
     {"</geometry>", "</geometry><material name=\"b\"><color rgba=\"red\"/></material>", 10,
      "'red'"},
     {"</geometry>", "</geometry><material name=\"b\"><texture filename=\"x\"/></material>", 10,
-     "<texture> has no effect"},
+     "texture file 'x' does not exist"},
     {"ixx=\"0.01\" ixy=\"0\" ixz=\"0\" iyy=\"0.02\" iyz=\"0\" izz=\"0.025\"",
      "ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"", 7,
      "link 'arm1': its inertia is zero: a point mass of 2 kg"},

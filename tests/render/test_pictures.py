@@ -28,6 +28,7 @@ GOLDEN = {
                      "--show", "ghost,couplings,contacts,forces,energy"],
     "boxes": [SCENES / "box_stack.toml", "--at", "0.3", "--show", "contacts,forces,com,gravity"],
     "bars": [SCENES / "four_bar.toml", "--at", "0.4", "--show", "trails,labels,frames,momentum"],
+    "sky": [SCENES / "turntable.toml", "--at", "0.5", "--camera", "30,8", "--background", "sky"],
     "puma": [ROBOTS / "puma560/puma560.urdf", "--show", "joints,inertia"],
 }
 
@@ -66,6 +67,10 @@ class Pictures(unittest.TestCase):
             with self.subTest(what=what):
                 self.assertGreater(self.share("boxes", paint(self.holder.name, "other", other)),
                                    2 * MOST_SEEN)
+        for background in ("studio", "white"):
+            with self.subTest(what=background):
+                other = [*GOLDEN["sky"][:-1], background]
+                self.assertGreater(self.share("sky", paint(self.holder.name, "other", other)), 0.3)
         words = GOLDEN["bars"]
         later = [*words[:1], "--at", "0.41", *words[3:]]
         self.assertGreater(self.share("bars", paint(self.holder.name, "other", later)),
@@ -78,10 +83,13 @@ class Pictures(unittest.TestCase):
                     other = paint(self.holder.name, "other", [*GOLDEN["boxes"], "--gl", gl],
                                   LP_NUM_THREADS=threads)
                     self.assertEqual(other.read_bytes(), self.painted["boxes"].read_bytes())
-        for quality in ("draft", "studio"):
-            a, b = (paint(self.holder.name, gl, [*GOLDEN["bars"], "--gl", gl, "--quality", quality])
-                    for gl in ("osmesa", "egl"))
-            self.assertEqual(a.read_bytes(), b.read_bytes())
+        for quality, name in (("draft", "bars"), ("studio", "bars"), ("draft", "arm_and_twin"),
+                              ("normal", "sky")):
+            a, b = (paint(self.holder.name, gl, [*GOLDEN[name], "--gl", gl, "--quality", quality],
+                          LP_NUM_THREADS=threads)
+                    for gl, threads in (("osmesa", "0"), ("egl", "3")))
+            with self.subTest(quality=quality, picture=name):
+                self.assertEqual(a.read_bytes(), b.read_bytes())
 
 
 if __name__ == "__main__":
