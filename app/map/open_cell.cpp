@@ -86,13 +86,14 @@ CellValues record_cell(const MapJob& job, const OpenedCell& cell,
 
 std::pair<int, int> parse_cell(const std::string& text, const MapJob& job) {
   const std::size_t comma = text.find(',');
-  const auto ix = parse_number(text.substr(0, comma));
-  const auto iy = comma == std::string::npos ? std::nullopt : parse_number(text.substr(comma + 1));
-  const auto is_one_of = [](const std::optional<double>& i, int count) {
-    return i && *i >= 0 && *i < count && *i == static_cast<int>(*i);
+  const double ix = parse_number(text.substr(0, comma)).value_or(-1);
+  const double iy =
+      comma == std::string::npos ? -1 : parse_number(text.substr(comma + 1)).value_or(-1);
+  const auto is_one_of = [](double i, int count) {
+    return i >= 0 && i < count && i == static_cast<int>(i);
   };
   if (is_one_of(ix, job.nx()) && is_one_of(iy, job.ny()))
-    return {static_cast<int>(*ix), static_cast<int>(*iy)};
+    return {static_cast<int>(ix), static_cast<int>(iy)};
   throw InputError({{"", 0, "--cell", "'" + text + "' is no cell of this map",
                      fmt::format("write IX,IY, from 0,0 to {},{}", job.nx() - 1, job.ny() - 1)}});
 }
