@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/nearest_name.h"
+#include "app/scene/scene_names.h"
 #include "app/scene/scene_reader.h"
 
 namespace twinarm {
