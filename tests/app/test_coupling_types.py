@@ -70,18 +70,18 @@ class CouplingTypes(RobotCommand):
                     "weld": {"coupling/pull/force", "coupling/pull/couple"},
                     "god-object": {"coupling/pull/hinge"}}.get(kind, {"coupling/pull"}))
                 # Exact where each step is booked as it was taken; else to the order of the step.
-                taken = kind in ("stable-pd", "god-object") or kind.startswith("printed")
-                self.assertLess(abs(rows["numerical"]), 1e-12 if taken else 2e-3)
+                taken = kind in ("stable-pd", "god-object", "printed-torsional", "weld")
+                self.assertLess(abs(rows["numerical"]), 1e-12 if taken else 1e-2)
 
     def test_at_an_even_speed_each_follows_as_its_law_says(self):
         """The target turns at 1 rad/s. A weld lags 2 v T; a god object does not."""
         lags = {"weld": 0.2, "god-object": 0}
         for kind in TYPES:
             with self.subTest(kind):
-                end = self.run_scene(HINGE, self.scene(kind), "--duration", 3)["samples"][-1]
+                end = self.run_scene(HINGE, self.scene(kind), "--duration", 6)["samples"][-1]
                 target = end["targets"]
                 q = next(iter(target.values()))["q"]["hinge"]
-                self.assertAlmostEqual(q, 3, delta=1e-9)
+                self.assertAlmostEqual(q, 6, delta=1e-9)
                 if kind != "printed-torsional":  # its damper does not damp
                     self.assertAlmostEqual(q - end["q"]["hinge"], lags.get(kind, 0), delta=2e-3)
 
@@ -102,10 +102,10 @@ class CouplingTypes(RobotCommand):
 
         def tip(off, *options, code=0):
             return self.run_scene(
-                chain(20), 'gravity = [0, 0, 0]\n'
+                chain(20),
                 f'[[coupling]]\nname = "tip"\ntype = "linear"\nlink = "rod20"\npoint = [0.05, 0, 0]\n'
                 f'stiffness = {stiffness}\ntarget = {{ q = {{ joint1 = {off} }} }}\n',
-                "--duration", 0.6, "--step", STEP, *options, code=code)
+                "--duration", 0.6, "--step", STEP, "--every", 0.02, *options, code=code)
         first = 0.5 * stiffness * (2 * math.sin(0.007 / 2)) ** 2
         offsets = []
         for sample in tip(0.007)["samples"]:
