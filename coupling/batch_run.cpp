@@ -182,9 +182,9 @@ class BatchRun::DriverOf final : public Driver {
   }
   // What depends on the length of the step.
   void load_step(std::size_t lane, double h) {
-    if (lane < count_ && !runs_[lane]) return;
-    const BatchCell& cell = *cell_[std::min(lane, count_ - 1)];
-    set_lane(work_.h, lane, lane < count_ ? h : 0);
+    if (!runs_[lane]) return;
+    const BatchCell& cell = *cell_[lane];
+    set_lane(work_.h, lane, h);
     for (std::size_t i = 0; i < setup_.start.qd.size(); ++i)
       set_lane(work_.forces.armature[i], lane, h * lumped_.model.damping[i]);
     std::vector<Inertia<double>> felt = inertias_[lane];
@@ -212,8 +212,16 @@ class BatchRun::DriverOf final : public Driver {
     }
   }
 
-  // The lane stands still at the start from now on.
+  // The lane stands still at the start from now on, without springs: their gains may be anything.
   void park(std::size_t lane) {
+    for (LanePull<S>& pull : work_.pulls) {
+      for (S* gain : {&pull.k, &pull.b, &pull.kb, &pull.b_seen, &pull.m_star})
+        set_lane(*gain, lane, 0);
+      set_lane(pull.kp, lane, Vec3<double>{});
+    }
+    for (S& armature : work_.forces.armature) set_lane(armature, lane, 0);
+    for (std::size_t i = 0; i < inertias_[lane].size(); ++i)
+      set_lane(work_.model.I_felt[i], lane, inertias_[lane][i]);
     set_lane(work_.h, lane, 0);
     set_lane(work_.bound, lane, kInfinite);
     for (std::size_t i = 0; i < setup_.start.q.size(); ++i)
@@ -221,6 +229,7 @@ class BatchRun::DriverOf final : public Driver {
     for (S& qd : work_.x.qd) set_lane(qd, lane, 0);
   }
   void stop(std::size_t lane, std::size_t step) {
+    if (!runs_[lane]) return;
     runs_[lane] = false;
     --work_.lanes_running;
     BatchResult& result = *result_[lane];

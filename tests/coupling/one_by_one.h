@@ -44,13 +44,16 @@ class WavingHand final : public HandSource {
   HandMapping mapping_;
 };
 
-// Joints of all kinds that go in lanes, fixed ones too, and damping; the first three are hinges.
+// Joints of all kinds that go in lanes, fixed ones too, and damping; the first three are hinges, in
+// every other tree with parallel axes.
 inline Model<double> tree_for_lanes(Random& random) {
   auto bodies = random_bodies(
       random, 6, {JointType::revolute, JointType::prismatic, JointType::screw, JointType::fixed});
+  const bool parallel = random.integer(0, 1) == 0;
   for (TreeBody& body : bodies) {
     const bool driven = &body - bodies.data() < 3;
     if (driven) body.type = JointType::revolute;
+    if (driven && parallel) body.axis = Vector3::UnitZ(), body.X_PJ.R = Matrix3::Identity();
     if (&body - bodies.data() == 4) body.type = JointType::fixed;
     body.properties.damping = random.integer(0, 1) * random.uniform(0, 0.5);
     if (random.integer(0, 2) == 0) body.properties.armature = random.uniform(0, 0.1);
