@@ -315,7 +315,7 @@ void add_map(CLI::App& app, MapOptions& options, std::function<int()>& command) 
       "map",
       "A plane of two numbers of a scene: stable or not, errors, energy; each cell is a run\n\n"
       "Example:  twinarm map assets/scenes/tracking_map.toml --x "
-      "coupling.stiffness:1e3:1e6:48:log --y step:1e-4:1e-2:48:log --svg map.svg");
+      "coupling.stiffness:1e4:1e6:64:log --y step:1e-3:1e-2:64:log --svg map.svg");
   map->add_option("scene", options.scene, "a scene in TOML; with --merge it may be left out");
   map->add_option(
       "--x", options.x,

@@ -81,6 +81,7 @@ LinearStep linear_step(const SimulatePlan& plan, const State<double>& x) {
   const MatrixXd none = MatrixXd::Zero(n, n);
   LinearStep step{mass_matrix(model, x), none, none, none, none};
   for (std::size_t c = 0; c < couplings.size(); ++c) {
+    if (!couplings.spec(c).leads()) continue;
     const Coupling::JointSpace space = couplings.coupling(c).joint_space(k);
     const Treatment treatment = couplings.spec(c).treatment;
     step.K += space.K;
@@ -193,13 +194,18 @@ class BoundarySearch {
   const MapJob& job_;
 };
 
+bool is_spring_damper(const SceneCoupling& c) {
+  return !c.printed && !c.outside &&
+         (c.law == CouplingSpec::Type::linear || c.law == CouplingSpec::Type::torsional);
+}
+
 bool has_theory(const SimulatePlan& plan) {
   const SceneModel& scene = *plan.input.scene;
   const Integrator integrator = plan.run.integrator;
   if (scene.couplings.empty() || !scene.constraints.empty()) return false;
   if (!is_semi_implicit(integrator) && !polynomial_order(integrator)) return false;
   return std::all_of(scene.couplings.begin(), scene.couplings.end(),
-                     [](const SceneCoupling& c) { return c.rate == 0; });
+                     [](const SceneCoupling& c) { return c.rate == 0 && is_spring_damper(c); });
 }
 
 std::string scheme_words(const SimulatePlan& plan) {

@@ -52,7 +52,7 @@ void check_couplings(const SceneModel& scene, const std::string& of, MapJob& job
     return faults.add({scene.description.file.string(), 0, option, "the scene has no coupling",
                        "measure stable or energy, or add a [[coupling]]"});
   std::vector<std::string> names;
-  for (const SceneCoupling& coupling : scene.couplings) names.push_back(coupling.name);
+  for (const SceneCoupling& coupling : scene.couplings) names.push_back(coupling.coupling);
   const auto found = std::find(names.begin(), names.end(), of);
   if (!of.empty() && found == names.end())
     return faults.add(

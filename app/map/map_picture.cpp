@@ -159,7 +159,7 @@ std::string script(Gnuplot& gnuplot, const MapJob& job, const TileFile& file,
       kGrows);
   text += palette + colour_box(job, range);
   if (is_stable) text += "set cbrange [0:1]\n";
-  text += "plot " + cells(gnuplot, job, values, range) + " using 1:2:3 with image pixels notitle" +
+  text += "plot " + cells(gnuplot, job, values, range) + " using 1:2:3 with image notitle" +
           fmt::format(", NaN with points pt 5 ps 1.6 lc '{}' title 'grows: no steady run'", kGrows);
   if (is_stable) text += ", NaN with points pt 5 ps 1.6 lc '#CFE3F2' title 'stable'";
   return text + curve_plots(gnuplot, job, curves) + "\n";
@@ -173,7 +173,13 @@ std::string title_of(const MapJob& job) {
 
 std::string map_svg(const MapJob& job, const TileFile& file, const std::vector<MapCurve>& curves) {
   Gnuplot gnuplot(std::filesystem::temp_directory_path());
-  return gnuplot.svg("map", title_of(job), kWidth, kHeight, script(gnuplot, job, file, curves));
+  std::string drawn =
+      gnuplot.svg("map", title_of(job), kWidth, kHeight, script(gnuplot, job, file, curves));
+  // A cell is a pixel of an image in it: not to be smoothed where it is drawn larger.
+  const std::string image = "<image ";
+  if (const std::size_t at = drawn.find(image); at != std::string::npos)
+    drawn.insert(at + image.size(), "style='image-rendering:pixelated' ");
+  return drawn;
 }
 
 std::string map_png(const MapJob& job, const TileFile& file, const std::vector<MapCurve>& curves) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "app/interrupt.h"
 #include "app/map/toml_text.h"
 #include "app/record/record_run.h"
@@ -86,14 +88,15 @@ CellValues record_cell(const MapJob& job, const OpenedCell& cell,
 
 std::pair<int, int> parse_cell(const std::string& text, const MapJob& job) {
   const std::size_t comma = text.find(',');
-  const double ix = parse_number(text.substr(0, comma)).value_or(-1);
-  const double iy =
-      comma == std::string::npos ? -1 : parse_number(text.substr(comma + 1)).value_or(-1);
-  const auto is_one_of = [](double i, int count) {
-    return i >= 0 && i < count && i == static_cast<int>(i);
+  const auto index = [](const std::string& part, int count) {
+    const double i = parse_number(part).value_or(-1);
+    return i >= 0 && i < count && i == std::floor(i) ? static_cast<int>(i) : -1;
   };
-  if (is_one_of(ix, job.nx()) && is_one_of(iy, job.ny()))
-    return {static_cast<int>(ix), static_cast<int>(iy)};
+  if (comma != std::string::npos) {
+    const int ix = index(text.substr(0, comma), job.nx());
+    const int iy = index(text.substr(comma + 1), job.ny());
+    if (ix >= 0 && iy >= 0) return {ix, iy};
+  }
   throw InputError({{"", 0, "--cell", "'" + text + "' is no cell of this map",
                      fmt::format("write IX,IY, from 0,0 to {},{}", job.nx() - 1, job.ny() - 1)}});
 }
