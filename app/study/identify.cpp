@@ -180,11 +180,17 @@ Identification Question::answer() const {
                        {"max2_deg", best.max_deg[1]},
                        {"mean1_deg", best.mean_deg[0]},
                        {"mean2_deg", best.mean_deg[1]}};
-  const SingularValues values = singular_values(sensitivity(found.fit));
-  for (Eigen::Index i = 0; i < values.V.cols(); ++i) {
-    // Four numbers cannot hold five parameters: the last direction moves nothing at all.
-    found.singular_values.push_back(i < values.values.size() ? values.values(i) : 0);
-    const Eigen::VectorXd v = values.V.col(i);
+  // Rows and columns of zeros make it square: the directions that they add move nothing, and of
+  // five parameters four numbers leave one such direction for certain.
+  const auto count = static_cast<Eigen::Index>(found.fit.parameters.size());
+  const Eigen::MatrixXd S = sensitivity(found.fit);
+  const Eigen::Index size = std::max<Eigen::Index>(S.rows(), count);
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(size, size);
+  square.topLeftCorner(S.rows(), count) = S;
+  const SingularValues values = singular_values(square);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    found.singular_values.push_back(i < S.rows() ? values.values(i) : 0);
+    const Eigen::VectorXd v = values.V.col(i).head(count);
     found.directions.emplace_back(v.begin(), v.end());
   }
   return found;
