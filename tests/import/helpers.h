@@ -135,8 +135,7 @@ inline void check_same(const LinkDescription& a, const LinkDescription& b, doubl
     CHECK(a.visuals[i].material == b.visuals[i].material);
     CHECK(same(a.visuals[i].color, b.visuals[i].color, tolerance));
     CHECK(a.visuals[i].texture == b.visuals[i].texture);
-    if (a.visuals[i].texture.empty())
-      CHECK(a.visuals[i].texture_name == b.visuals[i].texture_name);
+    if (a.visuals[i].texture.empty()) CHECK(a.visuals[i].texture_name == b.visuals[i].texture_name);
   }
   REQUIRE(a.collisions.size() == b.collisions.size());
   for (std::size_t i = 0; i < a.collisions.size(); ++i)
