@@ -61,7 +61,9 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
     if (open) {
       solve_island(problem, islands_[i], report);
       residual = settle(problem, islands_[i]);
-      if (islands_[i].constraints.size() <= few || !(residual <= accepted))
+      // Who takes no guess for good but below the aim (event_step.h) needs the aim.
+      const double enough = good_guess < tolerance ? tolerance : accepted;
+      if (islands_[i].constraints.size() <= few || !(residual <= enough))
         residual = polish(problem, islands_[i], residual);
     }
     again = fails;
