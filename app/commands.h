@@ -122,6 +122,7 @@ struct MapOptions {
   std::string cell;              // "IX,IY", opened
   std::filesystem::path record;  // its recording
   unsigned threads = 0;          // 0: all processors
+  bool alone = false;            // each cell by itself, as `simulate` runs it
   bool force = false, json = false;
 };
 int run_map(const MapOptions& options);

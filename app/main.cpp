@@ -339,6 +339,8 @@ void add_map(CLI::App& app, MapOptions& options, std::function<int()>& command) 
   map->add_option("--merge", options.merge, "join these files of --tile");
   map->add_option("--cell", options.cell, "IX,IY: open a cell, from 0");
   map->add_option("--record", options.record, "of that cell: its recording; its scene goes beside");
+  map->add_flag("--alone", options.alone,
+                "run each cell by itself, as simulate does, where cells could run side by side");
   map->add_option("--threads", options.threads, "all processors if not given");
   map->add_flag("--force", options.force, "write over files that are there");
   map->add_flag("--json", options.json, "print one JSON object on stdout");

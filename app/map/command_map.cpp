@@ -212,6 +212,7 @@ MapOptions as_merged(MapOptions options) {
   take(options.y, "y");
   take(options.of, "of");
   take(options.integrator, "integrator");
+  options.alone = first.value_of("cells") == "one by one";
   take_number(options.duration, "duration");
   take_number(options.step, "step");
   return options;

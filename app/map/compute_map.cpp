@@ -6,10 +6,12 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <thread>
 
 #include "app/interrupt.h"
+#include "app/map/cell_batch.h"
 #include "app/map/cell_run.h"
 #include "app/progress.h"
 #include "solver/whole_file.h"
@@ -19,35 +21,51 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The rows of the blocks, one after the other; threads take them one by one.
+// What a thread takes at once: rows of a block where cells run alone; where they run side by side,
+// blocks whose cells share steps of one length, and with them the table of the twin's motion.
+struct MapTask {
+  std::vector<std::size_t> blocks;
+  int row = -1;  // of the map; -1: all rows
+};
+
 class MapWork {
  public:
   MapWork(const MapJob& job, const std::vector<int>& missing) : job_(job), blocks_(blocks_of(job)) {
+    std::map<int, MapTask> groups;
     for (const int b : missing) {
       const MapBlocks::Block block = blocks_[b];
-      open_.push_back(
-          {b, block.y1 - block.y0, std::vector<double>(kMapMeasures.size() * block.cells())});
-      for (int y = block.y0; y < block.y1; ++y) rows_.push_back({open_.size() - 1, y});
+      const std::size_t place = open_.size();
+      open_.push_back({b, job.side_by_side ? 1 : block.y1 - block.y0,
+                       std::vector<double>(kMapMeasures.size() * block.cells())});
+      if (job.side_by_side)
+        groups[group_of(b)].blocks.push_back(place);
+      else
+        for (int y = block.y0; y < block.y1; ++y) tasks_.push_back({{place}, y});
     }
+    for (auto& [number, task] : groups) tasks_.push_back(std::move(task));
   }
 
   void work_off() {
+    std::unique_ptr<CellBatch> batch;
     std::unique_lock held(lock_);
-    while (!stopped_ && next_ < rows_.size()) {
-      const Row row = rows_[next_++];
+    while (!stopped_ && next_ < tasks_.size()) {
+      const MapTask& task = tasks_[next_++];
       held.unlock();
       std::exception_ptr failure;
       try {
-        compute(row);
+        if (job_.side_by_side && !batch) batch = CellBatch::of(job_);
+        compute(task, batch.get());
       } catch (...) {
         failure = std::current_exception();
       }
       held.lock();
       if (failure && !failure_) failure_ = failure;
       stopped_ = stopped_ || failure;
-      if (!failure) ++done_;
-      OpenBlock& block = open_[row.block];
-      if (!failure && --block.rows_left == 0) finished_.emplace_back(block.number, block.values);
+      if (failure) break;
+      ++done_;
+      for (const std::size_t b : task.blocks)
+        if (--open_[b].tasks_left == 0)
+          finished_.emplace_back(open_[b].number, std::move(open_[b].values));
     }
     ++ended_;
     news_.notify_one();
@@ -68,7 +86,7 @@ class MapWork {
   }
   double part_done() {
     const std::lock_guard held(lock_);
-    return static_cast<double>(done_) / static_cast<double>(rows_.size());
+    return static_cast<double>(done_) / static_cast<double>(tasks_.size());
   }
   void check() const {
     check_interrupt();
@@ -77,23 +95,50 @@ class MapWork {
 
  private:
   struct OpenBlock {
-    int number, rows_left;
+    int number, tasks_left;
     std::vector<double> values;
   };
-  struct Row {
-    std::size_t block;
-    int y;
+  struct Cell {
+    CellBatch::Place place;
+    double* out;
   };
 
-  void compute(const Row& row) {
-    const MapBlocks::Block block = blocks_[open_[row.block].number];
-    double* values =
-        open_[row.block].values.data() +
-        kMapMeasures.size() * static_cast<std::size_t>((row.y - block.y0) * (block.x1 - block.x0));
-    const double y = job_.y.at(row.y);
-    for (int ix = block.x0; ix < block.x1; ++ix) {
-      const CellValues cell = run_cell(job_, prepare_cell(job_, job_.x.at(ix), y));
-      values = std::copy(cell.begin(), cell.end(), values);
+  int group_of(int b) const {
+    if (job_.x.path == "step") return b % blocks_.columns();
+    return job_.y.path == "step" ? b / blocks_.columns() : b;
+  }
+
+  std::vector<Cell> cells_of(const MapTask& task) {
+    std::vector<Cell> cells;
+    for (const std::size_t b : task.blocks) {
+      const MapBlocks::Block block = blocks_[open_[b].number];
+      double* out = open_[b].values.data();
+      for (int y = block.y0; y < block.y1; ++y)
+        for (int x = block.x0; x < block.x1; ++x, out += kMapMeasures.size())
+          if (task.row < 0 || task.row == y) cells.push_back({{job_.x.at(x), job_.y.at(y)}, out});
+    }
+    const bool by_x = job_.x.path == "step";
+    std::stable_sort(cells.begin(), cells.end(), [&](const Cell& a, const Cell& b) {
+      return by_x ? a.place.x < b.place.x : a.place.y < b.place.y;
+    });
+    return cells;
+  }
+
+  void compute(const MapTask& task, CellBatch* batch) {
+    constexpr std::size_t kAtOnce = 512;  // between two looks for Ctrl-C
+    const std::vector<Cell> cells = cells_of(task);
+    for (std::size_t first = 0; first < cells.size(); first += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, cells.size() - first);
+      std::vector<CellBatch::Place> places;
+      for (std::size_t i = 0; i < count; ++i) places.push_back(cells[first + i].place);
+      std::vector<std::optional<CellValues>> found(count);
+      if (batch) found = batch->run(places);
+      for (std::size_t i = 0; i < count; ++i) {
+        check_interrupt();
+        const CellBatch::Place& at = places[i];
+        if (!found[i]) found[i] = run_cell(job_, prepare_cell(job_, at.x, at.y));
+        std::copy(found[i]->begin(), found[i]->end(), cells[first + i].out);
+      }
     }
   }
 
@@ -102,7 +147,7 @@ class MapWork {
   std::mutex lock_{};
   std::condition_variable news_{};
   std::vector<OpenBlock> open_;
-  std::vector<Row> rows_;
+  std::vector<MapTask> tasks_;
   std::vector<std::pair<int, std::vector<double>>> finished_;
   std::size_t next_ = 0, done_ = 0;
   unsigned ended_ = 0;

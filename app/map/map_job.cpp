@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/map/cell_batch.h"
 #include "app/map/scene_path.h"
 #include "app/nearest_name.h"
 #include "app/record/record_run.h"
@@ -189,6 +190,9 @@ MapJob read_map_job(const MapOptions& options) {
       "integrator " + (options.integrator.empty() ? "as the scene says" : options.integrator)};
   check_scene(job, options.of, faults);
   check_once(faults);
+  job.side_by_side = !options.alone && CellBatch::of(job);
+  job.identity.push_back(std::string("cells ") +
+                         (job.side_by_side ? "side by side" : "one by one"));
   return job;
 }
 

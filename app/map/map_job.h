@@ -19,6 +19,7 @@ struct MapJob {
   SimulateOptions run;                // of the scene as it stands in its file
   TomlValue scene;
   std::string x_unit, y_unit, unit, error_unit;  // `unit` is the measure's
+  bool side_by_side = false;  // cells share the lanes of the processor (app/map/cell_batch.h)
   // By lines, what must be the same in files that belong together (app/map/tile_file.h). All
   // measures are computed at once: which one is shown is not among them.
   std::vector<std::string> identity;

@@ -1,0 +1,245 @@
+#include "app/map/cell_batch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "app/scene/scene_names.h"
+#include "coupling/automatic_motion.h"
+#include "coupling/batch_run.h"
+#include "coupling/recorded_trace.h"
+
+namespace twinarm {
+namespace {
+
+bool varies_couplings(const std::string& path) {
+  const std::string last = path.substr(path.rfind('.') + 1);
+  return path.starts_with("coupling") && path.find(".target.") == std::string::npos &&
+         (last == "stiffness" || last == "damping" || last == "delay" || last == "speed" ||
+          last.starts_with("point["));
+}
+
+bool is_plain(const SimulatePlan& plan) {
+  const SceneModel& scene = *plan.input.scene;
+  return plan.run.integrator == Integrator::semi_implicit && !plan.run.locates_events &&
+         !scene.may_touch() && scene.constraints.empty() && scene.motions.empty() &&
+         !scene.couplings.empty() &&
+         std::all_of(scene.couplings.begin(), scene.couplings.end(), [](const SceneCoupling& c) {
+           return c.rate == 0 && !c.printed && !c.outside &&
+                  c.target != CouplingTarget::Kind::synthetic &&
+                  (c.law == CouplingSpec::Type::linear || c.law == CouplingSpec::Type::torsional);
+         });
+}
+
+std::unique_ptr<HandSource> hand_of(const SceneCoupling& coupling) {
+  if (coupling.target == CouplingTarget::Kind::trace)
+    return std::make_unique<RecordedTrace>(coupling.trace);
+  return std::make_unique<AutomaticMotion>(HandMapping{});  // of a twin at rest it turns nothing
+}
+
+double number_or(const TomlValue& table, const char* key, double otherwise) {
+  const TomlValue* value = table.find(key);
+  return value ? value->number : otherwise;
+}
+
+// What the twin's motion, which may be played faster and seen later, means for a run.
+struct TwinWay {
+  double energy = 0;         // A of cell_measure.h without the springs [J]
+  std::vector<double> room;  // by measured joint: a larger error could meet the joint's limits
+};
+
+bool is_moving(const SceneCoupling& coupling) {
+  return coupling.target == CouplingTarget::Kind::paper ||
+         coupling.target == CouplingTarget::Kind::trace;
+}
+
+constexpr int kLooks = 4096;  // at the twin's way
+
+}  // namespace
+
+struct CellBatch::Parts {
+  explicit Parts(const MapJob& of) : job(of), base(prepare_simulation(of.run)) {}
+
+  bool can_run();
+  bool are_limits_measured() const;
+  void add_target(const SceneCoupling& coupling);
+  std::optional<BatchCell> cell_at(const Place& place) const;
+  const TwinWay& way_of(const Place& place, const BatchCell& cell);
+  TwinWay way_of_twin(const SimulatePlan& plan) const;
+  double spring_energy(const BatchCell& cell);
+  std::optional<CellValues> values_of(const Place& place, const BatchCell& cell,
+                                      const BatchResult& result);
+
+  const MapJob& job;
+  SimulatePlan base;
+  MeasuredJoints joints;
+  std::vector<std::unique_ptr<HandSource>> hands;
+  BatchSetup setup;
+  std::unique_ptr<BatchRun> runs;
+  std::map<std::pair<double, double>, TwinWay> ways;  // by speed and delay
+};
+
+// The measured coupling's twin comes first.
+void CellBatch::Parts::add_target(const SceneCoupling& coupling) {
+  hands.push_back(hand_of(coupling));
+  setup.targets.push_back({hands.back().get(), HandMapping{}, coupling.driven, coupling.rest});
+}
+
+bool CellBatch::Parts::can_run() {
+  for (const MapAxis* axis : {&job.x, &job.y})
+    if (axis->path != "step" && !varies_couplings(axis->path)) return false;
+  if (!is_plain(base)) return false;
+  const SceneModel& scene = *base.input.scene;
+  joints = measured_joints(scene, job.measured_coupling);
+  const SceneCoupling& measured = scene.couplings[job.measured_coupling];
+  setup.model = &base.input.robot.model;
+  setup.start = base.input.robot.state.x;
+  setup.duration = base.run.duration;
+  setup.measured = joints.iq;
+  setup.energy = true;
+  add_target(measured);
+  for (const SceneCoupling& c : scene.couplings) {
+    const bool same = c.target == measured.target && c.driven.turned == measured.driven.turned &&
+                      c.driven.gripper == measured.driven.gripper && c.trace == measured.trace &&
+                      c.rest.q == measured.rest.q;
+    if (!same) add_target(c);
+    setup.springs.push_back({c.type == CouplingDescription::Type::linear
+                                 ? CouplingSpec::Type::linear
+                                 : CouplingSpec::Type::torsional,
+                             c.measure, c.treatment, c.absolute_damper,
+                             same ? 0 : setup.targets.size() - 1, c.spring.body});
+  }
+  if (!batch_faults(setup).empty() || !are_limits_measured()) return false;
+  runs = std::make_unique<BatchRun>(setup);
+  return true;
+}
+
+bool CellBatch::Parts::are_limits_measured() const {
+  const SceneModel& scene = *base.input.scene;
+  if (!limits_act(scene, base.run.integrator)) return true;
+  const auto& robots = scene.description.robots;
+  for (std::size_t r = 0; r < robots.size(); ++r)
+    for (const JointDescription& joint : robots[r].description.joints) {
+      const std::string name = name_in_scene(scene.description, r, joint.name);
+      if (joint.is_limited() &&
+          std::find(joints.names.begin(), joints.names.end(), name) == joints.names.end())
+        return false;
+    }
+  return true;
+}
+
+// Nothing where couplings see one motion each in its own time.
+std::optional<BatchCell> CellBatch::Parts::cell_at(const Place& place) const {
+  TomlValue scene = job.scene;
+  FaultList faults;
+  put_in(job, place.x, place.y, scene, faults);
+  BatchCell cell;
+  cell.h = job.run.step.value_or(number_or(scene, "step", base.run.step));
+  const TomlValue* couplings = scene.find("coupling");
+  bool has_motion = false;
+  for (std::size_t c = 0; c < couplings->items.size(); ++c) {
+    const TomlValue& table = couplings->items[c];
+    BatchCell::Gains gains{number_or(table, "stiffness", 0), number_or(table, "damping", 0),
+                           Vector3::Zero()};
+    if (const TomlValue* point = table.find("point"))
+      for (std::size_t i = 0; i < 3; ++i)
+        gains.p_L[static_cast<Eigen::Index>(i)] = point->items[i].number;
+    cell.springs.push_back(gains);
+    if (!is_moving(base.input.scene->couplings[c])) continue;
+    const double speed = number_or(table, "speed", 1), delay = number_or(table, "delay", 0);
+    if (has_motion && (speed != cell.speed || delay != cell.delay)) return std::nullopt;
+    cell.speed = speed;
+    cell.delay = delay;
+    has_motion = true;
+  }
+  return cell;
+}
+
+TwinWay CellBatch::Parts::way_of_twin(const SimulatePlan& plan) const {
+  const SceneModel& scene = *plan.input.scene;
+  TwinWay way{energy_by_right(plan, false), {}};
+  std::vector<double> low(joints.iq.size(), HUGE_VAL), high(joints.iq.size(), -HUGE_VAL);
+  for (int i = 0; i <= kLooks; ++i) {
+    const auto& x = plan.input.couplings->target(joints.coupling, plan.run.duration * i / kLooks).x;
+    for (std::size_t j = 0; j < joints.iq.size(); ++j) {
+      low[j] = std::min(low[j], x.q[joints.iq[j]]);
+      high[j] = std::max(high[j], x.q[joints.iq[j]]);
+    }
+  }
+  way.room.assign(joints.iq.size(), HUGE_VAL);
+  const auto& robots = scene.description.robots;
+  for (std::size_t r = 0; r < robots.size() && limits_act(scene, plan.run.integrator); ++r)
+    for (const JointDescription& joint : robots[r].description.joints)
+      for (std::size_t j = 0; j < joints.iq.size() && joint.is_limited(); ++j)
+        if (joints.names[j] == name_in_scene(scene.description, r, joint.name))
+          way.room[j] = std::min(low[j] - joint.lower, joint.upper - high[j]);
+  return way;
+}
+
+const TwinWay& CellBatch::Parts::way_of(const Place& place, const BatchCell& cell) {
+  const auto [found, is_new] = ways.try_emplace({cell.speed, cell.delay});
+  if (is_new) found->second = way_of_twin(prepare_cell(job, place.x, place.y));
+  return found->second;
+}
+
+// At the start.
+double CellBatch::Parts::spring_energy(const BatchCell& cell) {
+  const State<double>& start = base.input.robot.state.x;
+  SceneCouplings& couplings = *base.input.couplings;
+  Kinematics k(base.input.robot.model);
+  forward_kinematics(base.input.robot.model, start, k);
+  double energy = 0;
+  for (std::size_t c = 0; c < couplings.size(); ++c) {
+    const SceneCoupling& spec = couplings.spec(c);
+    const Vector3& p = cell.springs[c].p_L;
+    const Vector3 offset = spec.type == CouplingDescription::Type::linear
+                               ? Vector3(couplings.target(c, 0).k.position(spec.spring.body, p) -
+                                         k.position(spec.spring.body, p))
+                               : couplings.ends(c, start, k).offset;
+    energy += 0.5 * cell.springs[c].k * offset.squaredNorm();
+  }
+  return energy;
+}
+
+std::optional<CellValues> CellBatch::Parts::values_of(const Place& place, const BatchCell& cell,
+                                                      const BatchResult& result) {
+  const TwinWay& way = way_of(place, cell);
+  if (!result.finished || !within_reach(result.energy_created, way.energy + spring_energy(cell)))
+    return unstable_cell();
+  CellValues values{1, 0, 0, result.energy_created, result.hand_work_least};
+  for (std::size_t j = 0; j < joints.iq.size(); ++j) {
+    if (!(result.max_error[j] < way.room[j])) return std::nullopt;
+    values[1] = std::max(values[1], result.max_error[j]);
+    values[2] = std::max(values[2], result.mean_error[j]);
+  }
+  if (joints.iq.empty()) values[1] = values[2] = unstable_cell()[1];
+  return values;
+}
+
+CellBatch::CellBatch(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+CellBatch::~CellBatch() = default;
+
+std::unique_ptr<CellBatch> CellBatch::of(const MapJob& job) {
+  auto parts = std::make_unique<Parts>(job);
+  if (!parts->can_run()) return nullptr;
+  return std::unique_ptr<CellBatch>(new CellBatch(std::move(parts)));
+}
+
+std::vector<std::optional<CellValues>> CellBatch::run(std::span<const Place> places) {
+  std::vector<std::size_t> which;
+  std::vector<BatchCell> cells;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (auto cell = parts_->cell_at(places[i])) {
+      which.push_back(i);
+      cells.push_back(std::move(*cell));
+    }
+  std::vector<BatchResult> results(cells.size());
+  parts_->runs->run(cells, results);
+  std::vector<std::optional<CellValues>> values(places.size());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    values[which[i]] = parts_->values_of(places[which[i]], cells[i], results[i]);
+  return values;
+}
+
+}  // namespace twinarm
