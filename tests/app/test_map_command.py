@@ -208,7 +208,8 @@ class Maps(MapCommand):
 
     def test_a_killed_map_goes_on_from_its_finished_blocks(self):
         scene = self.scene(duration=1)
-        axes = ["--x", "coupling.damping:0.5:20:64", "--y", "coupling.stiffness:10:1e5:32:log"]
+        axes = ["--x", "coupling.damping:0.5:20:64", "--y", "coupling.stiffness:10:1e5:32:log",
+                "--alone"]  # slow enough to be struck
         command = [PROGRAM, "map", str(scene), *axes, "--json", "--work"]
         text = subprocess.run([*command, self.folder / "whole"], capture_output=True).stdout
         sizes = []
