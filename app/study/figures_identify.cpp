@@ -36,7 +36,7 @@ void draw_identification(Gnuplot& gnuplot, const StudyResults& results) {
   std::string script = fmt::format(
       "set multiplot\nset tics scale 0.5\nset logscale x\nset xrange [{}:{}]\nset yrange "
       "[-0.6:{}]\n"
-      "set xtics ('1/10' 0.1, '1/3' 0.333, '1' 1, '3' 3, '10' 10)\nunset key\nset grid x\n",
+      "set xtics ('1/5' 0.2, '1' 1, '5' 5)\nunset key\nset grid x\n",
       1 / kWidest, kWidest, rows - 0.4);
   for (std::size_t r = 0; r < 2; ++r) {
     const char* row = r == 0 ? "E3" : "E4";
@@ -67,7 +67,7 @@ void draw_identification(Gnuplot& gnuplot, const StudyResults& results) {
           "set bmargin at screen {}\n{}\n{}\nset title '{}' offset 0,-0.6\n",
           0.26 + 0.148 * static_cast<double>(p), 0.395 + 0.148 * static_cast<double>(p),
           r == 0 ? 0.94 : 0.46, r == 0 ? 0.56 : 0.08,
-          p == 0 ? "set ytics (" + tics + ")" : "unset ytics",
+          p == 0 ? "set ytics nomirror (" + tics + ")" : "unset ytics",
           r == 1 ? "set xlabel 'over the best'" : "unset xlabel",
           fmt::format("{}, {}", row, names[p]));
       std::string plots;
