@@ -214,7 +214,8 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
   };
   for (const int i : island.constraints) round_p_[i] = problem.constraints()[i].p;
   remember_all();
-  noise_ = noise(problem, island);
+  // Of many bodies it is above what their errors are at last, and rounds would end on it too early.
+  noise_ = island.constraints.size() <= few ? noise(problem, island) : 0;
   while (newton < most) {
     for (const int i : island.constraints) memory_[i].rho = rho_ratio_ * rho0_[i];
     const Round end = solve_round(problem, island, most - newton);
