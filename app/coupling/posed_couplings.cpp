@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "solver/dynamics.h"
-#include "solver/spring.h"
 
 namespace twinarm {
 
@@ -43,23 +42,6 @@ VectorXd PosedCouplings::gravity() const {
 MatrixXd PosedCouplings::joint_damping() const {
   const Eigen::Map<const VectorXd> damping(model_.damping.data(), static_cast<Index>(model_.nv));
   return by_rows(damping.asDiagonal());
-}
-
-// The spring and the damper of a coupling, its kinematic side held still.
-void PosedCouplings::push(std::size_t c, const State<double>& x, const Kinematics& k,
-                          Forces<double>& forces) {
-  const SceneCoupling& spec = input_.couplings->spec(c);
-  const CouplingEnds ends = input_.couplings->ends(c, x, k);
-  // Between the limits of a stop its damper moves along.
-  const Vector3 along = spec.outside ? ends.target_velocity : Vector3(Vector3::Zero());
-  const Vector3 pull = spec.spring.k * ends.offset - spec.spring.b * (ends.velocity - along);
-  const int body = spec.spring.body;
-  if (spec.type == CouplingDescription::Type::linear)
-    add_point_force(k, body, k.position(body, spec.spring.p_L), pull, forces);
-  else if (spec.measure == Measure::world)
-    add_couple(k, body, pull, forces);
-  else
-    forces.tau[model_.iv[static_cast<std::size_t>(body)]] += pull.x();
 }
 
 // d(what the coupling measures)/dqd.
@@ -136,7 +118,7 @@ MatrixXd PosedCouplings::tangent(std::size_t c) {
   const TangentStiffness found = tangent_stiffness(
       model_, x_,
       [&](const State<double>& x, const Kinematics& k, Forces<double>& forces) {
-        push(c, x, k, forces);
+        input_.couplings->hold_still(c, x, k, forces);
       },
       velocities_);
   return by_rows(found.K);

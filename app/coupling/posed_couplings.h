@@ -21,7 +21,6 @@ class PosedCouplings {
   Eigen::MatrixXd by_rows(const Eigen::MatrixXd& by_velocity) const {
     return P_.transpose() * by_velocity * P_;
   }
-  void push(std::size_t c, const State<double>& x, const Kinematics& k, Forces<double>& forces);
   Eigen::MatrixXd tangent(std::size_t c);  // K of its spring, geometric part included
   Eigen::MatrixXd jacobian(const SceneCoupling& spec) const;
   void add_arms(const SceneCoupling& spec, const Vector3& offset, double h,

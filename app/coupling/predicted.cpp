@@ -116,18 +116,6 @@ void add_limits(const SceneModel& scene, const MatrixXd& joint_damping, Predicte
     found.growth = growth_per_step(found.M, parts, found.integrator, found.step);
 }
 
-const char* word_of(Treatment treatment) {
-  switch (treatment) {
-    case Treatment::explicit_:
-      return "explicit";
-    case Treatment::semi_implicit:
-      return "semi-implicit";
-    case Treatment::implicit:
-      break;
-  }
-  return "implicit";
-}
-
 std::string words_of_step(const Predicted& found) {
   std::vector<std::string> words;
   for (const PredictedCoupling& c : found.couplings) {
@@ -184,6 +172,18 @@ void add_warnings(const SceneModel& scene, Predicted& found) {
 }
 
 }  // namespace
+
+const char* word_of(Treatment treatment) {
+  switch (treatment) {
+    case Treatment::explicit_:
+      return "explicit";
+    case Treatment::semi_implicit:
+      return "semi-implicit";
+    case Treatment::implicit:
+      break;
+  }
+  return "implicit";
+}
 
 Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
   SimulateInput& input = prepared.input;

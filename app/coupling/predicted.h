@@ -87,6 +87,7 @@ struct Predicted {
 // Throws InputError where there is nothing to be predicted.
 Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task);
 
+const char* word_of(Treatment treatment);
 std::string predicted_table(const Predicted& found, const PredictTask& task);
 std::string predicted_json(const Predicted& found, const PredictTask& task);
 

@@ -7,23 +7,11 @@
 namespace twinarm {
 namespace {
 
-const char* treatment_word(Treatment treatment) {
-  switch (treatment) {
-    case Treatment::explicit_:
-      return "explicit";
-    case Treatment::semi_implicit:
-      return "semi-implicit";
-    case Treatment::implicit:
-      break;
-  }
-  return "implicit";
-}
-
 void write_coupling(JsonWriter& json, const PredictedCoupling& c) {
   json.begin_object();
   json.key("name").text(c.name);
   json.key("kind").text(c.kind);
-  json.key("treatment").text(treatment_word(c.treatment));
+  json.key("treatment").text(word_of(c.treatment));
   json.key("damper").text(c.absolute_damper ? "absolute" : "relative");
   json.key("rate").number(c.rate);
   json.key("stiffness").number(c.gains.k);

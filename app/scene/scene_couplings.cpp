@@ -11,6 +11,7 @@
 #include "coupling/paced_hand.h"
 #include "coupling/recorded_trace.h"
 #include "coupling/synthetic_operator.h"
+#include "solver/spring.h"
 
 namespace twinarm {
 namespace {
@@ -227,6 +228,22 @@ Vector3 SceneCouplings::pull(std::size_t c) const {
 
 double SceneCouplings::m_star(std::size_t c) const {
   return coupling(c).readings()[scene_.couplings[c].reading(c)].m_star;
+}
+
+void SceneCouplings::hold_still(std::size_t c, const State<double>& x, const Kinematics& k,
+                                Forces<double>& forces) {
+  const SceneCoupling& given = spec(c);
+  const CouplingEnds at = ends(c, x, k);
+  // Between the limits of a stop its damper moves along.
+  const Vector3 along = given.outside ? at.target_velocity : Vector3(Vector3::Zero());
+  const Vector3 pull = given.spring.k * at.offset - given.spring.b * (at.velocity - along);
+  const int body = given.spring.body;
+  if (given.type == CouplingDescription::Type::linear)
+    add_point_force(k, body, k.position(body, given.spring.p_L), pull, forces);
+  else if (given.measure == Measure::world)
+    add_couple(k, body, pull, forces);
+  else
+    forces.tau[scene_.model.iv[static_cast<std::size_t>(body)]] += pull.x();
 }
 
 }  // namespace twinarm

@@ -43,6 +43,10 @@ class SceneCouplings {
   // The DVR at x and its kinematics k, at the time x.t.
   CouplingEnds ends(std::size_t c, const State<double>& x, const Kinematics& k,
                     Side side = Side::after);
+  // Spring and damper at x against a kinematic side that stands still: a smooth push, for the
+  // linear theory about a state.
+  void hold_still(std::size_t c, const State<double>& x, const Kinematics& k,
+                  Forces<double>& forces);
   // The pull of the last evaluation, in the same components.
   Vector3 pull(std::size_t c) const;
   // The weightless inertia that the treatment added in the last step (docs/coupling.md).

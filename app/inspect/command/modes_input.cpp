@@ -8,7 +8,6 @@
 
 #include "app/simulate/add_contacts.h"
 #include "app/text_table.h"
-#include "solver/spring.h"
 
 namespace twinarm {
 namespace {
@@ -97,23 +96,8 @@ void SmoothPush::operator()(const State<double>& x, const Kinematics& k, Forces<
   for (std::size_t dof = 0; dof < model_.nv; ++dof)
     forces.tau[dof] -= model_.damping[dof] * x.qd[dof];
   if (!input_.couplings) return;
-  for (std::size_t c = 0; c < input_.couplings->size(); ++c) add_coupling(c, x, k, forces);
-}
-
-void SmoothPush::add_coupling(std::size_t c, const State<double>& x, const Kinematics& k,
-                              Forces<double>& forces) {
-  const SceneCoupling& spec = input_.couplings->spec(c);
-  const CouplingEnds ends = input_.couplings->ends(c, x, k);
-  // Between the limits of a stop its damper moves along.
-  const Vector3 along = spec.outside ? ends.target_velocity : Vector3(Vector3::Zero());
-  const Vector3 pull = spec.spring.k * ends.offset - spec.spring.b * (ends.velocity - along);
-  const int body = spec.spring.body;
-  if (spec.type == CouplingDescription::Type::linear)
-    add_point_force(k, body, k.position(body, spec.spring.p_L), pull, forces);
-  else if (spec.measure == Measure::world)
-    add_couple(k, body, pull, forces);
-  else
-    forces.tau[model_.iv[static_cast<std::size_t>(body)]] += pull.x();
+  for (std::size_t c = 0; c < input_.couplings->size(); ++c)
+    input_.couplings->hold_still(c, x, k, forces);
 }
 
 std::string name_of_part(const SimulateInput& input, const NamedJoint& joint) {

@@ -18,9 +18,6 @@ class SmoothPush {
   void operator()(const State<double>& x, const Kinematics& k, Forces<double>& forces);
 
  private:
-  void add_coupling(std::size_t c, const State<double>& x, const Kinematics& k,
-                    Forces<double>& forces);
-
   SimulateInput& input_;
   const Model<double>& model_;
   GivenTorques torques_;
