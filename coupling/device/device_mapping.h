@@ -1,0 +1,67 @@
+// From a hand device to the kinematic robot, and the force back.
+//
+//   paper      theta1, theta4, theta6 of the device turn joints 1, 2, 3 of the robot. Only theta1
+//   has
+//              a motor: of the robot's torques the hand feels that of joint 1 alone.
+//   arm        theta1, theta2, theta3 turn joints 1, 2, 3: all three can be felt.
+//   cartesian  the stylus' point moves a point of the robot, whose joints follow by inverse
+//              kinematics: forces on that point are felt in their own directions.
+//
+// Joint mappings: q_j = offset_j + gain_j theta_d(j), so by virtual work the motor d(j) feels
+// gain_j tau_j, whatever the gain: a mapping that magnifies motion magnifies force too.
+// `force_scale` multiplies it. A clutch (second button) lets go: while it is held the robot stands
+// and the device moves freely; when it is let go the robot goes on from where it stood, without a
+// jump.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupling/device/hand_device.h"
+#include "solver/kinematics.h"
+#include "solver/model.h"
+
+namespace twinarm {
+
+enum class MappingKind { paper, arm, cartesian };
+
+struct MappingSpec {
+  MappingKind kind = MappingKind::paper;
+  std::array<double, 3> gain{2.0, 1.0, 1.0};    // of joint mappings
+  std::array<double, 3> offset{0.0, 0.0, 0.0};  // robot's joints at theta = 0 [rad]
+  // Of cartesian: the robot's point follows p_start + scale (stylus - stylus at the start), in
+  // world axes. A workspace of 16 cm against a reach of 60: scale 4.
+  double scale = 4.0;
+  double force_scale = 1.0;
+};
+
+// Where the hand wants the robot. Joints in the order of DrivenJoints::turned.
+struct HandTarget {
+  std::vector<double> q, qd;  // [rad], [rad/s]
+  bool gripper_closed = false;
+};
+
+class DeviceMapping {
+ public:
+  virtual ~DeviceMapping() = default;
+  // The robot stands at q now: from here on the device moves it. No jump.
+  virtual void begin(const DeviceState& device, const std::vector<double>& q) = 0;
+  // `h` [s] since the last call; velocities are differences of angles that the device has sensed.
+  virtual const HandTarget& map(const DeviceState& device, double h) noexcept = 0;
+  // The motors' torques for generalised forces on the driven joints of the KVR, about the last
+  // map().
+  virtual DeviceForce feel(const DeviceState& device, const std::vector<double>& tau) noexcept = 0;
+  // What can be felt and what cannot, for people.
+  virtual std::string what_is_felt() const = 0;
+};
+
+// `turned`: bodies that the driven joints carry; `body`, `p_L`: the point that follows the stylus.
+// Throws InputError for a robot that the mapping cannot move.
+std::unique_ptr<DeviceMapping> make_mapping(const MappingSpec& spec, const OmniFigures& omni,
+                                            const Model<double>& kvr_model,
+                                            const std::vector<int>& turned, int body,
+                                            const Vector3& p_L);
+
+}  // namespace twinarm
