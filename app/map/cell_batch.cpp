@@ -8,7 +8,7 @@
 #include "app/scene/scene_names.h"
 #include "coupling/automatic_motion.h"
 #include "coupling/batch_run.h"
-#include "coupling/recorded_trace.h"
+#include "coupling/device/hand_log.h"
 
 namespace twinarm {
 namespace {
@@ -33,8 +33,7 @@ bool is_plain(const SimulatePlan& plan) {
 }
 
 std::unique_ptr<HandSource> hand_of(const SceneCoupling& coupling) {
-  if (coupling.target == CouplingTarget::Kind::trace)
-    return std::make_unique<RecordedTrace>(coupling.trace);
+  if (coupling.target == CouplingTarget::Kind::trace) return read_hand_file(coupling.trace);
   return std::make_unique<AutomaticMotion>(HandMapping{});  // of a twin at rest it turns nothing
 }
 

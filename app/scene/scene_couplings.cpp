@@ -7,9 +7,9 @@
 
 #include "collision/import/number_text.h"
 #include "coupling/automatic_motion.h"
+#include "coupling/device/hand_log.h"
 #include "coupling/joint_stops.h"
 #include "coupling/paced_hand.h"
-#include "coupling/recorded_trace.h"
 #include "coupling/synthetic_operator.h"
 #include "solver/spring.h"
 
@@ -22,6 +22,18 @@ class RestingHand final : public HandSource {
   HandSample sample(double, double) const override { return {}; }
   double duration() const override { return std::numeric_limits<double>::infinity(); }
   std::string description() const override { return "at rest"; }
+};
+
+// Somebody else's hand.
+class LentHand final : public HandSource {
+ public:
+  explicit LentHand(const HandSource& hand) : hand_(hand) {}
+  HandSample sample(double t, double toward) const override { return hand_.sample(t, toward); }
+  double duration() const override { return hand_.duration(); }
+  std::string description() const override { return hand_.description(); }
+
+ private:
+  const HandSource& hand_;
 };
 
 // A coupling whose memory can be put aside. The kinematic robot is a function of time alone, and
@@ -86,13 +98,13 @@ CouplingEnds matched_ends(const Model<double>& model, const Spring& spring, cons
 }
 
 std::unique_ptr<HandSource> hand_of_target(const SceneModel& scene, const SceneCoupling& coupling,
-                                           FaultList& faults) {
+                                           const HandSource* device, FaultList& faults) {
   switch (coupling.target) {
     case CouplingTarget::Kind::paper:
       return std::make_unique<AutomaticMotion>(HandMapping{});
     case CouplingTarget::Kind::trace:
       try {
-        return std::make_unique<RecordedTrace>(coupling.trace);
+        return read_hand_file(coupling.trace);
       } catch (const InputError& error) {
         faults.add(error.faults());
       }
@@ -100,9 +112,11 @@ std::unique_ptr<HandSource> hand_of_target(const SceneModel& scene, const SceneC
     case CouplingTarget::Kind::synthetic:
       return std::make_unique<SyntheticOperator>(coupling.seed, coupling.duration);
     case CouplingTarget::Kind::device:
+      if (device) return std::make_unique<LentHand>(*device);
       faults.add({scene.description.file.string(), coupling.line,
                   "coupling '" + coupling.coupling + "', target",
-                  "no hand device is connected here", "give a state, \"paper\" or a trace file"});
+                  "no hand device is connected here",
+                  "run it with `twinarm hand`, or give a state, \"paper\" or a trace file"});
       break;
     case CouplingTarget::Kind::start:
     case CouplingTarget::Kind::state:
@@ -112,8 +126,8 @@ std::unique_ptr<HandSource> hand_of_target(const SceneModel& scene, const SceneC
 }
 
 std::unique_ptr<HandSource> make_hand(const SceneModel& scene, const SceneCoupling& coupling,
-                                      FaultList& faults) {
-  auto hand = hand_of_target(scene, coupling, faults);
+                                      const HandSource* device, FaultList& faults) {
+  auto hand = hand_of_target(scene, coupling, device, faults);
   if (coupling.delay == 0 && coupling.speed == 1) return hand;
   return std::make_unique<PacedHand>(std::move(hand), coupling.delay, coupling.speed);
 }
@@ -127,8 +141,9 @@ JointStops::Stop stop_of(const SceneCoupling& spec) {
 
 // A coupling at work.
 struct SceneCouplings::Tie {
-  Tie(const SceneModel& scene, const SceneCoupling& spec, double h, FaultList& faults)
-      : hand(make_hand(scene, spec, faults)),
+  Tie(const SceneModel& scene, const SceneCoupling& spec, double h, const HandSource* device,
+      FaultList& faults)
+      : hand(make_hand(scene, spec, device, faults)),
         kvr(scene.model, *hand, {}, spec.driven,
             spec.absolute_damper ? KvrRates::none : KvrRates::from_hand),
         shown(scene.model, *hand, {}, spec.driven) {
@@ -165,11 +180,12 @@ struct SceneCouplings::Tie {
   std::unique_ptr<Kept> source;
 };
 
-SceneCouplings::SceneCouplings(const SceneModel& scene, double h) : scene_(scene) {
+SceneCouplings::SceneCouplings(const SceneModel& scene, double h, const HandSource* device)
+    : scene_(scene) {
   FaultList faults;
   for (std::size_t c = 0; c < scene.couplings.size(); ++c)
     if (scene.couplings[c].leader == c)
-      ties_.push_back(std::make_shared<Tie>(scene, scene.couplings[c], h, faults));
+      ties_.push_back(std::make_shared<Tie>(scene, scene.couplings[c], h, device, faults));
     else
       ties_.push_back(ties_.back());
   faults.check();

@@ -2,7 +2,12 @@
 //
 // A step [t, t + h] needs the KVR at its end, which nobody knows yet: x_K' = x_K + h v_K of the
 // newest target. Nothing is invented beyond one step: a target that is not renewed stands still.
+//
+// The last targets are kept, so that a coupling may see them late (coupling/paced_hand.h). With
+// room for all of them the same class plays a run again, with the same bits (hand_log.h).
 #pragma once
+
+#include <vector>
 
 #include "coupling/device/device_mapping.h"
 #include "coupling/hand.h"
@@ -10,19 +15,31 @@
 
 namespace twinarm {
 
+// Device angles and rates that turn the KVR in the step [t, t + h].
+struct HandStep {
+  double t = 0, h = 0;  // [s]
+  HandSample hand;
+};
+
 class LiveHand final : public HandSource {
  public:
-  explicit LiveHand(const HandMapping& mapping) : mapping_(mapping) {}
-  // The target of the step that begins at t and takes h.
+  // Remembers so many steps, at least one; no allocation from then on.
+  explicit LiveHand(std::size_t remembered, const HandMapping& mapping = {});
+  // The target of the step that begins at t, later than all before.
   void set(const HandTarget& target, double t, double h) noexcept;
+  void set(const HandStep& step) noexcept;
+  const HandStep& newest() const { return at(count_ - 1); }
+  // Before the first step it rests where that begins; after the newest where that ends.
   HandSample sample(double t, double toward) const override;
-  double duration() const override;  // without end
-  std::string description() const override { return "a hand device, live"; }
+  double duration() const override;  // to the end of the newest step [s]
+  std::string description() const override { return "a hand device"; }
 
  private:
+  const HandStep& at(std::size_t n) const { return steps_[n % steps_.size()]; }
+
   HandMapping mapping_;
-  HandSample newest_;
-  double t_ = 0, h_ = 0;
+  std::vector<HandStep> steps_;  // a ring
+  std::size_t count_ = 0;        // of all that were set
 };
 
 }  // namespace twinarm
