@@ -5,6 +5,7 @@
 #include "app/nearest_name.h"
 #include "app/scene/scene_names.h"
 #include "app/scene/scene_reader.h"
+#include "coupling/recorded_trace.h"
 
 namespace twinarm {
 namespace {
@@ -173,6 +174,17 @@ void read_synthetic(SceneTable& hand, CouplingTarget& target) {
     hand.fault("duration", "must be at most 100000 s", "give a shorter one");
 }
 
+// What should be known of a trace before a run on it. Its faults are told where it is played.
+void look_at_trace(const std::filesystem::path& file, std::vector<std::string>& warnings) {
+  try {
+    const RecordedTrace trace(file);
+    for (const std::string& warning : trace.quality().warnings)
+      warnings.push_back(file.string() + ": " + warning);
+  } catch (const InputError&) {
+    return;
+  }
+}
+
 void read_target(SceneReader& reader, SceneTable& table, const RobotDescription& robot,
                  CouplingTarget& target) {
   const TomlValue* value = table.find("target");
@@ -194,7 +206,10 @@ void read_target(SceneReader& reader, SceneTable& table, const RobotDescription&
     target.kind = CouplingTarget::Kind::device;
   } else if (!name.empty()) {
     target.kind = CouplingTarget::Kind::trace;
-    if (const auto file = reader.find_file(table, "target", name)) target.trace = *file;
+    if (const auto file = reader.find_file(table, "target", name)) {
+      target.trace = *file;
+      look_at_trace(*file, reader.scene.warnings);
+    }
   }
 }
 

@@ -16,6 +16,7 @@
 #include "app/study/report.h"
 #include "app/study/variants.h"
 #include "coupling/device/hand_log.h"
+#include "coupling/recorded_trace.h"
 #include "coupling/synthetic_operator.h"
 #include "solver/fault.h"
 #include "solver/whole_file.h"
@@ -29,7 +30,13 @@ std::unique_ptr<HandSource> make_hand(const StudyOptions& options, const StudySe
   if (options.device == "synthetic" && !options.trace.empty())
     throw InputError({{"", 0, "--trace", "a trace is given, but --device says synthetic",
                        "leave --device out, or give --device trace"}});
-  if (!options.trace.empty()) return read_hand_file(options.trace);
+  if (is_hand_log(options.trace)) return read_hand_log(options.trace);
+  if (!options.trace.empty()) {
+    auto trace = std::make_unique<RecordedTrace>(options.trace);
+    for (const std::string& warning : trace->quality().warnings)
+      fmt::print(stderr, "twinarm: warning: {}: {}\n", options.trace.string(), warning);
+    return trace;
+  }
   return std::make_unique<SyntheticOperator>(options.seed.value_or(settings.seed),
                                              settings.operator_duration);
 }

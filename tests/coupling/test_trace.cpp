@@ -116,7 +116,7 @@ TEST_CASE("a trace file that is not there, or is a folder, is refused by name") 
 TEST_CASE("all columns that a trace lacks are named at once") {
   const Folder folder;
   const auto faults =
-      faults_of(folder.write("# x\ntime,theta1[deg],theta2[rad],theta3[rad],theta4[rad],button\n"));
+      faults_of(folder.write("# x\ntime,theta1,theta2[rad],theta3[deg],theta4[rad],button\n"));
   for (const char* column : {"t[s]", "theta1[rad]", "theta5[rad]", "theta6[rad]"})
     CHECK(names(faults, 2, column));
   CHECK(faults.size() == 4);
@@ -175,4 +175,73 @@ TEST_CASE("a trace that cannot be written is refused and leaves nothing behind")
 TEST_CASE("a blank line with a Windows line end is skipped") {
   const Folder folder;
   CHECK(faults_of(folder.write(kHeader + "0,0,0,0,0,0,0,0\r\n\r\n1,0,0,0,0,0,0,0\r\n")).empty());
+}
+
+TEST_CASE("a column that says [deg] is converted, its neighbours in radians are not") {
+  const Folder folder;
+  const RecordedTrace trace(
+      folder.write("t[s],theta1[deg],theta2[rad],theta3[rad],theta4[deg],theta5[rad],theta6[rad]\n"
+                   "0,45,0.5,0,-90,0,0\n1,30,1.5,0,180,0,0\n"));
+  CHECK(trace.sample(0, 1).theta[0] == doctest::Approx(std::acos(-1.0) / 4).epsilon(1e-14));
+  CHECK(trace.sample(0, 1).theta[1] == 0.5);
+  CHECK(trace.sample(1, 2).theta[3] == doctest::Approx(std::acos(-1.0)).epsilon(1e-14));
+}
+
+TEST_CASE("angles beyond a whole turn are refused: degrees are asked for where they would fit") {
+  const Folder folder;
+  const auto degrees =
+      faults_of(folder.write(kHeader + "0,20,60,-10,0,0,0,0\n1,-40,75,5,3,0,1,0\n"));
+  CHECK(names(degrees, 1, "theta1[rad]"));
+  CHECK(names(degrees, 1, "theta2[rad]"));
+  CHECK(names(degrees, 1, "looks like degrees"));
+  CHECK(names(degrees, 1, "theta1[deg]"));
+  CHECK(degrees.size() == 3);  // joints 1 to 3
+  const auto nonsense = faults_of(folder.write(kHeader + "0,4000,0,0,0,0,0,0\n1,0,0,0,0,0,0,0\n"));
+  CHECK(names(nonsense, 1, "4000"));
+  CHECK_FALSE(names(nonsense, 1, "looks like degrees"));
+}
+
+TEST_CASE("angles that an Omni cannot reach are doubted in words, and played as they are") {
+  const Folder folder;
+  const RecordedTrace doubted(folder.write(kHeader + "0,0,0,0,0,0,0,0\n1,5,0,0,0,0,0,0\n"));
+  CHECK(doubted.sample(1, 2).theta[0] == 5);
+  REQUIRE(doubted.quality().warnings.size() == 1);
+  CHECK(doubted.quality().warnings[0].find("theta1[deg]") != std::string::npos);
+  const RecordedTrace tiny(
+      folder.write("t[s],theta1[deg],theta2[deg],theta3[deg],theta4[deg],theta5[deg],theta6[deg]\n"
+                   "0,0,1.2,0,0,0,0\n1,0.9,0,0,0,0,-0.4\n"));
+  REQUIRE(tiny.quality().warnings.size() == 1);
+  CHECK(tiny.quality().warnings[0].find("theta1[rad]") != std::string::npos);
+}
+
+TEST_CASE("a trace says its rate, whatever it is, and nothing more when it is even") {
+  const Folder folder;
+  for (const double rate : {7.0, 60.0, 1000.0}) {
+    write_trace(SyntheticOperator(2, 3), rate, folder.file("even.csv"));
+    const TraceQuality quality = RecordedTrace(folder.file("even.csv")).quality();
+    CHECK(quality.rate == doctest::Approx(rate).epsilon(1e-3));
+    CHECK(quality.largest_gap == doctest::Approx(1 / rate).epsilon(1e-3));
+    CHECK(quality.jitter < 1e-6);  // six decimals of a second in the file
+    CHECK(quality.warnings.empty());
+  }
+}
+
+TEST_CASE("gaps and jitter of a trace are measured and said") {
+  const Folder folder;
+  // 100 Hz, every other sample 4 ms late: intervals 14 and 6 ms, and one gap of 0.5 s from t = 2.
+  std::string body = kHeader;
+  for (int n = 0; n < 200; ++n) {
+    const double t = 1 + 0.01 * n + (n % 2 == 1 ? 0.004 : 0.0) + (n > 100 ? 0.49 : 0.0);
+    body += std::to_string(t) + ",0,1,0,0,0,0,0\n";
+  }
+  const TraceQuality quality = RecordedTrace(folder.write(body)).quality();
+  CHECK(quality.interval == doctest::Approx(0.014));
+  CHECK(quality.largest_gap == doctest::Approx(0.504));
+  CHECK(quality.gap_start == doctest::Approx(2.0));
+  // Of 198 intervals without the gap 99 are the median and 99 are 8 ms less.
+  CHECK(quality.jitter == doctest::Approx(0.008 * std::sqrt(99.0 / 198.0)).epsilon(1e-6));
+  REQUIRE(quality.warnings.size() == 2);
+  CHECK(quality.warnings[0].find("gap") != std::string::npos);
+  CHECK(quality.warnings[0].find("t = 2") != std::string::npos);
+  CHECK(quality.warnings[1].find("jitter") != std::string::npos);
 }
