@@ -1,0 +1,220 @@
+#include "coupling/device/device_mapping.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/device/point_inverse.h"
+#include "solver/fault.h"
+
+namespace twinarm {
+namespace {
+
+// Which device joints turn joints 1, 2, 3 of the robot.
+constexpr std::array<std::size_t, 3> kPaper{0, 3, 5}, kArm{0, 1, 2};
+
+bool holds(const DeviceState& device) {
+  bool numbers = device.stylus.p.allFinite();
+  for (const double angle : device.theta) numbers = numbers && std::isfinite(angle);
+  return device.alive && numbers && !device.buttons[1];
+}
+
+// What all mappings share: the target, the gripper, the clutch.
+class ClutchedMapping : public DeviceMapping {
+ public:
+  explicit ClutchedMapping(const MappedRobot& robot) {
+    for (const int body : robot.turned) {
+      const std::size_t iq = robot.model->iq[static_cast<std::size_t>(body)];
+      target_.q.push_back(robot.stand.q.empty() ? 0.0 : robot.stand.q[iq]);
+    }
+    target_.qd.assign(target_.q.size(), 0.0);
+    before_ = target_.q;
+  }
+
+  void begin(const DeviceState& device, const std::vector<double>& q) noexcept override {
+    for (std::size_t j = 0; j < target_.q.size(); ++j) target_.q[j] = q[j];
+    std::fill(target_.qd.begin(), target_.qd.end(), 0.0);
+    placed_ = true;
+    engaged_ = holds(device);
+    if (engaged_) engage(device);
+  }
+
+  const HandTarget& map(const DeviceState& device, double h) noexcept override {
+    std::fill(target_.qd.begin(), target_.qd.end(), 0.0);
+    if (device.alive) target_.gripper_closed = device.buttons[0];
+    if (!holds(device)) {
+      placed_ = true;  // from where the robot stands
+      engaged_ = false;
+      return target_;
+    }
+    const bool went_on = engaged_;
+    if (!engaged_ && placed_) engage(device);
+    if (!engaged_ && !placed_) engage_first(device);
+    engaged_ = placed_ = true;
+    before_ = target_.q;
+    follow(device, h);
+    for (std::size_t j = 0; went_on && h > 0 && j < before_.size(); ++j)
+      target_.qd[j] = (target_.q[j] - before_[j]) / h;
+    return target_;
+  }
+
+ protected:
+  virtual void engage(const DeviceState& device) = 0;        // the robot stands at target_.q
+  virtual void engage_first(const DeviceState& device) = 0;  // nobody has said where it stands
+  virtual void follow(const DeviceState& device, double h) = 0;
+
+  HandTarget target_;
+  bool engaged_ = false;
+
+ private:
+  std::vector<double> before_;
+  bool placed_ = false;
+};
+
+class JointMapping final : public ClutchedMapping {
+ public:
+  JointMapping(const MappingSpec& spec, const MappedRobot& robot)
+      : ClutchedMapping(robot),
+        spec_(spec),
+        joint_(spec.kind == MappingKind::paper ? kPaper : kArm),
+        offset_(spec.offset),
+        lower_(robot.lower),
+        upper_(robot.upper) {}
+
+  DeviceForce feel(const DeviceState&, const std::vector<double>& tau) noexcept override {
+    DeviceForce force;
+    for (std::size_t j = 0; engaged_ && j < target_.q.size(); ++j)
+      if (joint_[j] < 3 && follows_[j])
+        force.torque[joint_[j]] = spec_.force_scale * spec_.gain[j] * tau[j];
+    return force;
+  }
+  std::string what_is_felt() const override {
+    return spec_.kind == MappingKind::paper
+               ? "joint 1 alone: theta4 and theta6, which turn joints 2 and 3, have no motors"
+               : "joints 1, 2 and 3, on the motors of theta1, theta2 and theta3";
+  }
+
+ private:
+  void engage(const DeviceState& device) override {
+    for (std::size_t j = 0; j < target_.q.size(); ++j)
+      offset_[j] = target_.q[j] - spec_.gain[j] * device.theta[joint_[j]];
+  }
+  void engage_first(const DeviceState&) override {}
+  void follow(const DeviceState& device, double) override {
+    for (std::size_t j = 0; j < target_.q.size(); ++j) {
+      const double q = offset_[j] + spec_.gain[j] * device.theta[joint_[j]];
+      target_.q[j] = q;
+      if (!lower_.empty()) target_.q[j] = std::max(target_.q[j], lower_[j]);
+      if (!upper_.empty()) target_.q[j] = std::min(target_.q[j], upper_[j]);
+      follows_[j] = target_.q[j] == q;
+    }
+  }
+
+  MappingSpec spec_;
+  std::array<std::size_t, 3> joint_;
+  std::array<double, 3> offset_;
+  std::array<bool, 3> follows_{};  // false: at the end of its range
+  std::vector<double> lower_, upper_;
+};
+
+class CartesianMapping final : public ClutchedMapping {
+ public:
+  CartesianMapping(const MappingSpec& spec, const OmniFigures& omni, const MappedRobot& robot)
+      : ClutchedMapping(robot), spec_(spec), omni_(omni), inverse_(robot) {}
+
+  // dgoal = scale R J_O dtheta, tau . dq = f . dgoal, so torque = J_O^T R^T scale f.
+  DeviceForce feel(const DeviceState& device, const std::vector<double>& tau) noexcept override {
+    DeviceForce force;
+    if (!engaged_ || !holds(device)) return force;
+    const Vector3 f = spec_.force_scale * spec_.scale * inverse_.force_of(tau);
+    const Vector3 torque = omni_jacobian(omni_, device.theta).transpose() * device_from_world(f);
+    force.torque = {torque.x(), torque.y(), torque.z()};
+    return force;
+  }
+  std::string what_is_felt() const override {
+    return "forces on the robot's point that follows the stylus, in their own directions, as far "
+           "as its driven joints can move it; no torques";
+  }
+
+ private:
+  void engage(const DeviceState& device) override {
+    inverse_.stand_at(target_.q);
+    start_ = inverse_.position();
+    stylus_start_ = device.stylus.p;
+  }
+  void engage_first(const DeviceState& device) override { engage(device); }
+  void follow(const DeviceState& device, double h) override {
+    const Vector3 moved = world_from_device(device.stylus.p - stylus_start_);
+    inverse_.reach(start_ + spec_.scale * moved, spec_.fastest * h);
+    target_.q = inverse_.q();
+  }
+
+  MappingSpec spec_;
+  OmniFigures omni_;
+  PointInverse inverse_;
+  Vector3 start_ = Vector3::Zero(), stylus_start_ = Vector3::Zero();
+};
+
+void check_number(const std::string& what, double value, bool positive, FaultList& faults) {
+  if (std::isfinite(value) && (!positive || value > 0)) return;
+  faults.add(
+      {"", 0, "mapping, " + what,
+       "it is " + std::to_string(value) + ", must be a " + (positive ? "positive " : "") + "number",
+       "give a " + std::string(positive ? "positive " : "") + "number"});
+}
+
+void check_spec(const MappingSpec& spec, FaultList& faults) {
+  for (std::size_t j = 0; j < 3; ++j) {
+    check_number("gain of joint " + std::to_string(j + 1), spec.gain[j], false, faults);
+    check_number("offset of joint " + std::to_string(j + 1), spec.offset[j], false, faults);
+  }
+  check_number("scale", spec.scale, true, faults);
+  check_number("fastest", spec.fastest, true, faults);
+  check_number("force_scale", spec.force_scale, false, faults);
+}
+
+bool moves(const Model<double>& model, const std::vector<int>& turned, int body) {
+  for (int b = body; b > 0; b = model.parent[static_cast<std::size_t>(b)])
+    if (std::find(turned.begin(), turned.end(), b) != turned.end()) return true;
+  return false;
+}
+
+void check_robot(MappingKind kind, const MappedRobot& robot, FaultList& faults) {
+  const Model<double>& model = *robot.model;
+  const bool in_joints = kind != MappingKind::cartesian;
+  if (robot.turned.empty() || (in_joints && robot.turned.size() > 3))
+    faults.add({"", 0, "mapping",
+                "it is given " + std::to_string(robot.turned.size()) + " joints to turn",
+                in_joints ? "name one to three joints" : "name at least one joint"});
+  for (const int body : robot.turned) {
+    if (body <= 0 || body >= model.body_count())
+      faults.add({"", 0, "mapping", "body " + std::to_string(body) + " is none of the robot's",
+                  "name joints of the robot"});
+    else if (model.dofs(static_cast<std::size_t>(body)) != 1)
+      faults.add({"", 0, "joint '" + model.joint_name[static_cast<std::size_t>(body)] + "'",
+                  "it has not one degree of freedom, but a hand device turns it",
+                  "name revolute or prismatic joints"});
+  }
+  for (const auto* range : {&robot.lower, &robot.upper})
+    if (!range->empty() && range->size() != robot.turned.size())
+      faults.add({"", 0, "mapping", "ranges are not those of its joints", "give one per joint"});
+  if (!in_joints && !moves(model, robot.turned, robot.body))
+    faults.add({"", 0, "mapping",
+                "no driven joint moves body " + std::to_string(robot.body) +
+                    ", which should follow the stylus",
+                "name a point beyond a driven joint"});
+}
+
+}  // namespace
+
+std::unique_ptr<DeviceMapping> make_mapping(const MappingSpec& spec, const OmniFigures& omni,
+                                            const MappedRobot& robot) {
+  FaultList faults;
+  check_spec(spec, faults);
+  check_robot(spec.kind, robot, faults);
+  faults.check();
+  if (spec.kind == MappingKind::cartesian)
+    return std::make_unique<CartesianMapping>(spec, omni, robot);
+  return std::make_unique<JointMapping>(spec, robot);
+}
+
+}  // namespace twinarm
