@@ -32,6 +32,9 @@ double half_diagonal(const Shape& shape) {
 
 ContactConstraints::ContactConstraints(const Model<double>& model, ContactResponse response)
     : model_(&model), response_(response) {
+  constexpr std::size_t kRoom = 256;  // so that a pair that touches for the first time takes none
+  points_.reserve(kRoom);
+  work_.reserve(kRoom);
   is_immovable_.assign(model.parent.size(), 1);
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     has_drives_ = has_drives_ || model.joint[i] == JointType::prescribed;

@@ -37,6 +37,7 @@ void SeparatingAxis::place(const Placed& body, Posed& posed) {
   posed.normals.clear();
   for (const Vector3& v : hull.vertices) posed.vertices.push_back(body.X_WG * v);
   for (const Vector3& n : hull.normals) posed.normals.push_back(body.X_WG.R * n);
+  posed.near_edges.reserve(body.solid.core.edges.size());
 }
 
 // An edge that carries the optimum is within `reach` of the other body, and so of its bounding box.

@@ -18,6 +18,7 @@ void JointLimits::add(int body, double lower, double upper) {
     throw std::invalid_argument("a position limit needs a joint of one dof");
   if (!(lower <= upper)) throw std::invalid_argument("the lower limit lies above the upper one");
   limits_.push_back({body, lower, upper});
+  rows_.reserve(2 * limits_.size());
 }
 
 // Those that the joint can reach at twice its speed, or from rest at some 1e4 rad/s^2.

@@ -149,7 +149,6 @@ struct SceneCouplings::Tie {
         shown(scene.model, *hand, {}, spec.driven) {
     kvr.stand_at(spec.rest);
     shown.stand_at(spec.rest);
-    CouplingSpec law;
     law.name = spec.coupling;
     law.type = spec.law;
     law.printed = spec.printed;
@@ -177,6 +176,7 @@ struct SceneCouplings::Tie {
 
   std::unique_ptr<HandSource> hand;
   KinematicRobot kvr, shown;
+  CouplingSpec law;
   std::unique_ptr<Kept> source;
 };
 
@@ -240,6 +240,14 @@ Vector3 SceneCouplings::pull(std::size_t c) const {
   const bool at_joint =
       spec.type == CouplingDescription::Type::torsional && spec.measure == Measure::joint;
   return at_joint ? Vector3(reading.size, 0, 0) : reading.pull;
+}
+
+const CouplingSpec& SceneCouplings::law(std::size_t c) const {
+  return ties_[c]->law;
+}
+
+const KinematicRobot& SceneCouplings::kvr(std::size_t c) const {
+  return ties_[c]->kvr;
 }
 
 double SceneCouplings::m_star(std::size_t c) const {

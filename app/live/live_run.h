@@ -1,0 +1,77 @@
+// A scene under a hand: one tick of the servo loop.
+//
+//   device.poll -> watch, mapping -> KVR -> one step of the DVR with contacts -> force ->
+//   device.render
+//
+// tick() neither waits, throws nor allocates once warm. Time is that of the run: tick n stands at n
+// h, in real time or not.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/scene_couplings.h"
+#include "app/scene/scene_model.h"
+#include "app/simulate/add_contacts.h"
+#include "coupling/device/hand_device.h"
+#include "coupling/device/hand_force.h"
+#include "coupling/device/hand_watch.h"
+#include "coupling/device/live_hand.h"
+#include "solver/simulation.h"
+
+namespace twinarm {
+
+struct LiveOptions {
+  MappingSpec mapping;
+  HandForceSpec force;
+  double step = 0;  // [s]; 0: the scene's
+};
+
+// What a tick did, for the log and for whoever watches.
+struct TickView {
+  HandStep hand;  // what the KVR was told
+  HandWatch::Mode mode = HandWatch::Mode::live;
+  std::array<double, 3> felt{};   // torques of the motors [N m]
+  std::array<double, 3> error{};  // q_K - q_D of the driven joints at the start of the step
+  bool finite = true;             // false: the DVR has left all bounds, and stands
+};
+
+class LiveRun {
+ public:
+  // Scene and device must outlive it. Throws InputError: no coupling with target = "device",
+  // couplings that follow the device with different joints, a mapping that cannot move them.
+  LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions& options);
+
+  TickView tick() noexcept;
+  double time() const { return simulation_.state().t; }
+  double step() const { return h_; }
+  const Simulation& simulation() const { return simulation_; }
+  const SceneContacts& contacts() const { return *contacts_; }
+  SceneCouplings& couplings() { return *couplings_; }
+  const HandWatch& watch() const { return watch_; }
+  const HandForce& force() const { return *force_; }
+  const DeviceMapping& mapping() const { return *mapping_; }
+  std::size_t leader() const { return leader_; }  // the first coupling that follows the device
+
+ private:
+  const SceneModel& scene_;
+  HandDevice& device_;
+  double h_;
+  std::size_t leader_ = 0;
+  std::vector<int> turned_;  // bodies that the driven joints carry
+  std::unique_ptr<LiveHand> hand_;
+  std::unique_ptr<SceneCouplings> couplings_;
+  Simulation simulation_;
+  std::optional<SceneContacts> contacts_;
+  std::unique_ptr<DeviceMapping> mapping_;
+  CouplingReaction reaction_;
+  std::unique_ptr<HandForce> force_;
+  HandWatch watch_;
+  HandTarget target_;
+  std::vector<double> q_D_;
+  bool stopped_ = false;
+};
+
+}  // namespace twinarm

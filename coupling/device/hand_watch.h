@@ -1,0 +1,53 @@
+// What the kinematic robot does where the hand's device falls silent: it holds, then lets go, and
+// when the device is back it goes on from where it stands. At no time does it jump.
+//
+//   live      the device moves it
+//   held      silent for less than `patience`: it stands where it was
+//   released  silent for longer: it goes to where the dynamic robot is, and with it, so that the
+//             springs fall slack: d(q_K - q_D)/dt = -(q_K - q_D)/slack
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "coupling/device/device_mapping.h"
+
+namespace twinarm {
+
+class HandWatch {
+ public:
+  enum class Mode { live, held, released };
+
+  explicit HandWatch(double patience = 1.0, double slack = 0.2)  // [s]
+      : patience_(patience), slack_(slack) {}
+
+  // One tick of h [s]. `target` is what the KVR was told last, and becomes what it is told now; of
+  // the DVR the driven joints are looked at.
+  void tick(const DeviceState& device, DeviceMapping& mapping, const std::vector<double>& q_D,
+            double h, HandTarget& target) noexcept {
+    if (device.alive) {
+      if (mode_ != Mode::live) mapping.begin(device, target.q);  // from where it stands: no jump
+      mode_ = Mode::live;
+      silent_ = 0;
+      target = mapping.map(device, h);
+      return;
+    }
+    if (mode_ == Mode::live) ++silences_;
+    silent_ += h;
+    mode_ = silent_ < patience_ ? Mode::held : Mode::released;
+    const double left = std::exp(-h / slack_);
+    for (std::size_t j = 0; j < target.q.size(); ++j) {
+      target.qd[j] = 0;
+      if (mode_ == Mode::released) target.q[j] = q_D[j] + left * (target.q[j] - q_D[j]);
+    }
+  }
+  Mode mode() const { return mode_; }
+  long silences() const { return silences_; }
+
+ private:
+  double patience_, slack_, silent_ = 0;
+  Mode mode_ = Mode::live;
+  long silences_ = 0;
+};
+
+}  // namespace twinarm
