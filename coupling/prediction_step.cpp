@@ -16,29 +16,37 @@ using Eigen::MatrixXd;
 
 constexpr int kLongestPeriod = 100000;  // of steps between evaluations, where several are held
 
-// Rows of the state (e; h v; f_1 ..) that a step leaves, from the state before it.
+// Rows of the state (e; h v; f_1 ..; e_1 ..) that a step leaves, from the state before it. f: the
+// held forces; e_1 ..: of those that see differences, e at their last evaluation.
 class PartsStep {
  public:
   PartsStep(const std::vector<StepPart>& parts, double h, Index n) : n_(n) {
     const MatrixXd none = MatrixXd::Zero(n, n);
     MatrixXd alpha = none, beta = none, ahead = none, felt = MatrixXd::Identity(n, n);
     for (const StepPart& part : parts) {
+      if (part.law == StepLaw::god_object) {
+        alpha += part.K;
+        beta += part.K;
+        continue;
+      }
       const MatrixXd a = h * h * part.K, b = h * part.B;
-      if (part.hold_steps > 0) {
-        held_.push_back({a, b, part.hold_steps});
+      const bool printed = part.law == StepLaw::printed, pd = part.law == StepLaw::stable_pd;
+      if (part.hold_steps > 0 || printed) {
+        held_.push_back({a, b, std::max(1, part.hold_steps), printed ? ++pasts_ : 0});
         continue;
       }
       alpha += a;
       beta += b;
-      if (part.treatment != Treatment::explicit_) felt += b;
-      if (part.treatment != Treatment::implicit) continue;
-      ahead += h * h * part.K_zero;
-      felt += h * h * part.K_zero;
+      if (pd || part.treatment != Treatment::explicit_) felt += b;
+      if (pd || part.treatment == Treatment::implicit) ahead += h * h * part.K_zero;
+      if (!pd && part.treatment == Treatment::implicit) felt += h * h * part.K_zero;
     }
     const auto groups = static_cast<Index>(held_.size());
-    one_ = MatrixXd::Identity(n * (2 + groups), n * (2 + groups));
-    a_ = MatrixXd::Zero(n, one_.cols());
-    a_ << -alpha, -(beta + ahead), MatrixXd::Identity(n, n).replicate(1, groups);
+    const Index rows = n * (2 + groups + pasts_);
+    one_ = MatrixXd::Identity(rows, rows);
+    a_ = MatrixXd::Zero(n, rows);
+    a_.leftCols(n * (2 + groups)) << -alpha, -(beta + ahead),
+        MatrixXd::Identity(n, n).replicate(1, groups);
     a_ = inverse_of(felt) * a_;
   }
 
@@ -56,6 +64,7 @@ class PartsStep {
   struct Held {
     MatrixXd alpha, beta;
     int steps;
+    Index past;  // which of the e_1 ..; 0: it sees the true rate
   };
 
   MatrixXd with(const MatrixXd& e, const MatrixXd& v) const {
@@ -71,7 +80,14 @@ class PartsStep {
       auto f = y.middleRows(n_ * (2 + static_cast<Index>(g)), n_);
       f.setZero();
       f.leftCols(n_) = -held_[g].alpha;
-      f.middleCols(n_, n_) = -held_[g].beta;
+      if (held_[g].past == 0) {
+        f.middleCols(n_, n_) = -held_[g].beta;
+        continue;
+      }
+      const Index past = n_ * (1 + static_cast<Index>(held_.size()) + held_[g].past);
+      f.leftCols(n_) -= held_[g].beta / held_[g].steps;
+      f.middleCols(past, n_) = held_[g].beta / held_[g].steps;
+      y.middleRows(past, n_) = one_.topRows(n_);
     }
     return y;
   }
@@ -110,6 +126,7 @@ class PartsStep {
   Index n_;
   MatrixXd one_, a_;
   std::vector<Held> held_;
+  Index pasts_ = 0;
 };
 
 struct Reduced {
@@ -134,7 +151,7 @@ Reduced reduced(const MatrixXd& M, const std::vector<StepPart>& parts) {
   };
   for (const StepPart& part : parts)
     found.parts.push_back({by_modes(part.K), by_modes(part.K_zero), by_modes(part.B),
-                           part.treatment, part.hold_steps});
+                           part.treatment, part.hold_steps, part.law});
   found.rate =
       std::max(std::sqrt(modes.squares.cwiseAbs().maxCoeff()), modes.damping.cwiseAbs().maxCoeff());
   return found;

@@ -9,6 +9,11 @@
 //   felt = 1 + ahead + h B        of what is implicit, with h B of a damper that is
 // K has the geometric stiffness in it, K_zero has not: m* knows only the latter, which is why a
 // point spring has a limit even where it is implicit.
+//
+// Laws that are no such spring-damper (docs/coupling.md, 7, 10, 11): as printed, the rate that a
+// held force sees is (e - e at the evaluation before)/n, n steps between the two; stable PD has
+// `ahead`, and felt = 1 + h B alone; a god object has a_u = -(e + h v)/h^2, so what it adds is
+// -M_r (e + h v), with M_r the rows of M that belong to its robot.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,10 +24,14 @@
 
 namespace twinarm {
 
+enum class StepLaw { spring_damper, printed, stable_pd, god_object };
+
 struct StepPart {
-  Eigen::MatrixXd K, K_zero, B;  // as it is about the pose; J^T k J alone; J^T b J
-  Treatment treatment = Treatment::explicit_;
-  int hold_steps = 0;  // the force is computed every so many steps, and held; 0: at each stage
+  Eigen::MatrixXd K, K_zero, B;                // as it is about the pose; J^T k J alone; J^T b J
+  Treatment treatment = Treatment::explicit_;  // of a spring-damper
+  // The force is computed every so many steps, and held; 0: at each stage (as printed: each step).
+  int hold_steps = 0;
+  StepLaw law = StepLaw::spring_damper;  // a god object has M_r for K, and nothing else
 };
 
 // By how much the error grows in a step of h, in the long run: the spectral radius (of all steps

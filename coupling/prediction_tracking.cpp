@@ -95,36 +95,41 @@ double largest_acceleration(TargetMove move, double distance, double time) {
   return std::numeric_limits<double>::infinity();
 }
 
+std::vector<MovePiece> pieces_of(TargetMove move, double D, double T) {
+  const double v = D / T, a = v / T, j = a / T, s = j / T, c = s / T;  // by powers of 1/T
+  const double W = std::numbers::pi / T;
+  std::vector<MovePiece> pieces;
+  switch (move) {
+    case TargetMove::ramp:
+      pieces = {{0, v, {}, {{v}}}};
+      break;
+    case TargetMove::cubic:
+      pieces = {{0, 0, {{6 * a, -12 * j}}, {{0, 6 * a, -6 * j}}}};
+      break;
+    case TargetMove::quintic:
+      pieces = {{0, 0, {{0, 60 * j, -180 * s, 120 * c}}, {{0, 0, 30 * j, -60 * s, 30 * c}}}};
+      break;
+    case TargetMove::cosine:
+      pieces = {{0, 0, {{}, D / 2 * W * W, 0}, {{}, 0, D / 2 * W}}};
+      break;
+    case TargetMove::bang_bang:
+      pieces = {{0, 0, {{4 * a}}, {{0, 4 * a}}}, {T / 2, 0, {{-4 * a}}, {{2 * v, -4 * a}}}};
+      break;
+  }
+  pieces.push_back({T, move == TargetMove::ramp ? -v : 0, {}, {}});
+  return pieces;
+}
+
 FollowingError::FollowingError(TargetMove move, double D, double T, double omega, double zeta,
                                Damper damper)
     : time_(T), omega_(omega), zeta_(zeta), turn_(std::numbers::pi / T), damper_(damper) {
-  const double v = D / T, a = v / T, j = a / T, s = j / T, c = s / T;  // by powers of 1/T
-  const double W = turn_;
-  switch (move) {
-    case TargetMove::ramp:
-      add_piece(0, v, {}, {{v}});
-      break;
-    case TargetMove::cubic:
-      add_piece(0, 0, {{6 * a, -12 * j}}, {{0, 6 * a, -6 * j}});
-      break;
-    case TargetMove::quintic:
-      add_piece(0, 0, {{0, 60 * j, -180 * s, 120 * c}}, {{0, 0, 30 * j, -60 * s, 30 * c}});
-      break;
-    case TargetMove::cosine:
-      add_piece(0, 0, {{}, D / 2 * W * W, 0}, {{}, 0, D / 2 * W});
-      break;
-    case TargetMove::bang_bang:
-      add_piece(0, 0, {{4 * a}}, {{0, 4 * a}});
-      add_piece(T / 2, 0, {{-4 * a}}, {{2 * v, -4 * a}});
-      break;
-  }
-  add_piece(T, move == TargetMove::ramp ? -v : 0, {}, {});
+  for (const MovePiece& piece : pieces_of(move, D, T)) add_piece(piece);
   solve();
 }
 
-void FollowingError::add_piece(double start, double jump, const Forcing& acceleration,
-                               const Forcing& velocity) {
-  Piece piece{start, jump, acceleration, {}};
+void FollowingError::add_piece(const MovePiece& move) {
+  Piece piece{move.start, move.jump, move.acceleration, {}};
+  const Forcing& velocity = move.velocity;
   if (damper_ == Damper::absolute) {
     const double by = 2 * zeta_ * omega_;
     std::vector<double>& power = piece.right.power;

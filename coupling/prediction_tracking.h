@@ -48,6 +48,18 @@ const char* name_of(TargetMove move);
 // 6, 10/sqrt(3), pi^2/2, 4 D/T^2; infinite for the ramp.
 double largest_acceleration(TargetMove move, double distance, double time);
 
+// The move itself: from `start` on, with s = t - start and W = pi/time, velocity and acceleration
+// are sum_n power[n] s^n + c cos(W s) + d sin(W s). The last piece is the rest after the move.
+struct MovePiece {
+  struct Series {
+    std::vector<double> power;
+    double c = 0, d = 0;
+  };
+  double start = 0, jump = 0;  // of the target's velocity at its start
+  Series acceleration, velocity;
+};
+std::vector<MovePiece> pieces_of(TargetMove move, double distance, double time);
+
 // The closed-form error behind such a move, from rest with e = 0.
 class FollowingError {
  public:
@@ -60,18 +72,14 @@ class FollowingError {
   double peak() const;
 
  private:
-  // From `start` on, s = t - start: f(s) = sum_n power[n] s^n + c cos(W s) + d sin(W s) stands on
-  // the right; the particular solution has the same form.
-  struct Forcing {
-    std::vector<double> power;
-    double c = 0, d = 0;
-  };
+  // f stands on the right; the particular solution has the same form.
+  using Forcing = MovePiece::Series;
   struct Piece {
     double start = 0, jump = 0;  // of the target's velocity at its start
     Forcing right, particular;
     double e = 0, e_dot = 0;  // of the free motion at its start
   };
-  void add_piece(double start, double jump, const Forcing& acceleration, const Forcing& velocity);
+  void add_piece(const MovePiece& move);
   void solve();
   struct Motion {
     double e, e_dot;

@@ -19,9 +19,15 @@ std::string kind_of(const SceneCoupling& spec) {
   return std::string(law) + (spec.measure == Measure::world ? ", world" : ", joint");
 }
 
+// That a weld adds to its link, at its point; of its couple in place of an inertia.
+double felt_mass(const SceneCoupling& spec) {
+  const bool is_weld = spec.law == CouplingSpec::Type::weld_like && spec.spring.b > 0;
+  return is_weld ? spec.spring.b / spec.reference.damping() : 0;
+}
+
 }  // namespace
 
-PosedCouplings::PosedCouplings(SimulateInput& input)
+PosedCouplings::PosedCouplings(const SimulateInput& input)
     : input_(input), model_(input.robot.model), x_(input.robot.state.x), k_(model_) {
   std::fill(x_.qd.begin(), x_.qd.end(), 0.0);
   forward_kinematics(model_, x_, k_);
@@ -44,19 +50,34 @@ MatrixXd PosedCouplings::joint_damping() const {
   return by_rows(damping.asDiagonal());
 }
 
-// d(what the coupling measures)/dqd.
-MatrixXd PosedCouplings::jacobian(const SceneCoupling& spec) const {
+// d(what the coupling measures)/dqd. The matched law measures in the pose of its target.
+MatrixXd PosedCouplings::jacobian(std::size_t c) const {
+  const SceneCoupling& spec = input_.couplings->spec(c);
   const int body = spec.spring.body;
-  if (spec.type == CouplingDescription::Type::linear)
-    return point_jacobian(model_, k_, body, k_.position(body, spec.spring.p_L));
+  if (spec.type == CouplingDescription::Type::linear) {
+    const Kinematics& k =
+        spec.law == CouplingSpec::Type::matched ? input_.couplings->target(c, x_.t).k : k_;
+    return point_jacobian(model_, k, body, k.position(body, spec.spring.p_L));
+  }
   if (spec.measure == Measure::world) return rotation_jacobian(model_, k_, body);
   MatrixXd row = MatrixXd::Zero(1, static_cast<Index>(model_.nv));
   row(0, static_cast<Index>(model_.iv[static_cast<std::size_t>(body)])) = 1;
   return row;
 }
 
+MatrixXd PosedCouplings::robot_inertia(const SceneCoupling& spec) const {
+  const auto [first, last] = input_.scene->bodies_of_robot(spec.robot);
+  MatrixXd rows = MatrixXd::Zero(all_M_.rows(), all_M_.cols());
+  for (int body = first; body <= last; ++body) {
+    const auto i = static_cast<std::size_t>(body);
+    const auto iv = static_cast<Index>(model_.iv[i]), count = static_cast<Index>(model_.dofs(i));
+    rows.middleRows(iv, count) = all_M_.middleRows(iv, count);
+  }
+  return by_rows(rows);
+}
+
 double PosedCouplings::felt_inertia(std::size_t c) const {
-  const MatrixXd J = jacobian(input_.couplings->spec(c)) * P_;
+  const MatrixXd J = jacobian(c) * P_;
   Eigen::Matrix3Xd rows = Eigen::Matrix3Xd::Zero(3, J.cols());
   rows.topRows(J.rows()) = J;
   return principal_inertias(M(), rows)[0];
@@ -75,14 +96,15 @@ void PosedCouplings::add_arms(const SceneCoupling& spec, const Vector3& offset, 
         const auto after = std::upper_bound(model_.iv.begin() + 1, model_.iv.end(), dof);
         const auto body = static_cast<std::size_t>(after - model_.iv.begin()) - 1;
         const double r = distance(p), R_K = distance(target), k = spec.spring.k;
-        const double I = all_M_(static_cast<Index>(dof), static_cast<Index>(dof));
         if (r < 1e-9) return;  // it does not turn this joint
+        const double I =
+            all_M_(static_cast<Index>(dof), static_cast<Index>(dof)) + r * r * felt_mass(spec);
         found.arms.push_back({model_.joint_name[body], r, R_K,
                               largest_target_radius(I, r, k, spec.spring.b, h), k * r * R_K});
       });
 }
 
-PredictedCoupling PosedCouplings::coupling(std::size_t c, double h) {
+PredictedCoupling PosedCouplings::about_zero(std::size_t c) {
   const SceneCoupling& spec = input_.couplings->spec(c);
   PredictedCoupling found;
   found.name = spec.name;
@@ -93,24 +115,32 @@ PredictedCoupling PosedCouplings::coupling(std::size_t c, double h) {
   found.is_linear = spec.type == CouplingDescription::Type::linear;
   found.absolute_damper = spec.absolute_damper;
   found.rate = spec.rate;
+  found.delay = spec.delay;
   found.gains = {spec.spring.k, spec.spring.b};
-  const Vector3 offset = input_.couplings->ends(c, x_, k_).offset;
-  found.offset = offset.norm();
-  const MatrixXd J = jacobian(spec) * P_, square = J.transpose() * J;
-  found.K_zero = spec.spring.k * square;
+  const MatrixXd J = jacobian(c) * P_, square = J.transpose() * J;
+  found.K = found.K_zero = spec.spring.k * square;
   // The damper as printed folds the speeds: it has no linear part.
   const bool folded = spec.printed && spec.law == CouplingSpec::Type::torsional;
   found.B = (folded ? 0 : spec.spring.b) * square;
-  found.felt = MatrixXd::Zero(square.rows(), square.cols());
-  if (spec.law == CouplingSpec::Type::weld_like && spec.spring.b > 0)
-    found.felt = spec.spring.b / spec.reference.damping() * square;
-  found.K = spec.law == CouplingSpec::Type::matched ? found.K_zero : tangent(c);
+  found.felt = felt_mass(spec) * square;
+  if (spec.law == CouplingSpec::Type::god_object && spec.leads())
+    found.landing = robot_inertia(spec);
+  return found;
+}
+
+PredictedCoupling PosedCouplings::coupling(std::size_t c, double h) {
+  const SceneCoupling& spec = input_.couplings->spec(c);
+  PredictedCoupling found = about_zero(c);
+  const Vector3 offset = input_.couplings->ends(c, x_, k_).offset;
+  found.offset = offset.norm();
+  const bool matched = spec.law == CouplingSpec::Type::matched;  // linear in the joints' errors
+  if (!matched) found.K = tangent(c);
   const SpringModes modes = spring_modes(M() + found.felt, found.K, found.B);
   if (modes.size() > 0) {
     const Index last = modes.size() - 1;
     found.alone = {modes.omega(last), modes.zeta(last)};
   }
-  if (found.is_linear) add_arms(spec, offset, h, found);
+  if (found.is_linear && !matched) add_arms(spec, offset, h, found);
   return found;
 }
 
@@ -122,6 +152,18 @@ MatrixXd PosedCouplings::tangent(std::size_t c) {
       },
       velocities_);
   return by_rows(found.K);
+}
+
+StepPart step_part(const PredictedCoupling& c, double h) {
+  StepPart part{c.K, c.K_zero, c.B, c.treatment, 0};
+  if (c.rate > 0) part.hold_steps = static_cast<int>(std::lround(1 / (c.rate * h)));
+  if (c.printed) part.law = StepLaw::printed;
+  if (c.law == CouplingSpec::Type::stable_pd) part.law = StepLaw::stable_pd;
+  if (c.landing.size() > 0) {
+    part.law = StepLaw::god_object;
+    part.K = c.landing;
+  }
+  return part;
 }
 
 }  // namespace twinarm

@@ -28,8 +28,20 @@ void name_rows(const Coordinates& coordinates, Predicted& found) {
     }
 }
 
-int held_steps(const SceneCoupling& spec, double h) {
-  return spec.rate > 0 ? static_cast<int>(std::lround(1 / (spec.rate * h))) : 0;
+// A force of the start of the step, its velocity a difference.
+std::optional<Scheme> scheme_as_printed(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::semi_implicit:
+    case Integrator::implicit_euler:
+      return Scheme::semi_implicit_difference;
+    case Integrator::euler:
+    case Integrator::semi_implicit_xv:
+      return Scheme::euler_difference;
+    case Integrator::dopri5:
+      return {};
+    default:
+      return Scheme::hold_difference;
+  }
 }
 
 // The scheme of the table that steps all couplings alike, where one does.
@@ -37,10 +49,10 @@ std::optional<Scheme> scheme_of_scene(const std::vector<PredictedCoupling>& coup
                                       Integrator integrator) {
   const PredictedCoupling& first = couplings.front();
   for (const PredictedCoupling& c : couplings)
-    if (c.treatment != first.treatment || c.printed != first.printed || c.rate > 0) return {};
-  if (first.printed)
-    return integrator == Integrator::euler ? Scheme::euler_difference
-                                           : Scheme::semi_implicit_difference;
+    if (c.treatment != first.treatment || c.printed != first.printed || c.rate > 0 ||
+        c.is_own_treatment())
+      return {};
+  if (first.printed) return scheme_as_printed(integrator);
   if (first.treatment == Treatment::implicit) return Scheme::implicit;
   if (first.treatment == Treatment::semi_implicit) return Scheme::implicit_damper;
   switch (integrator) {
@@ -57,14 +69,13 @@ std::optional<Scheme> scheme_of_scene(const std::vector<PredictedCoupling>& coup
 }
 
 ModeErrors errors_of_mode(double omega, double zeta, const PredictTask& task) {
-  constexpr TargetMove kSmooth[] = {TargetMove::cubic, TargetMove::quintic, TargetMove::cosine,
-                                    TargetMove::bang_bang};
   const double v = task.distance / task.time;
   ModeErrors errors;
   errors.start = peak_after_jump(v, omega, zeta);
   errors.reversal = peak_after_jump(2 * v, omega, zeta);
-  for (std::size_t i = 0; i < 4; ++i)
-    errors.smooth[i] = FollowingError(kSmooth[i], task.distance, task.time, omega, zeta).peak();
+  for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
+    errors.smooth[i] =
+        FollowingError(kSmoothMoves[i], task.distance, task.time, omega, zeta).peak();
   errors.absolute_lag = absolute_damper_lag(v, omega, zeta);
   errors.weld_lag = mocap_weld_lag(v, 1 / omega);
   return errors;
@@ -90,7 +101,7 @@ void add_modes(const PredictTask& task, Predicted& found) {
   }
 }
 
-void add_limits(const SceneModel& scene, const MatrixXd& joint_damping, Predicted& found) {
+void add_limits(const MatrixXd& joint_damping, Predicted& found) {
   const std::optional<Scheme> own = scheme_of_scene(found.couplings, found.integrator);
   for (const Scheme scheme : all_schemes) {
     const auto factor = [&](Keep keep) {
@@ -101,11 +112,7 @@ void add_limits(const SceneModel& scene, const MatrixXd& joint_damping, Predicte
                             own && *own == scheme});
   }
   std::vector<StepPart> parts;
-  for (std::size_t c = 0; c < found.couplings.size(); ++c) {
-    const PredictedCoupling& of = found.couplings[c];
-    parts.push_back(
-        {of.K, of.K_zero, of.B, of.treatment, held_steps(scene.couplings[c], found.step)});
-  }
+  for (const PredictedCoupling& c : found.couplings) parts.push_back(step_part(c, found.step));
   // Dampers of joints are implicit in the step of the semi-implicit integrators.
   const bool implicit = facts_of(found.integrator).implicit_force;
   const MatrixXd none = MatrixXd::Zero(found.K.rows(), found.K.cols());
@@ -116,10 +123,49 @@ void add_limits(const SceneModel& scene, const MatrixXd& joint_damping, Predicte
     found.growth = growth_per_step(found.M, parts, found.integrator, found.step);
 }
 
+// Dampers of joints brake the robot's own velocity, as absolute dampers do.
+void add_errors(const PredictTask& task, const MatrixXd& friction, Predicted& found) {
+  constexpr std::size_t kMostRows = 50;
+  if (found.rows.size() > kMostRows) return;
+  MatrixXd absolute = friction, late = friction;
+  for (const PredictedCoupling& c : found.couplings) {
+    if (c.absolute_damper) absolute += c.B;
+    late += (c.absolute_damper ? c.B : MatrixXd::Zero(c.B.rows(), c.B.cols())) + c.delay * c.K;
+  }
+  VectorXd distance(found.M.rows());
+  for (std::size_t r = 0; r < found.rows.size(); ++r)
+    distance[static_cast<Index>(r)] = found.is_angle[r] ? task.distance : task.slide();
+  const VectorXd v = distance / task.time;
+  const ChainErrors behind({found.M, found.K, found.B + friction, absolute});
+  RowErrors errors;
+  errors.distance = distance;
+  errors.start = behind.after_start(v, task.time);
+  errors.reversal = behind.after_reversal(v, task.time);
+  for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
+    errors.smooth[i] = behind.behind(kSmoothMoves[i], distance, task.time);
+  errors.lag = ChainErrors({found.M, found.K, found.B + friction, late}).lag(v);
+  found.errors = std::move(errors);
+}
+
+// Joints of a god object land on their targets.
+void land(Predicted& found) {
+  for (const PredictedCoupling& c : found.couplings)
+    for (Index j = 0; j < c.landing.rows(); ++j) {
+      if (c.landing.row(j).isZero(0)) continue;
+      found.sag[j] = 0;
+      if (!found.errors) continue;
+      RowErrors& e = *found.errors;
+      for (VectorXd* all : {&e.start, &e.reversal, &e.lag}) (*all)[j] = 0;
+      for (VectorXd& smooth : e.smooth) smooth[j] = 0;
+    }
+}
+
 std::string words_of_step(const Predicted& found) {
   std::vector<std::string> words;
   for (const PredictedCoupling& c : found.couplings) {
-    std::string word = word_of(c.treatment);
+    std::string word = c.is_own_treatment() ? facts_of(c.law, c.printed).name
+                       : c.printed          ? "as printed"
+                                            : word_of(c.treatment);
     if (c.rate > 0) word += fmt::format(", held at {:g} Hz", c.rate);
     if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
   }
@@ -149,7 +195,11 @@ void add_warnings(const SceneModel& scene, Predicted& found) {
                       spec.name, spec.delay));
   for (const PredictedCoupling& c : found.couplings) {
     if (c.law == CouplingSpec::Type::god_object)
-      warn(fmt::format("'{}' is a constraint, not a spring: it is left out", c.name));
+      warn(fmt::format(
+          "'{}' is a constraint, not a spring: it has no stiffness, no frequency and no "
+          "limit of its own; in each step it lands on its target, where nothing stands "
+          "in the way",
+          c.name));
     if (c.printed && !c.is_linear)
       warn(
           fmt::format("'{}': the torsional damper as printed has no linear part; it is predicted "
@@ -207,14 +257,21 @@ Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
     found.B += coupling.B;
     found.M += coupling.felt;
   }
+  if (found.couplings.empty())
+    throw InputError({{scene.description.file.string(), 0, "scene",
+                       "its couplings are stops, which do not act between their limits",
+                       "write a [[coupling]] without 'outside' (docs/scenes.md)"}});
   if (!found.K.allFinite() || !found.M.allFinite())
     throw InputError(
         {{scene.description.file.string(), 0, "",
           "stiffness or inertia is not finite in this state", "give smaller numbers"}});
   found.stepped = words_of_step(found);
   add_modes(task, found);
-  add_limits(scene, posed.joint_damping(), found);
+  const MatrixXd friction = posed.joint_damping();
+  add_limits(friction, found);
   found.sag = chain_sag(found.K, posed.gravity());
+  add_errors(task, friction, found);
+  land(found);
   add_warnings(scene, found);
   return found;
 }

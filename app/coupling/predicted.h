@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +19,9 @@ namespace twinarm {
 
 // What the follower is asked to do, and the wall that it meets.
 struct PredictTask {
-  double distance = 0, time = 1;  // of the target along a mode [rad or m], [s]
-  std::optional<double> wall;     // stiffness [N/m]
+  double distance = 0, time = 1;  // of the target along a mode, or in each joint [rad or m], [s]
+  double slide() const { return 180 / std::numbers::pi * distance / 1000; }  // a mm for a degree
+  std::optional<double> wall;                                                // stiffness [N/m]
 };
 
 // The arm of a point spring about a joint below it.
@@ -35,17 +37,25 @@ struct PredictedCoupling {
   Treatment treatment = Treatment::implicit;
   bool is_linear = true, absolute_damper = false;
   double rate = 0;    // [Hz]; 0: every step
+  double delay = 0;   // of its target [s]
   SpringGains gains;  // N/m, N s/m, or N m/rad, N m s/rad
   double offset = 0;  // of the target [m or rad]
   CouplingSpec::Type law = CouplingSpec::Type::linear;
   bool printed = false;
   Eigen::MatrixXd K, K_zero, B;     // as it is; without the geometric part; damping
   Eigen::MatrixXd felt;             // inertia that the law adds (coupling/weld_like.h)
+  Eigen::MatrixXd landing;          // of a god object: rows of M of its robot; else empty
   SpringResponse alone;             // its fastest mode, were there no other
   std::vector<SpringArm> arms;      // linear only
   std::optional<double> with_wall;  // the wall through this coupling [N/m]
-  double geometric() const { return (K - K_zero).cwiseAbs().maxCoeff(); }
+  // It has none of the three treatments.
+  bool is_own_treatment() const {
+    return facts_of(law, printed).treatments == CouplingFacts::Treatments::own;
+  }
 };
+
+inline constexpr std::array<TargetMove, 4> kSmoothMoves{TargetMove::cubic, TargetMove::quintic,
+                                                        TargetMove::cosine, TargetMove::bang_bang};
 
 // The errors behind a target that goes `distance` in `time` along a mode [rad or m].
 struct ModeErrors {
@@ -53,6 +63,14 @@ struct ModeErrors {
   std::array<double, 4> smooth{};  // cubic, quintic, cosine, bang-bang
   double absolute_lag = 0;         // of an absolute damper, at distance/time
   double weld_lag = 0;             // of a mocap weld with this frequency
+};
+
+// The largest errors of each joint, by rows, when all targets make the move at once [rad or m]. Not
+// a number where nothing holds the joint, or the error has no bound.
+struct RowErrors {
+  Eigen::VectorXd distance, start, reversal;
+  std::array<Eigen::VectorXd, 4> smooth;
+  Eigen::VectorXd lag;  // in the long run at distance/time: absolute dampers, friction, delays
 };
 
 struct PredictedMode {
@@ -76,11 +94,12 @@ struct Predicted {
   std::vector<PredictedMode> modes;
   std::vector<SchemeLimit> limits;
   Integrator integrator = Integrator::semi_implicit;
-  std::string stepped;      // how the scene steps them, in words
-  double step = 0;          // [s]
-  double largest_step = 0;  // of the scene as it is stepped
-  double growth = 1;        // of an error in a step; not for dopri5
-  Eigen::VectorXd sag;      // by rows; not a number where nothing holds
+  std::string stepped;              // how the scene steps them, in words
+  double step = 0;                  // [s]
+  double largest_step = 0;          // of the scene as it is stepped
+  double growth = 1;                // of an error in a step; not for dopri5
+  Eigen::VectorXd sag;              // by rows; not a number where nothing holds
+  std::optional<RowErrors> errors;  // not of robots with very many joints
   std::vector<std::string> warnings;
 };
 

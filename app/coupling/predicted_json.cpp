@@ -7,13 +7,16 @@
 namespace twinarm {
 namespace {
 
+constexpr std::array<const char*, 4> kSmoothNames{"cubic", "quintic", "cosine", "bang_bang"};
+
 void write_coupling(JsonWriter& json, const PredictedCoupling& c) {
   json.begin_object();
   json.key("name").text(c.name);
   json.key("kind").text(c.kind);
-  json.key("treatment").text(word_of(c.treatment));
+  json.key("treatment").text(c.is_own_treatment() ? "own" : word_of(c.treatment));
   json.key("damper").text(c.absolute_damper ? "absolute" : "relative");
   json.key("rate").number(c.rate);
+  json.key("delay").number(c.delay);
   json.key("stiffness").number(c.gains.k);
   json.key("damping").number(c.gains.b);
   json.key("offset").number(c.offset);
@@ -45,6 +48,23 @@ void write_by_rows(JsonWriter& json, const Predicted& found, const Eigen::Vector
   json.end_object();
 }
 
+void write_errors(JsonWriter& json, const Predicted& found) {
+  json.key("joint_errors");
+  if (!found.errors) {
+    json.null();
+    return;
+  }
+  const RowErrors& errors = *found.errors;
+  json.begin_object();
+  write_by_rows(json.key("distance"), found, errors.distance);
+  write_by_rows(json.key("start"), found, errors.start);
+  write_by_rows(json.key("reversal"), found, errors.reversal);
+  for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
+    write_by_rows(json.key(kSmoothNames[i]), found, errors.smooth[i]);
+  write_by_rows(json.key("lag"), found, errors.lag);
+  json.end_object();
+}
+
 void write_mode(JsonWriter& json, const Predicted& found, const PredictedMode& mode) {
   json.begin_object();
   json.key("frequency").number(mode.omega);
@@ -53,8 +73,8 @@ void write_mode(JsonWriter& json, const Predicted& found, const PredictedMode& m
   json.key("errors").begin_object();
   json.key("start").number(mode.errors.start);
   json.key("reversal").number(mode.errors.reversal);
-  const char* names[] = {"cubic", "quintic", "cosine", "bang_bang"};
-  for (std::size_t i = 0; i < 4; ++i) json.key(names[i]).number(mode.errors.smooth[i]);
+  for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
+    json.key(kSmoothNames[i]).number(mode.errors.smooth[i]);
   json.key("absolute_damper_lag").number(mode.errors.absolute_lag);
   json.key("mocap_weld_lag").number(mode.errors.weld_lag);
   json.end_object();
@@ -80,6 +100,7 @@ std::string predicted_json(const Predicted& found, const PredictTask& task) {
   json.key("modes").begin_array();
   for (const PredictedMode& mode : found.modes) write_mode(json, found, mode);
   json.end_array();
+  write_errors(json, found);
   json.key("limits").begin_array();
   for (const SchemeLimit& limit : found.limits) {
     json.begin_object();

@@ -28,9 +28,7 @@ std::string limit_cell(double value, double unit = 1) {
 std::string couplings_part(const Predicted& found) {
   TextTable table({"coupling", "kind", "treatment", "k", "b", "target off by", "w [rad/s]", "z"});
   for (const PredictedCoupling& c : found.couplings) {
-    const char* word = c.treatment == Treatment::explicit_       ? "explicit"
-                       : c.treatment == Treatment::semi_implicit ? "semi-implicit"
-                                                                 : "implicit";
+    const char* word = c.is_own_treatment() ? "its own" : word_of(c.treatment);
     table.add({c.name, c.kind, word, cell(c.gains.k) + (c.is_linear ? " N/m" : " N m/rad"),
                cell(c.gains.b) + (c.is_linear ? " N s/m" : " N m s/rad"),
                c.is_linear ? cell(1e3 * c.offset) + " mm" : cell(kDegrees * c.offset) + " deg",
@@ -118,6 +116,30 @@ std::string errors_part(const Predicted& found, const PredictTask& task) {
          table.str();
 }
 
+std::string joint_errors_part(const Predicted& found, const PredictTask& task) {
+  if (!found.errors) return "Largest error of each joint: too many joints\n";
+  TextTable table(
+      {"joint", "", "start", "reversal", "cubic", "quintic", "cosine", "bang-bang", "lag"});
+  const RowErrors& e = *found.errors;
+  for (std::size_t r = 0; r < found.rows.size(); ++r) {
+    const auto row = static_cast<Index>(r);
+    const double unit = found.is_angle[r] ? kDegrees : 1e3;
+    const auto word = [&](double value) { return std::isnan(value) ? "-" : cell(unit * value); };
+    std::vector<std::string> line{found.rows[r], found.is_angle[r] ? "deg" : "mm",
+                                  word(e.start[row]), word(e.reversal[row])};
+    for (const Eigen::VectorXd& smooth : e.smooth) line.push_back(word(smooth[row]));
+    line.push_back(word(e.lag[row]));
+    table.add(line);
+  }
+  return said(fmt::format(
+             "Largest error of each joint when the targets of all held joints make that move at "
+             "once ({:g} deg, of slides {:g} mm, in {:g} s), all modes together and with the "
+             "dampers as they are; - is not held. Lag: what stays at constant speed, of absolute "
+             "dampers, dampers of joints and delays.",
+             kDegrees * task.distance, 1e3 * task.slide(), task.time)) +
+         table.str();
+}
+
 std::string limits_part(const Predicted& found) {
   TextTable table({"stepped by", "largest step [ms]", "stiffness x, b/k kept", "x, z kept", ""});
   for (const SchemeLimit& limit : found.limits)
@@ -185,7 +207,8 @@ std::string loads_part(const Predicted& found) {
 std::string predicted_table(const Predicted& found, const PredictTask& task) {
   std::string text = couplings_part(found) + "\n" + matrices_part(found) + "\n" +
                      modes_part(found) + "\n" + errors_part(found, task) + "\n" +
-                     limits_part(found) + "\n" + loads_part(found);
+                     joint_errors_part(found, task) + "\n" + limits_part(found) + "\n" +
+                     loads_part(found);
   for (const std::string& warning : found.warnings) text += "\n" + wrapped("warning: " + warning);
   return text;
 }

@@ -108,26 +108,6 @@ void say_first_bad(PostMortem& found) {
         found.pass > 0 ? fmt::format("in pass {}", found.pass) : "an input of the passes"));
 }
 
-// Half of w h at the limit of linear theory. Nearer to it a spring that does not die out still
-// swings with several times its energy (semi-implicit: 1 / (1 - (w h / 2)^2)), and where it swings
-// the limit is no longer that of the start.
-std::string remedy_of(const Suspect& s, double h) {
-  constexpr double kPart = 0.5;
-  std::string remedy;
-  if (s.largest_step > 0)
-    remedy =
-        fmt::format("a step of {} s would hold", short_text(kPart * s.largest_step * h / s.step));
-  if (s.largest_gain > 0)
-    remedy += fmt::format(
-        "{}a {} of {} {} would hold at this step", remedy.empty() ? "" : "; ", s.gain,
-        short_text((s.gain == "stiffness" ? kPart * kPart : kPart) * s.largest_gain), s.unit);
-  if (s.is_coupling)
-    remedy += std::string(remedy.empty() ? "" : "; ") +
-              "treatment = \"implicit\" with the integrator semi-implicit would hold";
-  if (!s.is_coupling) remedy += "; the integrator semi-implicit takes dampers of joints implicitly";
-  return remedy;
-}
-
 std::string beyond_limit(const Suspect& s) {
   return fmt::format("{}, w h = {} where at most {} holds ({})", s.name, short_text(s.product),
                      short_text(s.limit), s.scheme);
@@ -170,7 +150,7 @@ void say_suspects(PostMortem& found, double h, const std::optional<PassedRadius>
     if (s.step <= s.largest_step) continue;
     any = true;
     found.words.push_back("behind it: " + beyond_limit(s));
-    found.words.push_back(remedy_of(s, h));
+    found.words.push_back(s.remedy);
   }
   if (!any && !found.suspects.empty() && is_near(found.suspects.front()))
     found.words.push_back(near_limit(found.suspects.front(), h));
@@ -191,7 +171,7 @@ std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared) {
   const double h = prepared.run.step;
   if (!suspects.empty() && suspects.front().step > suspects.front().largest_step)
     return words + "; behind it: " + beyond_limit(suspects.front()) + "; " +
-           remedy_of(suspects.front(), h);
+           suspects.front().remedy;
   if (!suspects.empty() && is_near(suspects.front()))
     return words + "; " + near_limit(suspects.front(), h);
   return words + (prepared.run.is_adaptive()

@@ -1,11 +1,15 @@
-// Which spring or damper a step is too long for.
+// Which spring or damper a step is too long for, and what would hold: each coupling by itself, as
+// the scene's integrator steps it (coupling/prediction_step.h), about the start.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "app/coupling/posed_couplings.h"
 #include "app/record/post_mortem.h"
-#include "coupling/prediction.h"
-#include "coupling/stable_pd.h"
+#include "collision/import/number_text.h"
 #include "solver/dense_algebra.h"
 #include "solver/dynamics.h"
 
@@ -13,6 +17,10 @@ namespace twinarm {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+// Of the largest w h that holds. Nearer to it a spring that does not die out still swings with
+// several times its energy (semi-implicit: 1 / (1 - (w h / 2)^2)), and where it swings the limit is
+// no longer that of the start.
+constexpr double kRoom = 0.5;
 
 // The largest x in (0, 1] with good(x), good for all that are smaller; 0: none above 1e-12.
 template <class Good>
@@ -27,115 +35,165 @@ double largest_part(Good good) {
   return std::pow(10, low);
 }
 
-struct StepMethod {
-  bool known = true;
-  Scheme scheme = Scheme::implicit;
-  bool (*stable)(double alpha, double beta) = nullptr;  // of a method that is no Scheme
-  double undamped = 0;  // limit of w h of a method that prediction.h has not; 0: it has
+// A coupling with all its pulls, in the step that the run takes.
+struct SteppedCoupling {
+  const SceneCoupling* spec = nullptr;
+  StepPart part;
+  std::vector<StepPart> beside;  // god objects that land the same robot
+  std::string beside_names;
+  Eigen::MatrixXd M;  // with the inertia that the law adds
+  Integrator integrator = Integrator::semi_implicit;
+  double h = 0, fastest = 0;  // step [s]; of its modes [rad/s], of a damper alone [1/s]
+
+  std::vector<StepPart> parts(const StepPart& its) const {
+    std::vector<StepPart> all = beside;
+    all.push_back(its);
+    return all;
+  }
+  bool holds(const StepPart& its) const {
+    constexpr double kRounding = 1e-9;
+    return growth_per_step(M, parts(its), integrator, h) <= 1 + kRounding;
+  }
+  bool is_spring() const { return !part.K.isZero(0); }
+  bool is_weld() const { return spec->law == CouplingSpec::Type::weld_like; }
+  // With the stiffness, or where there is none the damping, times `factor`; a weld's time constant
+  // divided by it.
+  StepPart scaled(double factor) const {
+    StepPart its = part;
+    const double by = is_weld() ? factor * factor : factor;
+    its.K *= by;
+    its.K_zero *= by;
+    if (is_weld() || !is_spring()) its.B *= factor;
+    return its;
+  }
+};
+
+std::string method_of(const SteppedCoupling& c) {
+  const SceneCoupling& spec = *c.spec;
   std::string name;
-};
-
-StepMethod step_method_of(const SceneCoupling& coupling, Integrator integrator) {
-  StepMethod method;
-  // Their steps are none of prediction.h's schemes, or have no linear part.
-  if (coupling.printed || coupling.law == CouplingSpec::Type::weld_like ||
-      coupling.law == CouplingSpec::Type::god_object) {
-    method.known = false;
-    return method;
-  }
-  if (coupling.law == CouplingSpec::Type::stable_pd) {
-    method.stable = stable_pd_is_stable;
-    method.name = "stable PD";
-    return method;
-  }
-  if (coupling.rate > 0) return {true, Scheme::hold, nullptr, 0, "held force"};
-  if (coupling.treatment == Treatment::implicit) method.scheme = Scheme::implicit;
-  if (coupling.treatment == Treatment::semi_implicit) method.scheme = Scheme::implicit_damper;
-  if (coupling.treatment != Treatment::explicit_) {
-    method.name = name_of(method.scheme);
-    return method;
-  }
-  method.name = std::string("explicit, ") + integrator_name(integrator);
-  switch (integrator) {
-    case Integrator::euler:
-      method.scheme = Scheme::euler;
-      break;
-    case Integrator::semi_implicit:
-    case Integrator::semi_implicit_xv:
-      method.scheme = Scheme::semi_implicit;
-      break;
-    case Integrator::verlet:
-      method.undamped = 2;
-      break;
-    case Integrator::rk4:
-      method.undamped = 2 * std::sqrt(2.0);
-      break;
-    default:
-      method.known = false;
-  }
-  return method;
+  if (spec.law == CouplingSpec::Type::stable_pd)
+    name = "stable PD";
+  else if (spec.printed)
+    name = std::string("as printed, ") + integrator_name(c.integrator);
+  else if (spec.treatment == Treatment::semi_implicit)
+    name = name_of(Scheme::implicit_damper);
+  else if (spec.treatment == Treatment::implicit)
+    name = name_of(Scheme::implicit);
+  else if (spec.rate == 0)
+    name = std::string("explicit, ") + integrator_name(c.integrator);
+  if (spec.rate > 0) name += name.empty() ? "held force" : ", held force";
+  return name + c.beside_names;
 }
 
-// Of one coupling: e'' + damping e' + w^2 e = 0. K and B of a coupling are alike but for k and b,
-// so they share their modes.
-struct CouplingMode {
-  double w = 0, damping = 0;
-};
-std::vector<CouplingMode> coupling_modes(const Eigen::MatrixXd& M,
-                                         const Coupling::JointSpace& space) {
-  const bool by_stiffness = !space.K.isZero(0);
-  const SymmetricEigensystem of = generalized_eigensystem(by_stiffness ? space.K : space.B, M);
-  const Eigen::VectorXd& values = of.values;
-  std::vector<CouplingMode> modes;
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    if (!(values[i] > 1e-9 * values.maxCoeff())) continue;  // what the coupling does not move
-    const Eigen::VectorXd shape = of.vectors.col(i);
-    modes.push_back({by_stiffness ? std::sqrt(values[i]) : 0, shape.dot(space.B * shape)});
+// A rate, a whole number of steps, that leaves room; or none.
+std::string rate_remedy(const SteppedCoupling& c, double largest) {
+  StepPart its = c.part;
+  for (its.hold_steps = static_cast<int>(kRoom * largest / c.h); its.hold_steps > 0;
+       --its.hold_steps)
+    if (c.holds(its))
+      return fmt::format("a rate of {} Hz would hold",
+                         short_number_text(1 / (its.hold_steps * c.h)));
+  return c.holds(its) ? "no rate, a force at every step, would hold" : "";
+}
+
+std::string gain_remedy(const SteppedCoupling& c, const Suspect& s) {
+  if (!(s.largest_gain > 0)) return "";
+  const bool is_linear = c.spec->type == CouplingDescription::Type::linear;
+  const char *force = is_linear ? "N" : "N m", *per = is_linear ? "m" : "rad";
+  if (c.is_weld())
+    return fmt::format("a time constant of {} s would hold at this step",
+                       short_number_text(s.largest_gain / kRoom));
+  if (!c.is_spring())
+    return fmt::format("a damping of {} {} s/{} would hold at this step",
+                       short_number_text(kRoom * s.largest_gain), force, per);
+  const double part = kRoom * kRoom * s.largest_gain;
+  std::string turn;
+  if (c.spec->law == CouplingSpec::Type::bushing)
+    turn = fmt::format(" with a turn_stiffness of {} N m/rad",
+                       short_number_text(part / c.spec->spring.k * c.spec->spring.k_turn));
+  return fmt::format("a stiffness of {} {}/{}{} would hold at this step", short_number_text(part),
+                     force, per, turn);
+}
+
+std::string law_remedy(const SceneCoupling& spec) {
+  using Type = CouplingSpec::Type;
+  const char* how = " with the integrator semi-implicit would hold";
+  const char* implicitly = "treatment = \"implicit\"";
+  if (spec.law == Type::stable_pd)
+    return fmt::format("type = \"torsional\", measure = \"joint\", {}{}", implicitly, how);
+  if (spec.printed || spec.law == Type::matched)
+    return fmt::format("type = \"{}\", {}{}", spec.law == Type::torsional ? "torsional" : "linear",
+                       implicitly, how);
+  return fmt::format("{}{}{}", implicitly, spec.rate > 0 ? ", without a rate," : "", how);
+}
+
+std::string joined(const std::vector<std::string>& all) {
+  std::string text;
+  for (const std::string& one : all)
+    if (!one.empty()) text += (text.empty() ? "" : "; ") + one;
+  return text;
+}
+
+Suspect suspect_of(const SteppedCoupling& c) {
+  const SceneCoupling& spec = *c.spec;
+  const double steps = std::max(1, c.part.hold_steps);
+  Suspect s;
+  s.name = "coupling '" + spec.coupling + "'";
+  s.scheme = method_of(c);
+  s.step = steps * c.h;
+  s.largest_step = steps * largest_stable_step(c.M, c.parts(c.part), c.integrator);
+  s.product = c.fastest * s.step;
+  s.limit = c.fastest * s.largest_step;
+  s.gain = c.is_weld() ? "time constant" : c.is_spring() ? "stiffness" : "damping";
+  if (s.step <= s.largest_step) return s;
+  const double part = largest_part([&](double factor) { return c.holds(c.scaled(factor)); });
+  if (part > 0)
+    s.largest_gain = c.is_weld()     ? spec.reference.time_constant / part
+                     : c.is_spring() ? part * spec.spring.k
+                                     : part * spec.spring.b;
+  const bool is_held = spec.rate > 0;
+  std::string step_remedy;
+  if (is_held && s.largest_step > 0) step_remedy = rate_remedy(c, s.largest_step);
+  if (!is_held && s.largest_step > 0)
+    step_remedy =
+        fmt::format("a step of {} s would hold", short_number_text(kRoom * s.largest_step));
+  s.remedy = joined({step_remedy, gain_remedy(c, s), law_remedy(spec)});
+  return s;
+}
+
+// God objects are no suspects: alone they land whatever the step. Others have less room beside one.
+void add_couplings(const SimulatePlan& prepared, std::vector<Suspect>& suspects) {
+  SceneCouplings& couplings = *prepared.input.couplings;
+  PosedCouplings posed(prepared.input);
+  for (std::size_t c = 0; c < couplings.size(); ++c) {
+    const SceneCoupling& spec = couplings.spec(c);
+    const bool is_god = spec.law == CouplingSpec::Type::god_object;
+    if (spec.leader != c || spec.outside || is_god) continue;  // a stop mostly does not act
+    PredictedCoupling all = posed.about_zero(c);
+    SteppedCoupling stepped;
+    for (std::size_t other = 0; other < couplings.size(); ++other) {
+      const SceneCoupling& its = couplings.spec(other);
+      if (other != c && its.leader == c) {
+        const PredictedCoupling pull = posed.about_zero(other);
+        all.K += pull.K, all.K_zero += pull.K_zero, all.B += pull.B, all.felt += pull.felt;
+      }
+      if (its.law != CouplingSpec::Type::god_object || its.leader != other ||
+          its.robot != spec.robot)
+        continue;
+      stepped.beside.push_back(step_part(posed.about_zero(other), prepared.run.step));
+      stepped.beside_names += ", beside the god object '" + its.coupling + "'";
+    }
+    stepped.spec = &spec;
+    stepped.part = step_part(all, prepared.run.step);
+    stepped.M = posed.M() + all.felt;
+    stepped.integrator = prepared.run.integrator;
+    stepped.h = prepared.run.step;
+    const SpringModes modes = spring_modes(stepped.M, all.K, all.B);
+    for (Eigen::Index i = 0; i < modes.size(); ++i)
+      stepped.fastest =
+          std::max(stepped.fastest, modes.omega(i) > 0 ? modes.omega(i) : modes.damping(i, i));
+    if (stepped.fastest > 0) suspects.push_back(suspect_of(stepped));
   }
-  return modes;
-}
-
-// With the stiffness, or where there is none the damping, times `part`.
-bool all_hold(const StepMethod& method, const std::vector<CouplingMode>& modes, double h,
-              double part = 1) {
-  return std::all_of(modes.begin(), modes.end(), [&](const CouplingMode& mode) {
-    const double alpha = part * mode.w * mode.w * h * h;
-    if (method.undamped > 0) return alpha <= method.undamped * method.undamped;
-    const double beta = (mode.w > 0 ? 1 : part) * mode.damping * h;
-    return method.stable ? method.stable(alpha, beta) : is_stable(method.scheme, alpha, beta);
-  });
-}
-
-double largest_step(const StepMethod& method, const std::vector<CouplingMode>& modes) {
-  constexpr double kLongest = 10;  // [s]
-  if (all_hold(method, modes, kLongest)) return kNever;
-  return kLongest *
-         largest_part([&](double part) { return all_hold(method, modes, part * kLongest); });
-}
-
-Suspect suspect_of(const SceneCoupling& spec, const Coupling& coupling, const Kinematics& k,
-                   const Eigen::MatrixXd& M, const StepMethod& method, double h) {
-  Suspect suspect;
-  const std::vector<CouplingMode> modes = coupling_modes(M, coupling.joint_space(k));
-  double w = 0;
-  for (const CouplingMode& mode : modes) w = std::max(w, mode.w > 0 ? mode.w : mode.damping);
-  suspect.name = "coupling '" + spec.name + "'";
-  suspect.scheme = method.name;
-  suspect.is_coupling = true;
-  suspect.step = spec.rate > 0 ? 1 / spec.rate : h;
-  suspect.largest_step = largest_step(method, modes);
-  suspect.product = w * suspect.step;
-  suspect.limit = w * suspect.largest_step;
-  const bool is_spring = spec.spring.k > 0,
-             is_linear = spec.type == CouplingDescription::Type::linear;
-  suspect.gain = is_spring ? "stiffness" : "damping";
-  suspect.unit =
-      std::string(is_linear ? "N" : "N m") + (is_spring ? "" : " s") + (is_linear ? "/m" : "/rad");
-  if (suspect.step > suspect.largest_step)
-    suspect.largest_gain =
-        (is_spring ? spec.spring.k : spec.spring.b) *
-        largest_part([&](double part) { return all_hold(method, modes, suspect.step, part); });
-  return suspect;
 }
 
 // b h / I of dampers of joints, where the integrator takes them at the start of a step or a stage.
@@ -172,8 +230,13 @@ void add_dampers(const SimulatePlan& prepared, const Eigen::MatrixXd& M,
     s.product = rate * h;
     s.limit = limit;
     s.gain = "damping";
-    s.unit = "N m s/rad or N s/m";
-    if (h > s.largest_step) s.largest_gain = model.damping[iv] * s.largest_step / h;
+    if (h > s.largest_step) {
+      s.largest_gain = model.damping[iv] * s.largest_step / h;
+      s.remedy = fmt::format(
+          "a step of {} s would hold; a damping of {} N m s/rad or N s/m would hold at this step; "
+          "the integrator semi-implicit takes dampers of joints implicitly",
+          short_number_text(kRoom * s.largest_step), short_number_text(kRoom * s.largest_gain));
+    }
     suspects.push_back(std::move(s));
   }
 }
@@ -184,21 +247,9 @@ std::vector<Suspect> find_suspects(const SimulatePlan& prepared) {
   std::vector<Suspect> suspects;
   const SimulateInput& input = prepared.input;
   const Model<double>& model = input.robot.model;
-  const State<double>& x = input.robot.state.x;
   if (prepared.run.is_adaptive() || model.nv == 0) return suspects;
-  const Eigen::MatrixXd M = mass_matrix(model, x);
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
-  if (input.scene)
-    for (std::size_t c = 0; c < input.couplings->size(); ++c) {
-      const SceneCoupling& spec = input.couplings->spec(c);
-      if (spec.leader != c || spec.outside) continue;  // a stop mostly does not act
-      const StepMethod method = step_method_of(spec, prepared.run.integrator);
-      if (method.known)
-        suspects.push_back(
-            suspect_of(spec, input.couplings->coupling(c), k, M, method, prepared.run.step));
-    }
-  add_dampers(prepared, M, suspects);
+  if (input.couplings) add_couplings(prepared, suspects);
+  add_dampers(prepared, mass_matrix(model, input.robot.state.x), suspects);
   std::stable_sort(suspects.begin(), suspects.end(), [](const Suspect& a, const Suspect& b) {
     return a.step * b.largest_step > b.step * a.largest_step;
   });

@@ -39,11 +39,11 @@ struct RunStart {
 // A spring or damper against the limit that the method sets to it, by linear theory.
 struct Suspect {
   std::string name, scheme;
-  bool is_coupling = false;
   double step = 0, largest_step = 0;  // of a held force: between two evaluations [s]
   double product = 0, limit = 0;      // w h, and the largest that holds
-  std::string gain, unit;
-  double largest_gain = 0;  // that holds at this step; 0: none, or not asked for
+  std::string gain, remedy;           // which one; of what is beyond its limit, what would hold
+  double largest_gain = 0;  // that holds at this step (of a time constant the least); 0: none, or
+                            // not asked for
 };
 
 // Why a run stopped by itself.

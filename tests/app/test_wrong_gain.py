@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A gain above its limit on the S-103, as a user meets it: the post-mortem names the right one of two
-springs, each remedy that it offers works, and the last steps can be opened.
+"""A gain above its limit, as a user meets it: the post-mortem names the right one of two springs of the
+S-103, and each law of a hinge; each remedy that it offers works, and the last steps can be opened.
 
     test_wrong_gain.py PATH/TO/twinarm
 """
@@ -12,7 +12,7 @@ import sys
 import unittest
 
 import robot_command
-from robot_command import RobotCommand
+from robot_command import RobotCommand, joint, link, robot
 
 SPRING = ('[[coupling]]\nname = "{name}"\ntype = "torsional"\nmeasure = "joint"\nlink = "{link}"\n'
           'stiffness = {k}\ndamping = {b}\ntreatment = "{treatment}"\n'
@@ -64,6 +64,101 @@ class WrongGain(RobotCommand):
         self.assertEqual(opened.returncode, 0, opened.stdout + opened.stderr)
         force, = json.loads(opened.stdout)["forces"]
         self.assertEqual([j["joint"] for j in force["joints"]], ["joint2"])
+
+
+HINGE = robot('<link name="base"/>', link("rod", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.5)),
+              joint("hinge", "continuous", "base", "rod"))
+GOD = '[[coupling]]\nname = "god"\ntype = "god-object"\ntarget = { q = { hinge = 0 } }\n'
+# Each far beyond what a step of 1 ms holds on an inertia of 0.5: its keys, and what is beside it.
+LAWS = {
+    "weld": ({"type": "weld", "time_constant": 4e-4, "damping_ratio": 0.2}, ""),
+    "printed-linear": ({"type": "printed-linear", "stiffness": 3e7, "damping": 600}, ""),
+    "printed-linear, seldom": ({"type": "printed-linear", "stiffness": 3e5, "damping": 2000,
+                                "rate": 100}, ""),
+    "printed-torsional": ({"type": "printed-torsional", "stiffness": 3e6, "damping": 5}, ""),
+    "stable PD": ({"type": "stable-pd", "stiffness": 3e6, "damping": 20}, ""),
+    "matched": ({"type": "matched", "stiffness": 3e7, "damping": 600}, ""),
+    "bushing": ({"type": "bushing", "treatment": "explicit", "stiffness": 3e7, "damping": 600,
+                 "turn_stiffness": 1e5, "turn_damping": 2}, ""),
+    "held": ({"type": "linear", "treatment": "explicit", "stiffness": 3e5, "damping": 2000,
+              "rate": 100}, ""),
+    "beside a god object": ({"type": "torsional", "measure": "joint", "treatment": "explicit",
+                             "stiffness": 1e6, "damping": 20}, GOD),
+    "a damper": ({"type": "linear", "treatment": "explicit", "stiffness": 0, "damping": 3e4}, "")}
+POINT = ("weld", "printed-linear", "matched", "bushing", "linear")
+WORDS = {"stiffness": r"a stiffness of (\S+) N", "turn_stiffness": r"a turn_stiffness of (\S+) N m",
+         "damping": r"a damping of (\S+) N", "time_constant": r"a time constant of (\S+) s",
+         "rate": r"a rate of (\S+) Hz"}
+
+
+class WrongGainOfALaw(RobotCommand):
+    def run_with(self, keys, beside, step=0.001):
+        (self.folder / "test.urdf").write_text(HINGE)
+        lines = ["[[coupling]]", 'name = "pull"', 'link = "rod"',
+                 *(f"{key} = {json.dumps(value)}" for key, value in keys.items()),
+                 "target = { q = { hinge = 0 } }"]
+        if keys["type"] in POINT:
+            lines.append("point = [0.3, 0, 0]")
+        scene = self.folder / "scene.toml"
+        scene.write_text('[[robot]]\nname = "r"\nmodel = "test.urdf"\nq = { hinge = 1e-3 }\n' +
+                         "\n".join(lines) + "\n" + beside)
+        return subprocess.run([robot_command.PROGRAM, "simulate", scene, "--duration", "3", "--step",
+                               str(step), "--json", "--post-mortem", self.folder / "last.twinrec"],
+                              capture_output=True, text=True, timeout=120)
+
+    def check_holds(self, keys, beside, step=0.001):
+        run = self.run_with(keys, beside, step)
+        self.assertEqual(run.returncode, 0, f"{keys} {step}: {run.stderr}")
+        self.assertLess(abs(json.loads(run.stdout)["samples"][-1]["q"]["hinge"]), 3e-3)
+
+    def test_every_law_is_named_with_a_remedy_that_holds(self):
+        for name, (keys, beside) in LAWS.items():
+            with self.subTest(name):
+                broken = self.run_with(keys, beside)
+                self.assertEqual(broken.returncode, 3, broken.stderr)
+                self.assertIn("behind it: coupling 'pull'", broken.stderr)
+                suspect, = json.loads(broken.stdout)["post_mortem"]["suspects"]
+                self.assertGreater(suspect["w_h"], suspect["limit"])
+                if beside:
+                    self.assertIn("beside the god object 'god'", suspect["scheme"])
+                step = re.search(r"a step of (\S+) s would hold", broken.stderr)
+                self.assertNotEqual("rate" in keys, bool(step))
+                if step:
+                    self.check_holds(keys, beside, float(step[1]))
+                told = {key: float(found[1]) for key, pattern in WORDS.items()
+                        if (found := re.search(pattern, broken.stderr))}
+                rate = told.pop("rate", None)
+                self.assertEqual("rate" in keys, rate is not None, broken.stderr)
+                if rate:
+                    self.check_holds({**keys, "rate": rate}, beside)
+                self.assertTrue(told, broken.stderr)
+                self.check_holds({**keys, **told}, beside)
+                law = re.search(r'(?:type = "(\S+)", )?(measure = "joint", )?treatment = "implicit"',
+                                broken.stderr)
+                other = {**keys, "type": law[1] or keys["type"], "treatment": "implicit"}
+                other.pop("rate", None)
+                if law[2]:
+                    other["measure"] = "joint"
+                self.check_holds(other, beside)
+
+    def test_the_edge_that_the_json_tells_is_the_edge(self):
+        for name, (keys, beside) in LAWS.items():
+            with self.subTest(name):
+                suspect, = json.loads(self.run_with(keys, beside).stdout)["post_mortem"]["suspects"]
+                gain = suspect["gain"].replace(" ", "_")
+                edge, inside = suspect["largest_gain"], 0.98
+                if gain == "time_constant":
+                    inside = 1 / inside
+                part = edge / keys[gain]
+                turn = {"turn_stiffness": keys.get("turn_stiffness", 0) * part}
+                for by, code in ((inside, 0), (1 / inside, 3)):
+                    gains = {gain: by * edge}
+                    if "turn_stiffness" in keys:
+                        gains["turn_stiffness"] = by * turn["turn_stiffness"]
+                    run = self.run_with({**keys, **gains}, beside)
+                    grew = run.returncode == 3 or abs(
+                        json.loads(run.stdout)["samples"][-1]["q"]["hinge"]) > 0.03
+                    self.assertEqual(grew, code == 3, (by, run.stderr))
 
 
 if __name__ == "__main__":

@@ -96,4 +96,17 @@ inline bool grows(Scheme scheme, CouplingSpec::Type type, double alpha, double b
                scheme == Scheme::hold || scheme == Scheme::hold_difference ? 800 : 4000);
 }
 
+// Where a run begins to grow, to 1e-4 of itself, between 0.9 and 1.1 of a limit.
+template <class Stable>
+double measured_limit(Stable&& stable, double predicted) {
+  double inside = 0.9 * predicted, outside = 1.1 * predicted;
+  CHECK(stable(inside));
+  CHECK_FALSE(stable(outside));
+  while (outside - inside > 1e-4 * predicted) {
+    const double middle = (inside + outside) / 2;
+    (stable(middle) ? inside : outside) = middle;
+  }
+  return inside;
+}
+
 }  // namespace twinarm::testing
