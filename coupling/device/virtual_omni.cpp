@@ -1,0 +1,215 @@
+#include "coupling/device/virtual_omni.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "solver/fault.h"
+
+namespace twinarm {
+namespace {
+
+constexpr int kSubsteps = 4;        // a tick
+constexpr long kMostTicks = 250;    // that one poll catches up with
+constexpr double kSameTick = 1e-6;  // of a tick: instants that a sum of steps meets to rounding
+
+void check_settings(const VirtualOmniSettings& s) {
+  FaultList faults;
+  const OmniFigures& o = s.figures;
+  const auto demand = [&](bool holds, const char* where, double value, const char* rule) {
+    if (!holds)
+      faults.add({"", 0, where, "is " + std::to_string(value) + ", must be " + rule,
+                  std::string("the device's own figure is in docs/hand.md")});
+  };
+  const auto at_least_zero = [&](const char* where, double value) {
+    demand(std::isfinite(value) && value >= 0, where, value, "zero or more");
+  };
+  const auto positive = [&](const char* where, double value) {
+    demand(std::isfinite(value) && value > 0, where, value, "more than zero");
+  };
+  positive("L1", o.L1);
+  positive("L2", o.L2);
+  positive("rate", o.rate);
+  positive("peak_force", o.peak_force);
+  at_least_zero("resolution", o.resolution);
+  at_least_zero("friction", o.friction);
+  at_least_zero("apparent_mass", o.apparent_mass);
+  at_least_zero("arm.mass", s.arm.mass);
+  at_least_zero("arm.stiffness", s.arm.stiffness);
+  at_least_zero("arm.damping", s.arm.damping);
+  at_least_zero("device_damping", s.device_damping);
+  positive("apparent_mass + arm.mass", o.apparent_mass + s.arm.mass);
+  const auto delay = [&](const char* where, double value) {
+    demand(value >= 0 && value <= 10, where, value, "from 0 to 10 s");
+  };
+  delay("delay_to_host", s.delay_to_host);
+  delay("delay_to_motors", s.delay_to_motors);
+  for (std::size_t j = 0; j < 6; ++j)
+    demand(o.lower[j] < o.upper[j], "upper", o.upper[j], "above the joint's lower end");
+  faults.check();
+}
+
+// exp(h A) of x' = v, v' = (-k x - b v + f) / m, f constant.
+Matrix3 exponential(double k, double b, double m, double h) {
+  Matrix3 A;
+  A << 0, 1, 0, -k / m, -b / m, 1 / m, 0, 0, 0;
+  A *= h;
+  int halvings = 0;
+  for (; A.cwiseAbs().maxCoeff() > 0.25; ++halvings) A *= 0.5;
+  Matrix3 sum = Matrix3::Identity(), term = sum;
+  for (int n = 1; n <= 16; ++n) {
+    term = Matrix3(term * A) / n;
+    sum += term;
+  }
+  for (; halvings > 0; --halvings) sum = Matrix3(sum * sum);
+  return sum;
+}
+
+std::size_t ticks_of(double delay, double period) {
+  return static_cast<std::size_t>(std::ceil(delay / period)) + 2;
+}
+
+}  // namespace
+
+VirtualOmni::VirtualOmni(std::shared_ptr<const HandSource> hand,
+                         const VirtualOmniSettings& settings)
+    : hand_(std::move(hand)),
+      figures_(settings.figures),
+      viscous_(settings.device_damping),
+      period_(1 / settings.figures.rate),
+      delay_to_host_(settings.delay_to_host),
+      delay_to_motors_(settings.delay_to_motors),
+      response_{} {
+  check_settings(settings);
+  const ArmImpedance& arm = settings.arm;
+  const Matrix3 E = exponential(arm.stiffness, arm.damping + viscous_,
+                                figures_.apparent_mass + arm.mass, period_ / kSubsteps);
+  response_ = {E(0, 0), E(0, 1), E(0, 2), E(1, 0), E(1, 1), E(1, 2)};
+  sensed_.resize(ticks_of(delay_to_host_, period_));
+  rendered_.resize(ticks_of(delay_to_motors_, period_));
+  look_at_hand();
+  const auto q = omni_nearest(figures_, omni_position(figures_, wanted_.theta));
+  truth_.theta = {q[0], q[1], q[2], 0, 0, 0};
+  truth_.position = omni_position(figures_, truth_.theta);
+  sense();
+}
+
+std::string VirtualOmni::description() const {
+  return "virtual Phantom Omni, moved by: " + hand_->description();
+}
+
+DeviceState VirtualOmni::poll(double now) noexcept {
+  if (!polled_ && std::isfinite(now)) {
+    polled_ = true;
+    origin_ = now_ = now;
+  }
+  if (now > now_ && std::isfinite(now)) now_ = now;
+  const double most = static_cast<double>(tick_ + kMostTicks);
+  const double due = std::floor((now_ - origin_) / period_ + kSameTick);
+  if (due > most) origin_ += (due - most) * period_;  // after a pause the device goes on from there
+  for (const auto last = static_cast<long>(std::min(due, most)); tick_ < last;) tick();
+  const double seen = std::floor((now_ - origin_ - delay_to_host_) / period_ + kSameTick);
+  const auto n = static_cast<std::size_t>(std::max(seen, 0.0));
+  DeviceState state = sensed_[n % sensed_.size()];
+  state.t = origin_ + static_cast<double>(n) * period_;
+  return state;
+}
+
+void VirtualOmni::render(const DeviceForce& force) noexcept {
+  const double due = std::ceil((now_ - origin_ + delay_to_motors_) / period_ - kSameTick);
+  const long from = std::max(static_cast<long>(due), tick_);
+  rendered_[static_cast<std::size_t>(from) % rendered_.size()] = {from, force.torque};
+}
+
+void VirtualOmni::tick() noexcept {
+  const Rendered& next = rendered_[static_cast<std::size_t>(tick_) % rendered_.size()];
+  if (next.tick == tick_) held_ = next.torque;
+
+  const double h = period_ / kSubsteps;
+  const Matrix3 J = omni_jacobian(figures_, wanted_.theta);
+  const auto& rate = wanted_.theta_dot;
+  const Vector3 goal_velocity = J * Vector3(rate[0], rate[1], rate[2]);
+  for (int n = 0; n < kSubsteps; ++n) {
+    substep(truth_.goal, goal_velocity);
+    truth_.goal += h * goal_velocity;
+  }
+  ++tick_;
+  look_at_hand();
+  sense();
+}
+
+void VirtualOmni::substep(const Vector3& goal, const Vector3& goal_velocity) noexcept {
+  Vector3 &x = truth_.position, &v = truth_.velocity;
+  const bool at_rest = v.isZero(0);
+  truth_.motors = omni_force(figures_, truth_.theta, omni_limit(figures_, truth_.theta, held_));
+
+  // Without friction, seen from a goal that moves evenly: u = x - g.
+  const Response& r = response_;
+  const Vector3 u = x - goal, u_dot = v - goal_velocity;
+  const Vector3 push = truth_.motors - viscous_ * goal_velocity;
+  const Vector3 x_free =
+      goal + period_ / kSubsteps * goal_velocity + r.xx * u + r.xv * u_dot + r.xf * push;
+  const Vector3 v_free = goal_velocity + r.vx * u + r.vv * u_dot + r.vf * push;
+
+  // The constant force that stops the point within the substep, or as much of it as there is.
+  const double speed = v_free.norm(), to_stop = speed / r.vf;
+  truth_.sticks = to_stop <= figures_.friction;
+  if (truth_.sticks) {
+    if (!at_rest) x = x_free - r.xf / r.vf * v_free;
+    v.setZero();
+  } else {
+    const Vector3 against = figures_.friction / speed * v_free;
+    x = x_free - r.xf * against;
+    v = v_free - r.vf * against;
+  }
+  stop_at_ranges();
+}
+
+void VirtualOmni::stop_at_ranges() noexcept {
+  constexpr double kOnTheEdge = 1e-9;  // [rad]; a stop's place is met to rounding
+  const auto q = omni_inverse(figures_, truth_.position);
+  bool within = q.has_value();
+  for (std::size_t j = 0; within && j < 3; ++j)
+    within = (*q)[j] >= figures_.lower[j] - kOnTheEdge && (*q)[j] <= figures_.upper[j] + kOnTheEdge;
+  if (within) {
+    std::copy(q->begin(), q->end(), truth_.theta.begin());
+    return;
+  }
+  const auto edge = omni_nearest(figures_, truth_.position);
+  std::copy(edge.begin(), edge.end(), truth_.theta.begin());
+  const Vector3 stop = omni_position(figures_, truth_.theta);
+  const Vector3 beyond = truth_.position - stop;
+  const double outward = truth_.velocity.dot(beyond);
+  if (outward > 0) truth_.velocity -= outward / beyond.squaredNorm() * beyond;
+  truth_.position = stop;
+}
+
+void VirtualOmni::look_at_hand() noexcept {
+  const double t = static_cast<double>(tick_) * period_;
+  const HandSample now = hand_->sample(t, t + period_);
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(now.theta.begin(), now.theta.end(), finite) ||
+      !std::all_of(now.theta_dot.begin(), now.theta_dot.end(), finite)) {
+    wanted_.theta_dot = {};  // a hand that says nothing stays where it was
+  } else {
+    wanted_ = now;
+  }
+  truth_.goal = omni_position(figures_, wanted_.theta);
+}
+
+void VirtualOmni::sense() noexcept {
+  const double count = figures_.resolution / figures_.L1;
+  DeviceState& state = sensed_[static_cast<std::size_t>(tick_) % sensed_.size()];
+  for (std::size_t j = 0; j < 6; ++j) {
+    double& theta = truth_.theta[j];
+    if (j > 2) theta = wanted_.theta[j];
+    theta = std::clamp(theta, figures_.lower[j], figures_.upper[j]);
+    const double seen = count > 0 ? count * std::round(theta / count) : theta;
+    state.theta[j] = std::clamp(seen, figures_.lower[j], figures_.upper[j]);
+  }
+  state.stylus = omni_stylus(figures_, state.theta);
+  state.buttons = {wanted_.button, wanted_.clutch};
+}
+
+}  // namespace twinarm
