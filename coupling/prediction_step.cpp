@@ -54,9 +54,13 @@ class PartsStep {
   MatrixXd period(Integrator integrator, int& steps) const {
     steps = 1;
     for (const Held& held : held_) steps = std::min(std::lcm(steps, held.steps), kLongestPeriod);
-    const MatrixXd step = of(integrator);
+    // Its sources act at the new coordinates: forces are computed between the drift and the kick.
+    const bool drifts = integrator == Integrator::semi_implicit_xv;
+    const MatrixXd e = one_.topRows(n_), v = one_.middleRows(n_, n_);
+    const MatrixXd drift = drifts ? with(e + v, v) : one_;
+    const MatrixXd step = drifts ? with(e, v + a_) : of(integrator);
     MatrixXd all = one_;
-    for (int s = 0; s < steps; ++s) all = step * evaluated(s) * all;
+    for (int s = 0; s < steps; ++s) all = step * evaluated(s) * drift * all;
     return all;
   }
 
@@ -100,8 +104,6 @@ class PartsStep {
     switch (integrator) {
       case Integrator::semi_implicit:
         return with(e + v + a_, v + a_);
-      case Integrator::semi_implicit_xv:
-        return with(e + v, v + a_ * with(e + v, v));
       case Integrator::verlet: {
         const MatrixXd half = v + a_ / 2, moved = e + half;
         return with(moved, half + a_ * with(moved, v + a_) / 2);
@@ -116,6 +118,7 @@ class PartsStep {
       case Integrator::implicit_midpoint:
       case Integrator::trapezoid:
         return inverse_of(one_ - rate / 2) * (one_ + rate / 2);
+      case Integrator::semi_implicit_xv:  // in period()
       case Integrator::rk4:
       case Integrator::dopri5:
         break;
