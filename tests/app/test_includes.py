@@ -65,7 +65,7 @@ LIBRARIES = {
     "PNG": (r"png\.h", {"app/render/image.cpp", "app/render/image_decode.cpp"}),
 }
 # Parts of the program that are libraries of their own, so that tests can look at them.
-TESTS_OF_LIBRARY = {"tests/scene/": "app/scene/",
+TESTS_OF_LIBRARY = {"tests/scene/": "app/scene/", "tests/hand/": "app/hand/",
                     "tests/live/": "app/live/", "tests/inspect/": "app/inspect/",
                     "tests/render/": "app/render/", "tests/show/": ("app/show/", "app/render/")}
 

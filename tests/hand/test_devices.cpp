@@ -1,0 +1,95 @@
+// Every device by its name, and every name that is none.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "app/hand/devices.h"
+#include "coupling/recorded_trace.h"
+#include "coupling/synthetic_operator.h"
+#include "solver/fault.h"
+
+using namespace twinarm;
+
+namespace {
+
+Fault device_fault(const std::string& spec) {
+  try {
+    open_device(spec);
+  } catch (const InputError& error) {
+    REQUIRE(error.faults().size() == 1);
+    return error.faults()[0];
+  }
+  return {};
+}
+bool tells(const std::string& text, const std::string& word) {
+  return text.find(word) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("devices: each kind and each hand is in the list that people are shown") {
+  const std::string list = device_list();
+  for (const DeviceKind& kind : device_kinds()) {
+    CHECK(tells(list, kind.name + kind.argument));
+    CHECK(tells(list, kind.help));
+  }
+  for (const ScriptedHand& hand : scripted_hands()) CHECK(tells(list, hand.help));
+  CHECK(device_kinds().size() == 5);
+  CHECK(scripted_hands().size() == 6);
+}
+
+TEST_CASE("devices: every scripted hand moves a virtual Omni within its ranges") {
+  const std::string trace =
+      (std::filesystem::temp_directory_path() / "twinarm-devices-trace.csv").string();
+  write_trace(SyntheticOperator(5, 3), 100, trace);
+  for (const ScriptedHand& hand : scripted_hands()) {
+    CAPTURE(hand.name);
+    const std::string spec = "virtual:" + hand.name + (hand.name == "trace" ? ":" + trace : "");
+    const auto device = open_device(spec);
+    CHECK(device->has_motors());
+    double least = 1e9, most = -1e9;
+    for (int n = 0; n < 3000; ++n) {
+      const DeviceState state = device->poll(0.001 * n);
+      CHECK_UNARY(state.alive);
+      for (std::size_t j = 0; j < 3; ++j) {
+        CHECK_UNARY(state.theta[j] > device->figures().lower[j] - 1e-3);
+        CHECK_UNARY(state.theta[j] < device->figures().upper[j] + 1e-3);
+      }
+      least = std::min(least, state.theta[0]);
+      most = std::max(most, state.theta[0]);
+    }
+    CHECK(most - least > 0.05);
+  }
+  std::filesystem::remove(trace);
+}
+
+TEST_CASE("devices: names that are none are refused with the nearest one") {
+  CHECK(tells(device_fault("keybord").remedy, "keyboard"));
+  CHECK(tells(device_fault("virtual:papper").remedy, "paper"));
+  CHECK(tells(device_fault("virtual:synthetic:x").rule, "whole number"));
+  CHECK(tells(device_fault("virtual:step:3").rule, "takes nothing"));
+  CHECK(tells(device_fault("virtual:trace").rule, "no file"));
+  CHECK(tells(device_fault("virtual:trace:/nowhere.csv").rule, "cannot be opened"));
+  CHECK_FALSE(device_fault("").rule.empty());
+}
+
+TEST_CASE("devices: an address of a VRPN device that is none is refused before any connection") {
+  for (const char* address :
+       {"", "Phantom0", "@host", "Phantom0@", "Phantom0@:3883", "Phantom0@host:", "Phantom0@host:0",
+        "Phantom0@host:65536", "Phantom0@host:12x"}) {
+    CAPTURE(address);
+    CHECK(tells(device_fault(std::string("vrpn:") + address).remedy, "NAME") |
+          tells(device_fault(std::string("vrpn:") + address).remedy, "Phantom0@localhost:3883"));
+  }
+  CHECK(tells(device_fault("vrpn:P@[::1]:1").rule, "refused"));  // nobody listens at port 1
+  CHECK(tells(device_fault("vrpn:P@127.0.0.1:1").rule, "refused"));
+}
+
+TEST_CASE("devices: what is not plugged in or not running says what to do") {
+  CHECK(tells(device_fault("gamepad:/dev/input/no-such-js").remedy, "plug"));
+  CHECK(tells(device_fault("spacemouse:/no/such/socket").remedy, "spacenavd"));
+  CHECK(tells(device_fault("spacemouse:/" + std::string(300, 'x')).rule, "too long"));
+  CHECK(tells(device_fault("keyboard:/dev/null").rule, "no terminal"));
+  CHECK(tells(device_fault("keyboard:/no/such/terminal").remedy, "terminal"));
+}
