@@ -47,6 +47,11 @@ class VrpnClient {
     bytes.insert(bytes.end(), rest.begin(), rest.end());
     return bytes;
   }
+  // Until the client hangs up: who closes with words unheard takes back what he said.
+  void hear_end() const {
+    while (!stop_ && hear(1).size() == 1) {
+    }
+  }
   // Poses until the test is over, or `count` of them.
   void go_on(const vrpn_bytes::Bytes& bytes, int count = 1 << 20) const {
     for (int n = 0; n < count && !stop_; ++n) {
