@@ -10,6 +10,7 @@
 #include "app/hand/vrpn_client.h"
 #include "app/nearest_name.h"
 #include "coupling/automatic_motion.h"
+#include "coupling/device/hand_log.h"
 #include "coupling/recorded_trace.h"
 #include "coupling/scripted_hand.h"
 #include "coupling/synthetic_operator.h"
@@ -80,6 +81,7 @@ const std::vector<HandEntry>& hand_entries() {
       {{"trace", ":FILE", "a recorded hand, from a CSV file"},
        [](const std::string& file) -> std::shared_ptr<const HandSource> {
          if (file.empty()) refuse_spec("trace", "no file is given", "give one: trace:hand.csv");
+         if (is_hand_log(file)) return read_hand_log(file);
          auto trace = std::make_shared<RecordedTrace>(file);
          for (const std::string& warning : trace->quality().warnings)
            fmt::print(stderr, "twinarm: warning: {}: {}\n", file, warning);

@@ -74,8 +74,8 @@ void KeyDecoder::letter(std::uint8_t byte, double now, GestureHand& hand) {
                                      {'d', HandAxis::yaw, true},
                                      {'r', HandAxis::pitch, true},
                                      {'f', HandAxis::pitch, false},
-                                     {'q', HandAxis::roll, false},
-                                     {'e', HandAxis::roll, true}}};
+                                     {'q', HandAxis::roll, true},
+                                     {'e', HandAxis::roll, false}}};
   const auto lower = static_cast<char>(byte >= 'A' && byte <= 'Z' ? byte + 0x20 : byte);
   for (const Key& key : keys)
     if (key.letter == lower) press(key.axis, key.positive, now, hand);
@@ -126,8 +126,8 @@ void JoystickDecoder::tell_axes(GestureHand& hand) const {
   const double yaw = has_right_stick_ ? tilt(ABS_RX) : tilt(ABS_Z);
   // Triggers rest at -1 each: only their difference counts.
   const double triggers = has_right_stick_ ? 0.5 * (tilt(ABS_RZ) - tilt(ABS_Z)) : 0.0;
-  const double roll = std::clamp(triggers + tilt(ABS_HAT0X), -1.0, 1.0);
-  hand.axes({tilt(ABS_X), -tilt(ABS_Y), toward, yaw, -tilt(ABS_HAT0Y), roll});
+  const double clockwise = std::clamp(triggers + tilt(ABS_HAT0X), -1.0, 1.0);
+  hand.axes({tilt(ABS_X), -tilt(ABS_Y), toward, yaw, -tilt(ABS_HAT0Y), -clockwise});
 }
 
 void JoystickDecoder::feed(const std::uint8_t* bytes, std::size_t count, double /*now*/,
@@ -160,8 +160,8 @@ void SpaceMouseDecoder::feed(const std::uint8_t* bytes, std::size_t count, doubl
       std::array<double, 6> tilt{};
       for (std::size_t n = 0; n < 6; ++n)
         tilt[n] = std::clamp(word[n + 1] / kSpaceMouseFull, -1.0, 1.0);
-      // Its z goes away from the user; yaw is about y, pitch about x, roll about z.
-      hand.axes({tilt[0], tilt[1], -tilt[2], tilt[4], tilt[3], -tilt[5]});
+      // Its z goes away from the user. A positive yaw turns to the right, against y.
+      hand.axes({tilt[0], tilt[1], -tilt[2], -tilt[4], tilt[3], -tilt[5]});
     } else if ((word[0] == 1 || word[0] == 2) && word[1] >= 0 && word[1] < 2) {
       hand.button(static_cast<std::size_t>(word[1]), word[0] == 1);
     }

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -92,7 +93,8 @@ GestureSource open_gamepad(const std::string& path) {
 }
 
 GestureSource open_space_mouse(const std::string& path) {
-  const std::string file = path.empty() ? "/var/run/spnav.sock" : path;
+  const char* named = std::getenv("SPNAV_SOCKET");  // spacenavd's own variable
+  const std::string file = !path.empty() ? path : named ? named : "/var/run/spnav.sock";
   OwnedFd fd = open_socket(file);
   if (fd.get() < 0)
     refuse_device("spacemouse",

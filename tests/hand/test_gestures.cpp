@@ -31,6 +31,7 @@ namespace {
 struct Moved {
   Vector3 place;
   std::array<double, 3> gimbal;
+  Vector3 turn;  // of the stylus, as a rotation vector [rad]
 };
 Moved moved_by(GestureDecoder& decoder, const std::vector<std::uint8_t>& bytes) {
   const OmniFigures omni;
@@ -38,8 +39,11 @@ Moved moved_by(GestureDecoder& decoder, const std::vector<std::uint8_t>& bytes) 
   const OmniAngles before = hand.sample(0, 1).theta;
   decoder.feed(bytes.data(), bytes.size(), 0, hand);
   const OmniAngles after = hand.sample(0.1, 1).theta;
+  const Eigen::AngleAxisd turn(omni_stylus(omni, after).R *
+                               omni_stylus(omni, before).R.transpose());
   return {omni_position(omni, after) - omni_position(omni, before),
-          {after[3] - before[3], after[4] - before[4], after[5] - before[5]}};
+          {after[3] - before[3], after[4] - before[4], after[5] - before[5]},
+          turn.angle() * turn.axis()};
 }
 std::vector<std::uint8_t> letters(const std::string& text) {
   return {text.begin(), text.end()};
@@ -68,12 +72,16 @@ const Vector3 kRight = Vector3::UnitX(), kUp = Vector3::UnitY(), kToward = Vecto
 std::string scratch(const char* name) {
   return (std::filesystem::temp_directory_path() / (name + std::to_string(getpid()))).string();
 }
-// Polls a device through `seconds` of its time, a millisecond of it each real one.
-DeviceState run_for(HandDevice& device, double seconds, double& t) {
-  DeviceState state;
-  for (const double end = t + seconds; t < end; t += 0.001) {
-    state = device.poll(t);
+// Polls a device in real time.
+DeviceState run_for(HandDevice& device, double seconds) {
+  const auto clock = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+  };
+  DeviceState state = device.poll(clock());
+  for (const double end = clock() + seconds; clock() < end;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    state = device.poll(clock());
   }
   return state;
 }
@@ -165,7 +173,8 @@ TEST_CASE("game controller: buttons, and numbers that no controller has") {
   CHECK(hand.sample(0.1, 1).theta == before);
 }
 
-TEST_CASE("space mouse: six axes and two buttons, its z goes away from the user") {
+TEST_CASE(
+    "space mouse: six axes and two buttons, its z goes away from the user, and turns with it") {
   const auto push = [](std::size_t n, int value) {
     std::array<std::int32_t, 8> words{};
     words[n] = value;
@@ -178,8 +187,14 @@ TEST_CASE("space mouse: six axes and two buttons, its z goes away from the user"
   check(1, kRight);
   check(2, kUp);
   check(3, -kToward);
-  SpaceMouseDecoder turn, damaged;
-  CHECK(std::abs(moved_by(turn, push(5, 350)).gimbal[0]) == doctest::Approx(0.15));
+  const auto turned = [&](std::size_t n) {
+    SpaceMouseDecoder decoder;
+    return moved_by(decoder, push(n, 350)).turn;
+  };
+  CHECK(turned(4).x() > 0.1);
+  CHECK(turned(5).y() > 0.05);
+  CHECK(turned(6).z() < -0.01);  // about the stylus, which stands nearly upright
+  SpaceMouseDecoder damaged;
   check_goes(moved_by(damaged, space_mouse({99, 350, 350, 350, 0, 0, 0, 0})), kRight, 0);
   SpaceMouseDecoder decoder;
   GestureHand hand{OmniFigures()};
@@ -223,11 +238,10 @@ TEST_CASE(
     CHECK(flags() == ISIG);  // Ctrl-C is still a signal
     CHECK_FALSE(device->has_motors());
     CHECK_THROWS_AS(open_device("keyboard:" + terminal), InputError);  // one hand is enough
-    double t = 0;
-    const DeviceState before = run_for(*device, 0.05, t);
+    const DeviceState before = run_for(*device, 0.05);
     CHECK(before.alive);
     CHECK(write(master.get(), "\x1b[C ", 4) == 4);
-    const DeviceState after = run_for(*device, 0.5, t);
+    const DeviceState after = run_for(*device, 0.5);
     CHECK(after.stylus.p.x() > before.stylus.p.x() + 0.002);
     CHECK(after.buttons[0]);
   }
@@ -272,20 +286,19 @@ TEST_CASE("game controller: unplugged it is not alive and stands; plugged in aga
   REQUIRE(mkfifo(path.c_str(), 0600) == 0);
   OwnedFd plug(open(path.c_str(), O_RDWR | O_CLOEXEC));
   const auto device = open_device("gamepad:" + path);
-  double t = 0;
   const auto tilt = joystick(32767, 0x02, 0);
   CHECK(write(plug.get(), tilt.data(), tilt.size()) == 8);
-  const DeviceState moving = run_for(*device, 0.3, t);
+  const DeviceState moving = run_for(*device, 0.3);
   CHECK(moving.alive);
   std::filesystem::remove(path);
   plug = OwnedFd();
-  const DeviceState gone = run_for(*device, 0.5, t);
+  const DeviceState gone = run_for(*device, 0.5);
   CHECK_FALSE(gone.alive);
-  CHECK((run_for(*device, 0.2, t).stylus.p - gone.stylus.p).norm() < 1e-3);
+  CHECK((run_for(*device, 0.2).stylus.p - gone.stylus.p).norm() < 1e-3);
   REQUIRE(mkfifo(path.c_str(), 0600) == 0);
   plug = OwnedFd(open(path.c_str(), O_RDWR | O_CLOEXEC));
   bool alive = false;
-  for (int n = 0; n < 20 && !alive; ++n) alive = run_for(*device, 0.1, t).alive;
+  for (int n = 0; n < 20 && !alive; ++n) alive = run_for(*device, 0.1).alive;
   CHECK(alive);
   std::filesystem::remove(path);
 }
@@ -300,10 +313,9 @@ TEST_CASE("space mouse: spacenavd's socket moves the device") {
   REQUIRE(listen(daemon.get(), 1) == 0);
   const auto device = open_device("spacemouse:" + path);
   const OwnedFd client(accept(daemon.get(), nullptr, nullptr));
-  double t = 0;
-  const DeviceState before = run_for(*device, 0.05, t);
+  const DeviceState before = run_for(*device, 0.05);
   const auto push = space_mouse({0, 0, 350, 0, 0, 0, 0, 16});
   CHECK(write(client.get(), push.data(), push.size()) == 32);
-  CHECK(run_for(*device, 0.4, t).stylus.p.y() > before.stylus.p.y() + 0.005);
+  CHECK(run_for(*device, 0.4).stylus.p.y() > before.stylus.p.y() + 0.005);
   std::filesystem::remove(path);
 }

@@ -20,10 +20,10 @@ namespace {
 double test_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-// Polls at 1 kHz until something is so, at most 4 s.
+// Polls at 1 kHz until something is so, at most 8 s.
 template <class Condition>
 bool soon(VrpnDevice& device, const Condition& condition) {
-  const double end = test_clock() + 4;
+  const double end = test_clock() + 8;
   while (test_clock() < end) {
     if (condition(device.poll(test_clock()))) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -43,8 +43,8 @@ struct Said {
 // Short patience, so that the tests are quick; a silence that a loaded machine does not make.
 VrpnSettings quick(Said& said) {
   VrpnSettings settings;
-  settings.silence = 0.4;
-  settings.patience = 1;
+  settings.silence = 0.8;
+  settings.patience = 1.5;
   settings.first_retry = 0.02;
   settings.longest_retry = 0.1;
   settings.say = [&said](const std::string& line) {
@@ -94,7 +94,7 @@ TEST_CASE("VRPN device: greets with the cookie, is given poses and buttons, name
   const double now = 1000;  // any clock: only differences are used
   const DeviceState state = device.poll(now);
   CHECK(state.alive);
-  CHECK(std::abs(state.t - now) < 0.4);
+  CHECK(std::abs(state.t - now) < 0.8);
   for (std::size_t j = 0; j < 3; ++j) CHECK(std::abs(state.theta[j]) < 1e-12);
   CHECK((state.stylus.p - Vector3(0, -0.11, -0.035)).norm() < 1e-12);
   CHECK((state.stylus.R - Matrix3::Identity()).norm() < 1e-12);
@@ -181,7 +181,7 @@ TEST_CASE("VRPN device: silence makes it not alive, in place; speech makes it al
   CHECK(soon(device, [](const DeviceState& s) { return !s.alive; }));
   const DeviceState still = device.poll(test_clock());
   CHECK(still.theta[0] == doctest::Approx(0.3));
-  CHECK(test_clock() - still.t > 0.4);  // it says how old it is
+  CHECK(test_clock() - still.t > 0.8);  // it says how old it is
   speak = true;
   CHECK(soon(device, [](const DeviceState& s) { return s.alive; }));
   CHECK(device.counts().broken == 0);
@@ -213,7 +213,7 @@ TEST_CASE("VRPN device: a connection that stays mute is given up after its patie
   Said said;
   VrpnDevice device({"Phantom0", "127.0.0.1", server.port()}, {}, quick(said));
   CHECK(soon(device, [](const DeviceState& s) { return std::abs(s.theta[0] - 0.1) < 1e-12; }));
-  CHECK(said.count("no pose for 1 s") == 1);
+  CHECK(said.count("no pose for 1.5 s") == 1);
 }
 
 TEST_CASE("VRPN device: one that cannot be had is refused with a remedy") {
@@ -307,5 +307,5 @@ TEST_CASE("VRPN device: reports at 60 Hz make a path, not a staircase") {
   CHECK(soon(device, [](const DeviceState& s) {
     return std::abs(s.theta[0] - 0.01 * (reports - 1)) < 1e-12;
   }));
-  CHECK(angles.size() > 3 * reports);
+  CHECK(angles.size() > 2 * reports);
 }
