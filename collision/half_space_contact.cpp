@@ -47,6 +47,13 @@ double half_space_distance(const Placed& half_space, const Placed& body) {
          std::get<HalfSpace>(half_space.solid.shape).offset;
 }
 
+double half_space_distance(const Placed& half_space, const Aabb& box) {
+  const Vector3 n = outward_W(half_space);
+  const Vector3 centre = (box.low + box.high) / 2, half = (box.high - box.low) / 2;
+  return n.dot(centre - half_space.X_WG.p) - n.cwiseAbs().dot(half) -
+         std::get<HalfSpace>(half_space.solid.shape).offset;
+}
+
 void half_space_contacts(const Placed& half_space, const Placed& body, double margin,
                          std::vector<ManifoldPoint>& out) {
   out.clear();

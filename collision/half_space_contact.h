@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "collision/broad_phase.h"
 #include "collision/clip.h"
 #include "collision/solid.h"
 
@@ -13,6 +14,8 @@ Vector3 outward_W(const Placed& half_space);
 
 // Signed distance of `body` from the half-space: negative inside [m].
 double half_space_distance(const Placed& half_space, const Placed& body);
+// Of a box along the world's axes: no body within it is nearer.
+double half_space_distance(const Placed& half_space, const Aabb& box);
 
 // Up to four contacts with depth > -margin, for the normal out of the half-space. p_WA is on its
 // surface, p_WB on the body.

@@ -18,11 +18,21 @@ struct Solid {
       : shape(s),
         core(make_polytope(s)),
         patches(make_patches(s, core)),
-        surface(make_mesh_surface(s)) {}
+        surface(make_mesh_surface(s)) {
+    if (!core.exists && !surface) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3 e = Vector3::Unit(axis);
+      const double low = support(s, -e)[axis], high = support(s, e)[axis];
+      centre[axis] = (low + high) / 2;
+      half[axis] = (high - low) / 2;
+    }
+  }
   Shape shape;
   Polytope core;
   Patches patches;
   std::shared_ptr<const MeshSurface> surface;  // of a triangle mesh, else null
+  // The bounding box in its own axes, of what has vertices [m].
+  Vector3 centre = Vector3::Zero(), half = Vector3::Zero();
 };
 
 // A solid where it stands in this step. Cheap to copy; does not own.
