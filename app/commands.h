@@ -80,6 +80,18 @@ int run_coupling_gains(const CouplingGainsOptions& options);
 
 int run_simulate(const SimulateOptions& options);
 
+struct HandOptions {
+  std::filesystem::path scene;
+  std::string device = "virtual:synthetic";  // app/hand/devices.h
+  std::string mapping = "paper";
+  std::optional<double> scale, force_scale;  // of the mapping
+  std::optional<double> duration, step;      // [s]; left out: until Ctrl-C, the scene's
+  bool simulated = false, fifo = false, control = false, picture = false, record = false;
+  std::filesystem::path out = "out/hand";
+  bool json = false;
+};
+int run_hand(const HandOptions& options);  // 3 where the robot left all bounds
+
 struct ExportOptions {
   std::filesystem::path recording;
   std::filesystem::path page;  // an HTML file with all of the run; empty: text on stdout

@@ -32,10 +32,10 @@ void name_rows(const Coordinates& coordinates, Predicted& found) {
 std::optional<Scheme> scheme_as_printed(Integrator integrator) {
   switch (integrator) {
     case Integrator::semi_implicit:
+    case Integrator::semi_implicit_xv:
     case Integrator::implicit_euler:
       return Scheme::semi_implicit_difference;
     case Integrator::euler:
-    case Integrator::semi_implicit_xv:
       return Scheme::euler_difference;
     case Integrator::dopri5:
       return {};

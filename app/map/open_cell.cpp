@@ -13,16 +13,6 @@
 namespace twinarm {
 namespace {
 
-// Files that lie beside the scene are named from the root: the copy may lie elsewhere.
-void name_from_root(const std::filesystem::path& folder, TomlValue& value) {
-  std::error_code ignored;
-  if (value.kind == TomlValue::Kind::text && !value.text.empty() &&
-      std::filesystem::is_regular_file(folder / value.text, ignored))
-    value.text = std::filesystem::absolute(folder / value.text).lexically_normal().string();
-  for (TomlValue& item : value.items) name_from_root(folder, item);
-  for (TomlValue& member : value.members) name_from_root(folder, member);
-}
-
 TomlValue& member_or_new(TomlValue& table, const std::string& key) {
   for (TomlValue& member : table.members)
     if (member.key == key) return member;
@@ -50,7 +40,7 @@ TomlValue scene_of_cell(const MapJob& job, double x, double y) {
     member.kind = TomlValue::Kind::text;
     member.text = job.run.integrator;
   }
-  name_from_root(job.run.robot.model.parent_path(), scene);
+  name_files_from_root(job.run.robot.model.parent_path(), scene);
   return scene;
 }
 

@@ -83,4 +83,13 @@ std::string to_toml(const TomlValue& root) {
   return text;
 }
 
+void name_files_from_root(const std::filesystem::path& folder, TomlValue& scene) {
+  std::error_code ignored;
+  if (scene.kind == TomlValue::Kind::text && !scene.text.empty() &&
+      std::filesystem::is_regular_file(folder / scene.text, ignored))
+    scene.text = std::filesystem::absolute(folder / scene.text).lexically_normal().string();
+  for (TomlValue& item : scene.items) name_files_from_root(folder, item);
+  for (TomlValue& member : scene.members) name_files_from_root(folder, member);
+}
+
 }  // namespace twinarm

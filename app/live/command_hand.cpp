@@ -1,0 +1,159 @@
+// twinarm hand: a scene under a hand device, in real time (docs/hand.md).
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <thread>
+
+#include "app/commands.h"
+#include "app/hand/devices.h"
+#include "app/interrupt.h"
+#include "app/live/live_output.h"
+#include "app/live/run_again.h"
+#include "app/output_file.h"
+#include "app/progress.h"
+#include "app/scene/read_scene.h"
+#include "coupling/device/hand_log.h"
+#include "solver/fault.h"
+
+namespace twinarm {
+namespace {
+
+const std::vector<std::string> kMappings{"paper", "arm", "cartesian"};
+
+MappingSpec mapping_of(const HandOptions& options, FaultList& faults) {
+  MappingSpec spec;
+  const auto found = std::find(kMappings.begin(), kMappings.end(), options.mapping);
+  if (found == kMappings.end())
+    faults.add(
+        {"", 0, "--mapping", "'" + options.mapping + "' is none", "give paper, arm or cartesian"});
+  else
+    spec.kind = static_cast<MappingKind>(found - kMappings.begin());
+  if (options.scale) spec.scale = *options.scale;
+  if (options.force_scale) spec.force_scale = *options.force_scale;
+  return spec;
+}
+
+// The log grows while the run goes on: what was written stays, whatever happens to the program.
+class LogFile {
+ public:
+  explicit LogFile(const std::filesystem::path& file) : stream_(file, std::ios::binary) {
+    if (!stream_)
+      throw InputError(
+          {{file.string(), 0, "--out", "the log cannot be written", "give a folder that can"}});
+    stream_ << hand_log_header();
+  }
+  void write(const HandStep& step) { stream_ << hand_log_line(step); }
+  void flush() { stream_.flush(); }
+  bool is_good() const { return stream_.good(); }
+
+ private:
+  std::ofstream stream_;
+};
+
+void gather(const TickView& view, double step, LiveSummary& summary) {
+  ++summary.ticks;
+  summary.held += view.mode == HandWatch::Mode::held ? 1 : 0;
+  summary.released += view.mode == HandWatch::Mode::released ? 1 : 0;
+  for (std::size_t j = 0; j < summary.joints.size(); ++j) {
+    const double error = std::abs(view.error[j]);
+    summary.largest_error[j] = std::max(summary.largest_error[j], error);
+    summary.sum_error[j] += error;
+  }
+  for (std::size_t j = 0; j < 3; ++j)
+    summary.largest_torque[j] = std::max(summary.largest_torque[j], std::abs(view.felt[j]));
+  summary.duration = view.hand.t + step;
+}
+
+SceneModel scene_of(const HandOptions& options, FaultList& faults) {
+  if (options.scene.extension() != ".toml")
+    faults.add({options.scene.string(), 0, "scene", "it is no scene",
+                "give a TOML file with couplings whose target is \"device\""});
+  if (options.duration && !(*options.duration > 0))
+    faults.add({"", 0, "--duration", "must be a positive number of seconds", "give --duration 60"});
+  if (options.control && options.simulated)
+    faults.add({"", 0, "--control", "there is nothing to be compared without real time",
+                "leave --simulated out"});
+  faults.check();
+  return build_scene(read_scene(options.scene));
+}
+
+// The run, its ticks gathered and written as they come.
+void run_live(LiveRun& run, const HandOptions& options, LogFile& log, LiveSummary& summary) {
+  ServoPlan plan;
+  plan.duration = options.duration.value_or(HUGE_VAL);
+  plan.real_time = !options.simulated;
+  plan.ask_for_fifo = options.fifo;
+  plan.control = options.control;
+  std::atomic<bool> stop{false};
+  Progress progress(options.json || isatty(STDERR_FILENO) == 0);
+  progress.stage("hand", 1);
+  summary.servo = run_servo(run, plan, stop, [&](SpscRing<TickView>& ring) {
+    for (TickView view; ring.pop(view);) {
+      gather(view, run.step(), summary);
+      log.write(view.hand);
+    }
+    log.flush();
+    if (is_interrupted()) stop = true;  // an ordinary end: what was done is kept
+    if (options.duration) progress.advance(std::min(1.0, summary.duration / *options.duration));
+  });
+  progress.finish();
+  summary.silences = run.watch().silences();
+}
+
+}  // namespace
+
+int run_hand(const HandOptions& options) {
+  constexpr int kStopped = 3;
+  if (options.device == "list") {
+    fmt::print("{}", device_list());
+    return 0;
+  }
+  FaultList faults;
+  LiveOptions live;
+  live.mapping = mapping_of(options, faults);
+  live.step = options.step.value_or(0);
+  const SceneModel scene = scene_of(options, faults);
+  const std::unique_ptr<HandDevice> device = open_device(options.device);
+  LiveRun run(scene, *device, live);
+
+  make_folder(options.out);
+  LiveSummary summary;
+  summary.scene = options.scene.string();
+  summary.device = device->description();
+  summary.mapping = options.mapping;
+  summary.felt = run.mapping().what_is_felt();
+  summary.joints = scene.couplings[run.leader()].driven.turned;
+  summary.largest_error.assign(summary.joints.size(), 0);
+  summary.sum_error.assign(summary.joints.size(), 0);
+  summary.step = run.step();
+  summary.real_time = !options.simulated;
+  summary.log = (options.out / "hand.csv").string();
+  {
+    LogFile log(summary.log);
+    run_live(run, options, log, summary);
+    if (!log.is_good())
+      throw InputError({{summary.log, 0, "--out", "the log could not be written to its end",
+                         "make room on the disk"}});
+  }
+  if (summary.real_time && options.picture) {
+    summary.picture = (options.out / "timing.svg").string();
+    draw_timing(summary, summary.picture);
+  }
+  if (options.record && summary.ticks > 0) {
+    const std::filesystem::path again = options.out / "scene.toml";
+    write_scene_of_log(options.scene, summary.log, run.step(), summary.duration, again);
+    summary.recording = (options.out / "run.twinrec").string();
+    const State<double> end = record_again(again, summary.recording);
+    const State<double>& lived = run.simulation().state();
+    summary.same_bits = end.q == lived.q && end.qd == lived.qd;
+  }
+  fmt::print("{}", options.json ? live_json(summary) + "\n" : live_table(summary));
+  return summary.servo.finite ? 0 : kStopped;
+}
+
+}  // namespace twinarm
