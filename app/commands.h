@@ -15,7 +15,8 @@ namespace twinarm {
 
 struct StudyOptions {
   std::filesystem::path out = "out/study";
-  std::string device;            // "synthetic" or "trace"; empty: a trace if one is given
+  // "synthetic", "trace", or a device (app/hand/devices.h); empty: a trace if one is given
+  std::string device;
   std::optional<unsigned> seed;  // left out: the settings' seed
   std::filesystem::path trace;
   bool recalibrate = false, identify = false, paper_view = false, json = false;

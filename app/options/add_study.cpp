@@ -16,10 +16,10 @@ void add_study(CLI::App& app, CommandLine& line) {
                          "Example:  twinarm study --out out/study");
   add_file_option(*study, "--out", options->out, "folder for report, figures, CSV")
       ->capture_default_str();
-  study
-      ->add_option("--device", options->device,
-                   "hand of E1 and E2: synthetic, or trace (default: trace if one is given)")
-      ->check(CLI::IsMember({"synthetic", "trace"}));
+  study->add_option(
+      "--device", options->device,
+      "hand of E1 and E2: synthetic, trace (the default if one is given), or a device "
+      "as `twinarm hand --device list` has them");
   study->add_option("--seed", options->seed, "of the synthetic operator");
   add_file_option(*study, "--trace", options->trace, "CSV of a recorded hand, for E1 and E2");
   study->add_flag("--recalibrate", options->recalibrate,

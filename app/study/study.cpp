@@ -4,7 +4,9 @@
 #include <chrono>
 
 #include "app/commands.h"
+#include "app/hand/devices.h"
 #include "app/interrupt.h"
+#include "app/live/record_hand.h"
 #include "app/output_file.h"
 #include "app/study/calibrate.h"
 #include "app/study/figures.h"
@@ -24,12 +26,35 @@
 namespace twinarm {
 namespace {
 
+// What a device does for as long as the synthetic hand would; kept as OUT/hand.csv, which can be
+// given as a trace from then on.
+std::unique_ptr<HandSource> hand_of_device(const StudyOptions& options,
+                                           const StudySettings& settings) {
+  const std::unique_ptr<HandDevice> device = open_device(options.device);
+  const bool real_time = !options.device.starts_with("virtual");
+  make_folder(options.out);
+  Progress progress(options.json);
+  progress.stage("the hand: " + device->description(), 1);
+  auto hand = record_hand(*device, settings.operator_duration, real_time, [&](double t) {
+    check_interrupt();
+    progress.advance(t / settings.operator_duration);
+  });
+  progress.finish();
+  write_hand_log(*hand, options.out / "hand.csv");
+  return hand;
+}
+
+bool is_device(const StudyOptions& options) {
+  return !options.device.empty() && options.device != "synthetic" && options.device != "trace";
+}
+
 std::unique_ptr<HandSource> make_hand(const StudyOptions& options, const StudySettings& settings) {
   if (options.device == "trace" && options.trace.empty())
     throw InputError({{"", 0, "--device trace", "no trace is given", "add --trace FILE.csv"}});
-  if (options.device == "synthetic" && !options.trace.empty())
-    throw InputError({{"", 0, "--trace", "a trace is given, but --device says synthetic",
+  if (!options.device.empty() && options.device != "trace" && !options.trace.empty())
+    throw InputError({{"", 0, "--trace", "a trace is given, but --device says " + options.device,
                        "leave --device out, or give --device trace"}});
+  if (is_device(options)) return hand_of_device(options, settings);
   if (is_hand_log(options.trace)) return read_hand_log(options.trace);
   if (!options.trace.empty()) {
     auto trace = std::make_unique<RecordedTrace>(options.trace);
@@ -44,12 +69,14 @@ std::unique_ptr<HandSource> make_hand(const StudyOptions& options, const StudySe
 SceneHand scene_hand(const StudyOptions& options, const StudySettings& settings,
                      const HandSource& hand) {
   if (!options.trace.empty()) return traced_hand(hand, options.trace);
+  if (is_device(options)) return traced_hand(hand, options.out / "hand.csv");
   return synthetic_hand(hand, options.seed.value_or(settings.seed));
 }
 
 std::string command_of(const StudyOptions& options) {
   std::string command = "twinarm study --out " + options.out.string();
   if (!options.trace.empty()) command += " --trace " + options.trace.string();
+  if (is_device(options)) command += " --device " + options.device;
   if (options.seed) command += fmt::format(" --seed {}", *options.seed);
   if (options.paper_view) command += " --paper-view";
   return command;

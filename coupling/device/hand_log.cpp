@@ -10,6 +10,7 @@
 
 #include "coupling/recorded_trace.h"
 #include "solver/fault.h"
+#include "solver/whole_file.h"
 
 namespace twinarm {
 namespace {
@@ -57,6 +58,12 @@ std::string hand_log_line(const HandStep& step) {
   for (const double angle : step.hand.theta) text += fmt::format(",{}", angle);
   for (const double rate : step.hand.theta_dot) text += fmt::format(",{}", rate);
   return text + (step.hand.button ? ",1\n" : ",0\n");
+}
+
+void write_hand_log(const LiveHand& hand, const std::filesystem::path& file) {
+  std::string text = hand_log_header();
+  for (const HandStep& step : hand.steps()) text += hand_log_line(step);
+  write_whole_file(file, text);
 }
 
 bool is_hand_log(const std::filesystem::path& file) {

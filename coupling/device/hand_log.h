@@ -16,6 +16,9 @@ namespace twinarm {
 std::string hand_log_header();
 std::string hand_log_line(const HandStep& step);
 
+// All steps that the hand remembers, to a temporary name, then renamed.
+void write_hand_log(const LiveHand& hand, const std::filesystem::path& file);
+
 // Whether the file's header is that of a log, and not of a trace. False where it cannot be read.
 bool is_hand_log(const std::filesystem::path& file);
 // Throws one InputError with every fault of the file. A torn last line, of a run that was killed,

@@ -38,6 +38,13 @@ HandSample LiveHand::sample(double t, double toward) const {
   return hand;
 }
 
+std::vector<HandStep> LiveHand::steps() const {
+  std::vector<HandStep> all;
+  for (std::size_t n = count_ - std::min(count_, steps_.size()); n < count_; ++n)
+    all.push_back(at(n));
+  return all;
+}
+
 double LiveHand::duration() const {
   return count_ == 0 ? 0 : newest().t + newest().h;
 }

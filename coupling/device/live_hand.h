@@ -29,6 +29,8 @@ class LiveHand final : public HandSource {
   void set(const HandTarget& target, double t, double h) noexcept;
   void set(const HandStep& step) noexcept;
   const HandStep& newest() const { return at(count_ - 1); }
+  // Those that are remembered, the oldest first.
+  std::vector<HandStep> steps() const;
   // Before the first step it rests where that begins; after the newest where that ends.
   HandSample sample(double t, double toward) const override;
   double duration() const override;  // to the end of the newest step [s]
