@@ -8,14 +8,13 @@
 
 #include "app/simulate/limit_watch.h"
 #include "app/simulate/run_end.h"
+#include "app/simulate/time_grid.h"
 #include "collision/import/number_text.h"
 #include "solver/energy.h"
 
 namespace twinarm {
 namespace {
 
-// Two times within this part of a step are the same one.
-constexpr double kSameTime = 1e-9;
 // Bodies that stand deeper in one another at the start are told of [m].
 constexpr double kDeepStart = 1e-4;
 
@@ -29,27 +28,6 @@ void visit_head(Memory& memory, long& steps, double& end, long& unsolved, long& 
   memory.visit(unsolved);
   memory.visit(unlocated);
 }
-
-// The times t = n step, the last one `duration`.
-class Grid {
- public:
-  explicit Grid(const RunPlan& plan) : step_(plan.step), duration_(plan.duration) {
-    const double whole = std::floor(duration_ / step_ + kSameTime);
-    steps_ = static_cast<long>(whole);
-    if (duration_ - whole * step_ > kSameTime * step_) ++steps_;
-  }
-  long steps() const { return steps_; }
-  double time(long n) const { return n >= steps_ ? duration_ : static_cast<double>(n) * step_; }
-  // The last one is shorter where the duration is no multiple of the step.
-  double length(long n) const {
-    const double rest = duration_ - time(n);
-    return rest < step_ * (1 - kSameTime) ? rest : step_;
-  }
-
- private:
-  double step_, duration_;
-  long steps_ = 0;
-};
 
 class Run : public RunView {
  public:
@@ -125,17 +103,7 @@ class Run : public RunView {
       run_grid();
     if (!result_.post_mortem && result_.steps < last_step_)  // what is left is the end
       for (; next_ < plan_.times.size(); ++next_) watch_.sample(plan_.times[next_], sim_.state());
-    if (unsolved_ > 0)
-      result_.warnings.push_back(
-          fmt::format("in {} of {} steps the equation of the step was not solved to rounding",
-                      unsolved_, result_.steps));
-    if (unlocated_ > 0)
-      result_.warnings.push_back(fmt::format(
-          "in {} of {} steps there were too many events to locate them all (bound: {} laws "
-          "solved): "
-          "what was left of these steps was taken as one step of fixed size, of first order; give "
-          "--contact rigid, or a shorter --step",
-          unlocated_, result_.steps, EventStep::kMostLaws));
+    warn_of_steps();
     result_.ledger = ledger();
     result_.momentum = momentum();
     if (contacts_) result_.contacts = contacts_->contact_count();
@@ -153,6 +121,19 @@ class Run : public RunView {
             ? "their springs throw them apart; place them apart, or give --contact rigid"
             : "what overlaps is moved apart, no faster than 0.5 m/s"));
     if (watch_.warn) watch_.warn(result_.warnings.back());
+  }
+  void warn_of_steps() {
+    if (unsolved_ > 0)
+      result_.warnings.push_back(
+          fmt::format("in {} of {} steps the equation of the step was not solved to rounding",
+                      unsolved_, result_.steps));
+    if (unlocated_ > 0)
+      result_.warnings.push_back(fmt::format(
+          "in {} of {} steps there were too many events to locate them all (bound: {} laws "
+          "solved): "
+          "what was left of these steps was taken as one step of fixed size, of first order; give "
+          "--contact rigid, or a shorter --step",
+          unlocated_, result_.steps, EventStep::kMostLaws));
   }
   void visit_memory(Memory& memory) {
     visit_head(memory, result_.steps, result_.end, unsolved_, unlocated_);
@@ -174,7 +155,7 @@ class Run : public RunView {
     while (next_ < plan_.times.size() && plan_.times[next_] < now) ++next_;
   }
   void run_grid() {
-    const Grid grid(plan_);
+    const TimeGrid grid(plan_.step, plan_.duration);
     for (long n = result_.steps; n < std::min(grid.steps(), last_step_); ++n) {
       const double h = grid.length(n);
       const auto take = [&] { return sim_.step(h); };

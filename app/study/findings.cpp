@@ -1,13 +1,12 @@
 #include "app/study/findings.h"
-#include "solver/model_builder.h"
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/interrupt.h"
+#include "app/study/findings_detail.h"
 #include "app/study/predictions.h"
 #include "app/study/variants.h"
 
@@ -17,16 +16,11 @@ std::string words(const std::array<double, 2>& p) {
   return fmt::format("{:.3g}/{:.3g}", p[0], p[1]);
 }
 
-namespace {
-
-using Pair = std::array<double, 2>;
-
-bool near(double measured, double predicted, double relative) {
+bool is_near(double measured, double predicted, double relative) {
   return std::abs(measured - predicted) <= relative * std::abs(predicted);
 }
 
-// A run on the automatic motion of a two-link robot, consistent unless the spec says otherwise.
-RunResult automatic(const StudyRobot& robot, RunSpec spec, double k, double b, double rate) {
+RunResult run_automatic(const StudyRobot& robot, RunSpec spec, double k, double b, double rate) {
   spec.gains = Gains::both(k, b);
   spec.rate = rate;
   return run(robot, AutomaticMotion(HandMapping{}), spec);
@@ -36,90 +30,7 @@ const char* robot_words(const std::string& name) {
   return name == "findings_set0" ? "5/3 kg, 0.40/0.30 m" : "5/3 kg, arms 10 : 14";
 }
 
-// ---- equal gains
-// ---------------------------------------------------------------------------------
-
-// Ratio of the squared natural frequencies of equal gains at q2 = 0.
-double mode_ratio(const StudyRobot& robot, const std::string& law) {
-  const Model<double>& model = robot.kvr_model();
-  const State<double> x(model);
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
-  const AutomaticMotion hand{HandMapping{}};
-  KinematicRobot kvr(model, hand, HandMapping{}, robot.joints());
-  CouplingSpec spec;
-  spec.type = law == "linear" ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
-  spec.measure = law == "joint" ? Measure::joint : Measure::world;
-  spec.springs = robot.springs(1, 1, 1, 1);
-  const Eigen::VectorXd squares =
-      squared_frequencies(mass_matrix(model, x), make_coupling(spec, model, kvr)->joint_space(k).K);
-  return squares(squares.size() - 1) / squares(0);
-}
-
-void add_modes(const StudyInputs& inputs, const Predictions& predictions,
-               std::vector<Finding>& findings) {
-  for (const PredictedModes& modes : predictions.modes)
-    for (const auto& [law, ratio] : modes.ratio) {
-      const double measured = mode_ratio(inputs.findings.at(modes.robot), law);
-      findings.push_back(
-          {"equal gains",
-           fmt::format("{}, {}: equal gains on both links spread the squared natural "
-                       "frequencies by {:g} (predicted)",
-                       modes.robot, law, ratio),
-           fmt::format("{:.2f}", measured), near(measured, ratio, 0.02)});
-    }
-}
-
-// Springs at point masses, each as stiff as its mass: K = (k/m) M, one frequency for all modes.
-void add_proportional_springs(std::vector<Finding>& findings) {
-  const double l1 = 0.25, l2 = 0.35, m1 = 5, m2 = 3;
-  ModelBuilder builder;
-  const auto point = [](double m, double l) { return BodyInertia{m, {l, 0, 0}, Matrix3::Zero()}; };
-  builder.add_body("arm1", 0, "joint1", JointType::revolute, {}, Vector3::UnitZ(), point(m1, l1));
-  builder.add_body("arm2", 1, "joint2", JointType::revolute, {Matrix3::Identity(), {l1, 0, 0}},
-                   Vector3::UnitZ(), point(m2, l2));
-  const Model<double> model = builder.build();
-  double worst = 0;
-  for (double q2 : {-2.0, -0.7, 0.0, 0.4, 1.9}) {
-    State<double> x(model);
-    x.q[1] = q2;
-    Kinematics k(model);
-    forward_kinematics(model, x, k);
-    Eigen::Matrix2d K = Eigen::Matrix2d::Zero();
-    for (const auto& [body, l, m] : {std::tuple{1, l1, m1}, {2, l2, m2}}) {
-      const auto J = point_jacobian(model, k, body, k.position(body, {l, 0, 0}));
-      K += m * J.transpose() * J;
-    }
-    const Eigen::MatrixXd M = mass_matrix(model, x);
-    worst = std::max(worst, (K - M).norm() / M.norm());
-  }
-  findings.push_back(
-      {"equal gains",
-       "linear springs at point masses, stiff in proportion to them, give K = (k/m) M "
-       "at every pose: one frequency for all modes",
-       fmt::format("largest deviation {:.1e}", worst), worst < 1e-12});
-}
-
-void add_equal_gains(const StudyInputs& inputs, std::vector<Finding>& findings) {
-  for (const char* name : {"findings_set0", "findings_10_14"}) {
-    const StudyRobot& robot = inputs.findings.at(name);
-    const RunResult torsional = automatic(robot, row_spec("world", 1000), 22000, 400, 1000);
-    const RunResult linear = automatic(robot, row_spec("linear", 1000), 1200, 40, 1000);
-    findings.push_back(
-        {"equal gains",
-         fmt::format(
-             "{}: the numbers of a good linear coupling (22000, 400) as torsional gains "
-             "diverge at 1 kHz; those of a good torsional one (1200, 40) as linear gains are "
-             "far too soft",
-             robot_words(name)),
-         fmt::format("torsional {}; linear {} deg", torsional.stable ? "stable" : "diverges",
-                     words(linear.max_deg)),
-         !torsional.stable && linear.max_deg[1] > 10});
-  }
-}
-
-// ---- update rate
-// -----------------------------------------------------------------------------------
+namespace {
 
 // Every searched row of the two-link robots, run again; beside its prediction where there is one.
 void add_rows(const StudyInputs& inputs, const Predictions& predictions, StudyResults& results,
@@ -150,9 +61,9 @@ void add_rows(const StudyInputs& inputs, const Predictions& predictions, StudyRe
         });
     if (row == predictions.rows.end()) continue;  // measured, nothing was claimed
     for (std::size_t j = 0; j < 2; ++j) {
-      finding.holds = finding.holds && near(errors.max_deg[j], row->max_deg[j], 0.1);
+      finding.holds = finding.holds && is_near(errors.max_deg[j], row->max_deg[j], 0.1);
       if (row->mean_deg)
-        finding.holds = finding.holds && near(errors.mean_deg[j], (*row->mean_deg)[j], 0.1);
+        finding.holds = finding.holds && is_near(errors.mean_deg[j], (*row->mean_deg)[j], 0.1);
     }
     finding.claim += fmt::format(": predicted {} deg{} (within 10 %)", words(row->max_deg),
                                  row->mean_deg ? ", mean " + words(*row->mean_deg) : "");
@@ -171,8 +82,10 @@ void add_ratios(const StudyInputs& inputs, const StudyResults& results,
                 std::vector<Finding>& findings) {
   for (const char* robot : {"findings_set0", "findings_10_14"})
     for (double rate : inputs.settings.rates_hz) {
-      const Pair torsional = results.rows.at(fmt::format("row/{}/world/{:g}", robot, rate)).max_deg;
-      const Pair linear = results.rows.at(fmt::format("row/{}/linear/{:g}", robot, rate)).max_deg;
+      const std::array<double, 2> torsional =
+          results.rows.at(fmt::format("row/{}/world/{:g}", robot, rate)).max_deg;
+      const std::array<double, 2> linear =
+          results.rows.at(fmt::format("row/{}/linear/{:g}", robot, rate)).max_deg;
       findings.push_back(
           {"update rate",
            fmt::format(
@@ -183,147 +96,6 @@ void add_ratios(const StudyInputs& inputs, const StudyResults& results,
                        words(torsional), torsional[0] / linear[0], torsional[1] / linear[1]),
            torsional[0] > linear[0] && torsional[1] > linear[1]});
     }
-}
-
-// ---- the damping term
-// ------------------------------------------------------------------------------
-
-void add_damping(const StudyInputs& inputs, std::vector<Finding>& findings) {
-  for (const char* name : {"findings_set0", "findings_10_14"}) {
-    const StudyRobot& robot = inputs.findings.at(name);
-    RunSpec spec = trial_spec("signed-torsional", 1000);
-    const RunResult signed_run = automatic(robot, spec, 1200, 40, 1000);
-    spec.coupling.options.difference = Difference::per_frame;
-    const RunResult per_frame = automatic(robot, spec, 1200, 40, 1000);
-    spec = trial_spec("printed-torsional", 1000);
-    spec.coupling.options.damping_sign = 1;
-    const RunResult folded = automatic(robot, spec, 1200, 40, 1000);
-    spec.coupling.options.damper = Damper::unsigned_;
-    const RunResult along = automatic(robot, spec, 1200, 40, 1000);
-    spec.coupling.options.damping_sign = -1;
-    const RunResult against = automatic(robot, spec, 1200, 40, 1000);
-    findings.push_back(
-        {"damping term",
-         fmt::format(
-             "{}, k = 1200, b = 40, 1 kHz: an unsigned damper pumps energy at the reversals "
-             "and diverges, whatever its sign; the fold keeps it bounded, several times "
-             "worse than the signed damper",
-             robot_words(name)),
-         fmt::format("signed {}, folded {}, unfolded {} and {}", words(signed_run.max_deg),
-                     words(folded.max_deg), along.stable ? "stable" : "diverges",
-                     against.stable ? "stable" : "diverges"),
-         !along.stable && !against.stable && folded.stable &&
-             folded.max_deg[0] > 2 * signed_run.max_deg[0]});
-    findings.push_back(
-        {"damping term",
-         fmt::format(
-             "{}: an angle per frame that is not divided by h leaves b h of the damping; the "
-             "mean error grows towards half the maximum, the mark of ringing",
-             robot_words(name)),
-         fmt::format("{} deg, mean {}; mean/max {:.2f} instead of {:.2f}", words(per_frame.max_deg),
-                     words(per_frame.mean_deg), per_frame.mean_deg[0] / per_frame.max_deg[0],
-                     signed_run.mean_deg[0] / signed_run.max_deg[0]),
-         per_frame.mean_deg[0] / per_frame.max_deg[0] > 0.4});
-  }
-}
-
-void add_differences(const StudyInputs& inputs, const StudyResults& results,
-                     std::vector<Finding>& findings) {
-  for (const char* name : {"findings_set0", "findings_10_14"}) {
-    const StudyRobot& robot = inputs.findings.at(name);
-    RunSpec spec = row_spec("world", 60);
-    spec.gains = results.calibration.entry(fmt::format("row/{}/world/60", name)).gains();
-    const ProtocolErrors difference = run_protocol(robot, spec, inputs.settings.sweep_times);
-    spec.kvr_rates = KvrRates::from_hand;
-    const ProtocolErrors current = run_protocol(robot, spec, inputs.settings.sweep_times);
-    findings.push_back(
-        {"differences",
-         fmt::format("{}: with semi-implicit steps backward differences cost little, for the DVR's "
-                     "difference is its velocity",
-                     robot_words(name)),
-         fmt::format("60 Hz: {} with differences, {} with current velocities",
-                     words(difference.max_deg), words(current.max_deg)),
-         near(difference.max_deg[0], current.max_deg[0], 0.1)});
-  }
-}
-
-// The largest stable steps that theory gives for the poses of the motion, against runs below all of
-// them and above all of them. Between the two the arm passes through unstable poses unharmed.
-void add_stability(const StudyInputs& inputs, std::vector<Finding>& findings) {
-  for (const char* name : {"findings_set0", "findings_10_14"}) {
-    const StudyRobot& robot = inputs.findings.at(name);
-    RunResult predicted;
-    predicted.spec = row_spec("world", 1000);
-    predicted.spec.gains = Gains::both(1200, 40);
-    double least = HUGE_VAL, most = 0;
-    for (double q2 = -45; q2 <= 45; q2 += 5) {
-      State<double> pose = robot.start_state();
-      pose.q[1] = q2 * std::numbers::pi / 180;
-      predict(robot, predicted, pose);
-      least = std::min(least, predicted.step_limit);
-      most = std::max(most, predicted.step_limit);
-    }
-    const RunResult below = automatic(robot, row_spec("world", 1000), 1200, 40, 1 / (0.97 * least));
-    const RunResult above = automatic(robot, row_spec("world", 1000), 1200, 40, 1 / (1.03 * most));
-    findings.push_back(
-        {"stability",
-         fmt::format("{}, world orientation, k = 1200, b = 40: theory allows steps of {:.2f} ms at "
-                     "every pose of the motion, and beyond {:.2f} ms at none",
-                     robot_words(name), 1e3 * least, 1e3 * most),
-         fmt::format("3 % below the first: {} deg; 3 % above the second: {}", words(below.max_deg),
-                     above.stable ? words(above.max_deg) + " deg" : "diverges"),
-         below.stable && (!above.stable || above.max_deg[0] > 5 * below.max_deg[0])});
-  }
-}
-
-// ---- what makes torsional equal to linear
-// ------------------------------------------------------------
-
-void add_equivalents(const StudyResults& results, std::vector<Finding>& findings) {
-  const auto get = [&](const std::string& name) { return find_run(results.variants, name); };
-  for (double rate : {60.0, 1000.0}) {
-    const RunResult* linear = get(fmt::format("matched/linear/{:g}", rate));
-    const RunResult* full = get(fmt::format("matched/torsional/{:g}", rate));
-    if (!linear || !full) continue;
-    findings.push_back(
-        {"matched gains",
-         fmt::format(
-             "S-103, {:g} Hz: a torsional coupling with the full K_q, B_q of the linear one "
-             "follows as well as it (within a tenth of a degree or 10 %)",
-             rate),
-         fmt::format("linear {} deg, torsional {} deg", words(linear->max_deg),
-                     words(full->max_deg)),
-         std::abs(linear->max_deg[0] - full->max_deg[0]) <
-                 std::max(0.1, 0.1 * linear->max_deg[0]) &&
-             std::abs(linear->max_deg[1] - full->max_deg[1]) <
-                 std::max(0.1, 0.1 * linear->max_deg[1])});
-  }
-  const RunResult* equal = get("trial/signed-torsional/60");
-  const RunResult* ratio = get("trial/signed-torsional-ratio/60");
-  if (equal && ratio)
-    findings.push_back(
-        {"matched gains",
-         "S-103, 60 Hz: k2 = 0.2 k1 instead of equal gains changes the torsional "
-         "coupling's largest error",
-         fmt::format("equal {} deg, ratio {} deg", words(equal->max_deg), words(ratio->max_deg)),
-         std::max(ratio->max_deg[0], ratio->max_deg[1]) <
-             std::max(equal->max_deg[0], equal->max_deg[1])});
-  for (const char* law : {"torsional-world", "linear"}) {
-    const RunResult* implicit = get(fmt::format("implicit/{}/1000", law));
-    const RunResult* slow = get(fmt::format("implicit/{}/60", law));
-    const RunResult* explicit_60 = get(fmt::format("explicit/{}/60", law));
-    if (!implicit || !slow || !explicit_60) continue;
-    findings.push_back(
-        {"implicit",
-         fmt::format("S-103, {}, implicit at 1 kHz: both joints stay below 1.5 deg; at "
-                     "60 Hz the same gains stay stable implicitly and diverge "
-                     "explicitly",
-                     law),
-         fmt::format("1 kHz {} deg; 60 Hz implicit {} deg, explicit {}", words(implicit->max_deg),
-                     words(slow->max_deg), explicit_60->stable ? "stable" : "diverges"),
-         implicit->max_deg[0] < 1.5 && implicit->max_deg[1] < 1.5 && slow->stable &&
-             !explicit_60->stable});
-  }
 }
 
 void add_reproduction(const StudyResults& results, std::vector<Finding>& findings) {
@@ -344,15 +116,13 @@ void derive_findings(const StudyInputs& inputs, StudyResults& results, Progress&
   const Predictions predictions = read_predictions(inputs.settings.assets);
   std::vector<Finding>& findings = results.findings;
   add_reproduction(results, findings);
-  add_modes(inputs, predictions, findings);
-  add_proportional_springs(findings);
-  add_equal_gains(inputs, findings);
+  add_equal_gains(inputs, predictions, findings);
   add_rows(inputs, predictions, results, progress);
   add_ratios(inputs, results, findings);
   add_damping(inputs, findings);
   add_differences(inputs, results, findings);
   add_stability(inputs, findings);
-  add_equivalents(results, findings);
+  add_matched_gains(results, findings);
 }
 
 }  // namespace twinarm
