@@ -21,6 +21,7 @@ struct StudyOptions {
   std::filesystem::path trace;
   bool recalibrate = false, identify = false, paper_view = false, json = false;
   std::filesystem::path assets;  // empty: found beside the program
+  std::string ask;               // "ROW/LAW/RATE": only this question of Table 2, and no study
 };
 int run_study(const StudyOptions& options);
 
@@ -60,7 +61,9 @@ struct ModesOptions {
 int run_modes(const ModesOptions& options);
 
 struct CouplingPredictOptions {
-  RobotOptions robot;           // its model: a scene
+  RobotOptions robot;  // its model: a scene; or a URDF, with one coupling in words
+  std::string type = "linear", link, point, measure, treatment;  // as in a scene; point "x,y,z"
+  std::optional<double> stiffness, damping;
   std::optional<double> step;   // [s]; left out: the scene's
   std::string integrator;       // empty: the scene's
   double turn = 180, time = 1;  // of the target [deg, or mm], [s]

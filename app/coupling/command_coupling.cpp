@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "app/commands.h"
+#include "app/coupling/coupling_of_options.h"
 #include "app/coupling/equivalents.h"
 #include "app/coupling/predicted.h"
 #include "collision/import/number_text.h"
@@ -21,14 +22,17 @@ void check_not_negative(const std::string& option, double value, FaultList& faul
   faults.add({"", 0, option, "must not be negative, is " + number_text(value), ""});
 }
 
-// A scene that has couplings, and its step.
+// A scene that has couplings, and its step; `scene` in place of a file.
 SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<double>& step,
-                               const std::string& integrator, FaultList& faults) {
-  if (robot.model.extension() != ".toml")
+                               const std::string& integrator, FaultList& faults,
+                               std::optional<TomlValue> scene = {}) {
+  if (robot.model.extension() != ".toml" && !scene)
     faults.add({robot.model.string(), 0, "", "is no scene, and only a scene has couplings",
-                "write a scene with a [[robot]] and a [[coupling]] (docs/scenes.md)"});
+                "write a scene with a [[robot]] and a [[coupling]] (docs/scenes.md); or give "
+                "`coupling predict` --link and --stiffness"});
   faults.check();
   SimulateOptions simulate;
+  simulate.scene = std::move(scene);
   simulate.robot = robot;
   simulate.duration = 1;
   simulate.step = step;
@@ -48,8 +52,17 @@ int run_coupling_predict(const CouplingPredictOptions& options) {
   check_positive("--turn", options.turn, faults);
   check_positive("--time", options.time, faults);
   if (options.wall) check_positive("--wall", *options.wall, faults);
+  const bool is_scene = options.robot.model.extension() == ".toml";
+  const bool has_coupling = options.stiffness || options.damping || !options.link.empty() ||
+                            !options.point.empty() || !options.measure.empty() ||
+                            !options.treatment.empty();
+  if (is_scene && has_coupling)
+    faults.add({"", 0, "--link, --point, --measure, --treatment, --stiffness, --damping",
+                "are for a robot without a scene", "change the scene's [[coupling]]"});
+  std::optional<TomlValue> scene;
+  if (!is_scene && has_coupling) scene = scene_of_options(options, faults);
   SimulatePlan prepared =
-      prepare_couplings(options.robot, options.step, options.integrator, faults);
+      prepare_couplings(options.robot, options.step, options.integrator, faults, std::move(scene));
   const PredictTask task{options.turn * std::numbers::pi / 180, options.time, options.wall};
   const Predicted found = predict_couplings(prepared, task);
   fmt::print("{}\n", options.json ? predicted_json(found, task) : predicted_table(found, task));

@@ -20,7 +20,16 @@ void add_coupling(CLI::App& app, CommandLine& line) {
       "predict",
       "Stiffness, modes, limits of step and stiffness, errors behind a moving target, sag\n\n"
       "Example:  twinarm coupling predict assets/scenes/robot_beside_obstacles.toml --step 0.004");
-  add_robot_options(*predict, predicted->robot, "a scene in TOML, with couplings");
+  add_robot_options(*predict, predicted->robot,
+                    "a scene in TOML, with couplings; or a URDF, with --link and --stiffness");
+  predict->add_option("--type", predicted->type, "of a URDF's coupling, as in a scene")
+      ->capture_default_str();
+  predict->add_option("--link", predicted->link, "likewise: the link that is pulled");
+  predict->add_option("--point", predicted->point, "likewise: x,y,z in link axes [m]");
+  predict->add_option("--measure", predicted->measure, "likewise: world or joint");
+  predict->add_option("--treatment", predicted->treatment, "likewise");
+  predict->add_option("--stiffness", predicted->stiffness, "likewise [N/m or N m/rad]");
+  predict->add_option("--damping", predicted->damping, "likewise [N s/m or N m s/rad]");
   predict->add_option("--step", predicted->step, "seconds; the scene's if not given");
   predict->add_option("--integrator", predicted->integrator, "the scene's if not given");
   predict->add_option("--turn", predicted->turn, "how far the target goes [deg, or mm]")

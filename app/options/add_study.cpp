@@ -27,6 +27,9 @@ void add_study(CLI::App& app, CommandLine& line) {
   study->add_flag("--identify", options->identify,
                   "ask again what the paper's Table 2 leaves open, and write it to the assets "
                   "(some ten minutes)");
+  study->add_option("--ask", options->ask,
+                    "ROW/LAW/RATE, as E4/linear/60: one question of --identify, answered on "
+                    "stdout as JSON; nothing is written");
   study->add_flag("--paper-view", options->paper_view,
                   "hide the ghost in pictures, as the paper does");
   study->add_flag("--json", options->json, "print one JSON object on stdout");

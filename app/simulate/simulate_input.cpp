@@ -107,7 +107,7 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
 
 SimulatePlan prepare_simulation(const SimulateOptions& options) {
   FaultList faults;
-  if (options.robot.model.extension() != ".toml") {
+  if (options.robot.model.extension() != ".toml" && !options.scene) {
     const RunPlan plan = plan_run(options, {}, faults);
     if (!options.contact.empty())
       faults.add({"", 0, "--contact", "a robot alone touches nothing", "give a scene"});
@@ -115,7 +115,7 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
   }
   refuse_robot_options(options.robot, faults);
   auto description = attempt(faults, [&] {
-    TomlValue tree = read_toml(options.robot.model);
+    TomlValue tree = options.scene ? *options.scene : read_toml(options.robot.model);
     if (options.change_scene) options.change_scene(tree, faults);
     return read_scene(tree, options.robot.model);
   });

@@ -32,6 +32,7 @@ struct SimulateOptions {
   std::filesystem::path post_mortem;   // of a run that stops; empty: beside others in out/
   // What a fork changes in a scene before it is read; may be empty.
   std::function<void(TomlValue&, FaultList&)> change_scene;
+  std::optional<TomlValue> scene;  // in place of the file that robot.model names
 };
 
 struct RunDefaults {

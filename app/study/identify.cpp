@@ -4,30 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <future>
 #include <mutex>
 
 #include "app/interrupt.h"
 #include "solver/dense_algebra.h"
+#include "solver/fault.h"
 
 namespace twinarm {
 namespace {
 
-constexpr double kHalfDigit = 0.05;  // [deg]
 constexpr unsigned kIdentifySeed = 1;
 constexpr int kFirstEvaluations = 3000, kRefitEvaluations = 100, kRounds = 3;
 // Held values of a profile, as factors of the best one: walked outwards, each from its neighbour.
 constexpr std::array<double, 5> kFactors{1.1, 1.3, 2, 4, 10};
-
-FamilyLaw consistent(const char* name, const char* words, CouplingSpec::Type type, Measure measure,
-                     Treatment treatment) {
-  FamilyLaw law{name, words, {}};
-  law.coupling.name = name;
-  law.coupling.type = type;
-  law.coupling.measure = measure;
-  law.coupling.treatment = treatment;
-  return law;
-}
 
 // Of welds of the points that linear springs hold, at the start pose.
 Gains weld_gains(const StudyRobot& robot, const CouplingSpec& weld) {
@@ -198,77 +189,32 @@ Identification Question::answer() const {
 
 }  // namespace
 
-const std::vector<FamilyLaw>& family_laws() {
-  using Type = CouplingSpec::Type;
-  static const std::vector<FamilyLaw> laws = [] {
-    std::vector<FamilyLaw> all{
-        {"printed-torsional", "torsional, as printed", e3_spec("world-", 0).coupling},
-        {"printed-linear", "linear, as printed", e4_spec(0).coupling},
-        consistent("torsional-world", "torsional, world orientation", Type::torsional,
-                   Measure::world, Treatment::explicit_),
-        consistent("torsional-joint", "torsional, joint angle", Type::torsional, Measure::joint,
-                   Treatment::explicit_),
-        consistent("linear", "linear", Type::linear, Measure::world, Treatment::explicit_),
-        consistent("torsional-world-implicit", "torsional, world orientation, implicit",
-                   Type::torsional, Measure::world, Treatment::implicit),
-        consistent("torsional-joint-implicit", "torsional, joint angle, implicit", Type::torsional,
-                   Measure::joint, Treatment::implicit),
-        consistent("linear-implicit", "linear, implicit", Type::linear, Measure::world,
-                   Treatment::implicit),
-        consistent("matched", "torsional, full K_q of a linear one", Type::matched, Measure::world,
-                   Treatment::explicit_),
-        consistent("stable-pd", "stable PD at the joints", Type::stable_pd, Measure::joint,
-                   Treatment::explicit_),
-        consistent("weld", "weld of the points, as MuJoCo's", Type::weld_like, Measure::world,
-                   Treatment::explicit_)};
-    return all;
-  }();
-  return laws;
-}
-
-const FamilyLaw& family_law(const std::string& name) {
-  for (const FamilyLaw& law : family_laws())
-    if (law.name == name) return law;
-  throw std::out_of_range("no law " + name);
-}
-
-double table_misfit(const RunResult& result, const PaperRow& row) {
-  if (!result.stable) return 1e5;
-  double worst = 0;
-  for (std::size_t j = 0; j < 2; ++j)
-    worst = std::max({worst, std::abs(result.max_deg[j] - row.max_deg[j]) / kHalfDigit,
-                      std::abs(result.mean_deg[j] - row.mean_deg[j]) / kHalfDigit});
-  return worst;
-}
-
-double Identification::allowance() const {
-  return std::max(1.0, 2 * fit.objective);
-}
-
-Identification::Interval Identification::interval(const Profile& profile) const {
-  const std::vector<ProfilePoint>& points = profile.points;
-  const auto best = static_cast<std::size_t>(
-      std::min_element(points.begin(), points.end(),
-                       [](const auto& a, const auto& b) { return a.misfit < b.misfit; }) -
-      points.begin());
-  const auto end = [&](int step, double& value, bool& open) {
-    std::size_t i = best;
-    for (;; i = static_cast<std::size_t>(static_cast<int>(i) + step)) {
-      open = step < 0 ? i == 0 : i + 1 == points.size();
-      value = points[i].value;
-      if (open) return;
-      const ProfilePoint& next = points[static_cast<std::size_t>(static_cast<int>(i) + step)];
-      if (next.misfit <= allowance()) continue;
-      const double inside = std::log(std::max(points[i].misfit, 1e-12));
-      const double share = (std::log(allowance()) - inside) / (std::log(next.misfit) - inside);
-      value *= std::pow(next.value / value, std::clamp(share, 0.0, 1.0));
-      return;
-    }
+Identification ask(const StudyInputs& inputs, const std::string& question) {
+  const std::size_t first = question.find('/'), last = question.rfind('/');
+  FaultList faults;
+  const auto fault = [&](std::string rule, std::string remedy) {
+    faults.add({"", 0, "--ask", std::move(rule), std::move(remedy)});
   };
-  Interval found;
-  end(-1, found.low, found.open_low);
-  end(1, found.high, found.open_high);
-  return found;
+  if (first == std::string::npos || first == last) {
+    fault("'" + question + "' is not ROW/LAW/RATE", "give one as E4/linear/60");
+    faults.check();
+  }
+  const std::string row = question.substr(0, first),
+                    law = question.substr(first + 1, last - first - 1);
+  char* end = nullptr;
+  const double rate = std::strtod(question.c_str() + last + 1, &end);
+  std::string laws;
+  bool is_known = false;
+  for (const FamilyLaw& known : family_laws()) {
+    laws += (laws.empty() ? "" : ", ") + known.name;
+    is_known = is_known || known.name == law;
+  }
+  if (row != "E3" && row != "E4") fault("there is no row '" + row + "'", "give E3 or E4");
+  if (!is_known) fault("there is no law '" + law + "'", "give one of " + laws);
+  if (!(rate >= 10 && rate <= 1e5) || *end != 0)
+    fault("'" + question.substr(last + 1) + "' is no rate", "give one of 10 to 100000 Hz");
+  faults.check();
+  return Question(inputs, family_law(law), row, rate).answer();
 }
 
 std::vector<Identification> identify(const StudyInputs& inputs, Progress& progress) {

@@ -33,7 +33,8 @@ struct ProfilePoint {
   // What these parameters say of a motion that the row does not have: sweeps of kOtherSweep.
   std::array<double, 2> other_max_deg{};
 };
-constexpr double kOtherSweep = 2;  // [s], half the speed of the paper's
+constexpr double kHalfDigit = 0.05;  // of the last printed digit of the table [deg]
+constexpr double kOtherSweep = 2;    // [s], half the speed of the paper's
 
 struct Profile {
   std::string parameter;
@@ -63,6 +64,9 @@ double table_misfit(const RunResult& result, const PaperRow& row);
 
 // All rows, laws and rates; minutes. The same seeds give the same result.
 std::vector<Identification> identify(const StudyInputs& inputs, Progress& progress);
+
+// One of them: "ROW/LAW/RATE", any rate [Hz]. Throws InputError where there is no such question.
+Identification ask(const StudyInputs& inputs, const std::string& question);
 
 // assets/study/identification.json. Throws InputError.
 std::vector<Identification> read_identifications(const std::filesystem::path& file);

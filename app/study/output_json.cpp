@@ -140,4 +140,18 @@ std::string study_json(const StudyResults& results, const std::string& report_pa
   return root.dump(1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
+std::string answer_json(const Identification& found) {
+  ordered_json json = identification_json(found);
+  json["evaluations"] = found.fit.evaluations;
+  json["allowance"] = found.allowance();
+  json["directions"] = found.directions;
+  for (std::size_t j = 0; j < found.profiles.size(); ++j) {
+    ordered_json& points = json["parameters"][j]["profile"];
+    for (const ProfilePoint& p : found.profiles[j].points)
+      points.push_back(
+          {{"value", p.value}, {"misfit", p.misfit}, {"other_max_deg", p.other_max_deg}});
+  }
+  return json.dump(1);
+}
+
 }  // namespace twinarm

@@ -13,4 +13,7 @@ namespace twinarm {
 // finite is null.
 std::string study_json(const StudyResults& results, const std::string& report_path);
 
+// One answer of `--ask`, with its profiles and directions.
+std::string answer_json(const Identification& found);
+
 }  // namespace twinarm

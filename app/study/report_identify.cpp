@@ -71,12 +71,22 @@ std::string other_motion(const Identification& found) {
                      degrees(high[1]));
 }
 
+// The four numbers of Table 2: two cells.
+std::string number_cells(const std::array<double, 2>& max_deg,
+                         const std::array<double, 2>& mean_deg) {
+  return fmt::format("<td>{:.2f} / {:.2f}</td><td>{:.2f} / {:.2f}</td>", max_deg[0], max_deg[1],
+                     mean_deg[0], mean_deg[1]);
+}
+
 std::string law_row(const Identification& found) {
   const bool agrees = found.fit.objective <= 1;
   std::string html =
       fmt::format("<tr><td class=text>{}</td><td>{:g}</td><td><span class={}>{}</span></td>",
                   escaped(family_law(found.law).words), found.fit.rate, agrees ? "yes" : "no",
                   rounded(found.fit.objective));
+  const auto number = [&](const char* name) { return found.fit.numbers.at(name); };
+  html += number_cells({number("max1_deg"), number("max2_deg")},
+                       {number("mean1_deg"), number("mean2_deg")});
   html += "<td class=text>";
   for (std::size_t j = 0; j < found.profiles.size(); ++j) html += parameter_words(found, j);
   html += "</td>";
@@ -90,12 +100,18 @@ std::string row_table(const std::vector<Identification>& all, const std::string&
     for (const Identification& found : all)
       if (found.row == row && found.law == law.name) rows += law_row(found);
   if (rows.empty()) return "";
+  const PaperRow& paper = paper_table().at(row);
+  const std::string published = "<tr><td class=text><b>published</b></td><td></td><td></td>" +
+                                number_cells(paper.max_deg, paper.mean_deg) +
+                                "<td></td><td></td><td></td></tr>\n";
   return "<h3>" + row +
          "</h3>\n<div class=scroll><table class=dense><thead><tr><th class=text>law</th>"
-         "<th>rate<br>Hz</th><th>misfit</th><th class=text>parameters, and how far they can go</th>"
+         "<th>rate<br>Hz</th><th>misfit</th><th>max, degrees,<br>joints 1 / 2</th>"
+         "<th>mean, degrees,<br>joints 1 / 2</th><th class=text>parameters, and how far they can "
+         "go</th>"
          "<th class=text>not held</th>"
          "<th>max at half speed,<br>degrees, joints 1 / 2</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div>\n";
+         published + rows + "</tbody></table></div>\n";
 }
 
 // What the rows say of all laws together.

@@ -56,8 +56,8 @@ std::string comparison_table(const std::vector<const RunResult*>& runs) {
     }
     body += "</tr>\n";
   }
-  return "<div class=scroll><table><thead>" + top + "</tr>\n" + second + "</tr></thead>\n<tbody>" +
-         body + "</tbody></table></div>\n";
+  return "<div class=scroll><table class=dense><thead>" + top + "</tr>\n" + second +
+         "</tr></thead>\n<tbody>" + body + "</tbody></table></div>\n";
 }
 
 std::vector<const RunResult*> present(const StudyResults& results, const char* a, const char* b) {

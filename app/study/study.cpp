@@ -156,6 +156,10 @@ void tell_people(const StudyResults& results, const std::filesystem::path& repor
 int run_study(const StudyOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const std::filesystem::path assets = find_assets(options.assets);
+  if (!options.ask.empty()) {
+    fmt::print("{}\n", answer_json(ask(load_inputs(assets), options.ask)));
+    return 0;
+  }
   const std::filesystem::path calibration_file = assets / "study" / "calibration.json";
   StudyInputs inputs;
   std::unique_ptr<HandSource> hand;

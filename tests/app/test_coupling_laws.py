@@ -64,16 +64,17 @@ class CouplingLaws(RobotCommand):
     def predict(self, scene, *options):
         return self.twinarm("coupling", "predict", scene, *options)[1]
 
-    def grows(self, text, h, integrator):
+    def grows(self, text, h, integrator, steps=4000):
         """A run of the hinge, a millionth of a radian off its target."""
         if "target" not in text:
             text += "target = { q = { hinge = 0 } }\n"
         scene = self.scene(text, start="q = { hinge = 1e-6 }", name="run.toml")
-        code, answer = self.twinarm("simulate", scene, "--duration", 4000 * h, "--step", h,
+        code, answer = self.twinarm("simulate", scene, "--duration", steps * h, "--step", h,
                                     "--integrator", integrator, codes=(0, 3))
         return code == 3 or abs(answer["samples"][-1]["q"]["hinge"]) > 3e-5
 
-    def check_limit(self, of_step, closed=None, integrator="semi-implicit", start=0.01):
+    def check_limit(self, of_step, closed=None, integrator="semi-implicit", start=0.01,
+                    steps=4000):
         """`of_step`: the text of the coupling in steps of h; where no rate is in it they are alike.
         The limit is where runs begin to grow, to half a percent, and the closed form's."""
         found = self.predict(self.scene(of_step(start)), "--step", start, "--integrator",
@@ -83,8 +84,8 @@ class CouplingLaws(RobotCommand):
         self.assertGreater(limit, 0)
         if closed:
             self.close(limit / edge(closed), 1, 1e-6)
-        self.assertFalse(self.grows(of_step(0.995 * limit), 0.995 * limit, integrator))
-        self.assertTrue(self.grows(of_step(1.005 * limit), 1.005 * limit, integrator))
+        self.assertFalse(self.grows(of_step(0.995 * limit), 0.995 * limit, integrator, steps))
+        self.assertTrue(self.grows(of_step(1.005 * limit), 1.005 * limit, integrator, steps))
         return found
 
 
@@ -129,7 +130,7 @@ class Limits(CouplingLaws):
         self.assertEqual(found["couplings"][0]["arms"], [], "it has no sine")
 
     def test_the_linear_law_as_printed_sees_differences(self):
-        k, b = 4000, 20
+        k, b = 4000, 150
 
         def of(h):
             return coupling("printed-linear", stiffness=k, damping=b, point=[R, 0, 0])
@@ -137,8 +138,8 @@ class Limits(CouplingLaws):
         rows = (("semi-implicit", "semi-implicit Euler, backward difference",
                  lambda a, b: a < 4 - 2 * b),
                 ("euler", "explicit Euler, backward difference", lambda a, b: a < b * (1 - b)),
-                ("semi-implicit-xv", "explicit Euler, backward difference",
-                 lambda a, b: a < b * (1 - b)),
+                ("semi-implicit-xv", "semi-implicit Euler, backward difference",
+                 lambda a, b: a < 4 - 2 * b),
                 ("verlet", "zero-order hold, backward difference",
                  lambda a, b: a < 2 * b * (2 - b) / (2 + b)),
                 ("rk4", "zero-order hold, backward difference",
@@ -152,8 +153,8 @@ class Limits(CouplingLaws):
     def test_a_force_as_printed_that_is_held_over_three_steps_grows_where_it_is_said_to(self):
         for integrator in ("semi-implicit", "rk4"):
             self.check_limit(
-                lambda h: coupling("printed-linear", stiffness=4000, damping=20, point=[R, 0, 0],
-                                   rate=1 / (3 * h)), integrator=integrator)
+                lambda h: coupling("printed-linear", stiffness=4000, damping=150, point=[R, 0, 0],
+                                   rate=1 / (3 * h)), integrator=integrator, steps=15000)
 
     def test_the_torsional_damper_as_printed_does_nothing_about_a_target_at_rest(self):
         k = 300
@@ -231,7 +232,7 @@ class Limits(CouplingLaws):
 SPEED = 1.0  # [rad/s] of the hinge's target
 S103 = """[[robot]]
 name = "arm"
-model = "robots/s103/s103.urdf"
+model = "MODEL"
 lock = ["gripper_lift"]
 """
 
@@ -282,8 +283,9 @@ class Errors(CouplingLaws):
                 found = self.predict(scene, "--turn", math.degrees(SPEED), "--time", 1)
                 lag = found["joint_errors"]["lag"]["hinge"]
                 self.close(lag, seconds * SPEED, 1e-9)
-                self.assertAlmostEqual(self.behind(scene, 3, 1e-3, 3)[-1]["hinge"], lag,
-                                       delta=1e-3 * lag + 1e-6)
+                # Behind the hand itself: what a coupling sees of it may be late.
+                end = self.twinarm("simulate", scene, "--duration", 3)[1]["samples"][-1]
+                self.assertAlmostEqual(3 * SPEED - end["q"]["hinge"], lag, delta=1e-3 * lag + 1e-6)
 
     def test_behind_a_start_every_law_peaks_as_predicted(self):
         """Small gains, for the error of a step is of the order of w h."""
@@ -308,7 +310,8 @@ class Errors(CouplingLaws):
         (self.folder / "hand.csv").write_text(trace(way, 0.5))
         scene = self.folder / "s103.toml"
         scene.write_text(
-            S103 + coupling("linear", link="arm1", point=[0.25, 0, 0.365], stiffness=4000,
+            S103.replace("MODEL", str(robot_command.ROOT / "assets/robots/s103/s103.urdf")) +
+            coupling("linear", link="arm1", point=[0.25, 0, 0.365], stiffness=4000,
                             damping=200, target="hand.csv") +
             coupling("linear", link="arm2", point=[0.35, 0, 0.1], stiffness=2000, damping=100,
                      target="hand.csv").replace("pull", "outer") +

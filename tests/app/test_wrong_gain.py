@@ -100,16 +100,18 @@ class WrongGainOfALaw(RobotCommand):
         if keys["type"] in POINT:
             lines.append("point = [0.3, 0, 0]")
         scene = self.folder / "scene.toml"
-        scene.write_text('[[robot]]\nname = "r"\nmodel = "test.urdf"\nq = { hinge = 1e-3 }\n' +
+        scene.write_text('[[robot]]\nname = "r"\nmodel = "test.urdf"\nq = { hinge = 1e-4 }\n'
+                         'qd = { hinge = 0.01 }\n' +
                          "\n".join(lines) + "\n" + beside)
         return subprocess.run([robot_command.PROGRAM, "simulate", scene, "--duration", "3", "--step",
-                               str(step), "--json", "--post-mortem", self.folder / "last.twinrec"],
+                               str(step), "--json", "--post-mortem", self.folder / "last.twinrec",
+                               "--energy-bound", "100"],  # a point spring has a largest pull
                               capture_output=True, text=True, timeout=120)
 
     def check_holds(self, keys, beside, step=0.001):
         run = self.run_with(keys, beside, step)
         self.assertEqual(run.returncode, 0, f"{keys} {step}: {run.stderr}")
-        self.assertLess(abs(json.loads(run.stdout)["samples"][-1]["q"]["hinge"]), 3e-3)
+        self.assertLess(abs(json.loads(run.stdout)["samples"][-1]["q"]["hinge"]), 3e-4)
 
     def test_every_law_is_named_with_a_remedy_that_holds(self):
         for name, (keys, beside) in LAWS.items():
@@ -131,8 +133,9 @@ class WrongGainOfALaw(RobotCommand):
                 self.assertEqual("rate" in keys, rate is not None, broken.stderr)
                 if rate:
                     self.check_holds({**keys, "rate": rate}, beside)
-                self.assertTrue(told, broken.stderr)
-                self.check_holds({**keys, **told}, beside)
+                self.assertTrue(told or rate, broken.stderr)
+                if told:
+                    self.check_holds({**keys, **told}, beside)
                 law = re.search(r'(?:type = "(\S+)", )?(measure = "joint", )?treatment = "implicit"',
                                 broken.stderr)
                 other = {**keys, "type": law[1] or keys["type"], "treatment": "implicit"}
@@ -147,6 +150,9 @@ class WrongGainOfALaw(RobotCommand):
                 suspect, = json.loads(self.run_with(keys, beside).stdout)["post_mortem"]["suspects"]
                 gain = suspect["gain"].replace(" ", "_")
                 edge, inside = suspect["largest_gain"], 0.98
+                if edge == 0:  # the damper alone is beyond it
+                    self.assertIn("rate", keys)
+                    continue
                 if gain == "time_constant":
                     inside = 1 / inside
                 part = edge / keys[gain]
@@ -156,9 +162,7 @@ class WrongGainOfALaw(RobotCommand):
                     if "turn_stiffness" in keys:
                         gains["turn_stiffness"] = by * turn["turn_stiffness"]
                     run = self.run_with({**keys, **gains}, beside)
-                    grew = run.returncode == 3 or abs(
-                        json.loads(run.stdout)["samples"][-1]["q"]["hinge"]) > 0.03
-                    self.assertEqual(grew, code == 3, (by, run.stderr))
+                    self.assertEqual(run.returncode, code, (by, run.stderr))
 
 
 if __name__ == "__main__":

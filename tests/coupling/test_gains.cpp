@@ -77,6 +77,23 @@ TEST_CASE("a solref is what MuJoCo's manual says of it: w = 1/(timeconst damprat
   CHECK(direct.k == doctest::Approx(I * d * 400 * d / (d_max * d_max)));
   CHECK(direct.b == doctest::Approx(I * d * 30 / d_max));
   CHECK(mujoco_static_stiffness(95, {0.95, 0.95}) == doctest::Approx(1900));
+  CHECK(shortest_timeconst(0.002) == 0.004);  // refsafe
+}
+
+TEST_CASE(
+    "a drive has the spring's numbers as a force, and those over the inertia as acceleration") {
+  const SpringGains spring{300, 12};
+  const Drive force = drive_of(spring, 4, Drive::Mode::force);
+  CHECK(force.stiffness == 300);
+  CHECK(force.damping == 12);
+  const Drive acceleration = drive_of(spring, 4, Drive::Mode::acceleration);
+  CHECK(acceleration.stiffness == 75);
+  CHECK(acceleration.damping == 3);
+  // Heavier by three: the same drive holds with a spring three times as stiff, at one frequency.
+  const SpringGains heavier = gains_of(acceleration, 12);
+  CHECK(heavier.k == 900);
+  CHECK(response_of(heavier, 12).omega == doctest::Approx(response_of(spring, 4).omega));
+  CHECK(same_gains(gains_of(force, 12), spring));
 }
 
 TEST_CASE("gains by frequency and damping ratio on a joint's inertia give the PUMA that mode") {
