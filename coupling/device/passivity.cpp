@@ -3,11 +3,17 @@
 #include <algorithm>
 
 namespace twinarm {
+namespace {
+
+constexpr double kLeast = 1e-9;  // part of the peak: in 10^9 ticks one tick's work
+
+}  // namespace
 
 void PassivityControl::moved_to(const Vector3& x) noexcept {
   if (placed_ && x != x_) {
     d_ = x - x_;
     E_ -= held_.dot(d_);
+    lowest_ = std::min(lowest_, E_);
   }
   x_ = x;
   placed_ = true;
@@ -15,13 +21,15 @@ void PassivityControl::moved_to(const Vector3& x) noexcept {
 
 Vector3 PassivityControl::damped(const Vector3& wanted) const noexcept {
   const double way = d_.squaredNorm();
-  const double lack = wanted.dot(d_) - (E_ < 0 ? 2 * E_ : E_);
-  if (!(way > 0) || !(lack > 0)) return wanted;
-  return wanted - lack / way * d_;
+  if (!(way > 0)) return wanted;
+  const double along = wanted.dot(d_);
+  if (E_ < 0) return std::min(along, 2 * E_) / way * d_;
+  return along > E_ ? Vector3(wanted - (along - E_) / way * d_) : wanted;
 }
 
 double PassivityControl::allowance() const noexcept {
-  return most_ > 0 ? std::clamp(1 + E_ / most_, 0.0, 1.0) : 1.0;
+  // Not quite none at the lowest: from nothing there is no way back.
+  return most_ > 0 ? std::clamp(kLeast + (E_ - lowest_) / most_, kLeast, 1.0) : 1.0;
 }
 
 Vector3 PassivityControl::tick(const Vector3& x, const Vector3& wanted, double peak) noexcept {

@@ -10,11 +10,12 @@
 //
 //   F = w - alpha d,    alpha = max(0, (w . d - E_n)/d^2);    E_n < 0: (w . d - 2 E_n)/d^2,
 //
-// so that a debt is paid back by the next tick that moves on, were it by half of d only. The
-// damping stays until the hand moves again. No force that is held over a tick can do that for a
-// hand that turns back within it; what is sure there is the floor: the force that is allowed goes
-// from all of the peak at E = 0 to none at E = -W, W = peak . farthest, so no motions whatever of
-// at most `farthest` a tick bring E below -W, one tick's work.
+// so that a debt is paid back by the next tick that moves on, were it by half of d only. In debt
+// what w has across d is left out too: nobody knows which way it would work. The damping stays
+// until the hand moves again. No force that is held over a tick can do that for a hand that turns
+// back within it; what is sure there is the floor: the force that is allowed goes from all of the
+// peak at E = 0 to none at E = -W, W = peak . farthest, so no motions whatever of at most
+// `farthest` a tick bring E below -W, one tick's work.
 //
 // Places and forces may be those of joints as well: angles and torques. One coordinate: leave the
 // other two at zero. Nothing throws or allocates.
@@ -26,7 +27,8 @@ namespace twinarm {
 
 class PassivityControl {
  public:
-  explicit PassivityControl(double one_ticks_work) : most_(one_ticks_work) {}  // W [J]
+  explicit PassivityControl(double one_ticks_work)  // W [J]
+      : most_(one_ticks_work), lowest_(-one_ticks_work) {}
 
   // A tick, in this order. Where the hand is now: the force that was held has done its work.
   void moved_to(const Vector3& x) noexcept;
@@ -43,7 +45,7 @@ class PassivityControl {
   double energy() const { return E_; }  // [J]
 
  private:
-  double most_;
+  double most_, lowest_;  // W, and the lowest that E has been, -W at most
   double E_ = 0;
   bool placed_ = false;
   Vector3 x_ = Vector3::Zero(), d_ = Vector3::Zero(), held_ = Vector3::Zero();

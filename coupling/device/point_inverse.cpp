@@ -14,7 +14,8 @@ constexpr int kRounds = 30;
 constexpr double kNear = 1e-12;   // [m]: there
 constexpr double kFloor = 1e-10;  // of mu, in mean squares of J's columns: what keeps joints still
                                   // that are not needed
-constexpr double kStretched = 1e-3;  // [rad]
+constexpr double kOutOfReach = 1e-9;  // [m]
+constexpr double kStretched = 1e-3;   // [rad]
 
 }  // namespace
 
@@ -85,7 +86,7 @@ double PointInverse::mean_square() const {
   return chain_.empty() ? 1 : sum / static_cast<double>(chain_.size());
 }
 
-bool PointInverse::factorise(double mu) {
+bool PointInverse::factorise(double mu, bool curved) {
   const std::size_t n = q_.size();
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j <= i; ++j) G_(i, j) = i == j ? mu + (free_[i] ? 0 : 1) : 0;
@@ -93,7 +94,8 @@ bool PointInverse::factorise(double mu) {
     for (std::size_t a = b; a < chain_.size(); ++a) {
       const Dof &A = chain_[a], &B = chain_[b];
       if (!free_[A.joint] || !free_[B.joint]) continue;
-      const double g = A.ratio * B.ratio * (A.J.dot(B.J) - e_.dot(A.w.cross(B.J)));
+      const double bend = curved ? e_.dot(A.w.cross(B.J)) : 0;
+      const double g = A.ratio * B.ratio * (A.J.dot(B.J) - bend);
       const std::size_t row = std::max(A.joint, B.joint), column = std::min(A.joint, B.joint);
       G_(row, column) += a != b && row == column ? 2 * g : g;
     }
@@ -110,8 +112,8 @@ bool PointInverse::is_at_rest() const {
   return push <= 1e-12 * std::sqrt(mean_square()) * e_.norm();
 }
 
-bool PointInverse::step(const Vector3& goal, double mu) {
-  if (!factorise(mu)) return false;
+bool PointInverse::step(const Vector3& goal, double mu, bool curved) {
+  if (!(curved && factorise(mu, true))) factorise(mu, false);
   for (std::size_t j = 0; j < q_.size(); ++j) dq_[j] = free_[j] ? gradient_[j] : 0;
   G_.solve(dq_.data());
   before_ = q_;
@@ -140,15 +142,17 @@ void PointInverse::reach(const Vector3& goal, double most) noexcept {
   look(goal);
   const double size = mean_square(), floor = kFloor * size;
   double mu = floor;
-  bool nudged = false;
+  bool nudged = false, curved = false;
   for (int round = 0; round < kRounds && e_.norm() > kNear; ++round) {
     if (is_at_rest()) {
-      if (nudged || factorise(floor)) return;  // the nearest place that there is
+      if (nudged || factorise(floor, true)) return;  // the nearest place that there is
       nudged = true;
       nudge(goal);
     }
-    if (step(goal, mu)) {
+    const double far = e_.norm();
+    if (step(goal, mu, curved)) {
       mu = std::max(floor, mu / 16);
+      curved = curved || e_.norm() > std::max(kOutOfReach, 0.3 * far);
     } else {
       if (mu > 1e6 * (size + e_.norm())) return;  // no step comes nearer: rounding
       mu = std::max(8 * mu, 1e-4 * size);
@@ -157,7 +161,8 @@ void PointInverse::reach(const Vector3& goal, double most) noexcept {
 }
 
 Vector3 PointInverse::force_of(const std::vector<double>& tau) noexcept {
-  if (!factorise(kFloor * mean_square())) return Vector3::Zero();  // it does not know where to go
+  const double floor = kFloor * mean_square();
+  if (!factorise(floor, e_.norm() > kOutOfReach)) return Vector3::Zero();  // where should it go?
   for (std::size_t j = 0; j < q_.size(); ++j) dq_[j] = free_[j] ? tau[j] : 0;
   G_.solve(dq_.data());
   Vector3 force = Vector3::Zero();

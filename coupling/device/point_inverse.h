@@ -2,15 +2,15 @@
 // nearest to a goal; and how they follow the goal.
 //
 //   min |e|^2,  e = goal - p(q),   lower <= q <= upper
-//   (G + mu 1) dq = J^T e,         G = J^T J - sum_k e_k (d^2 p_k / dq^2)
+//   (G + mu 1) dq = J^T e,         G = J^T J  or  J^T J - sum_k e_k (d^2 p_k / dq^2)
 //
-// damped least squares (Levenberg 1944, Marquardt 1963) with the second derivatives of the point,
-// which a chain of hinges has for nothing: d^2 p / dq_a dq_b = w_a x J_b, a between the base and b.
-// With them it converges as Newton's method does where the goal is out of reach too, and G^-1 J^T
-// is how the joints really follow the goal there. mu grows where a step does not come nearer.
-// Joints at a bound that are pushed beyond it stand still. Cost: one forward kinematics and n^3 / 6
-// a round, one to three rounds where the goal moves little. World axes; nothing is allocated after
-// the constructor.
+// damped least squares (Levenberg 1944, Marquardt 1963). Within reach G = J^T J: the least motion
+// of the joints that brings the point there. Out of reach the point's second derivatives come in,
+// which a chain of hinges has for nothing (d^2 p / dq_a dq_b = w_a x J_b, a between the base and
+// b): so it converges there too, and G^-1 J^T is how the joints really follow the goal. mu grows
+// where a step does not come nearer. Joints at a bound that are pushed beyond it stand still. Cost:
+// one forward kinematics and n^3 / 6 a round, one to three rounds where the goal moves little.
+// World axes; nothing is allocated after the constructor.
 #pragma once
 
 #include <vector>
@@ -44,8 +44,9 @@ class PointInverse {
     std::size_t joint;
   };
   void look(const Vector3& goal);  // kinematics, residual, gradient, free joints
-  bool factorise(double mu);       // false: G + mu 1 is not positive definite
-  bool step(const Vector3& goal, double mu);
+  // False: G + mu 1 is not positive definite. `curved`: with the second derivatives.
+  bool factorise(double mu, bool curved);
+  bool step(const Vector3& goal, double mu, bool curved);
   bool is_at_rest() const;
   void nudge(const Vector3& goal);
   double mean_square() const;  // of the free joints' columns

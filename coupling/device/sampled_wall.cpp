@@ -1,0 +1,145 @@
+#include "coupling/device/sampled_wall.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace twinarm {
+namespace {
+
+// x and v after a tick under a held force: exact for m x'' + b x' = F.
+struct HeldTick {
+  double x_v, x_F, v_v, v_F;
+  explicit HeldTick(const SampledDevice& d) {
+    const double T = d.tick(), r = d.damping * T / d.mass;
+    v_v = std::exp(-r);
+    if (r < 1e-8) {  // b = 0 to rounding
+      x_v = T;
+      v_F = T / d.mass;
+      x_F = 0.5 * T * T / d.mass;
+      return;
+    }
+    const double left = -std::expm1(-r);
+    x_v = d.mass / d.damping * left;
+    v_F = left / d.damping;
+    x_F = (T - x_v) / d.damping;
+  }
+};
+
+// The largest value for which `holds`, from 0 on; 0 where it does not hold at all.
+template <class Holds>
+double bisect(Holds&& holds) {
+  double low = 0, high = 1e-3;
+  while (holds(high)) {
+    low = high;
+    high *= 2;
+    if (high > 1e9) return high;
+  }
+  if (low == 0 && !holds(1e-6)) return 0;
+  while (high - low > 1e-5 * high) {
+    const double middle = 0.5 * (low + high);
+    (holds(middle) ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+// Of the hand, over one cycle of m periods in N ticks; and what passes to and fro.
+struct CycleWork {
+  double net = 0, gross = 0;
+};
+constexpr int kCycle = 512;  // [ticks]
+
+CycleWork work_of_cycle(const SampledDevice& device, double K, double B, int m, double A,
+                        const std::array<double, kCycle>& cosine) {
+  const double T = device.tick(), q = device.resolution;
+  const auto place = [&](int n) {
+    return A * cosine[static_cast<std::size_t>((n + 4 * kCycle) * m % kCycle)];
+  };
+  const auto sensed = [&](int n) { return q > 0 ? q * std::floor(place(n) / q) : place(n); };
+  CycleWork work;
+  double before = sensed(-device.delay - 1), at = place(0);
+  for (int n = 0; n < kCycle; ++n) {
+    const double y = sensed(n - device.delay), next = place(n + 1), way = next - at;
+    const double wall = (K * y + B * (y - before) / T) * way;
+    const double lost = device.damping * way * way / T + device.friction * std::abs(way);
+    work.net += wall + lost;
+    work.gross += std::abs(wall) + lost;
+    before = y;
+    at = next;
+  }
+  return work;
+}
+
+}  // namespace
+
+double colgate_stiffness(const SampledDevice& device, double B) {
+  return std::max(0.0, (device.damping - std::abs(B)) / (device.tick() * (device.delay + 0.5)));
+}
+
+double uncoupled_stiffness(const SampledDevice& device, double B) {
+  return std::max(0.0, (device.damping + B) / (device.tick() * (device.delay + 0.5)));
+}
+
+double abbott_okamura_stiffness(const SampledDevice& device) {
+  const double by_damping = 2 * device.damping / device.tick();
+  if (!(device.resolution > 0)) return by_damping;
+  return std::min(by_damping, 2 * device.friction / device.resolution);
+}
+
+bool is_stable(const SampledDevice& device, double K, double B) {
+  constexpr int kWindow = 10000;
+  const HeldTick tick(device);
+  const double T = device.tick();
+  std::vector<double> past(static_cast<std::size_t>(device.delay) + 2, 1.0);  // newest first
+  double x = 1, v = 0, window = 0, before = 0;
+  for (int n = 1; n <= 3 * kWindow; ++n) {
+    std::rotate(past.begin(), past.end() - 1, past.end());
+    past.front() = x;
+    const double y = past[past.size() - 2], F = -K * y - B * (y - past.back()) / T;
+    x += tick.x_v * v + tick.x_F * F;
+    v = tick.v_v * v + tick.v_F * F;
+    const double size = std::abs(x) + T * std::abs(v);
+    if (!(size < 1e9)) return false;
+    window = std::max(window, size);
+    if (n % kWindow) continue;
+    if (n > kWindow && window > before * (1 + 1e-12)) return false;
+    if (window < 1e-100) return true;
+    before = window;
+    window = 0;
+  }
+  return true;
+}
+
+bool is_passive(const SampledDevice& device, double K, double B) {
+  std::array<double, kCycle> cosine{};
+  for (std::size_t n = 0; n < kCycle; ++n)
+    cosine[n] = std::cos(2 * std::numbers::pi * static_cast<double>(n) / kCycle);
+  std::vector<double> amplitudes{1.0};
+  if (device.friction > 0 || device.resolution > 0) {
+    const double unit = device.resolution > 0 ? device.resolution : 1e-5;
+    amplitudes = {0.001 * unit, 0.1 * unit, 0.9 * unit, 3.3 * unit, 100 * unit, 1e6 * unit};
+  }
+  for (const double A : amplitudes)
+    for (int m = kCycle / 2; m >= 1; --m) {
+      const CycleWork work = work_of_cycle(device, K, B, m, A, cosine);
+      if (work.net < -1e-12 * work.gross) return false;
+    }
+  return true;
+}
+
+double largest_stable_stiffness(const SampledDevice& device, double B) {
+  return bisect([&](double K) { return is_stable(device, K, B); });
+}
+double largest_passive_stiffness(const SampledDevice& device, double B) {
+  return bisect([&](double K) { return is_passive(device, K, B); });
+}
+double largest_stable_damping(const SampledDevice& device, double K) {
+  return bisect([&](double B) { return is_stable(device, K, B); });
+}
+double largest_passive_damping(const SampledDevice& device, double K) {
+  return bisect([&](double B) { return is_passive(device, K, B); });
+}
+
+}  // namespace twinarm
