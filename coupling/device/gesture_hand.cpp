@@ -31,8 +31,7 @@ HandSample GestureHand::sample(double t, double /*toward: rates change between t
   hand.button = goal.buttons[0];
   hand.clutch = goal.buttons[1];
   if (goal.rate == std::array<double, 6>{}) return hand;
-  constexpr double kAhead =
-      1e-3;  // [s]; so that what slides along the edge of the reach has a rate
+  constexpr double kAhead = 1e-6;  // [s]; a difference: along the edge of the reach it slides too
   const OmniAngles next = angles(goal, t + kAhead);
   for (std::size_t j = 0; j < 6; ++j) hand.theta_dot[j] = (next[j] - hand.theta[j]) / kAhead;
   return hand;

@@ -124,7 +124,7 @@ void VirtualOmni::render(const DeviceForce& force) noexcept {
 
 void VirtualOmni::tick() noexcept {
   const Rendered& next = rendered_[static_cast<std::size_t>(tick_) % rendered_.size()];
-  if (next.tick == tick_) held_ = next.torque;
+  if (next.tick == tick_) held_ = omni_limit(figures_, truth_.theta, next.torque);
 
   const double h = period_ / kSubsteps;
   const Matrix3 J = omni_jacobian(figures_, wanted_.theta);
@@ -142,7 +142,9 @@ void VirtualOmni::tick() noexcept {
 void VirtualOmni::substep(const Vector3& goal, const Vector3& goal_velocity) noexcept {
   Vector3 &x = truth_.position, &v = truth_.velocity;
   const bool at_rest = v.isZero(0);
-  truth_.motors = omni_force(figures_, truth_.theta, omni_limit(figures_, truth_.theta, held_));
+  truth_.motors = omni_force(figures_, truth_.theta, held_);
+  const double force = truth_.motors.norm();  // held torques: the arm turns under them
+  if (force > figures_.peak_force) truth_.motors *= figures_.peak_force / force;
 
   // Without friction, seen from a goal that moves evenly: u = x - g.
   const Response& r = response_;

@@ -19,7 +19,8 @@
 // the last tick at or before its time (- delay_to_host). Between ticks the linear part is advanced
 // by its exact exponential, so no stiffness of the arm is too large, and friction by the constant
 // force that stops or slows the point. What the mass of a real Omni does besides (it differs by
-// direction and posture) is not in it. docs/hand.md. Cost: about 1 us a tick.
+// direction and posture) is not in it. docs/hand.md. Cost: about
+// 2 us of processor time a tick.
 #pragma once
 
 #include <memory>
