@@ -13,7 +13,7 @@ bool is_after(double t, double toward, double corner) {
   return std::abs(t - corner) < 1e-9 ? 0.5 * (t + toward) > corner : t > corner;
 }
 
-std::string seconds(double t) {
+std::string seconds_text(double t) {
   std::string text = std::to_string(t);
   text.erase(text.find_last_not_of('0') + 1);
   return (text.back() == '.' ? text + "0" : text) + " s";
@@ -31,7 +31,7 @@ HandSample StepHand::sample(double t, double toward) const {
 }
 
 std::string StepHand::description() const {
-  return "scripted: a step after " + seconds(at_);
+  return "scripted: a step after " + seconds_text(at_);
 }
 
 ChirpHand::ChirpHand(const HandAngles& middle, const HandAngles& amplitude, double f0, double f1,
@@ -53,7 +53,7 @@ HandSample ChirpHand::sample(double t, double toward) const {
 
 std::string ChirpHand::description() const {
   return "scripted: a chirp from " + std::to_string(f0_) + " to " + std::to_string(f1_) +
-         " Hz in " + seconds(duration_);
+         " Hz in " + seconds_text(duration_);
 }
 
 ReachHand::ReachHand(const HandAngles& from, const HandAngles& to, double at, double T)
@@ -71,7 +71,7 @@ HandSample ReachHand::sample(double t, double /*toward: the motion has no corner
 }
 
 std::string ReachHand::description() const {
-  return "scripted: a minimum-jerk reach of " + seconds(T_) + " after " + seconds(at_);
+  return "scripted: a minimum-jerk reach of " + seconds_text(T_) + " after " + seconds_text(at_);
 }
 
 }  // namespace twinarm

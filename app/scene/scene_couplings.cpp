@@ -197,6 +197,10 @@ ForceSource* SceneCouplings::source(std::size_t c) {
   return spec(c).leader == c ? ties_[c]->source.get() : nullptr;
 }
 
+const HandSource& SceneCouplings::hand(std::size_t c) const {
+  return *ties_[c]->hand;
+}
+
 const Coupling& SceneCouplings::coupling(std::size_t c) const {
   return ties_[c]->source->coupling();
 }

@@ -56,6 +56,8 @@ class SceneCouplings {
   // The weightless inertia that the treatment added in the last step (docs/coupling.md).
   double m_star(std::size_t c) const;
   const SceneCoupling& spec(std::size_t c) const { return scene_.couplings[c]; }
+  // What moves the kinematic side; of a target that stands still a hand at rest.
+  const HandSource& hand(std::size_t c) const;
 
  private:
   struct Tie;

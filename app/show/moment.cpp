@@ -104,8 +104,14 @@ Moment moment_of(const SceneModel& scene, SceneCouplings& couplings, const State
     moment.pulls.push_back(pull_of(scene, couplings, c, moment, pull));
     moment.elastic += moment.pulls.back().energy;
   }
-  for (const std::size_t c : leaders(scene))
-    moment.twins.push_back({scene.couplings[c].robot, couplings.target(c, x.t).k.X_WL});
+  for (const std::size_t c : leaders(scene)) {
+    const SceneCoupling& spec = scene.couplings[c];
+    moment.twins.push_back({spec.robot, couplings.target(c, x.t).k.X_WL});
+    if (spec.target == CouplingTarget::Kind::start || spec.target == CouplingTarget::Kind::state)
+      continue;
+    const HandSample hand = couplings.hand(c).sample(x.t, x.t + 1e-6);
+    moment.hands.push_back({hand.theta, hand.button});
+  }
   return moment;
 }
 

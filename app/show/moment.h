@@ -4,6 +4,7 @@
 // pulls as they were given.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,12 +46,19 @@ struct ShownTwin {
   std::vector<Pose> X_WL;
 };
 
+// The hand device that moves a twin.
+struct ShownHand {
+  std::array<double, 6> theta{};  // its joints theta1..theta6 [rad]
+  bool button = false;
+};
+
 struct Moment {
   State<double> x;
   Kinematics k;
   std::vector<ShownContact> contacts;
   std::vector<ShownPull> pulls;
   std::vector<ShownTwin> twins;
+  std::vector<ShownHand> hands;                    // by twin that a hand moves
   double kinetic = 0, potential = 0, elastic = 0;  // [J]
   explicit Moment(const Model<double>& model) : x(model), k(model) {}
 };

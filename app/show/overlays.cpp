@@ -16,6 +16,7 @@ namespace twinarm {
 const std::vector<Overlay>& all_overlays() {
   static const std::vector<Overlay> all{
       {"ghost", "the kinematic twin of a robot, that couplings follow", show_twins, false},
+      {"device", "the hand device that moves the twin", show_device, false},
       {"trails", "where bodies came from", show_trails, false},
       {"couplings", "spring-dampers, coloured by their force", show_couplings},
       {"contacts", "points, normals, friction cones", show_contacts, false},

@@ -23,6 +23,7 @@ const std::vector<Overlay>& all_overlays();
 std::vector<std::string> parse_overlays(const std::string& text);
 
 void show_twins(Stage& stage, const Moment& moment);
+void show_device(Stage& stage, const Moment& moment);
 void show_couplings(Stage& stage, const Moment& moment);
 void show_contacts(Stage& stage, const Moment& moment);
 void show_forces(Stage& stage, const Moment& moment);

@@ -118,6 +118,7 @@ Stage make_stage(const RobotDescription& robot, const Model<double>& model) {
 
 void look_at(Stage& stage, const Moment& moment) {
   stage.instants.emplace_back().add(stage.cast, moment);
+  stage.has_hand = stage.has_hand || !moment.hands.empty();
 }
 
 void look_ahead(Stage& stage, const Moment& moment) {
@@ -173,6 +174,7 @@ void set_view(Stage& stage, const CameraWish& wish, double aspect) {
     stage.cast.notes.push_back(
         "the scene has no floor: the one in the picture is only drawn, nothing touches it");
   }
+  if (stage.has_hand) place_device(stage);
   stage.list.camera = make_camera(wish, stage.extent, aspect);
 }
 

@@ -45,11 +45,14 @@ struct Stage {
   Cast cast;
   DrawList list;
   std::vector<Extent> instants;  // counted, of the run and of what is shown of it
+  bool has_hand = false;         // at one of them
   Extent extent;                 // of all that are of interest
   double farthest = 1e300;       // see framing.h
   Scales scales;
   Trace trace;
   std::string name;
+  bool frames_device = false;     // set before set_view(): the hand device is part of the view
+  std::optional<Pose> X_WDevice;  // where it stands, if a hand is seen
 };
 
 Stage make_stage(const SceneModel& scene);
@@ -67,6 +70,8 @@ enum class Measured { of_run, of_picture };
 void measure(Stage& stage, const Moment& moment, Measured measured);
 // Camera, floor and grid. Notes where the floor is only drawn.
 void set_view(Stage& stage, const CameraWish& wish, double aspect);
+// The hand device stands on the ground, to the left of all that is seen. overlays/device.cpp
+void place_device(Stage& stage);
 
 // Names of overlays, as in overlays.h. Fills stage.list.
 void draw(Stage& stage, const Moment& moment, const std::vector<std::string>& overlays);

@@ -51,7 +51,7 @@ void check_settings(const VirtualOmniSettings& s) {
 }
 
 // exp(h A) of x' = v, v' = (-k x - b v + f) / m, f constant.
-Matrix3 exponential(double k, double b, double m, double h) {
+Matrix3 exponential_of_mass(double k, double b, double m, double h) {
   Matrix3 A;
   A << 0, 1, 0, -k / m, -b / m, 1 / m, 0, 0, 0;
   A *= h;
@@ -83,8 +83,8 @@ VirtualOmni::VirtualOmni(std::shared_ptr<const HandSource> hand,
       response_{} {
   check_settings(settings);
   const ArmImpedance& arm = settings.arm;
-  const Matrix3 E = exponential(arm.stiffness, arm.damping + viscous_,
-                                figures_.apparent_mass + arm.mass, period_ / kSubsteps);
+  const Matrix3 E = exponential_of_mass(arm.stiffness, arm.damping + viscous_,
+                                        figures_.apparent_mass + arm.mass, period_ / kSubsteps);
   response_ = {E(0, 0), E(0, 1), E(0, 2), E(1, 0), E(1, 1), E(1, 2)};
   sensed_.resize(ticks_of(delay_to_host_, period_));
   rendered_.resize(ticks_of(delay_to_motors_, period_));

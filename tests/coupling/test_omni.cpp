@@ -47,7 +47,7 @@ OmniAngles with_arm(const std::array<double, 3>& arm) {
   return {arm[0], arm[1], arm[2]};
 }
 
-double lever(const OmniFigures& o, const OmniAngles& q) {
+double waist_lever(const OmniFigures& o, const OmniAngles& q) {
   return o.L1 * std::cos(q[1]) + o.L2 * std::sin(q[1] + q[2]);
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("Omni: the Jacobian is the complex-step derivative; det J = -L1 L2 R c
       for (int i = 0; i < 3; ++i)
         worst = std::max(worst, std::abs(J(i, j) - p[static_cast<std::size_t>(i)].imag() / e));
     }
-    const double det = -o.L1 * o.L2 * lever(o, q) * std::cos(q[2]);
+    const double det = -o.L1 * o.L2 * waist_lever(o, q) * std::cos(q[2]);
     worst_det = std::max(worst_det, std::abs(J.determinant() - det));
   }
   CHECK(worst < 1e-15);
@@ -99,7 +99,7 @@ TEST_CASE("Omni: motors do the work of the force; force and torque are each othe
   double work = 0, back = 0;
   for (int n = 0; n < 2000; ++n) {
     const OmniAngles q = draw.in_range(o);
-    if (std::abs(lever(o, q)) < 0.01) continue;
+    if (std::abs(waist_lever(o, q)) < 0.01) continue;
     const Vector3 F = draw.vector(3);
     const auto tau = omni_torque(o, q, F);
     // Virtual work by central differences of the position: tau . dq = F . dx. theta3 is relative:
@@ -135,7 +135,7 @@ TEST_CASE("Omni: motors are limited together, to 3.3 N at the stylus") {
   OmniFigures even = o;
   const double t2 = 1.2;
   const OmniAngles on_axis{0.4, t2, t2 - std::numbers::pi / 2 - t2, 0, 0, 0};  // sin t3 = -cos t2
-  CHECK(std::abs(lever(even, on_axis)) < 1e-15);
+  CHECK(std::abs(waist_lever(even, on_axis)) < 1e-15);
   CHECK(omni_force(even, on_axis, {1, 0, 0}) == Vector3(0, 0, 0));
 }
 
@@ -176,7 +176,7 @@ TEST_CASE("Omni: IK(FK(q)) = q within the ranges where R > 0, and only there") {
   int beyond = 0;
   for (int n = 0; n < 20000; ++n) {
     const OmniAngles q = draw.in_range(o);
-    const double R = lever(o, q);
+    const double R = waist_lever(o, q);
     const auto back = omni_inverse(o, omni_position(o, q));
     REQUIRE(back.has_value());
     double off = 0;
@@ -214,7 +214,7 @@ TEST_CASE("Omni: the pose of the stylus turns with each joint about that joint's
     }
     // Pitch: the angle between stylus and forearm alone.
     CHECK_UNARY(std::abs(X.R.col(2).dot(along) - std::sin(q[4] - o.gimbal_pitch)) < 1e-14);
-    if (lever(o, q) < 1e-3) continue;
+    if (waist_lever(o, q) < 1e-3) continue;
     const auto found = omni_inverse(o, X);
     REQUIRE(found.has_value());
     back = std::max(back, (omni_stylus(o, *found).R - X.R).norm());

@@ -61,13 +61,13 @@ std::vector<NamedDevice> all_devices() {
       return std::make_unique<VirtualOmni>(hand, settings);
     };
   };
-  VirtualOmniSettings late, unheld;
+  VirtualOmniSettings late, alone;
   late.delay_to_host = 0.02;
   late.delay_to_motors = 0.0135;
-  unheld.arm = {0, 0, 0};
+  alone.arm = {0, 0, 0};
   return {{"virtual Omni", virtual_omni({})},
           {"virtual Omni, late", virtual_omni(late)},
-          {"virtual Omni, not held", virtual_omni(unheld)}};
+          {"virtual Omni, not held", virtual_omni(alone)}};
 }
 
 // Bits of all that a device says in a second, at times that are not its own ticks.

@@ -14,7 +14,7 @@ TEST_CASE(
     "virtual Omni, not held: a force F moves 45 g by F t^2 / (2 m); 10 N move it like 3.3 N") {
   const Vector3 way = Vector3(1, 2, -1).normalized();
   for (const double F : {0.05, 0.4, 10.0}) {
-    VirtualOmni omni(resting_hand(), unheld(smooth()));
+    VirtualOmni omni(resting_hand(), not_held(closed_form()));
     const Vector3 start = omni.truth().position;
     const double t = F > 3 ? 0.02 : 0.1, most = std::min(F, 3.3);
     run_ticks(omni, 0, static_cast<int>(std::round(t / kTick)),
@@ -29,7 +29,7 @@ TEST_CASE(
 
 TEST_CASE(
     "virtual Omni, held: the hand gives way by F / k, on the closed form of a mass on a spring") {
-  VirtualOmniSettings s = smooth();
+  VirtualOmniSettings s = closed_form();
   VirtualOmni omni(resting_hand(), s);
   const double k = 300, b = 5, m = 0.145, F = 0.5;
   const double w = std::sqrt(k / m), z = b / (2 * std::sqrt(k * m)), wd = w * std::sqrt(1 - z * z);
@@ -41,7 +41,7 @@ TEST_CASE(
     const double x =
         F / k * (1 - std::exp(-z * w * t) * (std::cos(wd * t) + z * w / wd * std::sin(wd * t)));
     worst = std::max(worst, (omni.truth().position - start - x * way).norm());
-    push(omni, seen, F * way);
+    push_stylus(omni, seen, F * way);
   }
   CHECK(worst < 2e-3 * F / k);  // of torques that are held while the arm turns
   CHECK((omni.truth().position - start - F / k * way).norm() < 1e-9);
@@ -52,7 +52,7 @@ TEST_CASE(
   // A chirp of one slow frequency stands for even motion; the relative damper sees its velocity.
   HandAngles to = kPosture;
   to[2] += 0.02;
-  VirtualOmni omni(std::make_shared<StepHand>(kPosture, to, 0.01, 5), smooth());
+  VirtualOmni omni(std::make_shared<StepHand>(kPosture, to, 0.01, 5), closed_form());
   const Vector3 from = omni.truth().position;
   omni.poll(0);
   const double k = 300, b = 5, m = 0.145;
@@ -68,7 +68,7 @@ TEST_CASE(
     worst = std::max(worst, (omni.truth().position - g - u * (from - g)).norm());
   }
   CHECK(worst < 1e-12);
-  VirtualOmni slow(std::make_shared<ReachHand>(kPosture, to, 0, 4.0), smooth());
+  VirtualOmni slow(std::make_shared<ReachHand>(kPosture, to, 0, 4.0), closed_form());
   double lag = 0;
   for (int n = 0; n < 4000; ++n) {
     slow.poll(n * kTick);
@@ -79,7 +79,7 @@ TEST_CASE(
 }
 
 TEST_CASE("virtual Omni: friction holds the point without one bit of creep, until 0.26 N") {
-  VirtualOmniSettings s = unheld(smooth());
+  VirtualOmniSettings s = not_held(closed_form());
   s.figures.friction = 0.26;
   const Vector3 way = Vector3(-0.2, 1, 0.4).normalized();
   VirtualOmni held(resting_hand(), s), slides(resting_hand(), s);
@@ -104,7 +104,7 @@ TEST_CASE("virtual Omni: friction holds the point without one bit of creep, unti
 }
 
 TEST_CASE("virtual Omni: an arm that creeps takes the stylus along once its spring has 0.26 N") {
-  VirtualOmniSettings s = smooth();
+  VirtualOmniSettings s = closed_form();
   s.figures.friction = 0.26;
   s.arm.damping = 0.5;
   HandAngles to = kPosture;
@@ -129,7 +129,7 @@ TEST_CASE("virtual Omni: an arm that creeps takes the stylus along once its spri
 }
 
 TEST_CASE("virtual Omni: with motors off and a still hand its energy never grows") {
-  VirtualOmniSettings s = smooth();
+  VirtualOmniSettings s = closed_form();
   for (const double friction : {0.0, 0.1}) {
     s.figures.friction = friction;
     s.arm.damping = friction > 0 ? 0 : 5;
@@ -152,7 +152,7 @@ TEST_CASE("virtual Omni: with motors off and a still hand its energy never grows
 }
 
 TEST_CASE("virtual Omni: no stiffness of the arm is too large for its steps") {
-  VirtualOmniSettings s = smooth();
+  VirtualOmniSettings s = closed_form();
   s.arm.stiffness = 1e7;  // w h = 2.1 of a substep, without damping
   s.arm.damping = 0;
   HandAngles to = kPosture;
@@ -176,7 +176,7 @@ TEST_CASE("virtual Omni: a wall is stable up to the exact limit of the held forc
   };
   for (const Limit& limit : {Limit{2152.5, 0}, Limit{715.7, kTick}})
     for (const double part : {0.985, 1.015}) {
-      VirtualOmniSettings s = unheld(smooth());
+      VirtualOmniSettings s = not_held(closed_form());
       s.device_damping = 0.1;
       s.delay_to_motors = limit.delay;
       VirtualOmni omni(resting_hand(), s);

@@ -44,8 +44,8 @@ TEST_CASE("virtual Omni: forces are taken over at its own ticks and held between
     OmniAngles at = kPosture;
     return DeviceForce{omni_torque(omni.figures(), at, F * way)};
   };
-  VirtualOmni plain(resting_hand(), smooth()), quick(resting_hand(), smooth()),
-      slow(resting_hand(), smooth()), often(resting_hand(), smooth());
+  VirtualOmni plain(resting_hand(), closed_form()), quick(resting_hand(), closed_form()),
+      slow(resting_hand(), closed_form()), often(resting_hand(), closed_form());
   const auto wanted = [](int n) { return 0.5 * std::sin(0.3 * n); };
   for (int n = 0; n < 200; ++n) {
     const DeviceState a = plain.poll(n * kTick), b = quick.poll(n * kTick);
@@ -72,10 +72,10 @@ TEST_CASE("virtual Omni: delays shift what is seen and what is felt, by their ti
   HandAngles to = kPosture;
   for (double& theta : to) theta += 0.2;
   const auto hand = std::make_shared<ReachHand>(kPosture, to, 0.01, 0.1);
-  VirtualOmniSettings late = smooth();
+  VirtualOmniSettings late = closed_form();
   late.delay_to_host = 0.0073;
   late.delay_to_motors = 0.005;
-  VirtualOmniSettings shifted = smooth();
+  VirtualOmniSettings shifted = closed_form();
   VirtualOmni now(hand, shifted), then(hand, late), early(hand, shifted);
   std::vector<DeviceState> seen;
   for (int n = 0; n < 150; ++n) {
@@ -96,7 +96,7 @@ TEST_CASE("virtual Omni: delays shift what is seen and what is felt, by their ti
 TEST_CASE("virtual Omni: joints stop at their ranges, inelastically, and come away at once") {
   HandAngles far = kPosture;
   far = {2.0, 2.5, -1.5, 3, 3, -3};
-  VirtualOmniSettings s = smooth();
+  VirtualOmniSettings s = closed_form();
   VirtualOmni omni(std::make_shared<StepHand>(far, kPosture, 0.5, 1), s);
   const OmniFigures& o = omni.figures();
   OmniAngles goal{};

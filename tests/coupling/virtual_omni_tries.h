@@ -17,18 +17,18 @@ inline std::shared_ptr<const HandSource> resting_hand() {
   return std::make_shared<StepHand>(kPosture, kPosture, 0, 1);
 }
 // No friction, no counts: what has a closed form.
-inline VirtualOmniSettings smooth() {
+inline VirtualOmniSettings closed_form() {
   VirtualOmniSettings s;
   s.figures.friction = 0;
   s.figures.resolution = 0;
   return s;
 }
-inline VirtualOmniSettings unheld(VirtualOmniSettings s) {
+inline VirtualOmniSettings not_held(VirtualOmniSettings s) {
   s.arm = {0, 0, 0};
   return s;
 }
 // A host that makes a force at the stylus, as far as it knows where that is.
-inline void push(VirtualOmni& omni, const DeviceState& seen, const Vector3& force) {
+inline void push_stylus(VirtualOmni& omni, const DeviceState& seen, const Vector3& force) {
   omni.render({omni_torque(omni.figures(), seen.theta, force)});
 }
 // One tick after another; `force` by tick and what is seen.
@@ -36,7 +36,7 @@ inline void run_ticks(VirtualOmni& omni, int from, int to,
                       const std::function<Vector3(int, const DeviceState&)>& force) {
   for (int n = from; n < to; ++n) {
     const DeviceState seen = omni.poll(n * kTick);
-    push(omni, seen, force(n, seen));
+    push_stylus(omni, seen, force(n, seen));
   }
   omni.poll(to * kTick);
 }

@@ -100,6 +100,38 @@ mass = 1
   }
 }
 
+TEST_CASE("device: its stylus is where the hand's angles put it, beside all that is seen") {
+  const SceneModel scene = built(R"(
+[[body]]
+name = "ball"
+shape = { sphere = { radius = 0.4 } }
+mass = 1
+position = [0, 0, 0.4]
+)");
+  Moment moment = moment_of(scene.model, scene.start);
+  Stage none = stage_at(scene, moment);
+  CHECK(instances_of(none, moment, "device").empty());
+  moment.hands.push_back({});
+  const auto ball_of_stylus = [&](const std::array<double, 6>& theta) {
+    moment.hands[0].theta = theta;
+    Stage stage = stage_at(scene, moment);
+    const auto found = instances_of(stage, moment, "device");
+    REQUIRE(found.size() > 6);
+    for (const Instance& part : found) CHECK(part.X_WM.p.x() < -0.4);
+    for (const Instance& part : found)
+      if (part.scale.isApproxToConstant(0.013)) return part.X_WM.p;
+    FAIL("no ball where the stylus' joints meet");
+    return Vector3(0, 0, 0);
+  };
+  // Half a right angle of the waist, at a lever of L1 = 133.35 mm: to the left and away from the
+  // user, who sits at -y; half a right angle of the arm lifts the point by both links.
+  constexpr double L = 0.13335, half = 0.7853981633974483, s = 0.7071067811865476;
+  const Vector3 rest = ball_of_stylus({});
+  CHECK((ball_of_stylus({half, 0, 0, 1, 1, 1}) - rest - L * Vector3(-s, 1 - s, 0)).norm() < 1e-6);
+  CHECK((ball_of_stylus({0, half, 0, 0, 0, 0}) - rest - L * Vector3(0, 1 - 2 * s, 1)).norm() <
+        1e-6);
+}
+
 TEST_CASE("overlays: all misspelt names are told at once") {
   const std::vector<Fault> faults = faults_of([] { parse_overlays("forces,contcts,sprngs"); });
   REQUIRE(faults.size() == 2);

@@ -48,6 +48,8 @@ class Rendering::View {
                                          : static_cast<int>(std::lround(kPlotShare * wish.height))),
         height_(wish.height - plot_height_) {
     if (!run.name.empty()) stage_.name = run.name;
+    stage_.frames_device =
+        std::find(wish.overlays.begin(), wish.overlays.end(), "device") != wish.overlays.end();
     stage_.list.background = wish.background;
     for (const RunInstant& instant : run.around) look_ahead(stage_, run.moment(instant));
     for (const RunInstant& instant : run.shown) look_at(stage_, run.moment(instant));

@@ -1,0 +1,72 @@
+// The hand device: a Phantom Omni in its true size, of rods and balls, in the posture of the hand.
+//
+// Its joints are a function of time (coupling/device/omni.h); the sizes of its parts, but for the
+// two links, are taken by eye.
+#include "coupling/device/omni.h"
+
+#include <Eigen/Geometry>
+
+#include "app/show/overlays.h"
+#include "solver/turn.h"
+
+namespace twinarm {
+namespace {
+
+const Color kCase{0.23f, 0.24f, 0.27f, 1.0f}, kArm{0.66f, 0.68f, 0.71f, 1.0f},
+    kStylus{0.16f, 0.33f, 0.62f, 1.0f}, kPressed{0.86f, 0.42f, 0.12f, 1.0f};
+constexpr double kShoulder = 0.125;  // above what the device stands on [m]
+
+Vector3 shoulder_of(const OmniFigures& omni) {
+  return {0, omni.lift, -omni.back};
+}
+
+void draw_device(DrawList& list, const Pose& X_WD, const ShownHand& hand) {
+  const OmniFigures omni;
+  const Vector3 shoulder = shoulder_of(omni), elbow = omni_elbow(omni, hand.theta);
+  const Pose X_WS = X_WD * omni_stylus(omni, hand.theta);
+  const Matrix3 waist = Eigen::AngleAxisd(-hand.theta[0], Vector3::UnitY()).toRotationMatrix();
+  add_box(list, {X_WD.R, X_WD * (shoulder - Vector3(0, kShoulder - 0.03, 0))}, {0.14, 0.06, 0.17},
+          kCase);
+  add_rod(list, X_WD * (shoulder - Vector3(0, 0.07, 0)), X_WD * shoulder, 0.035, kCase);
+  const Vector3 across = 0.036 * waist.col(0);
+  add_rod(list, X_WD * (shoulder - across), X_WD * (shoulder + across), 0.03, kStylus);
+  add_rod(list, X_WD * shoulder, X_WD * elbow, 0.011, kArm);
+  add_sphere(list, X_WD * elbow, 0.016, kCase);
+  add_rod(list, X_WD * elbow, X_WS.p, 0.008, kArm);
+  add_sphere(list, X_WS.p, 0.013, kCase);
+  const Color& grip = hand.button ? kPressed : kStylus;
+  add_rod(list, X_WS * Vector3(0, 0, -0.02), X_WS * Vector3(0, 0, 0.11), 0.0085, grip);
+  const Vector3 tip = X_WS * Vector3(0, 0, -0.045), neck = X_WS * Vector3(0, 0, -0.02);
+  add_mesh_instance(list, list.unit_mesh(UnitShape::cone), {turn_z_to(tip - neck), neck}, kCase,
+                    Vector3(0.0085, 0.0085, (tip - neck).norm()));
+}
+
+}  // namespace
+
+void place_device(Stage& stage) {
+  // Device axes: x right, y up, z to the user, who sits at the world's -y.
+  Pose X_WD;
+  for (int c = 0; c < 3; ++c) X_WD.R.col(c) = world_from_device(Vector3::Unit(c));
+  const OmniFigures omni;
+  const Vector3 foot = shoulder_of(omni) - Vector3(0, kShoulder, 0);
+  const Vector3 place(stage.extent.low().x() - 0.2, stage.extent.center().y(),
+                      stage.list.ground.height);
+  X_WD.p = place - X_WD.R * foot;
+  stage.X_WDevice = X_WD;
+  if (!stage.frames_device) return;
+  for (const double x : {-0.13, 0.13})
+    for (const double y : {0.0, 0.32})
+      for (const double z : {-0.09, 0.3}) stage.extent.add(X_WD * (foot + Vector3(x, y, z)));
+}
+
+void show_device(Stage& stage, const Moment& moment) {
+  if (moment.hands.empty() || !stage.X_WDevice) return;
+  Pose X_WD = *stage.X_WDevice;
+  for (const ShownHand& hand : moment.hands) {
+    draw_device(stage.list, X_WD, hand);
+    X_WD.p.x() -= 0.35;  // of a second hand
+  }
+  stage.list.legend.push_back({kStylus, "hand device (Phantom Omni), true size"});
+}
+
+}  // namespace twinarm
