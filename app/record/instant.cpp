@@ -34,9 +34,17 @@ bool is_recording(const std::filesystem::path& file) {
   std::string start(8, '\0');
   stream.read(start.data(), 8);
   if (stream && start == std::string(recording_format::kMagic, 8)) return true;
+  if (file.extension() == ".twinrec") return true;  // one that is not there is told by its reader
   std::error_code ignored;
-  if (file.extension() == ".twinrec" && std::filesystem::exists(file, ignored)) return true;
   return !std::filesystem::exists(file, ignored) && std::filesystem::exists(part_of(file), ignored);
+}
+
+void check_recorded(const RobotOptions& given, FaultList& faults) {
+  if (given.state.empty() && given.gravity.empty() && !given.floating && given.friction &&
+      given.armature && !given.strict)
+    return;
+  faults.add({"", 0, "--state, --gravity, --floating, --no-friction, --no-armature, --strict",
+              "a recording has its own state and model", "leave them out; choose by --at"});
 }
 
 RecordedInstant open_instant(const std::filesystem::path& file, std::optional<double> at) {

@@ -12,8 +12,11 @@
 
 namespace twinarm {
 
-// Whether the file begins as a recording, or there is only its .part.
+// Whether the file begins as a recording, is named like one, or there is only its .part.
 bool is_recording(const std::filesystem::path& file);
+
+// Adds a fault where options were given that change a model or its state: a recording has both.
+void check_recorded(const RobotOptions& given, FaultList& faults);
 
 struct RecordedInstant {
   SimulatePlan prepared;  // its state is that of the instant; so are the points of wrenches

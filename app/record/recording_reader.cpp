@@ -141,9 +141,9 @@ std::size_t Recording::at(double t, const std::string& option) const {
                        short_number_text(t) + " s is not in the recording, which goes from " +
                            short_number_text(first) + " to " + short_number_text(last) + " s",
                        "give a time within"}});
-  std::size_t n = 0;
-  while (n + 1 < places_.size() && places_[n + 1].t <= t + slack) ++n;
-  return n;
+  const auto after = std::upper_bound(places_.begin() + 1, places_.end(), t + slack,
+                                      [](double end, const Place& place) { return end < place.t; });
+  return static_cast<std::size_t>(after - places_.begin()) - 1;
 }
 
 }  // namespace twinarm

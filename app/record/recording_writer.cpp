@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/output_file.h"
 #include "solver/fault.h"
 
 namespace twinarm {
@@ -16,6 +17,13 @@ std::string bytes_of(std::uint32_t number) {
   return memory.bytes();
 }
 
+std::filesystem::path checked_place(std::filesystem::path file) {
+  FaultList faults;
+  check_place(file, faults);
+  faults.check();
+  return file;
+}
+
 }  // namespace
 
 std::filesystem::path part_of(const std::filesystem::path& file) {
@@ -23,11 +31,11 @@ std::filesystem::path part_of(const std::filesystem::path& file) {
 }
 
 RecordingWriter::RecordingWriter(std::filesystem::path file, RecordingHeader header)
-    : file_(std::move(file)),
+    : file_(checked_place(std::move(file))),
       part_(part_of(file_)),
       out_(part_, std::ios::binary | std::ios::trunc),
       flushed_(std::chrono::steady_clock::now()) {
-  if (!out_ || std::filesystem::is_directory(file_)) fail();
+  if (!out_) fail();
   waiting_ = std::string(recording_format::kMagic, 8) + bytes_of(recording_format::kVersion);
   Memory memory;
   visit(memory, header);
@@ -88,7 +96,7 @@ void RecordingWriter::flush() {
 
 void RecordingWriter::fail() const {
   throw InputError({{file_.string(), 0, "--record", "the recording cannot be written",
-                     "choose a folder that exists, can be written, and has room"}});
+                     "choose a folder that can be written, and has room"}});
 }
 
 }  // namespace twinarm

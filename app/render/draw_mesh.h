@@ -33,7 +33,7 @@ inline constexpr double kCreaseAngle = 35.0 * 3.14159265358979323846 / 180.0;
 // triangle's corner is the mean of the facets around that vertex that lie within the crease angle
 // of the triangle, weighted by their area and their angle there: the large flat faces of a casting
 // then stay flat to the eye, and its small fillets take up the whole turn. Facets without area are
-// dropped. Cost: the sum of squared valences.
+// dropped. Cost: the sum of squared valences, of which those beyond 512 count once.
 //
 // `uv`: where each corner of each triangle lies in a texture, (0, 0) at its top left and (1, 1) at
 // its bottom right; empty for none.

@@ -168,9 +168,11 @@ void set_view(Stage& stage, const CameraWish& wish, double aspect) {
   } else if (has_slope) {
     ground.visible = false;
   } else {
-    // None that anything touches: at 0, where robots stand, or a little below the lowest.
+    // None that anything touches: at 0, where robots stand, or under what reaches lower. Never
+    // through a body: a face in its plane would show it in stripes.
     const double lowest = stage.extent.empty() ? 0 : stage.extent.low().z();
-    ground.height = lowest > -0.02 * radius && lowest < 2 * radius ? 0 : lowest - 0.05 * radius;
+    const bool stands = lowest > -0.02 * radius && lowest < 2 * radius;
+    ground.height = stands ? std::min(lowest, 0.0) : lowest - 0.05 * radius;
     stage.cast.notes.push_back(
         "the scene has no floor: the one in the picture is only drawn, nothing touches it");
   }

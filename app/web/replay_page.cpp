@@ -39,7 +39,7 @@ FilmedRun open_film(const std::filesystem::path& file, Progress& progress) {
   times.is_film = last > first;
   times.interval = interval_of(std::max(last - first, 1e-9), recording.size());
   if (!times.is_film) times.at = last;
-  return film_run(options, times, progress);
+  return film_run(options, times, "auto", progress);
 }
 
 Stage stage_of(const FilmedRun& run) {

@@ -154,7 +154,7 @@ class PostMortems(RecordingCommand):
             self.assertIn(words, errors)
         self.assertIn("--record: its file has no name", self.refused(
             "simulate", self.folder / "test.urdf", "--duration", 1, "--record", ""))
-        self.assertIn("cannot be written", self.refused(
+        self.assertIn("mkdir -p", self.refused(
             "simulate", self.folder / "test.urdf", "--duration", 1, "--record",
             self.folder / "none" / "run.twinrec"))
 

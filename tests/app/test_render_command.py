@@ -73,7 +73,7 @@ class Render(unittest.TestCase):
 
     def fake_ffmpeg(self):
         folder = self.folder / "bin"
-        folder.mkdir()
+        folder.mkdir(exist_ok=True)
         fake = folder / "ffmpeg"
         fake.write_text(FAKE)
         fake.chmod(0o755)
@@ -201,6 +201,28 @@ class Render(unittest.TestCase):
             with self.subTest(words=words):
                 self.assertTrue(self.refusals(self.ball, "--png", png, *words))
                 self.assertFalse(png.exists())
+
+    def test_what_cannot_be_is_told_by_the_words_that_were_typed_and_before_the_work(self):
+        run, out, film = self.record("a"), self.folder / "b.png", self.folder / "film"
+        self.assertIn("does not exist", self.refusals(self.folder / "gone.twinrec", "--png",
+                                                      out)[0]["rule"])
+        for words in (["--to", "9"], ["--from", "7", "--to", "9"]):
+            faults = self.refusals(run, "--frames", film, *words)
+            self.assertEqual([(f["where"], f["rule"].split()[0]) for f in faults],
+                             list(zip(words[::2], words[1::2])))
+        for words in (["--png", out, "--at", "9"], ["--frames", film, "--to", "9"]):
+            self.assertIn("neither", self.refusals(run, "--beside", run, *words)[0]["rule"])
+        self.assertIn("--gravity", self.refusals(run, "--png", out, "--gravity", "0,0,-1")[0]["where"])
+        for words in (["--png", self.folder / "a.jpg"], ["--gif", self.folder / "a.mp4"],
+                      ["--frames", run]):
+            faults = self.refusals(self.ball, *words, path=self.fake_ffmpeg())
+            self.assertEqual(len(faults), 1, faults)
+        robot = ROOT / "assets/robots/puma560/puma560.urdf"
+        self.assertEqual(self.refusals(robot, "--frames", film)[0]["where"], "--to")
+        # A run of a day: the camera is looked at first.
+        (fault,) = self.refusals(self.ball, "--frames", film, "--to", "90000", "--fps", "1",
+                                 "--camera", "nowhere")
+        self.assertEqual(fault["where"], "--camera")
 
     def test_a_link_whose_mesh_is_missing_is_drawn_by_its_collision_shapes_and_that_is_said(self):
         urdf = self.folder / "rod.urdf"

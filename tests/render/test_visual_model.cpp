@@ -7,9 +7,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <string>
 #include <utility>
 
@@ -179,4 +184,72 @@ TEST_CASE("triangles that look inwards are turned about, and that is said") {
       "t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 4 2\nf 1 4 3\nf 2 3 4\n"));
   CHECK(any_note(model, "1 triangles looked inwards"));
   CHECK(!model.parts.at(0).mesh.two_sided);
+}
+
+namespace {
+
+// Of any two numbers some stand side by side: far apart in size, equal, or hardly different.
+TriangleMesh senseless_mesh(std::mt19937& random) {
+  static constexpr double kNumbers[] = {0,     1,    -1,  1e-38, 1e-45, 1e38,
+                                        -3e38, 1e-7, 0.5, 1e19,  2,     1 + 1e-7};
+  const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
+  TriangleMesh mesh;
+  const unsigned vertices = 3 + random() % 12;
+  for (unsigned v = 0; v < vertices; ++v) {
+    Vector3 p;
+    for (double& x : p) x = kNumbers[below(12)];
+    mesh.vertices.push_back(p);
+  }
+  for (unsigned t = 1 + random() % 30; t > 0; --t) {
+    const std::array<int, 3> corners{below(vertices), below(vertices), below(vertices)};
+    if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
+      mesh.triangles.push_back(corners);
+  }
+  return mesh;
+}
+
+double length_of(const std::array<float, 3>& v) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+}  // namespace
+
+TEST_CASE("what a senseless mesh becomes can be drawn: corners that exist, normals of length 1") {
+  std::mt19937 random(5);
+  std::size_t drawn = 0;
+  for (int i = 0; i < 1000; ++i) {
+    TriangleMesh mesh = senseless_mesh(random);
+    mend_winding(mesh);
+    const DrawMesh draw = make_draw_mesh(mesh);
+    drawn += draw.triangles.size();
+    REQUIRE(draw.normals.size() == draw.positions.size());
+    for (const auto& triangle : draw.triangles)
+      for (const std::uint32_t corner : triangle) REQUIRE(corner < draw.positions.size());
+    for (const auto& normal : draw.normals)
+      REQUIRE(length_of(normal) == doctest::Approx(1).epsilon(1e-5));
+  }
+  CHECK(drawn > 1000);
+}
+
+TEST_CASE("a corner of a hundred thousand facets takes no time to speak of, and looks as a cone") {
+  TriangleMesh cone{{{0, 0, 1}}, {}};
+  const int n = 100000;
+  const auto turn = [](double k) { return 2 * 3.14159265358979 * k / n; };
+  for (int k = 0; k < n; ++k) {
+    cone.vertices.emplace_back(std::cos(turn(k)), std::sin(turn(k)), 0);
+    cone.triangles.push_back({0, 1 + k, 1 + (k + 1) % n});
+  }
+  const std::clock_t begin = std::clock();
+  mend_winding(cone);
+  const DrawMesh draw = make_draw_mesh(cone);
+  CHECK(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC < 20);  // squared: minutes
+  REQUIRE(draw.triangles.size() == static_cast<std::size_t>(n));
+  const double half = std::sqrt(0.5);
+  for (int k = 0; k < n; k += 999)
+    for (const std::uint32_t corner : draw.triangles[static_cast<std::size_t>(k)]) {
+      const auto& normal = draw.normals[corner];
+      CHECK(std::abs(normal[0] - half * std::cos(turn(k + 0.5))) < 1e-3);
+      CHECK(std::abs(normal[1] - half * std::sin(turn(k + 0.5))) < 1e-3);
+      CHECK(std::abs(normal[2] - half) < 1e-3);
+    }
 }

@@ -5,6 +5,7 @@
 
 #include "app/render/view.h"
 #include "app/show/framing.h"
+#include "app/show/stage.h"
 #include "tests/scene/helpers.h"
 
 namespace twinarm {
@@ -86,6 +87,24 @@ TEST_CASE("framing: one point alone, and none, give a camera that is finite") {
   extent.add(Vector3(NAN, 0, 0));  // left out
   CHECK(extent.points().size() == 1);
   CHECK(is_finite(make_camera({}, extent, 1.5)));
+}
+
+// Tables whose upper face lies at 0, that stand on 0, that 0 cuts in two, that hang in the air.
+TEST_CASE("framing: a floor that is only drawn goes through no body") {
+  for (const double thickness : {0.001, 0.01, 0.03, 0.1, 1.0})
+    for (const double middle : {-0.5 * thickness, 0.5 * thickness, 0.0, 3.0}) {
+      CAPTURE(thickness);
+      CAPTURE(middle);
+      const SceneModel scene = built(
+          "[[body]]\nname = \"table\"\nmass = 1\nshape = { cylinder = { radius = 1, length = " +
+          std::to_string(thickness) + " } }\nposition = [0, 0, " + std::to_string(middle) + "]\n");
+      Stage stage = make_stage(scene);
+      look_at(stage, moment_of(scene.model, scene.start));
+      settle(stage);
+      set_view(stage, {}, 1.5);
+      CHECK(stage.list.ground.height <= middle - 0.5 * thickness + 1e-12);
+      CHECK(stage.list.ground.height > middle - 0.5 * thickness - 4);
+    }
 }
 
 TEST_CASE("framing: a camera that does not exist is refused by name") {

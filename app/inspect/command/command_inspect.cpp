@@ -76,11 +76,7 @@ int run_inspect(const InspectOptions& options) {
   else if (options.step && options.robot.model.extension() != ".toml")
     faults.add({"", 0, "--step", "a robot alone takes no step: what is told is of one instant",
                 "leave it out, or give a scene"});
-  const RobotOptions& given = options.robot;
-  if (is_recorded && (!given.state.empty() || !given.gravity.empty() || given.floating ||
-                      !given.friction || !given.armature || given.strict))
-    faults.add({"", 0, "--state, --gravity, --floating, --no-friction, --no-armature, --strict",
-                "a recording has its own state and model", "leave them out; choose by --at"});
+  if (is_recorded) check_recorded(options.robot, faults);
   std::shared_ptr<const UnpackedRun> files;
   double t = 0;
   auto prepared = attempt(faults, [&] {

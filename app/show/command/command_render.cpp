@@ -51,15 +51,31 @@ void choose_word(const char* option, const std::string& word, const std::vector<
     faults.add({"", 0, option, "there is no '" + word + "'", name_remedy(word, names, "possible")});
 }
 
+// A film under the name of a picture, or the other way about, is a slip.
+void check_kind(const char* option, const std::filesystem::path& file, const std::string& own,
+                FaultList& faults) {
+  static const std::vector<std::string> others{".png", ".jpg", ".jpeg", ".svg", ".pdf",
+                                               ".gif", ".mp4", ".webm", ".avi", ".html"};
+  const std::string kind = file.extension().string();
+  if (kind != own && std::find(others.begin(), others.end(), kind) != others.end())
+    faults.add({file.string(), 0, option, "is named as a file of another kind",
+                "let its name end in " + own});
+}
+
 void check_outputs(const RenderOptions& options, RenderPlan& plan, FaultList& faults) {
   int outputs = 0;
   for (const auto* file : {&options.png, &options.frames, &options.mp4, &options.gif})
     outputs += file->empty() ? 0 : 1;
   if (outputs != 1)
-    faults.add({"", 0, "output", fmt::format("{} are given", outputs),
+    faults.add({"", 0, "output", outputs == 0 ? "none is named" : "more than one is named",
                 "give one of --png FILE, --frames DIR, --mp4 FILE, --gif FILE"});
   for (const auto* file : {&options.png, &options.mp4, &options.gif})
     if (!file->empty()) check_place(*file, faults);
+  check_kind("--png", options.png, ".png", faults);
+  check_kind("--mp4", options.mp4, ".mp4", faults);
+  check_kind("--gif", options.gif, ".gif", faults);
+  if (!options.frames.empty())
+    attempt(faults, [&] { return require_writable_folder(options.frames, "--frames"), true; });
   plan.times.is_film = outputs == 1 && options.png.empty();
   if (plan.times.is_film && options.at)
     faults.add({"", 0, "--at", "is for a still", "give --from and --to, or --png FILE"});
@@ -137,7 +153,7 @@ int run_render(const RenderOptions& options) {
   progress.stage("run", 0.3);
   std::vector<FilmedRun> runs;
   if (options.beside.empty())
-    runs.push_back(film_run(options.robot, plan.times, progress));
+    runs.push_back(film_run(options.robot, plan.times, options.camera, progress));
   else
     runs = film_pair(options.robot.model, options.beside, plan.times);
   progress.stage("paint", 0.7);

@@ -8,6 +8,7 @@
 #include "app/interrupt.h"
 #include "app/record/instant.h"
 #include "app/record/record_run.h"
+#include "app/show/framing.h"
 #include "app/simulate/run.h"
 
 namespace twinarm {
@@ -63,12 +64,26 @@ void check_piece(double from, double to) {
           "give --to after --from, neither negative"}});
 }
 
+// Both ends at once, by the numbers that were given.
+void check_within(const Recording& recording, double from, double to) {
+  FaultList faults;
+  attempt(faults, [&] { return recording.at(from, "--from"); });
+  attempt(faults, [&] { return recording.at(to, "--to"); });
+  faults.check();
+}
+
 FilmedRun film_recording(const std::filesystem::path& file, const FilmTimes& times) {
   auto recording = std::make_unique<const Recording>(file);
   for (const std::string& note : recording->notes()) fmt::print(stderr, "twinarm: {}\n", note);
   auto files = std::make_unique<const UnpackedRun>(recording->header());
-  SimulateOptions options = files->options();
-  FilmedRun run{{}, nullptr, nullptr, prepare_simulation(options), {}, {}};
+  const auto prepared = [&] {
+    try {
+      return prepare_simulation(files->options());
+    } catch (const InputError& error) {
+      throw files->as_typed(error);
+    }
+  };
+  FilmedRun run{{}, nullptr, nullptr, prepared(), {}, {}};
   const Model<double>& model = run.model();
   const std::size_t size = recording->size();
   const auto frame_at = [&](std::size_t n) { return instant_of(recording->frame(n), model); };
@@ -80,6 +95,7 @@ FilmedRun film_recording(const std::filesystem::path& file, const FilmTimes& tim
   if (times.is_film) {
     const double from = times.from.value_or(first), to = times.to.value_or(last);
     check_piece(from, to);
+    if (!times.waits) check_within(*recording, from, to);
     for (const double t : picture_times(from, to, times.interval)) {
       check_interrupt();
       run.shown.push_back(frame_of_time(std::min(t, to), "--to"));
@@ -105,14 +121,32 @@ double end_of(const FilmTimes& times, const SimulatePlan& plan) {
   return std::max(times.at.value_or(0), 0.0);
 }
 
-FilmedRun let_run(const RobotOptions& robot, const FilmTimes& times, Progress& progress) {
+// The preparation speaks of the options of `twinarm simulate`.
+SimulatePlan prepare_to_film(const SimulateOptions& options, const FilmTimes& times) {
+  try {
+    return prepare_simulation(options);
+  } catch (const InputError& error) {
+    const std::string option = times.is_film ? "--to" : "--at";
+    std::vector<Fault> faults = error.faults();
+    for (Fault& fault : faults) {
+      if (fault.where != "--duration") continue;
+      fault.where = option;
+      if (!fault.remedy.empty()) fault.remedy = "give " + option + " SECONDS";
+    }
+    throw InputError(std::move(faults));
+  }
+}
+
+FilmedRun let_run(const RobotOptions& robot, const FilmTimes& times, const std::string& camera,
+                  Progress& progress) {
   SimulateOptions options;
   options.robot = robot;
   if (times.is_film)
     options.duration = times.to;
   else
     options.duration = times.at && *times.at > 0 ? *times.at : 1.0;
-  FilmedRun run{{}, nullptr, nullptr, prepare_simulation(options), {}, {}};
+  FilmedRun run{{}, nullptr, nullptr, prepare_to_film(options, times), {}, {}};
+  parse_camera(camera, run.model());  // told before the run, not after it
   RunPlan& plan = run.plan.run;
   plan.times.clear();
   const double end = end_of(times, run.plan), start = times.from.value_or(0);
@@ -200,12 +234,21 @@ std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
       faults.add({file->string(), 0, "--beside", "this is no recording",
                   "give two that `twinarm simulate --record FILE` has written"});
   faults.check();
-  double first = 0, last = 0;
+  double earliest = 1e300, first = 0, last = 0;
   for (const auto* file : {&left, &right}) {
     const Recording recording(*file);
+    earliest = std::min(earliest, recording.frame(0).t);
     first = std::max(first, recording.frame(0).t);
     last = std::max(last, recording.frame(recording.size() - 1).t);
   }
+  for (const auto& [t, option] :
+       {std::pair{times.at, "--at"}, {times.from, "--from"}, {times.to, "--to"}})
+    if (t && !(*t >= earliest - 1e-9 && *t <= last + 1e-9))
+      faults.add({"", 0, option,
+                  fmt::format("{:g} s is in neither recording: they go from {:g} to {:g} s", *t,
+                              earliest, last),
+                  "give a time within"});
+  faults.check();
   times.waits = true;
   if (!times.is_film && !times.at) times.at = last;
   if (!times.from) times.from = first;
@@ -218,9 +261,13 @@ std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
   return runs;
 }
 
-FilmedRun film_run(const RobotOptions& options, const FilmTimes& times, Progress& progress) {
-  if (is_recording(options.model)) return film_recording(options.model, times);
-  return let_run(options, times, progress);
+FilmedRun film_run(const RobotOptions& options, const FilmTimes& times, const std::string& camera,
+                   Progress& progress) {
+  if (!is_recording(options.model)) return let_run(options, times, camera, progress);
+  FaultList faults;
+  check_recorded(options, faults);
+  faults.check();
+  return film_recording(options.model, times);
 }
 
 }  // namespace twinarm

@@ -47,7 +47,8 @@ struct FilmTimes {
 std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
                                  const std::filesystem::path& right, FilmTimes times);
 
-// Throws InputError.
-FilmedRun film_run(const RobotOptions& options, const FilmTimes& times, Progress& progress);
+// `camera` is only checked, before a long run is made for it. Throws InputError.
+FilmedRun film_run(const RobotOptions& options, const FilmTimes& times, const std::string& camera,
+                   Progress& progress);
 
 }  // namespace twinarm
