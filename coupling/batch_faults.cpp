@@ -37,6 +37,16 @@ bool moves(const Model<double>& model, int body) {
   return false;
 }
 
+void check_driven(const Model<double>& model, const std::string& joint, FaultList& faults) {
+  const int body = model.find_joint(joint);
+  if (body < 0)
+    faults.add({"", 0, "joint '" + joint + "'", "the robot has no such joint",
+                "name a joint that the hand turns"});
+  else if (model.dofs(static_cast<std::size_t>(body)) != 1)
+    faults.add({"", 0, "joint '" + joint + "'", "the hand moves it, but it cannot move",
+                "run the cells one by one, or leave it out"});
+}
+
 void check_spring(const BatchSetup& setup, std::size_t s, FaultList& faults) {
   const BatchSpring& spring = setup.springs[s];
   const Model<double>& model = *setup.model;
@@ -62,11 +72,10 @@ std::vector<Fault> batch_faults(const BatchSetup& setup) {
   check_model(model, faults);
   if (setup.targets.empty())
     faults.add({"", 0, "targets", "there is no kinematic robot", "give at least one"});
-  for (const BatchTarget& target : setup.targets)
-    for (const std::string& joint : target.joints.turned)
-      if (model.find_joint(joint) < 0)
-        faults.add({"", 0, "joint '" + joint + "'", "the robot has no such joint",
-                    "name a joint that the hand turns"});
+  for (const BatchTarget& target : setup.targets) {
+    for (const std::string& joint : target.joints.turned) check_driven(model, joint, faults);
+    if (!target.joints.gripper.empty()) check_driven(model, target.joints.gripper, faults);
+  }
   for (std::size_t s = 0; s < setup.springs.size(); ++s) check_spring(setup, s, faults);
   for (const std::size_t iq : setup.measured)
     if (iq >= model.nq)

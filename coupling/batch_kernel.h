@@ -2,28 +2,18 @@
 //
 //   qd' = qd + h qdd,   q' = q + h qd'
 // Forward dynamics are aba() (solver/aba.h). Between its first pass, which knows where the bodies
-// are, and its second, which asks for the forces, the springs pull (LanePulls::moved):
-//   world    n   = k phi + b (w_K - w_D) - k h w_D,   phi = log(E_D E_K^T) in body axes
-//   linear   f   = k (p_K - p_D) + b (v_K - v_D) - k h v_D, at p_D; all turned into body axes
-//   joint    tau = k (q_K - q_D) + b (qd_K - qd_D) - k h qd_D, before the passes
-// where h is the look-ahead of the implicit treatment, else 0. What the weightless inertia m* would
-// feel at qdd = 0 is handed back (solver/spring.h).
+// are, and its second, which asks for the forces, the springs pull (coupling/batch_pull.h). Works
+// are sums of powers by the trapezoidal rule; at a corner, where a target's velocity or the step
+// changes, the two halves differ.
 //
 // Callers include coupling/batch_run.h.
 #pragma once
 
-#include <algorithm>
-
-#include "coupling/batch_work.h"
+#include "coupling/batch_pull.h"
 #include "solver/aba.h"
-#include "solver/rotation_log.h"
 
 namespace twinarm::TWINARM_ISA {
 
-template <class S>
-Vec3<S> spread3(const double* a) {
-  return {S(a[0]), S(a[1]), S(a[2])};
-}
 template <class S>
 S magnitude(const S& x) {
   return select(x < S(0), -x, x);
@@ -31,103 +21,6 @@ S magnitude(const S& x) {
 template <class S>
 S larger(const S& a, const S& b) {
   return select(a < b, b, a);
-}
-
-// What the bodies on the way to the springs' links have, from pass 1. A hinge whose axes at home
-// are its parent's turns about z alone, with a third of the products.
-template <class S>
-TWINARM_KERNEL void place_bodies(BatchWork<S>& b) {
-  for (std::size_t i = 1; i < b.E.size(); ++i) {
-    if (b.place[i] == Place::none) continue;
-    const auto p = static_cast<std::size_t>(b.model.parent[i]);
-    const Transform<S>& X = b.w.Xup[i];
-    if (p == 0) {
-      b.E[i] = X.E, b.o[i] = X.r;
-      if (b.has_bias) b.a_bias[i] = X * b.a_bias[0] + b.w.c[i];
-      continue;
-    }
-    const Mat3<S>& E = b.E[p];
-    b.o[i] = b.o[p] + transpose_times(E, X.r);
-    if (b.place[i] == Place::general) {
-      b.E[i] = X.E * E;
-      if (b.has_bias) b.a_bias[i] = X * b.a_bias[p] + b.w.c[i];
-      continue;
-    }
-    const S &c = X.E.r0.x, &s = X.E.r0.y;
-    b.E[i] = {c * E.r0 + s * E.r1, c * E.r1 - s * E.r0, E.r2};
-    if (!b.has_bias) continue;
-    const Motion<S>& a = b.a_bias[p];
-    const Vec3<S> v = minus_cross(a.v, X.r, a.w);
-    b.a_bias[i] = Motion<S>{{c * a.w.x + s * a.w.y, c * a.w.y - s * a.w.x, a.w.z},
-                            {c * v.x + s * v.y, c * v.y - s * v.x, v.z}} +
-                  b.w.c[i];
-  }
-}
-
-template <class S>
-Vec3<S> turn_between(const Mat3<S>& E_D, const double* E_K) {
-  const Vec3<S> k0 = spread3<S>(E_K), k1 = spread3<S>(E_K + 3), k2 = spread3<S>(E_K + 6);
-  const auto row = [&](const Vec3<S>& d) { return Vec3<S>{dot(d, k0), dot(d, k1), dot(d, k2)}; };
-  return rotation_vector(Mat3<S>{row(E_D.r0), row(E_D.r1), row(E_D.r2)});
-}
-
-// What a spring does to the sums of powers [W]: of the hand, and of what counts in the ledger.
-// Given the products of its offset, the link's velocity and the target's, each with another.
-template <class S>
-struct SpringPowers {
-  S hand, counted;
-  SpringPowers(const LanePull<S>& pull, const S& e_vK, const S& vD_vK, const S& vK_vK,
-               const S& vD_vD) {
-    const S spring = pull.k * e_vK;
-    hand = spring + pull.b_seen * (vK_vK - vD_vK);  // an absolute damper stands on the ground
-    counted = spring + pull.b_seen * vD_vK - pull.b * vD_vD;
-  }
-  SpringPowers(const LanePull<S>& pull, const Vec3<S>& e, const Vec3<S>& v_D, const Vec3<S>& v_K)
-      : SpringPowers(pull, dot(e, v_K), dot(v_D, v_K), dot(v_K, v_K), dot(v_D, v_D)) {}
-};
-template <class S>
-void add(BatchWork<S>& b, const SpringPowers<S>& powers) {
-  b.hand_power = b.hand_power + powers.hand;
-  b.power = b.power + powers.counted;
-}
-
-// `energy`: the spring's numbers for the sums of powers, or null where they are not wanted now.
-template <class S>
-TWINARM_KERNEL void pull_world(BatchWork<S>& b, const LanePull<S>& pull, const double* row,
-                               const double* energy) {
-  const Mat3<S> E = b.E[pull.body];
-  const Vec3<S> phi = turn_between(E, row), w_K = E * spread3<S>(row + 9);
-  const Vec3<S> w_D = b.w.v[pull.body].w;
-  Vec3<S> n = pull.k * phi + pull.b_seen * w_K - pull.kb * w_D;
-  if (b.has_bias) n += pull.m_star * b.a_bias[pull.body].w;
-  b.w.pA[pull.body].n += -n;
-  if (!energy) return;
-  if (pull.sees == Sees::start)
-    add(b, SpringPowers<S>(pull, phi, w_D, w_K));
-  else
-    add(b, SpringPowers<S>(pull, pull.sees == Sees::end ? turn_between(E, energy) : phi, w_D,
-                           E * spread3<S>(energy + 12)));
-}
-
-template <class S>
-TWINARM_KERNEL void pull_linear(BatchWork<S>& b, const LanePull<S>& pull, const double* row,
-                                const double* energy) {
-  const Mat3<S> E = b.E[pull.body];
-  const Motion<S>& v = b.w.v[pull.body];
-  const Vec3<S>&p = pull.p_B, &o = b.o[pull.body];
-  const Vec3<S> v_D = plus_cross(v.v, v.w, p);
-  const Vec3<S> towards = pull.k * (spread3<S>(row) - o) + pull.b_seen * spread3<S>(row + 3);
-  Vec3<S> f = E * towards - pull.kp - pull.kb * v_D;
-  if (b.has_bias) {
-    const Motion<S>& a = b.a_bias[pull.body];
-    f += pull.m_star * plus_cross(a.v, a.w, p);
-  }
-  Force<S>& pA = b.w.pA[pull.body];
-  pA.n = minus_cross(pA.n, p, f);
-  pA.f = pA.f - f;
-  if (energy)
-    add(b,
-        SpringPowers<S>(pull, E * (spread3<S>(energy) - o) - p, v_D, E * spread3<S>(energy + 6)));
 }
 
 // A spring at a corner of the motion, in body axes; of a joint the first component alone.
@@ -158,12 +51,12 @@ TWINARM_KERNEL void add_works_at_corner(BatchWork<S>& b, std::size_t n) {
   const double* row = b.energy + n * b.energy_stride;
   const S before = S(0.5) * b.h_before, after = n < b.steps ? S(0.5) * b.h : S(0);
   S hand_before = b.hand_work, hand_after(0), held(0);
-  b.work = b.work + (before + after) * b.power;  // of the joints' damping
+  b.lost_work = b.lost_work + (before + after) * b.lost_power;  // in the joints
   for (const LanePull<S>& pull : b.pulls) {
     const PullEnds<S> e = ends_of(b, pull, row + pull.energy);
     const SpringPowers<S> was(pull, e.offset, e.v_D, e.v_before),
         is(pull, e.offset, e.v_D, e.v_after);
-    b.work = b.work + before * was.counted + after * is.counted;
+    b.lost_work = b.lost_work + before * was.lost + after * is.lost;
     hand_before = hand_before + before * was.hand;
     hand_after = hand_after + after * is.hand;
     held = held + S(0.5) * pull.k * dot(e.offset, e.offset);
@@ -174,7 +67,8 @@ TWINARM_KERNEL void add_works_at_corner(BatchWork<S>& b, std::size_t n) {
   if (n == b.steps) b.spring_energy = held;
 }
 
-// Elsewhere both halves are the same; the springs have added their powers while they pulled.
+// Elsewhere both halves are the same; the springs at links have added their powers while they
+// pulled.
 template <class S>
 TWINARM_KERNEL void add_works(BatchWork<S>& b, std::size_t n) {
   const double* row = b.energy + n * b.energy_stride;
@@ -185,7 +79,7 @@ TWINARM_KERNEL void add_works(BatchWork<S>& b, std::size_t n) {
     const S& v_D = b.x.qd[pull.iv];
     add(b, SpringPowers<S>(pull, e * v_K, v_D * v_K, v_K * v_K, v_D * v_D));
   }
-  b.work = b.work + b.h * b.power;
+  b.lost_work = b.lost_work + b.h * b.lost_power;
   const S half = S(0.5) * b.h * b.hand_power, before = b.hand_work + half;
   b.hand_work_least = select(before < b.hand_work_least, before, b.hand_work_least);
   b.hand_work = before + half;
@@ -193,10 +87,10 @@ TWINARM_KERNEL void add_works(BatchWork<S>& b, std::size_t n) {
 
 template <class S>
 void start_powers(BatchWork<S>& b) {
-  b.power = b.hand_power = S(0);
+  b.lost_power = b.hand_power = S(0);
   if (b.has_damping)
     for (std::size_t d = 0; d < b.x.qd.size(); ++d)
-      b.power = b.power - b.model.damping[d] * b.x.qd[d] * b.x.qd[d];
+      b.lost_power = b.lost_power + b.model.damping[d] * b.x.qd[d] * b.x.qd[d];
 }
 
 // The hook of aba(): what acts by where the bodies are.
@@ -208,15 +102,13 @@ struct LanePulls {
   template <class... T>
   void felt(const T&...) const {}
   void moved() const {
-    place_bodies(b);
+    if (b.has_places) place_bodies(b);
+    if (b.has_bias) find_biases(b);
     const bool smooth = b.has_energy && b.is_corner[n] == 0;
     if (b.has_energy) start_powers(b);
-    for (const LanePull<S>& pull : b.pulls) {
-      const double* target = row + pull.motion;
-      const double* energy = smooth ? b.energy + n * b.energy_stride + pull.energy : nullptr;
-      if (pull.kind == PullKind::world) pull_world(b, pull, target, energy);
-      if (pull.kind == PullKind::linear) pull_linear(b, pull, target, energy);
-    }
+    for (const LanePull<S>& pull : b.pulls)
+      pull_at(b, pull, row + pull.motion,
+              smooth ? b.energy + n * b.energy_stride + pull.energy : nullptr);
     if (smooth)
       add_works(b, n);
     else if (b.has_energy)
@@ -224,20 +116,6 @@ struct LanePulls {
     b.model.I = b.model.I_felt.data();
   }
 };
-
-// At the joints: springs and dampers there, and the joints' own damping.
-template <class S>
-TWINARM_KERNEL void pull_joints(BatchWork<S>& b, const double* row) {
-  for (std::size_t d = 0; d < b.x.qd.size(); ++d)
-    b.forces.tau[d] = -(b.model.damping[d] * b.x.qd[d]);
-  for (const LanePull<S>& pull : b.pulls) {
-    if (pull.kind != PullKind::joint) continue;
-    const double* target = row + pull.motion;
-    S& tau = b.forces.tau[pull.iv];
-    tau = tau + pull.k * (S(target[0]) - b.x.q[pull.iq]) + pull.b_seen * S(target[1]) -
-          pull.kb * b.x.qd[pull.iv];
-  }
-}
 
 template <class S>
 TWINARM_KERNEL void integrate(BatchWork<S>& b) {

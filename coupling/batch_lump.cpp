@@ -1,5 +1,7 @@
 #include "coupling/batch_lump.h"
 
+#include "solver/kinematics.h"
+
 namespace twinarm {
 
 LumpedModel::LumpedModel(const Model<double>& whole) : model(whole) {
@@ -34,6 +36,11 @@ LumpedModel::LumpedModel(const Model<double>& whole) : model(whole) {
     add_congruence(X[i], whole.I[i], I[i]);
   }
   model.I = inertias({});
+}
+
+Vec3<double> LumpedModel::point_of(const Model<double>& whole, std::size_t body,
+                                   const Vector3& p_L) const {
+  return X[body].r + transpose_times(X[body].E, whole.turn[body] * from_eigen(p_L));
 }
 
 std::vector<Inertia<double>> LumpedModel::inertias(const std::vector<double>& factor) const {

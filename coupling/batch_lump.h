@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/model.h"
+#include "solver/pose.h"
 
 namespace twinarm {
 
@@ -16,6 +17,8 @@ struct LumpedModel {
 
   // All joints with a degree of freedom have one.
   explicit LumpedModel(const Model<double>& whole);
+  // A point of one of the bodies, from its origin in link axes: from the carrier's in body axes.
+  Vec3<double> point_of(const Model<double>& whole, std::size_t body, const Vector3& p_L) const;
   // Of the lumped bodies, where each body's inertia has a factor; empty: 1 for all.
   std::vector<Inertia<double>> inertias(const std::vector<double>& factor) const;
 };

@@ -2,64 +2,55 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "coupling/batch_spring.h"
+#include "coupling/paced_hand.h"
 
 namespace twinarm {
 namespace {
-
-using SpringType = CouplingSpec::Type;
-
-bool is_at_joint(const BatchSpring& spring) {
-  return spring.type == SpringType::torsional && spring.measure == Measure::joint;
-}
 
 double* put(const Vector3& v, double* out) {
   return std::copy_n(v.data(), 3, out);
 }
 
-// Reads one spring's numbers off the KVR, and writes them one after another.
-struct SpringOnKvr {
-  const Model<double>& model;
-  const BatchSpring& spring;
-  Vector3 p_L;
-  std::size_t carrier;  // the link that the spring's link is fixed to, or itself
-
-  double* pose(const KvrSample& kvr, double* out) const {
-    const auto i = static_cast<std::size_t>(spring.body);
-    if (is_at_joint(spring)) return *out = kvr.x.q[model.iq[i]], out + 1;
-    if (spring.type == SpringType::linear) return put(kvr.k.position(spring.body, p_L), out);
-    for (int column = 0; column < 3; ++column)  // E = R^T, by rows
-      out = put(kvr.k.R_WB[carrier].col(column), out);
-    return out;
-  }
-  double* velocity(const KvrSample& kvr, double* out) const {
-    const auto i = static_cast<std::size_t>(spring.body);
-    if (is_at_joint(spring)) return *out = kvr.x.qd[model.iv[i]], out + 1;
-    if (spring.type == SpringType::linear)
-      return put(kvr.k.velocity(spring.body, kvr.k.position(spring.body, p_L)), out);
-    return put(kvr.k.w_WL[i], out);
-  }
-};
+// What the target has alone (RowSizes).
+void put_products(const RowSizes& size, const double* pose, const double* velocity, double* out) {
+  if (size.products > 1) *out++ = std::inner_product(pose, pose + 3, velocity, 0.0);
+  if (size.products > 0) *out = std::inner_product(velocity, velocity + 3, velocity, 0.0);
+}
 
 }  // namespace
 
-HandSample ShiftedHand::sample(double t, double toward) const {
-  constexpr double kSameTime = 1e-9;  // [s]: a step that begins with the motion, to rounding
-  const double since = t - delay_;
-  const bool waits = std::abs(since) < kSameTime ? toward < t : since < 0;
-  HandSample hand =
-      waits ? hand_.sample(0, 1) : hand_.sample(speed_ * since, speed_ * (toward - delay_));
-  for (double& rate : hand.theta_dot) rate *= waits ? 0 : speed_;
-  return hand;
-}
+// Reads one spring's numbers off the KVR, and writes them one after another.
+struct BatchMotion::Reader {
+  PullKind kind;
+  std::size_t iq, iv, body;
+  Vector3 p_B;
+  Treatment treatment;
+  std::size_t target;
+
+  Vector3 point(const KvrSample& kvr) const { return kvr.k.X_WL[body].p + kvr.k.R_WB[body] * p_B; }
+  void pose(const KvrSample& kvr, double* out) const {
+    if (kind == PullKind::joint) *out = kvr.x.q[iq];
+    if (kind == PullKind::linear) put(point(kvr), out);
+    for (int column = 0; column < 3 && kind == PullKind::world; ++column)  // E = R^T, by rows
+      out = put(kvr.k.R_WB[body].col(column), out);
+  }
+  void velocity(const KvrSample& kvr, double* out) const {
+    if (kind == PullKind::joint) *out = kvr.x.qd[iv];
+    if (kind == PullKind::linear) put(kvr.k.velocity(static_cast<int>(body), point(kvr)), out);
+    if (kind == PullKind::world) put(kvr.k.w_WL[body], out);
+  }
+};
 
 BatchMotion::BatchMotion(const BatchSetup& setup) : joints(setup.measured.size()) {
   for (const BatchSpring& spring : setup.springs) {
     places.push_back({motion_stride, energy_stride});
-    const bool at_joint = is_at_joint(spring);
-    const std::size_t pose = at_joint ? 1 : spring.type == SpringType::linear ? 3 : 9;
-    const std::size_t velocity = at_joint ? 1 : 3;
-    motion_stride += pose + velocity;
-    if (setup.energy) energy_stride += pose + 2 * velocity;
+    const RowSizes size = row_sizes(kind_of(spring));
+    motion_stride += size.pose + size.velocity;
+    if (setup.energy) energy_stride += size.pose + 2 * size.velocity + size.products;
   }
 }
 
@@ -74,20 +65,38 @@ void BatchMotion::fill(const BatchSetup& setup, const LumpedModel& lumped, const
   energy.assign((steps + 1) * energy_stride, 0);
   q_K.assign((steps + 1) * joints, 0);
 
-  std::vector<ShiftedHand> hands;
+  std::vector<PacedHand> hands;
   std::vector<KinematicRobot> kvrs;
   hands.reserve(setup.targets.size());
   for (const BatchTarget& target : setup.targets) {
-    hands.emplace_back(*target.hand, cell.speed, cell.delay);
-    kvrs.emplace_back(*setup.model, hands.back(), target.mapping, target.joints);
+    hands.emplace_back(*target.hand, cell.delay, cell.speed);
+    kvrs.emplace_back(lumped.model, hands.back(), target.mapping, target.joints);
     kvrs.back().stand_at(target.rest);
+  }
+  std::vector<Reader> readers;
+  for (std::size_t s = 0; s < setup.springs.size(); ++s) {
+    const BatchSpring& spring = setup.springs[s];
+    const auto body = static_cast<std::size_t>(spring.body);
+    const Vec3<double> p = lumped.point_of(*setup.model, body, cell.springs[s].p_L);
+    readers.push_back({kind_of(spring), setup.model->iq[body], setup.model->iv[body],
+                       lumped.carrier[body], to_eigen(p), spring.treatment, spring.target});
   }
   double t = setup.start.t;
   for (std::size_t n = 0; n < steps; ++n, t += cell.h) {
     for (KinematicRobot& kvr : kvrs) kvr.begin_step(t, n + 1 < steps ? cell.h : last_step);
-    fill_step(n, setup, lumped, cell, kvrs);
+    fill_step(n, setup, readers, kvrs);
   }
   if (setup.energy) find_corners(setup, cell.h);
+  find_range();
+}
+
+void BatchMotion::find_range() {
+  low.assign(joints, std::numeric_limits<double>::infinity());
+  high.assign(joints, -std::numeric_limits<double>::infinity());
+  for (std::size_t at = 0; at < q_K.size(); ++at) {
+    low[at % joints] = std::min(low[at % joints], q_K[at]);
+    high[at % joints] = std::max(high[at % joints], q_K[at]);
+  }
 }
 
 void BatchMotion::find_corners(const BatchSetup& setup, double h) {
@@ -96,33 +105,30 @@ void BatchMotion::find_corners(const BatchSetup& setup, double h) {
   if (last_step != h) is_corner[steps - 1] = 1;
   for (std::size_t n = 1; n < steps; ++n)
     for (std::size_t s = 0; s < places.size(); ++s) {
-      const bool at_joint = is_at_joint(setup.springs[s]);
-      const std::size_t size = at_joint ? 1 : 3;
-      const std::size_t next = s + 1 < places.size() ? places[s + 1].energy : energy_stride;
-      const double* after = &energy[n * energy_stride + next - size];
-      if (!std::equal(after, after + size, after - size)) is_corner[n] = 1;
+      const RowSizes size = row_sizes(kind_of(setup.springs[s]));
+      const double* before = &energy[n * energy_stride + places[s].energy + size.pose];
+      if (!std::equal(before, before + size.velocity, before + size.velocity)) is_corner[n] = 1;
     }
 }
 
-void BatchMotion::fill_step(std::size_t n, const BatchSetup& setup, const LumpedModel& lumped,
-                            const BatchCell& cell, std::vector<KinematicRobot>& kvrs) {
-  for (std::size_t s = 0; s < setup.springs.size(); ++s) {
-    const BatchSpring& spring = setup.springs[s];
-    const auto body = static_cast<std::size_t>(spring.body);
-    const SpringOnKvr of{*setup.model, spring, cell.springs[s].p_L,
-                         lumped.origin[lumped.carrier[body]]};
-    const KvrSample &start = kvrs[spring.target].start(), &end = kvrs[spring.target].end();
-    const bool implicit = spring.treatment == Treatment::implicit;
-    const bool explicit_ = spring.treatment == Treatment::explicit_;
-    double* out = of.pose(implicit ? end : start, &motion[n * motion_stride + places[s].motion]);
-    of.velocity(explicit_ ? start : end, out);
+void BatchMotion::fill_step(std::size_t n, const BatchSetup& setup,
+                            const std::vector<Reader>& readers,
+                            const std::vector<KinematicRobot>& kvrs) {
+  for (std::size_t s = 0; s < readers.size(); ++s) {
+    const Reader& of = readers[s];
+    const RowSizes size = row_sizes(of.kind);
+    const KvrSample &start = kvrs[of.target].start(), &end = kvrs[of.target].end();
+    double* out = &motion[n * motion_stride + places[s].motion];
+    of.pose(of.treatment == Treatment::implicit ? end : start, out);
+    of.velocity(of.treatment == Treatment::explicit_ ? start : end, out + size.pose);
     if (!setup.energy) continue;
-    const std::size_t here = n * energy_stride + places[s].energy;
-    const auto velocities = static_cast<std::size_t>(of.pose(start, &energy[here]) - &energy[0]);
-    const std::size_t one = is_at_joint(spring) ? 1 : 3, next = velocities + energy_stride;
-    of.velocity(start, &energy[velocities + one]);  // after t
-    of.velocity(end, &energy[next]);                // before t + h
-    of.pose(end, &energy[here + energy_stride]);    // as the next step's start, but for the last
+    double* pose = &energy[n * energy_stride + places[s].energy];
+    double *before = pose + size.pose, *after = before + size.velocity;
+    of.pose(start, pose);
+    of.velocity(start, after);
+    put_products(size, pose, after, after + size.velocity);
+    of.pose(end, pose + energy_stride);  // as the next step's start, but for the last
+    of.velocity(end, before + energy_stride);
   }
   for (std::size_t j = 0; j < joints; ++j) {
     const std::size_t iq = setup.measured[j];

@@ -127,14 +127,25 @@ class BatchRun::DriverOf final : public Driver {
       work_.pulls.push_back(pull);
       const bool at_joint = pull.kind == PullKind::joint;
       work_.has_joint_pulls |= at_joint;
-      work_.has_bias |= !at_joint && spring.treatment != Treatment::explicit_;
-      for (std::size_t i = at_joint ? 0 : pull.body; i > 0;
-           i = static_cast<std::size_t>(lumped_.model.parent[i]))
-        work_.place[i] = is_hinge_in_line(i) ? Place::hinge_in_line : Place::general;
+      for (std::size_t i = at_joint ? 0 : pull.body; i > 0; i = parent_of(i)) place(i);
+      const bool turned = work_.place[pull.body] == Place::turned;
+      work_.has_places |= !at_joint;
+      work_.has_points |= pull.kind == PullKind::linear;
+      work_.has_bias |=
+          spring.treatment != Treatment::explicit_ &&
+          (pull.kind == PullKind::linear || (pull.kind == PullKind::world && !turned));
     }
   }
-
-  bool is_hinge_in_line(std::size_t i) const {
+  std::size_t parent_of(std::size_t i) const {
+    return static_cast<std::size_t>(lumped_.model.parent[i]);
+  }
+  void place(std::size_t i) {
+    bool in_line = is_in_line(i), turned = in_line;
+    for (std::size_t p = parent_of(i); p > 0; p = parent_of(p)) turned &= is_in_line(p);
+    work_.place[i] = turned ? Place::turned : in_line ? Place::in_line : Place::general;
+    work_.E[i] = Mat3<S>::identity();
+  }
+  bool is_in_line(std::size_t i) const {
     const Matrix3 E = to_eigen(lumped_.model.Xtree[i].E);
     return lumped_.model.joint[i] == JointType::revolute && E == Matrix3::Identity();
   }
@@ -189,19 +200,14 @@ class BatchRun::DriverOf final : public Driver {
       set_lane(work_.forces.armature[i], lane, h * lumped_.model.damping[i]);
     std::vector<Inertia<double>> felt = inertias_[lane];
     for (std::size_t s = 0; s < work_.pulls.size(); ++s)
-      load_spring(work_, s, lane, setup_.springs[s], cell.springs[s], h, point_of(s, cell),
+      load_spring(work_, s, lane, setup_.springs[s], cell.springs[s], h,
+                  lumped_.point_of(*setup_.model, static_cast<std::size_t>(setup_.springs[s].body),
+                                   cell.springs[s].p_L),
                   felt[work_.pulls[s].body]);
     for (std::size_t i = 0; i < felt.size(); ++i) set_lane(work_.model.I_felt[i], lane, felt[i]);
   }
-  // The spring's point in the axes of the lumped body.
-  Vec3<double> point_of(std::size_t s, const BatchCell& cell) const {
-    const auto body = static_cast<std::size_t>(setup_.springs[s].body);
-    const Transform<double>& X = lumped_.X[body];
-    return X.r + transpose_times(X.E, setup_.model->turn[body] * from_eigen(cell.springs[s].p_L));
-  }
-
   void start_measures() {
-    for (S* sum : {&work_.work, &work_.hand_work, &work_.hand_work_least}) *sum = S(0);
+    for (S* sum : {&work_.lost_work, &work_.hand_work, &work_.hand_work_least}) *sum = S(0);
     work_.window_error.fill(S(0));
     for (std::size_t j = 0; j < work_.measured.size(); ++j) {
       const double e = std::abs(motion_.q_K[j] - setup_.start.q[work_.measured[j]]);
@@ -257,6 +263,8 @@ class BatchRun::DriverOf final : public Driver {
       result.max_error.push_back(lane_of(work_.error_max[j], lane));
       result.mean_error.push_back(0.5 * twice / setup_.duration);
     }
+    result.twin_low = motion_.low;
+    result.twin_high = motion_.high;
     for (std::size_t q = 0; q < BatchResult::kWindows; ++q)
       result.window_error[q] = lane_of(work_.window_error[q], lane);
     if (setup_.energy) store_energies(lane, result);
@@ -271,7 +279,8 @@ class BatchRun::DriverOf final : public Driver {
     for (std::size_t i = 0; i < end.qd.size(); ++i) end.qd[i] = lane_of(work_.x.qd[i], lane);
     result.energy_created = energy(end) - energy(setup_.start) +
                             lane_of(work_.spring_energy, lane) -
-                            lane_of(work_.spring_energy_at_start, lane) - lane_of(work_.work, lane);
+                            lane_of(work_.spring_energy_at_start, lane) -
+                            lane_of(work_.hand_work, lane) + lane_of(work_.lost_work, lane);
     result.hand_work_least = lane_of(work_.hand_work_least, lane);
   }
 

@@ -24,21 +24,6 @@
 
 namespace twinarm {
 
-// A hand seen later by `delay` [s], and `speed` times as fast; before its beginning it stands
-// still.
-class ShiftedHand final : public HandSource {
- public:
-  ShiftedHand(const HandSource& hand, double speed, double delay)
-      : hand_(hand), speed_(speed), delay_(delay) {}
-  HandSample sample(double t, double toward) const override;
-  double duration() const override { return hand_.duration() / speed_ + delay_; }
-  std::string description() const override { return hand_.description(); }
-
- private:
-  const HandSource& hand_;
-  double speed_, delay_;
-};
-
 // What pulls: a KVR, which stands at `rest` but for the joints that the hand turns.
 struct BatchTarget {
   const HandSource* hand = nullptr;
@@ -73,8 +58,8 @@ struct BatchCell {
     double k = 0, b = 0;
     Vector3 p_L = Vector3::Zero();  // link axes; linear springs only
   };
-  double h = 1e-3;  // [s], positive
-  double speed = 1, delay = 0;
+  double h = 1e-3;              // [s], positive
+  double speed = 1, delay = 0;  // of all hands: coupling/paced_hand.h
   std::vector<Gains> springs;
   std::vector<double> mass_factor;  // on mass, first moment and inertia; empty: 1 for all
 };
@@ -86,6 +71,8 @@ struct BatchResult {
   // By measured joint, over t = 0, h, 2h ...; maximum and time average (trapezoidal) as
   // tracking_error(). All infinite in a cell that has stopped, as are the quarters from then on.
   std::vector<double> max_error, mean_error;
+  // By measured joint, of a cell that has finished: where the first target was at those moments.
+  std::vector<double> twin_low, twin_high;
   // The largest error of any measured joint within each quarter of the run: whether it grows.
   std::array<double, kWindows> window_error{};
   // KE + PE + springs' energy at the end less the start, less the work of hand and dampers (of

@@ -50,8 +50,17 @@ void visit_joint(const LaneModel<S>& model, const std::vector<S>& more_armature,
 //   linear  position and velocity of the KVR's point (3, 3, world axes)
 //   joint   coordinate and velocity (1, 1)
 // and in a row for the energies likewise, at the step's start whatever the treatment, with the
-// velocities before and after that moment.
+// velocities before and after that moment, and then what the target has alone: of a linear one
+// position times velocity after it; of both the square of that velocity.
 enum class PullKind { world, linear, joint };
+struct RowSizes {
+  std::size_t pose, velocity, products;
+};
+constexpr RowSizes row_sizes(PullKind kind) {
+  return kind == PullKind::world    ? RowSizes{9, 3, 1}
+         : kind == PullKind::linear ? RowSizes{3, 3, 2}
+                                    : RowSizes{1, 1, 0};
+}
 // Which moment of the step spring and damper see: its start, its start and its end, its end.
 enum class Sees { start, both, end };
 template <class S>
@@ -66,8 +75,9 @@ struct LanePull {
   Vec3<S> p_B, kp;  // linear: the point in body axes, and k times it
 };
 
-// How a body is placed: not at all, or by its Xup, which may be a turn about z alone.
-enum class Place : char { none, general, hinge_in_line };
+// How a body is placed: not at all, or by its Xup, which may be a turn about z alone, as may be its
+// way down to the base (coupling/batch_place.h).
+enum class Place : char { none, general, in_line, turned };
 
 template <class S>
 struct BatchWork {
@@ -84,7 +94,8 @@ struct BatchWork {
 
   // By body, where springs need them: world to body axes, origin, bias acceleration.
   std::vector<Place> place;
-  bool has_bias = false, has_joint_pulls = false, has_damping = false, has_energy = false;
+  bool has_places = false, has_points = false, has_bias = false;  // some spring asks: E, o, a_bias
+  bool has_joint_pulls = false, has_damping = false, has_energy = false;
   std::vector<Mat3<S>> E;
   std::vector<Vec3<S>> o;
   std::vector<Motion<S>> a_bias;
@@ -100,10 +111,10 @@ struct BatchWork {
   std::vector<S> error_integral, error_max, error_last;  // twice the integral
   std::vector<S> window_error_of;
   std::array<S, kWindows> window_error;
-  // Sums of powers by the trapezoidal rule: of all that counts in the ledger; of the hand. And what
-  // the springs hold [J].
-  S work, hand_work, hand_work_least, spring_energy, spring_energy_at_start;
-  S power, hand_power;  // at the moment, while springs add theirs
+  // Sums of powers by the trapezoidal rule: of the hand; of all dampers. And what the springs hold
+  // [J].
+  S hand_work, hand_work_least, lost_work, spring_energy, spring_energy_at_start;
+  S hand_power, lost_power;  // at the moment, while springs add theirs
 
   // A lane stops at its first step that leaves the bounds; `stopped` takes its results.
   std::size_t lanes_running = 0;

@@ -42,18 +42,14 @@ double number_or(const TomlValue& table, const char* key, double otherwise) {
   return value ? value->number : otherwise;
 }
 
-// What the twin's motion, which may be played faster and seen later, means for a run.
-struct TwinWay {
-  double energy = 0;         // A of cell_measure.h without the springs [J]
-  std::vector<double> room;  // by measured joint: a larger error could meet the joint's limits
-};
-
 bool is_moving(const SceneCoupling& coupling) {
   return coupling.target == CouplingTarget::Kind::paper ||
          coupling.target == CouplingTarget::Kind::trace;
 }
 
-constexpr int kLooks = 4096;  // at the twin's way
+struct Limits {
+  double lower = -HUGE_VAL, upper = HUGE_VAL;
+};
 
 }  // namespace
 
@@ -61,11 +57,10 @@ struct CellBatch::Parts {
   explicit Parts(const MapJob& of) : job(of), base(prepare_simulation(of.run)) {}
 
   bool can_run();
-  bool are_limits_measured() const;
+  bool find_limits();
   void add_target(const SceneCoupling& coupling);
   std::optional<BatchCell> cell_at(const Place& place) const;
-  const TwinWay& way_of(const Place& place, const BatchCell& cell);
-  TwinWay way_of_twin(const SimulatePlan& plan) const;
+  double twin_energy(const Place& place, const BatchCell& cell);
   double spring_energy(const BatchCell& cell);
   std::optional<CellValues> values_of(const Place& place, const BatchCell& cell,
                                       const BatchResult& result);
@@ -73,10 +68,11 @@ struct CellBatch::Parts {
   const MapJob& job;
   SimulatePlan base;
   MeasuredJoints joints;
+  std::vector<Limits> limits;  // by measured joint
   std::vector<std::unique_ptr<HandSource>> hands;
   BatchSetup setup;
   std::unique_ptr<BatchRun> runs;
-  std::map<std::pair<double, double>, TwinWay> ways;  // by speed and delay
+  std::map<std::pair<double, double>, double> twin_energies;  // by speed and delay
 };
 
 // The measured coupling's twin comes first.
@@ -109,21 +105,24 @@ bool CellBatch::Parts::can_run() {
                              c.measure, c.treatment, c.absolute_damper,
                              same ? 0 : setup.targets.size() - 1, c.spring.body});
   }
-  if (!batch_faults(setup).empty() || !are_limits_measured()) return false;
+  if (!batch_faults(setup).empty() || !find_limits()) return false;
   runs = std::make_unique<BatchRun>(setup);
   return true;
 }
 
-bool CellBatch::Parts::are_limits_measured() const {
+// False where a joint has limits that act, and is not measured.
+bool CellBatch::Parts::find_limits() {
   const SceneModel& scene = *base.input.scene;
+  limits.assign(joints.names.size(), {});
   if (!limits_act(scene, base.run.integrator)) return true;
   const auto& robots = scene.description.robots;
   for (std::size_t r = 0; r < robots.size(); ++r)
     for (const JointDescription& joint : robots[r].description.joints) {
+      if (!joint.is_limited()) continue;
       const std::string name = name_in_scene(scene.description, r, joint.name);
-      if (joint.is_limited() &&
-          std::find(joints.names.begin(), joints.names.end(), name) == joints.names.end())
-        return false;
+      const auto found = std::find(joints.names.begin(), joints.names.end(), name);
+      if (found == joints.names.end()) return false;
+      limits[static_cast<std::size_t>(found - joints.names.begin())] = {joint.lower, joint.upper};
     }
   return true;
 }
@@ -155,30 +154,10 @@ std::optional<BatchCell> CellBatch::Parts::cell_at(const Place& place) const {
   return cell;
 }
 
-TwinWay CellBatch::Parts::way_of_twin(const SimulatePlan& plan) const {
-  const SceneModel& scene = *plan.input.scene;
-  TwinWay way{energy_by_right(plan, false), {}};
-  std::vector<double> low(joints.iq.size(), HUGE_VAL), high(joints.iq.size(), -HUGE_VAL);
-  for (int i = 0; i <= kLooks; ++i) {
-    const auto& x = plan.input.couplings->target(joints.coupling, plan.run.duration * i / kLooks).x;
-    for (std::size_t j = 0; j < joints.iq.size(); ++j) {
-      low[j] = std::min(low[j], x.q[joints.iq[j]]);
-      high[j] = std::max(high[j], x.q[joints.iq[j]]);
-    }
-  }
-  way.room.assign(joints.iq.size(), HUGE_VAL);
-  const auto& robots = scene.description.robots;
-  for (std::size_t r = 0; r < robots.size() && limits_act(scene, plan.run.integrator); ++r)
-    for (const JointDescription& joint : robots[r].description.joints)
-      for (std::size_t j = 0; j < joints.iq.size() && joint.is_limited(); ++j)
-        if (joints.names[j] == name_in_scene(scene.description, r, joint.name))
-          way.room[j] = std::min(low[j] - joint.lower, joint.upper - high[j]);
-  return way;
-}
-
-const TwinWay& CellBatch::Parts::way_of(const Place& place, const BatchCell& cell) {
-  const auto [found, is_new] = ways.try_emplace({cell.speed, cell.delay});
-  if (is_new) found->second = way_of_twin(prepare_cell(job, place.x, place.y));
+// A of cell_measure.h without the springs [J]: the motion may be played faster and seen later.
+double CellBatch::Parts::twin_energy(const Place& place, const BatchCell& cell) {
+  const auto [found, is_new] = twin_energies.try_emplace({cell.speed, cell.delay});
+  if (is_new) found->second = energy_by_right(prepare_cell(job, place.x, place.y), false);
   return found->second;
 }
 
@@ -203,12 +182,14 @@ double CellBatch::Parts::spring_energy(const BatchCell& cell) {
 
 std::optional<CellValues> CellBatch::Parts::values_of(const Place& place, const BatchCell& cell,
                                                       const BatchResult& result) {
-  const TwinWay& way = way_of(place, cell);
-  if (!result.finished || !within_reach(result.energy_created, way.energy + spring_energy(cell)))
+  if (!result.finished ||
+      !within_reach(result.energy_created, twin_energy(place, cell) + spring_energy(cell)))
     return unstable_cell();
   CellValues values{1, 0, 0, result.energy_created, result.hand_work_least};
   for (std::size_t j = 0; j < joints.iq.size(); ++j) {
-    if (!(result.max_error[j] < way.room[j])) return std::nullopt;
+    const double error = result.max_error[j];
+    if (!(result.twin_low[j] - error > limits[j].lower)) return std::nullopt;  // or met a limit
+    if (!(result.twin_high[j] + error < limits[j].upper)) return std::nullopt;
     values[1] = std::max(values[1], result.max_error[j]);
     values[2] = std::max(values[2], result.mean_error[j]);
   }

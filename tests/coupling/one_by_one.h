@@ -26,14 +26,17 @@ inline constexpr std::array<BatchLaw, 3> kBatchLaws{
 inline constexpr std::array kBatchTreatments{Treatment::explicit_, Treatment::semi_implicit,
                                              Treatment::implicit};
 
-// Smooth, in all three joints, and not small.
+// Smooth, in all three joints, and not small; as it looks where it comes late, and is played
+// faster.
 class WavingHand final : public HandSource {
  public:
+  explicit WavingHand(double speed = 1, double delay = 0) : speed_(speed), delay_(delay) {}
   HandSample sample(double t, double) const override {
     HandSample hand;
     for (std::size_t j = 0; j < 3; ++j) {
-      const double w = 2.0 + static_cast<double>(j), size = 0.5 - 0.1 * static_cast<double>(j);
-      mapping_.set_robot_angle(hand, j, size * std::sin(w * t), size * w * std::cos(w * t));
+      const double n = static_cast<double>(j), w = speed_ * (2 + n), size = 0.5 - 0.1 * n;
+      const double begun = t < delay_ ? 0 : 1, phase = begun * w * (t - delay_);
+      mapping_.set_robot_angle(hand, j, size * std::sin(phase), begun * size * w * std::cos(phase));
     }
     return hand;
   }
@@ -42,19 +45,27 @@ class WavingHand final : public HandSource {
 
  private:
   HandMapping mapping_;
+  double speed_, delay_;
 };
 
-// Joints of all kinds that go in lanes, fixed ones too, and damping; the first three are hinges, in
-// every other tree with parallel axes.
-inline Model<double> tree_for_lanes(Random& random) {
+// How the axes of the three driven hinges stand: any way; on a first one that stands askew;
+// upright.
+enum class Axes { any, in_line, upright };
+inline constexpr std::array kAxes{Axes::any, Axes::in_line, Axes::upright};
+
+// Joints of all kinds that go in lanes, fixed ones too, and damping; the first three are hinges.
+inline Model<double> tree_for_lanes(Random& random, Axes axes) {
   auto bodies = random_bodies(
       random, 6, {JointType::revolute, JointType::prismatic, JointType::screw, JointType::fixed});
-  const bool parallel = random.integer(0, 1) == 0;
-  for (TreeBody& body : bodies) {
-    const bool driven = &body - bodies.data() < 3;
-    if (driven) body.type = JointType::revolute;
-    if (driven && parallel) body.axis = Vector3::UnitZ(), body.X_PJ.R = Matrix3::Identity();
-    if (&body - bodies.data() == 4) body.type = JointType::fixed;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    TreeBody& body = bodies[i];
+    if (i < 3) body.type = JointType::revolute;
+    if (i < 3 && axes != Axes::any) {
+      body.axis = Vector3::UnitZ();
+      if (i > 0) body.parent = random.integer(1, static_cast<int>(i));
+      if (i > 0 || axes == Axes::upright) body.X_PJ.R = Matrix3::Identity();
+    }
+    if (i == 4) body.type = JointType::fixed;
     body.properties.damping = random.integer(0, 1) * random.uniform(0, 0.5);
     if (random.integer(0, 2) == 0) body.properties.armature = random.uniform(0, 0.1);
   }
@@ -108,7 +119,7 @@ struct CellBench {
 class OneByOne {
  public:
   OneByOne(const BatchSetup& setup, const BatchCell& cell)
-      : setup_(setup), cell_(cell), model_(scaled()), hand_(hand(), cell.speed, cell.delay) {
+      : setup_(setup), cell_(cell), model_(scaled()), hand_(cell.speed, cell.delay) {
     for (std::size_t s = 0; s < setup.springs.size(); ++s) {
       const BatchSpring& spring = setup.springs[s];
       kvrs_.push_back(kvr(spring.absolute_damper ? KvrRates::none : KvrRates::from_hand));
@@ -153,6 +164,10 @@ class OneByOne {
     result.max_error = tracking_error(series).max;
     result.mean_error = tracking_error(series).mean;
     result.energy_created = held_energy(simulation) - held - work;
+    for (const auto& q : series.q_K) {
+      result.twin_low.push_back(*std::min_element(q.begin(), q.end()));
+      result.twin_high.push_back(*std::max_element(q.begin(), q.end()));
+    }
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t n = 0; n <= steps; ++n) {
         std::size_t quarter = 0;
@@ -164,7 +179,6 @@ class OneByOne {
   }
 
  private:
-  const HandSource& hand() const { return *setup_.targets[0].hand; }
   Model<double> scaled() const {
     Model<double> model = *setup_.model;
     for (std::size_t i = 0; i < cell_.mass_factor.size(); ++i) {
@@ -253,7 +267,7 @@ class OneByOne {
   const BatchSetup& setup_;
   const BatchCell& cell_;
   Model<double> model_;
-  ShiftedHand hand_;
+  WavingHand hand_;
   std::vector<std::unique_ptr<KinematicRobot>> kvrs_;
   std::unique_ptr<KinematicRobot> shown_;
   std::vector<std::unique_ptr<Coupling>> couplings_;

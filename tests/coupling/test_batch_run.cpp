@@ -23,6 +23,8 @@ void check_equal(const BatchResult& a, const BatchResult& b, double scale) {
   for (std::size_t j = 0; j < 3; ++j) {
     CHECK(std::abs(a.max_error[j] - b.max_error[j]) < 1e-9);
     CHECK(std::abs(a.mean_error[j] - b.mean_error[j]) < 1e-9);
+    CHECK(std::abs(a.twin_low[j] - b.twin_low[j]) < 1e-12);
+    CHECK(std::abs(a.twin_high[j] - b.twin_high[j]) < 1e-12);
   }
   for (std::size_t q = 0; q < 4; ++q) CHECK(std::abs(a.window_error[q] - b.window_error[q]) < 1e-9);
   CHECK(std::abs(a.energy_created - b.energy_created) < 1e-9 * scale);
@@ -33,29 +35,32 @@ void check_equal(const BatchResult& a, const BatchResult& b, double scale) {
 
 TEST_CASE("runs side by side are those of the scalar simulation, every coupling and treatment") {
   Random random(81);
-  for (const BatchLaw& law : kBatchLaws)
-    for (const Treatment treatment : kBatchTreatments)
-      for (const bool absolute : {false, true}) {
-        CAPTURE(law.name);
-        CAPTURE(static_cast<int>(treatment));
-        CAPTURE(absolute);
-        const CellBench bench(tree_for_lanes(random), law, treatment, absolute);
-        std::vector<BatchCell> cells;
-        for (int c = 0; c < 11; ++c) cells.push_back(bench.random_cell(random));
-        std::vector<BatchResult> results(cells.size());
-        BatchRun batch(bench.setup);
-        batch.run(cells, results);
-        for (std::size_t c = 0; c < cells.size(); ++c) {
-          const BatchResult alone = OneByOne(bench.setup, cells[c]).run();
-          check_equal(results[c], alone, 100);
+  for (const Axes axes : kAxes)
+    for (const BatchLaw& law : kBatchLaws)
+      for (const Treatment treatment : kBatchTreatments)
+        for (const bool absolute : {false, true}) {
+          CAPTURE(static_cast<int>(axes));
+          CAPTURE(law.name);
+          CAPTURE(static_cast<int>(treatment));
+          CAPTURE(absolute);
+          const CellBench bench(tree_for_lanes(random, axes), law, treatment, absolute);
+          std::vector<BatchCell> cells;
+          for (int c = 0; c < 7; ++c) cells.push_back(bench.random_cell(random));
+          std::vector<BatchResult> results(cells.size());
+          BatchRun batch(bench.setup);
+          batch.run(cells, results);
+          for (std::size_t c = 0; c < cells.size(); ++c) {
+            const BatchResult alone = OneByOne(bench.setup, cells[c]).run();
+            check_equal(results[c], alone, 100);
+          }
         }
-      }
 }
 
 TEST_CASE("a run that leaves all bounds stops as it does alone, and its neighbours never notice") {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Random random(82);
-  const CellBench bench(tree_for_lanes(random), kBatchLaws[2], Treatment::explicit_, false);
+  const CellBench bench(tree_for_lanes(random, Axes::any), kBatchLaws[2], Treatment::explicit_,
+                        false);
   std::vector<BatchCell> cells;
   for (int c = 0; c < 24; ++c) {
     cells.push_back(bench.random_cell(random));
@@ -84,7 +89,8 @@ TEST_CASE("a run that leaves all bounds stops as it does alone, and its neighbou
 
 TEST_CASE("cells are computed alike in any order") {
   Random random(83);
-  const CellBench bench(tree_for_lanes(random), kBatchLaws[0], Treatment::implicit, false);
+  const CellBench bench(tree_for_lanes(random, Axes::in_line), kBatchLaws[0], Treatment::implicit,
+                        false);
   std::vector<BatchCell> cells;
   for (int c = 0; c < 19; ++c) cells.push_back(bench.random_cell(random));
   std::vector<BatchResult> results(cells.size()), reversed(cells.size());
