@@ -119,7 +119,7 @@ TEST_CASE("a coupling that is implicit in the step is refused by rk4 and by expl
 
 TEST_CASE("runs side by side take nothing from the heap in a step: a longer run takes no more") {
   Random random(86);
-  CellBench bench(tree_for_lanes(random), kBatchLaws[0], Treatment::implicit, false);
+  CellBench bench(tree_for_lanes(random, Axes::any), kBatchLaws[0], Treatment::implicit, false);
   const std::vector<BatchCell> cells(9, bench.random_cell(random));
   std::vector<BatchResult> results(cells.size());
   const auto allocations_over = [&](double duration) {

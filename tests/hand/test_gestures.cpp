@@ -139,15 +139,15 @@ TEST_CASE("game controller: sticks move the place, also those of controllers wit
   check({}, 32767, 4, kToward);
   check({0, 1, 2, 5}, 32767, 3, kToward);  // ABS_X, Y, Z, RZ
   check({}, -32768, 0, -kRight);           // one more than full
-  JoystickDecoder initial({});
+  JoystickDecoder initial;
   check_goes(moved_by(initial, joystick(32767, 0x82, 0)), kRight, 0.01);  // as it is at the start
-  JoystickDecoder half({});
+  JoystickDecoder half;
   const double part = moved_by(half, axis(16384, 0)).place.x();
   CHECK(part > 0.003);  // between the dead zone and full
   CHECK(part < 0.006);
-  JoystickDecoder resting({});
+  JoystickDecoder resting;
   check_goes(moved_by(resting, axis(1000, 0)), kRight, 0);  // in the dead zone
-  JoystickDecoder triggers({});                             // at rest both are at -1: no roll
+  JoystickDecoder triggers;                                 // at rest both are at -1: no roll
   std::vector<std::uint8_t> both = axis(-32767, 2);
   const auto right = axis(-32767, 5);
   both.insert(both.end(), right.begin(), right.end());
