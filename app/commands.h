@@ -96,6 +96,18 @@ struct HandOptions {
 };
 int run_hand(const HandOptions& options);  // 3 where the robot left all bounds
 
+struct TrialOptions {
+  std::string device = "keyboard", mapping = "paper";
+  std::string conditions = "torsional,linear,kinematic", tasks = "free,pick-and-place";
+  std::string subject;             // empty: the next free code
+  std::optional<unsigned> seed;    // of the order; left out: as given
+  double seconds = 20, most = 60;  // of free motion; of a pick-and-place [s]
+  bool feel = false;               // the force on the hand; the paper has none
+  bool yes = false, simulated = false, json = false;
+  std::filesystem::path out = "out/trial", assets;
+};
+int run_trial(const TrialOptions& options);
+
 struct ExportOptions {
   std::filesystem::path recording;
   std::filesystem::path page;  // an HTML file with all of the run; empty: text on stdout

@@ -5,19 +5,18 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <thread>
 
 #include "app/commands.h"
 #include "app/hand/devices.h"
 #include "app/interrupt.h"
+#include "app/live/live_log.h"
 #include "app/live/live_output.h"
 #include "app/live/run_again.h"
 #include "app/output_file.h"
 #include "app/progress.h"
 #include "app/scene/read_scene.h"
-#include "coupling/device/hand_log.h"
 #include "solver/fault.h"
 
 namespace twinarm {
@@ -37,23 +36,6 @@ MappingSpec mapping_of(const HandOptions& options, FaultList& faults) {
   if (options.force_scale) spec.force_scale = *options.force_scale;
   return spec;
 }
-
-// The log grows while the run goes on: what was written stays, whatever happens to the program.
-class LogFile {
- public:
-  explicit LogFile(const std::filesystem::path& file) : stream_(file, std::ios::binary) {
-    if (!stream_)
-      throw InputError(
-          {{file.string(), 0, "--out", "the log cannot be written", "give a folder that can"}});
-    stream_ << hand_log_header();
-  }
-  void write(const HandStep& step) { stream_ << hand_log_line(step); }
-  void flush() { stream_.flush(); }
-  bool is_good() const { return stream_.good(); }
-
- private:
-  std::ofstream stream_;
-};
 
 void gather(const TickView& view, double step, LiveSummary& summary) {
   ++summary.ticks;
@@ -83,7 +65,7 @@ SceneModel scene_of(const HandOptions& options, FaultList& faults) {
 }
 
 // The run, its ticks gathered and written as they come.
-void run_live(LiveRun& run, const HandOptions& options, LogFile& log, LiveSummary& summary) {
+void run_live(LiveRun& run, const HandOptions& options, LiveLog& log, LiveSummary& summary) {
   ServoPlan plan;
   plan.duration = options.duration.value_or(HUGE_VAL);
   plan.real_time = !options.simulated;
@@ -134,11 +116,9 @@ int run_hand(const HandOptions& options) {
   summary.real_time = !options.simulated;
   summary.log = (options.out / "hand.csv").string();
   {
-    LogFile log(summary.log);
+    LiveLog log(summary.log);
     run_live(run, options, log, summary);
-    if (!log.is_good())
-      throw InputError({{summary.log, 0, "--out", "the log could not be written to its end",
-                         "make room on the disk"}});
+    log.finish();
   }
   if (summary.real_time && options.picture) {
     summary.picture = (options.out / "timing.svg").string();

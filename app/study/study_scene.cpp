@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "coupling/device/live_hand.h"
 #include "coupling/kinematic_robot.h"
 
 namespace twinarm {
@@ -40,7 +41,7 @@ class SceneWriter {
     text_ =
         fmt::format("# {} of the study: {}. Written by `twinarm study`.\n", spec.name, spec.title);
     line("step", real(spec.step()));
-    line("duration", real(scene_.hand.source->duration()));
+    if (const double lasts = scene_.hand.source->duration(); lasts > 0) line("duration", real(lasts));
     if (scene_.with_obstacle) line("contact", "\"compliant\"");
     write_robot();
     if (scene_.with_obstacle) write_obstacle();
@@ -177,6 +178,11 @@ class SceneWriter {
 SceneHand automatic_hand() {
   static const AutomaticMotion motion{HandMapping{}};
   return {"\"paper\"", &motion};
+}
+
+SceneHand device_hand() {
+  static const LiveHand at_zero(1);
+  return {"\"device\"", &at_zero};
 }
 
 SceneHand synthetic_hand(const HandSource& source, unsigned seed) {

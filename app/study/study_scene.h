@@ -15,6 +15,8 @@ struct SceneHand {
 };
 SceneHand automatic_hand();
 SceneHand synthetic_hand(const HandSource& source, unsigned seed);
+// A hand device, live; the robot begins where all device angles are zero.
+SceneHand device_hand();
 SceneHand traced_hand(const HandSource& source, const std::filesystem::path& trace);
 
 struct StudyScene {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/interrupt.h"
+#include "coupling/synthetic_operator.h"
 
 namespace twinarm {
 namespace {
@@ -132,20 +133,30 @@ void add_ablations(const Calibration& calibration, Runner& add) {
 
 }  // namespace
 
-std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibration& calibration,
-                                        const HandSource& hand) {
+std::vector<RunSpec> reproduction_specs(const Calibration& calibration) {
   const double rate = calibration.entry("chosen").rate;
-  const AutomaticMotion automatic{HandMapping{}};
   const Gains e3 = calibration.entry(fmt::format("E3/{:g}/world-", rate)).gains();
   const Gains e4 = calibration.entry(fmt::format("E4/{:g}", rate)).gains();
-  std::vector<RunResult> results;
+  std::vector<RunSpec> specs;
   for (const char* name : {"E1", "E2", "E3", "E4"}) {
     const bool torsional = name[1] == '1' || name[1] == '3', by_user = name[1] < '3';
     RunSpec spec =
         torsional ? with_gains(e3_spec("world-", rate), e3) : with_gains(e4_spec(rate), e4);
     spec.name = name;
     spec.title = fmt::format("{}, {}", torsional ? "torsional" : "linear",
-                             by_user ? "by user (synthetic hand)" : "automatic");
+                             by_user ? "by user" : "automatic");
+    specs.push_back(spec);
+  }
+  return specs;
+}
+
+std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibration& calibration,
+                                        const HandSource& hand) {
+  const AutomaticMotion automatic{HandMapping{}};
+  std::vector<RunResult> results;
+  for (RunSpec& spec : reproduction_specs(calibration)) {
+    const bool by_user = spec.name < "E3";
+    if (by_user && dynamic_cast<const SyntheticOperator*>(&hand)) spec.title += " (synthetic hand)";
     results.push_back(run(robot, by_user ? hand : automatic, spec));
     predict(robot, results.back());
   }

@@ -7,7 +7,9 @@
 
 namespace twinarm {
 
-// E1 to E4 with the chosen calibration; `hand` moves E1 and E2.
+// E1 to E4 with the chosen calibration, in this order; not run.
+std::vector<RunSpec> reproduction_specs(const Calibration& calibration);
+// The same, run; `hand` moves E1 and E2.
 std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibration& calibration,
                                         const HandSource& hand);
 

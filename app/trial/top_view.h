@@ -1,0 +1,31 @@
+// The table from above, in characters: where the robot, its twin, the object and the goal are. For
+// whoever does a trial at a terminal, over any connection.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/pose.h"
+
+namespace twinarm {
+
+class TopView {
+ public:
+  // `half` [m] from the middle to each side; so many columns. A character is twice as high as wide.
+  explicit TopView(double half = 0.66, int columns = 66);
+
+  void clear();
+  // Points of the world; what is drawn later covers what was there.
+  void line(const Vector3& a, const Vector3& b, char mark);
+  void point(const Vector3& p, char mark);
+  std::string text() const;  // lines in a frame, x to the right, y up
+
+ private:
+  int column(double x) const;
+  int row(double y) const;
+  double half_;
+  int columns_, rows_;
+  std::vector<std::string> lines_;
+};
+
+}  // namespace twinarm

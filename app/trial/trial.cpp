@@ -1,0 +1,146 @@
+#include "app/trial/trial.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/live/live_log.h"
+#include "app/scene/read_scene.h"
+#include "app/trial/top_view.h"
+#include "solver/kinematics.h"
+
+namespace twinarm {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr std::size_t kMeasured = 2;  // joints, as the paper has them
+
+// The robot in the places that the ticks tell: of its kinematic and its dynamic self.
+class TaskWatch {
+ public:
+  TaskWatch(const SceneModel& scene, const DrivenJoints& joints, bool is_kinematic)
+      : model_(scene.model), is_kinematic_(is_kinematic), x_(scene.start), k_(scene.model) {
+    for (const std::string& name : joints.turned) turned_.push_back(body(name));
+    tip_ = joints.gripper.empty() ? turned_.back() : body(joints.gripper);
+    max_.assign(std::min(kMeasured, turned_.size()), 0);
+    sum_ = max_;
+  }
+
+  void look(const TickView& view, PickAndPlace* task) {
+    ++ticks_;
+    for (std::size_t j = 0; j < max_.size(); ++j) {
+      max_[j] = std::max(max_[j], std::abs(view.error[j]));
+      sum_[j] += std::abs(view.error[j]);
+    }
+    pose(view, is_kinematic_);
+    if (task) task->tick(view.hand.t + view.hand.h, k_.X_WL[tip_].p, view.hand.hand.button);
+  }
+  std::string picture(const TickView& view, const PickAndPlace* task) {
+    TopView table;
+    if (task) {
+      const PickAndPlace::Places& places = task->places();
+      for (const double side : {-1.0, 1.0})
+        table.point(places.goal + Vector3(side * places.reach, 0, 0), side < 0 ? '[' : ']');
+    }
+    pose(view, true);
+    draw(table, is_kinematic_ ? '#' : '.');
+    if (!is_kinematic_) {
+      pose(view, false);
+      draw(table, '#');
+    }
+    if (task) table.point(task->object(), task->is_carried() ? '@' : 'o');
+    return table.text();
+  }
+  void finish(TrialResult& result) const {
+    if (is_kinematic_) return;
+    for (std::size_t j = 0; j < max_.size(); ++j) {
+      result.max_deg.push_back(max_[j] / kDegree);
+      result.mean_deg.push_back(sum_[j] / kDegree / static_cast<double>(std::max(1L, ticks_)));
+    }
+  }
+
+ private:
+  std::size_t body(const std::string& joint) const {
+    return static_cast<std::size_t>(model_.find_joint(joint));
+  }
+  void pose(const TickView& view, bool kinematic) {
+    const HandMapping mapping;
+    for (std::size_t j = 0; j < std::min<std::size_t>(3, turned_.size()); ++j)
+      x_.q[model_.iq[turned_[j]]] =
+          mapping.robot_angle(view.hand.hand, j) - (kinematic ? 0 : view.error[j]);
+    forward_kinematics(model_, x_, k_);
+  }
+  void draw(TopView& table, char mark) const {
+    Vector3 last = k_.X_WL[turned_.front()].p;
+    for (std::size_t j = 1; j < turned_.size(); ++j) {
+      table.line(last, k_.X_WL[turned_[j]].p, mark);
+      last = k_.X_WL[turned_[j]].p;
+    }
+    table.point(k_.X_WL[tip_].p, mark == '#' ? 'V' : 'v');
+  }
+
+  const Model<double>& model_;
+  bool is_kinematic_;
+  State<double> x_;
+  Kinematics k_;
+  std::vector<std::size_t> turned_;
+  std::size_t tip_ = 0;
+  std::vector<double> max_, sum_;
+  long ticks_ = 0;
+};
+
+}  // namespace
+
+TrialResult run_task(const TrialCondition& condition, HandDevice& device,
+                     const MappingSpec& mapping, const TrialTask& task,
+                     const std::filesystem::path& log_file) {
+  const SceneModel scene = build_scene(read_scene(condition.scene));
+  LiveOptions options;
+  options.mapping = mapping;
+  if (condition.is_kinematic) options.mapping.force_scale = 0;
+  LiveRun run(scene, device, options);
+  TaskWatch watch(scene, scene.couplings[run.leader()].driven, condition.is_kinematic);
+  PickAndPlace places{{}};
+  PickAndPlace* const pick = task.is_pick_and_place ? &places : nullptr;
+  LiveLog log(log_file);
+  ServoPlan plan;
+  plan.duration = task.seconds;
+  plan.real_time = task.real_time;
+  std::atomic<bool> done{false};
+  double reached = 0;
+  bool stopped = false;
+  const ServoResult servo = run_servo(run, plan, done, [&](SpscRing<TickView>& ring) {
+    TickView view, newest;
+    bool any = false;
+    while (!places.is_placed() && ring.pop(view)) {
+      watch.look(view, pick);
+      log.write(view.hand);
+      newest = view;
+      any = true;
+      reached = view.hand.t + view.hand.h;
+    }
+    log.flush();
+    if (any && task.show) task.show(watch.picture(newest, pick), reached);
+    stopped = stopped || (task.is_stopped && task.is_stopped());
+    if (stopped || places.is_placed()) done = true;
+  });
+  log.finish();
+
+  TrialResult result;
+  result.condition = condition.name;
+  result.task = pick ? "pick-and-place" : "free";
+  result.seconds = pick && pick->is_placed() ? pick->placed_at() : reached;
+  result.is_done = servo.finite && !stopped && (!pick || pick->is_placed());
+  if (pick) {
+    result.picks = pick->picks();
+    result.drops = pick->drops();
+    result.picked_at = pick->picked_at();
+    result.off_mm = 1e3 * pick->off();
+  }
+  result.log = log_file.string();
+  watch.finish(result);
+  return result;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,46 @@
+// What a person is asked to do, and what came of it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/live/servo_loop.h"
+#include "app/scene/scene_model.h"
+#include "app/trial/pick_and_place.h"
+
+namespace twinarm {
+
+// A robot as a person meets it.
+struct TrialCondition {
+  std::string name, title;      // "E1", for people
+  std::filesystem::path scene;  // as a file
+  bool is_kinematic = false;    // the kinematic robot alone: no mass, no force, no error
+};
+
+struct TrialResult {
+  std::string condition, task;
+  double seconds = 0;  // that the task took
+  bool is_done = false;
+  int picks = 0, drops = 0;
+  double picked_at = -1, off_mm = 0;
+  std::vector<double> max_deg, mean_deg;  // |q_K - q_D| of joints 1 and 2; empty: kinematic
+  std::string log;
+};
+
+struct TrialTask {
+  bool is_pick_and_place = false;
+  double seconds = 20;  // of free motion; the most that the other may take
+  bool real_time = true;
+  bool (*is_stopped)() = nullptr;  // asked as often; true ends it early, and what was done is kept
+  // Some twenty times a second: a picture of the table. May be empty.
+  std::function<void(const std::string& picture, double t)> show;
+};
+
+// One task under one condition. Throws InputError.
+TrialResult run_task(const TrialCondition& condition, HandDevice& device,
+                     const MappingSpec& mapping, const TrialTask& task,
+                     const std::filesystem::path& log);
+
+}  // namespace twinarm

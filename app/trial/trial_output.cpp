@@ -1,0 +1,116 @@
+#include "app/trial/trial_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "app/json_writer.h"
+#include "app/output_file.h"
+#include "app/text_table.h"
+#include "solver/fault.h"
+#include "solver/whole_file.h"
+
+namespace twinarm {
+namespace {
+
+const std::string kTrialHeader =
+    "subject,order,condition,task,device,mapping,done,seconds,picks,drops,off[mm],joint1_max[deg],"
+    "joint1_mean[deg],joint2_max[deg],joint2_mean[deg]\n";
+
+// In quotes where a comma or a quote stands in it.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string csv_row(const TrialReport& report, std::size_t order) {
+  const TrialResult& r = report.results[order];
+  std::string row =
+      fmt::format("{},{},{},{},{},{},{},{:.3f},{},{},{:.1f}", csv_field(report.subject), order + 1,
+                  r.condition, r.task, csv_field(report.device), report.mapping, r.is_done ? 1 : 0,
+                  r.seconds, r.picks, r.drops, r.off_mm);
+  for (std::size_t j = 0; j < 2; ++j)
+    row += j < r.max_deg.size() ? fmt::format(",{:.4f},{:.4f}", r.max_deg[j], r.mean_deg[j]) : ",,";
+  return row + "\n";
+}
+
+std::string old_rows(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return kTrialHeader;
+  const std::string text = read_whole_file(file);
+  if (!text.starts_with(kTrialHeader))
+    throw InputError({{file.string(), 1, "header", "it is not the table of a trial's results",
+                       "give another folder with --out"}});
+  return text;
+}
+
+}  // namespace
+
+std::string trial_table(const TrialReport& report) {
+  TextTable table({"condition, task", "time [s]", "done", "picks, drops", "off [mm]",
+                   "joint1 max [deg]", "mean", "joint2 max [deg]", "mean"});
+  for (const TrialResult& r : report.results) {
+    const bool picks = r.task != "free";
+    std::vector<std::string> row{r.condition + ", " + r.task, fmt::format("{:.2f}", r.seconds),
+                                 r.is_done ? "yes" : "no",
+                                 picks ? fmt::format("{}, {}", r.picks, r.drops) : "-",
+                                 picks ? fmt::format("{:.0f}", r.off_mm) : "-"};
+    for (std::size_t j = 0; j < 2; ++j) {
+      const bool has = j < r.max_deg.size();
+      row.push_back(has ? fmt::format("{:.2f}", r.max_deg[j]) : "-");
+      row.push_back(has ? fmt::format("{:.2f}", r.mean_deg[j]) : "-");
+    }
+    table.add(row);
+  }
+  return fmt::format("subject {}, {}, mapping {}\n\n{}", report.subject, report.device,
+                     report.mapping, table.str());
+}
+
+std::string trial_json(const TrialReport& report) {
+  JsonWriter json;
+  json.begin_object();
+  json.key("subject").text(report.subject);
+  json.key("device").text(report.device);
+  json.key("mapping").text(report.mapping);
+  json.key("results").begin_array();
+  for (const TrialResult& r : report.results) {
+    json.begin_object();
+    json.key("condition").text(r.condition);
+    json.key("task").text(r.task);
+    json.key("done").boolean(r.is_done);
+    json.key("seconds").number(r.seconds);
+    json.key("picks").count(r.picks);
+    json.key("drops").count(r.drops);
+    json.key("picked_at");
+    r.picked_at < 0 ? json.null() : json.number(r.picked_at);
+    json.key("off_mm").number(r.off_mm);
+    json.key("max_deg").numbers(r.max_deg);
+    json.key("mean_deg").numbers(r.mean_deg);
+    json.key("log").text(r.log);
+    json.end_object();
+  }
+  json.end_array();
+  json.key("csv").text(report.csv);
+  json.end_object();
+  return json.str();
+}
+
+void add_to_csv(const TrialReport& report, const std::filesystem::path& file) {
+  std::string text = old_rows(file);
+  for (std::size_t i = 0; i < report.results.size(); ++i) text += csv_row(report, i);
+  write_whole_file(file, text);
+}
+
+std::string next_subject(const std::filesystem::path& file) {
+  std::stringstream rows(old_rows(file));
+  std::vector<std::string> known;
+  for (std::string row; std::getline(rows, row);) known.push_back(row.substr(0, row.find(',')));
+  for (int n = 1;; ++n) {
+    const std::string code = fmt::format("S{}", n);
+    if (std::find(known.begin(), known.end(), code) == known.end()) return code;
+  }
+}
+
+}  // namespace twinarm
