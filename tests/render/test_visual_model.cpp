@@ -1,4 +1,4 @@
-// Meshes as they are drawn: windings mended, textures the right way up, broken pictures told.
+// Meshes of files as they are drawn: textures the right way up, broken pictures told.
 #include "app/render/visual_model.h"
 
 #include <doctest/doctest.h>
@@ -7,18 +7,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <random>
 #include <string>
 #include <utility>
 
-#include "app/render/mend_winding.h"
 #include "app/render/painter.h"
 #include "solver/fault.h"
 #include "tests/render/quarters.h"
@@ -43,11 +38,6 @@ class VisualFolder {
  private:
   fs::path path_;
 };
-
-TriangleMesh tetrahedron() {
-  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-          {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
-}
 
 // A unit square in the plane z = 0, seen from above, with the picture upright: u along x, v down y.
 const char* const kSquare = R"(mtllib square.mtl
@@ -92,47 +82,6 @@ bool any_note(const VisualModel& model, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("a closed surface gets its outside outside, whichever of its triangles look inwards") {
-  for (unsigned turned = 0; turned < 16; ++turned) {
-    TriangleMesh mesh = tetrahedron();
-    for (std::size_t i = 0; i < 4; ++i)
-      if (turned >> i & 1) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
-    const MendedWinding mended = mend_winding(mesh);
-    CHECK(mended.is_closed);
-    CHECK(mesh.triangles == tetrahedron().triangles);
-    for (std::size_t i = 0; i < 4; ++i) CHECK(mended.turned[i] == ((turned >> i & 1) != 0));
-  }
-}
-
-TEST_CASE("an open surface keeps the side that most of its area has") {
-  TriangleMesh mesh = tetrahedron();
-  mesh.triangles.pop_back();  // the slanted one
-  const auto good = mesh.triangles;
-  std::swap(mesh.triangles[1][1], mesh.triangles[1][2]);
-  const MendedWinding mended = mend_winding(mesh);
-  CHECK(!mended.is_closed);
-  CHECK(mesh.triangles == good);
-}
-
-TEST_CASE("a strip with a half turn has no outside: it is said to be open") {
-  TriangleMesh strip{{}, {}};
-  const int n = 12;
-  for (int i = 0; i < n; ++i) {
-    const double a = 2 * 3.14159265358979 * i / n;
-    const Vector3 out(std::cos(a), std::sin(a), 0);
-    const Vector3 half = 0.2 * (std::cos(a / 2) * out + std::sin(a / 2) * Vector3::UnitZ());
-    strip.vertices.push_back(out + half);
-    strip.vertices.push_back(out - half);
-  }
-  for (int i = 0; i < n; ++i) {
-    const int a = 2 * i, b = 2 * i + 1;
-    const int c = i + 1 < n ? a + 2 : 1, d = i + 1 < n ? b + 2 : 0;
-    strip.triangles.push_back({a, b, c});
-    strip.triangles.push_back({c, b, d});
-  }
-  CHECK(!mend_winding(strip).is_closed);
-}
-
 TEST_CASE("a texture lies on the square as the file says, upright, from both sides") {
   const VisualFolder folder;
   const std::string picture = encode_png(quarters(64));
@@ -141,6 +90,42 @@ TEST_CASE("a texture lies on the square as the file says, upright, from both sid
   CHECK(model.parts[0].mesh.two_sided);
   CHECK(quarters_of(picture_of(model, 3)) == "rgbw");
   CHECK(quarters_of(picture_of(model, -3)) == "grwb");  // from below, left is right
+}
+
+TEST_CASE("a texture stays where it lay when triangles are turned about, or the mesh is mirrored") {
+  const VisualFolder folder;
+  const std::string picture = encode_png(quarters(64));
+  std::string one_turned = kSquare;
+  one_turned.replace(one_turned.find("f 1/1 3/3 4/4"), 13, "f 4/4 3/3 1/1");
+  painted_square(folder, picture);  // writes what the square below names
+  const fs::path file = folder.write("turned.obj", one_turned);
+  const VisualModel mended = load_visual(file);
+  CHECK(any_note(mended, "1 triangles looked inwards"));
+  CHECK(quarters_of(picture_of(mended, 3)) == "rgbw");
+  for (const fs::path& square : {file, folder.write("square.obj", kSquare)}) {
+    VisualModel mirrored = load_visual(square, Vector3(-1, 1, 1));
+    REQUIRE(mirrored.parts.size() == 1);
+    DrawMesh& mesh = mirrored.parts[0].mesh;
+    for (auto& p : mesh.positions) p[0] += 1;  // before the camera again
+    mesh.bound_center.x() += 1;
+    CHECK(quarters_of(picture_of(mirrored, 3)) == "grwb");
+  }
+}
+
+TEST_CASE("a mesh that is mirrored by its scale has its outside outside, and nothing is said") {
+  const VisualFolder folder;
+  const fs::path file = folder.write(
+      "t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  for (const Vector3& scale : {Vector3(1, 1, 1), Vector3(-1, 2, 3), Vector3(1, 1, -0.1)}) {
+    const VisualModel model = load_visual(file, scale);
+    CHECK(model.notes.empty());
+    const DrawMesh& mesh = model.parts.at(0).mesh;
+    const Vector3 middle = 0.25 * scale;  // of the tetrahedron, which is convex
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      const auto &p = mesh.positions[v], &n = mesh.normals[v];
+      CHECK((Vector3(p[0], p[1], p[2]) - middle).dot(Vector3(n[0], n[1], n[2])) > 0);
+    }
+  }
 }
 
 TEST_CASE("a picture that is broken is told, and the mesh drawn without it") {
@@ -186,70 +171,26 @@ TEST_CASE("triangles that look inwards are turned about, and that is said") {
   CHECK(!model.parts.at(0).mesh.two_sided);
 }
 
-namespace {
-
-// Of any two numbers some stand side by side: far apart in size, equal, or hardly different.
-TriangleMesh senseless_mesh(std::mt19937& random) {
-  static constexpr double kNumbers[] = {0,     1,    -1,  1e-38, 1e-45, 1e38,
-                                        -3e38, 1e-7, 0.5, 1e19,  2,     1 + 1e-7};
-  const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
-  TriangleMesh mesh;
-  const unsigned vertices = 3 + random() % 12;
-  for (unsigned v = 0; v < vertices; ++v) {
-    Vector3 p;
-    for (double& x : p) x = kNumbers[below(12)];
-    mesh.vertices.push_back(p);
+TEST_CASE("each part has the picture that its own material names") {
+  const VisualFolder folder;
+  Image picture = quarters(8);
+  for (const auto& [name, channel] :
+       {std::pair<const char*, std::size_t>("red.png", 0), {"blue.png", 2}}) {
+    for (std::size_t i = 0; i < picture.rgba.size(); ++i)
+      picture.rgba[i] = i % 4 == channel || i % 4 == 3 ? 255 : 0;
+    folder.write(name, encode_png(picture));
   }
-  for (unsigned t = 1 + random() % 30; t > 0; --t) {
-    const std::array<int, 3> corners{below(vertices), below(vertices), below(vertices)};
-    if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
-      mesh.triangles.push_back(corners);
+  folder.write("two.mtl", "newmtl a\nmap_Kd red.png\nnewmtl b\nmap_Kd blue.png\n");
+  const VisualModel model = load_visual(folder.write(
+      "two.obj",
+      "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nvt 0 0\nvt 1 0\n"
+      "vt 0 1\nusemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 4/1 5/2 6/3\n"));
+  REQUIRE(model.parts.size() == 2);
+  for (const VisualMesh& part : model.parts) {
+    REQUIRE(part.texture);
+    const std::uint8_t* const pixel = part.texture->rgba.data();
+    const bool is_first = part.mesh.bound_center.x() < 3;
+    CHECK(pixel[0] == (is_first ? 255 : 0));
+    CHECK(pixel[2] == (is_first ? 0 : 255));
   }
-  return mesh;
-}
-
-double length_of(const std::array<float, 3>& v) {
-  return std::hypot(v[0], v[1], v[2]);
-}
-
-}  // namespace
-
-TEST_CASE("what a senseless mesh becomes can be drawn: corners that exist, normals of length 1") {
-  std::mt19937 random(5);
-  std::size_t drawn = 0;
-  for (int i = 0; i < 1000; ++i) {
-    TriangleMesh mesh = senseless_mesh(random);
-    mend_winding(mesh);
-    const DrawMesh draw = make_draw_mesh(mesh);
-    drawn += draw.triangles.size();
-    REQUIRE(draw.normals.size() == draw.positions.size());
-    for (const auto& triangle : draw.triangles)
-      for (const std::uint32_t corner : triangle) REQUIRE(corner < draw.positions.size());
-    for (const auto& normal : draw.normals)
-      REQUIRE(length_of(normal) == doctest::Approx(1).epsilon(1e-5));
-  }
-  CHECK(drawn > 1000);
-}
-
-TEST_CASE("a corner of a hundred thousand facets takes no time to speak of, and looks as a cone") {
-  TriangleMesh cone{{{0, 0, 1}}, {}};
-  const int n = 100000;
-  const auto turn = [](double k) { return 2 * 3.14159265358979 * k / n; };
-  for (int k = 0; k < n; ++k) {
-    cone.vertices.emplace_back(std::cos(turn(k)), std::sin(turn(k)), 0);
-    cone.triangles.push_back({0, 1 + k, 1 + (k + 1) % n});
-  }
-  const std::clock_t begin = std::clock();
-  mend_winding(cone);
-  const DrawMesh draw = make_draw_mesh(cone);
-  CHECK(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC < 20);  // squared: minutes
-  REQUIRE(draw.triangles.size() == static_cast<std::size_t>(n));
-  const double half = std::sqrt(0.5);
-  for (int k = 0; k < n; k += 999)
-    for (const std::uint32_t corner : draw.triangles[static_cast<std::size_t>(k)]) {
-      const auto& normal = draw.normals[corner];
-      CHECK(std::abs(normal[0] - half * std::cos(turn(k + 0.5))) < 1e-3);
-      CHECK(std::abs(normal[1] - half * std::sin(turn(k + 0.5))) < 1e-3);
-      CHECK(std::abs(normal[2] - half) < 1e-3);
-    }
 }
