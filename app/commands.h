@@ -68,6 +68,7 @@ struct CouplingPredictOptions {
   std::string integrator;       // empty: the scene's
   double turn = 180, time = 1;  // of the target [deg, or mm], [s]
   std::optional<double> wall;   // [N/m]
+  std::string along;            // "j1=1,j2=-0.5": parts of that move; empty: 1 of each joint
   bool json = false;
 };
 int run_coupling_predict(const CouplingPredictOptions& options);

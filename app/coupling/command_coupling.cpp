@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
+#include <sstream>
 
 #include "app/commands.h"
 #include "app/coupling/coupling_of_options.h"
@@ -20,6 +22,24 @@ void check_positive(const std::string& option, double value, FaultList& faults) 
 void check_not_negative(const std::string& option, double value, FaultList& faults) {
   if (value >= 0 && std::isfinite(value)) return;
   faults.add({"", 0, option, "must not be negative, is " + number_text(value), ""});
+}
+
+// "joint1=1,joint2=-0.5"
+std::vector<std::pair<std::string, double>> read_along(const std::string& text, FaultList& faults) {
+  std::vector<std::pair<std::string, double>> parts;
+  std::istringstream all(text);
+  for (std::string one; std::getline(all, one, ',');) {
+    const std::size_t at = one.find('=');
+    const std::string value = at == std::string::npos ? "" : one.substr(at + 1);
+    char* end = nullptr;
+    const double part = std::strtod(value.c_str(), &end);
+    if (value.empty() || *end != 0 || !std::isfinite(part))
+      faults.add(
+          {"", 0, "--along", "'" + one + "' is not joint=number", "give joint1=1,joint2=-0.5"});
+    else
+      parts.emplace_back(one.substr(0, at), part);
+  }
+  return parts;
 }
 
 // A scene that has couplings, and its step; `scene` in place of a file.
@@ -52,6 +72,7 @@ int run_coupling_predict(const CouplingPredictOptions& options) {
   check_positive("--turn", options.turn, faults);
   check_positive("--time", options.time, faults);
   if (options.wall) check_positive("--wall", *options.wall, faults);
+  const auto along = read_along(options.along, faults);
   const bool is_scene = options.robot.model.extension() == ".toml";
   const bool has_coupling = options.stiffness || options.damping || !options.link.empty() ||
                             !options.point.empty() || !options.measure.empty() ||
@@ -63,7 +84,7 @@ int run_coupling_predict(const CouplingPredictOptions& options) {
   if (!is_scene && has_coupling) scene = scene_of_options(options, faults);
   SimulatePlan prepared =
       prepare_couplings(options.robot, options.step, options.integrator, faults, std::move(scene));
-  const PredictTask task{options.turn * std::numbers::pi / 180, options.time, options.wall};
+  const PredictTask task{options.turn * std::numbers::pi / 180, options.time, options.wall, along};
   const Predicted found = predict_couplings(prepared, task);
   fmt::print("{}\n", options.json ? predicted_json(found, task) : predicted_table(found, task));
   return 0;

@@ -28,7 +28,7 @@ std::vector<Equivalents> scene_equivalents(SimulateInput& input,
     Equivalents found = equivalents_of(coupling.gains, posed.felt_inertia(c), impedance);
     found.name = coupling.name;
     found.kind = coupling.kind;
-    found.is_linear = coupling.is_linear;
+    found.is_length = coupling.is_length;
     if (wanted) found.wanted = gains_of(*wanted, found.inertia);
     const SceneCoupling& spec = input.couplings->spec(c);
     const auto body = static_cast<std::size_t>(spec.spring.body);

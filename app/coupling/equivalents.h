@@ -13,8 +13,8 @@ namespace twinarm {
 
 struct Equivalents {
   std::string name, kind;  // of a scene's coupling; empty of gains from the command line
-  bool is_linear = true;
-  double inertia = 0;  // that it feels where it is felt least [kg or kg m^2]
+  bool is_length = true;   // N/m, N s/m and kg; else N m/rad, N m s/rad and kg m^2
+  double inertia = 0;      // that it feels where it is felt least [kg or kg m^2]
   SpringGains gains;
   SpringResponse response;
   std::optional<SpringGains> wanted;        // for the frequency and damping ratio that were asked

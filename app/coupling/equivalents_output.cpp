@@ -15,8 +15,8 @@ namespace {
 std::string pair(double k, double b, const char* k_unit, const char* b_unit) {
   return fmt::format("k = {} {}, b = {} {}", cell(k), k_unit, cell(b), b_unit);
 }
-std::string gains_words(const SpringGains& gains, bool is_linear) {
-  return is_linear ? pair(gains.k, gains.b, "N/m", "N s/m")
+std::string gains_words(const SpringGains& gains, bool is_length) {
+  return is_length ? pair(gains.k, gains.b, "N/m", "N s/m")
                    : pair(gains.k, gains.b, "N m/rad", "N m s/rad");
 }
 
@@ -35,13 +35,13 @@ class Lines {
 std::string one_table(const Equivalents& e, double step) {
   Lines table;
   const auto hertz = e.response.omega / (2 * std::numbers::pi);
-  table.add({"spring and damper", gains_words(e.gains, e.is_linear), "as it is"});
+  table.add({"spring and damper", gains_words(e.gains, e.is_length), "as it is"});
   table.add(
       {"frequency",
        fmt::format("w = {} rad/s ({} Hz), z = {}", cell(e.response.omega), cell(hertz),
                    cell(e.response.zeta)),
-       fmt::format("on {} {}, all else free", cell(e.inertia), e.is_linear ? "kg" : "kg m^2")});
-  if (e.wanted) table.add({"wanted", gains_words(*e.wanted, e.is_linear), "for what was asked"});
+       fmt::format("on {} {}, all else free", cell(e.inertia), e.is_length ? "kg" : "kg m^2")});
+  if (e.wanted) table.add({"wanted", gains_words(*e.wanted, e.is_length), "for what was asked"});
   if (e.as_torsional)
     table.add({"torsional", gains_words(*e.as_torsional, false),
                fmt::format("k r^2, r = {} m: the same for small errors of this link alone",
@@ -55,7 +55,7 @@ std::string one_table(const Equivalents& e, double step) {
   if (e.direct)
     table.add({"MuJoCo solref", fmt::format("{} {}", cell(e.direct->first), cell(e.direct->second)),
                "-stiffness [1/s^2], -damping [1/s]"});
-  table.add({"  against a load", cell(e.static_stiffness) + (e.is_linear ? " N/m" : " N m/rad"),
+  table.add({"  against a load", cell(e.static_stiffness) + (e.is_length ? " N/m" : " N m/rad"),
              "k / (1 - d): MuJoCo's constraint sags less than it swings"});
   table.add({"PhysX drive, force",
              fmt::format("{}, {}", cell(e.force_drive.stiffness), cell(e.force_drive.damping)),

@@ -113,6 +113,9 @@ PredictedCoupling PosedCouplings::about_zero(std::size_t c) {
   found.law = spec.law;
   found.printed = spec.printed;
   found.is_linear = spec.type == CouplingDescription::Type::linear;
+  const auto body = static_cast<std::size_t>(spec.spring.body);
+  found.is_length = found.is_linear ||
+                    (spec.measure == Measure::joint && model_.joint[body] == JointType::prismatic);
   found.absolute_damper = spec.absolute_damper;
   found.rate = spec.rate;
   found.delay = spec.delay;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/coupling/posed_couplings.h"
+#include "app/nearest_name.h"
 
 namespace twinarm {
 namespace {
@@ -123,6 +124,23 @@ void add_limits(const MatrixXd& joint_damping, Predicted& found) {
     found.growth = growth_per_step(found.M, parts, found.integrator, found.step);
 }
 
+// By rows.
+VectorXd parts_of_move(const PredictTask& task, const Predicted& found) {
+  if (task.along.empty()) return VectorXd::Ones(found.M.rows());
+  VectorXd parts = VectorXd::Zero(found.M.rows());
+  FaultList faults;
+  for (const auto& [name, part] : task.along) {
+    const auto row = std::find(found.rows.begin(), found.rows.end(), name);
+    if (row == found.rows.end())
+      faults.add({"", 0, "--along", "there is no joint '" + name + "'",
+                  name_remedy(name, found.rows, "joints")});
+    else
+      parts[row - found.rows.begin()] = part;
+  }
+  faults.check();
+  return parts;
+}
+
 // Dampers of joints brake the robot's own velocity, as absolute dampers do.
 void add_errors(const PredictTask& task, const MatrixXd& friction, Predicted& found) {
   constexpr std::size_t kMostRows = 50;
@@ -132,9 +150,9 @@ void add_errors(const PredictTask& task, const MatrixXd& friction, Predicted& fo
     if (c.absolute_damper) absolute += c.B;
     late += (c.absolute_damper ? c.B : MatrixXd::Zero(c.B.rows(), c.B.cols())) + c.delay * c.K;
   }
-  VectorXd distance(found.M.rows());
+  VectorXd distance = parts_of_move(task, found);
   for (std::size_t r = 0; r < found.rows.size(); ++r)
-    distance[static_cast<Index>(r)] = found.is_angle[r] ? task.distance : task.slide();
+    distance[static_cast<Index>(r)] *= found.is_angle[r] ? task.distance : task.slide();
   const VectorXd v = distance / task.time;
   const ChainErrors behind({found.M, found.K, found.B + friction, absolute});
   RowErrors errors;

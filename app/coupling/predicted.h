@@ -20,8 +20,11 @@ namespace twinarm {
 // What the follower is asked to do, and the wall that it meets.
 struct PredictTask {
   double distance = 0, time = 1;  // of the target along a mode, or in each joint [rad or m], [s]
-  double slide() const { return 180 / std::numbers::pi * distance / 1000; }  // a mm for a degree
-  std::optional<double> wall;                                                // stiffness [N/m]
+  std::optional<double> wall;     // stiffness [N/m]
+  // Of the joints' errors: what part of the distance each row goes; none: all go all of it.
+  std::vector<std::pair<std::string, double>> along;
+  // A slide goes a millimetre for a degree [m].
+  double slide() const { return 180 / std::numbers::pi * distance / 1000; }
 };
 
 // The arm of a point spring about a joint below it.
@@ -35,10 +38,12 @@ struct SpringArm {
 struct PredictedCoupling {
   std::string name, kind;
   Treatment treatment = Treatment::implicit;
-  bool is_linear = true, absolute_damper = false;
+  bool is_linear = true;  // between points
+  bool is_length = true;  // it measures metres: between points, or along a slide
+  bool absolute_damper = false;
   double rate = 0;    // [Hz]; 0: every step
   double delay = 0;   // of its target [s]
-  SpringGains gains;  // N/m, N s/m, or N m/rad, N m s/rad
+  SpringGains gains;  // N/m, N s/m of lengths; else N m/rad, N m s/rad
   double offset = 0;  // of the target [m or rad]
   CouplingSpec::Type law = CouplingSpec::Type::linear;
   bool printed = false;

@@ -29,15 +29,15 @@ std::string couplings_part(const Predicted& found) {
   TextTable table({"coupling", "kind", "treatment", "k", "b", "target off by", "w [rad/s]", "z"});
   for (const PredictedCoupling& c : found.couplings) {
     const char* word = c.is_own_treatment() ? "its own" : word_of(c.treatment);
-    table.add({c.name, c.kind, word, cell(c.gains.k) + (c.is_linear ? " N/m" : " N m/rad"),
-               cell(c.gains.b) + (c.is_linear ? " N s/m" : " N m s/rad"),
-               c.is_linear ? cell(1e3 * c.offset) + " mm" : cell(kDegrees * c.offset) + " deg",
+    table.add({c.name, c.kind, word, cell(c.gains.k) + (c.is_length ? " N/m" : " N m/rad"),
+               cell(c.gains.b) + (c.is_length ? " N s/m" : " N m s/rad"),
+               c.is_length ? cell(1e3 * c.offset) + " mm" : cell(kDegrees * c.offset) + " deg",
                cell(c.alone.omega), cell(c.alone.zeta)});
   }
   return table.str() +
          said(
              "w, z: frequency and damping ratio of the fastest motion that this coupling alone "
-             "would give. On a slide that is measured at its joint, k and b are N/m and N s/m.");
+             "would give.");
 }
 
 std::string matrix_part(const char* title, const Eigen::MatrixXd& matrix, const Predicted& found) {
@@ -133,10 +133,11 @@ std::string joint_errors_part(const Predicted& found, const PredictTask& task) {
   }
   return said(fmt::format(
              "Largest error of each joint when the targets of all held joints make that move at "
-             "once ({:g} deg, of slides {:g} mm, in {:g} s), all modes together and with the "
+             "once ({:g} deg, of slides {:g} mm, in {:g} s{}), all modes together and with the "
              "dampers as they are; - is not held. Lag: what stays at constant speed, of absolute "
              "dampers, dampers of joints and delays.",
-             kDegrees * task.distance, 1e3 * task.slide(), task.time)) +
+             kDegrees * task.distance, 1e3 * task.slide(), task.time,
+             task.along.empty() ? "" : "; each its part of it")) +
          table.str();
 }
 

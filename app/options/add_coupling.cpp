@@ -35,6 +35,8 @@ void add_coupling(CLI::App& app, CommandLine& line) {
   predict->add_option("--turn", predicted->turn, "how far the target goes [deg, or mm]")
       ->capture_default_str();
   predict->add_option("--time", predicted->time, "in which time [s]")->capture_default_str();
+  predict->add_option("--along", predicted->along,
+                      "joint=part,..: what part of it each joint goes; all of it if not given");
   predict->add_option("--wall", predicted->wall, "stiffness of a wall in the way [N/m]");
   predict->add_flag("--json", predicted->json, "print one JSON object on stdout");
   predict->callback([predicted, &line] {

@@ -181,6 +181,52 @@ class Predict(CouplingCommand):
                  for i in range(4)]
         self.close(total, found["K"], 1e-9)
 
+    def test_a_robot_and_a_coupling_in_words_are_the_scene_that_says_the_same(self):
+        (self.folder / "test.urdf").write_text(HINGE)
+        urdf = str(self.folder / "test.urdf")
+        state = {"q": {"hinge": 0.4}}
+        words = ("--link", "rod", "--stiffness", "400", "--damping", "3", "--point", "0.3,0,0",
+                 "--treatment", "semi-implicit")
+        for more, keys in ((words, dict(type="linear", point=[0.3, 0, 0])),
+                           ((*words[:6], "--type", "torsional", "--measure", "joint", *words[8:]),
+                            dict(type="torsional", measure="joint"))):
+            found = self.predict(urdf, *more, state=state)
+            scene = self.scene(HINGE, coupling(link="rod", stiffness=400, damping=3,
+                                               treatment="semi-implicit", **keys))
+            wanted = self.predict(scene, state=state)
+            found["couplings"][0]["name"] = wanted["couplings"][0]["name"]
+            self.assertEqual(found, wanted)
+
+    def test_words_of_a_coupling_are_checked_as_a_scenes(self):
+        (self.folder / "test.urdf").write_text(HINGE)
+        urdf = str(self.folder / "test.urdf")
+        text = "\n".join(self.errors("predict", urdf, "--link", "rood", "--stiffness", "-4"))
+        for words in ("no link 'rood'", "rod", "negative"):
+            self.assertIn(words, text)
+        error, = self.errors("predict", self.scene(HINGE, self.torsional()), "--link", "rod")
+        self.assertIn("without a scene", error)
+
+    def test_the_joints_go_the_parts_of_the_move_that_are_told(self):
+        found = self.predict(BESIDE, "--along", "joint1=-1,joint2=0.5")["joint_errors"]
+        self.close([found["distance"][j] for j in ("joint1", "joint2", "joint3", "gripper_lift")],
+                   [-math.pi, math.pi / 2, 0, 0])
+        # The scene's own motion starts so; a run is near, its angles not being small.
+        self.command = "simulate"
+        samples = self.answer(BESIDE, "--duration", "0.3", "--every", "0.001")["samples"]
+        for name in ("joint1", "joint2"):
+            peak = max(abs(next(iter(s["targets"].values()))["q"][name] - s["q"][name])
+                       for s in samples)
+            self.assertAlmostEqual(found["start"][name] / peak, 1, delta=0.06)
+        self.command = "coupling"
+        errors = self.errors("predict", BESIDE, "--along", "joint9=1")
+        self.assertIn("no joint 'joint9'", errors[0])
+        errors = self.errors("predict", BESIDE, "--along", "joint1=fast,joint2")
+        self.assertEqual(len(errors), 2)
+
+    def test_on_a_slide_a_joints_spring_has_newtons_per_metre(self):
+        for sub in ("predict", "gains"):
+            self.assertRegex(self.run_it(sub, BESIDE).stdout, r"20000 N/m")
+
     def test_what_has_no_coupling_is_refused(self):
         error, = self.errors("predict", self.scene(HINGE, ""))
         self.assertIn("no coupling", error)
