@@ -167,6 +167,9 @@ int run_coupling_gains(const CouplingGainsOptions& options) {
     SimulatePlan prepared = prepare_couplings(options.robot, {}, "semi-implicit", faults);
     step = prepared.run.step;
     all = scene_equivalents(prepared.input, asked.response, asked.impedance);
+    if (all.empty())
+      throw InputError({{options.robot.model.string(), 0, "scene",
+                         "none of its couplings has a stiffness", "give one"}});
   }
   fmt::print("{}\n", options.json ? equivalents_json(all) : equivalents_table(all, step));
   return 0;

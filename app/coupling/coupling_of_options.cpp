@@ -5,25 +5,25 @@
 namespace twinarm {
 namespace {
 
-TomlValue value(TomlValue::Kind kind, std::string key) {
+TomlValue empty_entry(TomlValue::Kind kind, std::string key) {
   TomlValue made;
   made.kind = kind;
   made.key = std::move(key);
   return made;
 }
-TomlValue text(std::string key, std::string words) {
-  TomlValue made = value(TomlValue::Kind::text, std::move(key));
+TomlValue text_entry(std::string key, std::string words) {
+  TomlValue made = empty_entry(TomlValue::Kind::text, std::move(key));
   made.text = std::move(words);
   return made;
 }
-TomlValue number(std::string key, double size) {
-  TomlValue made = value(TomlValue::Kind::number, std::move(key));
+TomlValue number_entry(std::string key, double size) {
+  TomlValue made = empty_entry(TomlValue::Kind::number, std::move(key));
   made.number = size;
   return made;
 }
 // A list with one table in it.
-TomlValue only(std::string key, TomlValue table) {
-  TomlValue made = value(TomlValue::Kind::list, std::move(key));
+TomlValue list_of_one(std::string key, TomlValue table) {
+  TomlValue made = empty_entry(TomlValue::Kind::list, std::move(key));
   made.items.push_back(std::move(table));
   return made;
 }
@@ -32,27 +32,28 @@ TomlValue only(std::string key, TomlValue table) {
 
 TomlValue scene_of_options(const CouplingPredictOptions& options, FaultList& faults) {
   using Kind = TomlValue::Kind;
-  TomlValue robot = value(Kind::table, "");
-  robot.members = {text("name", "robot"),
-                   text("model", std::filesystem::absolute(options.robot.model).string())};
-  TomlValue coupling = value(Kind::table, "");
-  coupling.members.push_back(text("name", "coupling"));
+  TomlValue robot = empty_entry(Kind::table, "");
+  robot.members = {text_entry("name", "robot"),
+                   text_entry("model", std::filesystem::absolute(options.robot.model).string())};
+  TomlValue coupling = empty_entry(Kind::table, "");
+  coupling.members.push_back(text_entry("name", "coupling"));
   for (const auto& [key, words] : {std::pair{"type", &options.type},
                                    {"link", &options.link},
                                    {"measure", &options.measure},
                                    {"treatment", &options.treatment}})
-    if (!words->empty()) coupling.members.push_back(text(key, *words));
+    if (!words->empty()) coupling.members.push_back(text_entry(key, *words));
   for (const auto& [key, size] :
        {std::pair{"stiffness", &options.stiffness}, {"damping", &options.damping}})
-    if (*size) coupling.members.push_back(number(key, **size));
+    if (*size) coupling.members.push_back(number_entry(key, **size));
   if (!options.point.empty()) {
-    TomlValue point = value(Kind::list, "point");
+    TomlValue point = empty_entry(Kind::list, "point");
     for (const double x : parse_list("--point", options.point, faults))
-      point.items.push_back(number("", x));
+      point.items.push_back(number_entry("", x));
     coupling.members.push_back(std::move(point));
   }
-  TomlValue scene = value(Kind::table, "");
-  scene.members = {only("robot", std::move(robot)), only("coupling", std::move(coupling))};
+  TomlValue scene = empty_entry(Kind::table, "");
+  scene.members = {list_of_one("robot", std::move(robot)),
+                   list_of_one("coupling", std::move(coupling))};
   return scene;
 }
 

@@ -25,12 +25,18 @@ std::vector<Equivalents> scene_equivalents(SimulateInput& input,
   std::vector<Equivalents> all;
   for (std::size_t c = 0; c < input.couplings->size(); ++c) {
     const PredictedCoupling coupling = posed.coupling(c, 1e-3);
-    Equivalents found = equivalents_of(coupling.gains, posed.felt_inertia(c), impedance);
+    const SceneCoupling& spec = input.couplings->spec(c);
+    if (!(coupling.gains.k > 0)) continue;  // no spring: a god object, a damper, half of a weld
+    // A weld has an inertia of its own: the spring that swings as it does is softer.
+    const double inertia = posed.felt_inertia(c), d = spec.reference.impedance;
+    const double part = inertia / (inertia + coupling.felt_mass);
+    Equivalents found = equivalents_of({part * coupling.gains.k, part * coupling.gains.b}, inertia,
+                                       coupling.felt_mass > 0 ? MujocoImpedance{d, d} : impedance);
+    found.is_weld = coupling.felt_mass > 0;
     found.name = coupling.name;
     found.kind = coupling.kind;
     found.is_length = coupling.is_length;
     if (wanted) found.wanted = gains_of(*wanted, found.inertia);
-    const SceneCoupling& spec = input.couplings->spec(c);
     const auto body = static_cast<std::size_t>(spec.spring.body);
     for (const SpringArm& arm : coupling.arms)
       if (arm.joint == input.robot.model.joint_name[body]) {

@@ -14,6 +14,7 @@ namespace twinarm {
 struct Equivalents {
   std::string name, kind;  // of a scene's coupling; empty of gains from the command line
   bool is_length = true;   // N/m, N s/m and kg; else N m/rad, N m s/rad and kg m^2
+  bool is_weld = false;    // the gains are then of the spring that swings as it does
   double inertia = 0;      // that it feels where it is felt least [kg or kg m^2]
   SpringGains gains;
   SpringResponse response;
@@ -28,7 +29,7 @@ struct Equivalents {
 Equivalents equivalents_of(const SpringGains& gains, double inertia,
                            const MujocoImpedance& impedance);
 
-// Of every coupling of a scene in its state.
+// Of every coupling of a scene that has a stiffness, in its state.
 std::vector<Equivalents> scene_equivalents(SimulateInput& input,
                                            const std::optional<SpringResponse>& wanted,
                                            const MujocoImpedance& impedance);

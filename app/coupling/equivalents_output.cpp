@@ -35,7 +35,8 @@ class Lines {
 std::string one_table(const Equivalents& e, double step) {
   Lines table;
   const auto hertz = e.response.omega / (2 * std::numbers::pi);
-  table.add({"spring and damper", gains_words(e.gains, e.is_length), "as it is"});
+  table.add({"spring and damper", gains_words(e.gains, e.is_length),
+             e.is_weld ? "that swings as the weld does" : "as it is"});
   table.add(
       {"frequency",
        fmt::format("w = {} rad/s ({} Hz), z = {}", cell(e.response.omega), cell(hertz),

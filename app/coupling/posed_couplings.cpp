@@ -96,7 +96,7 @@ void PosedCouplings::add_arms(const SceneCoupling& spec, const Vector3& offset, 
         const auto after = std::upper_bound(model_.iv.begin() + 1, model_.iv.end(), dof);
         const auto body = static_cast<std::size_t>(after - model_.iv.begin()) - 1;
         const double r = distance(p), R_K = distance(target), k = spec.spring.k;
-        if (r < 1e-9) return;  // it does not turn this joint
+        if (r < 1e-9 || k == 0) return;  // it does not turn this joint
         const double I =
             all_M_(static_cast<Index>(dof), static_cast<Index>(dof)) + r * r * felt_mass(spec);
         found.arms.push_back({model_.joint_name[body], r, R_K,
@@ -125,7 +125,8 @@ PredictedCoupling PosedCouplings::about_zero(std::size_t c) {
   // The damper as printed folds the speeds: it has no linear part.
   const bool folded = spec.printed && spec.law == CouplingSpec::Type::torsional;
   found.B = (folded ? 0 : spec.spring.b) * square;
-  found.felt = felt_mass(spec) * square;
+  found.felt_mass = felt_mass(spec);
+  found.felt = found.felt_mass * square;
   if (spec.law == CouplingSpec::Type::god_object && spec.leads())
     found.landing = robot_inertia(spec);
   return found;

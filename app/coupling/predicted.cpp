@@ -223,7 +223,7 @@ void add_warnings(const SceneModel& scene, Predicted& found) {
           fmt::format("'{}': the torsional damper as printed has no linear part; it is predicted "
                       "without one",
                       c.name));
-    if (c.absolute_damper)
+    if (c.absolute_damper && c.gains.b > 0)
       warn(
           fmt::format("'{}' has an absolute damper: besides the errors behind a moving target it "
                       "lags, steadily, as the column says",

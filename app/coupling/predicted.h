@@ -48,6 +48,7 @@ struct PredictedCoupling {
   CouplingSpec::Type law = CouplingSpec::Type::linear;
   bool printed = false;
   Eigen::MatrixXd K, K_zero, B;     // as it is; without the geometric part; damping
+  double felt_mass = 0;             // [kg or kg m^2]
   Eigen::MatrixXd felt;             // inertia that the law adds (coupling/weld_like.h)
   Eigen::MatrixXd landing;          // of a god object: rows of M of its robot; else empty
   SpringResponse alone;             // its fastest mode, were there no other

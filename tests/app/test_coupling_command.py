@@ -216,7 +216,7 @@ class Predict(CouplingCommand):
         for name in ("joint1", "joint2"):
             peak = max(abs(next(iter(s["targets"].values()))["q"][name] - s["q"][name])
                        for s in samples)
-            self.assertAlmostEqual(found["start"][name] / peak, 1, delta=0.06)
+            self.assertAlmostEqual(found["start"][name] / peak, 1, delta=0.02)
         self.command = "coupling"
         errors = self.errors("predict", BESIDE, "--along", "joint9=1")
         self.assertIn("no joint 'joint9'", errors[0])
@@ -265,6 +265,26 @@ class Gains(CouplingCommand):
             stiffness=wanted["stiffness"], damping=wanted["damping"])))
         mode, = found["modes"]
         self.close([mode["frequency"], mode["damping_ratio"]], [2 * math.pi * 5, 0.4], 1e-8)
+
+    def test_a_weld_is_the_spring_that_swings_as_it_does_with_its_own_inertia(self):
+        T, z, d = 0.05, 0.8, 0.7
+        m = d / (1 - d) * 3 * INERTIA  # of its couple; the centre of mass cannot move
+        k, b = m / (d * T * T * z * z), 2 * m / (d * T)
+        one, = self.gains(self.scene(HINGE, coupling(type="weld", link="rod", time_constant=T,
+                                                     damping_ratio=z, impedance=d)))
+        w = math.sqrt(k / (INERTIA + m))
+        zeta = b / (2 * math.sqrt(k * (INERTIA + m)))
+        self.close([one["frequency"], one["damping_ratio"]], [w, zeta], 1e-9)
+        self.close(one["gains"]["stiffness"], INERTIA * w * w, 1e-9)
+        self.close(one["solref"], [1 / (w * zeta), zeta], 1e-9)
+        self.close(one["solref_static_stiffness"], INERTIA * w * w / (1 - d), 1e-9)
+
+    def test_a_constraint_has_no_gains_to_convert(self):
+        scene = self.scene(HINGE, coupling(type="god-object"))
+        self.assertIn("none of its couplings", self.errors("gains", scene)[0])
+        both = self.scene(HINGE, coupling(type="god-object") +
+                          coupling(type="torsional", measure="joint", link="rod", stiffness=5))
+        self.assertEqual(len(self.gains(both)), 1)
 
     def test_what_cannot_be_meant_is_refused_all_at_once(self):
         errors = self.errors("gains", "--frequency", "5", "--solref", "0.02,-1", "--impedance", "2")
