@@ -5,7 +5,7 @@
 namespace twinarm {
 namespace {
 
-constexpr double kLeast = 1e-9;  // part of the peak: in 10^9 ticks one tick's work
+constexpr double kLeastPart = 1e-9;  // part of the peak: in 10^9 ticks one tick's work
 
 }  // namespace
 
@@ -29,7 +29,7 @@ Vector3 PassivityControl::damped(const Vector3& wanted) const noexcept {
 
 double PassivityControl::allowance() const noexcept {
   // Not quite none at the lowest: from nothing there is no way back.
-  return most_ > 0 ? std::clamp(kLeast + (E_ - lowest_) / most_, kLeast, 1.0) : 1.0;
+  return most_ > 0 ? std::clamp(kLeastPart + (E_ - lowest_) / most_, kLeastPart, 1.0) : 1.0;
 }
 
 Vector3 PassivityControl::tick(const Vector3& x, const Vector3& wanted, double peak) noexcept {
