@@ -41,7 +41,8 @@ class SceneWriter {
     text_ =
         fmt::format("# {} of the study: {}. Written by `twinarm study`.\n", spec.name, spec.title);
     line("step", real(spec.step()));
-    if (const double lasts = scene_.hand.source->duration(); lasts > 0) line("duration", real(lasts));
+    if (const double lasts = scene_.hand.source->duration(); lasts > 0)
+      line("duration", real(lasts));
     if (scene_.with_obstacle) line("contact", "\"compliant\"");
     write_robot();
     if (scene_.with_obstacle) write_obstacle();
