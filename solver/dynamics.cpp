@@ -24,7 +24,6 @@ TWINARM_TABLE(generic, Batch<8>)
 #ifdef TWINARM_HAS_LEVELS
 TWINARM_TABLE(v3, double)
 TWINARM_TABLE(v3, float)
-TWINARM_TABLE(v3, Dual<8>)
 TWINARM_TABLE(v3, Batch<4>)
 TWINARM_TABLE(v3, Batch<8>)
 TWINARM_TABLE(v4, double)
@@ -32,8 +31,10 @@ TWINARM_TABLE(v4, Batch<8>)
 #endif
 #undef TWINARM_TABLE
 
-// v3 serves the others there: nothing of theirs fills a register of eight doubles, or they are not
-// worth the time that it takes to compile them once more (duals).
+// Duals are asked for derivatives about one state, never in a step: one level serves them. v3
+// serves the others whose numbers do not fill a register of eight doubles.
+template <class S>
+[[maybe_unused]] constexpr bool kHasLevels = !std::is_same_v<S, Dual<8>>;
 template <class S>
 [[maybe_unused]] constexpr bool kHasV4 = std::is_same_v<S, double> || std::is_same_v<S, Batch<8>>;
 
@@ -74,10 +75,12 @@ Isa best_isa() {
 template <class S>
 const Passes<S>& passes([[maybe_unused]] Isa isa) {
 #ifdef TWINARM_HAS_LEVELS
-  isa = std::min(isa, of_this_processor());
-  if constexpr (kHasV4<S>)
-    if (isa == Isa::v4) return v4::table<S>();
-  if (isa >= Isa::v3) return v3::table<S>();
+  if constexpr (kHasLevels<S>) {
+    isa = std::min(isa, of_this_processor());
+    if constexpr (kHasV4<S>)
+      if (isa == Isa::v4) return v4::table<S>();
+    if (isa >= Isa::v3) return v3::table<S>();
+  }
 #endif
   return generic::table<S>();
 }
