@@ -23,6 +23,7 @@ struct DrivenJoints {
   std::vector<std::string> turned;  // by theta1, theta4, theta6, in this order; at most three
   std::string gripper;              // by the button, between open and closed; may be empty
   double gripper_open = 0, gripper_closed = 0;
+  bool operator==(const DrivenJoints&) const = default;
 };
 
 // Where the KVR's velocity comes from.

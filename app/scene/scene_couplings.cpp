@@ -137,18 +137,36 @@ JointStops::Stop stop_of(const SceneCoupling& spec) {
           spec.spring.b};
 }
 
+// Couplings that are led alike have one kinematic robot between them: its pose is the dear part.
+bool led_alike(const SceneCoupling& a, const SceneCoupling& b) {
+  return a.target == b.target && a.trace == b.trace && a.seed == b.seed &&
+         a.duration == b.duration && a.delay == b.delay && a.speed == b.speed &&
+         a.driven == b.driven && a.absolute_damper == b.absolute_damper && a.rest.q == b.rest.q;
+}
+
 }  // namespace
 
-// A coupling at work.
-struct SceneCouplings::Tie {
-  Tie(const SceneModel& scene, const SceneCoupling& spec, double h, const HandSource* device,
-      FaultList& faults)
+// What leads couplings.
+struct SceneCouplings::Twin {
+  Twin(const SceneModel& scene, const SceneCoupling& spec, const HandSource* device,
+       FaultList& faults)
       : hand(make_hand(scene, spec, device, faults)),
         kvr(scene.model, *hand, {}, spec.driven,
             spec.absolute_damper ? KvrRates::none : KvrRates::from_hand),
         shown(scene.model, *hand, {}, spec.driven) {
     kvr.stand_at(spec.rest);
     shown.stand_at(spec.rest);
+  }
+
+  std::unique_ptr<HandSource> hand;
+  KinematicRobot kvr, shown;
+};
+
+// A coupling at work.
+struct SceneCouplings::Tie {
+  Tie(const SceneModel& scene, const SceneCoupling& spec, double h, std::shared_ptr<Twin> leader,
+      FaultList& faults)
+      : twin(std::move(leader)) {
     law.name = spec.coupling;
     law.type = spec.law;
     law.printed = spec.printed;
@@ -160,11 +178,11 @@ struct SceneCouplings::Tie {
     law.springs = spec.springs;
     if (spec.outside) {
       source = std::make_unique<Kept>(std::make_unique<JointStops>(
-          spec.coupling, scene.model, kvr, std::vector<JointStops::Stop>{stop_of(spec)}));
+          spec.coupling, scene.model, twin->kvr, std::vector<JointStops::Stop>{stop_of(spec)}));
       return;
     }
     try {
-      source = std::make_unique<Kept>(make_coupling(law, scene.model, kvr));
+      source = std::make_unique<Kept>(make_coupling(law, scene.model, twin->kvr));
     } catch (const InputError& error) {
       for (Fault fault : error.faults()) {
         fault.file = scene.description.file.string();
@@ -174,8 +192,7 @@ struct SceneCouplings::Tie {
     }
   }
 
-  std::unique_ptr<HandSource> hand;
-  KinematicRobot kvr, shown;
+  std::shared_ptr<Twin> twin;
   CouplingSpec law;
   std::unique_ptr<Kept> source;
 };
@@ -183,9 +200,14 @@ struct SceneCouplings::Tie {
 SceneCouplings::SceneCouplings(const SceneModel& scene, double h, const HandSource* device)
     : scene_(scene) {
   FaultList faults;
+  const auto twin_of = [&](std::size_t c) {
+    for (std::size_t before = 0; before < c; ++before)
+      if (led_alike(scene.couplings[before], scene.couplings[c])) return ties_[before]->twin;
+    return std::make_shared<Twin>(scene, scene.couplings[c], device, faults);
+  };
   for (std::size_t c = 0; c < scene.couplings.size(); ++c)
     if (scene.couplings[c].leader == c)
-      ties_.push_back(std::make_shared<Tie>(scene, scene.couplings[c], h, device, faults));
+      ties_.push_back(std::make_shared<Tie>(scene, scene.couplings[c], h, twin_of(c), faults));
     else
       ties_.push_back(ties_.back());
   faults.check();
@@ -198,7 +220,7 @@ ForceSource* SceneCouplings::source(std::size_t c) {
 }
 
 const HandSource& SceneCouplings::hand(std::size_t c) const {
-  return *ties_[c]->hand;
+  return *ties_[c]->twin->hand;
 }
 
 const Coupling& SceneCouplings::coupling(std::size_t c) const {
@@ -206,7 +228,7 @@ const Coupling& SceneCouplings::coupling(std::size_t c) const {
 }
 
 const KvrSample& SceneCouplings::target(std::size_t c, double t, Side side) {
-  KinematicRobot& shown = ties_[c]->shown;
+  KinematicRobot& shown = ties_[c]->twin->shown;
   shown.begin_step(t, side == Side::after ? 1e-6 : -1e-6);  // within the motion that is meant
   return shown.start();
 }
@@ -251,7 +273,7 @@ const CouplingSpec& SceneCouplings::law(std::size_t c) const {
 }
 
 const KinematicRobot& SceneCouplings::kvr(std::size_t c) const {
-  return ties_[c]->kvr;
+  return ties_[c]->twin->kvr;
 }
 
 double SceneCouplings::m_star(std::size_t c) const {

@@ -60,6 +60,7 @@ class SceneCouplings {
   const HandSource& hand(std::size_t c) const;
 
  private:
+  struct Twin;
   struct Tie;
   const SceneModel& scene_;
   std::vector<std::shared_ptr<Tie>> ties_;  // by pull

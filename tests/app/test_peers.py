@@ -68,7 +68,7 @@ class Peers(unittest.TestCase):
                 self.assertLess(row["error"], 0.05, row)  # of 0.33 m
 
     def test_every_scheme_nears_the_same_motion_of_the_arm_at_its_order(self):
-        result = run("--quick", "--cases", "PUMA", "--work-precision")
+        result = run("--quick", "--cases", "PUMA", "--work-precision", "--budget", "1000")
         curves = {}
         for row in json.loads(result.stdout)["work_precision"]:
             if row["stopped"] is None and 1e-10 < row["error"] < 0.3:
