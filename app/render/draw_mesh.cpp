@@ -123,6 +123,12 @@ void set_bounds(DrawMesh& mesh, const std::vector<Vector3>& vertices) {
 
 }  // namespace
 
+Eigen::AlignedBox3d bounding_box(const DrawMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const auto& p : mesh.positions) box.extend(Vector3(p[0], p[1], p[2]));
+  return box;
+}
+
 DrawMesh make_draw_mesh(const TriangleMesh& mesh, const std::vector<CornerUv>& uv) {
   assert(uv.empty() || uv.size() == mesh.triangles.size());
   const std::vector<Facet> facets = make_facets(mesh);

@@ -26,6 +26,9 @@ struct DrawMesh {
   double bound_radius = 0;
 };
 
+// In M; empty for a mesh without vertices.
+Eigen::AlignedBox3d bounding_box(const DrawMesh& mesh);
+
 // Edges whose two facets turn by less than this are drawn round, others sharp.
 inline constexpr double kCreaseAngle = 35.0 * 3.14159265358979323846 / 180.0;
 

@@ -28,12 +28,13 @@ constexpr std::array<const char*, static_cast<std::size_t>(Uniform::count)> kUni
     "sky_shadow",
     "texel",
     "shadow_reach",
-    "size_px",
+    "per_height",
     "background_bottom",
     "background_top",
     "background_ground",
     "ground",
-    "grid"};
+    "grid",
+    "per_grid"};
 static_assert(kUniformNames.back() != nullptr, "one name for each Uniform");
 
 // A shader that does not compile is a mistake of ours, not of the user.
@@ -183,7 +184,7 @@ GLuint Canvas::make_framebuffer(int samples, bool with_depth) const {
     gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer);
   };
   attach(GL_SRGB8_ALPHA8, GL_COLOR_ATTACHMENT0);
-  if (with_depth) attach(GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
+  if (with_depth) attach(GL_DEPTH_COMPONENT32F, GL_DEPTH_ATTACHMENT);
   check_framebuffer(gl_, std::to_string(width_) + " x " + std::to_string(height_) + " pixels");
   return framebuffer;
 }

@@ -34,12 +34,13 @@ enum class Uniform : std::size_t {
   sky_shadow,
   texel,
   shadow_reach,
-  size_px,
+  per_height,
   background_bottom,
   background_top,
   background_ground,
   ground,
   grid,
+  per_grid,
   count
 };
 
@@ -112,7 +113,8 @@ struct ShadowMap {
 };
 
 // The colour and depth surface of the picture: sRGB bytes, 4 samples per pixel or one. Their colour
-// is whatever was there, until it is drawn over.
+// is whatever was there, until it is drawn over. Depth is float: integers cost a conversion for
+// each sample.
 class Canvas {
  public:
   Canvas(const GlTable& gl, int width, int height, bool multisampled);

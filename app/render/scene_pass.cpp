@@ -1,7 +1,6 @@
 // Drawing one pass. See scene_pass.h for the order, shaders.cpp for the light.
 #include "app/render/scene_pass.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -27,6 +26,11 @@ ShaderVariant with_texture(ShaderVariant variant) {
 
 ShaderVariant with_horizon(ShaderVariant variant, bool horizon) {
   variant.horizon = horizon;
+  return variant;
+}
+
+ShaderVariant without_shadow(ShaderVariant variant) {
+  variant.key_shadow = false;
   return variant;
 }
 
@@ -66,12 +70,15 @@ void ScenePass::prepare(const DrawList& list) {
   std::optional<Backdrop>& backdrop = backdrops_[has_horizon() ? 1 : 0];
   if (!backdrop) {
     const ShaderVariant variant = with_horizon(variant_, has_horizon());
+    const std::string vertex = floor_vertex_shader(variant);
     backdrop.emplace(
-        Backdrop{{gl_, floor_vertex_shader(variant), floor_fragment_shader(variant)},
+        Backdrop{{gl_, vertex, floor_fragment_shader(variant)},
+                 {gl_, vertex, floor_fragment_shader(without_shadow(variant))},
                  {gl_, background_vertex_shader(), background_fragment_shader(variant)}});
   }
   forget_unused();
   items_.clear();
+  casters_.clear();
   for (const Instance& instance : list.instances) add_item(list, instance);
 }
 
@@ -79,7 +86,8 @@ void ScenePass::add_item(const DrawList& list, const Instance& instance) {
   const Vector3& scale = instance.scale;
   Item item;
   const std::shared_ptr<const DrawMesh>& mesh = list.meshes[instance.mesh];
-  item.mesh = &upload(mesh);
+  const CachedMesh& cached = upload(mesh);
+  item.mesh = &cached.gpu;
   item.two_sided = mesh->two_sided;
   item.ghost = instance.color.a < 1;
   item.texture = instance.texture && !mesh->uv.empty() && !item.ghost
@@ -96,13 +104,18 @@ void ScenePass::add_item(const DrawList& list, const Instance& instance) {
   item.seen_through = instance.seen_through;
   if (item.world_from_mesh.allFinite() && item.normal_from_mesh.allFinite()) {
     items_.push_back(item);
+    if (!item.ghost && !cached.box.isEmpty()) {
+      casters_.push_back(
+          {{instance.X_WM.R, instance.X_WM * scale.cwiseProduct(cached.box.center())},
+           0.5 * scale.cwiseProduct(cached.box.sizes())});
+    }
   }
 }
 
-const GpuMesh& ScenePass::upload(const std::shared_ptr<const DrawMesh>& mesh) {
+const ScenePass::CachedMesh& ScenePass::upload(const std::shared_ptr<const DrawMesh>& mesh) {
   const auto found = cache_.find(mesh.get());
-  if (found != cache_.end()) return found->second.gpu;
-  return cache_.try_emplace(mesh.get(), gl_, mesh).first->second.gpu;
+  if (found != cache_.end()) return found->second;
+  return cache_.try_emplace(mesh.get(), gl_, mesh).first->second;
 }
 
 const GpuTexture& ScenePass::upload(const std::shared_ptr<const Image>& image) {
@@ -149,6 +162,13 @@ int ScenePass::used_side(const ShadowMap& map) const {
   return static_cast<int>(std::clamp(texels, 256.0, static_cast<double>(map.side_px)));
 }
 
+// How far off their surfaces points are looked up: a texel and a half of the coarser map [m].
+double ScenePass::normal_offset() const {
+  const int key_side = used_side(key_map_);
+  const int side = sky_map_ ? std::min(key_side, used_side(*sky_map_)) : key_side;
+  return 3.0 * bounds_.solid.radius / side;
+}
+
 // From the world into the square of the map that is used, and depth from 0 to 1.
 Eigen::Matrix4f ScenePass::shadow_from_world(const ShadowMap& map,
                                              const Vector3& towards_light_W) const {
@@ -187,12 +207,11 @@ Eigen::Matrix4d ScenePass::shifted_clip(const LightSample& sample) const {
 
 void ScenePass::set_frame(const Program& program, const LightSample& sample) const {
   const ShadowMap& sky_map = sky_map_ ? *sky_map_ : key_map_;
-  const int side = std::min(used_side(key_map_), used_side(sky_map));  // the coarser one rules
   program.use();
   program.set(Uniform::clip_from_world, Eigen::Matrix4f(shifted_clip(sample).cast<float>()));
   program.set(Uniform::key_from_world, shadow_from_world(key_map_, sample.key_W));
   program.set(Uniform::sky_from_world, shadow_from_world(sky_map, sample.sky_W));
-  program.set(Uniform::normal_offset, static_cast<float>(3.0 * bounds_.solid.radius / side));
+  program.set(Uniform::normal_offset, static_cast<float>(normal_offset()));
   program.set(Uniform::eye, Eigen::Vector3f(list_->camera.eye.cast<float>()));
   program.set(Uniform::key_direction, Eigen::Vector3f(sample.key_W.cast<float>()));
   program.set(Uniform::sky_direction, Eigen::Vector3f(sample.sky_W.cast<float>()));
@@ -241,46 +260,7 @@ void ScenePass::set_backdrop(const Program& program) const {
   program.set(Uniform::background_bottom, linear(list_->background.bottom));
   program.set(Uniform::background_top, linear(list_->background.top));
   program.set(Uniform::background_ground, linear(list_->background.ground));
-  program.set(Uniform::size_px, static_cast<float>(width_), static_cast<float>(height_));
-}
-
-void ScenePass::draw_floor(const LightSample& sample) const {
-  const Ground& ground = list_->ground;
-  const Vector3& center = list_->camera.target;
-  const Program& floor = backdrop().floor;
-  set_frame(floor, sample);
-  set_backdrop(floor);
-  const auto set = [&](Uniform uniform, const Eigen::Vector4d& value) {
-    floor.set(uniform, Eigen::Vector4f(value.cast<float>()));
-  };
-  set(Uniform::ground, {center.x(), center.y(), ground.height, floor_radius_});
-  set(Uniform::grid, {ground.cell, ground.cell * ground.cells_per_major, 0.008 * ground.cell,
-                      has_horizon() ? 0.5 : 1.0});
-  gl_.BindVertexArray(no_vertices_);
-  gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-}
-
-// Where the floor fills whole rows of the picture, from below, nothing would come of it but work.
-void ScenePass::draw_background(const LightSample& sample) const {
-  const int rows =
-      list_->ground.visible
-          ? rows_all_floor(clip_from_world_,
-                           {list_->camera.target, list_->ground.height, floor_radius_}, height_)
-          : 0;
-  if (rows >= height_) return;
-  const Program& background = backdrop().background;
-  background.use();
-  set_backdrop(background);
-  background.set(Uniform::eye, Eigen::Vector3f(list_->camera.eye.cast<float>()));
-  background.set(Uniform::world_from_clip,
-                 Eigen::Matrix4f(shifted_clip(sample).inverse().cast<float>()));
-  gl_.Enable(GL_SCISSOR_TEST);
-  gl_.Scissor(0, rows, width_, height_ - rows);
-  gl_.DepthMask(GL_FALSE);
-  gl_.BindVertexArray(no_vertices_);
-  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  gl_.DepthMask(GL_TRUE);
-  gl_.Disable(GL_SCISSOR_TEST);
+  program.set(Uniform::per_height, 1.0f / static_cast<float>(height_));
 }
 
 // The parts of overlays that lie behind what has been drawn, laid over it. Depth is left as it is.

@@ -16,6 +16,7 @@
 #include "app/render/draw_list.h"
 #include "app/render/gl_objects.h"
 #include "app/render/shaders.h"
+#include "app/render/shadow_tiles.h"
 #include "app/render/view.h"
 
 namespace twinarm {
@@ -42,9 +43,10 @@ class ScenePass {
  private:
   struct CachedMesh {
     CachedMesh(const GlTable& gl, std::shared_ptr<const DrawMesh> mesh)
-        : source(std::move(mesh)), gpu(gl, *source) {}
+        : source(std::move(mesh)), gpu(gl, *source), box(bounding_box(*source)) {}
     std::shared_ptr<const DrawMesh> source;  // keeps the address, which is the key, from reuse
     GpuMesh gpu;
+    Eigen::AlignedBox3d box;  // in the mesh's frame
   };
   struct CachedTexture {
     CachedTexture(const GlTable& gl, std::shared_ptr<const Image> image)
@@ -64,19 +66,22 @@ class ScenePass {
   };
 
   struct Backdrop {
-    Program floor, background;
+    Program floor, lit_floor, background;
   };
 
   void add_item(const DrawList& list, const Instance& instance);
   Eigen::Matrix4f light_clip_from_world(const Vector3& towards_light_W) const;
   Eigen::Matrix4f shadow_from_world(const ShadowMap& map, const Vector3& towards_light_W) const;
   int used_side(const ShadowMap& map) const;
+  double normal_offset() const;
   void draw_shadow(const ShadowMap& map, const Vector3& towards_light_W);
   void set_frame(const Program& program, const LightSample& sample) const;
   void draw_items(const Program& program, bool ghosts, bool textured = false) const;
   void cull(bool two_sided) const;
   void draw_solids(const LightSample& sample) const;
   void draw_floor(const LightSample& sample) const;
+  void set_floor(const Program& program, const LightSample& sample) const;
+  std::vector<FloorTiles> shadow_tiles(const LightSample& sample) const;
   void draw_background(const LightSample& sample) const;
   void draw_blended(const LightSample& sample) const;
   void draw_hidden(const LightSample& sample) const;
@@ -85,7 +90,7 @@ class ScenePass {
   const Backdrop& backdrop() const { return *backdrops_[has_horizon() ? 1 : 0]; }
   bool has_horizon() const { return list_->background.kind == Background::Kind::landscape; }
   Eigen::Matrix4d shifted_clip(const LightSample& sample) const;
-  const GpuMesh& upload(const std::shared_ptr<const DrawMesh>& mesh);
+  const CachedMesh& upload(const std::shared_ptr<const DrawMesh>& mesh);
   const GpuTexture& upload(const std::shared_ptr<const Image>& image);
   void forget_unused();
 
@@ -104,6 +109,7 @@ class ScenePass {
   // The frame at hand.
   const DrawList* list_ = nullptr;
   std::vector<Item> items_;
+  std::vector<CasterBox> casters_;
   SceneBounds bounds_;
   double floor_radius_ = 1;
   Eigen::Matrix4d clip_from_world_ = Eigen::Matrix4d::Identity();

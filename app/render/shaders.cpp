@@ -11,6 +11,7 @@ namespace twinarm {
 
 std::string shader_header(const ShaderVariant& variant) {
   return std::string("#version 330 core\n") + (variant.soft_shadow ? "#define SOFT_SHADOW\n" : "") +
+         (variant.key_shadow ? "#define KEY_SHADOW\n" : "") +
          (variant.sky_sample ? "#define SKY_SAMPLE\n" : "") +
          (variant.textured ? "#define TEXTURED\n" : "") +
          (variant.horizon ? "#define HORIZON\n" : "");
@@ -36,8 +37,9 @@ void place(vec3 p, vec3 n) {
 }
 )";
 
-// sRGB within half a step of eight bits above 0.004 (below, a step or two too dark), by square
-// roots: a canvas that encodes does it for each of the four samples of a pixel. Eight bits show
+// sRGB by a polynomial of the square root, the best of degree 4 for colours above 0.004: within 0.2
+// steps of eight bits there, below at most 2.2 steps too dark. A canvas that encodes does it for
+// each of the four samples of a pixel. Eight bits show
 // bands in a slow gradient: noise of half a step in either direction dissolves them. It is a fixed
 // function of the pixel: the same scene gives the same bits.
 const char* const kFinishColor = R"(
@@ -48,8 +50,9 @@ float pixel_noise() {
 }
 
 vec4 finished(vec3 c) {
-  vec3 s = sqrt(max(c, 0.0)), r = sqrt(s);
-  vec3 encoded = 0.585122381 * s + 0.783140355 * r - 0.368262736 * sqrt(r);
+  vec3 s = sqrt(max(c, 0.0));
+  vec3 encoded =
+      s * (s * (s * (s * -0.2878565 + 0.7938828) - 0.9078319) + 1.4372536) - 0.0361004;
   return vec4(encoded + pixel_noise() / 255.0, 1.0);
 }
 )";
@@ -66,7 +69,9 @@ vec3 within(vec3 p, float reach) {
   return clamp(p, vec3(2.0 * texel, 2.0 * texel, 0.0), vec3(reach, reach, 1.0));
 }
 
-#ifdef SOFT_SHADOW
+#ifndef KEY_SHADOW
+float key_visible() { return 1.0; }
+#elif defined(SOFT_SHADOW)
 // The share of a square of 2 x 2 texels about the place that is lit: nine looks at the map, where
 // four that the sampler makes softer would be sixteen.
 uniform sampler2D key_shadow;

@@ -11,9 +11,10 @@ namespace twinarm {
 struct ShaderVariant {
   bool soft_shadow = true;  // over 3 x 3 texels of a map, else 2 x 2, in the sampler
   bool sky_sample =
-      false;              // the sky is one direction with a shadow map of its own (studio quality)
-  bool textured = false;  // the colour is multiplied by a texture's
-  bool horizon = false;   // of floor and background: there is a sky that ends, and not one room
+      false;               // the sky is one direction with a shadow map of its own (studio quality)
+  bool key_shadow = true;  // else nothing hides the key light
+  bool textured = false;   // the colour is multiplied by a texture's
+  bool horizon = false;    // of floor and background: there is a sky that ends, and not one room
 };
 
 std::string solid_vertex_shader(const ShaderVariant& variant);
