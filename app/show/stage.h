@@ -70,7 +70,7 @@ enum class Measured { of_run, of_picture };
 void measure(Stage& stage, const Moment& moment, Measured measured);
 // Camera, floor and grid. Notes where the floor is only drawn.
 void set_view(Stage& stage, const CameraWish& wish, double aspect);
-// The hand device stands on the ground, to the left of all that is seen. overlays/device.cpp
+// The hand device stands on the ground, in front of all that is seen and to its left.
 void place_device(Stage& stage);
 
 // Names of overlays, as in overlays.h. Fills stage.list.

@@ -96,6 +96,9 @@ TEST_CASE("gestures: out of reach the goal is the nearest place, and it comes ba
   const Vector3 held = point_of(hand.sample(10, 11));
   hand.key(HandAxis::right, false, true);
   CHECK((point_of(hand.sample(10.1, 11)) - held - Vector3(-0.010, 0, 0)).norm() < 1e-9);
+  hand.drag(4000, 0, {});  // against the key that is held: it moves back from the edge
+  const Vector3 pushed = point_of(hand.sample(10.1, 11));
+  CHECK((point_of(hand.sample(10.2, 11)) - pushed - Vector3(-0.010, 0, 0)).norm() < 1e-9);
   hand.release();
   for (int n = 0; n < 400; ++n) {  // whatever is done, it stays within the ranges
     hand.drag(300 * std::sin(1.7 * n), 300 * std::cos(0.9 * n), {});

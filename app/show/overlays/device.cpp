@@ -13,8 +13,10 @@ namespace twinarm {
 namespace {
 
 const Color kCase{0.23f, 0.24f, 0.27f, 1.0f}, kArm{0.66f, 0.68f, 0.71f, 1.0f},
-    kStylus{0.16f, 0.33f, 0.62f, 1.0f}, kPressed{0.86f, 0.42f, 0.12f, 1.0f};
-constexpr double kShoulder = 0.125;  // above what the device stands on [m]
+    kStylus{0.16f, 0.33f, 0.62f, 1.0f}, kPressed{0.86f, 0.42f, 0.12f, 1.0f},
+    kBlockColor{0.78f, 0.76f, 0.72f, 1.0f};
+// Above the ground [m]: the case stands on a block, for at zero the stylus hangs below its foot.
+constexpr double kShoulder = 0.21, kBlock = 0.085;
 
 Vector3 shoulder_of(const OmniFigures& omni) {
   return {0, omni.lift, -omni.back};
@@ -25,9 +27,12 @@ void draw_device(DrawList& list, const Pose& X_WD, const ShownHand& hand) {
   const Vector3 shoulder = shoulder_of(omni), elbow = omni_elbow(omni, hand.theta);
   const Pose X_WS = X_WD * omni_stylus(omni, hand.theta);
   const Matrix3 waist = Eigen::AngleAxisd(-hand.theta[0], Vector3::UnitY()).toRotationMatrix();
-  add_box(list, {X_WD.R, X_WD * (shoulder - Vector3(0, kShoulder - 0.03, 0))}, {0.14, 0.06, 0.17},
+  const Vector3 up = Vector3::UnitY();
+  add_box(list, {X_WD.R, X_WD * (shoulder - (kShoulder - 0.5 * kBlock) * up)}, {0.16, kBlock, 0.19},
+          kBlockColor);
+  add_box(list, {X_WD.R, X_WD * (shoulder - (kShoulder - kBlock - 0.03) * up)}, {0.14, 0.06, 0.17},
           kCase);
-  add_rod(list, X_WD * (shoulder - Vector3(0, 0.07, 0)), X_WD * shoulder, 0.035, kCase);
+  add_rod(list, X_WD * (shoulder - 0.07 * up), X_WD * shoulder, 0.035, kCase);
   const Vector3 across = 0.036 * waist.col(0);
   add_rod(list, X_WD * (shoulder - across), X_WD * (shoulder + across), 0.03, kStylus);
   add_rod(list, X_WD * shoulder, X_WD * elbow, 0.011, kArm);
@@ -49,13 +54,13 @@ void place_device(Stage& stage) {
   for (int c = 0; c < 3; ++c) X_WD.R.col(c) = world_from_device(Vector3::Unit(c));
   const OmniFigures omni;
   const Vector3 foot = shoulder_of(omni) - Vector3(0, kShoulder, 0);
-  const Vector3 place(stage.extent.low().x() - 0.2, stage.extent.center().y(),
+  const Vector3 place(stage.extent.low().x() - 0.2, stage.extent.low().y(),
                       stage.list.ground.height);
   X_WD.p = place - X_WD.R * foot;
   stage.X_WDevice = X_WD;
   if (!stage.frames_device) return;
   for (const double x : {-0.13, 0.13})
-    for (const double y : {0.0, 0.32})
+    for (const double y : {0.0, 0.4})
       for (const double z : {-0.09, 0.3}) stage.extent.add(X_WD * (foot + Vector3(x, y, z)));
 }
 
