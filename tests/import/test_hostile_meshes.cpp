@@ -270,8 +270,13 @@ TEST_CASE("hostile meshes: empty files, cut headers, counts without end, what is
   is_refused("a.stl", binary_stl(0));
   is_refused("a.ply", ply(false).replace(ply(false).find("vertex 4"), 8, "vertex 4000000000"));
   is_refused("a.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
-  is_refused("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt nan 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
   is_refused("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  is_refused(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nproperty float s\nproperty float t\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0 nan 0\n1 0 0 1 0\n0 1 0 0 1\n"
+      "3 0 1 2\n");
   is_refused("a.gltf", gltf(R"([{"children":[1]},{"children":[0],"mesh":0}])"));  // round and round
   std::string cyclic = kDae;
   cyclic.replace(cyclic.find("<instance_geometry"), 0, "<instance_node url=\"#m\"/>");

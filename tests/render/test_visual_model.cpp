@@ -92,6 +92,15 @@ TEST_CASE("a texture lies on the square as the file says, upright, from both sid
   CHECK(quarters_of(picture_of(model, -3)) == "grwb");  // from below, left is right
 }
 
+namespace {
+
+// Within the triangle that the square's file gives last, away from its own mirror line.
+std::string upper_half_of(const Image& image) {
+  return {color_at(image, 5, -25), color_at(image, -25, -5), color_at(image, -25, 5)};
+}
+
+}  // namespace
+
 TEST_CASE("a texture stays where it lay when triangles are turned about, or the mesh is mirrored") {
   const VisualFolder folder;
   const std::string picture = encode_png(quarters(64));
@@ -102,13 +111,17 @@ TEST_CASE("a texture stays where it lay when triangles are turned about, or the 
   const VisualModel mended = load_visual(file);
   CHECK(any_note(mended, "1 triangles looked inwards"));
   CHECK(quarters_of(picture_of(mended, 3)) == "rgbw");
+  CHECK(upper_half_of(picture_of(mended, 3)) == "grb");
   for (const fs::path& square : {file, folder.write("square.obj", kSquare)}) {
     VisualModel mirrored = load_visual(square, Vector3(-1, 1, 1));
     REQUIRE(mirrored.parts.size() == 1);
     DrawMesh& mesh = mirrored.parts[0].mesh;
     for (auto& p : mesh.positions) p[0] += 1;  // before the camera again
     mesh.bound_center.x() += 1;
-    CHECK(quarters_of(picture_of(mirrored, 3)) == "grwb");
+    const Image image = picture_of(mirrored, 3);
+    CHECK(quarters_of(image) == "grwb");
+    CHECK(color_at(image, -5, -25) == 'g');
+    CHECK(color_at(image, 25, 5) == 'b');
   }
 }
 
