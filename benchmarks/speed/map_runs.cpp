@@ -1,5 +1,7 @@
 #include "benchmarks/speed/map_runs.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <memory>
 #include <thread>
@@ -60,13 +62,30 @@ MapRuns::MapRuns(const MapLaw& law, Treatment treatment, bool energy, std::size_
   for (std::size_t t = 0; t < threads; ++t) runs_.emplace_back(setup_);
 }
 
+namespace {
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+double MapRuns::busiest() const {
+  return *std::max_element(seconds_.begin(), seconds_.end());
+}
+
 template <class Part>
 void MapRuns::share_out(const Part& part) {
   const std::size_t threads = runs_.size(), share = (cells_.size() + threads - 1) / threads;
   const auto of_thread = [&](std::size_t t) {
+    const double began = thread_seconds();
     const std::size_t first = std::min(t * share, cells_.size());
     part(t, first, std::min(share, cells_.size() - first));
+    seconds_[t] = thread_seconds() - began;
   };
+  seconds_.assign(threads, 0);
   std::vector<std::thread> workers;
   for (std::size_t t = 1; t < threads; ++t) workers.emplace_back(of_thread, t);
   of_thread(0);

@@ -38,6 +38,9 @@ class MapRuns {
   void run_fresh();  // all that a map does: with the tables
   void run_alone();  // one by one, each with a twin of its own; errors, and no energies
   std::size_t steps() const { return steps_; }  // of the last call, all cells
+  // Processor time of the thread that had most of it [s]: the wall clock of a machine with nothing
+  // else to do.
+  double busiest() const;
   std::size_t lanes() const { return runs_.front().lanes(); }
 
  private:
@@ -54,6 +57,7 @@ class MapRuns {
   std::vector<BatchResult> results_;
   std::vector<BatchRun> runs_;  // by thread
   std::size_t steps_ = 0;
+  std::vector<double> seconds_;  // by thread
 };
 
 }  // namespace twinarm::speed
