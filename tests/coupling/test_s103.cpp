@@ -17,7 +17,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-constexpr double u = 0.025;  // [m]
+constexpr double brick = 0.025;  // the unit of its dimensions [m]
 
 const RobotDescription& s103() {
   static const RobotDescription robot =
@@ -39,7 +39,7 @@ class PressingHand final : public HandSource {
 };
 
 Eigen::Isometry3d joint(double x, double z, double angle) {
-  return Eigen::Translation3d(x * u, 0, z * u) * Eigen::AngleAxisd(angle, Vector3::UnitZ());
+  return Eigen::Translation3d(x * brick, 0, z * brick) * Eigen::AngleAxisd(angle, Vector3::UnitZ());
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ TEST_CASE("the S-103 with all angles at zero stretches along x: 24 units out, 37
   Kinematics k(model);
   forward_kinematics(model, State<double>(model), k);
   const auto quill = static_cast<std::size_t>(model.find_body("quill"));
-  CHECK((k.X_WL[quill].p - Vector3(24 * u, 0, 37.25 * u)).norm() < 1e-12);
+  CHECK((k.X_WL[quill].p - Vector3(24 * brick, 0, 37.25 * brick)).norm() < 1e-12);
 }
 
 TEST_CASE("theta1, theta4, theta6 turn the S-103's joints 1, 2, 3 and no other") {
