@@ -6,6 +6,11 @@
 #include <numbers>
 
 namespace twinarm {
+namespace {
+
+constexpr double kLeastLever = 0.1;  // of the stylus about the motors, for their inertia [m]
+
+}  // namespace
 
 CouplingReaction::CouplingReaction(const Model<double>& model, const std::vector<int>& turned)
     : model_(model), joint_of_(model.nv, -1), ratio_(model.nv, 1.0), tau_(turned.size()) {
@@ -91,7 +96,8 @@ HandForce::HandForce(const HandForceSpec& spec, const OmniFigures& omni, DeviceM
     : spec_(spec),
       omni_(omni),
       mapping_(mapping),
-      passivity_(omni.peak_force * spec.fastest / omni.rate) {}
+      passivity_(omni.peak_force * spec.fastest / omni.rate,
+                 0.5 * omni.apparent_mass * kLeastLever * kLeastLever * omni.rate * omni.rate) {}
 
 DeviceForce HandForce::tick(const DeviceState& device, const std::vector<double>& tau,
                             double h) noexcept {

@@ -23,7 +23,7 @@ Vector3 PassivityControl::damped(const Vector3& wanted) const noexcept {
   const double way = d_.squaredNorm();
   if (!(way > 0)) return wanted;
   const double along = wanted.dot(d_);
-  if (E_ < 0) return std::min(along, 2 * E_) / way * d_;
+  if (E_ < 0) return -std::min(-2 * E_ / way, stiffest_) * d_;
   return along > E_ ? Vector3(wanted - (along - E_) / way * d_) : wanted;
 }
 
