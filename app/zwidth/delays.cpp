@@ -1,0 +1,201 @@
+// A hand, a device, a network, a robot: places go one way, forces come back, both late.
+//
+//   hand (an arm's impedance about where it wants to be) - device - network - KVR = coupling = DVR
+//   - wall; the coupling's reaction goes back. The hand pushes to 20 mm beyond the wall, stays, and
+//   draws back. Energy: the work of the hand's side on the motors' force, E_n = E_n-1 - F (x_n -
+//   x_n-1), which a passive robot could never give back below zero.
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <random>
+
+#include "app/zwidth/zwidth.h"
+#include "coupling/device/hand_force.h"
+#include "coupling/device/omni.h"
+#include "solver/model_builder.h"
+#include "solver/simulation.h"
+#include "solver/spring.h"
+
+namespace twinarm {
+namespace {
+
+constexpr double kRobotMass = 1, kCoupling = 150, kWall = 2000;     // [kg], [N/m], [N/m]
+constexpr double kArmMass = 0.3, kArmSpring = 300, kArmDamper = 5;  // of the hand; assumed
+constexpr double kRunTime = 8;                                      // [s]
+
+// Packets that are late, scattered and lost: the newest of those that have come.
+class Network {
+ public:
+  Network(const DelayRow& row, unsigned seed) : row_(row), engine_(seed) {}
+  double pass(double now, double value) {
+    std::uniform_real_distribution<double> any(0, 1);
+    const double late = row_.delay + row_.jitter * any(engine_);
+    if (any(engine_) >= row_.loss) under_way_.push_back({now, now + late, value});
+    for (auto packet = under_way_.begin(); packet != under_way_.end();) {
+      if (packet->arrives > now + 1e-12) {
+        ++packet;
+        continue;
+      }
+      if (packet->sent >= newest_) {
+        newest_ = packet->sent;
+        value_ = packet->value;
+      }
+      packet = under_way_.erase(packet);
+    }
+    return value_;
+  }
+
+ private:
+  struct Packet {
+    double sent, arrives, value;
+  };
+  DelayRow row_;
+  std::mt19937 engine_;
+  std::deque<Packet> under_way_;
+  double newest_ = -1, value_ = 0;
+};
+
+// From the place that had come a tick ago to that which has come now.
+class NewestPlace final : public HandSource {
+ public:
+  double before = 0, now = 0, t = 0, h = 1;
+  HandSample sample(double at, double) const override {
+    HandSample hand;
+    const double part = std::clamp((at - t) / h, 0.0, 1.0);
+    HandMapping{}.set_robot_angle(hand, 0, before + part * (now - before), (now - before) / h);
+    return hand;
+  }
+  double duration() const override { return kRunTime; }
+  std::string description() const override { return "the newest place that has come"; }
+};
+
+class RailWall final : public ForceSource {
+ public:
+  void add_forces(const State<double>& x, const Kinematics&,
+                  Forces<double>& forces) noexcept override {
+    if (x.q[0] > 0) forces.tau[0] -= kWall * x.q[0] + 5 * x.qd[0];
+  }
+};
+
+Model<double> rail_robot() {
+  ModelBuilder builder;
+  builder.set_gravity(Vector3::Zero());
+  builder.add_body("robot", 0, "rail", JointType::prismatic, {}, Vector3::UnitX(),
+                   {kRobotMass, Vector3::Zero(), Matrix3::Identity()});
+  return builder.build();
+}
+
+// The robot's end of the network.
+struct DistantRobot {
+  Model<double> model = rail_robot();
+  NewestPlace hand;
+  KinematicRobot kvr;
+  std::unique_ptr<Coupling> coupling;
+  RailWall wall;
+  Simulation simulation;
+  CouplingReaction reaction{model, {1}};
+
+  explicit DistantRobot(double start)
+      : kvr(model, hand, HandMapping{}, {{"rail"}, "", 0, 0}), simulation(model, [&] {
+          State<double> x(model);
+          x.q[0] = start;
+          return x;
+        }()) {
+    hand.before = hand.now = start;
+    kvr.stand_at(simulation.state());
+    CouplingSpec spec;
+    spec.treatment = Treatment::implicit;
+    spec.measure = Measure::joint;
+    spec.springs = {{"rail", 1, {}, kCoupling, 2 * std::sqrt(kCoupling * kRobotMass)}};
+    coupling = make_coupling(spec, model, kvr);
+    reaction.add(spec, *coupling);
+    simulation.add(*coupling);
+    simulation.add(wall);
+  }
+  double follow(double place, double h) {  // the force on the hand [N]
+    hand.before = hand.now;
+    hand.now = place;
+    hand.t = simulation.state().t;
+    hand.h = h;
+    simulation.step(h);
+    return reaction.after_step(kvr.end(), simulation.state(), simulation.kinematics(), h)[0];
+  }
+};
+
+// In a second to 20 mm beyond the wall, four there, a second back.
+double wanted_place(double t) {
+  const double s = t < 1 ? t : t > 5 ? std::max(0.0, 6 - t) : 1.0;
+  return -0.02 + 0.04 * s * s * s * (10 - 15 * s + 6 * s * s);
+}
+
+void run_delay(const SampledDevice& device, unsigned seed, DelayRow& row) {
+  const double h = device.tick(), m = device.mass + kArmMass, start = wanted_place(0);
+  const OmniFigures omni;
+  Network there(row, seed), back(row, seed + 1);
+  DistantRobot robot(start);
+  // A hand of at most 1 m/s; damping that the device's mass can bear.
+  PassivityControl passivity(omni.peak_force * h, 0.5 * device.mass / (h * h));
+  double x = start, v = 0, E = 0, farthest = 0, low = 0, high = 0, felt = 0;
+  long pressed = 0;
+  constexpr int kParts = 10;
+  for (long n = 0; n * h < kRunTime; ++n) {
+    const double t = static_cast<double>(n) * h;
+    const double arrived = n == 0 ? start : there.pass(t, x - start) + start;
+    const double wanted = back.pass(t, robot.follow(arrived, h));
+    const double F = row.control ? passivity.tick({x, 0, 0}, {wanted, 0, 0}, omni.peak_force).x()
+                                 : std::clamp(wanted, -omni.peak_force, omni.peak_force);
+    const double before = x;
+    for (int part = 0; part < kParts; ++part) {
+      const double arm = kArmSpring * (wanted_place(t) - x) - (kArmDamper + device.damping) * v;
+      v += h / kParts * (arm + F) / m;
+      x += h / kParts * v;
+    }
+    E -= F * (x - before);
+    row.lowest = std::min(row.lowest, E);
+    farthest = std::max(farthest, std::abs(x - before));
+    if (t > 2 && t < 5) felt -= F, ++pressed;
+    if (t > kRunTime - 1) low = std::min(low, x - start), high = std::max(high, x - start);
+    if (n % std::max(1L, std::lround(0.01 / h)) == 0) {
+      row.t.push_back(t);
+      row.energy.push_back(E);
+      row.place.push_back(x);
+    }
+  }
+  row.end = E;
+  row.tick_work = omni.peak_force * farthest;
+  row.swing = high - low;
+  row.felt = pressed ? felt / static_cast<double>(pressed) : 0;
+}
+
+}  // namespace
+
+std::vector<DelayRow> measure_delays(const SampledDevice& device, unsigned seed, const Tell& tell) {
+  struct Link {
+    const char* name;
+    double delay, jitter, loss;
+  };
+  const Link links[] = {{"none", 0, 0, 0},
+                        {"10 ms", 0.01, 0, 0},
+                        {"50 ms", 0.05, 0, 0},
+                        {"100 ms", 0.1, 0, 0},
+                        {"jitter", 0.08, 0.04, 0},
+                        {"loss", 0.1, 0, 0.3},
+                        {"jitter and loss", 0.08, 0.04, 0.3}};
+  std::vector<DelayRow> rows;
+  for (const Link& link : links)
+    for (const bool control : {false, true}) {
+      DelayRow row;
+      row.name = link.name;
+      row.delay = link.delay;
+      row.jitter = link.jitter;
+      row.loss = link.loss;
+      row.control = control;
+      run_delay(device, seed, row);
+      rows.push_back(std::move(row));
+      tell(static_cast<double>(rows.size()) / 14);
+    }
+  return rows;
+}
+
+}  // namespace twinarm
