@@ -48,7 +48,7 @@ struct LitBoxes {
 LitBoxes random_boxes(BoxDice& dice, int box_count) {
   LitBoxes scene;
   for (int i = 0; i < box_count; ++i) scene.boxes.push_back(dice.box());
-  scene.light = {(dice.vector() + Vector3(0, 0, 2)).normalized(), 0.2 * dice(), 0.02};
+  scene.light = {(dice.vector() + Vector3(0, 0, 2)).normalized(), 0.2 * dice(), 0.4};
   Camera camera;
   camera.eye = 3 * dice.vector() + Vector3(0, 0, 9);
   scene.clip_from_world = make_clip_from_world(
