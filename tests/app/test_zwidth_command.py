@@ -92,7 +92,7 @@ class Zwidth(unittest.TestCase):
         self.assertIn("Colgate", ANSWERS["svg"])
 
     def test_all_faults_are_told_at_once(self):
-        done = run("--mass", "0", "--damping", "-1", "--rate", "nan", "--delay", "-2", "--svg",
+        done = run("--mass=0", "--damping=-1", "--rate=nan", "--delay=-2", "--svg",
                    "/nowhere/at/all.png", "--json")
         self.assertEqual(done.returncode, 2)
         self.assertEqual(len(json.loads(done.stdout)["errors"]), 6)
