@@ -18,12 +18,12 @@ namespace {
 const OmniFigures kOmni;
 constexpr double kLong = 1e3;  // [s] between calls: no joint is too slow
 
-MappingSpec kind(MappingKind which) {
+MappingSpec spec_of_kind(MappingKind which) {
   MappingSpec spec;
   spec.kind = which;
   return spec;
 }
-double farthest(const std::vector<double>& a, const std::vector<double>& b) {
+double largest_change(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0;
   for (std::size_t j = 0; j < a.size(); ++j) most = std::max(most, std::abs(a[j] - b[j]));
   return most;
@@ -49,7 +49,7 @@ TEST_CASE("joint mappings: q = offset + gain theta, of theta1, 4, 6 or of theta1
                          Vector3(0, 0, 0));
   Random random(1);
   for (const MappingKind which : {MappingKind::paper, MappingKind::arm}) {
-    MappingSpec spec = kind(which);
+    MappingSpec spec = spec_of_kind(which);
     spec.offset = {0.1, -0.2, 0.3};
     const auto mapping = make_mapping(spec, kOmni, s103.robot);
     const std::array<std::size_t, 3> joint = which == MappingKind::paper
@@ -75,7 +75,7 @@ TEST_CASE("joint mappings: q = offset + gain theta, of theta1, 4, 6 or of theta1
 
 TEST_CASE("the paper's mapping gives nothing on theta2 and theta3, whatever the robot's torques") {
   const auto robots = mapped_robots();
-  const auto mapping = make_mapping(kind(MappingKind::paper), kOmni, robots[0]->robot);
+  const auto mapping = make_mapping(spec_of_kind(MappingKind::paper), kOmni, robots[0]->robot);
   Random random(2);
   for (int n = 0; n < 50; ++n) {
     const DeviceState device = device_at(kOmni, random_angles(kOmni, random));
@@ -98,7 +98,7 @@ TEST_CASE("the motors' power is that of the robot's joints: all mappings, all ro
       CAPTURE(m->name);
       int counted = 0;
       for (int n = 0; n < 200; ++n) {
-        const auto mapping = make_mapping(kind(which), kOmni, m->robot);
+        const auto mapping = make_mapping(spec_of_kind(which), kOmni, m->robot);
         const OmniAngles theta = random_angles(kOmni, random);
         const std::vector<double> q = m->random_q(random);
         std::vector<double> tau;
@@ -113,7 +113,7 @@ TEST_CASE("the motors' power is that of the robot's joints: all mappings, all ro
           return mapping->map(device_at(kOmni, at), kLong).q;
         };
         const std::vector<double> plus = moved(1), minus = moved(-1), here = moved(0);
-        if (farthest(plus, minus) > 1e-3) continue;  // beside a singular place
+        if (largest_change(plus, minus) > 1e-3) continue;  // beside a singular place
         const DeviceForce felt = mapping->feel(device_at(kOmni, theta), tau);
         double of_robot = 0, of_hand = 0, size = 0;
         for (std::size_t j = 0; j < q.size(); ++j) {
@@ -133,7 +133,7 @@ TEST_CASE("cartesian: the robot's point is p_start + scale (stylus - start) wher
   for (const auto& m : mapped_robots()) {
     CAPTURE(m->name);
     const bool plane = m->name.starts_with("S-103");
-    MappingSpec spec = kind(MappingKind::cartesian);
+    MappingSpec spec = spec_of_kind(MappingKind::cartesian);
     spec.scale = 1.5;
     int reached = 0;
     for (int n = 0; n < 60; ++n) {
@@ -142,7 +142,7 @@ TEST_CASE("cartesian: the robot's point is p_start + scale (stylus - start) wher
       const std::vector<double> q = m->random_q(random);
       const DeviceState start = device_at(kOmni, theta);
       mapping->begin(start, q);
-      CHECK(farthest(mapping->map(start, 0.001).q, q) < 1e-10);
+      CHECK(largest_change(mapping->map(start, 0.001).q, q) < 1e-10);
       OmniAngles at = theta;
       for (int s = 1; s <= 40; ++s) {
         for (std::size_t j = 0; j < 6; ++j) at[j] = theta[j] + s / 40.0 * (to[j] - theta[j]);
@@ -175,7 +175,7 @@ TEST_CASE("a goal out of reach: the arm points to it, at the nearest place, and 
     const double turn = 0.6 + 1.2 * s;
     const Vector3 goal(r * std::cos(turn), r * std::sin(turn), 0);
     inverse.reach(goal, 1);
-    jump = std::max(jump, farthest(inverse.q(), before));
+    jump = std::max(jump, largest_change(inverse.q(), before));
     before = inverse.q();
     const double nearest = std::max(0.0, r - reach);
     CHECK(std::abs((goal - inverse.position()).norm() - nearest) < 1e-9);
@@ -197,7 +197,7 @@ TEST_CASE("a stretched arm that is asked to come straight in bends") {
 
 TEST_CASE("no joint goes faster than it is said to, and the robot catches up") {
   const auto robots = mapped_robots();
-  MappingSpec spec = kind(MappingKind::cartesian);
+  MappingSpec spec = spec_of_kind(MappingKind::cartesian);
   spec.fastest = 2;
   spec.scale = 2;
   const auto mapping = make_mapping(spec, kOmni, robots[2]->robot);
@@ -211,7 +211,7 @@ TEST_CASE("no joint goes faster than it is said to, and the robot catches up") {
   std::vector<double> before = q;
   for (int n = 0; n < 600; ++n) {
     const HandTarget& target = mapping->map(end, 0.001);
-    CHECK(farthest(target.q, before) < 0.002 * (1 + 1e-9));
+    CHECK(largest_change(target.q, before) < 0.002 * (1 + 1e-9));
     for (const double rate : target.qd) CHECK(std::abs(rate) < 2 * (1 + 1e-9));
     before = target.q;
   }
@@ -227,7 +227,7 @@ TEST_CASE("a clutch makes no jump, nor does a device that is gone or says what i
   Random random(5);
   const auto robots = mapped_robots();
   for (const MappingKind which : {MappingKind::paper, MappingKind::arm, MappingKind::cartesian}) {
-    MappingSpec spec = kind(which);
+    MappingSpec spec = spec_of_kind(which);
     spec.scale = 0.5;
     const auto mapping = make_mapping(spec, kOmni, robots[2]->robot);
     OmniAngles theta{0, 0.6, 0.1, 0, 0, 0};
@@ -244,7 +244,7 @@ TEST_CASE("a clutch makes no jump, nor does a device that is gone or says what i
       device.alive = away != 2;
       if (away == 3) device.theta[0] = std::nan("");
       const HandTarget& target = mapping->map(device, 0.001);
-      const double way = farthest(target.q, before);
+      const double way = largest_change(target.q, before);
       if (away) {
         CHECK(way == 0);
         for (const double rate : target.qd) CHECK(rate == 0);
@@ -264,7 +264,7 @@ TEST_CASE("map() and feel() take nothing from the heap") {
   for (const auto& m : mapped_robots())
     for (const MappingKind which : {MappingKind::paper, MappingKind::cartesian}) {
       if (which == MappingKind::paper && m->robot.turned.size() > 3) continue;
-      const auto mapping = make_mapping(kind(which), kOmni, m->robot);
+      const auto mapping = make_mapping(spec_of_kind(which), kOmni, m->robot);
       const std::vector<double> tau(m->robot.turned.size(), 1.0);
       CHECK(allocations_in([&] {
               for (int n = 0; n < 100; ++n) {
@@ -278,7 +278,7 @@ TEST_CASE("map() and feel() take nothing from the heap") {
 
 TEST_CASE("a mapping that cannot be is refused with all its faults") {
   const auto robots = mapped_robots();
-  MappingSpec spec = kind(MappingKind::paper);
+  MappingSpec spec = spec_of_kind(MappingKind::paper);
   spec.gain[1] = std::nan("");
   spec.scale = 0;
   MappedRobot robot = robots[3]->robot;  // six joints
@@ -291,5 +291,5 @@ TEST_CASE("a mapping that cannot be is refused with all its faults") {
   }
   robot = robots[2]->robot;
   robot.body = 0;
-  CHECK_THROWS_AS(make_mapping(kind(MappingKind::cartesian), kOmni, robot), InputError);
+  CHECK_THROWS_AS(make_mapping(spec_of_kind(MappingKind::cartesian), kOmni, robot), InputError);
 }

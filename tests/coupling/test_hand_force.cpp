@@ -82,7 +82,7 @@ struct Pressed {
   }
 };
 
-std::vector<CouplingSpec> laws(const TwoLink& arm) {
+std::vector<CouplingSpec> felt_laws(const TwoLink& arm) {
   std::vector<CouplingSpec> all;
   for (const Treatment treatment : {Treatment::explicit_, Treatment::implicit}) {
     all.push_back(linear(arm.springs(2000, 100), treatment));
@@ -128,7 +128,7 @@ CouplingSpec at_tip(double k) {
 }  // namespace
 
 TEST_CASE("pressed on a wall: the hand's torques are the derivative of the springs' energy") {
-  for (const CouplingSpec& spec : laws(TwoLink())) {
+  for (const CouplingSpec& spec : felt_laws(TwoLink())) {
     CAPTURE(static_cast<int>(spec.type));
     CAPTURE(static_cast<int>(spec.treatment));
     const Pressed pressed(spec, 0.3, 6);

@@ -14,7 +14,7 @@ using namespace twinarm;
 namespace {
 
 // The state is (x, v, x a tick ago, ...); A as e^(F T) with the hold, by a series of its own.
-double spectral_radius(const SampledDevice& d, double K, double B) {
+double radius_of_walled(const SampledDevice& d, double K, double B) {
   Eigen::Matrix3d F = Eigen::Matrix3d::Zero();  // d/dt (x, v, force)
   F(0, 1) = 1;
   F(1, 1) = -d.damping / d.mass;
@@ -39,7 +39,7 @@ double exact_stiffness(const SampledDevice& d, double B) {
   double low = 1e-3, high = 1e7;
   for (int n = 0; n < 60; ++n) {
     const double K = std::sqrt(low * high);
-    (spectral_radius(d, K, B) < 1 ? low : high) = K;
+    (radius_of_walled(d, K, B) < 1 ? low : high) = K;
   }
   return low;
 }
@@ -57,7 +57,7 @@ double needed_damping(const SampledDevice& d, double K, double B) {
   return most;
 }
 
-SampledDevice device(double m, double b, double rate, int delay) {
+SampledDevice sampled(double m, double b, double rate, int delay) {
   SampledDevice d;
   d.mass = m;
   d.damping = b;
@@ -69,7 +69,7 @@ SampledDevice device(double m, double b, double rate, int delay) {
 }  // namespace
 
 TEST_CASE("uncoupled stability: the published device's limits, 2152.5 and 715.7 N/m") {
-  const SampledDevice now = device(0.045, 0.1, 1000, 0), late = device(0.045, 0.1, 1000, 1);
+  const SampledDevice now = sampled(0.045, 0.1, 1000, 0), late = sampled(0.045, 0.1, 1000, 1);
   CHECK(exact_stiffness(now, 1) == doctest::Approx(2152.5).epsilon(1e-4));
   CHECK(exact_stiffness(late, 1) == doctest::Approx(715.7).epsilon(1e-4));
   CHECK(uncoupled_stiffness(now, 1) == doctest::Approx(2200));
@@ -83,7 +83,7 @@ TEST_CASE("uncoupled stability by bisection is that of the eigenvalues, by dampi
     for (const int delay : {0, 1, 3})
       for (const double b : {0.0, 0.1, 2.0})
         for (const double B : {0.5, 3.0}) {
-          const SampledDevice d = device(0.045, b, rate, delay);
+          const SampledDevice d = sampled(0.045, b, rate, delay);
           CAPTURE(rate);
           CAPTURE(delay);
           CAPTURE(b);
@@ -96,21 +96,21 @@ TEST_CASE("uncoupled stability by bisection is that of the eigenvalues, by dampi
 TEST_CASE("a wall gives no energy away up to Colgate's line, and beyond it it does") {
   for (const double rate : {500.0, 1000.0, 4000.0})
     for (const double part : {-0.9, -0.3, 0.0, 0.2, 0.7}) {
-      const SampledDevice d = device(0.045, 0.5, rate, 0);
+      const SampledDevice d = sampled(0.045, 0.5, rate, 0);
       const double B = part * d.damping, law = colgate_stiffness(d, B);
       CAPTURE(rate);
       CAPTURE(part);
       CHECK(law == doctest::Approx(2 * (0.5 - std::abs(B)) * rate));
       CHECK(largest_passive_stiffness(d, B) == doctest::Approx(law).epsilon(1e-3));
     }
-  const SampledDevice d = device(0.045, 0.5, 1000, 0);
+  const SampledDevice d = sampled(0.045, 0.5, 1000, 0);
   CHECK(largest_passive_damping(d, 0) == doctest::Approx(0.5).epsilon(1e-3));
 }
 
 TEST_CASE("with a delay the wall that gives no energy away is that of its frequency response") {
   for (const int delay : {1, 2, 5})
     for (const double B : {0.0, 0.05, 0.2}) {
-      const SampledDevice d = device(0.045, 0.5, 1000, delay);
+      const SampledDevice d = sampled(0.045, 0.5, 1000, delay);
       CAPTURE(delay);
       CAPTURE(B);
       const double K = largest_passive_stiffness(d, B);
@@ -124,7 +124,7 @@ TEST_CASE("with a delay the wall that gives no energy away is that of its freque
 }
 
 TEST_CASE("steps of the encoder cost stiffness: 2 f_c/Delta where the friction is small") {
-  SampledDevice d = device(0.045, 2.0, 1000, 0);
+  SampledDevice d = sampled(0.045, 2.0, 1000, 0);
   d.resolution = 0.055e-3;
   for (const double friction : {0.02, 0.05, 0.26}) {
     d.friction = friction;
@@ -139,7 +139,7 @@ TEST_CASE("steps of the encoder cost stiffness: 2 f_c/Delta where the friction i
 }
 
 TEST_CASE("a wall without energy is stable, and not the other way round") {
-  const SampledDevice d = device(0.045, 0.1, 1000, 0);
+  const SampledDevice d = sampled(0.045, 0.1, 1000, 0);
   for (const double B : {0.0, 0.03, 0.08}) {
     CHECK(largest_passive_stiffness(d, B) < largest_stable_stiffness(d, B));
     CHECK(is_stable(d, largest_passive_stiffness(d, B), B));
