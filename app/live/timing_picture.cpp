@@ -29,16 +29,16 @@ Columns columns_of(const TickTimes& times) {
 
 // One panel: a stepped curve for the run, and one for the empty loop.
 std::string panel(Gnuplot& gnuplot, const std::string& label, const TickTimes& run,
-                  const TickTimes& empty, double budget) {
+                  const TickTimes& empty, double limit, const std::string& limit_name) {
   const Columns ours = columns_of(run), control = columns_of(empty);
   std::string script = fmt::format(
       "set xlabel {}\nset ylabel 'share of all ticks [%]'\nset logscale xy\n"
       "set xrange [0.1:20000]\nset yrange [{}:150]\nset format y '%g'\nset format x '%g'\n",
       in_quotes(label), 50.0 / static_cast<double>(std::max(1L, run.count())));
-  if (budget > 0)
-    script +=
-        fmt::format("set arrow 1 from {0},graph 0 to {0},graph 1 nohead dashtype 2 lc rgb '{1}'\n",
-                    budget, palette::faint);
+  script += fmt::format(
+      "set arrow 1 from {0},graph 0 to {0},graph 0.72 nohead dashtype 2 lc rgb '{1}'\n"
+      "set label 1 {2} at {0},graph 0.75 center tc rgb '{1}'\n",
+      limit, palette::faint, in_quotes(limit_name));
   script += fmt::format(
       "plot {} using 1:($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' title "
       "'with the robot'",
@@ -48,7 +48,7 @@ std::string panel(Gnuplot& gnuplot, const std::string& label, const TickTimes& r
         ", {} using ($1*1.06):($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' "
         "title 'an empty loop'",
         gnuplot.data({control.at, control.share}), palette::kvr);
-  return script + "\nunset arrow 1\n";
+  return script + "\nunset arrow 1\nunset label 1\n";
 }
 
 }  // namespace
@@ -60,8 +60,8 @@ void draw_timing(const LiveSummary& summary, const std::filesystem::path& file) 
   const std::string script =
       "set multiplot layout 1,2 margins 0.08,0.98,0.17,0.92 spacing 0.09,0.1\n"
       "set key top right\n" +
-      panel(gnuplot, "processor time of a tick [us]", run.cpu, empty.cpu, 50) +
-      panel(gnuplot, "woken late [us]", run.late, empty.late, 1e6 * summary.step) +
+      panel(gnuplot, "processor time of a tick [us]", run.cpu, empty.cpu, 50, "50 us") +
+      panel(gnuplot, "woken late [us]", run.late, empty.late, 1e6 * summary.step, "one tick") +
       "unset multiplot\n";
   const std::string name = file.stem().string();
   const std::string title =
