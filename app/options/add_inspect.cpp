@@ -33,6 +33,7 @@ void add_inspect(CLI::App& app, CommandLine& line) {
   inspect->add_option("--step", options->step, "of a scene: seconds; the scene's if not given");
   add_file_option(*inspect, "--html", options->html, "write a page that steps through the passes");
   inspect->add_flag("--json", options->json, "print one JSON object on stdout");
+  options->command = line.words;
   inspect->callback(
       [options, &line] { line.chosen = [options] { return run_inspect(*options); }; });
 }

@@ -40,6 +40,7 @@ void add_simulate(CLI::App& app, CommandLine& line) {
                   "given");
   simulate->add_flag("--json", options->json, "print one JSON object on stdout");
   simulate->add_flag("--csv", options->csv, "print one row a sample on stdout");
+  options->command = line.words;
   simulate->callback(
       [options, &line] { line.chosen = [options] { return run_simulate(*options); }; });
 }

@@ -97,6 +97,20 @@ CouplingEnds matched_ends(const Model<double>& model, const Spring& spring, cons
   return ends;
 }
 
+// Of a device that is not there: it holds the driven joints where they stand.
+std::unique_ptr<HandSource> hand_at_rest(const Model<double>& model,
+                                         const SceneCoupling& coupling) {
+  HandTarget target;
+  for (const std::string& joint : coupling.driven.turned) {
+    const auto body = static_cast<std::size_t>(model.find_joint(joint));
+    target.q.push_back(coupling.rest.q[model.iq[body]]);
+    target.qd.push_back(0);
+  }
+  auto hand = std::make_unique<LiveHand>(1);
+  hand->set(target, 0, 1);
+  return hand;
+}
+
 std::unique_ptr<HandSource> hand_of_target(const SceneModel& scene, const SceneCoupling& coupling,
                                            const HandSource* device, FaultList& faults) {
   switch (coupling.target) {
@@ -113,11 +127,7 @@ std::unique_ptr<HandSource> hand_of_target(const SceneModel& scene, const SceneC
       return std::make_unique<SyntheticOperator>(coupling.seed, coupling.duration);
     case CouplingTarget::Kind::device:
       if (device) return std::make_unique<LentHand>(*device);
-      faults.add({scene.description.file.string(), coupling.line,
-                  "coupling '" + coupling.coupling + "', target",
-                  "no hand device is connected here",
-                  "run it with `twinarm hand`, or give a state, \"paper\" or a trace file"});
-      break;
+      return hand_at_rest(scene.model, coupling);
     case CouplingTarget::Kind::start:
     case CouplingTarget::Kind::state:
       break;

@@ -26,9 +26,8 @@ struct CouplingEnds {
 class SceneCouplings {
  public:
   // For steps of h [s]. The scene must outlive it, and so must the hand of a device: what couplings
-  // with target = "device" follow; nullptr where none is connected. Throws InputError with all
-  // faults: a trace that cannot be read, a device that is not there, a rate that is no part of the
-  // steps.
+  // with target = "device" follow; nullptr where none is connected, and they stand still. Throws
+  // InputError with all faults: a trace that cannot be read, a rate that is no part of the steps.
   SceneCouplings(const SceneModel& scene, double h, const HandSource* device = nullptr);
   SceneCouplings(const SceneCouplings&) = delete;
   SceneCouplings& operator=(const SceneCouplings&) = delete;

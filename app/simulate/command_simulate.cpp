@@ -39,17 +39,6 @@ std::unique_ptr<RunOutput> output_of(const SimulateOptions& options, const Simul
   return table_output(input, plan);
 }
 
-// As options they are as if they had not been given.
-void refuse_empty_names(const std::vector<std::string>& command) {
-  FaultList faults;
-  for (const std::string option : {"--record", "--post-mortem"})
-    for (std::size_t i = 0; i < command.size(); ++i)
-      if (command[i] == option + "=" ||
-          (command[i] == option && i + 1 < command.size() && command[i + 1].empty()))
-        faults.add({"", 0, option, "its file has no name", "give one, or leave the option out"});
-  faults.check();
-}
-
 std::filesystem::path post_mortem_file(const SimulateOptions& options) {
   if (!options.post_mortem.empty()) return options.post_mortem;
   return std::filesystem::path("out") / "post_mortem" /
@@ -60,7 +49,6 @@ std::filesystem::path post_mortem_file(const SimulateOptions& options) {
 
 int run_simulate(const SimulateOptions& options) {
   constexpr int kStopped = 3;
-  refuse_empty_names(options.command);
   const SimulatePlan prepared = prepare_simulation(options);
   const SimulateInput& input = prepared.input;
   const RunPlan& plan = prepared.run;

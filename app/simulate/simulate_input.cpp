@@ -97,6 +97,11 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
       attempt(faults, [&] { return std::make_unique<SceneCouplings>(made, plan.step); });
   faults.check();
   std::vector<std::string> warnings = made.description.warnings;
+  if (std::any_of(made.couplings.begin(), made.couplings.end(),
+                  [](const SceneCoupling& c) { return c.target == CouplingTarget::Kind::device; }))
+    warnings.push_back(
+        "no hand device moves the targets of couplings here: they stand still; `twinarm hand` runs "
+        "the scene with one");
   warnings.insert(warnings.end(), state.warnings.begin(), state.warnings.end());
   return {{robots, made.model, coordinates, std::move(state), std::move(warnings)},
           std::move(*scene),

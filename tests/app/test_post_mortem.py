@@ -152,7 +152,7 @@ class PostMortems(RecordingCommand):
                               "--energy-bound", -1, "--record-every", 0)
         for words in ("--energy-bound", "--record-every", "--record FILE"):
             self.assertIn(words, errors)
-        self.assertIn("--record: its file has no name", self.refused(
+        self.assertIn("--record: the name of a file is empty", self.refused(
             "simulate", self.folder / "test.urdf", "--duration", 1, "--record", ""))
         self.assertIn("mkdir -p", self.refused(
             "simulate", self.folder / "test.urdf", "--duration", 1, "--record",
