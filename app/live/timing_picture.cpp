@@ -36,8 +36,8 @@ std::string panel(Gnuplot& gnuplot, const std::string& label, const TickTimes& r
       "set xrange [0.1:20000]\nset yrange [{}:150]\nset format y '%g'\nset format x '%g'\n",
       in_quotes(label), 50.0 / static_cast<double>(std::max(1L, run.count())));
   script += fmt::format(
-      "set arrow 1 from {0},graph 0 to {0},graph 0.72 nohead dashtype 2 lc rgb '{1}'\n"
-      "set label 1 {2} at {0},graph 0.75 center tc rgb '{1}'\n",
+      "set arrow 1 from {0},graph 0 to {0},graph 0.9 nohead dashtype 2 lc rgb '{1}'\n"
+      "set label 1 {2} at {0},graph 0.94 center front tc rgb '{1}'\n",
       limit, palette::faint, in_quotes(limit_name));
   script += fmt::format(
       "plot {} using 1:($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' title "
@@ -58,8 +58,8 @@ void draw_timing(const LiveSummary& summary, const std::filesystem::path& file) 
   const TickFigures& run = summary.servo.run;
   const TickFigures& empty = summary.servo.empty;
   const std::string script =
-      "set multiplot layout 1,2 margins 0.08,0.98,0.17,0.92 spacing 0.09,0.1\n"
-      "set key top right\n" +
+      "set multiplot layout 1,2 margins 0.085,0.98,0.17,0.86 spacing 0.1,0.1\n"
+      "set key at graph 1,1.14 right top horizontal\n" +
       panel(gnuplot, "processor time of a tick [us]", run.cpu, empty.cpu, 50, "50 us") +
       panel(gnuplot, "woken late [us]", run.late, empty.late, 1e6 * summary.step, "one tick") +
       "unset multiplot\n";
