@@ -170,8 +170,8 @@ std::string table_2_section(const StudyResults& results) {
         100 * (e4->max_deg[1] / 4.0 - 1));
   if (!predicted.empty()) {
     html +=
-        "<h3>By user <span class=\"tag prediction\">prediction: synthetic hand, not a "
-        "person</span></h3>\n" +
+        "<h3>By user <span class=\"tag prediction\">prediction: not the paper's "
+        "hand</span></h3>\n" +
         comparison_table(predicted);
     html += "<p class=note>The same gains, with nothing adjusted";
     if (!results.hand_description.empty())
