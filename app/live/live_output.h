@@ -18,8 +18,6 @@ struct LiveSummary {
   long silences = 0;
   std::array<double, 3> largest_torque{};        // felt [N m]
   std::vector<double> largest_error, sum_error;  // |q_K - q_D| by joint [rad]
-  double observer_least = 0;                     // of the passivity observer [J]
-  double work_to_hand = 0;                       // what the device has given the hand [J]
   std::string log, recording, picture;           // files; empty where there is none
   bool same_bits = false;                        // the run made again ended in the same state
   ServoResult servo;

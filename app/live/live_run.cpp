@@ -13,10 +13,25 @@ bool follows_device(const SceneCoupling& coupling) {
   return coupling.leads() && coupling.target == CouplingTarget::Kind::device;
 }
 
+// A tick takes one semi-implicit step of known work.
+void check_steps(const SceneModel& scene, FaultList& faults) {
+  const std::string file = scene.description.file.string();
+  const Integrator integrator = scene.description.integrator.value_or(Integrator::semi_implicit);
+  if (integrator != Integrator::semi_implicit)
+    faults.add({file, 0, "integrator",
+                std::string("a hand device goes with semi-implicit, not with ") +
+                    integrator_name(integrator),
+                "leave it out of the scene"});
+  if (locates_events(scene))
+    faults.add({file, 0, "contact", "impacts that are located have no time for a hand device",
+                "give contact = \"rigid\""});
+}
+
 // The first coupling that follows the device. All of them are to turn the same joints.
 std::size_t find_leader(const SceneModel& scene, double h) {
   const std::string file = scene.description.file.string();
   FaultList faults;
+  check_steps(scene, faults);
   std::size_t leader = scene.couplings.size();
   for (std::size_t c = 0; c < scene.couplings.size(); ++c) {
     const SceneCoupling& coupling = scene.couplings[c];

@@ -40,7 +40,8 @@ struct TickView {
 
 class LiveRun {
  public:
-  // Scene and device must outlive it. Throws InputError: no coupling with target = "device",
+  // Scene and device must outlive it. Throws InputError: an integrator that is not semi-implicit,
+  // contact = "event", no coupling with target = "device",
   // couplings that follow the device with different joints, a mapping that cannot move them.
   LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions& options);
 
@@ -49,9 +50,7 @@ class LiveRun {
   double step() const { return h_; }
   const Simulation& simulation() const { return simulation_; }
   const SceneContacts& contacts() const { return *contacts_; }
-  SceneCouplings& couplings() { return *couplings_; }
   const HandWatch& watch() const { return watch_; }
-  const HandForce& force() const { return *force_; }
   const DeviceMapping& mapping() const { return *mapping_; }
   std::size_t leader() const { return leader_; }  // the first coupling that follows the device
 

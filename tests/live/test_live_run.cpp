@@ -219,6 +219,12 @@ name = "arm"
 model = "robots/s103/s103.urdf"
 )")));
   CHECK(words_of(still).find("none of them follows a hand device") != std::string::npos);
+  const auto with = [&](const std::string& line) {
+    return build_scene(read_scene(folder.write("other.toml", line + kScene)));
+  };
+  CHECK(words_of(with("integrator = \"rk4\"\n")).find("not with rk4") != std::string::npos);
+  CHECK(words_of(with("contact = \"event\"\n")).find("no time for a hand") != std::string::npos);
+  CHECK(words_of(with("integrator = \"semi-implicit\"\n")).empty());
 }
 
 TEST_CASE("servo loop: the thread takes as many ticks as asked for, in the time that they take") {
