@@ -1,0 +1,42 @@
+// What the lab remembers of an instant: a frame of a recording, and what moved the robot in it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/record/recording.h"
+#include "app/show/moment.h"
+
+namespace twinarm {
+
+// A spring from a point of a body to where the mouse is. World axes.
+struct LabPull {
+  int body = 0;
+  Vector3 p_L = Vector3::Zero();     // on the body, link axes [m]
+  Vector3 goal_W = Vector3::Zero();  // [m]
+  Vector3 force_W = Vector3::Zero();  // on the body, of the last step [N]
+};
+
+// The hand device at the end of the step; absent where no hand moves a robot.
+struct LabHandFrame {
+  std::array<double, 6> theta{};      // of the (virtual) Omni [rad]
+  std::vector<double> q_K;            // the driven joints' targets [rad, m]
+  std::array<double, 3> torque{};     // of its motors [N m]
+  Vector3 force_W = Vector3::Zero();  // on the stylus, world axes [N]
+  bool gripper_closed = false;
+  int mode = 0;  // HandWatch::Mode
+};
+
+struct LabFrame {
+  RecordedFrame recorded;
+  std::optional<LabHandFrame> hand;
+  std::optional<LabPull> pull;
+  double input_stamp = 0;  // of the newest input that this frame has seen, as its sender gave it
+  // Of the thread, since the frame before: processor time per step, mean and largest [s]; wall
+  // time over run time (1: real time).
+  double step_time = 0, longest_step = 0, pace = 1;
+};
+
+}  // namespace twinarm
