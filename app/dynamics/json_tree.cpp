@@ -171,9 +171,13 @@ JsonValue read_json(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw InputError({{file.string(), 0, "", "is a folder", "name a JSON file"}});
-  const std::string text = without_nan(read_whole_file(file));
+  return parse_json(read_whole_file(file), file.string());
+}
+
+JsonValue parse_json(const std::string& json, const std::string& name) {
+  const std::string text = without_nan(json);
   int line = 1;
-  TreeBuilder tree(file, line);
+  TreeBuilder tree(name, line);
   nlohmann::ordered_json::sax_parse(CountingIterator{text.data(), &line},
                                     CountingIterator{text.data() + text.size(), &line}, &tree);
   tree.faults.check();

@@ -23,5 +23,7 @@ std::string describe(const JsonValue& value);
 
 // Throws InputError where the file cannot be read, is not JSON, or has a key twice.
 JsonValue read_json(const std::filesystem::path& file);
+// The same of a text; faults call it `name`.
+JsonValue parse_json(const std::string& json, const std::string& name);
 
 }  // namespace twinarm

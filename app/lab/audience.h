@@ -1,0 +1,50 @@
+// Who looks on, who has the hand, and what each wants to see. From any thread.
+//
+// One client has the hand; the first who comes gets it. Others ask, and get it when the holder
+// gives it or leaves.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/lab/server/lab_server.h"
+
+namespace twinarm {
+
+class Audience {
+ public:
+  struct View {
+    ClientId holder = 0;          // 0: nobody
+    std::vector<ClientId> asked;  // in their order
+    std::vector<ClientId> clients;
+  };
+
+  void opened(ClientId client);
+  void closed(ClientId client);
+  void take(ClientId client);
+  // False where `from` has nothing to give, or `to` is not there.
+  bool give(ClientId from, ClientId to);
+  bool has_hand(ClientId client) const;
+
+  void want_layers(ClientId client, std::vector<std::string> names);
+  void want_glass(ClientId client, std::optional<long> body);
+  std::vector<std::string> layers() const;  // of all clients together, each once
+  std::map<ClientId, long> glass() const;   // the body that each looks into
+
+  View view() const;
+
+ private:
+  struct Client {
+    std::vector<std::string> layers{"bodies", "ghost", "couplings", "contacts"};
+    std::optional<long> glass;
+  };
+  mutable std::mutex mutex_;
+  std::map<ClientId, Client> clients_;
+  ClientId holder_ = 0;
+  std::vector<ClientId> asked_;
+};
+
+}  // namespace twinarm

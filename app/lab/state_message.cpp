@@ -1,0 +1,120 @@
+#include "app/lab/state_message.h"
+
+#include "app/json_writer.h"
+#include "app/lab/knobs/presets.h"
+
+namespace twinarm {
+namespace {
+
+long as_long(ClientId client) {
+  return static_cast<long>(client);
+}
+
+void write_changes(JsonWriter& json, const std::vector<Change>& changes) {
+  json.key("changes").begin_array();
+  for (const Change& change : changes) json.text(change.path + "=" + change.value);
+  json.end_array();
+}
+
+void write_audience(JsonWriter& json, const Audience::View& audience) {
+  json.key("holder").count(as_long(audience.holder));
+  json.key("clients").count(static_cast<long>(audience.clients.size()));
+  json.key("asked").begin_array();
+  for (const ClientId client : audience.asked) json.count(as_long(client));
+  json.end_array();
+}
+
+void write_time(JsonWriter& json, const LabStatus& status) {
+  json.key("playing").boolean(status.playing);
+  json.key("speed").number(status.speed);
+  json.key("time").number(status.time);
+  json.key("first").number(status.first);
+  json.key("last").number(status.last);
+  json.key("at");
+  if (status.at)
+    json.number(*status.at);
+  else
+    json.null();
+  json.key("branch");
+  if (status.branch) {
+    json.begin_object();
+    json.key("from").number(status.branch->from);
+    write_changes(json, status.branch->changes);
+    json.key("number").count(status.branch->number);
+    json.end_object();
+  } else {
+    json.null();
+  }
+  json.key("pace").number(status.pace);
+  json.key("step").number(status.step);
+  json.key("step_us").number(1e6 * status.step_time);
+}
+
+void write_hand(JsonWriter& json, const LabStatus& status) {
+  json.key("hand").begin_object();
+  json.key("source").text(status.hand_source);
+  json.key("mapping").text(status.hand_mapping);
+  json.key("q").numbers(status.hand_q);
+  json.key("felt").text(status.hand_felt);
+  json.end_object();
+}
+
+void write_end(JsonWriter& json, const LabStatus& status) {
+  json.key("dead");
+  if (!status.dead) return json.null();
+  const LabEnd& dead = *status.dead;
+  json.begin_object();
+  json.key("words").texts(dead.words);
+  json.key("time").number(dead.time);
+  json.key("quantity").text(dead.quantity);
+  json.key("body").text(dead.body);
+  json.key("spring").text(dead.spring);
+  json.key("remedies");
+  write_remedies(dead.remedies, json);
+  json.end_object();
+}
+
+void write_notes(JsonWriter& json, const std::vector<LabNote>& notes) {
+  json.key("notes").begin_array();
+  for (const LabNote& note : notes) {
+    json.begin_object();
+    json.key("n").count(note.number);
+    json.key("level").text(note.level);
+    json.key("text").text(note.text);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+}  // namespace
+
+std::string state_message(const LabStatus& status, const Audience::View& audience,
+                          const std::vector<Knob>& knobs,
+                          const std::vector<GalleryScene>& gallery) {
+  JsonWriter json;
+  json.begin_object();
+  json.key("kind").text("state");
+  json.key("scene").count(status.scene);
+  json.key("name").text(status.scene_name);
+  json.key("building").text(status.building);
+  write_changes(json, status.changes);
+  write_audience(json, audience);
+  write_time(json, status);
+  write_hand(json, status);
+  json.key("knobs");
+  write_knobs(knobs, json);
+  json.key("presets");
+  write_presets(json);
+  json.key("gallery");
+  write_gallery(gallery, json);
+  write_end(json, status);
+  write_notes(json, status.notes);
+  json.end_object();
+  return json.str();
+}
+
+std::string addressed(const std::string& state, ClientId you) {
+  return "{\"you\": " + std::to_string(you) + ", " + state.substr(state.find_first_not_of("{ \n"));
+}
+
+}  // namespace twinarm

@@ -1,0 +1,76 @@
+#include "app/lab/workshop.h"
+
+#include "app/record/recording_reader.h"
+#include "solver/fault.h"
+
+namespace twinarm {
+namespace {
+
+std::shared_ptr<const LabScene> open_scene(const std::filesystem::path& file) {
+  if (file.extension() == ".twinrec")
+    return std::make_shared<const LabScene>(Recording(file).header());
+  SimulateOptions options;
+  options.robot.model = file;
+  return std::make_shared<const LabScene>(options);
+}
+
+std::string words_of(const InputError& error) {
+  std::string words;
+  for (const Fault& fault : error.faults()) words += (words.empty() ? "" : "\n") + to_string(fault);
+  return words;
+}
+
+}  // namespace
+
+Built build(Order order) {
+  Built built;
+  built.scene = order.what == Order::What::open ? open_scene(order.file) : order.scene;
+  built.header = built.scene->header(order.changes);
+  built.run = built.scene->plan(order.changes);
+  built.view = built.scene->plan(order.changes);
+  built.knobs = built.scene->plan(order.changes);
+  built.order = std::move(order);
+  return built;
+}
+
+Workshop::Workshop(Out out) : out_(std::move(out)), thread_([this] { work(); }) {}
+
+Workshop::~Workshop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void Workshop::order(Order order) {
+  {
+    const std::lock_guard lock(mutex_);
+    next_ = std::move(order);
+  }
+  wake_.notify_all();
+}
+
+void Workshop::work() {
+  for (;;) {
+    Order order;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [this] { return stop_ || next_; });
+      if (stop_) return;
+      order = std::move(*next_);
+      next_.reset();
+    }
+    const Order asked = order;
+    try {
+      out_.built(build(std::move(order)));
+    } catch (const InputError& error) {
+      out_.failed(asked, words_of(error));
+    } catch (const std::exception& error) {
+      out_.failed(asked, error.what());
+    }
+  }
+}
+
+}  // namespace twinarm

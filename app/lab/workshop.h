@@ -1,0 +1,67 @@
+// Where scenes are read and built: a thread of its own, so that neither the run nor the pictures
+// stand still meanwhile. Of orders that wait, only the newest is done.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/lab/run/lab_scene.h"
+#include "app/lab/stream/lab_view.h"
+
+namespace twinarm {
+
+// What is to be built, and what the run is to do with it.
+struct Order {
+  enum class What { open, change, branch, reset };
+  What what = What::open;
+  std::filesystem::path file;             // open: a scene, a robot, a recording
+  std::string name;                       // open: as the gallery has it
+  SceneWords words;                       // open
+  std::shared_ptr<const LabScene> scene;  // of all others
+  std::vector<Change> changes;            // all that are to stand then
+  double at = 0;                          // branch [s]
+  std::string hand;                       // open: who moves the robot then; empty: as it is
+};
+
+// A scene with its changes: each thread has a plan of its own.
+struct Built {
+  Order order;
+  std::shared_ptr<const LabScene> scene;
+  RecordingHeader header;
+  std::unique_ptr<LabScene::Plan> run;
+  std::shared_ptr<LabScene::Plan> view, knobs;
+};
+
+class Workshop {
+ public:
+  // Both are called by the workshop's thread.
+  struct Out {
+    std::function<void(Built)> built;
+    std::function<void(const Order&, const std::string& why)> failed;  // all faults, line by line
+  };
+  explicit Workshop(Out out);
+  ~Workshop();
+  // From any thread. Takes the place of one that has not been begun.
+  void order(Order order);
+
+ private:
+  void work();
+
+  Out out_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::optional<Order> next_;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+// In the caller's thread. Throws InputError.
+Built build(Order order);
+
+}  // namespace twinarm
