@@ -1,0 +1,63 @@
+// What can be turned in a scene while it runs: for each knob its path, as `replay --set` and `map`
+// write it, its value now, a range that gives a scene, and, beside gains, step and rate, the limit
+// and the lag that linear theory predicts about the present state.
+//
+// The limit of a knob is where an error begins to grow in the step as it is really taken
+// (coupling/prediction_step.h), all couplings together, all other knobs as they stand. Contacts and
+// constraints are left out, and so is the geometric stiffness of points that are far from their
+// targets: the limit is about zero offset, in the pose of the moment.
+//
+// Cost: knobs_of some microseconds; predict_knobs of the S-103 with four couplings see
+// docs/lab.md.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/json_writer.h"
+#include "app/simulate/simulate_input.h"
+
+namespace twinarm {
+
+struct KnobLimit {
+  enum class State { ok, near, beyond };  // near: less than a quarter of it is left
+  std::optional<double> value;            // in the knob's unit; none: any value holds, or none
+  std::string words;
+  State state = State::ok;
+};
+
+struct Knob {
+  // log and linear are sliders from low to high; number is typed; choice is one of `choices`.
+  enum class Form { log, linear, choice, number };
+  std::string path, label, group;
+  std::optional<double>
+      number;        // value now; none: as the scene leaves it out, "every step" of a rate
+  std::string text;  // value now of a choice
+  std::string unit;
+  Form form = Form::number;
+  double low = 0, high = 0;  // what a slider offers; the value may lie outside
+  std::vector<std::string> choices;
+  std::string meaning;
+  std::optional<KnobLimit> limit;
+  std::string lag;
+  // The run goes on from coordinates and velocities alone: what laws remember of past steps
+  // (held forces, differences, contacts) begins anew.
+  bool restarts = false;
+
+  // "PATH=VALUE" as it stands; empty where it has no value.
+  std::string change() const;
+};
+
+// In the order of a page: time and world, robots, couplings, surfaces. Values that the file leaves
+// out are those of its reader.
+std::vector<Knob> knobs_of(const SimulatePlan& plan);
+
+// Adds limits and lags about `now`. The plan is the caller's own: its state is set to `now`.
+void predict_knobs(SimulatePlan& plan, const State<double>& now, std::vector<Knob>& knobs);
+
+// The list `knobs` of docs/lab_protocol.md.
+void write_knobs(const std::vector<Knob>& knobs, JsonWriter& json);
+
+}  // namespace twinarm
