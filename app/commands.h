@@ -97,6 +97,14 @@ struct HandOptions {
 };
 int run_hand(const HandOptions& options);  // 3 where the robot left all bounds
 
+struct LabOptions {
+  std::filesystem::path scene;  // empty: the first of the gallery
+  std::string listen = "127.0.0.1";
+  int port = 0;  // 0: any that is free
+  bool no_browser = false, json = false;
+};
+int run_lab(const LabOptions& options);
+
 struct TrialOptions {
   std::string device = "keyboard", mapping = "paper";
   std::string conditions = "torsional,linear,kinematic", tasks = "free,pick-and-place";

@@ -27,6 +27,8 @@ struct Order {
   std::vector<Change> changes;            // all that are to stand then
   double at = 0;                          // branch [s]
   std::string hand;                       // open: who moves the robot then; empty: as it is
+  // Called when it is built, with nothing, or with all faults, line by line.
+  std::function<void(const std::string& faults)> done;
 };
 
 // A scene with its changes: each thread has a plan of its own.

@@ -1,0 +1,151 @@
+// twinarm lab: a laboratory in the browser (docs/lab.md).
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/random.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <thread>
+
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/lab/lab_painter.h"
+#include "app/lab/lab_routes.h"
+#include "app/lab/lab_session.h"
+#include "app/web/web_bundle.h"
+#include "solver/fault.h"
+
+extern char** environ;
+
+namespace twinarm {
+namespace {
+
+std::string random_token() {
+  std::array<unsigned char, 16> bytes;
+  if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    throw InputError({{"", 0, "lab", "the system gives no random numbers", "try again"}});
+  std::string token;
+  for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
+  return token;
+}
+
+// Of what was asked for; else the gallery's first.
+Order first_order(const LabOptions& options, const std::vector<GalleryScene>& gallery) {
+  Order order;
+  if (options.scene.empty()) return order_of(gallery.front());
+  for (const GalleryScene& scene : gallery)
+    if (scene.name == options.scene.string()) return order_of(scene);
+  order.file = options.scene;
+  order.name = options.scene.stem().string();
+  order.words.title = order.name;
+  order.words.file = options.scene.filename().string();
+  return order;
+}
+
+// Where there is a screen, and a program that knows the browser. It is not waited for.
+void open_browser(const std::string& url) {
+  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
+  posix_spawn_file_actions_t quiet;
+  posix_spawn_file_actions_init(&quiet);
+  for (const int stream : {0, 1, 2})
+    posix_spawn_file_actions_addopen(&quiet, stream, "/dev/null", O_RDWR, 0);
+  std::string program = "xdg-open", address = url;
+  char* const words[] = {program.data(), address.data(), nullptr};
+  pid_t child = 0;
+  if (posix_spawnp(&child, words[0], &quiet, nullptr, words, environ) == 0)
+    std::thread([child] { waitpid(child, nullptr, 0); }).detach();
+  posix_spawn_file_actions_destroy(&quiet);
+}
+
+// Session, painter and server, each with its thread; a message goes to whom it concerns.
+class Lab {
+ public:
+  Lab(const LabOptions& options, std::vector<GalleryScene> gallery)
+      : gallery_(std::move(gallery)),
+        session_(build(first_order(options, gallery_)), gallery_),
+        painter_(session_, audience_, gallery_,
+                 [this](ClientId client, LabPainter::Channel channel, Bytes bytes, bool binary) {
+                   server_->send(client, channel, std::move(bytes), binary);
+                 }),
+        routes_(session_, painter_, gallery_, std::string(web_bundle().lab),
+                std::string(web_bundle().missing)) {
+    ServerOptions server;
+    server.address = options.listen;
+    server.port = static_cast<std::uint16_t>(options.port);
+    server.token = random_token();
+    server_ = std::make_unique<LabServer>(server, handlers());
+    painter_.begin();
+  }
+  std::string url() const { return server_->url(); }
+
+ private:
+  ServerHandlers handlers() {
+    ServerHandlers handlers;
+    handlers.http = [this](const HttpRequest& request, std::function<void(HttpReply)> answer) {
+      routes_.answer(request, answer);
+    };
+    handlers.opened = [this](ClientId client) {
+      audience_.opened(client);
+      painter_.welcome(client);
+    };
+    handlers.closed = [this](ClientId client) {
+      audience_.closed(client);
+      session_.wake();
+    };
+    handlers.message = [this](ClientId client, const std::string& text) { hear(client, text); };
+    return handlers;
+  }
+
+  void hear(ClientId client, const std::string& text) {
+    try {
+      LabCommand command = parse_command(text);
+      if (needs_hand(command.what) && !audience_.has_hand(client))
+        return session_.note("warning", "somebody else has the hand; ask for it");
+      switch (command.what) {
+        case LabCommand::Do::layers:
+          audience_.want_layers(client, std::move(command.names));
+          break;
+        case LabCommand::Do::glass:
+          audience_.want_glass(client, command.on ? std::optional<long>(command.count)
+                                                  : std::nullopt);
+          break;
+        case LabCommand::Do::take:
+          audience_.take(client);
+          break;
+        case LabCommand::Do::give:
+          if (!audience_.give(client, static_cast<ClientId>(command.count)))
+            session_.note("warning", "the hand cannot be given to who is not there");
+          break;
+        default:
+          return session_.push(std::move(command));
+      }
+      painter_.look_again();
+    } catch (const InputError& error) {
+      for (const Fault& fault : error.faults()) session_.note("error", to_string(fault));
+    }
+  }
+
+  std::vector<GalleryScene> gallery_;
+  Audience audience_;
+  std::unique_ptr<LabServer> server_;  // ends last: the others post to it
+  LabSession session_;
+  LabPainter painter_;
+  LabRoutes routes_;
+};
+
+}  // namespace
+
+int run_lab(const LabOptions& options) {
+  Lab lab(options, read_gallery());
+  if (options.json)
+    fmt::print("{{\"url\": \"{}\"}}\n", lab.url());
+  else
+    fmt::print("The lab is at {}\nCtrl-C ends it.\n", lab.url());
+  std::fflush(stdout);
+  if (!options.no_browser) open_browser(lab.url());
+  while (!is_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  return 0;
+}
+
+}  // namespace twinarm

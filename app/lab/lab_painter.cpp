@@ -1,0 +1,183 @@
+#include "app/lab/lab_painter.h"
+
+#include <algorithm>
+
+#include "app/lab/state_message.h"
+#include "app/render/painter.h"
+
+namespace twinarm {
+namespace {
+
+constexpr double kGlassEvery = 0.2, kKnobsEvery = 0.4, kIdle = 0.1;  // [s]
+
+double seconds(std::chrono::steady_clock::duration time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+Bytes bytes_of(std::string message) {
+  return std::make_shared<const std::string>(std::move(message));
+}
+
+}  // namespace
+
+LabPainter::LabPainter(LabSession& session, Audience& audience,
+                       const std::vector<GalleryScene>& gallery, Post post)
+    : session_(session),
+      audience_(audience),
+      gallery_(gallery),
+      post_(std::move(post)),
+      thread_([this] { work(); }) {}
+
+LabPainter::~LabPainter() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  session_.wake();
+  thread_.join();
+}
+
+void LabPainter::ask(std::function<void(LabPainter&)> job) {
+  {
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back(std::move(job));
+  }
+  session_.wake();
+}
+
+void LabPainter::welcome(ClientId client) {
+  {
+    const std::lock_guard lock(mutex_);
+    newcomers_.push_back(client);
+  }
+  session_.wake();
+}
+
+void LabPainter::work() {
+  for (;;) {
+    const LabNow now = session_.now();
+    take_scene(now);
+    do_jobs();
+    {
+      const std::lock_guard lock(mutex_);
+      if (stop_) return;
+    }
+    look_at_knobs(now);
+    tell_state(now);
+    tell_frame(now);
+    tell_glass(now);
+    session_.wait(now.number, kIdle);
+  }
+}
+
+void LabPainter::do_jobs() {
+  std::deque<std::function<void(LabPainter&)>> jobs;
+  std::vector<ClientId> newcomers;
+  {
+    const std::lock_guard lock(mutex_);
+    jobs.swap(jobs_);
+    newcomers.swap(newcomers_);
+  }
+  for (const auto& job : jobs) job(*this);
+  if (newcomers.empty()) return;
+  const Bytes scene = bytes_of(view_->scene_message());
+  for (const ClientId client : newcomers) {
+    post_(client, scene_channel, scene, false);
+    if (!state_.empty()) post_(client, state_channel, bytes_of(addressed(state_, client)), false);
+    if (last_frame_) post_(client, frame_channel, last_frame_, true);
+  }
+}
+
+// The scene of this instant, with plans of the painter's own.
+void LabPainter::take_scene(const LabNow& now) {
+  if (now.change_number == change_number_) return;
+  const std::shared_ptr<const SimulatePlan> plan(now.scene->view, &now.scene->view->prepared);
+  if (now.scene_number != scene_number_) {
+    view_ = std::make_unique<LabView>(static_cast<std::uint32_t>(now.scene_number), plan,
+                                      now.scene->header, now.scene->order.words);
+    last_frame_.reset();
+  } else {
+    view_->change(plan);
+  }
+  glass_.reset();
+  knobs_ = knobs_of(*plan);
+  last_knobs_ = {};
+  scene_number_ = now.scene_number;
+  change_number_ = now.change_number;
+  tell_scene();
+}
+
+void LabPainter::tell_scene() {
+  revision_ = view_->revision();
+  to_all(scene_channel, view_->scene_message(), false);
+}
+
+void LabPainter::look_at_knobs(const LabNow& now) {
+  if (!now.frame || !is_due(last_knobs_, kKnobsEvery)) return;
+  SimulatePlan& plan = now.scene->knobs->prepared;
+  State<double> x = plan.input.robot.state.x;
+  if (!state_of(*now.frame, x)) return;
+  predict_knobs(plan, x, knobs_);
+}
+
+// To each its own, since it says who is who.
+void LabPainter::tell_state(const LabNow& now) {
+  const Audience::View audience = audience_.view();
+  std::string state = state_message(*now.status, audience, knobs_, gallery_);
+  if (state == state_) return;
+  state_ = std::move(state);
+  for (const ClientId client : audience.clients)
+    post_(client, state_channel, bytes_of(addressed(state_, client)), false);
+}
+
+void LabPainter::tell_frame(const LabNow& now) {
+  if (!now.frame || now.number == told_) return;
+  told_ = now.number;
+  view_->name_rows(*now.rows);
+  FrameFacts facts;
+  facts.number = ++frame_;
+  facts.stands = !now.status->playing;
+  facts.looked_back = now.status->at.has_value();
+  facts.stopped = now.status->dead.has_value();
+  facts.input_age = now.frame->input_stamp != 0 ? seconds(Clock::now() - now.input_came) : 0.0;
+  std::string frame = view_->frame(*now.frame, now.before.get(), audience_.layers(), facts);
+  if (view_->revision() != revision_) tell_scene();
+  last_frame_ = bytes_of(std::move(frame));
+  for (const ClientId client : audience_.view().clients)
+    post_(client, frame_channel, last_frame_, true);
+}
+
+void LabPainter::tell_glass(const LabNow& now) {
+  const std::map<ClientId, long> asked = audience_.glass();
+  if (asked.empty() || !now.frame || !is_due(last_glass_, kGlassEvery)) return;
+  if (!glass_)
+    glass_.emplace(std::move(now.scene->scene->plan(now.status->changes)->prepared), *now.rows);
+  for (const auto& [client, body] : asked) {
+    GlassQuestion question;
+    question.body = static_cast<std::size_t>(std::max(0L, body));
+    question.stands = !now.status->playing;
+    question.scene = static_cast<unsigned>(now.scene_number);
+    post_(client, glass_channel, bytes_of(glass_->message(*now.frame, question)), false);
+  }
+}
+
+std::string LabPainter::history(double from) {
+  const auto frames = session_.history(from);
+  std::vector<const LabFrame*> all;
+  for (const auto& frame : frames) all.push_back(frame.get());
+  return view_->history(all);
+}
+
+void LabPainter::to_all(Channel channel, const std::string& message, bool is_binary) {
+  const Bytes bytes = bytes_of(message);
+  for (const ClientId client : audience_.view().clients) post_(client, channel, bytes, is_binary);
+}
+
+bool LabPainter::is_due(Clock::time_point& last, double interval) const {
+  const Clock::time_point now = Clock::now();
+  if (seconds(now - last) < interval) return false;
+  last = now;
+  return true;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,84 @@
+// Makes the messages: scene, state, frames, glass. A thread of its own; at most 60 frames a second
+// for one or two pages, 30 for more. Whatever takes long and is asked for over HTTP is done here
+// too, one thing after the other.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "app/lab/audience.h"
+#include "app/lab/glass/glass.h"
+#include "app/lab/knobs/gallery.h"
+#include "app/lab/knobs/knobs.h"
+#include "app/lab/lab_session.h"
+#include "app/lab/server/lab_server.h"
+#include "app/lab/stream/lab_view.h"
+
+namespace twinarm {
+
+class LabPainter {
+ public:
+  // Where messages go: to one client. From the painter's thread.
+  enum Channel { scene_channel, state_channel, frame_channel, glass_channel };
+  using Post = std::function<void(ClientId, Channel, Bytes, bool is_binary)>;
+
+  // All must outlive it.
+  LabPainter(LabSession& session, Audience& audience, const std::vector<GalleryScene>& gallery,
+             Post post);
+  ~LabPainter();
+
+  // From any thread: to be done by the painter's, which alone may touch its view.
+  void ask(std::function<void(LabPainter&)> job);
+  void welcome(ClientId client);  // it is to be told everything
+  void look_again();              // something about clients has changed
+
+  // Of the painter's thread.
+  LabView& view() { return *view_; }
+  std::string history(double from);
+  std::string picture(int width, int height);  // PNG
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void work();
+  void do_jobs();
+  void take_scene(const LabNow& now);
+  void tell_scene();
+  void tell_state(const LabNow& now);
+  void tell_frame(const LabNow& now);
+  void tell_glass(const LabNow& now);
+  void look_at_knobs(const LabNow& now);
+  void to_all(Channel channel, const std::string& message, bool is_binary);
+  bool is_due(Clock::time_point& last, double interval) const;
+
+  LabSession& session_;
+  Audience& audience_;
+  const std::vector<GalleryScene>& gallery_;
+  Post post_;
+
+  std::mutex mutex_;  // of the next three
+  std::deque<std::function<void(LabPainter&)>> jobs_;
+  std::vector<ClientId> newcomers_;
+  bool stop_ = false;
+
+  std::unique_ptr<LabView> view_;
+  std::optional<Glass> glass_;
+  std::vector<Knob> knobs_;
+  long scene_number_ = -1, change_number_ = -1;
+  std::uint64_t revision_ = 0;  // of the view's scene message that was told
+  std::uint64_t told_ = 0;      // LabNow::number of the last frame
+  std::uint32_t frame_ = 0;
+  std::string state_;  // that was told last
+  Bytes last_frame_;
+  Clock::time_point last_painted_{}, last_glass_{}, last_knobs_{};
+  std::thread thread_;
+};
+
+}  // namespace twinarm

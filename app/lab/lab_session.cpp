@@ -1,0 +1,240 @@
+#include "app/lab/lab_session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/lab/knobs/remedies.h"
+#include "solver/fault.h"
+
+namespace twinarm {
+namespace {
+
+constexpr auto kTick = std::chrono::milliseconds(1);
+constexpr double kLongestBurst = 0.004;  // of steps between two looks at commands [s]
+constexpr double kForgiven = 0.05;       // what is further behind is not made up for [s]
+constexpr double kStatusEvery = 0.25;    // [s]
+constexpr std::size_t kMostNotes = 20, kMostCommands = 4096;
+
+double seconds(std::chrono::steady_clock::duration time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+}  // namespace
+
+LabSession::LabSession(Built scene, const std::vector<GalleryScene>& gallery)
+    : gallery_(gallery) {
+  adopt(std::move(scene));
+  workshop_ = std::make_unique<Workshop>(Workshop::Out{
+      [this](Built built) {
+        {
+          const std::lock_guard lock(mutex_);
+          built_.push_back(std::move(built));
+        }
+        told_.notify_all();
+      },
+      [this](const Order& order, const std::string& why) {
+        note("error", why);
+        const std::lock_guard lock(mutex_);
+        has_failed_ = has_failed_ || order.what != Order::What::open;
+        told_.notify_all();
+      }});
+  thread_ = std::thread([this] { work(); });
+}
+
+LabSession::~LabSession() {
+  end();
+}
+
+void LabSession::end() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (stop_) return;
+    stop_ = true;
+  }
+  told_.notify_all();
+  thread_.join();
+  workshop_.reset();
+}
+
+void LabSession::push(LabCommand command) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (commands_.size() < kMostCommands) commands_.push_back(std::move(command));
+  }
+  told_.notify_all();
+}
+
+void LabSession::note(const std::string& level, const std::string& text) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (new_notes_.size() < kMostNotes) new_notes_.push_back({0, level, text});
+  }
+  told_.notify_all();
+}
+
+void LabSession::open(Order order) {
+  workshop_->order(std::move(order));
+}
+
+LabNow LabSession::now() const {
+  const std::lock_guard lock(mutex_);
+  return now_;
+}
+
+void LabSession::wait(std::uint64_t seen, double longest) const {
+  std::unique_lock lock(mutex_);
+  const std::uint64_t woken = woken_;
+  changed_.wait_for(lock, std::chrono::duration<double>(longest),
+                    [&] { return now_.number != seen || woken_ != woken; });
+}
+
+void LabSession::wake() {
+  {
+    const std::lock_guard lock(mutex_);
+    ++woken_;
+  }
+  changed_.notify_all();
+}
+
+void LabSession::set_rate(double frames_per_second) {
+  const std::lock_guard lock(mutex_);
+  frame_interval_ = 1 / frames_per_second;
+}
+
+// The run's thread.
+void LabSession::work() {
+  pace_.begin(Clock::now(), run_->time());
+  for (;;) {
+    take_commands();
+    {
+      const std::lock_guard lock(mutex_);
+      if (stop_) return;
+    }
+    const Clock::time_point now = Clock::now();
+    if (steps_left_ > 0)
+      take_steps(now, HUGE_VAL);
+    else if (status_.playing)
+      take_steps(now, pace_.due(now, status_.speed));
+    else
+      pace_.begin(now, run_->time());
+    publish();
+    rest();
+  }
+}
+
+// Until the next step is due, or a command comes.
+void LabSession::rest() {
+  std::unique_lock lock(mutex_);
+  const auto is_told = [this] {
+    return stop_ || has_failed_ || !commands_.empty() || !built_.empty() || !new_notes_.empty();
+  };
+  if (steps_left_ > 0) return;
+  if (status_.playing)
+    told_.wait_until(lock, next_tick_, is_told);
+  else
+    told_.wait_for(lock, std::chrono::milliseconds(200), is_told);
+  next_tick_ = std::max(next_tick_ + kTick, Clock::now());
+}
+
+// Up to the run time `due`, but no longer than a burst.
+void LabSession::take_steps(Clock::time_point begin, double due) {
+  const double h = run_->step_length();
+  while (run_->time() + 0.5 * h < due) {
+    if (!run_->step()) return die();
+    is_stale_ = true;
+    if (steps_left_ > 0 && --steps_left_ == 0) return;
+    if (seconds(Clock::now() - begin) > kLongestBurst) break;
+  }
+  pace_.forgive(Clock::now(), run_->time(), status_.speed, kForgiven);
+}
+
+// The newest frame is remembered, and handed over with whatever else is new.
+void LabSession::publish() {
+  const Clock::time_point now = Clock::now();
+  bool says_new = take_notes();
+  if (seconds(now - last_status_) >= kStatusEvery && status_.playing) says_new = true;
+  const bool is_due = is_stale_ && seconds(now - last_frame_) >= frame_interval_;
+  const bool is_last = is_stale_ && (!status_.playing && steps_left_ == 0);
+  if (!is_due && !is_last && !says_new && !is_news_) return;
+  if (is_due || is_last) {
+    remember();
+    last_frame_ = now;
+    is_stale_ = false;
+  }
+  last_status_ = now;
+  is_news_ = false;
+  tell();
+}
+
+void LabSession::remember() {
+  auto frame = std::make_shared<LabFrame>(run_->frame());
+  status_.pace = pace_.factor(Clock::now(), run_->time());
+  frame->pace = status_.pace;
+  frame->input_stamp = input_stamp_;
+  status_.step_time = frame->step_time;
+  const std::lock_guard lock(mutex_);
+  history_.add(std::move(frame));
+}
+
+void LabSession::tell() {
+  status_.time = run_->time();
+  status_.step = run_->step_length();
+  status_.hand_source = run_->hand().source();
+  status_.hand_mapping = run_->hand().mapping();
+  status_.hand_felt = run_->hand().what_is_felt();
+  status_.hand_q = run_->hand().targets();
+  {
+    const std::lock_guard lock(mutex_);
+    status_.first = history_.first();
+    status_.last = history_.last();
+    LabNow now;
+    now.number = now_.number + 1;
+    now.scene = scene_;
+    now.scene_number = status_.scene;
+    now.change_number = change_number_;
+    now.frame = status_.at ? history_.at(*status_.at) : history_.newest();
+    now.before = now.frame ? before_.at(now.frame->recorded.t) : nullptr;
+    now.status = std::make_shared<const LabStatus>(status_);
+    now.rows = run_->rows();
+    now.input_came = input_came_;
+    now_ = std::move(now);
+  }
+  changed_.notify_all();
+}
+
+bool LabSession::take_notes() {
+  const std::lock_guard lock(mutex_);
+  if (new_notes_.empty()) return false;
+  for (LabNote& note : new_notes_) {
+    note.number = ++notes_;
+    status_.notes.push_back(std::move(note));
+  }
+  new_notes_.clear();
+  if (status_.notes.size() > kMostNotes)
+    status_.notes.erase(status_.notes.begin(),
+                        status_.notes.end() - static_cast<std::ptrdiff_t>(kMostNotes));
+  return true;
+}
+
+void LabSession::die() {
+  status_.playing = false;
+  steps_left_ = 0;
+  is_stale_ = is_news_ = true;
+  const PostMortem* found = run_->dead();
+  if (!found) return note("note", "the run has come to its end");
+  LabEnd end;
+  end.time = found->time;
+  end.words = found->words;
+  end.quantity = found->field;
+  end.body = found->body;
+  if (!found->suspects.empty()) end.spring = found->suspects.front().name;
+  end.remedies = remedies_of(scene_->view->prepared, *found);
+  status_.dead = std::move(end);
+}
+
+std::vector<std::shared_ptr<const LabFrame>> LabSession::history(double from) const {
+  const std::lock_guard lock(mutex_);
+  return history_.since(from);
+}
+
+}  // namespace twinarm
