@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "app/interrupt.h"
-#include "app/map/toml_text.h"
+#include "app/scene/toml_text.h"
 #include "app/progress.h"
 #include "app/record/record_run.h"
 #include "solver/whole_file.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "app/interrupt.h"
-#include "app/map/toml_text.h"
+#include "app/scene/toml_text.h"
 #include "app/record/record_run.h"
 #include "collision/import/number_text.h"
 #include "solver/whole_file.h"

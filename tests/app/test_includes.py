@@ -35,10 +35,10 @@ LIBRARIES = {
                               "app/study/settings.cpp"}),
     "nlohmann": (r"nlohmann/", {"app/compare/compare_output.cpp",
                                 "app/dynamics/json_tree.cpp", "app/json_writer.cpp",
-                                "app/main.cpp", "app/study/calibration.cpp",
+                                "app/program.cpp", "app/study/calibration.cpp",
                                 "app/study/identification_file.cpp",
                                 "app/study/output_json.cpp"}),
-    "CLI11": (r"CLI/", {"app/main.cpp", "app/options/"}),
+    "CLI11": (r"CLI/", {"app/program.cpp", "app/options/"}),
     "Google Benchmark": (r"benchmark/", {"benchmarks/speed/timing.cpp"}),
     "MuJoCo": (r"mujoco/", {"benchmarks/peers/bench_coupling_mujoco.cpp",
                           "benchmarks/peers/peer_mujoco.cpp",
@@ -66,8 +66,18 @@ LIBRARIES = {
 }
 # Parts of the program that are libraries of their own, so that tests can look at them.
 TESTS_OF_LIBRARY = {"tests/scene/": "app/scene/", "tests/hand/": "app/hand/",
-                    "tests/live/": "app/live/", "tests/inspect/": "app/inspect/",
+                    "tests/lab/": "app/", "tests/live/": "app/live/", "tests/inspect/": "app/inspect/",
                     "tests/render/": "app/render/", "tests/show/": ("app/show/", "app/render/")}
+
+# The rooms of the lab (app/lab/README.md), and what of the program each may include besides itself.
+LAB = {
+    "app/lab/run/": {"coupling", "hand", "interrupt.h", "live", "nearest_name.h", "output_file.h", "record",
+                     "scene", "show", "simulate"},
+    "app/lab/knobs/": {"coupling", "find_assets.h", "lab/run", "nearest_name.h", "record", "scene", "simulate"},
+    "app/lab/stream/": {"lab/run", "record", "scene", "show", "simulate", "web"},
+    "app/lab/glass/": {"inspect", "lab/run", "record", "scene", "simulate"},
+    "app/lab/server/": set(),
+}
 
 # Headers that show an outside library. Each is of use inside its own folder only.
 INNER_HEADERS = {"collision/import/recipe_toml.h", "app/render/gl_table.h",
@@ -103,6 +113,18 @@ class Includes(unittest.TestCase):
                     continue
                 if bracket == '"' and other not in ARROWS[room]:
                     wrong.append(f'{path} includes "{name}"')
+        self.assertEqual(wrong, [])
+
+    def test_a_room_of_the_lab_includes_only_what_it_knows(self):
+        wrong = []
+        for path, includes in self.files.items():
+            for room, known in LAB.items():
+                for bracket, name in includes if path.startswith(room) else []:
+                    if bracket == "<" or not name.startswith("app/") or name.startswith(room):
+                        continue
+                    if not any(name == "app/" + other or name.startswith("app/" + other + "/")
+                               for other in known):
+                        wrong.append(f'{path} includes "{name}"')
         self.assertEqual(wrong, [])
 
     def test_every_quoted_include_is_a_file_named_from_the_root(self):

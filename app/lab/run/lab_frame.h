@@ -14,8 +14,8 @@ namespace twinarm {
 // A spring from a point of a body to where the mouse is. World axes.
 struct LabPull {
   int body = 0;
-  Vector3 p_L = Vector3::Zero();     // on the body, link axes [m]
-  Vector3 goal_W = Vector3::Zero();  // [m]
+  Vector3 p_L = Vector3::Zero();      // on the body, link axes [m]
+  Vector3 goal_W = Vector3::Zero();   // [m]
   Vector3 force_W = Vector3::Zero();  // on the body, of the last step [N]
 };
 

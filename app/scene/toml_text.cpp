@@ -1,4 +1,4 @@
-#include "app/map/toml_text.h"
+#include "app/scene/toml_text.h"
 
 #include <algorithm>
 

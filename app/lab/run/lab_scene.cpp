@@ -1,0 +1,166 @@
+#include "app/lab/run/lab_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/record/record_run.h"
+#include "app/scene/toml_text.h"
+#include "collision/import/number_text.h"
+
+namespace twinarm {
+
+struct LabScene::Files {
+  explicit Files(RecordingHeader read) : header(std::move(read)), unpacked(header) {}
+  RecordingHeader header;
+  UnpackedRun unpacked;
+};
+
+namespace {
+
+// What a change turns that stands beside the scene, as on the command line of `simulate`.
+bool turns_option(const Change& change, SimulateOptions& options, FaultList& faults) {
+  const auto number = [&](std::optional<double>& value) {
+    value = parse_number(change.value);
+    if (!value)
+      faults.add({"", 0, "--set " + change.path + "=" + change.value, "it is no number", ""});
+  };
+  if (change.path == "step")
+    number(options.step);
+  else if (change.path == "tolerance")
+    number(options.tolerance);
+  else if (change.path == "integrator")
+    options.integrator = change.value;
+  else if (change.path == "contact")
+    options.contact = change.value;
+  else
+    return false;
+  return true;
+}
+
+std::vector<Change> of_the_scene(const std::vector<Change>& changes, SimulateOptions& options,
+                                 FaultList& faults) {
+  std::vector<Change> others;
+  for (const Change& change : changes)
+    if (!turns_option(change, options, faults)) others.push_back(change);
+  return others;
+}
+
+SimulateOptions without_end(SimulateOptions options) {
+  if (!options.duration) options.duration = 1;
+  options.every.reset();
+  options.at.clear();
+  options.record.clear();
+  options.record_every.reset();
+  options.json = options.csv = false;
+  return options;
+}
+
+// Faults of options by the change that set them.
+InputError by_change(const InputError& error, const std::vector<Change>& changes) {
+  std::vector<Fault> faults = error.faults();
+  for (Fault& fault : faults)
+    for (const Change& change : changes)
+      if (fault.where == "--" + change.path)
+        fault.where = "--set " + change.path + "=" + change.value;
+  return InputError(std::move(faults));
+}
+
+void put_text(TomlValue& scene, const std::string& key, const std::string& text) {
+  TomlValue value;
+  value.kind = TomlValue::Kind::text;
+  value.key = key;
+  value.text = text;
+  std::erase_if(scene.members, [&](const TomlValue& member) { return member.key == key; });
+  scene.members.push_back(std::move(value));
+}
+
+void put_number_of(TomlValue& scene, const std::string& key, double number) {
+  put_text(scene, key, "");
+  scene.members.back().kind = TomlValue::Kind::number;
+  scene.members.back().number = number;
+}
+
+}  // namespace
+
+LabScene::LabScene(const SimulateOptions& given) {
+  const SimulateOptions options = without_end(given);
+  files_ =
+      std::make_shared<const Files>(header_of(options, prepare_simulation(options), given.command));
+}
+
+LabScene::LabScene(RecordingHeader header) {
+  header.options = without_end(std::move(header.options));
+  files_ = std::make_shared<const Files>(std::move(header));
+}
+
+bool LabScene::is_scene() const {
+  return files_->header.options.robot.model.extension() == ".toml";
+}
+
+std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& changes) const {
+  SimulateOptions beside = files_->header.options;
+  FaultList faults;
+  const std::vector<Change> others = of_the_scene(changes, beside, faults);
+  faults.check();
+  try {
+    SimulateOptions options = files_->unpacked.options(others);
+    options.step = beside.step;
+    options.tolerance = beside.tolerance;
+    options.integrator = beside.integrator;
+    options.contact = beside.contact;
+    SimulatePlan prepared = prepare_simulation(options);
+    if (prepared.run.is_adaptive() && !options.step)  // not all of the run in one
+      prepared.run.step = prepared.input.scene ? prepared.input.scene->description.step : 0.001;
+    prepared.run.duration = HUGE_VAL;
+    prepared.run.times.clear();
+    return std::make_unique<Plan>(Plan{std::move(prepared), files_});
+  } catch (const InputError& error) {
+    throw by_change(files_->unpacked.as_typed(error, others), changes);
+  }
+}
+
+std::string LabScene::text(const std::vector<Change>& changes) const {
+  if (!is_scene()) return "";
+  SimulateOptions beside = files_->header.options;
+  FaultList faults;
+  const std::vector<Change> others = of_the_scene(changes, beside, faults);
+  TomlValue scene = read_toml(files_->unpacked.options().robot.model);
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (others[i].path != "gravity") apply(others[i], 0, scene, faults);
+  for (const Change& change : others)
+    if (change.path == "gravity") beside.robot.gravity = change.value;
+  if (!beside.robot.gravity.empty())
+    if (const auto g = parse_gravity(beside.robot.gravity, faults)) {
+      put_number_of(scene, "gravity", 0);
+      TomlValue& gravity = scene.members.back();
+      gravity.kind = TomlValue::Kind::list;
+      for (const double component : *g) {
+        gravity.items.emplace_back();
+        gravity.items.back().kind = TomlValue::Kind::number;
+        gravity.items.back().number = component;
+      }
+    }
+  faults.check();
+  if (beside.step) put_number_of(scene, "step", *beside.step);
+  if (!beside.integrator.empty()) put_text(scene, "integrator", beside.integrator);
+  if (!beside.contact.empty()) put_text(scene, "contact", beside.contact);
+  return to_toml(scene);
+}
+
+RecordingHeader LabScene::header(const std::vector<Change>& changes) const {
+  const std::unique_ptr<Plan> planned = plan(changes);
+  RecordingHeader header = files_->header;
+  FaultList faults;
+  for (const Change& change : of_the_scene(changes, header.options, faults))
+    if (change.path == "gravity") header.options.robot.gravity = change.value;
+  header.integrator = integrator_name(planned->prepared.run.integrator);
+  header.step = planned->prepared.run.step;
+  header.options.step = header.step;
+  if (is_scene())
+    for (RecordedFile& file : header.files)
+      if (file.path == header.options.robot.model) file.bytes = text(changes);
+  return header;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,42 @@
+// What the lab runs: a scene or a robot, with all the files that it needs, so that those on the
+// disk may change or vanish; and the same with changes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/record/unpack.h"
+#include "app/simulate/simulate_input.h"
+
+namespace twinarm {
+
+class LabScene {
+ public:
+  // As `twinarm simulate` would run it; the duration counts for nothing. Throws InputError with all
+  // faults.
+  explicit LabScene(const SimulateOptions& options);
+  // What a recording was of.
+  explicit LabScene(RecordingHeader header);
+
+  // With changes: those of a fork (app/record/unpack.h), and also step, integrator, contact,
+  // gravity. The run that it plans has no end, and no sample times. Throws InputError, faults of a
+  // change by that change. Files stay readable for as long as a LabScene or a plan of it lives.
+  struct Plan {
+    SimulatePlan prepared;
+    std::shared_ptr<const void> files;
+  };
+  std::unique_ptr<Plan> plan(const std::vector<Change>& changes = {}) const;
+
+  // The scene with the changes in it, as TOML; empty for a robot alone. Throws InputError.
+  std::string text(const std::vector<Change>& changes = {}) const;
+  bool is_scene() const;
+  // Of a recording of the run with these changes. Throws InputError.
+  RecordingHeader header(const std::vector<Change>& changes = {}) const;
+
+ private:
+  struct Files;
+  std::shared_ptr<const Files> files_;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,91 @@
+// twinarm: the command line, its exit codes, and how errors are told. options/ knows the options of
+// each command.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "app/interrupt.h"
+#include "app/nearest_name.h"
+#include "app/options/options.h"
+#include "app/program.h"
+#include "solver/fault.h"
+
+namespace twinarm {
+namespace {
+
+enum ExitCode { kDone = 0, kBadInput = 2, kInternal = 4, kInterrupted = 130 };
+
+// All faults at once: on stderr for people, on stdout for machines too.
+int tell(const InputError& error, bool as_json) {
+  using Json = nlohmann::ordered_json;  // the one flavour of this program: it is compiled once
+  Json errors = Json::array();
+  for (const Fault& fault : error.faults()) {
+    fmt::print(stderr, "twinarm: {}\n", to_string(fault));
+    errors.push_back({{"file", fault.file},
+                      {"line", fault.line},
+                      {"remedy", fault.remedy},
+                      {"rule", fault.rule},
+                      {"where", fault.where}});
+  }
+  if (as_json) fmt::print("{}\n", Json{{"errors", errors}}.dump(1));
+  return kBadInput;
+}
+
+// The first word, where it is meant to be a command and is none.
+void check_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  throw InputError({{"", 0, "command line", fmt::format("there is no command '{}'", argv[1]),
+                     name_remedy(argv[1], names, "commands")}});
+}
+
+// `--png=` of a script whose variable is not set: CLI11 would take the next word for its value.
+void check_values(int argc, char** argv) {
+  FaultList faults;
+  for (const std::string_view word : std::vector<std::string_view>(argv, argv + argc))
+    if (word.starts_with("--") && word.find('=') == word.size() - 1)
+      faults.add({"", 0, "command line", fmt::format("'{}' has no value", word),
+                  "give one, or leave the option out"});
+  faults.check();
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  CLI::App app{"twinarm: a glass-box multibody laboratory\n\nExample:  twinarm study"};
+  app.require_subcommand(1);
+  CommandLine line{{argv, argv + argc}, {}};
+  for (const auto add : kAddCommands) add(app, line);
+  const bool as_json =
+      std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
+  try {
+    check_command(app, argc, argv);
+    check_values(argc, argv);
+    app.parse(argc, argv);
+  } catch (const InputError& error) {
+    return tell(error, as_json);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    return tell(InputError({{"", 0, "command line", error.what(), "see twinarm --help"}}), as_json);
+  }
+
+  catch_interrupts();
+  try {
+    return line.chosen();
+  } catch (const InputError& error) {
+    return tell(error, as_json);
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "twinarm: interrupted; nothing half-written was left behind\n");
+    return kInterrupted;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "twinarm: internal fault: {}\n", error.what());
+    return kInternal;
+  }
+}
+
+}  // namespace twinarm

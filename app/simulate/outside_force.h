@@ -1,0 +1,33 @@
+// A force that no scene knows, such as a mouse's, with books of its own: they are added to those of
+// the run, so that both ledgers close.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solver/exchange.h"
+#include "solver/force_source.h"
+#include "solver/integrator_rewind.h"
+
+namespace twinarm {
+
+class OutsideForce : public ForceSource, public Rewindable {
+ public:
+  virtual std::string name() const = 0;  // of its rows
+  // A step of h that went from `start` by way of `inner` to `end`: the states that the ledger looks
+  // at, with the weights of its rule for integrals over the step.
+  virtual void book(double h, std::span<const double> weights, const State<double>& start,
+                    const std::vector<State<double>>& inner, const State<double>& end) = 0;
+  // Since the start: work [J] on the bodies, impulse and moment about the world's origin; and on
+  // which body. Zero until it has acted.
+  struct Given {
+    int body = 0;
+    Exchange exchange;
+  };
+  virtual const std::vector<Given>& given() const = 0;
+  // Whether it ever acted: until then it has no part in what a run remembers.
+  bool has_acted() const { return !given().empty(); }
+};
+
+}  // namespace twinarm
