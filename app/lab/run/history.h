@@ -1,0 +1,76 @@
+// What the lab remembers of a run: frames with memory, and what came from outside in each step,
+// within a bound of bytes; the oldest goes first. A frame, once in, never changes and may be read
+// by any thread that holds it; the history itself belongs to one thread at a time.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/lab/run/lab_frame.h"
+#include "app/lab/run/lab_input.h"
+#include "app/lab/run/lab_scene.h"
+
+namespace twinarm {
+
+std::size_t bytes_of(const LabFrame& frame);
+
+class LabHistory {
+ public:
+  using Frame = std::shared_ptr<const LabFrame>;
+  explicit LabHistory(std::size_t most_bytes = std::size_t{256} << 20) : most_(most_bytes) {}
+
+  // Later than all before, else those that are not earlier are forgotten.
+  Frame add(LabFrame frame);
+  // Of the step that was just taken. Steps without a hand and a pull need not be told.
+  void add(const LabInput& input);
+  // From the newest frame on the run is one of these changes: the first frame after a change.
+  void begin_segment(std::vector<Change> changes);
+
+  bool empty() const { return frames_.empty(); }
+  std::size_t size() const { return frames_.size(); }
+  const Frame& frame(std::size_t n) const { return frames_[n]; }  // 0: the oldest
+  const Frame& newest() const { return frames_.back(); }
+  // The last frame at or before t; the oldest where all are later. Not of an empty history.
+  std::size_t at(double t) const;
+  std::size_t bytes() const { return bytes_; }
+  // The changes of the run that frame n belongs to.
+  const std::vector<Change>& changes_of(std::size_t n) const;
+
+  // What came in that step; null: nothing, or it is no longer remembered.
+  const LabInput* input(long step) const;
+  // The last step whose input is known, if any: until then a branch can be moved as before.
+  long last_input() const { return inputs_.empty() ? 0 : inputs_.back().step; }
+
+  // A branch from frame n: what came after it is forgotten here and given back, the frame included.
+  LabHistory cut(std::size_t n);
+
+  // Saved: the frames since the last change that a recording's header cannot describe (another
+  // knob, another one who moves the robot, a pull); `twinarm replay` repeats them bit for bit.
+  struct Saved {
+    std::size_t frames = 0;
+    double from = 0, to = 0;  // [s]
+  };
+  // Throws InputError where the file cannot be written, and where nothing is remembered.
+  Saved save(const LabScene& scene, const LabNames& names, const SimulatePlan& prepared,
+             const std::vector<int>& led, const std::filesystem::path& file) const;
+
+ private:
+  struct Segment {
+    long first_step;
+    std::vector<Change> changes;
+  };
+  void trim();
+  const Segment& segment_of(long step) const;
+  std::size_t first_to_save() const;
+
+  std::size_t most_, bytes_ = 0;
+  std::deque<Frame> frames_;
+  std::deque<LabInput> inputs_;
+  std::deque<Segment> segments_;
+};
+
+}  // namespace twinarm
