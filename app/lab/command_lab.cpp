@@ -33,9 +33,9 @@ std::string random_token() {
 // Of what was asked for; else the gallery's first.
 Order first_order(const LabOptions& options, const std::vector<GalleryScene>& gallery) {
   Order order;
-  if (options.scene.empty()) return order_of(gallery.front());
+  if (options.scene.empty()) return order_to_open(gallery.front());
   for (const GalleryScene& scene : gallery)
-    if (scene.name == options.scene.string()) return order_of(scene);
+    if (scene.name == options.scene.string()) return order_to_open(scene);
   order.file = options.scene;
   order.name = options.scene.stem().string();
   order.words.title = order.name;
@@ -77,6 +77,12 @@ class Lab {
     server_ = std::make_unique<LabServer>(server, handlers());
     painter_.begin();
   }
+  // Threads end before those that they call.
+  ~Lab() {
+    session_.end();
+    painter_.end();
+    server_.reset();
+  }
   std::string url() const { return server_->url(); }
 
  private:
@@ -107,8 +113,8 @@ class Lab {
           audience_.want_layers(client, std::move(command.names));
           break;
         case LabCommand::Do::glass:
-          audience_.want_glass(client, command.on ? std::optional<long>(command.count)
-                                                  : std::nullopt);
+          audience_.want_glass(client,
+                               command.on ? std::optional<long>(command.count) : std::nullopt);
           break;
         case LabCommand::Do::take:
           audience_.take(client);

@@ -22,13 +22,14 @@ Bytes bytes_of(std::string message) {
 
 LabPainter::LabPainter(LabSession& session, Audience& audience,
                        const std::vector<GalleryScene>& gallery, Post post)
-    : session_(session),
-      audience_(audience),
-      gallery_(gallery),
-      post_(std::move(post)),
-      thread_([this] { work(); }) {}
+    : session_(session), audience_(audience), gallery_(gallery), post_(std::move(post)) {}
 
-LabPainter::~LabPainter() {
+void LabPainter::begin() {
+  thread_ = std::thread([this] { work(); });
+}
+
+void LabPainter::end() {
+  if (!thread_.joinable()) return;
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -145,6 +146,11 @@ void LabPainter::tell_frame(const LabNow& now) {
   last_frame_ = bytes_of(std::move(frame));
   for (const ClientId client : audience_.view().clients)
     post_(client, frame_channel, last_frame_, true);
+}
+
+std::string LabPainter::picture(int width, int height) {
+  Painter painter(Backend::osmesa, width, height, Quality::draft);
+  return encode_png(painter.paint(view_->drawn()));
 }
 
 void LabPainter::tell_glass(const LabNow& now) {

@@ -32,12 +32,14 @@ class LabPainter {
   // All must outlive it.
   LabPainter(LabSession& session, Audience& audience, const std::vector<GalleryScene>& gallery,
              Post post);
-  ~LabPainter();
+  ~LabPainter() { end(); }
+  void begin();
+  void end();
 
   // From any thread: to be done by the painter's, which alone may touch its view.
   void ask(std::function<void(LabPainter&)> job);
-  void welcome(ClientId client);  // it is to be told everything
-  void look_again();              // something about clients has changed
+  void welcome(ClientId client);          // it is to be told everything
+  void look_again() { session_.wake(); }  // something about clients has changed
 
   // Of the painter's thread.
   LabView& view() { return *view_; }

@@ -171,14 +171,16 @@ void LabRoutes::answer_later(const HttpRequest& request, const Answer& answer) {
 }
 
 HttpReply LabRoutes::save() const {
-  HttpReply reply = file_of("application/octet-stream", bytes_of(session_.save()), false);
+  const std::filesystem::path file = folder_ / "save.twinrec";
+  session_.save(file);
+  HttpReply reply = file_of("application/octet-stream", bytes_of(read_whole_file(file)), false);
   reply.file_name = "lab.twinrec";
   return reply;
 }
 
 HttpReply LabRoutes::share() const {
   const std::filesystem::path file = folder_ / "share.twinrec";
-  write_whole_file(file, session_.save());
+  session_.save(file);
   HttpReply reply = file_of("text/html; charset=utf-8", bytes_of(replay_page(file).html), false);
   reply.file_name = "lab.html";
   return reply;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/lab/knobs/remedies.h"
+#include "app/live/servo_clock.h"
 #include "solver/fault.h"
 
 namespace twinarm {
@@ -21,23 +22,23 @@ double seconds(std::chrono::steady_clock::duration time) {
 
 }  // namespace
 
-LabSession::LabSession(Built scene, const std::vector<GalleryScene>& gallery)
-    : gallery_(gallery) {
+LabSession::LabSession(Built scene, const std::vector<GalleryScene>& gallery) : gallery_(gallery) {
   adopt(std::move(scene));
-  workshop_ = std::make_unique<Workshop>(Workshop::Out{
-      [this](Built built) {
-        {
-          const std::lock_guard lock(mutex_);
-          built_.push_back(std::move(built));
-        }
-        told_.notify_all();
-      },
-      [this](const Order& order, const std::string& why) {
-        note("error", why);
-        const std::lock_guard lock(mutex_);
-        has_failed_ = has_failed_ || order.what != Order::What::open;
-        told_.notify_all();
-      }});
+  workshop_ =
+      std::make_unique<Workshop>(Workshop::Out{[this](Built built) {
+                                                 {
+                                                   const std::lock_guard lock(mutex_);
+                                                   built_.push_back(std::move(built));
+                                                 }
+                                                 told_.notify_all();
+                                               },
+                                               [this](const Order& order, const std::string& why) {
+                                                 note("error", why);
+                                                 const std::lock_guard lock(mutex_);
+                                                 has_failed_ =
+                                                     has_failed_ || order.what != Order::What::open;
+                                                 told_.notify_all();
+                                               }});
   thread_ = std::thread([this] { work(); });
 }
 
@@ -103,7 +104,8 @@ void LabSession::set_rate(double frames_per_second) {
 
 // The run's thread.
 void LabSession::work() {
-  pace_.begin(Clock::now(), run_->time());
+  next_tick_ = Clock::now();
+  pace_.begin(next_tick_, run_->time(), status_.speed);
   for (;;) {
     take_commands();
     {
@@ -114,9 +116,9 @@ void LabSession::work() {
     if (steps_left_ > 0)
       take_steps(now, HUGE_VAL);
     else if (status_.playing)
-      take_steps(now, pace_.due(now, status_.speed));
+      take_steps(now, pace_.due(now));
     else
-      pace_.begin(now, run_->time());
+      pace_.begin(now, run_->time(), status_.speed);
     publish();
     rest();
   }
@@ -140,19 +142,45 @@ void LabSession::rest() {
 void LabSession::take_steps(Clock::time_point begin, double due) {
   const double h = run_->step_length();
   while (run_->time() + 0.5 * h < due) {
-    if (!run_->step()) return die();
+    const double cpu = thread_cpu_time();
+    if (!take_step()) return die();
+    const double taken = thread_cpu_time() - cpu;
+    cpu_ += taken;
+    longest_cpu_ = std::max(longest_cpu_, taken);
+    ++steps_;
     is_stale_ = true;
     if (steps_left_ > 0 && --steps_left_ == 0) return;
     if (seconds(Clock::now() - begin) > kLongestBurst) break;
   }
-  pace_.forgive(Clock::now(), run_->time(), status_.speed, kForgiven);
+  pace_.forgive(Clock::now(), run_->time(), kForgiven);
+}
+
+// By the hand as it is now; in a branch, as long as it is known, by what the hand did then.
+bool LabSession::take_step() {
+  bool went_on = false;
+  if (does_again_) {
+    LabInput again;
+    again.step = run_->step_count() + 1;
+    const std::lock_guard lock(mutex_);
+    if (const LabInput* known = before_.input(again.step)) again = *known;
+    does_again_ = again.step < before_.newest()->recorded.step;
+    went_on = run_->step(again);
+  } else {
+    went_on = run_->step();
+  }
+  if (!went_on) return false;
+  const LabInput& input = run_->input();
+  if (!input.hand && !input.pull) return true;
+  const std::lock_guard lock(mutex_);
+  history_.add(input);
+  return true;
 }
 
 // The newest frame is remembered, and handed over with whatever else is new.
 void LabSession::publish() {
   const Clock::time_point now = Clock::now();
   bool says_new = take_notes();
-  if (seconds(now - last_status_) >= kStatusEvery && status_.playing) says_new = true;
+  if (seconds(now - last_told_) >= kStatusEvery && status_.playing) says_new = true;
   const bool is_due = is_stale_ && seconds(now - last_frame_) >= frame_interval_;
   const bool is_last = is_stale_ && (!status_.playing && steps_left_ == 0);
   if (!is_due && !is_last && !says_new && !is_news_) return;
@@ -161,41 +189,50 @@ void LabSession::publish() {
     last_frame_ = now;
     is_stale_ = false;
   }
-  last_status_ = now;
+  last_told_ = now;
   is_news_ = false;
   tell();
 }
 
 void LabSession::remember() {
-  auto frame = std::make_shared<LabFrame>(run_->frame());
-  status_.pace = pace_.factor(Clock::now(), run_->time());
-  frame->pace = status_.pace;
-  frame->input_stamp = input_stamp_;
-  status_.step_time = frame->step_time;
+  LabFrame frame = run_->frame(names_);
+  if (!rows_ || rows_->size() != names_.rows.size())
+    rows_ = std::make_shared<const std::vector<std::string>>(names_.rows);
+  frame.pace = status_.pace = pace_.factor(Clock::now(), run_->time());
+  frame.longest_step = longest_cpu_;
+  frame.step_time = steps_ > 0 ? cpu_ / static_cast<double>(steps_) : 0;
+  status_.step_time = frame.step_time;
+  cpu_ = longest_cpu_ = 0;
+  steps_ = 0;
   const std::lock_guard lock(mutex_);
   history_.add(std::move(frame));
 }
 
 void LabSession::tell() {
+  static const char* const kSources[] = {"scene", "drag", "joints", "device"};
+  static const char* const kMappings[] = {"paper", "arm", "cartesian"};
   status_.time = run_->time();
   status_.step = run_->step_length();
-  status_.hand_source = run_->hand().source();
-  status_.hand_mapping = run_->hand().mapping();
-  status_.hand_felt = run_->hand().what_is_felt();
-  status_.hand_q = run_->hand().targets();
+  status_.hand_source = run_->driven().empty() ? "" : kSources[static_cast<int>(hand_.source())];
+  status_.hand_mapping = kMappings[static_cast<int>(hand_.mapping().kind)];
+  status_.hand_felt = hand_.description();
+  status_.hand_q = run_->driven_q();
   {
     const std::lock_guard lock(mutex_);
-    status_.first = history_.first();
-    status_.last = history_.last();
     LabNow now;
     now.number = now_.number + 1;
     now.scene = scene_;
     now.scene_number = status_.scene;
     now.change_number = change_number_;
-    now.frame = status_.at ? history_.at(*status_.at) : history_.newest();
-    now.before = now.frame ? before_.at(now.frame->recorded.t) : nullptr;
+    if (!history_.empty()) {
+      status_.first = history_.frame(0)->recorded.t;
+      status_.last = history_.newest()->recorded.t;
+      now.frame = status_.at ? history_.frame(history_.at(*status_.at)) : history_.newest();
+    }
+    if (now.frame && !before_.empty() && now.frame->recorded.t <= before_.newest()->recorded.t)
+      now.before = before_.frame(before_.at(now.frame->recorded.t));
     now.status = std::make_shared<const LabStatus>(status_);
-    now.rows = run_->rows();
+    now.rows = rows_;
     now.input_came = input_came_;
     now_ = std::move(now);
   }
@@ -220,7 +257,7 @@ void LabSession::die() {
   status_.playing = false;
   steps_left_ = 0;
   is_stale_ = is_news_ = true;
-  const PostMortem* found = run_->dead();
+  const PostMortem* found = run_->post_mortem();
   if (!found) return note("note", "the run has come to its end");
   LabEnd end;
   end.time = found->time;
@@ -228,13 +265,30 @@ void LabSession::die() {
   end.quantity = found->field;
   end.body = found->body;
   if (!found->suspects.empty()) end.spring = found->suspects.front().name;
-  end.remedies = remedies_of(scene_->view->prepared, *found);
+  end.remedies = remedies_of(run_->prepared(), *found);
   status_.dead = std::move(end);
 }
 
 std::vector<std::shared_ptr<const LabFrame>> LabSession::history(double from) const {
   const std::lock_guard lock(mutex_);
-  return history_.since(from);
+  std::vector<std::shared_ptr<const LabFrame>> frames;
+  if (history_.empty()) return frames;
+  for (std::size_t n = history_.at(from); n < history_.size(); ++n)
+    frames.push_back(history_.frame(n));
+  return frames;
+}
+
+void LabSession::save(const std::filesystem::path& file) const {
+  LabHistory history;
+  std::shared_ptr<const Built> scene;
+  LabNames names;
+  {
+    const std::lock_guard lock(mutex_);
+    history = history_;
+    scene = now_.scene;
+    names = names_;
+  }
+  history.save(*scene->scene, names, scene->view->prepared, run_->driven(), file);
 }
 
 }  // namespace twinarm

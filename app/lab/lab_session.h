@@ -16,8 +16,10 @@
 #include <thread>
 #include <vector>
 
+#include "app/lab/knobs/gallery.h"
 #include "app/lab/lab_command.h"
 #include "app/lab/lab_status.h"
+#include "app/lab/pace.h"
 #include "app/lab/run/history.h"
 #include "app/lab/run/lab_run.h"
 #include "app/lab/workshop.h"
@@ -38,65 +40,82 @@ struct LabNow {
 
 class LabSession {
  public:
-  explicit LabSession(Built scene);
+  // The gallery must outlive it.
+  LabSession(Built scene, const std::vector<GalleryScene>& gallery);
   ~LabSession();
+  void end();  // no thread of its own is left; now() stays as it was
 
   // From any thread.
   void push(LabCommand command);
   void note(const std::string& level, const std::string& text);
   void open(Order order);
   LabNow now() const;
-  // Until there is something newer than `seen`, or the time is over.
-  void wait(std::uint64_t seen, double seconds) const;
-  void wake() const { changed_.notify_all(); }
+  // Until there is something newer than `seen`, or wake() is called, or the time is over.
+  void wait(std::uint64_t seen, double longest) const;
+  void wake();
   std::vector<std::shared_ptr<const LabFrame>> history(double from) const;
   void set_rate(double frames_per_second);
-  // The run as it is remembered, as the bytes of a recording. Throws InputError.
-  std::string save() const;
+  // The run as it is remembered, as a recording. Throws InputError.
+  void save(const std::filesystem::path& file) const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  // The loop: lab_session.cpp.
   void work();
-  void take_commands();
-  void act(const LabCommand& command);
-  void act_on_time(const LabCommand& command);
-  void act_on_hand(const LabCommand& command);
-  void change(const std::vector<std::string>& texts);
-  void branch(const LabCommand& command);
-  void preset(const std::string& name);
-  void order(Order::What what, double at);
-  void adopt(Built built);
-  void adopt_waiting();
-  void take_steps(double due);
-  void pause_or_sleep();
-  void capture();
+  void rest();
+  void take_steps(Clock::time_point begin, double due);
+  bool take_step();
   void die();
   void publish();
+  void remember();
+  void tell();
+  bool take_notes();
+  // What it is told: session_commands.cpp.
+  void take_commands();
+  void act(const LabCommand& command);
+  void act_on_hand(const LabCommand& command);
+  void choose_hand(const std::string& source, const std::string& spec);
+  void change(const std::vector<std::string>& texts, std::optional<double> at);
+  void preset(const std::string& name);
+  void open_from_gallery(const std::string& name);
+  void order(Order::What what, double at);
+  void adopt(Built built);
+  LabHistory::Frame start_of(const Order& order);
+  void forget();
 
-  Workshop workshop_;
+  const std::vector<GalleryScene>& gallery_;
+  std::unique_ptr<Workshop> workshop_;
+
   mutable std::mutex mutex_;  // of what follows, up to the run's own
-  mutable std::condition_variable changed_;
-  std::condition_variable told_;
+  mutable std::condition_variable changed_, told_;
   std::deque<LabCommand> commands_;
   std::deque<Built> built_;
   std::vector<LabNote> new_notes_;
-  std::optional<std::string> failed_;
+  bool has_failed_ = false;  // an order
   LabNow now_;
-  History history_;
+  LabHistory history_, before_;  // before_: of the branch that was left, from where it was left
   double frame_interval_ = 1.0 / 60;
+  std::uint64_t woken_ = 0;
   bool stop_ = false;
 
   // Of the run's thread alone.
   std::shared_ptr<const Built> scene_;
+  LabHand hand_;
   std::unique_ptr<LabRun> run_;
+  LabNames names_;
   LabStatus status_;
   std::vector<Change> wanted_;  // changes that stand, and those that are being built
-  long steps_left_ = 0;         // of single steps
-  std::vector<std::shared_ptr<const LabFrame>> before_;
-  bool is_stale_ = true;  // something is to be published
-  Clock::time_point origin_, last_frame_, newest_input_{};
-  double run_origin_ = 0;
+  long change_number_ = 0, notes_ = 0;
+  long steps_left_ = 0;               // of single steps
+  bool does_again_ = false;           // what came in the steps of before_ comes again
+  bool is_stale_ = true;              // the newest frame is not the run's
+  bool is_news_ = true;               // something else is to be told
+  double cpu_ = 0, longest_cpu_ = 0;  // since the frame before [s]
+  long steps_ = 0;                    // likewise
+  Pace pace_;
+  Clock::time_point input_came_{}, last_frame_{}, last_told_{}, next_tick_{};
+  std::shared_ptr<const std::vector<std::string>> rows_;
 
   std::thread thread_;
 };

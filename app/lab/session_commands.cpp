@@ -1,6 +1,7 @@
 // What the session does when it is told something.
 #include <algorithm>
 
+#include "app/find_assets.h"
 #include "app/lab/knobs/presets.h"
 #include "app/lab/lab_session.h"
 #include "solver/fault.h"
@@ -66,7 +67,7 @@ void LabSession::act(const LabCommand& command) {
       return;
     case Do::speed:
       status_.speed = command.value;
-      pace_.begin(Clock::now(), run_->time());
+      pace_.begin(Clock::now(), run_->time(), status_.speed);
       return;
     case Do::look:
       status_.at = command.at;
@@ -89,30 +90,45 @@ void LabSession::act(const LabCommand& command) {
 
 void LabSession::act_on_hand(const LabCommand& command) {
   using Do = LabCommand::Do;
-  LabHand& hand = run_->hand();
-  input_stamp_ = command.stamp;
+  const double stamp = command.stamp;
   input_came_ = command.came;
+  does_again_ = false;  // who moves it now outranks who did
+  const auto index = static_cast<std::size_t>(command.count);
   switch (command.what) {
     case Do::hand:
-      return hand.choose(command.name, command.spec);
+      return choose_hand(command.name, command.spec);
     case Do::tip:
-      return hand.drag_tip(command.goal);
+      return hand_.tip(command.goal, stamp);
     case Do::joint:
-      return hand.drag_joint(static_cast<std::size_t>(command.count), command.value);
+      return hand_.joint(index, command.value, stamp);
     case Do::turn:
-      return hand.turn_stylus(command.point);
+      return hand_.turn(command.point.x(), command.point.y(), command.point.z(), stamp);
     case Do::axes:
-      return hand.axes(command.rates);
+      return hand_.axes(command.rates, stamp);
     case Do::button:
-      return hand.button(static_cast<std::size_t>(command.count), command.on);
+      return hand_.button(index, command.on, stamp);
     case Do::pull:
-      return run_->pull(static_cast<int>(command.count), command.point, command.goal);
+      if (!run_->pull(static_cast<int>(command.count), command.point, command.goal, stamp))
+        note("note", "no force moves that body");
+      return;
     case Do::drop:
-      hand.release();
+      hand_.release();
       return run_->drop();
     default:
       return;
   }
+}
+
+void LabSession::choose_hand(const std::string& source, const std::string& spec) {
+  using Source = LabHand::Source;
+  static const std::vector<std::pair<std::string, Source>> all{{"scene", Source::scene},
+                                                               {"drag", Source::drag},
+                                                               {"joints", Source::joints},
+                                                               {"device", Source::device}};
+  for (const auto& [name, kind] : all)
+    if (name == source) return hand_.choose(kind, spec);
+  throw InputError({{"command", 0, "hand, source", "there is no '" + source + "'",
+                     "give scene, drag, joints or device"}});
 }
 
 // From now on, or from an instant that is remembered.
@@ -131,7 +147,7 @@ void LabSession::preset(const std::string& name) {
     throw InputError({{"command", 0, "preset", "there is no '" + name + "'",
                        "the state lists them under presets"}});
   Order order;
-  order.file = find_asset_scene(preset->scene);
+  order.file = find_assets() / "scenes" / preset->scene;
   order.name = preset->name;
   order.words.title = preset->what;
   order.words.file = preset->scene;
@@ -145,7 +161,7 @@ void LabSession::open_from_gallery(const std::string& name) {
   if (!scene)
     throw InputError({{"command", 0, "scene", "there is no '" + name + "'",
                        "the state lists them under gallery"}});
-  workshop_->order(order_of(*scene));
+  workshop_->order(order_to_open(*scene));
 }
 
 void LabSession::order(Order::What what, double at) {
@@ -159,39 +175,63 @@ void LabSession::order(Order::What what, double at) {
   workshop_->order(std::move(order));
 }
 
+// Where a run that goes on begins; null where that is no longer remembered.
+LabHistory::Frame LabSession::start_of(const Order& order) {
+  if (order.what == Order::What::change)
+    return std::make_shared<const LabFrame>(run_->frame(names_));
+  const std::lock_guard lock(mutex_);
+  if (history_.empty() || order.at < history_.frame(0)->recorded.t - 1e-9) return nullptr;
+  const std::size_t n = history_.at(order.at);
+  LabHistory::Frame from = history_.frame(n);
+  before_ = history_.cut(n);
+  does_again_ = before_.size() > 1;
+  LabBranch branch;
+  branch.from = from->recorded.t;
+  branch.changes = order.changes;
+  branch.number = status_.branch ? status_.branch->number + 1 : 1;
+  status_.branch = std::move(branch);
+  status_.at.reset();
+  status_.playing = true;
+  return from;
+}
+
 // Between two steps: the run goes on as it was ordered.
 void LabSession::adopt(Built built) {
-  const Order& order = built.order;
+  const Order order = built.order;
   const bool goes_on = order.what == Order::What::change || order.what == Order::What::branch;
   if (goes_on && built.scene != scene_->scene) return;  // meanwhile another one was opened
-  std::shared_ptr<const LabFrame> from;
-  if (order.what == Order::What::branch) {
-    from = keep_branch(order);
-    if (!from) return note("error", "that instant is not remembered any more");
-  } else if (goes_on) {
-    from = std::make_shared<const LabFrame>(run_->frame());
-  }
-  auto run = from ? std::make_unique<LabRun>(std::move(built.run), *from)
-                  : std::make_unique<LabRun>(std::move(built.run));
+  LabHistory::Frame from;
+  if (goes_on && !(from = start_of(order)))
+    return note("error", "that instant is not remembered any more");
+  auto run = std::make_unique<LabRun>(std::move(built.run), order.changes, hand_, from.get());
   for (const std::string& warning : run->warnings()) note("warning", warning);
+  if (!run->begun_anew().empty()) note("note", run->begun_anew());
   if (!goes_on) forget();
   if (order.what == Order::What::open) {
     ++status_.scene;
     status_.scene_name = order.name;
+    if (!order.hand.empty()) choose_hand(order.hand, "");
   }
-  wanted_ = status_.changes = order.changes;
-  scene_ = std::make_shared<const Built>(std::move(built));
-  run_ = std::move(run);
+  {
+    const std::lock_guard lock(mutex_);
+    wanted_ = status_.changes = order.changes;
+    scene_ = std::make_shared<const Built>(std::move(built));
+    run_ = std::move(run);
+    history_.begin_segment(order.changes);
+  }
   ++change_number_;
   status_.dead.reset();
   is_stale_ = is_news_ = true;
-  pace_.begin(Clock::now(), run_->time());
+  pace_.begin(Clock::now(), run_->time(), status_.speed);
 }
 
 void LabSession::forget() {
   const std::lock_guard lock(mutex_);
-  history_.clear();
-  before_.clear();
+  history_ = LabHistory();
+  before_ = LabHistory();
+  names_ = {};
+  rows_.reset();
+  does_again_ = false;
   status_.branch.reset();
   status_.at.reset();
   status_.playing = true;

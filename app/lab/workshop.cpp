@@ -22,6 +22,16 @@ std::string words_of(const InputError& error) {
 
 }  // namespace
 
+Order order_to_open(const GalleryScene& scene) {
+  Order order;
+  order.file = scene.file;
+  order.name = scene.name;
+  order.words.title = scene.title;
+  order.words.file = scene.file.filename().string();
+  order.words.look.assign(scene.look.begin(), scene.look.end());
+  return order;
+}
+
 Built build(Order order) {
   Built built;
   built.scene = order.what == Order::What::open ? open_scene(order.file) : order.scene;
@@ -66,6 +76,7 @@ void Workshop::work() {
     try {
       out_.built(build(std::move(order)));
     } catch (const InputError& error) {
+      if (asked.done) asked.done(words_of(error));
       out_.failed(asked, words_of(error));
     } catch (const std::exception& error) {
       out_.failed(asked, error.what());

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/lab/knobs/gallery.h"
 #include "app/lab/run/lab_scene.h"
 #include "app/lab/stream/lab_view.h"
 
@@ -63,6 +64,7 @@ class Workshop {
   std::thread thread_;
 };
 
+Order order_to_open(const GalleryScene& scene);
 // In the caller's thread. Throws InputError.
 Built build(Order order);
 

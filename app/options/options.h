@@ -37,8 +37,8 @@ void add_zwidth(CLI::App& app, CommandLine& line);
 
 // In the order in which help lists them.
 inline constexpr void (*kAddCommands[])(CLI::App&, CommandLine&) = {
-    add_lab,    add_dynamics, add_inspect,    add_modes,  add_coupling, add_simulate,
-    add_hand,   add_trial,    add_recordings, add_render, add_compare,  add_map,
-    add_study,  add_make_robot, add_trace,    add_zwidth};
+    add_lab,   add_dynamics,   add_inspect,    add_modes,  add_coupling, add_simulate,
+    add_hand,  add_trial,      add_recordings, add_render, add_compare,  add_map,
+    add_study, add_make_robot, add_trace,      add_zwidth};
 
 }  // namespace twinarm
