@@ -52,14 +52,17 @@ LIBRARIES = {
     "Simbody": (r"SimTK", {"benchmarks/peers/peer_simbody.cpp",
                            "benchmarks/speed/engine_simbody.cpp"}),
     "ODE": (r"ode/", {"benchmarks/peers/peer_ode.cpp"}),
-    "Boost": (r"boost/", {"benchmarks/analytic/special_functions.cpp"}),
+    "Boost": (r"boost/", {"app/lab/server/connection_http.inl", "app/lab/server/connection_live.inl",
+                          "app/lab/server/lab_server.cpp",
+                          "benchmarks/analytic/special_functions.cpp"}),
     "NLopt": (r"nlopt", {"app/study/minimise.cpp"}),
     "OpenGL": (r"GL/", {"app/render/draw_mesh.cpp", "app/render/gl_context.cpp",
                         "app/render/gl_objects.cpp", "app/render/overlay.cpp",
                         "app/render/painter.cpp", "app/render/scene_floor.cpp",
                         "app/render/scene_pass.cpp", "app/render/shaders.cpp"}),
     "FreeType": (r"ft2build|freetype/", {"app/render/lettering.cpp"}),
-    "zlib": (r"zlib\.h", {"app/record/recording.cpp", "app/web/page_bytes.cpp"}),
+    "zlib": (r"zlib\.h", {"app/lab/server/http_text.cpp", "app/record/recording.cpp",
+                          "app/web/page_bytes.cpp"}),
     "turbojpeg": (r"turbojpeg\.h", {"app/render/image_decode.cpp",
                                     "tests/render/test_visual_model.cpp"}),
     "PNG": (r"png\.h", {"app/render/image.cpp", "app/render/image_decode.cpp"}),
@@ -80,7 +83,7 @@ LAB = {
 }
 
 # Headers that show an outside library. Each is of use inside its own folder only.
-INNER_HEADERS = {"collision/import/recipe_toml.h", "app/render/gl_table.h",
+INNER_HEADERS = {"app/lab/server/connection.h", "collision/import/recipe_toml.h", "app/render/gl_table.h",
                  "app/render/gl_objects.h", "app/render/scene_pass.h"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)

@@ -2,7 +2,10 @@
 //
 // One thread of its own. For each client there is one place per channel of messages: a newer
 // message takes the place of one that has not been sent. So a client that does not read costs one
-// message a channel, whatever it does.
+// message a channel, whatever it does. After each message goes a ping, which a browser answers by
+// itself; no more than four are unanswered, so that nothing old piles up on a slow way either.
+//
+// GET, HEAD (handed on as GET), POST; a WebSocket at /live.
 //
 // Who is let in: the token stands in the first address and then in a cookie (HttpOnly, SameSite
 // strict); Host must name an address that is listened on (so that no foreign name leads here), and
@@ -14,7 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
+#include <string_view>
 
 namespace twinarm {
 
@@ -30,22 +33,30 @@ struct HttpReply {
   int status = 200;
   std::string type = "text/plain; charset=utf-8";
   Bytes body;
-  bool lasts = false;       // it never changes (its name is its content's hash)
-  std::string file_name;    // offered as a download
+  bool lasts = false;     // it never changes (its name is its content's hash)
+  std::string file_name;  // offered as a download
 };
 
 struct ServerOptions {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 0;          // 0: any that is free
+  std::uint16_t port = 0;  // 0: any that is free
   std::string token;
   std::size_t most_clients = 32;
   std::size_t most_message = 64 << 10;  // of a client [bytes]
   std::size_t most_body = 32 << 20;     // of a POST [bytes]
   double messages_per_second = 500;     // of a client; more: it is told so and dropped
+  double patience =
+      60;  // a client that takes nothing is kept so long, a request a quarter of it [s]
 };
 
-// Called by the server's thread; may not wait. http: std::nullopt is 404; what takes long is handed
-// on, and `answer` called later, from any thread.
+// 128 random bits, in hexadecimal digits.
+std::string random_token();
+// Of "a=1&b=x%20y", decoded. Nothing where it is not there, or is not UTF-8 text.
+std::optional<std::string> query_value(std::string_view query, std::string_view name);
+
+// Called by the server's thread; may not wait. http: `answer` is called once, at once or later,
+// from any thread, also when the server is gone; what takes long is handed on. Who is not there:
+// 404. What they throw is told on stderr, and answered with 500.
 struct ServerHandlers {
   std::function<void(const HttpRequest&, std::function<void(HttpReply)> answer)> http;
   std::function<void(ClientId)> opened, closed;
@@ -56,11 +67,12 @@ class LabServer {
  public:
   // Throws InputError: an address that cannot be listened on.
   LabServer(const ServerOptions& options, ServerHandlers handlers);
-  ~LabServer();  // closes all connections, joins the thread
+  ~LabServer();  // closes all connections, joins the thread; `closed` is not called any more
   std::uint16_t port() const;
   // "http://127.0.0.1:PORT/?token=.."
   std::string url() const;
-  // From any thread; returns at once. `channel`: a small number. Binary or text.
+  // From any thread; returns at once. `channel`: a small number; 0 goes before all others, of which
+  // the one that has waited longest is next. Binary or text.
   void send(ClientId client, int channel, Bytes message, bool is_binary);
   void send_all(int channel, Bytes message, bool is_binary);
   // Of a client, for tests and the curious: messages sent, and those that a newer one replaced.

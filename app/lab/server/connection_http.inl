@@ -1,0 +1,193 @@
+// Requests, one after the other. Part of lab_server.cpp.
+#pragma once
+
+#include "app/lab/server/connection.h"
+
+namespace twinarm::lab_server {
+
+constexpr std::uint32_t kMostHead = 16 << 10;  // [bytes]
+constexpr double kSlowestDownload = 50e3;      // [bytes/s]
+constexpr std::chrono::seconds kFarewell{2};   // for what is said last
+
+inline std::string_view view(boost::beast::string_view text) {
+  return {text.data(), text.size()};
+}
+
+void Connection::start() {
+  parser_.emplace();
+  parser_->header_limit(kMostHead);
+  parser_->body_limit(core_.options.most_body);
+  is_welcome_ = gives_cookie_ = false;
+  deadline_ = Clock::now() + core_.patience(0.25);
+  in_.empty() ? read_some() : parse();
+}
+
+void Connection::read_some() {
+  socket_.async_read_some(net::buffer(chunk_),
+                          [self = shared_from_this()](error_code error, std::size_t count) {
+                            if (error) return self->drop();
+                            self->in_.append(self->chunk_.data(), count);
+                            self->parse();
+                          });
+}
+
+void Connection::parse() {
+  for (bool is_more = !in_.empty(); is_more && !parser_->is_done();) {
+    error_code error;
+    in_.erase(0, parser_->put(net::buffer(in_), error));
+    if (error == http::error::header_limit)
+      return refuse(431, "the head of the request is too long");
+    if (error == http::error::body_limit) return refuse(413, "the body is too large");
+    if (error && error != http::error::need_more) return refuse(400, "this is no HTTP request");
+    // The body is looked at only of who may send one.
+    if (!is_welcome_ && parser_->is_header_done()) {
+      if (!is_welcome()) return;
+      is_welcome_ = true;
+      parser_->eager(true);
+    }
+    is_more = !in_.empty() && !error;
+  }
+  if (parser_->is_done()) return serve();
+  if (is_welcome_) deadline_ = Clock::now() + core_.patience(0.25);
+  read_some();
+}
+
+bool Connection::has_token(std::string_view target) {
+  const std::string& token = core_.options.token;
+  const std::size_t mark = target.find('?');
+  if (mark != target.npos) {
+    const std::optional<std::string> given = query_value(target.substr(mark + 1), "token");
+    gives_cookie_ = given && is_secret(*given, token);
+  }
+  return gives_cookie_ ||
+         is_secret(cookie_value(view(parser_->get()[http::field::cookie]), core_.cookie), token);
+}
+
+bool Connection::is_welcome() {
+  const Request& request = parser_->get();
+  const std::string_view host = view(request[http::field::host]);
+  const std::string_view origin = view(request[http::field::origin]);
+  const bool is_post = request.method() == http::verb::post;
+  const bool is_live = websocket::is_upgrade(request);
+  if (request.count(http::field::host) != 1 || !core_.hosts->has(host)) {
+    refuse(403,
+           "this server does not answer to that name: open the address that `twinarm lab` has "
+           "printed");
+  } else if (!has_token(view(request.target()))) {
+    refuse(403,
+           "the token is missing: open the whole address that `twinarm lab` has printed, with "
+           "?token=..");
+  } else if ((is_post || is_live) && !origin.empty() && origin != "http://" + std::string(host)) {
+    refuse(403, "this comes from another page, and is not done");
+  } else if (!is_post && request.method() != http::verb::get &&
+             request.method() != http::verb::head) {
+    refuse(405, "GET, HEAD and POST are understood");
+  } else if (!is_post && !parser_->is_done()) {
+    refuse(400, "only POST has a body");
+  } else {
+    return true;
+  }
+  return false;
+}
+
+void Connection::serve() {
+  const Request& request = parser_->get();
+  const std::string_view target = view(request.target());
+  const std::size_t mark = std::min(target.find('?'), target.size());
+  const std::optional<std::string> path = decoded_path(target.substr(0, mark));
+  if (!path) return refuse(400, "the path is not one that this server understands");
+  if (websocket::is_upgrade(request) && *path == "/live") return go_live();
+  HttpRequest asked{request.method() == http::verb::post ? "POST" : "GET", *path,
+                    std::string(target.substr(std::min(target.size(), mark + 1))),
+                    std::move(parser_->get().body())};
+  deadline_ = Clock::now() + 2 * core_.patience();
+  is_waiting_ = true;
+  auto answer = [core = core_.weak_from_this(), self = weak_from_this(),
+                 turn = ++turn_](HttpReply reply) {
+    if (const auto alive = core.lock())
+      net::post(alive->io, [self, turn, reply = std::move(reply)]() mutable {
+        if (const auto connection = self.lock()) connection->answer(turn, std::move(reply));
+      });
+  };
+  try {
+    core_.handlers.http(asked, answer);
+  } catch (...) {
+    tell_fault("http");
+    answer({500,
+            "text/plain; charset=utf-8",
+            std::make_shared<std::string>("a fault of the lab\n"),
+            false,
+            {}});
+  }
+}
+
+void Connection::answer(std::uint64_t turn, HttpReply reply) {
+  if (is_gone_ || !is_waiting_ || turn != turn_) return;
+  is_waiting_ = false;
+  const Request& request = parser_->get();
+  if (!reply.body) reply.body = std::make_shared<std::string>();
+  ResponseHead head;
+  head.status = reply.status;
+  head.type = reply.type;
+  head.file_name = reply.file_name;
+  head.keeps_alive = request.keep_alive();
+  if (gives_cookie_) head.cookie = core_.cookie + "=" + core_.options.token;
+  if (reply.lasts && reply.status == 200) {
+    // Its path names its content: that is the tag.
+    const std::string_view target = view(request.target());
+    head.etag = '"' + std::string(target.substr(0, target.find_first_of("?\"\\"))) + '"';
+    if (view(request[http::field::if_none_match]) == head.etag) {
+      head.status = 304;
+      reply.body = std::make_shared<std::string>();
+    }
+  }
+  const std::string_view accepts = view(request[http::field::accept_encoding]);
+  if (is_packable(reply) && accepts.find("gzip") != accepts.npos) {
+    head.is_packed = true;
+    reply.body = core_.packed(reply.body);
+  }
+  head.size = reply.body->size();
+  write(head, request.method() == http::verb::head ? nullptr : reply.body);
+}
+
+void Connection::refuse(int status, const std::string& why) {
+  ResponseHead head;
+  const Bytes body = std::make_shared<std::string>("twinarm lab: " + why + "\n");
+  head.status = status;
+  head.type = "text/plain; charset=utf-8";
+  head.size = body->size();
+  head.keeps_alive = false;
+  write(head, body);
+}
+
+void Connection::write(ResponseHead head, Bytes body) {
+  head_ = to_string(head);
+  body_ = body ? std::move(body) : std::make_shared<std::string>();
+  deadline_ = Clock::now() + core_.patience(0.25) +
+              std::chrono::milliseconds(
+                  static_cast<long>(1e3 * static_cast<double>(body_->size()) / kSlowestDownload));
+  const std::array<net::const_buffer, 2> both{net::buffer(head_), net::buffer(*body_)};
+  net::async_write(
+      socket_, both,
+      [self = shared_from_this(), goes_on = head.keeps_alive](error_code error, std::size_t) {
+        self->body_.reset();
+        if (error) return self->drop();
+        goes_on ? self->start() : self->linger();
+      });
+}
+
+// Whoever closes with words unheard takes back what he said: what still comes is read, for a while.
+void Connection::linger() {
+  error_code ignored;
+  if (!is_closing_) {
+    is_closing_ = true;
+    deadline_ = Clock::now() + kFarewell;
+    socket_.shutdown(Socket::shutdown_send, ignored);
+  }
+  socket_.async_read_some(net::buffer(chunk_),
+                          [self = shared_from_this()](error_code error, std::size_t) {
+                            error ? self->drop() : self->linger();
+                          });
+}
+
+}  // namespace twinarm::lab_server

@@ -1,0 +1,212 @@
+#include "app/lab/server/http_text.h"
+
+#include <arpa/inet.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace twinarm {
+namespace {
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+std::optional<std::string> unescaped(std::string_view text, bool plus_is_space) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '%') {
+      const int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+      const int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
+      if (high < 0 || low < 0) return {};
+      plain += static_cast<char>(high * 16 + low);
+      i += 2;
+    } else {
+      plain += plus_is_space && text[i] == '+' ? ' ' : text[i];
+    }
+  }
+  const bool is_text = std::none_of(plain.begin(), plain.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+  });
+  if (!is_text || !is_utf8(plain)) return {};
+  return plain;
+}
+
+bool is_numeric(std::string_view host) {
+  std::string text(host);
+  std::array<unsigned char, 16> bytes{};
+  if (inet_pton(AF_INET, text.c_str(), bytes.data()) == 1) return true;
+  if (text.size() < 3 || text.front() != '[' || text.back() != ']') return false;
+  return inet_pton(AF_INET6, text.substr(1, text.size() - 2).c_str(), bytes.data()) == 1;
+}
+
+const char* reason(int status) {
+  switch (status) {
+    case 200:
+      return "OK";
+    case 304:
+      return "Not Modified";
+    case 400:
+      return "Bad Request";
+    case 403:
+      return "Forbidden";
+    case 404:
+      return "Not Found";
+    case 405:
+      return "Method Not Allowed";
+    case 413:
+      return "Content Too Large";
+    case 422:
+      return "Unprocessable Content";
+    case 429:
+      return "Too Many Requests";
+    case 431:
+      return "Request Header Fields Too Large";
+    case 500:
+      return "Internal Server Error";
+    case 503:
+      return "Service Unavailable";
+    default:
+      return "Status";
+  }
+}
+
+// A line of a head has no room for what would end it.
+std::string header_text(std::string_view text) {
+  std::string safe(text);
+  for (char& c : safe)
+    if (c < 0x20 || c == 0x7f || c == '"' || c == '\\') c = '_';
+  return safe;
+}
+
+}  // namespace
+
+bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t more = lead < 0x80   ? 0
+                             : lead < 0xc2 ? 9
+                             : lead < 0xe0 ? 1
+                             : lead < 0xf0 ? 2
+                                           : 3;
+    if (lead > 0xf4 || more > 3 || i + more >= text.size()) return false;
+    std::uint32_t code = more == 0 ? lead : lead & (0x3fu >> more);
+    for (std::size_t k = 1; k <= more; ++k) {
+      const auto next = static_cast<unsigned char>(text[i + k]);
+      if ((next & 0xc0) != 0x80) return false;
+      code = code << 6 | (next & 0x3f);
+    }
+    if ((more == 2 && code < 0x800) || (more == 3 && code < 0x10000)) return false;
+    if ((code >= 0xd800 && code < 0xe000) || code > 0x10ffff) return false;
+    i += more + 1;
+  }
+  return true;
+}
+
+std::optional<std::string> decoded_path(std::string_view path) {
+  if (path.empty() || path.front() != '/') return {};
+  std::optional<std::string> plain = unescaped(path, false);
+  if (plain && (*plain + "/").find("/../") != std::string::npos) return {};
+  return plain;
+}
+
+std::optional<std::string> query_value(std::string_view query, std::string_view name) {
+  while (!query.empty()) {
+    const std::string_view pair = query.substr(0, query.find('&'));
+    query.remove_prefix(std::min(query.size(), pair.size() + 1));
+    const std::size_t equals = pair.find('=');
+    if (pair.substr(0, equals) == name)
+      return unescaped(equals == pair.npos ? "" : pair.substr(equals + 1), true);
+  }
+  return {};
+}
+
+bool is_secret(std::string_view given, std::string_view secret) {
+  if (secret.empty()) return false;
+  unsigned different = given.size() != secret.size();
+  for (std::size_t i = 0; i < secret.size(); ++i)
+    different |= static_cast<unsigned>(secret[i] ^ (given.empty() ? 0 : given[i % given.size()]));
+  return different == 0;
+}
+
+std::string_view cookie_value(std::string_view cookies, std::string_view name) {
+  while (!cookies.empty()) {
+    std::string_view pair = cookies.substr(0, cookies.find(';'));
+    cookies.remove_prefix(std::min(cookies.size(), pair.size() + 1));
+    pair.remove_prefix(std::min(pair.size(), pair.find_first_not_of(' ')));
+    const std::size_t equals = pair.find('=');
+    if (equals != pair.npos && pair.substr(0, equals) == name) return pair.substr(equals + 1);
+  }
+  return {};
+}
+
+HostNames::HostNames(const std::string& address, std::uint16_t port, bool is_loopback, bool is_any)
+    : port_(":" + std::to_string(port)), is_any_(is_any) {
+  names_.push_back(address.find(':') == address.npos ? address : "[" + address + "]");
+  if (is_loopback || is_any) names_.push_back("localhost");
+  std::array<char, 256> own{};
+  if (!is_loopback && gethostname(own.data(), own.size() - 1) == 0) names_.push_back(own.data());
+}
+
+bool HostNames::has(std::string_view host) const {
+  if (host.size() > port_.size() && host.substr(host.size() - port_.size()) == port_)
+    host.remove_suffix(port_.size());
+  else if (port_ != ":80")
+    return false;
+  return std::find(names_.begin(), names_.end(), host) != names_.end() ||
+         (is_any_ && is_numeric(host));
+}
+
+std::string to_string(const ResponseHead& head) {
+  std::string text = "HTTP/1.1 " + std::to_string(head.status) + ' ' + reason(head.status);
+  if (head.status != 304) {
+    text += "\r\nContent-Type: " + header_text(head.type);
+    text += "\r\nContent-Length: " + std::to_string(head.size);
+  }
+  if (head.is_packed) text += "\r\nContent-Encoding: gzip";
+  if (head.etag.empty())
+    text += "\r\nCache-Control: no-store";
+  else
+    text += "\r\nCache-Control: private, max-age=31536000, immutable\r\nETag: " + head.etag;
+  if (!head.file_name.empty())
+    text += "\r\nContent-Disposition: attachment; filename=\"" + header_text(head.file_name) + '"';
+  if (!head.cookie.empty())
+    text += "\r\nSet-Cookie: " + header_text(head.cookie) + "; Path=/; HttpOnly; SameSite=Strict";
+  if (head.status == 405) text += "\r\nAllow: GET, HEAD, POST";
+  if (!head.keeps_alive) text += "\r\nConnection: close";
+  return text +
+         "\r\nVary: Accept-Encoding, Cookie\r\nX-Content-Type-Options: nosniff"
+         "\r\nReferrer-Policy: no-referrer\r\nX-Frame-Options: DENY\r\n\r\n";
+}
+
+bool is_packable(const HttpReply& reply) {
+  const bool is_text =
+      reply.type.starts_with("text/") || reply.type.starts_with("application/json");
+  return reply.status == 200 && is_text && reply.file_name.empty() && reply.body->size() > 1024 &&
+         reply.body->size() < (std::size_t{8} << 20);
+}
+
+std::string gzipped(const std::string& bytes) {
+  constexpr int kGzip = 15 + 16;  // the largest window, and gzip's own head
+  z_stream stream{};
+  if (deflateInit2(&stream, 6, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::runtime_error("zlib: deflateInit2 failed");
+  std::string packed(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  const int result = deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  if (result != Z_STREAM_END) throw std::runtime_error("zlib: deflate failed");
+  return packed;
+}
+
+}  // namespace twinarm

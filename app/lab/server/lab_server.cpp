@@ -1,0 +1,184 @@
+#include "app/lab/server/lab_server.h"
+
+#include <sys/random.h>
+
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <thread>
+
+#include "app/lab/server/connection_live.inl"
+#include "solver/fault.h"
+
+namespace twinarm {
+namespace lab_server {
+
+void tell_fault(const char* where) {
+  try {
+    throw;
+  } catch (const std::exception& fault) {
+    std::fprintf(stderr, "twinarm lab: fault in '%s': %s\n", where, fault.what());
+  } catch (...) {
+    std::fprintf(stderr, "twinarm lab: fault in '%s'\n", where);
+  }
+}
+
+Core::Core(const ServerOptions& given, ServerHandlers called)
+    : options(given), handlers(std::move(called)) {}
+
+Bytes Core::packed(const Bytes& body) {
+  if (plain_.lock() != body) {
+    packed_ = std::make_shared<std::string>(gzipped(*body));
+    plain_ = body;
+  }
+  return packed_;
+}
+
+}  // namespace lab_server
+
+namespace {
+
+using namespace lab_server;
+constexpr std::chrono::milliseconds kSweep{200};
+// A browser keeps several connections open for a page.
+constexpr std::size_t kConnectionsPerClient = 8;
+
+[[noreturn]] void refuse_address(const ServerOptions& options, const std::string& why) {
+  const bool is_port = options.port != 0;
+  throw InputError({Fault{{},
+                          0,
+                          is_port ? "--port " + std::to_string(options.port) : "--listen",
+                          "address " + options.address + " cannot be listened on: " + why,
+                          is_port ? "another program may have this port: leave --port out, and a "
+                                    "free one is taken"
+                                  : "give a numeric address of this machine, as 127.0.0.1"}});
+}
+
+}  // namespace
+
+struct LabServer::Impl {
+  Impl(const ServerOptions& options, ServerHandlers handlers)
+      : core(std::make_shared<Core>(options, std::move(handlers))),
+        acceptor(core->io),
+        timer(core->io) {
+    listen();
+    accept();
+    sweep();
+    thread = std::thread([this] { work(); });
+  }
+  ~Impl() {
+    core->io.stop();
+    thread.join();
+    core->connections.clear();
+  }
+
+  void listen() {
+    const ServerOptions& options = core->options;
+    error_code error;
+    const net::ip::address address = net::ip::make_address(
+        options.address == "localhost" ? "127.0.0.1" : options.address, error);
+    if (error) refuse_address(options, "it is not a numeric address");
+    const net::ip::tcp::endpoint place(address, options.port);
+    acceptor.open(place.protocol(), error);
+    if (!error) acceptor.set_option(Acceptor::reuse_address(true), error);
+    if (!error) acceptor.bind(place, error);
+    if (!error) acceptor.listen(Acceptor::max_listen_connections, error);
+    if (error) refuse_address(options, error.message());
+    const std::uint16_t port = acceptor.local_endpoint().port();
+    core->hosts.emplace(address.to_string(), port, address.is_loopback(), address.is_unspecified());
+    core->cookie = "twinarm_" + std::to_string(port);
+  }
+
+  void accept() {
+    acceptor.async_accept(core->io, [this](error_code error, Socket socket) {
+      const std::size_t most = kConnectionsPerClient * core->options.most_clients;
+      if (!error && core->connections.size() < most) {
+        socket.set_option(net::ip::tcp::no_delay(true), error);
+        const auto connection = std::make_shared<Connection>(*core, std::move(socket));
+        core->connections.insert(connection);
+        connection->start();
+      }
+      // Without descriptors left, the next try is that of the next sweep.
+      if (error)
+        needs_accept = true;
+      else
+        accept();
+    });
+  }
+
+  void sweep() {
+    timer.expires_after(kSweep);
+    timer.async_wait([this](error_code) {
+      const Clock::time_point now = Clock::now();
+      const auto all = core->connections;  // they leave it
+      for (const auto& connection : all) connection->sweep(now);
+      if (std::exchange(needs_accept, false)) accept();
+      sweep();
+    });
+  }
+
+  void wake() {
+    net::post(core->io, [core = core.get()] {
+      core->mailboxes.awake();
+      const auto all = core->connections;
+      for (const auto& connection : all) connection->send_next();
+    });
+  }
+
+  void work() {
+    while (!core->io.stopped()) {
+      try {
+        core->io.run();
+      } catch (...) {
+        tell_fault("server");
+      }
+    }
+  }
+
+  std::shared_ptr<Core> core;
+  Acceptor acceptor;
+  net::steady_timer timer;
+  bool needs_accept = false;
+  std::thread thread;
+};
+
+LabServer::LabServer(const ServerOptions& options, ServerHandlers handlers)
+    : impl_(std::make_unique<Impl>(options, std::move(handlers))) {}
+LabServer::~LabServer() = default;
+
+std::uint16_t LabServer::port() const {
+  return impl_->acceptor.local_endpoint().port();
+}
+
+std::string LabServer::url() const {
+  const net::ip::address address = impl_->acceptor.local_endpoint().address();
+  const std::string name = address.is_unspecified() ? "127.0.0.1" : address.to_string();
+  return "http://" + (address.is_v6() && !address.is_unspecified() ? "[" + name + "]" : name) +
+         ":" + std::to_string(port()) + "/?token=" + impl_->core->options.token;
+}
+
+void LabServer::send(ClientId client, int channel, Bytes message, bool is_binary) {
+  if (impl_->core->mailboxes.put(client, channel, {std::move(message), is_binary})) impl_->wake();
+}
+
+void LabServer::send_all(int channel, Bytes message, bool is_binary) {
+  if (impl_->core->mailboxes.put_all(channel, {std::move(message), is_binary})) impl_->wake();
+}
+
+LabServer::Traffic LabServer::traffic(ClientId client) const {
+  return impl_->core->mailboxes.traffic(client);
+}
+
+std::string random_token() {
+  std::array<unsigned char, 16> bytes{};
+  if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    throw std::runtime_error("getrandom: no random bytes");
+  std::string token;
+  for (const unsigned char byte : bytes) {
+    token += "0123456789abcdef"[byte >> 4];
+    token += "0123456789abcdef"[byte & 15];
+  }
+  return token;
+}
+
+}  // namespace twinarm
