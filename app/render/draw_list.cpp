@@ -82,7 +82,7 @@ void add_mesh_instance(DrawList& list, MeshId mesh, const Pose& X_WM, const Colo
   assert(mesh < list.meshes.size());
   if (!X_WM.R.allFinite() || !X_WM.p.allFinite() || !scale.allFinite()) return;
   if (!(scale.minCoeff() > 0)) return;
-  list.instances.push_back({mesh, X_WM, scale, color, shininess, false, std::nullopt});
+  list.instances.push_back({mesh, X_WM, scale, color, shininess, false, std::nullopt, -1});
 }
 
 void add_box(DrawList& list, const Pose& X_WM, const Vector3& size, const Color& color) {

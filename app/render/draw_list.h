@@ -39,6 +39,7 @@ struct Instance {
   float shininess = 0.35f;           // 0 = chalk, 1 = polished
   bool seen_through = false;         // faintly to be seen where it is behind or inside of bodies
   std::optional<TextureId> texture;  // times the colour, where the mesh has uv; not on ghosts
+  int body = -1;  // that it is, or speaks of, for who points at it; -1: of none. Not painted
 };
 
 enum class Align { left, center, right };
@@ -124,6 +125,23 @@ class DrawList {
  private:
   std::map<UnitShape, MeshId> units_;
   std::map<int, MeshId> springs_;  // by the step of their aspect
+};
+
+// All instances that are placed while it lives are of that body.
+class OfBody {
+ public:
+  OfBody(DrawList& list, std::size_t body)
+      : list_(list), first_(list.instances.size()), body_(static_cast<int>(body)) {}
+  ~OfBody() {
+    for (std::size_t i = first_; i < list_.instances.size(); ++i) list_.instances[i].body = body_;
+  }
+  OfBody(const OfBody&) = delete;
+  OfBody& operator=(const OfBody&) = delete;
+
+ private:
+  DrawList& list_;
+  std::size_t first_;
+  int body_;
 };
 
 // Places overlays. What has no extent (a force of zero) or is not finite is left out.

@@ -54,16 +54,22 @@ ShownPull pull_of(const SceneModel& scene, SceneCouplings& couplings, std::size_
     return shown;
   }
   shown.p_D = shown.p_K = moment.k.X_WL[shown.body].p;
-  shown.kind = ShownPull::Kind::couple;
+  shown.kind = kind_of_pull(scene, c);
   shown.pull_W = pull;
-  if (spec.measure == Measure::joint) {
-    shown.pull_W = pull.x() * joint_axis(moment.k, shown.body);
-    if (scene.model.joint[shown.body] == JointType::prismatic) shown.kind = ShownPull::Kind::force;
-  }
+  if (spec.measure == Measure::joint) shown.pull_W = pull.x() * joint_axis(moment.k, shown.body);
   return shown;
 }
 
 }  // namespace
+
+ShownPull::Kind kind_of_pull(const SceneModel& scene, std::size_t coupling) {
+  const SceneCoupling& spec = scene.couplings[coupling];
+  const bool along_joint =
+      spec.measure == Measure::joint &&
+      scene.model.joint[static_cast<std::size_t>(spec.spring.body)] == JointType::prismatic;
+  return spec.type == CouplingDescription::Type::linear || along_joint ? ShownPull::Kind::force
+                                                                       : ShownPull::Kind::couple;
+}
 
 std::vector<PairForce> pair_forces(const Moment& moment) {
   struct Sum {
@@ -74,6 +80,7 @@ std::vector<PairForce> pair_forces(const Moment& moment) {
   for (const ShownContact& contact : moment.contacts) {
     Sum& sum = sums[{contact.a, contact.b}];
     const double weight = std::max(1e-12, contact.force_W.dot(contact.n_W));
+    sum.pair.body_b = contact.body_b;
     sum.pair.force += contact.force_W;
     sum.pair.couple += contact.couple_W;
     sum.pair.point += weight * contact.p_W;

@@ -36,6 +36,7 @@ struct ShownPull {
 
 // All points of two geometries that touch.
 struct PairForce {
+  std::size_t body_b = 0;
   Vector3 force = Vector3::Zero(), couple = Vector3::Zero();  // on b [N], [N m]
   Vector3 point = Vector3::Zero();  // centre of pressure, weighed by the normal parts
 };
@@ -50,6 +51,14 @@ struct ShownTwin {
 struct ShownHand {
   std::array<double, 6> theta{};  // its joints theta1..theta6 [rad]
   bool button = false;
+  Vector3 force_W = Vector3::Zero();  // that its motors put on the stylus [N]
+};
+
+// A spring by which somebody pulls at a body from outside.
+struct ShownGrip {
+  std::size_t body = 0;
+  Vector3 p_W = Vector3::Zero(), goal_W = Vector3::Zero();  // on the body; where it is pulled to
+  Vector3 force_W = Vector3::Zero();                        // on the body [N]
 };
 
 struct Moment {
@@ -58,10 +67,15 @@ struct Moment {
   std::vector<ShownContact> contacts;
   std::vector<ShownPull> pulls;
   std::vector<ShownTwin> twins;
-  std::vector<ShownHand> hands;                    // by twin that a hand moves
+  std::vector<ShownHand> hands;  // by twin that a hand moves
+  std::optional<ShownGrip> grip;
+  std::vector<Pose> before;                        // of another run at this time, by body; or none
   double kinetic = 0, potential = 0, elastic = 0;  // [J]
   explicit Moment(const Model<double>& model) : x(model), k(model) {}
 };
+
+// Of a coupling of the scene.
+ShownPull::Kind kind_of_pull(const SceneModel& scene, std::size_t coupling);
 
 // In the order of the pairs' names.
 std::vector<PairForce> pair_forces(const Moment& moment);

@@ -33,6 +33,14 @@ const std::vector<Overlay>& all_overlays() {
   return all;
 }
 
+const std::vector<Overlay>& live_overlays() {
+  static const std::vector<Overlay> all{
+      {"felt", "the force that the hand device puts on the hand", show_felt},
+      {"pull", "the spring by which the mouse pulls at a body", show_pull},
+      {"before", "the bodies of the run that was left for this one", show_before, false}};
+  return all;
+}
+
 std::vector<std::string> parse_overlays(const std::string& text) {
   std::vector<std::string> known, words(1), chosen;
   for (const Overlay& overlay : all_overlays()) known.emplace_back(overlay.name);

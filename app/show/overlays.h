@@ -18,6 +18,8 @@ struct Overlay {
 
 // In the order in which they are drawn and stand in the legend.
 const std::vector<Overlay>& all_overlays();
+// After those, of a run that somebody works on: no recording has what they show.
+const std::vector<Overlay>& live_overlays();
 
 // "forces,contacts"; "none"; "all". Throws InputError with all faults.
 std::vector<std::string> parse_overlays(const std::string& text);
@@ -37,6 +39,9 @@ void show_articulated(Stage& stage, const Moment& moment);
 void show_trails(Stage& stage, const Moment& moment);
 void show_labels(Stage& stage, const Moment& moment);
 void show_energy(Stage& stage, const Moment& moment);
+void show_felt(Stage& stage, const Moment& moment);
+void show_pull(Stage& stage, const Moment& moment);
+void show_before(Stage& stage, const Moment& moment);
 
 // "12.3 N", "4.57 kN": three digits.
 std::string with_unit(double value, const std::string& unit);

@@ -19,6 +19,8 @@ inline const Color kObstacle{0.60f, 0.58f, 0.55f, 1.0f};
 inline const Color kDriven{0.50f, 0.52f, 0.58f, 1.0f};  // moves by a law, whatever pushes
 inline const Color kGhost{0.25f, 0.50f, 0.95f, 0.30f};
 inline const Color kGhostSwatch{0.45f, 0.62f, 0.95f, 1.0f};
+inline const Color kBefore{0.85f, 0.45f, 0.05f, 0.30f};  // of a run that was left
+inline const Color kBeforeSwatch{0.90f, 0.64f, 0.38f, 1.0f};
 inline constexpr float kHollow = 0.28f;  // opacity of what is seen from inside
 
 inline const Color kForce{0.80f, 0.16f, 0.14f, 1.0f};
@@ -34,6 +36,10 @@ inline const Color kInertia{0.90f, 0.60f, 0.10f, 0.30f};
 inline const Color kInertiaSwatch{0.92f, 0.70f, 0.36f, 1.0f};
 inline const Color kArticulated{0.00f, 0.55f, 0.50f, 0.38f};
 inline const Color kArticulatedSwatch{0.36f, 0.68f, 0.64f, 1.0f};
+inline const Color kFelt{0.00f, 0.45f, 0.70f, 1.0f};      // by the hand
+inline const Color kFeltMost{0.84f, 0.37f, 0.00f, 1.0f};  // at the device's limit
+inline const Color kFeltRest{0.50f, 0.55f, 0.60f, 0.35f};
+inline const Color kMouse{0.80f, 0.20f, 0.55f, 1.0f};
 inline const Color kInk{0.10f, 0.12f, 0.15f, 1.0f};
 
 // The axes x, y, z, as everywhere, but told apart by lightness too.

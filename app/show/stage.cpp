@@ -33,6 +33,7 @@ void draw_planes(Stage& stage, const Moment& moment) {
     const Vector3 n = X_WL.R * plane.normal_L;
     const double offset = plane.offset + n.dot(X_WL.p);
     const Vector3 middle = center - (n.dot(center) - offset) * n;
+    const OfBody mark(stage.list, plane.body);
     add_box(stage.list, {turn_z_to(n), middle - 0.5 * thick * n}, {reach, reach, thick},
             plane.color);
   }
@@ -40,6 +41,7 @@ void draw_planes(Stage& stage, const Moment& moment) {
 
 void draw_bodies(Stage& stage, const Moment& moment) {
   for (const CastPart& part : stage.cast.parts) {
+    const OfBody mark(stage.list, part.body);
     const std::size_t before = stage.list.instances.size();
     add_mesh_instance(stage.list, part.mesh, moment.k.X_WL[part.body] * part.X_LM, part.color,
                       part.scale);
@@ -180,17 +182,23 @@ void set_view(Stage& stage, const CameraWish& wish, double aspect) {
   stage.list.camera = make_camera(wish, stage.extent, aspect);
 }
 
-void draw(Stage& stage, const Moment& moment, const std::vector<std::string>& overlays) {
-  stage.list.clear_frame();
+std::vector<Drawn> draw(Stage& stage, const Moment& moment,
+                        const std::vector<std::string>& overlays) {
+  DrawList& list = stage.list;
+  list.clear_frame();
   draw_planes(stage, moment);
   draw_bodies(stage, moment);
-  for (const Overlay& overlay : all_overlays()) {
-    if (std::find(overlays.begin(), overlays.end(), overlay.name) == overlays.end()) continue;
-    const std::size_t first = stage.list.instances.size();
-    overlay.add(stage, moment);
-    for (std::size_t i = first; i < stage.list.instances.size(); ++i)
-      stage.list.instances[i].seen_through = overlay.seen_through;
-  }
+  std::vector<Drawn> drawn{{}};
+  for (const auto* known : {&all_overlays(), &live_overlays()})
+    for (const Overlay& overlay : *known) {
+      if (std::find(overlays.begin(), overlays.end(), overlay.name) == overlays.end()) continue;
+      const std::size_t first = list.instances.size();
+      drawn.push_back({&overlay, first, list.labels.size(), list.legend.size()});
+      overlay.add(stage, moment);
+      for (std::size_t i = first; i < list.instances.size(); ++i)
+        list.instances[i].seen_through = overlay.seen_through;
+    }
+  return drawn;
 }
 
 }  // namespace twinarm

@@ -34,7 +34,10 @@ struct Scales {
   double metres_per(double largest) const;
 };
 
-struct Trace {  // where bodies went, by instant and body
+struct Overlay;
+
+struct Trace {          // where bodies went, by instant and body
+  double span = 1e300;  // before the moment that is shown [s]: only this is drawn of it
   std::vector<double> t;
   std::vector<std::vector<Vector3>> p_Wc;  // centres of mass; of the world zero
 };
@@ -73,8 +76,14 @@ void set_view(Stage& stage, const CameraWish& wish, double aspect);
 // The hand device stands on the ground, in front of all that is seen and to its left.
 void place_device(Stage& stage);
 
-// Names of overlays, as in overlays.h. Fills stage.list.
-void draw(Stage& stage, const Moment& moment, const std::vector<std::string>& overlays);
+// What one of them has put into stage.list: from there to where the next one begins.
+struct Drawn {
+  const Overlay* overlay = nullptr;  // null: the bodies
+  std::size_t instance = 0, label = 0, legend = 0;
+};
+// Names of overlays, as in overlays.h. Fills stage.list; the bodies first, then in the order there.
+std::vector<Drawn> draw(Stage& stage, const Moment& moment,
+                        const std::vector<std::string>& overlays);
 
 // Centre of mass of a body; of one without mass its origin.
 Vector3 com_of(const Model<double>& model, const Kinematics& k, std::size_t body);

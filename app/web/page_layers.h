@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/show/stage.h"
+#include "app/web/draw_columns.h"
 #include "app/web/page_bytes.h"
 
 namespace twinarm {
@@ -18,11 +19,9 @@ struct PageLayer {
   std::vector<LegendLine> legend;
   // Frame f has the entries first[f] to first[f + 1].
   std::vector<std::uint32_t> first{0}, first_label{0};
-  std::vector<std::uint16_t> mesh;
-  std::vector<std::uint32_t> text;
-  std::vector<std::uint8_t> flags, shininess, color, texture;
-  std::vector<float> position, scale, label_position;
-  std::vector<std::int16_t> turn, label_offset;
+  InstanceColumns instances;
+  LabelColumns labels;
+  std::vector<std::uint32_t> text;  // of labels: numbers
 };
 
 class PageLayers {
@@ -36,7 +35,9 @@ class PageLayers {
   void write(JsonWriter& json, PageBytes& bytes) const;
 
  private:
-  void add_entries(PageLayer& layer, std::size_t first_instance, std::size_t first_label);
+  // Of the list: from there to there.
+  void add_entries(PageLayer& layer, const Drawn& from, const Drawn& to);
+  Drawn end_of_list() const;
   std::uint32_t number_of(const std::string& text);
 
   Stage& stage_;
@@ -44,8 +45,5 @@ class PageLayers {
   std::vector<std::string> texts_;  // of labels, each once
   std::map<std::string, std::uint32_t> numbers_;
 };
-
-// Key view: camera, light, floor.
-void write_view(JsonWriter& json, const Stage& stage);
 
 }  // namespace twinarm

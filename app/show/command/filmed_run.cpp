@@ -17,27 +17,6 @@ namespace {
 constexpr int kAround = 240;           // instants that stand for the whole run
 constexpr double kMostPictures = 1e5;  // of a film
 
-RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model) {
-  RunInstant instant;
-  instant.x = State<double>(model);
-  Memory memory = simulation_memory(frame.memory);
-  memory.visit(instant.x.q);
-  memory.visit(instant.x.qd);
-  memory.visit(instant.x.t);
-  instant.pulls = frame.pulls;
-  instant.contacts = frame.contacts;
-  return instant;
-}
-
-// Whether forces do: by the joints between the body and the world.
-bool moves(const Model<double>& model, std::size_t body) {
-  for (std::size_t i = body; i > 0; i = static_cast<std::size_t>(model.parent[i])) {
-    if (model.joint[i] == JointType::prescribed) return false;
-    if (model.joint[i] != JointType::fixed) return true;
-  }
-  return false;
-}
-
 // Before the first step nothing has been computed: what is shown there is what acts in it.
 void take_forces_of_first_step(std::vector<RunInstant>& instants, const RunInstant& first) {
   for (RunInstant& instant : instants)
@@ -193,38 +172,6 @@ FilmedRun let_run(const RobotOptions& robot, const FilmTimes& times, const std::
 }
 
 }  // namespace
-
-Moment FilmedRun::moment(const RunInstant& instant) const {
-  const SceneModel* scene = plan.input.scene.get();
-  Moment moment = scene ? moment_of(*scene, *plan.input.couplings, instant.x, instant.pulls)
-                        : moment_of(model(), instant.x);
-  if (!scene) return moment;
-  const auto count = static_cast<int>(scene->geometries.size());
-  for (const RecordedContact& c : instant.contacts) {
-    if (c.a < 0 || c.b < 0 || c.a >= count || c.b >= count) continue;
-    const auto body_of_geometry = [&](int g) {
-      return static_cast<std::size_t>(scene->geometries[static_cast<std::size_t>(g)].body);
-    };
-    ShownContact on_b{c.a,
-                      c.b,
-                      body_of_geometry(c.a),
-                      body_of_geometry(c.b),
-                      c.point,
-                      c.normal,
-                      c.force,
-                      c.couple,
-                      scene->surface_of_pair(c.a, c.b).friction};
-    if (!moves(scene->model, on_b.body_b) && moves(scene->model, on_b.body_a)) {
-      std::swap(on_b.a, on_b.b);
-      std::swap(on_b.body_a, on_b.body_b);
-      on_b.n_W = -on_b.n_W;
-      on_b.force_W = -on_b.force_W;
-      on_b.couple_W = -on_b.couple_W;
-    }
-    moment.contacts.push_back(on_b);
-  }
-  return moment;
-}
 
 std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
                                  const std::filesystem::path& right, FilmTimes times) {

@@ -10,18 +10,11 @@
 #include "app/commands.h"
 #include "app/progress.h"
 #include "app/record/recording_reader.h"
+#include "app/record/shown_instant.h"
 #include "app/record/unpack.h"
-#include "app/show/moment.h"
 #include "app/simulate/simulate_input.h"
 
 namespace twinarm {
-
-// Of the step that ended here; at the start of the one that begins here.
-struct RunInstant {
-  State<double> x;
-  std::vector<Vector3> pulls;
-  std::vector<RecordedContact> contacts;
-};
 
 struct FilmedRun {
   std::string name;  // of a run beside another: its file's; empty: the scene's
@@ -32,7 +25,9 @@ struct FilmedRun {
   std::vector<RunInstant> around;  // of the whole run, some hundred: for framing, scales, trails
 
   const Model<double>& model() const { return plan.input.robot.model; }
-  Moment moment(const RunInstant& instant) const;
+  Moment moment(const RunInstant& instant) const {
+    return moment_of(plan.input, plan.input.couplings.get(), instant);
+  }
 };
 
 struct FilmTimes {

@@ -28,6 +28,7 @@ void show_contacts(Stage& stage, const Moment& moment) {
   const double height = 0.09 * std::pow(crowd, -0.65) * stage.scales.length;
   bool any_cone = false;
   for (const ShownContact& contact : moment.contacts) {
+    const OfBody mark(stage.list, contact.body_b);
     add_sphere(stage.list, contact.p_W, 1.5 * radius, palette::kPoint);
     add_arrow(stage.list, contact.p_W, contact.p_W + 1.35 * height * contact.n_W, 0.6 * radius,
               palette::kNormal);

@@ -66,6 +66,7 @@ void show_couplings(Stage& stage, const Moment& moment) {
     (is_force ? drawn.force : drawn.couple) = true;
     if (!(largest > 0) || size < std::max(least, kLeastPull * largest)) continue;
     const Color color = palette::ramp(size / largest);
+    const OfBody mark(stage.list, pull.body);
     if (pull.has_ends)
       draw_spring(stage, pull, color);
     else

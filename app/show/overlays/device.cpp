@@ -4,9 +4,12 @@
 // two links, are taken by eye.
 #include "coupling/device/omni.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 
 #include "app/show/overlays.h"
+#include "app/show/palette.h"
 #include "solver/turn.h"
 
 namespace twinarm {
@@ -17,6 +20,9 @@ const Color kCase{0.23f, 0.24f, 0.27f, 1.0f}, kArm{0.66f, 0.68f, 0.71f, 1.0f},
     kBlockColor{0.78f, 0.76f, 0.72f, 1.0f};
 // Above the ground [m]: the case stands on a block, for at zero the stylus hangs below its foot.
 constexpr double kShoulder = 0.21, kBlock = 0.085;
+constexpr double kNextDevice = 0.35;                        // to the left of the one before [m]
+constexpr double kFeltLength = 0.165, kFeltRadius = 0.007;  // of the peak force's arrow [m]
+constexpr double kLeastFelt = 0.01;                         // that is drawn [N]
 
 Vector3 shoulder_of(const OmniFigures& omni) {
   return {0, omni.lift, -omni.back};
@@ -69,9 +75,34 @@ void show_device(Stage& stage, const Moment& moment) {
   Pose X_WD = *stage.X_WDevice;
   for (const ShownHand& hand : moment.hands) {
     draw_device(stage.list, X_WD, hand);
-    X_WD.p.x() -= 0.35;  // of a second hand
+    X_WD.p.x() -= kNextDevice;
   }
   stage.list.legend.push_back({kStylus, "hand device (Phantom Omni), true size"});
+}
+
+// From the stylus' point, beside all that the device can do: a full arrow is its peak force. At
+// that limit the colour changes.
+void show_felt(Stage& stage, const Moment& moment) {
+  if (moment.hands.empty() || !stage.X_WDevice) return;
+  const OmniFigures omni;
+  const double most = omni.peak_force;
+  Pose X_WD = *stage.X_WDevice;
+  for (const ShownHand& hand : moment.hands) {
+    const Vector3 p_W = X_WD * omni_position(omni, hand.theta);
+    X_WD.p.x() -= kNextDevice;
+    const double size = hand.force_W.norm();
+    if (!(size > kLeastFelt) || !(size < 1e6)) continue;
+    const Vector3 along = hand.force_W / size, tip = p_W + (kFeltLength * size / most) * along;
+    const bool is_most = size > 0.99 * most;
+    add_arrow(stage.list, p_W, tip, kFeltRadius, is_most ? palette::kFeltMost : palette::kFelt);
+    if (!is_most)
+      add_arrow(stage.list, tip, p_W + kFeltLength * along, 0.6 * kFeltRadius, palette::kFeltRest);
+    add_label(stage.list, p_W, fmt::format("{:.2f} of {:.1f} N", size, most), {26, -30});
+  }
+  stage.list.legend.push_back(
+      {palette::kFelt, scale_words("force on the hand", kFeltLength / most, 0.2, "N")});
+  stage.list.legend.push_back(
+      {palette::kFeltMost, "at the device's limit: " + with_unit(most, "N")});
 }
 
 }  // namespace twinarm

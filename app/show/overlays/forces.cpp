@@ -33,6 +33,7 @@ void show_forces(Stage& stage, const Moment& moment) {
     const double size = pair.force.norm();
     if (!(size > kLeastForce * stage.scales.contact_force)) continue;
     const Vector3 tip = pair.point + scale * pair.force;
+    const OfBody mark(stage.list, pair.body_b);
     add_arrow(stage.list, pair.point, tip, radius, palette::kForce);
     if (size >= least_told) add_label(stage.list, pair.point, with_unit(size, "N"), {30, -6});
     if (pair.couple.norm() > 0)
@@ -52,6 +53,7 @@ void show_gravity(Stage& stage, const Moment& moment) {
     const double m = stage.model->I[i].m;
     if (!(m * g.norm() > 0)) continue;
     const Vector3 c = com_of(*stage.model, moment.k, i);
+    const OfBody mark(stage.list, i);
     add_arrow(stage.list, c, c + scale * m * g, stage.scales.radius(), palette::kGravity);
   }
   stage.list.legend.push_back(

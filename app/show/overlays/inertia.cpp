@@ -38,8 +38,9 @@ Vector3 at_least(const Vector3& semi_axes, double least) {
   return semi_axes.cwiseMax(least);
 }
 
-void draw_ellipsoid(Stage& stage, const Vector3& center, const Principal& shape,
+void draw_ellipsoid(Stage& stage, std::size_t body, const Vector3& center, const Principal& shape,
                     const Vector3& semi_axes, const Color& color) {
+  const OfBody mark(stage.list, body);
   add_mesh_instance(stage.list, stage.list.unit_mesh(UnitShape::sphere), {shape.axes, center},
                     color, at_least(semi_axes, 0.004 * stage.scales.length));
 }
@@ -60,7 +61,7 @@ void show_inertia(Stage& stage, const Moment& moment) {
     Vector3 semi;
     for (int c = 0; c < 3; ++c)
       semi[c] = std::sqrt(std::max(0.0, 2.5 * (sum - 2 * I.values[c]) / m));
-    draw_ellipsoid(stage, com_of(model, moment.k, i), I, semi, palette::kInertia);
+    draw_ellipsoid(stage, i, com_of(model, moment.k, i), I, semi, palette::kInertia);
   }
   stage.list.legend.push_back(
       {palette::kInertiaSwatch, "inertia: the uniform ellipsoid with the body's mass and moments"});
@@ -82,7 +83,8 @@ void show_articulated(Stage& stage, const Moment& moment) {
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     if (is_free_body(model, i) || !all[i].values.allFinite()) continue;
     if (!(all[i].values.maxCoeff() > 0)) continue;
-    draw_ellipsoid(stage, moment.k.X_WL[i].p, all[i], scale * all[i].values, palette::kArticulated);
+    draw_ellipsoid(stage, i, moment.k.X_WL[i].p, all[i], scale * all[i].values,
+                   palette::kArticulated);
   }
   stage.list.legend.push_back(
       {palette::kArticulatedSwatch,

@@ -41,6 +41,7 @@ void show_joints(Stage& stage, const Moment& moment) {
     const JointType type = stage.model->joint[i];
     if (!has_one_axis(type)) continue;
     (turns(type) ? any_turns : any_slides) = true;
+    const OfBody mark(stage.list, i);
     draw_axis(stage, moment, i);
   }
   if (any_turns) stage.list.legend.push_back({kTurns, "joint that turns: axis and sense"});
@@ -49,8 +50,10 @@ void show_joints(Stage& stage, const Moment& moment) {
 
 void show_frames(Stage& stage, const Moment& moment) {
   const double length = 0.12 * stage.scales.length, radius = 0.45 * stage.scales.radius();
-  for (std::size_t i = 1; i < stage.model->parent.size(); ++i)
+  for (std::size_t i = 1; i < stage.model->parent.size(); ++i) {
+    const OfBody mark(stage.list, i);
     draw_frame(stage.list, moment.k.X_WL[i], length, radius);
+  }
   const char* names[] = {"x", "y", "z"};
   for (std::size_t c = 0; c < 3; ++c)
     stage.list.legend.push_back(

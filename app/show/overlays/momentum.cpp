@@ -12,8 +12,10 @@ const Color kDark{0.10f, 0.10f, 0.12f, 1.0f}, kWhole{0.95f, 0.85f, 0.20f, 1.0f};
 void show_com(Stage& stage, const Moment& moment) {
   const double radius = 1.6 * stage.scales.radius();
   for (std::size_t i = 1; i < stage.model->parent.size(); ++i)
-    if (stage.model->I[i].m > 0)
+    if (stage.model->I[i].m > 0) {
+      const OfBody mark(stage.list, i);
       add_sphere(stage.list, com_of(*stage.model, moment.k, i), radius, kDark);
+    }
   const TotalMotion total = total_motion(*stage.model, moment.k);
   if (!(total.mass > 0)) return;
   add_sphere(stage.list, total.com_W, 1.8 * radius, kWhole);

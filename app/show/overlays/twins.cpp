@@ -1,4 +1,5 @@
-// The KVR beside the DVR: translucent, where the two do not coincide.
+// The KVR beside the DVR, and the run that was left beside the one that goes on: translucent, where
+// the two do not coincide.
 #include "app/show/overlays.h"
 #include "app/show/palette.h"
 
@@ -19,12 +20,26 @@ void show_twins(Stage& stage, const Moment& moment) {
       if (part.robot != static_cast<int>(twin.robot)) continue;
       const Pose& X_WL = twin.X_WL[part.body];
       if (!is_apart(X_WL, moment.k.X_WL[part.body], stage.scales.length)) continue;
+      const OfBody mark(stage.list, part.body);
       add_mesh_instance(stage.list, part.mesh, X_WL * part.X_LM, palette::kGhost, part.scale);
       any = true;
     }
   if (any)
     stage.list.legend.push_back(
         {palette::kGhostSwatch, "kinematic twin: moved by the hand, has no mass"});
+}
+
+void show_before(Stage& stage, const Moment& moment) {
+  bool any = false;
+  for (const CastPart& part : stage.cast.parts) {
+    if (part.body == 0 || part.body >= moment.before.size()) continue;
+    const Pose& X_WL = moment.before[part.body];
+    if (!is_apart(X_WL, moment.k.X_WL[part.body], stage.scales.length)) continue;
+    const OfBody mark(stage.list, part.body);
+    add_mesh_instance(stage.list, part.mesh, X_WL * part.X_LM, palette::kBefore, part.scale);
+    any = true;
+  }
+  if (any) stage.list.legend.push_back({palette::kBeforeSwatch, "the run that was left"});
 }
 
 }  // namespace twinarm
