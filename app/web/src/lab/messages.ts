@@ -1,0 +1,148 @@
+// What goes between the lab and its page, as docs/lab_protocol.md has it. World frame: z up;
+// metres, seconds, radians, newtons.
+import type { Channel, LegendLine, View } from '../data/run';
+
+export type Vector = [number, number, number];
+
+export interface SceneLayer {
+  name: string; // "bodies" first; the last, "before", is the robot of the branch that was left
+  what: string;
+  legend: LegendLine[];
+}
+
+export interface SceneChannel {
+  name: string; // "q/arm1"
+  unit: string; // SI
+  kind: Channel['kind'] | 'pull' | 'hand' | 'time';
+  of: string;
+}
+
+export interface SceneBody {
+  name: string;
+  moves: boolean;
+  robot: boolean;
+}
+
+export interface SceneJoint {
+  name: string;
+  body: number;
+  low: number;
+  high: number;
+  driven?: number; // its place in hand.q; absent: the hand does not drive it
+}
+
+export interface SceneMessage {
+  kind: 'scene';
+  scene: number; // counts up; frames carry it
+  title: string;
+  file: string;
+  look: string[];
+  meshes: string[]; // hashes, by number in frames
+  textures: string[];
+  layers: SceneLayer[];
+  channels: SceneChannel[];
+  ledger: string[];
+  bodies: SceneBody[];
+  joints: SceneJoint[];
+  tip?: { body: number; p: Vector }; // the point that the hand leads, link axes
+  view: View;
+}
+
+export type Limit = { value: number; words: string; state: 'ok' | 'near' | 'beyond' };
+
+export interface Knob {
+  path: string;
+  label: string;
+  group: string;
+  value: number | string;
+  unit: string;
+  form: 'log' | 'linear' | 'choice' | 'number';
+  low?: number;
+  high?: number;
+  choices?: string[];
+  meaning: string;
+  limit?: Limit | null;
+  lag?: string | null;
+  restarts: boolean;
+}
+
+export interface Remedy {
+  words: string;
+  changes: string[];
+}
+
+export interface Death {
+  words: string[];
+  time: number;
+  quantity?: string;
+  body?: string;
+  spring?: string;
+  remedies: Remedy[];
+}
+
+export interface Note {
+  n: number;
+  level: 'note' | 'warning' | 'error';
+  text: string;
+}
+
+export interface HandState {
+  source: 'scene' | 'drag' | 'joints' | 'synthetic' | 'trace' | string;
+  mapping: string;
+  q: number[];
+  felt: boolean; // whether the force comes back to it
+  mode: string;
+}
+
+export interface StateMessage {
+  kind: 'state';
+  you: number;
+  holder: number | null;
+  clients: number;
+  asked: number[]; // who asks for the hand
+  playing: boolean;
+  speed: number;
+  time: number;
+  first: number; // what is remembered [s]
+  last: number;
+  at: number | null; // the instant that is looked at, if not the newest
+  branch: { from: number; changes: string[]; number: number } | null;
+  pace: number;
+  step: number;
+  step_us: number;
+  hand?: HandState | null;
+  knobs: Knob[];
+  presets: { name: string; what: string }[];
+  gallery: { name: string; title: string; look: string[] }[];
+  dead: Death | null;
+  notes: Note[];
+}
+
+// Its numbers are the inspector's: the glass knows them.
+export interface GlassMessage {
+  kind: 'glass';
+  [key: string]: unknown;
+}
+
+export type Command =
+  | { do: 'layers'; names: string[] }
+  | { do: 'glass'; on: boolean; body?: number; pass?: number }
+  | { do: 'look'; at: number | null }
+  | { do: 'take' }
+  | { do: 'give'; to: number }
+  | { do: 'play'; on: boolean }
+  | { do: 'step'; steps: number }
+  | { do: 'speed'; factor: number }
+  | { do: 'set'; changes: string[] }
+  | { do: 'branch'; at: number; changes: string[] }
+  | { do: 'preset'; name: string }
+  | { do: 'scene'; name: string }
+  | { do: 'reset' }
+  | { do: 'hand'; source: 'scene' | 'drag' | 'joints' | 'device'; spec?: string }
+  | { do: 'tip'; goal: Vector; stamp: number }
+  | { do: 'joint'; index: number; value: number; stamp: number }
+  | { do: 'turn'; yaw: number; pitch: number; roll: number; stamp: number }
+  | { do: 'axes'; rates: number[]; stamp: number }
+  | { do: 'button'; index: number; down: boolean; stamp: number }
+  | { do: 'pull'; body: number; point: Vector; goal: Vector; stamp: number }
+  | { do: 'drop' };
