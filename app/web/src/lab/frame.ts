@@ -14,6 +14,11 @@ export interface Frame {
   channels: Float64Array; // NaN: has no value now
   works: Float64Array; // by ledger row [J]
   layers: number;
+  bodies: number;
+  // Where links stand, and those of the kinematic robot (NaN: it has none): x y z, then the turn as
+  // a quaternion x y z w, by number of the scene's bodies.
+  link: Float32Array;
+  twin: Float32Array;
   // Entries of the draw list; layer l has first[l] to first[l + 1].
   first: Uint32Array;
   position: Float32Array;
@@ -59,7 +64,7 @@ export function decodeFrame(buffer: ArrayBuffer): Frame | null {
   const head = new DataView(buffer);
   const u32 = (at: number) => head.getUint32(at, true);
   if (u32(0) !== MAGIC) return null;
-  const [C, R, L, N, M, B] = [48, 52, 56, 60, 64, 68].map(u32);
+  const [C, R, L, N, M, B, P] = [48, 52, 56, 60, 64, 68, 72].map(u32);
   const flags = u32(44);
   const arrays = new Cursor(buffer);
   try {
@@ -74,9 +79,12 @@ export function decodeFrame(buffer: ArrayBuffer): Frame | null {
       lookedBack: (flags & 2) !== 0,
       dead: (flags & 4) !== 0,
       layers: L,
+      bodies: P,
       // In the order of the message.
       channels: arrays.take(Float64Array, C),
       works: arrays.take(Float64Array, R),
+      link: arrays.take(Float32Array, 7 * P),
+      twin: arrays.take(Float32Array, 7 * P),
       position: arrays.take(Float32Array, 3 * N),
       scale: arrays.take(Float32Array, 3 * N),
       turn: arrays.take(Int16Array, 4 * N),
@@ -106,10 +114,8 @@ export function labelText(frame: Frame, label: number): string {
   return decoder.decode(frame.text.subarray(begin, frame.textEnd[label]));
 }
 
-// Where a body's first entry stands in layer 0; null: it is not drawn.
-export function placeOf(frame: Frame, body: number): Vector | null {
-  for (let i = frame.first[0]; i < frame.first[1]; ++i)
-    if (frame.body[i] === body)
-      return [frame.position[3 * i], frame.position[3 * i + 1], frame.position[3 * i + 2]];
-  return null;
+// Where a link stands; null: not known, or not a number.
+export function placeOf(places: Float32Array, body: number): Vector | null {
+  const [x, y, z] = places.subarray(7 * body, 7 * body + 3);
+  return Number.isFinite(x + y + z) ? [x, y, z] : null;
 }

@@ -29,6 +29,8 @@ export interface SceneJoint {
   low: number;
   high: number;
   driven?: number; // its place in hand.q; absent: the hand does not drive it
+  axis?: Vector; // link axes of `body`, through its origin; absent: it has not one axis
+  slides?: boolean; // along the axis, else about it
 }
 
 export interface SceneMessage {
