@@ -194,15 +194,14 @@ class Lags {
       if (coupling >= 0 && pull.coupling != description[static_cast<std::size_t>(coupling)].name)
         continue;
       for (const NamedJoint& joint : input_.robot.coordinates.all())
-        if (joint.body == static_cast<std::size_t>(pull.spring.body) && joint.nv == 1) return words(joint);
+        if (joint.body == static_cast<std::size_t>(pull.spring.body) && joint.nv == 1)
+          return words(joint);
     }
     return "";
   }
 
  private:
-  bool is_slide(const NamedJoint& joint) const {
-    return joint.type == JointType::prismatic;
-  }
+  bool is_slide(const NamedJoint& joint) const { return joint.type == JointType::prismatic; }
   std::string words(const NamedJoint& joint) const {
     const auto row = static_cast<Eigen::Index>(joint.row);
     const double start = std::abs(lag_.start[row]), later = std::abs(lag_.later[row]);

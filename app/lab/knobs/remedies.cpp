@@ -104,8 +104,7 @@ class RemedyFinder {
 
   void softer() {
     const double factor =
-        kHalf * kHalf *
-        largest_half([&](double f) { return step_.holds_with_softer(guilty_, f); });
+        kHalf * kHalf * largest_half([&](double f) { return step_.holds_with_softer(guilty_, f); });
     if (!(factor > 0)) return;
     std::vector<std::string> changes;
     std::string words;
