@@ -3,12 +3,15 @@
 #include <algorithm>
 
 #include "app/lab/state_message.h"
+#include "app/record/shown_instant.h"
 #include "app/render/painter.h"
 
 namespace twinarm {
 namespace {
 
 constexpr double kGlassEvery = 0.2, kKnobsEvery = 0.4, kIdle = 0.1;  // [s]
+constexpr double kRate = 60, kSlowRate = 30;  // frames a second, to few clients and to more
+constexpr std::size_t kManyClients = 2;
 
 double seconds(std::chrono::steady_clock::duration time) {
   return std::chrono::duration<double>(time).count();
@@ -63,6 +66,7 @@ void LabPainter::work() {
       const std::lock_guard lock(mutex_);
       if (stop_) return;
     }
+    session_.set_rate(audience_.view().clients.size() > kManyClients ? kSlowRate : kRate);
     look_at_knobs(now);
     tell_state(now);
     tell_frame(now);
@@ -116,9 +120,8 @@ void LabPainter::tell_scene() {
 void LabPainter::look_at_knobs(const LabNow& now) {
   if (!now.frame || !is_due(last_knobs_, kKnobsEvery)) return;
   SimulatePlan& plan = now.scene->knobs->prepared;
-  State<double> x = plan.input.robot.state.x;
-  if (!state_of(*now.frame, x)) return;
-  predict_knobs(plan, x, knobs_);
+  const State<double> x = instant_of(now.frame->recorded, plan.input.robot.model).x;
+  if (x.q.allFinite() && x.qd.allFinite()) predict_knobs(plan, x, knobs_);
 }
 
 // To each its own, since it says who is who.

@@ -99,7 +99,8 @@ void LabSession::wake() {
 
 void LabSession::set_rate(double frames_per_second) {
   const std::lock_guard lock(mutex_);
-  frame_interval_ = 1 / frames_per_second;
+  frame_interval_ = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(1 / frames_per_second));
 }
 
 // The run's thread.
@@ -181,12 +182,11 @@ void LabSession::publish() {
   const Clock::time_point now = Clock::now();
   bool says_new = take_notes();
   if (seconds(now - last_told_) >= kStatusEvery && status_.playing) says_new = true;
-  const bool is_due = is_stale_ && seconds(now - last_frame_) >= frame_interval_;
+  const bool is_due = is_stale_ && now >= next_frame_;
   const bool is_last = is_stale_ && (!status_.playing && steps_left_ == 0);
   if (!is_due && !is_last && !says_new && !is_news_) return;
   if (is_due || is_last) {
     remember();
-    last_frame_ = now;
     is_stale_ = false;
   }
   last_told_ = now;
@@ -195,7 +195,7 @@ void LabSession::publish() {
 }
 
 void LabSession::remember() {
-  LabFrame frame = run_->frame(names_);
+  LabFrame frame = frame_of_run();
   if (!rows_ || rows_->size() != names_.rows.size())
     rows_ = std::make_shared<const std::vector<std::string>>(names_.rows);
   frame.pace = status_.pace = pace_.factor(Clock::now(), run_->time());
@@ -205,7 +205,14 @@ void LabSession::remember() {
   cpu_ = longest_cpu_ = 0;
   steps_ = 0;
   const std::lock_guard lock(mutex_);
+  next_frame_ = std::max(next_frame_ + frame_interval_, Clock::now() - frame_interval_);
   history_.add(std::move(frame));
+}
+
+// Names of new rows are looked at by whoever saves.
+LabFrame LabSession::frame_of_run() {
+  const std::lock_guard lock(mutex_);
+  return run_->frame(names_);
 }
 
 void LabSession::tell() {
@@ -282,13 +289,15 @@ void LabSession::save(const std::filesystem::path& file) const {
   LabHistory history;
   std::shared_ptr<const Built> scene;
   LabNames names;
+  std::vector<int> led;
   {
     const std::lock_guard lock(mutex_);
     history = history_;
-    scene = now_.scene;
+    scene = scene_;
     names = names_;
+    led = run_->driven();
   }
-  history.save(*scene->scene, names, scene->view->prepared, run_->driven(), file);
+  history.save(*scene->scene, names, scene->view->prepared, led, file);
 }
 
 }  // namespace twinarm

@@ -69,12 +69,14 @@ class LabSession {
   void die();
   void publish();
   void remember();
+  LabFrame frame_of_run();
   void tell();
   bool take_notes();
   // What it is told: session_commands.cpp.
   void take_commands();
   void act(const LabCommand& command);
   void act_on_hand(const LabCommand& command);
+  void lead_by(LabHand::Source source);
   void choose_hand(const std::string& source, const std::string& spec);
   void change(const std::vector<std::string>& texts, std::optional<double> at);
   void preset(const std::string& name);
@@ -95,7 +97,7 @@ class LabSession {
   bool has_failed_ = false;  // an order
   LabNow now_;
   LabHistory history_, before_;  // before_: of the branch that was left, from where it was left
-  double frame_interval_ = 1.0 / 60;
+  Clock::duration frame_interval_ = std::chrono::microseconds(16'667);
   std::uint64_t woken_ = 0;
   bool stop_ = false;
 
@@ -114,7 +116,7 @@ class LabSession {
   double cpu_ = 0, longest_cpu_ = 0;  // since the frame before [s]
   long steps_ = 0;                    // likewise
   Pace pace_;
-  Clock::time_point input_came_{}, last_frame_{}, last_told_{}, next_tick_{};
+  Clock::time_point input_came_{}, next_frame_{}, last_told_{}, next_tick_{};
   std::shared_ptr<const std::vector<std::string>> rows_;
 
   std::thread thread_;

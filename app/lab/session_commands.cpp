@@ -98,12 +98,16 @@ void LabSession::act_on_hand(const LabCommand& command) {
     case Do::hand:
       return choose_hand(command.name, command.spec);
     case Do::tip:
+      lead_by(LabHand::Source::drag);
       return hand_.tip(command.goal, stamp);
     case Do::joint:
+      lead_by(LabHand::Source::joints);
       return hand_.joint(index, command.value, stamp);
     case Do::turn:
+      lead_by(LabHand::Source::drag);
       return hand_.turn(command.point.x(), command.point.y(), command.point.z(), stamp);
     case Do::axes:
+      lead_by(LabHand::Source::drag);
       return hand_.axes(command.rates, stamp);
     case Do::button:
       return hand_.button(index, command.on, stamp);
@@ -117,6 +121,13 @@ void LabSession::act_on_hand(const LabCommand& command) {
     default:
       return;
   }
+}
+
+// Who grabs the robot leads it from then on.
+void LabSession::lead_by(LabHand::Source source) {
+  if (hand_.source() == source) return;
+  hand_.choose(source);
+  is_news_ = true;
 }
 
 void LabSession::choose_hand(const std::string& source, const std::string& spec) {
@@ -177,8 +188,7 @@ void LabSession::order(Order::What what, double at) {
 
 // Where a run that goes on begins; null where that is no longer remembered.
 LabHistory::Frame LabSession::start_of(const Order& order) {
-  if (order.what == Order::What::change)
-    return std::make_shared<const LabFrame>(run_->frame(names_));
+  if (order.what == Order::What::change) return std::make_shared<const LabFrame>(frame_of_run());
   const std::lock_guard lock(mutex_);
   if (history_.empty() || order.at < history_.frame(0)->recorded.t - 1e-9) return nullptr;
   const std::size_t n = history_.at(order.at);

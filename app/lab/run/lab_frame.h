@@ -34,8 +34,8 @@ struct LabFrame {
   std::optional<LabHandFrame> hand;
   std::optional<LabPull> pull;
   double input_stamp = 0;  // of the newest input that this frame has seen, as its sender gave it
-  // Of the thread, since the frame before: processor time per step, mean and largest [s]; wall
-  // time over run time (1: real time).
+  // Of the thread, since the frame before: processor time per step, mean and largest [s]; run time
+  // over the wall time that was asked for (1: it keeps up).
   double step_time = 0, longest_step = 0, pace = 1;
 };
 

@@ -1,0 +1,103 @@
+// What is said to the lab, who may say it, and how its time goes.
+#include <doctest/doctest.h>
+
+#include "app/lab/audience.h"
+#include "app/lab/lab_command.h"
+#include "app/lab/pace.h"
+#include "solver/fault.h"
+
+namespace twinarm {
+namespace {
+
+std::size_t faults_in(const std::string& text) {
+  try {
+    parse_command(text);
+  } catch (const InputError& error) {
+    return error.faults().size();
+  }
+  return 0;
+}
+
+TEST_CASE("a command is read with all that it brings") {
+  const LabCommand pull = parse_command(
+      R"({"do": "pull", "body": 3, "point": [0.5, -1, 2], "goal": [1, 2, 3.25], "stamp": 12.5})");
+  CHECK(pull.what == LabCommand::Do::pull);
+  CHECK(pull.count == 3);
+  CHECK(pull.point == Vector3(0.5, -1, 2));
+  CHECK(pull.goal == Vector3(1, 2, 3.25));
+  CHECK(pull.stamp == 12.5);
+  const LabCommand set = parse_command(R"({"do": "set", "changes": ["step=0.0005", "a=b"]})");
+  CHECK(set.names == std::vector<std::string>{"step=0.0005", "a=b"});
+  CHECK(parse_command(R"({"do": "look", "at": 1.5})").at == 1.5);
+  CHECK_FALSE(parse_command(R"({"do": "look", "at": null})").at.has_value());
+  CHECK(parse_command(R"({"do": "axes", "rates": [2, -7, 0.5, 0, 0, 0]})").rates[0] == 1.0);
+}
+
+TEST_CASE("a command that is not understood is refused with every fault that it has") {
+  CHECK(faults_in("") == 1);
+  CHECK(faults_in("[]") == 1);
+  CHECK(faults_in(R"({"do": "dance"})") == 1);
+  CHECK(faults_in(R"({"do": "pull", "body": -1, "point": [1, 2]})") == 3);
+  CHECK(faults_in(R"({"do": "speed", "factor": 1e9})") == 1);
+  CHECK(faults_in(R"({"do": "tip", "goal": [1, 2, NaN]})") == 1);
+  CHECK(faults_in(R"({"do": "tip", "goal": [1, 2, 1e999]})") >= 1);
+  CHECK(faults_in(R"({"do": "joint", "index": 1.5, "value": 0})") == 1);
+  CHECK(faults_in(R"({"do": "step", "steps": true})") == 1);
+  CHECK(faults_in(std::string(100'000, '[')) >= 1);
+}
+
+TEST_CASE("looking on needs no hand, moving the robot does") {
+  CHECK_FALSE(needs_hand(LabCommand::Do::layers));
+  CHECK_FALSE(needs_hand(LabCommand::Do::take));
+  CHECK(needs_hand(LabCommand::Do::tip));
+  CHECK(needs_hand(LabCommand::Do::set));
+}
+
+TEST_CASE("the first who comes has the hand, and others get it in turn") {
+  Audience audience;
+  for (const ClientId client : {11u, 12u, 13u}) audience.opened(client);
+  CHECK(audience.has_hand(11));
+  audience.take(13);
+  audience.take(12);
+  audience.take(13);
+  CHECK(audience.view().asked == std::vector<ClientId>{13, 12});
+  CHECK_FALSE(audience.give(12, 12));  // who has none gives none
+  CHECK_FALSE(audience.give(11, 99));
+  CHECK(audience.give(11, 12));
+  CHECK(audience.has_hand(12));
+  audience.closed(12);  // the next who asked
+  CHECK(audience.has_hand(13));
+  audience.closed(13);
+  CHECK(audience.has_hand(11));  // the only one left
+  audience.closed(11);
+  CHECK(audience.view().holder == 0);
+}
+
+TEST_CASE("all layers that anybody wants are drawn, each once") {
+  Audience audience;
+  audience.opened(1);
+  audience.opened(2);
+  audience.want_layers(1, {"bodies", "frames"});
+  audience.want_layers(2, {"trails", "bodies"});
+  CHECK(audience.layers() == std::vector<std::string>{"bodies", "frames", "trails"});
+  audience.want_glass(2, 4);
+  CHECK(audience.glass() == std::map<ClientId, long>{{2, 4}});
+  audience.want_glass(2, std::nullopt);
+  CHECK(audience.glass().empty());
+}
+
+TEST_CASE("run time follows wall time, and what was missed is not made up for in a rush") {
+  using std::chrono::milliseconds;
+  const Pace::Time start{};
+  Pace pace;
+  pace.begin(start, 5.0, 0.5);
+  CHECK(pace.due(start + milliseconds(1000)) == doctest::Approx(5.5));
+  pace.forgive(start + milliseconds(1000), 5.49, 0.05);  // as good as in time
+  CHECK(pace.due(start + milliseconds(1000)) == doctest::Approx(5.5));
+  pace.forgive(start + milliseconds(1000), 5.2, 0.05);  // 0.6 s of wall time behind
+  CHECK(pace.due(start + milliseconds(1000)) == doctest::Approx(5.225));
+  CHECK(pace.factor(start + milliseconds(2000), 5.5) == doctest::Approx(0.5));
+}
+
+}  // namespace
+}  // namespace twinarm
