@@ -20,8 +20,8 @@ enum ExitCode { kDone = 0, kBadInput = 2, kInternal = 4, kInterrupted = 130 };
 
 // All faults at once: on stderr for people, on stdout for machines too.
 int tell(const InputError& error, bool as_json) {
-  using Json = nlohmann::ordered_json;  // the one flavour of this program: it is compiled once
-  Json errors = Json::array();
+  using Told = nlohmann::ordered_json;  // the one flavour of this program: it is compiled once
+  Told errors = Told::array();
   for (const Fault& fault : error.faults()) {
     fmt::print(stderr, "twinarm: {}\n", to_string(fault));
     errors.push_back({{"file", fault.file},
@@ -30,7 +30,7 @@ int tell(const InputError& error, bool as_json) {
                       {"rule", fault.rule},
                       {"where", fault.where}});
   }
-  if (as_json) fmt::print("{}\n", Json{{"errors", errors}}.dump(1));
+  if (as_json) fmt::print("{}\n", Told{{"errors", errors}}.dump(1));
   return kBadInput;
 }
 
