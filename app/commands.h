@@ -126,7 +126,7 @@ int run_export(const ExportOptions& options);
 
 struct ReplayOptions {
   std::filesystem::path recording;
-  double from = 0;  // [s]
+  std::optional<double> from;  // [s]; left out: the first that is recorded
   std::vector<std::string> changes;
   std::filesystem::path plot;  // SVG; empty: none
   bool json = false;

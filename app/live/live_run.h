@@ -12,20 +12,14 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/scene_couplings.h"
-#include "app/scene/scene_model.h"
+#include "app/live/hand_loop.h"
 #include "app/simulate/add_contacts.h"
-#include "coupling/device/hand_device.h"
-#include "coupling/device/hand_force.h"
-#include "coupling/device/hand_watch.h"
 #include "coupling/device/live_hand.h"
 #include "solver/simulation.h"
 
 namespace twinarm {
 
-struct LiveOptions {
-  MappingSpec mapping;
-  HandForceSpec force;
+struct LiveOptions : HandLoopOptions {
   double step = 0;  // [s]; 0: the scene's
 };
 
@@ -50,26 +44,19 @@ class LiveRun {
   double step() const { return h_; }
   const Simulation& simulation() const { return simulation_; }
   const SceneContacts& contacts() const { return *contacts_; }
-  const HandWatch& watch() const { return watch_; }
-  const DeviceMapping& mapping() const { return *mapping_; }
+  const HandWatch& watch() const { return loop_->watch(); }
+  const DeviceMapping& mapping() const { return loop_->mapping(); }
   std::size_t leader() const { return leader_; }  // the first coupling that follows the device
 
  private:
-  const SceneModel& scene_;
-  HandDevice& device_;
   double h_;
+  std::vector<std::size_t> led_;  // couplings that follow the device
   std::size_t leader_ = 0;
-  std::vector<int> turned_;  // bodies that the driven joints carry
   std::unique_ptr<LiveHand> hand_;
   std::unique_ptr<SceneCouplings> couplings_;
   Simulation simulation_;
   std::optional<SceneContacts> contacts_;
-  std::unique_ptr<DeviceMapping> mapping_;
-  CouplingReaction reaction_;
-  std::unique_ptr<HandForce> force_;
-  HandWatch watch_;
-  HandTarget target_;
-  std::vector<double> q_D_;
+  std::unique_ptr<HandLoop> loop_;
   bool stopped_ = false;
 };
 

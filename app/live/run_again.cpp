@@ -3,9 +3,9 @@
 #include <unistd.h>
 
 #include "app/interrupt.h"
-#include "app/scene/toml_text.h"
 #include "app/progress.h"
 #include "app/record/record_run.h"
+#include "app/scene/toml_text.h"
 #include "solver/whole_file.h"
 
 namespace twinarm {

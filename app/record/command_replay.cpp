@@ -85,7 +85,7 @@ int run_replay(const ReplayOptions& options) {
   if (!options.plot.empty()) check_plot(options.plot);
   const Recording recording(options.recording);
   for (const std::string& note : recording.notes()) fmt::print(stderr, "twinarm: {}\n", note);
-  const std::size_t first = recording.at(options.from, "--from");
+  const std::size_t first = options.from ? recording.at(*options.from, "--from") : 0;
   const Replay exact = replay(recording, first, {});
   std::optional<Replay> fork;
   if (!changes.empty()) fork = replay(recording, first, changes);

@@ -18,6 +18,14 @@ std::string short_text(double value) {
   return short_number_text(value);
 }
 
+using Works = std::map<std::string, double>;  // by row
+
+Works works_of(const std::vector<LedgerRow>& rows) {
+  Works works;
+  for (const LedgerRow& row : rows) works[row.name] = row.work;
+  return works;
+}
+
 // An implicit point spring whose target lay too far out: what the treatment leaves explicit, the
 // turning of the lever arm, has a limit of its own (coupling/target_radius.h).
 struct PassedRadius {
@@ -29,7 +37,7 @@ struct PassedRadius {
 
 // The ledger where the last steps begin and where they end.
 struct LastSteps {
-  std::map<std::string, double> before, after;
+  Works before, after;
   std::optional<PassedRadius> passed;  // the first in them
   long first = -1, last = 0;
   long count() const { return last - std::max(first, 1L) + 1; }  // the start is no step
@@ -67,18 +75,15 @@ LastSteps run_again(const SimulatePlan& prepared, RecordingHeader header,
   std::error_code ignored;
   if (!file.parent_path().empty()) std::filesystem::create_directories(file.parent_path(), ignored);
   RunRecorder recorder(file, std::move(header), prepared);
-  const auto note = [](RunView& run, std::map<std::string, double>& rows) {
-    for (const LedgerRow& row : run.ledger()) rows[row.name] = row.work;
-  };
   RunWatch watch;
   watch.look = [&](RunView& run) {
     if (run.step() <= last - kLastSteps) return;
     found.last = run.step();
     if (found.first < 0) {
       found.first = run.step();
-      note(run, found.before);
+      found.before = works_of(run.ledger());
     }
-    if (run.step() == last) note(run, found.after);
+    if (run.step() == last) found.after = works_of(run.ledger());
     if (!found.passed) found.passed = passed_radius(prepared, run);
     recorder.write(run);
   };
@@ -88,10 +93,10 @@ LastSteps run_again(const SimulatePlan& prepared, RecordingHeader header,
   return found;
 }
 
-void find_row(const LastSteps& steps, PostMortem& found) {
-  for (const auto& [name, work] : steps.after) {
-    const auto before = steps.before.find(name);
-    const double growth = work - (before == steps.before.end() ? 0 : before->second);
+void find_row(const Works& since, const Works& now, PostMortem& found) {
+  for (const auto& [name, work] : now) {
+    const auto before = since.find(name);
+    const double growth = work - (before == since.end() ? 0 : before->second);
     if (growth > found.row_growth || (std::isnan(growth) && found.row.empty()))
       found.row = name, found.row_growth = growth;
   }
@@ -181,8 +186,9 @@ std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared) {
                                     short_text(prepared.run.step)));
 }
 
-void explain(const SimulatePlan& prepared, RecordingHeader header,
-             const std::filesystem::path& file, SimulateResult& result) {
+namespace {
+
+void say_first_words(const SimulatePlan& prepared, SimulateResult& result) {
   PostMortem& found = *result.post_mortem;
   say_first_bad(found);
   if (result.alarm)
@@ -190,6 +196,25 @@ void explain(const SimulatePlan& prepared, RecordingHeader header,
         "an alarm came at t = {} s: the ledger's row '{}' grew without bound, to {} J",
         short_text(result.alarm->t), result.alarm->row, short_text(result.alarm->work)));
   found.suspects = find_suspects(prepared);
+}
+
+}  // namespace
+
+void explain_at_once(const SimulatePlan& prepared, const RunView& run,
+                     const std::vector<LedgerRow>& before, SimulateResult& result) {
+  PostMortem& found = *result.post_mortem;
+  say_first_words(prepared, result);
+  say_suspects(found, prepared.run.step, passed_radius(prepared, run));
+  if (!before.empty()) find_row(works_of(before), works_of(result.ledger), found);
+  if (!found.row.empty())
+    found.words.push_back(fmt::format("the ledger's row '{}' grew most: by {} J", found.row,
+                                      short_text(found.row_growth)));
+}
+
+void explain(const SimulatePlan& prepared, RecordingHeader header,
+             const std::filesystem::path& file, SimulateResult& result) {
+  PostMortem& found = *result.post_mortem;
+  say_first_words(prepared, result);
   std::optional<LastSteps> again;
   std::string not_kept;
   try {
@@ -200,7 +225,7 @@ void explain(const SimulatePlan& prepared, RecordingHeader header,
   say_suspects(found, prepared.run.step, again ? again->passed : std::nullopt);
   if (again) {
     const LastSteps& steps = *again;
-    find_row(steps, found);
+    find_row(steps.before, steps.after, found);
     if (!found.row.empty())
       found.words.push_back(fmt::format("the ledger's row '{}' grew most: by {} J in the last {}",
                                         found.row, short_text(found.row_growth), steps.words()));

@@ -18,6 +18,11 @@ constexpr long kLastSteps = 1000;
 void explain(const SimulatePlan& prepared, RecordingHeader header,
              const std::filesystem::path& file, SimulateResult& result);
 
+// The same without a recording, for a run that cannot be computed again from its checkpoint, or that
+// is remembered elsewhere. `run` stands where it stopped; `before`: its ledger some time earlier.
+void explain_at_once(const SimulatePlan& prepared, const RunView& run,
+                     const std::vector<LedgerRow>& before, SimulateResult& result);
+
 // What an alarm says: the row, when, and what would hold.
 std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared);
 

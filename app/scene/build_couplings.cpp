@@ -11,16 +11,6 @@ namespace {
 using Law = CouplingSpec::Type;
 using Pull = CouplingDescription::Type;
 
-// Joints that the hand turns: the robot's first three of one degree of freedom.
-std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot) {
-  std::vector<std::string> names;
-  const Coordinates coordinates(scene.model, false);
-  const std::string prefix = name_in_scene(scene.description, robot, "");
-  for (const JointDescription& joint : scene.description.robots[robot].description.joints)
-    if (joint.dofs() == 1 && !joint.mimic && names.size() < 3) names.push_back(prefix + joint.name);
-  return names;
-}
-
 std::size_t robot_named(const SceneDescription& scene, const std::string& name) {
   std::size_t r = 0;
   while (scene.robots[r].name != name) ++r;  // the reader has seen it
@@ -91,6 +81,15 @@ void add_god_object(SceneModel& scene, SceneCoupling made, FaultList& faults) {
 }
 
 }  // namespace
+
+std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot) {
+  std::vector<std::string> names;
+  const Coordinates coordinates(scene.model, false);
+  const std::string prefix = name_in_scene(scene.description, robot, "");
+  for (const JointDescription& joint : scene.description.robots[robot].description.joints)
+    if (joint.dofs() == 1 && !joint.mimic && names.size() < 3) names.push_back(prefix + joint.name);
+  return names;
+}
 
 void build_couplings(SceneModel& scene) {
   FaultList faults;

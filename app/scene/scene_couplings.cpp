@@ -97,7 +97,8 @@ CouplingEnds matched_ends(const Model<double>& model, const Spring& spring, cons
   return ends;
 }
 
-// Of a device that is not there: it holds the driven joints where they stand.
+// Of a device that is not there, and of a target that stands still though a hand may take it: it
+// holds the driven joints where they stand.
 std::unique_ptr<HandSource> hand_at_rest(const Model<double>& model,
                                          const SceneCoupling& coupling) {
   HandTarget target;
@@ -130,14 +131,18 @@ std::unique_ptr<HandSource> hand_of_target(const SceneModel& scene, const SceneC
       return hand_at_rest(scene.model, coupling);
     case CouplingTarget::Kind::start:
     case CouplingTarget::Kind::state:
+      if (!coupling.driven.turned.empty()) return hand_at_rest(scene.model, coupling);
       break;
   }
   return std::make_unique<RestingHand>();
 }
 
-std::unique_ptr<HandSource> make_hand(const SceneModel& scene, const SceneCoupling& coupling,
-                                      const HandSource* device, FaultList& faults) {
+std::unique_ptr<HandSource> make_hand(const SceneModel& scene, std::size_t pull,
+                                      const HandSource* device, const HandInPlace& in_place,
+                                      FaultList& faults) {
+  const SceneCoupling& coupling = scene.couplings[pull];
   auto hand = hand_of_target(scene, coupling, device, faults);
+  if (in_place) hand = in_place(pull, std::move(hand));
   if (coupling.delay == 0 && coupling.speed == 1) return hand;
   return std::make_unique<PacedHand>(std::move(hand), coupling.delay, coupling.speed);
 }
@@ -158,9 +163,11 @@ bool led_alike(const SceneCoupling& a, const SceneCoupling& b) {
 
 // What leads couplings.
 struct SceneCouplings::Twin {
-  Twin(const SceneModel& scene, const SceneCoupling& spec, const HandSource* device,
-       FaultList& faults)
-      : hand(make_hand(scene, spec, device, faults)),
+  Twin(const SceneModel& scene, std::size_t pull, const HandSource* device,
+       const HandInPlace& in_place, FaultList& faults)
+      : Twin(scene, scene.couplings[pull], make_hand(scene, pull, device, in_place, faults)) {}
+  Twin(const SceneModel& scene, const SceneCoupling& spec, std::unique_ptr<HandSource> its)
+      : hand(std::move(its)),
         kvr(scene.model, *hand, {}, spec.driven,
             spec.absolute_damper ? KvrRates::none : KvrRates::from_hand),
         shown(scene.model, *hand, {}, spec.driven) {
@@ -207,13 +214,14 @@ struct SceneCouplings::Tie {
   std::unique_ptr<Kept> source;
 };
 
-SceneCouplings::SceneCouplings(const SceneModel& scene, double h, const HandSource* device)
+SceneCouplings::SceneCouplings(const SceneModel& scene, double h, const HandSource* device,
+                               const HandInPlace& in_place)
     : scene_(scene) {
   FaultList faults;
   const auto twin_of = [&](std::size_t c) {
     for (std::size_t before = 0; before < c; ++before)
       if (led_alike(scene.couplings[before], scene.couplings[c])) return ties_[before]->twin;
-    return std::make_shared<Twin>(scene, scene.couplings[c], device, faults);
+    return std::make_shared<Twin>(scene, c, device, in_place, faults);
   };
   for (std::size_t c = 0; c < scene.couplings.size(); ++c)
     if (scene.couplings[c].leader == c)

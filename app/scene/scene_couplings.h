@@ -2,6 +2,7 @@
 // by their pulls (SceneCoupling).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -23,12 +24,18 @@ struct CouplingEnds {
   Vector3 target_velocity = Vector3::Zero();
 };
 
+// What moves the kinematic side of a pull in place of the hand that the scene gives it, which is
+// handed over to be asked. Pulls with one kinematic robot between them are asked for once.
+using HandInPlace =
+    std::function<std::unique_ptr<HandSource>(std::size_t pull, std::unique_ptr<HandSource> own)>;
+
 class SceneCouplings {
  public:
   // For steps of h [s]. The scene must outlive it, and so must the hand of a device: what couplings
   // with target = "device" follow; nullptr where none is connected, and they stand still. Throws
   // InputError with all faults: a trace that cannot be read, a rate that is no part of the steps.
-  SceneCouplings(const SceneModel& scene, double h, const HandSource* device = nullptr);
+  SceneCouplings(const SceneModel& scene, double h, const HandSource* device = nullptr,
+                 const HandInPlace& in_place = {});
   SceneCouplings(const SceneCouplings&) = delete;
   SceneCouplings& operator=(const SceneCouplings&) = delete;
   ~SceneCouplings();

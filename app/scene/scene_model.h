@@ -119,6 +119,9 @@ struct SceneModel {
   Surface surface_of_pair(int a, int b) const;
 };
 
+// Joints that a hand turns, by name: the robot's first three of one degree of freedom.
+std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot);
+
 // `friction` and `armature` of the options count: false leaves them out of all robots. Throws
 // InputError with all faults that reading could not see: meshes without inside, joints that carry
 // no inertia.

@@ -111,12 +111,13 @@ void Ledger::add_step(double h, const std::vector<State<double>>& inner, const S
   const auto add = [&](const std::vector<double>& power, double weight) {
     for (std::size_t i = 0; i < integrals_.size(); ++i) integrals_[i].work += weight * h * power[i];
   };
+  // Found again: of a hand that is known only up to now, the next step's velocity has come since.
+  if (couplings_) power_now_ = powers(now_, Side::after);
   add(power_now_, weights_.front());
   for (std::size_t s = 0; s < inner.size(); ++s)
     add(powers(inner[s], Side::after), weights_[s + 1]);
   power_now_ = powers(end, Side::before);
   add(power_now_, weights_.back());
-  if (couplings_) power_now_ = powers(end, Side::after);
   add_implicit(h, end);
   now_ = end;
 }

@@ -22,6 +22,7 @@
 
 #include "app/simulate/add_contacts.h"
 #include "app/simulate/ledger.h"
+#include "app/simulate/outside_force.h"
 #include "solver/exchange.h"
 
 namespace twinarm {
@@ -52,8 +53,9 @@ class MomentumLedger {
   // `joint/limits/stabilisation`. `contacts` may be null.
   std::vector<LedgerRow> energy_rows(const Simulation& simulation,
                                      const SceneContacts* contacts) const;
-  // `numerical` last. `contacts` may be null.
-  std::vector<MomentumRow> rows(const Simulation& simulation, const SceneContacts* contacts) const;
+  // `numerical` last. `contacts` and `outside` may be null.
+  std::vector<MomentumRow> rows(const Simulation& simulation, const SceneContacts* contacts,
+                                const OutsideForce* outside) const;
 
  private:
   // One evaluation at the start of the step; forces at nodes; or the sums of an event step.

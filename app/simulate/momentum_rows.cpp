@@ -40,7 +40,8 @@ void MomentumLedger::subtract_from_trees(const Exchange& e, int body, double sig
 }
 
 std::vector<MomentumRow> MomentumLedger::rows(const Simulation& simulation,
-                                              const SceneContacts* contacts) const {
+                                              const SceneContacts* contacts,
+                                              const OutsideForce* outside) const {
   std::vector<MomentumRow> rows;
   std::vector<Exchange> through(sums_.begin() + static_cast<std::ptrdiff_t>(tree(0)), sums_.end());
   if (rule_ == Rule::located)
@@ -72,6 +73,11 @@ std::vector<MomentumRow> MomentumLedger::rows(const Simulation& simulation,
       between("contact/" + a.name + "-" + b.name, {0, pair.impulse_W, pair.moment_W}, a.body,
               b.body);
     }
+  if (outside && outside->has_acted()) {
+    for (const OutsideForce::Given& part : outside->given())
+      subtract_from_trees(part.exchange, part.body, 1, through);
+    add(outside->name(), outside->total());
+  }
   const std::vector<LoopClosure>& loops = simulation.dynamics().bilateral().loops().loops();
   for (std::size_t l = 0; l < loop_count_; ++l)
     if (loops[l].type != LoopType::gear && loops[l].type != LoopType::locked)

@@ -19,15 +19,21 @@ class OutsideForce : public ForceSource, public Rewindable {
   // at, with the weights of its rule for integrals over the step.
   virtual void book(double h, std::span<const double> weights, const State<double>& start,
                     const std::vector<State<double>>& inner, const State<double>& end) = 0;
-  // Since the start: work [J] on the bodies, impulse and moment about the world's origin; and on
-  // which body. Zero until it has acted.
+  // What it did since the start, by bodies that it acted on.
   struct Given {
     int body = 0;
     Exchange exchange;
   };
   virtual const std::vector<Given>& given() const = 0;
-  // Whether it ever acted: until then it has no part in what a run remembers.
+  // Those, both ways. Until it has acted they have no part in what a run remembers.
+  virtual void visit_books(Memory& memory) = 0;
+
   bool has_acted() const { return !given().empty(); }
+  Exchange total() const {
+    Exchange sum;
+    for (const Given& part : given()) sum += part.exchange;
+    return sum;
+  }
 };
 
 }  // namespace twinarm

@@ -34,6 +34,10 @@ class RunView {
 struct RunStart {
   std::string memory;
   long last_step = std::numeric_limits<long>::max();
+  // Without memory: anew, in the state of the input, counted from so many steps and that time.
+  bool anew = false;
+  long step = 0;
+  double time = 0;  // [s]
 };
 
 // A spring or damper against the limit that the method sets to it, by linear theory.

@@ -24,8 +24,10 @@ class SteppedRun final : public RunView {
   SteppedRun(const SimulateInput& simulated, const RunPlan& plan, const RunWatch& watch,
              const RunStart* from = nullptr, OutsideForce* outside = nullptr);
 
-  // One step, or substep of an adaptive integrator. False where none was taken: at the end, and
-  // where the run has stopped by itself (result().post_mortem) or was interrupted.
+  // What watchers see before the first step.
+  void begin();
+  // One step, or substep of an adaptive integrator. False where the run goes on no more: at its
+  // end, and where it has stopped by itself (result().post_mortem) or was interrupted.
   bool advance();
   double time() const { return result_.end; }  // of the last good state [s]
   // So far; without ledgers.
@@ -48,9 +50,9 @@ class SteppedRun final : public RunView {
   void warn_of_deep_start(ContactMode mode);
   void warn_of_steps();
   void visit_memory(Memory& memory);
+  void take_back(const std::string& bytes);
   void go_on_from(const RunStart& start);
   double time_after(double t, double h) const;
-  bool over() const;
   // One step from t by at most h_most. False where the run stops.
   bool one_step(double t, double h_most);
   void book(const StepReport& report, double t, bool by_limits);

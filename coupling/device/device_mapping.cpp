@@ -130,6 +130,9 @@ class CartesianMapping final : public ClutchedMapping {
     force.torque = {torque.x(), torque.y(), torque.z()};
     return force;
   }
+  std::optional<Vector3> stylus_for(const Vector3& goal_W) const noexcept override {
+    return Vector3(stylus_start_ + device_from_world((goal_W - start_) / spec_.scale));
+  }
   std::string what_is_felt() const override {
     return "forces on the robot's point that follows the stylus, in their own directions, as far "
            "as its driven joints can move it; no torques";

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,11 @@ class DeviceMapping {
   // The motors' torques for generalised forces on the driven joints of the KVR, about the last
   // map(). Nothing while the clutch is held.
   virtual DeviceForce feel(const DeviceState& device, const std::vector<double>& tau) noexcept = 0;
+  // Of a mapping of points: where the stylus leads the robot's point to a goal in the world, device
+  // axes [m]; about the last begin() or map().
+  virtual std::optional<Vector3> stylus_for(const Vector3& /*goal_W*/) const noexcept {
+    return std::nullopt;
+  }
   // What can be felt and what cannot, for people.
   virtual std::string what_is_felt() const = 0;
 };

@@ -69,6 +69,13 @@ void GestureHand::drag(double dx_px, double dy_px, const ViewPlane& view) noexce
   end();
 }
 
+void GestureHand::place(const Vector3& p) noexcept {
+  if (!p.allFinite()) return;
+  begin();
+  goal_.p = p;
+  end();
+}
+
 void GestureHand::wheel(double notches, const ViewPlane& view) noexcept {
   const Vector3 shift = -settings_.metres_per_notch * notches * view.right.cross(view.up);
   if (!shift.allFinite()) return;
@@ -82,6 +89,13 @@ void GestureHand::turn_stylus(double dx_px, double dy_px) noexcept {
   begin();
   goal_.gimbal[0] += settings_.radians_per_px * dx_px;
   goal_.gimbal[1] -= settings_.radians_per_px * dy_px;
+  end();
+}
+
+void GestureHand::turn_stylus(const Vector3& by) noexcept {
+  if (!by.allFinite()) return;
+  begin();
+  for (std::size_t j = 0; j < 3; ++j) goal_.gimbal[j] += by[static_cast<Eigen::Index>(j)];
   end();
 }
 

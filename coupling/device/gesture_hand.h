@@ -39,8 +39,10 @@ class GestureHand final : public HandSource {
 
   // For the thread of events, one at a time. What is not finite is not heard.
   void drag(double dx_px, double dy_px, const ViewPlane& view) noexcept;  // dy downwards
+  void place(const Vector3& p) noexcept;                                  // there, device axes [m]
   void wheel(double notches, const ViewPlane& view) noexcept;  // positive: away from the viewer
   void turn_stylus(double dx_px, double dy_px) noexcept;       // yaw, pitch: a drag with a modifier
+  void turn_stylus(const Vector3& by) noexcept;                // yaw, pitch, roll [rad]
   void roll_stylus(double notches) noexcept;                   // the wheel with it
   void key(HandAxis axis, bool positive, bool down) noexcept;
   void axes(const std::array<double, 6>& rates) noexcept;  // in [-1, 1], by HandAxis

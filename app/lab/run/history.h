@@ -55,8 +55,8 @@ class LabHistory {
     double from = 0, to = 0;  // [s]
   };
   // Throws InputError where the file cannot be written, and where nothing is remembered.
-  Saved save(const LabScene& scene, const LabNames& names, const SimulatePlan& prepared,
-             const std::vector<int>& led, const std::filesystem::path& file) const;
+  Saved save(const LabScene& scene, const LabNames& names, const std::vector<std::size_t>& led,
+             const std::filesystem::path& file) const;  // led: LabRun::led()
 
  private:
   struct Segment {
@@ -65,7 +65,8 @@ class LabHistory {
   };
   void trim();
   const Segment& segment_of(long step) const;
-  std::size_t first_to_save() const;
+  long first_step_to_save() const;
+  std::string log_of_hand() const;
 
   std::size_t most_, bytes_ = 0;
   std::deque<Frame> frames_;

@@ -19,11 +19,12 @@ struct LabPull {
   Vector3 force_W = Vector3::Zero();  // on the body, of the last step [N]
 };
 
-// The hand device at the end of the step; absent where no hand moves a robot.
+// The hand at the end of the step; absent where no coupling can be led by one.
 struct LabHandFrame {
-  std::array<double, 6> theta{};      // of the (virtual) Omni [rad]
-  std::vector<double> q_K;            // the driven joints' targets [rad, m]
-  std::array<double, 3> torque{};     // of its motors [N m]
+  bool leads = false;              // false: the scene's own hand moves the robot
+  std::array<double, 6> theta{};   // of the (virtual) Omni [rad]
+  std::vector<double> q_K;         // the driven joints' targets, at the start of the step [rad, m]
+  std::array<double, 3> torque{};  // of its motors [N m]
   Vector3 force_W = Vector3::Zero();  // on the stylus, world axes [N]
   bool gripper_closed = false;
   int mode = 0;  // HandWatch::Mode
@@ -33,6 +34,9 @@ struct LabFrame {
   RecordedFrame recorded;
   std::optional<LabHandFrame> hand;
   std::optional<LabPull> pull;
+  // At the end of recorded.memory: the books of pulls, once there were any. What a scene's header
+  // describes goes without.
+  std::size_t outside_bytes = 0;
   double input_stamp = 0;  // of the newest input that this frame has seen, as its sender gave it
   // Of the thread, since the frame before: processor time per step, mean and largest [s]; run time
   // over the wall time that was asked for (1: it keeps up).

@@ -43,7 +43,7 @@ class LabHand {
   // What a user does. `stamp` comes back in frames.
   void tip(const Vector3& goal_W, double stamp);  // where the led point is to go
   void joint(std::size_t driven, double value, double stamp);
-  void turn(double yaw, double pitch, double roll, double stamp);  // the stylus [rad]
+  void turn(double yaw, double pitch, double roll, double stamp);  // the stylus, by [rad]
   void axes(const std::array<double, 6>& rates, double stamp);     // as GestureHand::axes
   void button(std::size_t index, bool down, double stamp);         // 0: gripper, 1: clutch
   void release();  // keys, axes and buttons; the robot stays where it is

@@ -56,6 +56,8 @@ class LabRun {
   const std::vector<int>& driven() const;
   const std::vector<double>& driven_q() const;
   std::optional<std::pair<int, Vector3>> tip() const;
+  // The couplings that are led, by their places in the scene.
+  std::vector<std::size_t> led() const;
   // Whether the scene itself moves the robot now: a hand that was given back may still be on its
   // way.
   bool scene_leads() const;
@@ -67,6 +69,7 @@ class LabRun {
  private:
   LabRun(const LabScene& scene, std::vector<Change> changes, LabHand& hand, const LabFrame* from);
   void start(const LabFrame* from);
+  void make_couplings();
   void begin_anew(const LabFrame& from);
   bool take();
 

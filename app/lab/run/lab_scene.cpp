@@ -120,8 +120,7 @@ std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& change
   }
 }
 
-std::string LabScene::text(const std::vector<Change>& changes) const {
-  if (!is_scene()) return "";
+TomlValue LabScene::tree(const std::vector<Change>& changes) const {
   SimulateOptions beside = files_->header.options;
   FaultList faults;
   const std::vector<Change> others = of_the_scene(changes, beside, faults);
@@ -145,10 +144,14 @@ std::string LabScene::text(const std::vector<Change>& changes) const {
   if (beside.step) put_number_of(scene, "step", *beside.step);
   if (!beside.integrator.empty()) put_text(scene, "integrator", beside.integrator);
   if (!beside.contact.empty()) put_text(scene, "contact", beside.contact);
-  return to_toml(scene);
+  return scene;
 }
 
-RecordingHeader LabScene::header(const std::vector<Change>& changes) const {
+std::string LabScene::text(const std::vector<Change>& changes) const {
+  return is_scene() ? to_toml(tree(changes)) : "";
+}
+
+RecordingHeader LabScene::header(const std::vector<Change>& changes, const Hand& hand) const {
   const std::unique_ptr<Plan> planned = plan(changes);
   RecordingHeader header = files_->header;
   FaultList faults;
@@ -157,9 +160,16 @@ RecordingHeader LabScene::header(const std::vector<Change>& changes) const {
   header.integrator = integrator_name(planned->prepared.run.integrator);
   header.step = planned->prepared.run.step;
   header.options.step = header.step;
-  if (is_scene())
-    for (RecordedFile& file : header.files)
-      if (file.path == header.options.robot.model) file.bytes = text(changes);
+  if (!is_scene()) return header;
+  const std::filesystem::path log = header.options.robot.model.parent_path() / "lab_hand.csv";
+  TomlValue scene = tree(changes);
+  for (TomlValue& list : scene.members)
+    for (const std::size_t place : hand.couplings)
+      if (list.key == "coupling" && place < list.items.size() && !hand.log.empty())
+        put_text(list.items[place], "target", log.string());
+  for (RecordedFile& file : header.files)
+    if (file.path == header.options.robot.model) file.bytes = to_toml(scene);
+  if (!hand.log.empty()) header.files.push_back({log.string(), hand.log});
   return header;
 }
 

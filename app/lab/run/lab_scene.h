@@ -31,11 +31,18 @@ class LabScene {
   // The scene with the changes in it, as TOML; empty for a robot alone. Throws InputError.
   std::string text(const std::vector<Change>& changes = {}) const;
   bool is_scene() const;
-  // Of a recording of the run with these changes. Throws InputError.
-  RecordingHeader header(const std::vector<Change>& changes = {}) const;
+  // Of a recording of the run with these changes. Some of the couplings, by their places in the
+  // scene, may be led by a hand's log (coupling/device/hand_log.h), which goes with it. Throws
+  // InputError.
+  struct Hand {
+    std::vector<std::size_t> couplings;
+    std::string log;  // empty: nothing is led
+  };
+  RecordingHeader header(const std::vector<Change>& changes, const Hand& hand) const;
 
  private:
   struct Files;
+  TomlValue tree(const std::vector<Change>& changes) const;
   std::shared_ptr<const Files> files_;
 };
 

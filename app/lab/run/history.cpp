@@ -1,0 +1,166 @@
+#include "app/lab/run/history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/record/recording_writer.h"
+#include "coupling/device/hand_log.h"
+#include "solver/fault.h"
+
+namespace twinarm {
+namespace {
+
+template <class T>
+std::size_t bytes_in(const std::vector<T>& values) {
+  return values.size() * sizeof(T);
+}
+
+bool is_earlier_step(const LabInput& input, long step) {
+  return input.step < step;
+}
+
+}  // namespace
+
+std::size_t bytes_of(const LabFrame& frame) {
+  const RecordedFrame& r = frame.recorded;
+  return sizeof(LabFrame) + bytes_in(r.values) + bytes_in(r.pulls) + bytes_in(r.contacts) +
+         bytes_in(r.rows) + bytes_in(r.works) + bytes_in(r.momentum_rows) + bytes_in(r.momenta) +
+         r.memory.size() + (frame.hand ? bytes_in(frame.hand->q_K) : 0);
+}
+
+LabHistory::Frame LabHistory::add(LabFrame frame) {
+  while (!frames_.empty() && frames_.back()->recorded.step >= frame.recorded.step) {
+    bytes_ -= bytes_of(*frames_.back());
+    frames_.pop_back();
+  }
+  if (segments_.empty()) segments_.push_back({frame.recorded.step, {}});
+  bytes_ += bytes_of(frame);
+  frames_.push_back(std::make_shared<const LabFrame>(std::move(frame)));
+  trim();
+  return frames_.back();
+}
+
+void LabHistory::add(const LabInput& input) {
+  if (!input.hand && !input.pull) return;
+  while (!inputs_.empty() && inputs_.back().step >= input.step) {
+    inputs_.pop_back();
+    bytes_ -= sizeof(LabInput);
+  }
+  inputs_.push_back(input);
+  bytes_ += sizeof(LabInput);
+}
+
+void LabHistory::begin_segment(std::vector<Change> changes) {
+  const long step = empty() ? 0 : newest()->recorded.step;
+  while (!segments_.empty() && segments_.back().first_step >= step) segments_.pop_back();
+  segments_.push_back({step, std::move(changes)});
+}
+
+// Always leaves the newest frame.
+void LabHistory::trim() {
+  while (bytes_ > most_ && frames_.size() > 1) {
+    bytes_ -= bytes_of(*frames_.front());
+    frames_.pop_front();
+    const long oldest = frames_.front()->recorded.step;
+    while (!inputs_.empty() && inputs_.front().step <= oldest) {
+      inputs_.pop_front();
+      bytes_ -= sizeof(LabInput);
+    }
+    while (segments_.size() > 1 && segments_[1].first_step <= oldest) segments_.pop_front();
+  }
+}
+
+std::size_t LabHistory::at(double t) const {
+  const double slack = 1e-9 * std::max(1.0, std::abs(t));  // sums of steps are rounded
+  const auto later =
+      std::upper_bound(frames_.begin(), frames_.end(), t + slack,
+                       [](double time, const Frame& frame) { return time < frame->recorded.t; });
+  return later == frames_.begin() ? 0 : static_cast<std::size_t>(later - frames_.begin()) - 1;
+}
+
+// A frame on a border is the last of the old one: it was made before the change.
+const LabHistory::Segment& LabHistory::segment_of(long step) const {
+  std::size_t s = segments_.size() - 1;
+  while (s > 0 && segments_[s].first_step >= step) --s;
+  return segments_[s];
+}
+
+const std::vector<Change>& LabHistory::changes_of(std::size_t n) const {
+  return segment_of(frames_[n]->recorded.step).changes;
+}
+
+const LabInput* LabHistory::input(long step) const {
+  const auto place = std::lower_bound(inputs_.begin(), inputs_.end(), step, is_earlier_step);
+  return place != inputs_.end() && place->step == step ? &*place : nullptr;
+}
+
+LabHistory LabHistory::cut(std::size_t n) {
+  LabHistory left(most_);
+  const long step = frames_[n]->recorded.step;
+  left.segments_ = segments_;
+  left.frames_.assign(frames_.begin() + static_cast<std::ptrdiff_t>(n), frames_.end());
+  const auto later = std::lower_bound(inputs_.begin(), inputs_.end(), step + 1, is_earlier_step);
+  left.inputs_.assign(later, inputs_.end());
+  for (const Frame& frame : left.frames_) left.bytes_ += bytes_of(*frame);
+  left.bytes_ += left.inputs_.size() * sizeof(LabInput);
+  bytes_ -= left.bytes_ - bytes_of(*frames_[n]);
+  inputs_.erase(later, inputs_.end());
+  frames_.resize(n + 1);
+  while (segments_.size() > 1 && segments_.back().first_step >= step) segments_.pop_back();
+  return left;
+}
+
+// The step after which neither changes, nor who moves the robot, nor a pull came.
+long LabHistory::first_step_to_save() const {
+  const long last = newest()->recorded.step;
+  long first = segments_.back().first_step;
+  if (inputs_.empty()) return first;
+  if (inputs_.back().step < last) return std::max(first, inputs_.back().step);
+  auto input = inputs_.rbegin();
+  if (!input->hand || input->pull) return last;
+  long step = last;
+  for (; input != inputs_.rend() && input->step == step && input->hand && !input->pull; ++input)
+    --step;
+  return std::max(first, step);
+}
+
+std::string LabHistory::log_of_hand() const {
+  if (inputs_.empty() || inputs_.back().step < newest()->recorded.step) return "";
+  std::size_t n = inputs_.size();  // earlier steps too: couplings may see the hand late
+  while (n > 0 && inputs_[n - 1].hand &&
+         (n == inputs_.size() || inputs_[n - 1].step + 1 == inputs_[n].step))
+    --n;
+  std::string log = n < inputs_.size() ? hand_log_header() : "";
+  for (; n < inputs_.size(); ++n) log += hand_log_line(*inputs_[n].hand);
+  return log;
+}
+
+LabHistory::Saved LabHistory::save(const LabScene& scene, const LabNames& names,
+                                   const std::vector<std::size_t>& led,
+                                   const std::filesystem::path& file) const {
+  if (empty())
+    throw InputError({{file.string(), 0, "save", "nothing is remembered yet", "let it run"}});
+  const long first = first_step_to_save();
+  RecordingHeader header = scene.header(segments_.back().changes, {led, log_of_hand()});
+  header.duration = newest()->recorded.t;
+  header.options.duration = header.duration;
+  RecordingWriter writer(file, std::move(header));
+  Saved saved;
+  for (const Frame& one : frames_) {
+    if (one->recorded.step < first) continue;
+    RecordedFrame frame = one->recorded;
+    frame.memory.resize(frame.memory.size() - one->outside_bytes);
+    frame.hash = hash_of(frame.memory);
+    for (std::uint32_t& row : frame.rows) row = writer.number_of(names.rows[row]);
+    for (std::uint32_t& row : frame.momentum_rows)
+      row = writer.momentum_number_of(names.momentum_rows[row]);
+    if (saved.frames++ == 0) saved.from = frame.t;
+    saved.to = frame.t;
+    writer.write(frame);
+  }
+  writer.finish("saved");
+  return saved;
+}
+
+}  // namespace twinarm

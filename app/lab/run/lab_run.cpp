@@ -1,0 +1,197 @@
+#include "app/lab/run/lab_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/lab/run/hand_lead.h"
+#include "app/lab/run/mouse_pull.h"
+#include "app/record/post_mortem.h"
+#include "app/record/record_run.h"
+
+namespace twinarm {
+namespace {
+
+std::uint32_t number_of(std::vector<std::string>& names, const std::string& name) {
+  const auto place = std::find(names.begin(), names.end(), name);
+  const auto number = static_cast<std::uint32_t>(place - names.begin());
+  if (place == names.end()) names.push_back(name);
+  return number;
+}
+
+// The state in the bytes of a run's memory: they begin with its head, then q, qd, t.
+State<double> state_in(const std::string& bytes) {
+  Memory memory = simulation_memory(bytes);
+  State<double> x;
+  memory.visit(x.q);
+  memory.visit(x.qd);
+  memory.visit(x.t);
+  return x;
+}
+
+}  // namespace
+
+LabRun::LabRun(const LabScene& scene, std::vector<Change> changes, LabHand& hand)
+    : LabRun(scene, std::move(changes), hand, nullptr) {}
+
+LabRun::LabRun(const LabScene& scene, std::vector<Change> changes, LabHand& hand,
+               const LabFrame& from)
+    : LabRun(scene, std::move(changes), hand, &from) {}
+
+LabRun::LabRun(const LabScene& scene, std::vector<Change> changes, LabHand& hand,
+               const LabFrame* from)
+    : changes_(std::move(changes)), hand_(hand), plan_(scene.plan(changes_)) {
+  SimulateInput& input = plan_->prepared.input;
+  const RunPlan& plan = plan_->prepared.run;
+  lead_ = std::make_unique<HandLead>(input.scene.get(), hand_, plan.step);
+  make_couplings();
+  watch_.warn = [this](const std::string& words) { warnings_.push_back(words); };
+  watch_.alarm = [this](const Alarm& alarm) {
+    warnings_.push_back(alarm_words(alarm, plan_->prepared));
+    return warnings_.back();
+  };
+  start(from);
+  if (from && from->hand) lead_->go_on_from(*from->hand);
+  warnings_.insert(warnings_.end(), input.robot.warnings.begin(), input.robot.warnings.end());
+}
+
+LabRun::~LabRun() = default;
+
+void LabRun::make_couplings() {
+  SimulateInput& input = plan_->prepared.input;
+  if (!input.scene) return;
+  input.couplings = std::make_unique<SceneCouplings>(*input.scene, plan_->prepared.run.step,
+                                                     nullptr, lead_->in_place());
+  lead_->attach(*input.couplings);
+}
+
+void LabRun::start(const LabFrame* from) {
+  const SimulatePlan& prepared = plan_->prepared;
+  pull_ = std::make_unique<MousePull>(prepared.input.robot.model, prepared.run);
+  if (!from) {
+    run_ = std::make_unique<SteppedRun>(prepared.input, prepared.run, watch_, nullptr, pull_.get());
+    run_->begin();
+    return;
+  }
+  try {
+    const RunStart start{from->recorded.memory};
+    run_ = std::make_unique<SteppedRun>(prepared.input, prepared.run, watch_, &start, pull_.get());
+  } catch (const InputError& error) {
+    if (error.faults().front().where != "restart") throw;
+    begun_anew_ = error.faults().front().rule;
+    begin_anew(*from);
+  }
+}
+
+// Where the frame stands. What was taken over in part is made again.
+void LabRun::begin_anew(const LabFrame& from) {
+  SimulatePlan& prepared = plan_->prepared;
+  State<double>& x = prepared.input.robot.state.x;
+  const State<double> was = state_in(from.recorded.memory);
+  if (was.q.size() != x.q.size() || was.qd.size() != x.qd.size())
+    throw InputError(
+        {{"", 0, "change", "the scene would have other joints", "begin from the start: reset"}});
+  x.q = was.q;
+  x.qd = was.qd;
+  x.t = was.t;
+  make_couplings();
+  pull_ = std::make_unique<MousePull>(prepared.input.robot.model, prepared.run);
+  RunStart start;
+  start.anew = true;
+  start.step = from.recorded.step;
+  start.time = from.recorded.t;
+  run_ = std::make_unique<SteppedRun>(prepared.input, prepared.run, watch_, &start, pull_.get());
+}
+
+bool LabRun::take() {
+  pull_->set(input_.pull);
+  const bool goes_on = run_->advance();
+  lead_->after_step(run_->simulation(), step_length(), goes_on);
+  return goes_on;
+}
+
+bool LabRun::step() {
+  if (run_->result().post_mortem || post_mortem_) return false;
+  const State<double>& x = run_->simulation().state();
+  input_.step = run_->step() + 1;
+  input_.hand = lead_->before_step(x, x.t, step_length());
+  input_.stamp = hand_.stamp();
+  return take();
+}
+
+bool LabRun::step(const LabInput& again) {
+  if (run_->result().post_mortem || post_mortem_) return false;
+  input_ = again;
+  input_.step = run_->step() + 1;
+  lead_->take_again(input_.hand);
+  return take();
+}
+
+bool LabRun::pull(int body, const Vector3& p_L, const Vector3& goal_W, double stamp) {
+  if (!goal_W.allFinite()) return false;
+  hand_.set_stamp(stamp);
+  if (input_.pull && input_.pull->body == body && input_.pull->p_L == p_L) {
+    input_.pull->goal_W = goal_W;
+    return true;
+  }
+  input_.pull = pull_->grab(run_->simulation().state(), body, p_L, goal_W);
+  return input_.pull.has_value();
+}
+
+void LabRun::drop() {
+  input_.pull.reset();
+}
+
+LabFrame LabRun::frame(LabNames& names) {
+  LabFrame frame;
+  frame.recorded = frame_of(*run_, plan_->prepared);
+  for (const LedgerRow& row : run_->ledger()) {
+    frame.recorded.rows.push_back(number_of(names.rows, row.name));
+    frame.recorded.works.push_back(row.work);
+  }
+  for (const MomentumRow& row : run_->momentum()) {
+    frame.recorded.momentum_rows.push_back(number_of(names.momentum_rows, row.name));
+    frame.recorded.momenta.insert(frame.recorded.momenta.end(), {row.linear, row.angular});
+  }
+  frame.hand = lead_->frame(frame.recorded.t);
+  if (const auto& pull = input_.pull)
+    frame.pull = LabPull{pull->body, pull->p_L, pull->goal_W, pull_->force()};
+  if (pull_->has_acted()) {
+    Memory books;
+    pull_->visit_books(books);
+    frame.outside_bytes = books.bytes().size();
+  }
+  frame.input_stamp = input_.stamp;
+  return frame;
+}
+
+const std::vector<int>& LabRun::driven() const {
+  return lead_->driven();
+}
+
+const std::vector<double>& LabRun::driven_q() const {
+  return lead_->q();
+}
+
+std::optional<std::pair<int, Vector3>> LabRun::tip() const {
+  return lead_->tip();
+}
+
+std::vector<std::size_t> LabRun::led() const {
+  return lead_->tip() ? lead_->couplings() : std::vector<std::size_t>{};
+}
+
+bool LabRun::scene_leads() const {
+  return !lead_->leads();
+}
+
+const PostMortem* LabRun::post_mortem(const std::vector<LedgerRow>& before) {
+  if (!post_mortem_ && run_->result().post_mortem) {
+    SimulateResult result = run_->finish();
+    explain_at_once(plan_->prepared, *run_, before, result);
+    post_mortem_ = std::move(result.post_mortem);
+  }
+  return post_mortem_ ? &*post_mortem_ : nullptr;
+}
+
+}  // namespace twinarm
