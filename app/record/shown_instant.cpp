@@ -7,15 +7,6 @@
 namespace twinarm {
 namespace {
 
-// Whether forces do: by the joints between the body and the world.
-bool moves(const Model<double>& model, std::size_t body) {
-  for (std::size_t i = body; i > 0; i = static_cast<std::size_t>(model.parent[i])) {
-    if (model.joint[i] == JointType::prescribed) return false;
-    if (model.joint[i] != JointType::fixed) return true;
-  }
-  return false;
-}
-
 ShownContact shown(const SceneModel& scene, const RecordedContact& c) {
   const auto body_of_geometry = [&](int g) {
     return static_cast<std::size_t>(scene.geometries[static_cast<std::size_t>(g)].body);
@@ -29,7 +20,7 @@ ShownContact shown(const SceneModel& scene, const RecordedContact& c) {
                     c.force,
                     c.couple,
                     scene.surface_of_pair(c.a, c.b).friction};
-  if (!moves(scene.model, on_b.body_b) && moves(scene.model, on_b.body_a)) {
+  if (!moves_by_forces(scene.model, on_b.body_b) && moves_by_forces(scene.model, on_b.body_a)) {
     std::swap(on_b.a, on_b.b);
     std::swap(on_b.body_a, on_b.body_b);
     on_b.n_W = -on_b.n_W;
@@ -40,6 +31,14 @@ ShownContact shown(const SceneModel& scene, const RecordedContact& c) {
 }
 
 }  // namespace
+
+bool moves_by_forces(const Model<double>& model, std::size_t body) {
+  for (std::size_t i = body; i > 0; i = static_cast<std::size_t>(model.parent[i])) {
+    if (model.joint[i] == JointType::prescribed) return false;
+    if (model.joint[i] != JointType::fixed) return true;
+  }
+  return false;
+}
 
 RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model) {
   RunInstant instant;

@@ -16,6 +16,9 @@ struct RunInstant {
   std::vector<RecordedContact> contacts;
 };
 
+// Whether forces do: by the joints between the body and the world.
+bool moves_by_forces(const Model<double>& model, std::size_t body);
+
 RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model);
 // `couplings`: of the scene; null for a robot alone. Contacts of other scenes are left out.
 Moment moment_of(const SimulateInput& input, SceneCouplings* couplings, const RunInstant& instant);

@@ -36,9 +36,9 @@ struct ShownPull {
 
 // All points of two geometries that touch.
 struct PairForce {
-  std::size_t body_b = 0;
   Vector3 force = Vector3::Zero(), couple = Vector3::Zero();  // on b [N], [N m]
   Vector3 point = Vector3::Zero();  // centre of pressure, weighed by the normal parts
+  std::size_t body_b = 0;
 };
 
 // The kinematic twin of a robot.

@@ -1,0 +1,133 @@
+#include "app/lab/stream/frame_bytes.h"
+
+#include <cmath>
+
+namespace twinarm {
+namespace {
+
+constexpr std::uint32_t kFrame = 0x31465754, kHistory = 0x31485754;  // "TWF1", "TWH1"
+constexpr std::uint16_t kNoBody = 65535;
+constexpr double kFarthest = 1e9;  // [m]: a run that flies apart
+
+// Little-endian, as the machine: solver/memory.h asserts it.
+class Block {
+ public:
+  template <class T>
+  void put(T value) {
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  // Arrays begin at multiples of 8 bytes: a browser looks at them in place.
+  void put_all(const void* data, std::size_t size) {
+    bytes_.resize((bytes_.size() + 7) / 8 * 8);
+    bytes_.append(static_cast<const char*>(data), size);
+  }
+  template <class T>
+  void put_all(const std::vector<T>& values) {
+    put_all(values.data(), values.size() * sizeof(T));
+  }
+  void reserve(std::size_t size) { bytes_.reserve(size); }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+std::uint32_t count_of(std::size_t n) {
+  return static_cast<std::uint32_t>(n);
+}
+
+void clear_all(InstanceColumns& columns) {
+  columns.mesh.clear();
+  columns.flags.clear();
+  columns.shininess.clear();
+  columns.color.clear();
+  columns.texture.clear();
+  columns.position.clear();
+  columns.turn.clear();
+  columns.scale.clear();
+}
+
+bool is_near(const Vector3& v) {
+  return v.cwiseAbs().maxCoeff() < kFarthest && v.allFinite();
+}
+
+}  // namespace
+
+void FrameColumns::clear_entries() {
+  clear_all(instances);
+  body.clear();
+  labels.position.clear();
+  labels.offset.clear();
+  text_end.clear();
+  text.clear();
+  first.assign(1, 0);
+  first_label.assign(1, 0);
+}
+
+void FrameColumns::end_layer() {
+  first.push_back(count_of(body.size()));
+  first_label.push_back(count_of(text_end.size()));
+}
+
+void FrameColumns::add(const Instance& instance) {
+  if (!is_near(instance.X_WM.p) || !is_near(instance.scale) || !instance.X_WM.R.allFinite()) return;
+  instances.add(instance);
+  body.push_back(instance.body < 0 ? kNoBody : static_cast<std::uint16_t>(instance.body));
+}
+
+void FrameColumns::add(const Label& label) {
+  if (!is_near(label.p_W) || !labels.add(label)) return;
+  text += label.text;
+  text_end.push_back(count_of(text.size()));
+}
+
+std::string frame_bytes(const FrameColumns& frame) {
+  Block block;
+  block.reserve(256 + 8 * (frame.channels.size() + frame.works.size()) + 48 * frame.body.size() +
+                20 * frame.text_end.size() + frame.text.size() + 8 * frame.first.size());
+  block.put(kFrame);
+  block.put(frame.scene);
+  block.put(frame.time);
+  block.put(frame.stamp);
+  block.put(frame.age);
+  block.put(frame.step);
+  block.put(frame.number);
+  block.put(frame.flags);
+  for (const std::size_t count :
+       {frame.channels.size(), frame.works.size(), frame.first.size() - 1, frame.body.size(),
+        frame.text_end.size(), frame.text.size(), std::size_t{0}, std::size_t{0}})
+    block.put(count_of(count));
+  block.put_all(frame.channels);
+  block.put_all(frame.works);
+  block.put_all(frame.instances.position);
+  block.put_all(frame.instances.scale);
+  block.put_all(frame.instances.turn);
+  block.put_all(frame.labels.position);
+  block.put_all(frame.labels.offset);
+  block.put_all(frame.text_end);
+  block.put_all(frame.first);
+  block.put_all(frame.first_label);
+  block.put_all(frame.instances.mesh);
+  block.put_all(frame.body);
+  block.put_all(frame.instances.color);
+  block.put_all(frame.instances.flags);
+  block.put_all(frame.instances.shininess);
+  block.put_all(frame.instances.texture);
+  block.put_all(frame.text.data(), frame.text.size());
+  return block.take();
+}
+
+std::string history_bytes(const HistoryColumns& history) {
+  Block block;
+  block.reserve(32 + 8 * (history.time.size() + history.channels.size() + history.works.size()));
+  block.put(kHistory);
+  for (const std::uint32_t number : {history.scene, count_of(history.time.size()),
+                                     history.channel_count, history.row_count, std::uint32_t{0}})
+    block.put(number);
+  block.put_all(history.time);
+  block.put_all(history.channels);
+  block.put_all(history.works);
+  return block.take();
+}
+
+}  // namespace twinarm

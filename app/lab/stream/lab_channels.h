@@ -1,0 +1,26 @@
+// The numbers of a lab's frame, by channel: those of a recorded run, and what the hand, the mouse
+// and the clock do.
+#pragma once
+
+#include <vector>
+
+#include "app/lab/run/lab_frame.h"
+#include "app/web/run_channels.h"
+
+namespace twinarm {
+
+class LabChannels {
+ public:
+  LabChannels(const SimulateInput& input, const RecordingHeader& header);
+  // Pairs that touch come up as they do, behind all others. True: one did.
+  bool add_pairs(const LabFrame& frame);
+  const std::vector<RunChannel>& all() const { return channels_.all(); }
+  void values(const LabFrame& frame, const Moment& moment, SceneCouplings* couplings,
+              std::vector<double>& values) const;
+
+ private:
+  RunChannels channels_;
+  std::size_t pull_ = 0, hand_ = 0, time_ = 0;  // places of the first ones
+};
+
+}  // namespace twinarm

@@ -1,0 +1,162 @@
+#include "app/lab/stream/live_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "app/dynamics/coordinates.h"
+#include "app/show/framing.h"
+#include "solver/mimic.h"
+
+namespace twinarm {
+namespace {
+
+constexpr double kAspect = 1.35;  // as in a replay page
+constexpr int kPostures = 64;
+constexpr double kTrail = 10, kTrailStep = kTrail / 160;  // [s]; 160 pieces
+constexpr std::size_t kTrailPoints = 9600;                // ten minutes
+
+struct JointRange {
+  std::size_t iq = 0;
+  double low = 0, high = 0;
+};
+
+std::vector<JointRange> ranges_of(const RobotInput& robots) {
+  std::vector<JointRange> ranges;
+  for (const NamedJoint& joint : robots.coordinates.all()) {
+    if (joint.components().size() != 1) continue;
+    const auto& joints = robots.robot.joints;
+    const auto found = std::find_if(joints.begin(), joints.end(),
+                                    [&](const auto& j) { return j.name == joint.name; });
+    const bool has_limits = found != joints.end() && found->is_limited() &&
+                            std::isfinite(found->lower) && std::isfinite(found->upper);
+    if (has_limits)
+      ranges.push_back({joint.iq, found->lower, found->upper});
+    else if (joint.components().front().is_angle)
+      ranges.push_back({joint.iq, -std::numbers::pi, std::numbers::pi});
+  }
+  return ranges;
+}
+
+// The n-th number of van der Corput's sequence: the digits of n in that base, mirrored at the
+// point.
+double mirrored(int n, int base) {
+  double value = 0, digit = 1;
+  for (; n > 0; n /= base) {
+    digit /= base;
+    value += digit * (n % base);
+  }
+  return value;
+}
+
+void add_reach(Stage& stage, const RobotInput& robots, const Moment& start) {
+  constexpr std::array<int, 12> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
+  const std::vector<JointRange> ranges = ranges_of(robots);
+  if (ranges.empty()) return;
+  Cast moved = stage.cast;  // robots alone
+  moved.ties.clear();
+  std::erase_if(moved.parts, [](const CastPart& part) { return part.robot < 0; });
+  Extent now;
+  now.add(moved, start);
+  const bool stands =
+      !now.empty() && now.low().z() > -0.02 * now.radius() && now.low().z() < 0.05 * now.radius();
+  const double lowest = stands ? std::min(0.0, now.low().z()) : -1e300;
+  Moment posture(*stage.model);
+  posture.x = start.x;
+  for (int n = 1; n <= kPostures; ++n) {
+    for (std::size_t j = 0; j < ranges.size(); ++j) {
+      const double share = mirrored(n, kPrimes[j % kPrimes.size()]);
+      posture.x.q[ranges[j].iq] = ranges[j].low + share * (ranges[j].high - ranges[j].low);
+    }
+    apply_mimics(*stage.model, posture.x);
+    forward_kinematics(*stage.model, posture.x, posture.k);
+    Extent reached;
+    reached.add(moved, posture);
+    for (Vector3 p : reached.points()) {
+      p.z() = std::max(p.z(), lowest);
+      stage.extent.add(p);
+    }
+  }
+}
+
+// The smallest of 1, 2, 5 times a power of ten that is not below; the value itself where it is one.
+double round_up(double value) {
+  if (!(value > 0) || !std::isfinite(value)) return 0;
+  double round = round_down(value);
+  while (round < value * (1 - 1e-9)) round = round_down(round * 2.6);
+  return round;
+}
+
+// Of a whole that starts with weights alone.
+void set_first_scales(Stage& stage, const Moment& start) {
+  Scales& scales = stage.scales;
+  const double g = to_eigen(stage.model->gravity).norm(), length = scales.length;
+  double heaviest = 0;
+  for (std::size_t i = 1; i < stage.model->parent.size(); ++i)
+    heaviest = std::max(heaviest, stage.model->I[i].m);
+  const double mass = total_motion(*stage.model, start.k).mass;
+  const double speed = 0.2 * length;  // slow: a fifth of the scene in a second
+  scales.contact_force = round_up(heaviest * g);
+  scales.force = round_up(heaviest * g);
+  scales.couple = round_up(0.1 * heaviest * g * length);
+  scales.momentum = round_up(mass * speed);
+  scales.angular = round_up(mass * speed * length);
+  scales.kinetic = round_up(0.5 * mass * speed * speed);
+}
+
+}  // namespace
+
+void set_live_view(Stage& stage, const RobotInput& robots, const Moment& start, bool has_hand) {
+  look_at(stage, start);
+  stage.has_hand = true;  // one may come
+  stage.frames_device = has_hand;
+  settle(stage);
+  stage.farthest = 1e300;
+  add_reach(stage, robots, start);
+  set_view(stage, {}, kAspect);
+  stage.trace.span = kTrail;
+  set_first_scales(stage, start);
+}
+
+bool grow_scales(Stage& stage, const Moment& moment) {
+  Scales seen;
+  seen.widen_run(*stage.model, moment);
+  seen.widen_contacts(moment);
+  if (moment.grip) seen.force = std::max(seen.force, moment.grip->force_W.norm());
+  bool any = false;
+  for (double Scales::*most :
+       {&Scales::contact_force, &Scales::force, &Scales::couple, &Scales::momentum,
+        &Scales::angular, &Scales::kinetic, &Scales::elastic}) {
+    double& scale = stage.scales.*most;
+    if (!(seen.*most > scale) || !std::isfinite(seen.*most)) continue;
+    scale = scale > 0 ? round_up(1.5 * scale) : round_up(seen.*most);
+    any = true;
+  }
+  seen.kinetic = seen.elastic = seen.contact_force = seen.force = seen.couple = 0;
+  seen.momentum = seen.angular = 0;
+  stage.scales.widen(seen);  // potential energies: for bars
+  return any;
+}
+
+void leave_trail(Stage& stage, const Moment& moment) {
+  Trace& trace = stage.trace;
+  const double t = moment.x.t;
+  if (!std::isfinite(t)) return;
+  while (!trace.t.empty() && trace.t.back() > t + 1e-9) {
+    trace.t.pop_back();
+    trace.p_Wc.pop_back();
+  }
+  if (!trace.t.empty() && t < trace.t.back() + kTrailStep) return;
+  std::vector<Vector3> places(stage.model->parent.size(), Vector3::Zero());
+  for (std::size_t i = 1; i < places.size(); ++i) places[i] = com_of(*stage.model, moment.k, i);
+  trace.t.push_back(t);
+  trace.p_Wc.push_back(std::move(places));
+  if (trace.t.size() <= kTrailPoints) return;
+  const auto old = static_cast<std::ptrdiff_t>(kTrailPoints / 10);  // seldom, for vectors move
+  trace.t.erase(trace.t.begin(), trace.t.begin() + old);
+  trace.p_Wc.erase(trace.p_Wc.begin(), trace.p_Wc.begin() + old);
+}
+
+}  // namespace twinarm

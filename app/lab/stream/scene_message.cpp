@@ -1,0 +1,126 @@
+#include "app/lab/stream/scene_message.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/record/shown_instant.h"
+#include "app/show/overlays.h"
+#include "app/web/draw_columns.h"
+
+namespace twinarm {
+namespace {
+
+struct LayerWords {
+  std::string name, what;
+};
+
+const std::vector<LayerWords>& layer_words() {
+  static const std::vector<LayerWords> all = [] {
+    std::vector<LayerWords> words{{"bodies", "robots, bodies and obstacles"}};
+    for (const auto* overlays : {&all_overlays(), &live_overlays()})
+      for (const Overlay& overlay : *overlays) words.push_back({overlay.name, overlay.what});
+    return words;
+  }();
+  return all;
+}
+
+void write_layers(JsonWriter& json, const std::vector<std::vector<LegendLine>>& legends) {
+  json.key("layers").begin_array();
+  for (std::size_t i = 0; i < layer_words().size(); ++i) {
+    json.begin_object();
+    json.key("name").text(layer_words()[i].name);
+    json.key("what").text(layer_words()[i].what);
+    json.key("legend");
+    write_legend(json, legends[i]);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+void write_channels(JsonWriter& json, const std::vector<RunChannel>& channels) {
+  json.key("channels").begin_array();
+  for (const RunChannel& channel : channels) {
+    json.begin_object();
+    json.key("name").text(channel.name);
+    json.key("unit").text(channel.unit);
+    json.key("kind").text(channel.kind);
+    json.key("of").text(channel.of);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+// Whether forces move it, and whether it is a robot's link.
+void write_bodies(JsonWriter& json, const SimulatePlan& plan) {
+  const Model<double>& model = plan.input.robot.model;
+  const int links = plan.input.scene ? plan.input.scene->robot_bodies : model.body_count() - 1;
+  json.key("bodies").begin_array();
+  for (std::size_t i = 0; i < model.parent.size(); ++i) {
+    json.begin_object();
+    json.key("name").text(i == 0 ? "world" : model.body_name[i]);
+    json.key("moves").boolean(moves_by_forces(model, i));
+    json.key("robot").boolean(i > 0 && static_cast<int>(i) <= links);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+void write_joints(JsonWriter& json, const RobotInput& robots, const std::vector<int>& driven) {
+  json.key("joints").begin_array();
+  for (const NamedJoint& joint : robots.coordinates.all()) {
+    if (joint.components().size() != 1) continue;
+    json.begin_object();
+    json.key("name").text(joint.name);
+    json.key("body").count(static_cast<long>(joint.body));
+    const auto& all = robots.robot.joints;
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const auto& j) { return j.name == joint.name; });
+    if (found != all.end() && found->is_limited()) {
+      if (std::isfinite(found->lower)) json.key("low").number(found->lower);
+      if (std::isfinite(found->upper)) json.key("high").number(found->upper);
+    }
+    const auto place = std::find(driven.begin(), driven.end(), static_cast<int>(joint.body));
+    if (place != driven.end()) json.key("driven").count(place - driven.begin());
+    json.end_object();
+  }
+  json.end_array();
+}
+
+}  // namespace
+
+const std::vector<std::string>& layer_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const LayerWords& layer : layer_words()) all.push_back(layer.name);
+    return all;
+  }();
+  return names;
+}
+
+std::string scene_message(const SceneFacts& facts) {
+  JsonWriter json;
+  json.begin_object();
+  json.key("kind").text("scene");
+  json.key("scene").count(facts.number);
+  json.key("title").text(facts.words.title.empty() ? facts.stage.name : facts.words.title);
+  json.key("file").text(facts.words.file);
+  json.key("look").texts(facts.words.look);
+  json.key("meshes").texts(facts.store.meshes());
+  json.key("textures").texts(facts.store.textures());
+  write_layers(json, facts.legends);
+  write_channels(json, facts.channels);
+  json.key("ledger").texts(facts.rows);
+  write_bodies(json, facts.plan);
+  write_joints(json, facts.plan.input.robot, facts.words.driven);
+  if (facts.words.tip) {
+    json.key("tip").begin_object();
+    json.key("body").count(facts.words.tip->first);
+    json.key("p").vector(facts.words.tip->second);
+    json.end_object();
+  }
+  write_view(json, facts.stage);
+  json.end_object();
+  return json.str();
+}
+
+}  // namespace twinarm
