@@ -120,4 +120,17 @@ Dynamics compute_dynamics(const RobotInput& input) {
   return d;
 }
 
+void stand_at(RobotInput& input, const State<double>& x) {
+  Kinematics before(input.model), now(input.model);
+  forward_kinematics(input.model, input.state.x, before);
+  forward_kinematics(input.model, x, now);
+  for (Wrench& wrench : input.state.wrenches) {
+    if (wrench.in_link_axes) continue;
+    const Pose &was = before.X_WL[wrench.body], &is = now.X_WL[wrench.body];
+    const Vector3 p_L = was.R.transpose() * (wrench.point - was.p);
+    wrench.point = is * p_L;
+  }
+  input.state.x = x;
+}
+
 }  // namespace twinarm

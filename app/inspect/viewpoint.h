@@ -46,7 +46,8 @@ struct NamedForce {
     double value;           // [N m, N]
   };
   std::vector<OnJoint> joints;
-  std::optional<Vector3> point;  // where it acts, world
+  std::optional<Vector3> point;   // where it acts, world
+  std::optional<Vector3> normal;  // of a contact, towards its second body, world
   // Of a contact: how hard it presses, and its part in the plane [N].
   struct Parts {
     double normal, friction;

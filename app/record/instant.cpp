@@ -5,30 +5,12 @@
 #include <fstream>
 #include <string>
 
+#include "app/dynamics/dynamics.h"
 #include "app/record/recording_reader.h"
 #include "app/record/recording_writer.h"
 #include "app/simulate/run.h"
-#include "solver/kinematics.h"
 
 namespace twinarm {
-namespace {
-
-// A wrench in world axes acts on the point of its link that stood there at the start of the run.
-void move_state(RobotInput& input, const State<double>& x) {
-  Kinematics before(input.model), now(input.model);
-  forward_kinematics(input.model, input.state.x, before);
-  forward_kinematics(input.model, x, now);
-  for (Wrench& wrench : input.state.wrenches) {
-    if (wrench.in_link_axes) continue;
-    const Pose &was = before.X_WL[wrench.body], &is = now.X_WL[wrench.body];
-    const Vector3 p_L = was.R.transpose() * (wrench.point - was.p);
-    wrench.point = is * p_L;
-  }
-  input.state.x = x;
-}
-
-}  // namespace
-
 bool is_recording(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string start(8, '\0');
@@ -72,7 +54,7 @@ RecordedInstant open_instant(const std::filesystem::path& file, std::optional<do
   memory.visit(x.q);
   memory.visit(x.qd);
   memory.visit(x.t);
-  move_state(instant.prepared.input.robot, x);
+  stand_at(instant.prepared.input.robot, x);
   return instant;
 }
 

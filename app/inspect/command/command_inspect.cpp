@@ -15,11 +15,7 @@
 #include "solver/whole_file.h"
 
 namespace twinarm {
-namespace {
 
-constexpr int kFellShort = 1;
-
-// Of a scene: what is inspected is what the step did.
 Check step_check(const Inspection& in, const std::vector<double>& qdd_of_step) {
   constexpr double kTolerance = 1e-9;  // of what the impulse solver leaves
   Check check{"step", "the step's own accelerations, forces by name", 0, kTolerance, ""};
@@ -37,7 +33,6 @@ Check step_check(const Inspection& in, const std::vector<double>& qdd_of_step) {
   return check;
 }
 
-// After a run that broke, where the passes break.
 void warn_of_bad_numbers(const Inspection& in, std::vector<std::string>& warnings) {
   const BadQuantity bad = first_bad_quantity(in.model, in.forces, in.w);
   if (bad.body == 0) return;
@@ -47,6 +42,10 @@ void warn_of_bad_numbers(const Inspection& in, std::vector<std::string>& warning
       "earlier instant",
       bad.name, in.model.body_name[bad.body], pass));
 }
+
+namespace {
+
+constexpr int kFellShort = 1;
 
 std::string title_of(const RobotInput& input, const Inspection& in, const std::string& state) {
   const Vec3<double>& g = in.model.gravity;

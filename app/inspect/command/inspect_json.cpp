@@ -22,34 +22,6 @@ void write_value(JsonWriter& json, const Shown& shown) {
   json.end_array();
 }
 
-void write_passes(JsonWriter& json, const Inspection& in, const InspectView& view) {
-  json.begin_array();
-  for (const int pass : view.passes) {
-    std::vector<std::size_t> order = view.bodies;
-    if (pass == 2) order.assign(view.bodies.rbegin(), view.bodies.rend());
-    for (const std::size_t body : order) {
-      json.begin_object();
-      json.key("pass").count(pass);
-      json.key("body").text(in.model.body_name[body]);
-      json.key("joint").text(in.model.joint_name[body]);
-      json.key("quantities").begin_array();
-      for (const Shown& shown : shown_quantities(in, pass, body)) {
-        json.begin_object();
-        json.key("name").text(shown.quantity.name);
-        json.key("meaning").text(shown.quantity.meaning);
-        json.key("unit").text(shown.quantity.unit);
-        json.key("frame").text(shown.frame);
-        json.key("equation").text(shown.quantity.equation);
-        write_value(json.key("value"), shown);
-        json.end_object();
-      }
-      json.end_array();
-      json.end_object();
-    }
-  }
-  json.end_array();
-}
-
 void write_balances(JsonWriter& json, const Inspection& in, const InspectView& view) {
   json.begin_array();
   for (const std::size_t body : view.bodies) {
@@ -79,6 +51,7 @@ void write_forces(JsonWriter& json, const Inspection& in, const InspectView& vie
     json.begin_object();
     json.key("source").text(named.source);
     if (named.point) json.key("point").vector(*named.point);
+    if (named.normal) json.key("axis").vector(*named.normal);
     if (named.parts) {
       json.key("normal").number(named.parts->normal);
       json.key("friction").number(named.parts->friction);
@@ -129,17 +102,8 @@ void write_joints(JsonWriter& json, const Inspection& in, const InspectView& vie
   json.end_array();
 }
 
-}  // namespace
-
-std::string inspect_json(const Inspection& in, const InspectView& view,
-                         const std::vector<Check>& checks) {
-  JsonWriter json;
-  json.begin_object();
-  write_passes(json.key("passes"), in, view);
-  write_balances(json.key("balance"), in, view);
-  write_joints(json.key("joint_balance"), in, view);
-  write_forces(json.key("forces"), in, view);
-  json.key("checks").begin_array();
+void write_checks(JsonWriter& json, const std::vector<Check>& checks) {
+  json.begin_array();
   for (const Check& check : checks) {
     json.begin_object();
     json.key("name").text(check.name);
@@ -152,6 +116,50 @@ std::string inspect_json(const Inspection& in, const InspectView& view,
     json.end_object();
   }
   json.end_array();
+}
+
+}  // namespace
+
+void write_quantities(JsonWriter& json, const std::vector<Shown>& quantities) {
+  json.begin_array();
+  for (const Shown& shown : quantities) {
+    json.begin_object();
+    json.key("name").text(shown.quantity.name);
+    json.key("meaning").text(shown.quantity.meaning);
+    json.key("unit").text(shown.quantity.unit);
+    json.key("frame").text(shown.frame);
+    json.key("equation").text(shown.quantity.equation);
+    write_value(json.key("value"), shown);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+void write_passes(JsonWriter& json, const Inspection& in, const std::vector<int>& passes,
+                  const std::vector<std::size_t>& bodies) {
+  json.begin_array();
+  for (const int pass : passes) {
+    std::vector<std::size_t> order = bodies;
+    if (pass == 2) order.assign(bodies.rbegin(), bodies.rend());
+    for (const std::size_t body : order) {
+      json.begin_object();
+      json.key("pass").count(pass);
+      json.key("body").text(in.model.body_name[body]);
+      json.key("joint").text(in.model.joint_name[body]);
+      write_quantities(json.key("quantities"), shown_quantities(in, pass, body));
+      json.end_object();
+    }
+  }
+  json.end_array();
+}
+
+void write_inspection(JsonWriter& json, const Inspection& in, const InspectView& view,
+                      const std::vector<Check>& checks) {
+  write_passes(json.key("passes"), in, view.passes, view.bodies);
+  write_balances(json.key("balance"), in, view);
+  write_joints(json.key("joint_balance"), in, view);
+  write_forces(json.key("forces"), in, view);
+  write_checks(json.key("checks"), checks);
   if (!view.ledger.empty()) {
     json.key("ledger").begin_object();
     for (const LedgerRow& row : view.ledger) json.key(row.name).number(row.work);
@@ -160,6 +168,13 @@ std::string inspect_json(const Inspection& in, const InspectView& view,
   json.key("axes").text(view.axes);
   json.key("about").text(view.about);
   json.key("warnings").texts(view.warnings);
+}
+
+std::string inspect_json(const Inspection& in, const InspectView& view,
+                         const std::vector<Check>& checks) {
+  JsonWriter json;
+  json.begin_object();
+  write_inspection(json, in, view, checks);
   json.end_object();
   return json.str();
 }

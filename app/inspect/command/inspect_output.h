@@ -7,6 +7,8 @@
 #include "app/inspect/balance.h"
 #include "app/inspect/checks.h"
 #include "app/inspect/inspection.h"
+#include "app/inspect/shown.h"
+#include "app/json_writer.h"
 #include "app/simulate/ledger.h"
 
 namespace twinarm {
@@ -26,6 +28,18 @@ struct InspectView {
 // Those that the view asks for.
 std::vector<NamedForce> forces_in_view(const Inspection& in, const InspectView& view);
 
+// Of a scene: what is inspected is what the step did.
+Check step_check(const Inspection& in, const std::vector<double>& qdd_of_step);
+// After a run that broke: where the passes break.
+void warn_of_bad_numbers(const Inspection& in, std::vector<std::string>& warnings);
+
+// Keys of the object that is open: what `inspect --json` prints.
+void write_inspection(JsonWriter& json, const Inspection& in, const InspectView& view,
+                      const std::vector<Check>& checks);
+// The list at its key "passes", in the order in which aba() goes.
+void write_passes(JsonWriter& json, const Inspection& in, const std::vector<int>& passes,
+                  const std::vector<std::size_t>& bodies);
+void write_quantities(JsonWriter& json, const std::vector<Shown>& quantities);
 std::string inspect_json(const Inspection& in, const InspectView& view,
                          const std::vector<Check>& checks);
 std::string inspect_text(const Inspection& in, const InspectView& view,

@@ -1,6 +1,7 @@
-// The first step of a scene, and by whose name each of its forces acts.
+// One step of a scene, and by whose name each of its forces acts.
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "app/dynamics/dynamics.h"
@@ -18,12 +19,16 @@ Index index(std::size_t i) {
   return static_cast<Index>(i);
 }
 
-class FirstStep {
+}  // namespace
+
+class SceneInspector::FirstStep {
  public:
-  FirstStep(SimulateInput& input, double h, Memory* memory)
+  FirstStep(SimulateInput& input, double h, const std::vector<NamedSource>& others)
       : input_(input),
         model_(input.robot.model),
         h_(h),
+        others_(others),
+        given_(input.robot.state),
         sim_(model_, input.robot.state.x),
         torques_(model_, input.robot.coordinates, input.robot.state.tau),
         k_(model_) {
@@ -33,13 +38,24 @@ class FirstStep {
     for (GivenWrench& wrench : wrenches_) sim_.add(wrench);
     for (std::size_t c = 0; c < input.couplings->size(); ++c)
       if (ForceSource* source = input.couplings->source(c)) sim_.add(*source);
+    for (const NamedSource& other : others_) sim_.add(*other.source);
     for (const SceneMotion& motion : input.scene->motions) sim_.prescribe(motion.body, motion.law);
     sim_.set_integrator(Integrator::semi_implicit);
     sim_.constrain_accelerations();
     contacts_.emplace(*input.scene, sim_);
-    if (memory) sim_.visit_memory(*memory);
   }
 
+  Inspected look(Memory* memory) {
+    if (memory) {
+      sim_.visit_memory(*memory);
+      input_.robot.state = given_;
+      stand_at(input_.robot, sim_.state());
+    }
+    actors_.clear();
+    return take();
+  }
+
+ private:
   Inspected take() {
     Inspected inspected;
     inspected.warnings = input_.robot.warnings;
@@ -58,6 +74,7 @@ class FirstStep {
     inspected.x = x_;
     actors_ = given_actors(input_.robot);
     add_couplings();
+    add_others();
     add_damping();
     const bool constrained = sim_.constraints().any();
     add_by_joint(
@@ -73,7 +90,6 @@ class FirstStep {
     return inspected;
   }
 
- private:
   void add_couplings() {
     for (std::size_t c = 0; c < input_.couplings->size(); ++c) {
       ForceSource* source = input_.couplings->source(c);
@@ -84,6 +100,14 @@ class FirstStep {
       actors_.push_back(actor_of("coupling/" + spec.coupling, added));
       if (spec.type == CouplingDescription::Type::linear)
         actors_.back().point_W = k_.position(spec.spring.body, spec.spring.p_L);
+    }
+  }
+  void add_others() {
+    for (const NamedSource& other : others_) {
+      Forces<double> added(model_);
+      other.source->add_forces(x_, k_, added);
+      actors_.push_back(actor_of(other.name, added));
+      if (other.at) actors_.back().point_W = k_.position(other.at->first, other.at->second);
     }
   }
   // At the end of the step: h b as armature.
@@ -209,6 +233,8 @@ class FirstStep {
   SimulateInput& input_;
   const Model<double>& model_;
   double h_;
+  std::vector<NamedSource> others_;
+  const GivenState given_;  // as it was at the start of the run
   Simulation sim_;
   GivenTorques torques_;
   std::vector<GivenWrench> wrenches_;
@@ -219,10 +245,16 @@ class FirstStep {
   Eigen::VectorXd rest_;
 };
 
-}  // namespace
+SceneInspector::SceneInspector(SimulateInput& input, double h,
+                               const std::vector<NamedSource>& others)
+    : step_(std::make_unique<FirstStep>(input, h, others)) {}
+SceneInspector::~SceneInspector() = default;
+Inspected SceneInspector::look(Memory* memory) {
+  return step_->look(memory);
+}
 
 Inspected inspect_scene(SimulateInput& input, double h, Memory* memory) {
-  return FirstStep(input, h, memory).take();
+  return SceneInspector(input, h).look(memory);
 }
 
 }  // namespace twinarm

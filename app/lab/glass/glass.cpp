@@ -1,0 +1,234 @@
+#include "app/lab/glass/glass.h"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "app/dynamics/dynamics.h"
+#include "app/inspect/command/inspect_input.h"
+#include "app/inspect/command/inspect_output.h"
+#include "app/inspect/equations.h"
+#include "app/simulate/run.h"
+#include "coupling/device/live_hand.h"
+#include "solver/integrator_rewind.h"
+
+namespace twinarm {
+namespace {
+
+// The device where the frame has it, at rest.
+class StillHand final : public HandSource {
+ public:
+  void stand(const LabHandFrame& frame) {
+    HandTarget target;
+    target.q = frame.q_K;
+    target.qd.assign(frame.q_K.size(), 0.0);
+    target.gripper_closed = frame.gripper_closed;
+    LiveHand hand(1);
+    hand.set(target, 0, 1);
+    now_ = hand.newest().hand;
+  }
+  HandSample sample(double, double) const override { return now_; }
+  double duration() const override { return std::numeric_limits<double>::infinity(); }
+  std::string description() const override { return "a hand at rest"; }
+
+ private:
+  HandSample now_;
+};
+
+// The mouse's spring, with the force of the step that led to the frame.
+class HeldPull final : public ForceSource, public Rewindable {
+ public:
+  void hold(const std::optional<LabPull>& pull) { pull_ = pull; }
+  void add_forces(const State<double>&, const Kinematics& k,
+                  Forces<double>& forces) noexcept override {
+    if (!pull_ || pull_->body <= 0) return;
+    Wrench wrench;
+    wrench.body = static_cast<std::size_t>(pull_->body);
+    wrench.point = k.position(pull_->body, pull_->p_L);
+    wrench.force = pull_->force_W;
+    forces.f_ext[wrench.body] += in_body_axes(wrench, k);
+  }
+
+ private:
+  std::optional<LabPull> pull_;
+};
+
+bool acts_on(const Actor& actor, const Model<double>& model, std::size_t body) {
+  const auto is_its = [&](const Actor::OnJoint& on) {
+    return on.dof >= model.iv[body] && on.dof < model.iv[body] + model.dofs(body);
+  };
+  return std::any_of(actor.bodies.begin(), actor.bodies.end(),
+                     [&](const Actor::OnBody& on) { return on.body == body; }) ||
+         std::any_of(actor.joints.begin(), actor.joints.end(), is_its);
+}
+
+// Of six columns, what a joint of several velocities has of each; else as it lies.
+void write_terms(JsonWriter& json, const Eigen::MatrixXd& value, bool by_columns) {
+  if (value.cols() == 1)
+    json.number_or_list({value.data(), value.data() + value.size()});
+  else
+    json.matrix(by_columns ? Eigen::MatrixXd(value.transpose()) : value);
+}
+
+void write_equations(JsonWriter& json, const Inspection& in, std::size_t body) {
+  json.begin_array();
+  for (const int pass : {1, 2, 3})
+    for (const Equation& equation : equations_of(in, pass, body)) {
+      json.begin_object();
+      json.key("pass").count(pass);
+      json.key("name").text(equation.name);
+      json.key("text").text(equation.text);
+      json.key("terms").begin_array();
+      for (const EquationTerm& term : equation.terms) {
+        json.begin_object();
+        json.key("symbol").text(term.symbol);
+        json.key("words").text(term.words);
+        json.key("of").text(in.model.body_name[term.of]);
+        write_terms(json.key("value"), term.value, equation.by_columns);
+        json.end_object();
+      }
+      json.end_array();
+      write_terms(json.key("value"), equation.value, equation.by_columns);
+      json.key("residual").number(equation.residual);
+      json.end_object();
+    }
+  json.end_array();
+}
+
+// What the equations of a body take from another one.
+void write_neighbour(JsonWriter& json, const Inspection& in, std::size_t body, const char* is,
+                     const std::array<int, 2>& passes, std::initializer_list<const char*> names) {
+  std::vector<Shown> taken;
+  for (const int pass : passes)
+    for (Shown& shown : shown_quantities(in, pass, body))
+      for (const std::string_view name : names)
+        if (name == shown.quantity.name) taken.push_back(std::move(shown));
+  json.begin_object();
+  json.key("body").text(in.model.body_name[body]);
+  json.key("is").text(is);
+  write_quantities(json.key("quantities"), taken);
+  json.end_object();
+}
+
+void write_neighbours(JsonWriter& json, const Inspection& in, std::size_t body) {
+  json.begin_array();
+  if (in.parent(body) > 0) write_neighbour(json, in, in.parent(body), "parent", {1, 3}, {"v", "a"});
+  for (const std::size_t child : in.children(body))
+    write_neighbour(json, in, child, "child", {1, 2}, {"Xup", "Ia", "pa"});
+  json.end_array();
+}
+
+}  // namespace
+
+struct Glass::Impl {
+  SimulatePlan plan;
+  std::vector<std::string> ledger;
+  GivenState given;  // of the start
+  StillHand hand;
+  HeldPull pull;
+  std::optional<SceneInspector> scene;
+
+  Impl(SimulatePlan of, std::vector<std::string> names)
+      : plan(std::move(of)), ledger(std::move(names)), given(plan.input.robot.state) {
+    SimulateInput& input = plan.input;
+    if (!input.scene) return;
+    input.couplings = std::make_unique<SceneCouplings>(*input.scene, plan.run.step, &hand);
+    scene.emplace(input, plan.run.step, std::vector<NamedSource>{{"pull", &pull}});
+  }
+
+  Inspected look(const LabFrame& frame) {
+    Memory memory = simulation_memory(frame.recorded.memory);
+    if (scene) {
+      if (frame.hand) hand.stand(*frame.hand);
+      pull.hold(frame.pull);
+      return scene->look(&memory);
+    }
+    RobotInput& robot = plan.input.robot;
+    State<double> x(robot.model);
+    memory.visit(x.q);
+    memory.visit(x.qd);
+    memory.visit(x.t);
+    if (x.q.size() != robot.model.nq || x.qd.size() != robot.model.nv)
+      throw std::runtime_error("the state is not one of this robot");
+    robot.state = given;
+    stand_at(robot, x);
+    return inspect_robot(robot);
+  }
+
+  InspectView view_of(const Inspection& in, const LabFrame& frame, std::size_t body) const {
+    InspectView view;
+    view.bodies = {body};
+    view.forces_alone = true;
+    for (const Actor& actor : in.actors)
+      if (acts_on(actor, in.model, body)) view.forces.push_back(actor.source);
+    const RecordedFrame& recorded = frame.recorded;
+    for (std::size_t i = 0; i < std::min(recorded.rows.size(), recorded.works.size()); ++i)
+      if (recorded.rows[i] < ledger.size())
+        view.ledger.push_back({ledger[recorded.rows[i]], recorded.works[i]});
+    return view;
+  }
+
+  void write(JsonWriter& json, const LabFrame& frame, const GlassQuestion& question) {
+    const Model<double>& model = plan.input.robot.model;
+    if (model.parent.size() < 2) throw std::runtime_error("nothing moves here");
+    const std::size_t body =
+        question.body > 0 && question.body < model.parent.size() ? question.body : 1;
+    Inspected found = look(frame);
+    const Inspection in(model, found.x, std::move(found.actors), std::move(found.loops));
+    InspectView view = view_of(in, frame, body);
+    view.warnings = std::move(found.warnings);
+    warn_of_bad_numbers(in, view.warnings);
+    std::vector<Check> checks;
+    if (question.stands) {
+      checks = run_checks(in);
+      if (scene) checks.push_back(step_check(in, found.qdd_of_step));
+    }
+    json.key("body").count(static_cast<long>(body));
+    json.key("name").text(model.body_name[body]);
+    write_inspection(json, in, view, checks);
+    write_equations(json.key("equations"), in, body);
+    write_neighbours(json.key("neighbours"), in, body);
+    if (!question.stands) return;
+    std::vector<std::size_t> all;
+    for (std::size_t i = 1; i < in.body_count(); ++i) all.push_back(i);
+    write_passes(json.key("rows"), in, {std::clamp(question.pass, 1, 3)}, all);
+  }
+};
+
+Glass::Glass(SimulatePlan plan, std::vector<std::string> ledger)
+    : impl_(std::make_unique<Impl>(std::move(plan), std::move(ledger))) {}
+Glass::~Glass() = default;
+Glass::Glass(Glass&&) noexcept = default;
+Glass& Glass::operator=(Glass&&) noexcept = default;
+
+std::string Glass::message(const LabFrame& frame, const GlassQuestion& question) {
+  const auto begin = [&](JsonWriter& json) {
+    json.begin_object();
+    json.key("kind").text("glass");
+    json.key("scene").count(static_cast<long>(question.scene));
+    json.key("t").number(frame.recorded.t);
+    json.key("step").count(frame.recorded.step);
+    json.key("pass").count(std::clamp(question.pass, 1, 3));
+    json.key("stands");
+    json.boolean(question.stands);
+  };
+  try {
+    JsonWriter json;
+    begin(json);
+    impl_->write(json, frame, question);
+    json.end_object();
+    return json.str();
+  } catch (const std::exception& error) {
+    JsonWriter json;
+    begin(json);
+    json.key("warnings").texts({std::string("this frame cannot be looked into: ") + error.what()});
+    json.end_object();
+    return json.str();
+  }
+}
+
+}  // namespace twinarm
