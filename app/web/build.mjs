@@ -28,7 +28,7 @@ async function bundle(name) {
 
 // What is in the bundle, and on which terms: all of them ask for their text to be kept.
 function licences() {
-  return ['three', 'uplot']
+  return ['katex', 'three', 'uplot']
     .map((name) => {
       const { version, license } = JSON.parse(
         readFileSync(join(modules, name, 'package.json'), 'utf8'),
