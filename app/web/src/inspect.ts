@@ -2,30 +2,28 @@
 // the robot beside them.
 import './style.css';
 import './inspect.css';
-import type { Balance, InspectedRobot, Inspection, PassStep } from './data/inspection';
-import { button, element, icon, short } from './ui/dom';
+import type { InspectedRobot, Inspection, PassStep } from './data/inspection';
+import { balanceTable, wrenchColor } from './ui/balance';
+import { checkTable, checkWords } from './ui/checks';
+import { button, element, icon } from './ui/dom';
 import { help, listen, type Key } from './ui/keys';
 import { LayerChoice } from './ui/layers';
 import { onPaper } from './ui/paper';
 import { quantityCard } from './ui/quantity';
 import { start } from './ui/start';
+import { PASSES, Stepper } from './ui/stepper';
 import { Tabs } from './ui/tabs';
-import { Theme, token } from './ui/theme';
+import { Theme } from './ui/theme';
 import { Labels } from './view/labels';
 import { Stage, type ViewName } from './view/stage';
 
-const PASSES: Record<number, [string, string]> = {
-  1: ['Pass 1, outward', 'velocities, and the force that each body alone takes'],
-  2: ['Pass 2, inward', 'articulated inertias: each body with all that hangs on it'],
-  3: ['Pass 3, outward', 'accelerations'],
-};
 const FAINT = 60; // of 255: bodies that are not looked at
 
 class Page {
   private at = 0;
   private stale = true;
   private readonly steps: PassStep[];
-  private readonly chips: HTMLButtonElement[] = [];
+  private readonly stepper: Stepper;
   private readonly host = element('div', { class: 'stage' });
   private readonly heading = element('div', { class: 'heading', 'aria-live': 'polite' });
   private readonly cards = element('div', { class: 'cards' });
@@ -37,6 +35,9 @@ class Page {
 
   constructor(private readonly robot: InspectedRobot) {
     this.steps = robot.inspection.passes;
+    const goPass = (pass: number) => this.go(this.steps.findIndex((step) => step.pass === pass));
+    this.stepper = new Stepper((step) => this.go(step), goPass);
+    this.stepper.set(this.steps);
     this.theme = new Theme(() => this.stage?.setTheme(this.theme.dark));
     const overlays = robot.layers.filter((layer) => !layer.name.startsWith('body/'));
     this.layers = new LayerChoice(overlays, () => (this.stale = true));
@@ -80,11 +81,9 @@ class Page {
       element('div', { class: 'views' }, ...views),
     );
     const tabs = new Tabs();
-    tabs.add('Passes', this.stepper(), this.heading, this.cards, this.balance);
-    const checks = robot.inspection.checks;
-    const failed = checks.filter((check) => !check.pass).length;
-    const words = failed > 0 ? `${failed} of ${checks.length} fall short` : `${checks.length} pass`;
-    tabs.add(`Checks: ${words}`, this.checkTable());
+    tabs.add('Passes', this.stepper.root, this.heading, this.cards, this.balance);
+    const { checks, warnings } = robot.inspection;
+    tabs.add(`Checks: ${checkWords(checks)}`, checkTable(checks, warnings));
     document.body.append(
       element(
         'header',
@@ -108,101 +107,25 @@ class Page {
     listen(keys);
   }
 
-  // The way of the passes, one button a body.
-  private stepper(): HTMLElement {
-    const rows = [1, 2, 3].map((pass) => {
-      const row = element('div', { class: 'row' }, element('span', {}, PASSES[pass][0]));
-      this.steps.forEach((step, i) => {
-        if (step.pass !== pass) return;
-        const chip = button(step.body, `pass ${pass} at ${step.body}`, () => this.go(i));
-        this.chips[i] = chip;
-        row.append(chip);
-      });
-      return row;
-    });
-    return element('nav', { class: 'stepper', 'aria-label': 'steps of the passes' }, ...rows);
-  }
-
   private go(step: number): void {
     this.at = Math.min(this.steps.length - 1, Math.max(0, step || 0));
     const { pass, body, joint, quantities } = this.steps[this.at];
-    this.chips.forEach((chip, i) =>
-      chip.setAttribute('aria-current', i === this.at ? 'step' : 'false'),
-    );
+    this.stepper.show(this.at);
     this.heading.replaceChildren(
       element('h2', {}, body),
       element('p', {}, `${PASSES[pass].join(': ')}. Carried by ${joint || 'the base'}.`),
     );
     // Matrices at the left, what is smaller beside them.
-    const cards = quantities.map(quantityCard);
+    const cards = quantities.map((quantity) => quantityCard(quantity));
     const column = (matrices: boolean) =>
       element('div', {}, ...cards.filter((card) => !!card.querySelector('.heat') === matrices));
     const columns = [column(true), column(false)].filter((c) => c.children.length > 0);
     this.cards.classList.toggle('two', columns.length === 2);
     this.cards.replaceChildren(...columns);
-    const balance = this.robot.inspection.balance.find((b) => b.body === body);
-    this.balance.replaceChildren(...(balance ? [this.balanceTable(balance)] : []));
+    const { balance, axes, about } = this.robot.inspection;
+    const found = balance.find((b) => b.body === body);
+    this.balance.replaceChildren(...(found ? [balanceTable(found, axes, about)] : []));
     this.stale = true;
-  }
-
-  private balanceTable(balance: Balance): HTMLElement {
-    const { axes, about } = this.robot.inspection;
-    const numbers = (values: number[]) =>
-      values.map((value) => element('td', { class: 'number', title: String(value) }, short(value)));
-    const rows = balance.wrenches.map((wrench, i) =>
-      element(
-        'tr',
-        {},
-        element('th', { scope: 'row' }, swatch(i), wrench.source),
-        ...numbers(wrench.force),
-        ...numbers(wrench.torque),
-      ),
-    );
-    const heads = ['', 'Fx', 'Fy', 'Fz [N]', 'Tx', 'Ty', 'Tz [N m]'];
-    const { residual, largest } = balance;
-    const sum = `They add up to ${short(residual)} of the largest (${short(largest)}).`;
-    return element(
-      'div',
-      {},
-      element(
-        'h3',
-        {},
-        `Every wrench on ${balance.body}`,
-        element('span', {}, ` ${axes} axes, about ${about}`),
-      ),
-      element(
-        'table',
-        {},
-        element('thead', {}, element('tr', {}, ...heads.map((head) => element('th', {}, head)))),
-        element('tbody', {}, ...rows),
-      ),
-      element('p', { class: 'hint' }, sum),
-    );
-  }
-
-  private checkTable(): HTMLElement {
-    const heads = ['', 'found by a second way', 'error', 'tolerance', 'worst at'];
-    const rows = this.robot.inspection.checks.map((check) =>
-      element(
-        'tr',
-        { class: check.pass ? 'passes' : 'short' },
-        element('th', { scope: 'row' }, `${check.pass ? '✓' : '✗'} ${check.name}`),
-        element('td', {}, check.meaning),
-        element('td', { class: 'number', title: String(check.error) }, short(check.error)),
-        element('td', { class: 'number' }, short(check.tolerance)),
-        element('td', {}, check.body),
-      ),
-    );
-    const table = element(
-      'table',
-      {},
-      element('thead', {}, element('tr', {}, ...heads.map((head) => element('th', {}, head)))),
-      element('tbody', {}, ...rows),
-    );
-    const notes = this.robot.inspection.warnings.map((text) =>
-      element('p', { class: 'note' }, text),
-    );
-    return element('section', { class: 'checks' }, ...notes, table);
   }
 
   private keys(): Key[] {
@@ -245,7 +168,7 @@ class Page {
       found.wrenches.map(({ force }, i) => ({
         from: found.about as [number, number, number],
         along: force.map((part) => scale * part) as [number, number, number],
-        color: token(`--c${i % 8}`),
+        color: wrenchColor(i),
       })),
     );
   }
@@ -271,13 +194,6 @@ class Page {
       shown.map((layer) => ({ columns: layer.labels, frame: 0 })),
     );
   }
-}
-
-// The colour of a wrench, in the table and in the picture.
-function swatch(i: number): HTMLElement {
-  const made = element('i', { class: 'swatch' });
-  made.style.background = `var(--c${i % 8})`;
-  return made;
 }
 
 type Told = Omit<InspectedRobot, 'inspection'> & { inspection: string };

@@ -42,9 +42,31 @@ export interface Check {
   pass: boolean;
 }
 
+// What acts under a name of its own: coupling, contact, constraint, actuator, wrench.
+export interface NamedForce {
+  source: string;
+  point?: number[]; // world
+  axis?: number[]; // of a contact: its normal, towards its second body, world
+  normal?: number; // how hard it presses [N]
+  friction?: number; // [N]
+  on: { body: string; force: number[]; torque: number[]; about: number[] }[];
+  joints: { joint: string; component: number; value: number }[];
+}
+
+// At one degree of freedom of a joint: what pulls at it, and what it hands on; they sum to zero.
+export interface JointBalance {
+  joint: string;
+  component: number;
+  torques: { source: string; value: number }[];
+  residual: number;
+}
+
 export interface Inspection {
   passes: PassStep[];
   balance: Balance[];
+  joint_balance: JointBalance[];
+  forces: NamedForce[];
+  ledger?: Record<string, number>; // of a recording, or of the lab [J]
   checks: Check[];
   axes: string;
   about: string;

@@ -1,6 +1,7 @@
 // A quantity of a pass: numbers by their shape, 6 x 6 as a map of its sizes; unit, frame and
 // equation at the pointer.
 import type { Quantity } from '../data/inspection';
+import './inspection.css';
 import { element, short } from './dom';
 
 const AXES = ['x', 'y', 'z'];
@@ -30,7 +31,7 @@ function six(values: number[], unit: string): HTMLElement {
 }
 
 // Colours by the size within each 3 x 3 block: blocks have different units.
-function heat(rows: number[][]): HTMLElement {
+export function heat(rows: number[][]): HTMLElement {
   const largest = new Map<string, number>();
   const block = (i: number, k: number) => `${Math.floor(i / 3)}${Math.floor(k / 3)}`;
   rows.forEach((row, i) =>
@@ -55,7 +56,7 @@ function heat(rows: number[][]): HTMLElement {
   return element('table', { class: 'heat' }, element('tbody', {}, ...lines));
 }
 
-function valueOf({ value, unit }: Quantity): HTMLElement {
+export function valueOf({ value, unit }: Pick<Quantity, 'value' | 'unit'>): HTMLElement {
   if (typeof value === 'number')
     return element('p', { class: 'one', title: String(value) }, short(value), ` ${unit}`);
   if (Array.isArray(value[0])) {
@@ -70,21 +71,31 @@ function valueOf({ value, unit }: Quantity): HTMLElement {
   return element('p', { class: 'one' }, ...parts, unit);
 }
 
-export function quantityCard(quantity: Quantity): HTMLElement {
-  const fact = (name: string, text: string) => [element('dt', {}, name), element('dd', {}, text)];
+// What a page has to say of it in its own way: nothing is left out where it says nothing.
+export interface Telling {
+  symbol?: Node; // as print sets it
+  equation?: Node;
+  content?: Node[]; // in the place of the numbers alone
+}
+
+export function quantityCard(quantity: Quantity, telling: Telling = {}): HTMLElement {
+  const fact = (name: string, said: Node | string) => [
+    element('dt', {}, name),
+    element('dd', {}, said),
+  ];
   const tip = element(
     'dl',
     { class: 'tip', role: 'tooltip' },
     ...fact('is', quantity.meaning),
     ...fact('unit', quantity.unit),
     ...fact('frame', quantity.frame),
-    ...fact('from', quantity.equation),
+    ...fact('from', telling.equation ?? quantity.equation),
   );
   return element(
     'article',
     { class: 'quantity', tabindex: '0', 'data-quantity': quantity.name },
-    element('h4', {}, quantity.name, element('span', {}, quantity.meaning)),
-    valueOf(quantity),
+    element('h4', {}, telling.symbol ?? quantity.name, element('span', {}, quantity.meaning)),
+    ...(telling.content ?? [valueOf(quantity)]),
     tip,
   );
 }

@@ -1,0 +1,39 @@
+// What the lab's inspector tells of one body in one frame: app/lab/glass/glass.h.
+import type { Inspection, PassStep, Quantity, Value } from './inspection';
+
+export interface Term {
+  symbol: string; // "Xup v_p", with its sign where that is a minus
+  words: string;
+  of: string; // the body that hands it over
+  value: Value;
+}
+
+export interface Equation {
+  pass: number;
+  name: string; // of the left side: "v", "D qdd"
+  text: string;
+  terms: Term[];
+  value: Value;
+  residual: number | null;
+}
+
+export interface Neighbour {
+  body: string;
+  is: 'parent' | 'child';
+  quantities: Quantity[];
+}
+
+// Absent: the frame could not be looked into, and a warning says why.
+export interface GlassNumbers extends Partial<Inspection> {
+  kind: 'glass';
+  scene: number;
+  t: number;
+  step: number;
+  pass: number;
+  stands: boolean;
+  body?: number;
+  name?: string;
+  equations?: Equation[];
+  neighbours?: Neighbour[];
+  rows?: PassStep[]; // of the pass, all bodies in the order of the call; where time stands
+}
