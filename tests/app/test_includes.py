@@ -78,7 +78,7 @@ LAB = {
                      "scene", "show", "simulate"},
     "app/lab/knobs/": {"coupling", "find_assets.h", "lab/run", "nearest_name.h", "record", "scene", "simulate"},
     "app/lab/stream/": {"lab/run", "record", "scene", "show", "simulate", "web"},
-    "app/lab/glass/": {"inspect", "lab/run", "record", "scene", "simulate"},
+    "app/lab/glass/": {"dynamics", "inspect", "lab/run", "record", "scene", "simulate"},
     "app/lab/server/": set(),
 }
 

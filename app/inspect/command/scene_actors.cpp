@@ -106,7 +106,9 @@ class SceneInspector::FirstStep {
     for (const NamedSource& other : others_) {
       Forces<double> added(model_);
       other.source->add_forces(x_, k_, added);
-      actors_.push_back(actor_of(other.name, added));
+      Actor actor = actor_of(other.name, added);
+      if (actor.bodies.empty() && actor.joints.empty()) continue;
+      actors_.push_back(std::move(actor));
       if (other.at) actors_.back().point_W = k_.position(other.at->first, other.at->second);
     }
   }

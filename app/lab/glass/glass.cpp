@@ -15,6 +15,7 @@
 #include "app/simulate/run.h"
 #include "coupling/device/live_hand.h"
 #include "solver/integrator_rewind.h"
+#include "solver/spring.h"
 
 namespace twinarm {
 namespace {
@@ -46,11 +47,7 @@ class HeldPull final : public ForceSource, public Rewindable {
   void add_forces(const State<double>&, const Kinematics& k,
                   Forces<double>& forces) noexcept override {
     if (!pull_ || pull_->body <= 0) return;
-    Wrench wrench;
-    wrench.body = static_cast<std::size_t>(pull_->body);
-    wrench.point = k.position(pull_->body, pull_->p_L);
-    wrench.force = pull_->force_W;
-    forces.f_ext[wrench.body] += in_body_axes(wrench, k);
+    add_point_force(k, pull_->body, k.position(pull_->body, pull_->p_L), pull_->force_W, forces);
   }
 
  private:
@@ -137,7 +134,7 @@ struct Glass::Impl {
     SimulateInput& input = plan.input;
     if (!input.scene) return;
     input.couplings = std::make_unique<SceneCouplings>(*input.scene, plan.run.step, &hand);
-    scene.emplace(input, plan.run.step, std::vector<NamedSource>{{"pull", &pull}});
+    scene.emplace(input, plan.run.step, std::vector<NamedSource>{{"mouse", &pull}});
   }
 
   Inspected look(const LabFrame& frame) {

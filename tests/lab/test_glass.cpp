@@ -1,0 +1,246 @@
+// The lab's inspector: what it tells of a frame, against the run that the frame is of.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/dynamics/json_tree.h"
+#include "app/inspect/command/inspect_input.h"
+#include "app/inspect/command/inspect_output.h"
+#include "app/lab/glass/glass.h"
+#include "app/simulate/run.h"
+#include "tests/import/helpers.h"
+
+using namespace twinarm;
+
+namespace {
+
+constexpr const char* kGlassScenes[] = {
+    "hand_and_obstacles",     "box_stack", "four_bar", "incline",
+    "robot_beside_obstacles", "turntable"};
+
+SimulatePlan plan_of_asset(const std::string& file, double duration) {
+  SimulateOptions options;
+  options.robot.model = std::string(TWINARM_SOURCE_DIR "/assets/") + file;
+  options.integrator = "semi-implicit";
+  options.contact = options.robot.model.extension() == ".toml" ? "rigid" : "";
+  options.duration = duration;
+  return prepare_simulation(options);
+}
+
+// A frame after so many steps, and what the next step found.
+struct Told {
+  LabFrame frame;
+  std::vector<std::string> ledger;
+  std::vector<double> qdd;     // of the next step
+  std::vector<Vector3> force;  // of its contacts
+};
+Told told_of(const std::string& file, long steps) {
+  SimulatePlan plan = plan_of_asset(file, 1);
+  Told told;
+  RunWatch watch;
+  watch.warn = [](const std::string&) {};
+  watch.sample = [](double, const State<double>&) {};
+  watch.look = [&](RunView& view) {
+    if (view.step() == steps) {
+      RecordedFrame& recorded = told.frame.recorded;
+      recorded.step = steps;
+      recorded.t = view.simulation().state().t;
+      recorded.memory = view.memory();
+      for (const LedgerRow& row : view.ledger()) {
+        recorded.rows.push_back(static_cast<std::uint32_t>(told.ledger.size()));
+        recorded.works.push_back(row.work);
+        told.ledger.push_back(row.name);
+      }
+    }
+    if (view.step() != steps + 1) return;
+    told.qdd = view.simulation().workspace().qdd;
+    if (view.contacts() && view.contacts()->contacts())
+      for (const ContactPoint& p : view.contacts()->contacts()->points())
+        if (!p.force_W.isZero(0)) told.force.push_back(p.force_W);
+  };
+  RunStart last;
+  plan.run.times.clear();
+  plan.run.duration = static_cast<double>(steps + 2) * plan.run.step;
+  run_plan(plan.input, plan.run, watch);
+  REQUIRE(!told.qdd.empty());
+  return told;
+}
+
+JsonValue parsed(const std::string& message) {
+  const TemporaryFolder folder;
+  return read_json(folder.write("glass.json", message));
+}
+const JsonValue& at(const JsonValue& value, const std::string& name) {
+  const JsonValue* found = value.find(name);
+  REQUIRE_MESSAGE(found, name);
+  return *found;
+}
+Vector3 vector_of(const JsonValue& list) {
+  REQUIRE(list.items.size() == 3);
+  return {list.items[0].number, list.items[1].number, list.items[2].number};
+}
+// Of the body's pass.
+const JsonValue* quantity_of(const JsonValue& passes, int pass, const std::string& name) {
+  for (const JsonValue& step : passes.items)
+    if (at(step, "pass").number == pass)
+      for (const JsonValue& quantity : at(step, "quantities").items)
+        if (at(quantity, "name").text == name) return &at(quantity, "value");
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("glass: accelerations and contact forces are those that the run's own next step finds") {
+  for (const std::string name : kGlassScenes) {
+    CAPTURE(name);
+    const std::string file = "scenes/" + name + ".toml";
+    const Told told = told_of(file, 120);
+    Glass glass(plan_of_asset(file, 1), told.ledger);
+    const SimulatePlan plan = plan_of_asset(file, 1);
+    const Model<double>& model = plan.input.robot.model;
+    double size = 1;
+    for (const double qdd : told.qdd) size = std::max(size, std::abs(qdd));
+    std::size_t pressing = 0;
+    for (std::size_t body = 1; body < model.parent.size(); ++body) {
+      CAPTURE(model.body_name[body]);
+      const JsonValue message = parsed(glass.message(told.frame, {body, 1, false, 3}));
+      CHECK(at(message, "scene").number == 3);
+      CHECK(at(message, "name").text == model.body_name[body]);
+      if (model.dofs(body) == 1) {
+        const JsonValue* qdd = quantity_of(at(message, "passes"), 3, "qdd");
+        REQUIRE(qdd);
+        CHECK(std::abs(qdd->number - told.qdd[model.iv[body]]) <= 1e-9 * size);
+      }
+      for (const JsonValue& force : at(message, "forces").items)
+        if (force.find("axis")) {
+          const Vector3 on = vector_of(at(at(force, "on").items[0], "force"));
+          CHECK(std::any_of(told.force.begin(), told.force.end(), [&](const Vector3& f) {
+            return (f - on).norm() <= 1e-9 * std::max(1.0, f.norm());
+          }));
+          ++pressing;
+        }
+    }
+    CHECK((pressing > 0) == !told.force.empty());
+  }
+}
+
+TEST_CASE("glass: every body's wrenches sum to zero, and so does each equation") {
+  for (const std::string name : kGlassScenes) {
+    CAPTURE(name);
+    const std::string file = "scenes/" + name + ".toml";
+    const Told told = told_of(file, 77);
+    Glass glass(plan_of_asset(file, 1), told.ledger);
+    const SimulatePlan plan = plan_of_asset(file, 1);
+    for (std::size_t body = 1; body < plan.input.robot.model.parent.size(); ++body) {
+      const JsonValue message = parsed(glass.message(told.frame, {body, 2, true, 1}));
+      const JsonValue& balance = at(message, "balance").items.at(0);
+      Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
+      double largest = 0;
+      for (const JsonValue& wrench : at(balance, "wrenches").items) {
+        const Vector3 f = vector_of(at(wrench, "force")), n = vector_of(at(wrench, "torque"));
+        force += f;
+        torque += n;
+        largest = std::max({largest, f.norm(), n.norm()});
+      }
+      CHECK(force.norm() <= 1e-9 * largest);
+      CHECK(torque.norm() <= 1e-9 * largest);
+      CHECK(at(message, "equations").items.size() > 4);
+      for (const JsonValue& equation : at(message, "equations").items) {
+        CAPTURE(at(equation, "text").text);
+        CHECK(at(equation, "residual").number <= 1e-9);
+      }
+      for (const JsonValue& check : at(message, "checks").items)
+        CHECK_MESSAGE(at(check, "pass").number == 1, at(check, "name").text);
+    }
+  }
+}
+
+TEST_CASE("glass: the numbers are those of inspect, digit by digit; its ledger the frame's") {
+  const std::string file = "scenes/hand_and_obstacles.toml";
+  const Told told = told_of(file, 50);
+  SimulatePlan plan = plan_of_asset(file, 1);
+  Memory memory = simulation_memory(told.frame.recorded.memory);
+  Inspected inspected = inspect_scene(plan.input, plan.run.step, &memory);
+  const Inspection in(plan.input.robot.model, inspected.x, inspected.actors, inspected.loops);
+  JsonWriter json;
+  json.begin_object();
+  write_passes(json.key("passes"), in, {1, 2, 3}, {2});
+  std::string wanted = json.str();
+  wanted = wanted.substr(wanted.find("\"passes\""));
+  Glass glass(plan_of_asset(file, 1), told.ledger);
+  for (int again = 0; again < 3; ++again) {  // what was asked before leaves no trace
+    const std::string message = glass.message(told.frame, {2, 1, again == 1, 1});
+    CHECK(message.find(wanted) != std::string::npos);
+    const JsonValue tree = parsed(message);
+    const JsonValue& ledger = at(tree, "ledger");
+    for (std::size_t i = 0; i < told.ledger.size(); ++i)
+      CHECK(at(ledger, told.ledger[i]).number == told.frame.recorded.works[i]);
+    glass.message(told_of(file, 10).frame, {1, 1, true, 1});
+  }
+}
+
+TEST_CASE("glass: where time stands, all bodies come in the order of the call") {
+  const std::string file = "scenes/robot_beside_obstacles.toml";
+  const Told told = told_of(file, 5);
+  const SimulatePlan plan = plan_of_asset(file, 1);
+  std::vector<std::string> names(plan.input.robot.model.body_name.begin() + 1,
+                                 plan.input.robot.model.body_name.end());
+  Glass glass(plan_of_asset(file, 1), told.ledger);
+  CHECK(!parsed(glass.message(told.frame, {1, 1, false, 1})).find("rows"));
+  for (const int pass : {1, 2, 3}) {
+    std::vector<std::string> order;
+    const JsonValue message = parsed(glass.message(told.frame, {1, pass, true, 1}));
+    for (const JsonValue& row : at(message, "rows").items) {
+      CHECK(at(row, "pass").number == pass);
+      order.push_back(at(row, "body").text);
+    }
+    std::vector<std::string> wanted = names;
+    if (pass == 2) std::reverse(wanted.begin(), wanted.end());
+    CHECK(order == wanted);
+  }
+}
+
+TEST_CASE("glass: a robot alone, without a scene") {
+  const std::string file = "robots/s103/s103.urdf";
+  const Told told = told_of(file, 40);
+  Glass glass(plan_of_asset(file, 1), told.ledger);
+  const JsonValue message = parsed(glass.message(told.frame, {1, 1, true, 1}));
+  const JsonValue* qdd = quantity_of(at(message, "passes"), 3, "qdd");
+  REQUIRE(qdd);
+  CHECK(std::isfinite(qdd->number));
+  for (const JsonValue& check : at(message, "checks").items) CHECK(at(check, "pass").number == 1);
+}
+
+TEST_CASE("glass: numbers that are not finite are told, and a frame of another scene too") {
+  const std::string file = "scenes/hand_and_obstacles.toml";
+  Told told = told_of(file, 20);
+  Glass glass(plan_of_asset(file, 1), told.ledger);
+  const std::string good = glass.message(told.frame, {1, 1, true, 1});
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200}) {
+    CAPTURE(bad);
+    LabFrame broken = told.frame;
+    Memory memory = simulation_memory(broken.recorded.memory);
+    const std::size_t head = broken.recorded.memory.size();
+    std::vector<double> q;
+    memory.visit(q);
+    REQUIRE(q.size() > 1);
+    // The first coordinate stands behind the run's own numbers and the count of coordinates.
+    Memory written;
+    written.visit(q);
+    const std::size_t place = broken.recorded.memory.find(written.bytes()) + sizeof(std::uint64_t);
+    REQUIRE(place < head);
+    broken.recorded.memory.replace(place, sizeof bad, reinterpret_cast<const char*>(&bad),
+                                   sizeof bad);
+    const JsonValue message = parsed(glass.message(broken, {1, 1, true, 1}));
+    CHECK(at(message, "kind").text == "glass");
+    if (std::isnan(bad)) CHECK(!at(message, "warnings").items.empty());
+  }
+  const Told other = told_of("scenes/box_stack.toml", 3);
+  const JsonValue message = parsed(glass.message(other.frame, {1, 1, true, 1}));
+  CHECK(at(message, "warnings").items.size() == 1);
+  CHECK(!message.find("passes"));
+  CHECK(glass.message(told.frame, {1, 1, true, 1}) == good);
+}
