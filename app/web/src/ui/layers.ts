@@ -2,22 +2,24 @@
 import type { Layer } from '../data/run';
 import { element } from './dom';
 
-export class LayerChoice {
+type LayerHead = Pick<Layer, 'name' | 'what' | 'shown' | 'legend'>;
+
+export class LayerChoice<L extends LayerHead = Layer> {
   readonly switches = element('fieldset', { class: 'switches' }, element('legend', {}, 'Show'));
   readonly legend = element('ul', { class: 'legend', 'aria-label': 'what the colours mean' });
   private readonly boxes = new Map<string, HTMLInputElement>();
 
   constructor(
-    private readonly layers: Layer[],
+    private readonly layers: L[],
     private readonly changed: () => void,
   ) {
     // The bodies themselves are always there; what never has an entry needs no switch.
-    const choice = layers.filter((layer) => layer.name !== 'bodies' && hasEntries(layer));
+    const choice = layers.filter((layer) => layer.name !== 'bodies' && mayHaveEntries(layer));
     choice.forEach((layer, i) => this.addSwitch(layer, i < 9 ? String(i + 1) : ''));
     this.fillLegend();
   }
 
-  get shown(): Layer[] {
+  get shown(): L[] {
     return this.layers.filter((layer) => layer.name === 'bodies' || layer.shown);
   }
 
@@ -35,7 +37,7 @@ export class LayerChoice {
     if (name) this.set(name, !this.boxes.get(name)!.checked);
   }
 
-  private addSwitch(layer: Layer, key: string): void {
+  private addSwitch(layer: LayerHead, key: string): void {
     const box = element('input', { type: 'checkbox', 'data-layer': layer.name });
     box.checked = layer.shown;
     box.addEventListener('change', () => this.set(layer.name, box.checked));
@@ -46,7 +48,8 @@ export class LayerChoice {
     this.switches.append(label);
   }
 
-  private fillLegend(): void {
+  // After what the colours mean has changed.
+  fillLegend(): void {
     this.legend.replaceChildren();
     for (const layer of this.shown)
       for (const line of layer.legend) {
@@ -58,6 +61,9 @@ export class LayerChoice {
   }
 }
 
-function hasEntries(layer: Layer): boolean {
-  return layer.instances.mesh.length > 0 || layer.labels.text.length > 0;
+// What is still to come has no columns yet.
+function mayHaveEntries(layer: LayerHead): boolean {
+  const { instances, labels } = layer as Partial<Layer>;
+  if (!instances || !labels) return true;
+  return instances.mesh.length > 0 || labels.text.length > 0;
 }

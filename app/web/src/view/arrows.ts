@@ -29,6 +29,13 @@ export class Arrows {
     for (const arrow of arrows) this.add(arrow);
   }
 
+  remove(): void {
+    this.set([]);
+    this.group.removeFromParent();
+    this.shaft.dispose();
+    this.head.dispose();
+  }
+
   private add({ from, along, color }: Arrow): void {
     const direction = new THREE.Vector3(...along);
     const length = direction.length();

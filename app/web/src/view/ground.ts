@@ -38,7 +38,10 @@ export class Ground {
   private readonly grid: THREE.Mesh<THREE.PlaneGeometry, THREE.ShaderMaterial>;
   private readonly shadow: THREE.Mesh<THREE.PlaneGeometry, THREE.ShadowMaterial>;
 
-  constructor(scene: THREE.Scene, view: View) {
+  constructor(
+    private readonly scene: THREE.Scene,
+    view: View,
+  ) {
     const reach = 9 * view.radius;
     const plane = new THREE.PlaneGeometry(2 * reach, 2 * reach);
     const material = new THREE.ShaderMaterial({
@@ -64,6 +67,14 @@ export class Ground {
       mesh.position.set(view.target[0], view.target[1], view.ground.height - 1e-4 * view.radius);
       mesh.visible = view.ground.visible;
       scene.add(mesh);
+    }
+  }
+
+  remove(): void {
+    for (const mesh of [this.grid, this.shadow]) {
+      this.scene.remove(mesh);
+      mesh.geometry.dispose();
+      mesh.material.dispose();
     }
   }
 

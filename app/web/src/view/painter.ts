@@ -1,4 +1,5 @@
 // A draw list painted by three.js: entries with the same mesh and surface are one instanced mesh.
+// A live frame is a part too: its columns, with layers in the place of frames.
 import * as THREE from 'three';
 import type { InstanceColumns, MeshData } from '../data/run';
 
@@ -49,6 +50,7 @@ function coarser(mesh: MeshData, fine: THREE.BufferGeometry): THREE.BufferGeomet
 // What entries have in common that one batch draws.
 interface Look {
   mesh: number;
+  isSmall: boolean; // drawn coarsely
   alpha: number;
   shininess: number;
   kind: number;
@@ -72,6 +74,14 @@ class Batch {
     matrix.toArray(this.meshes[0].instanceMatrix.array, 16 * this.count);
     color.toArray(this.meshes[0].instanceColor!.array, 3 * this.count);
     this.count += 1;
+  }
+
+  remove(): void {
+    for (const mesh of this.meshes) {
+      this.scene.remove(mesh);
+      mesh.dispose();
+    }
+    for (const { material } of this.materials) material.dispose();
   }
 
   finish(): void {
@@ -148,10 +158,11 @@ function hiddenMaterials(shininess: number, alpha: number) {
   return [{ material: color, order: ORDER.hidden, shadow: false }];
 }
 
-
 export class Painter {
-  private readonly geometries: THREE.BufferGeometry[];
-  private readonly textures: THREE.Texture[];
+  readonly geometries: THREE.BufferGeometry[] = []; // by mesh
+  private readonly coarse: THREE.BufferGeometry[] = [];
+  private readonly meshes: MeshData[] = [];
+  private readonly textures: THREE.Texture[] = [];
   private readonly batches = new Map<number, Batch>();
   private readonly matrix = new THREE.Matrix4();
   private readonly position = new THREE.Vector3();
@@ -164,22 +175,34 @@ export class Painter {
 
   constructor(
     private readonly scene: THREE.Scene,
-    private readonly meshes: MeshData[],
-    textures: ImageBitmap[],
     private readonly small: number, // size of what is drawn coarsely
-  ) {
-    this.textures = textures.map(textureOf);
-    const fine = meshes.map(geometryOf);
-    this.geometries = [...fine, ...meshes.map((mesh, i) => coarser(mesh, fine[i]))];
+  ) {}
+
+  // Behind those that it has.
+  add(meshes: MeshData[], textures: ImageBitmap[]): void {
+    for (const mesh of meshes) {
+      const fine = geometryOf(mesh);
+      this.meshes.push(mesh);
+      this.geometries.push(fine);
+      this.coarse.push(coarser(mesh, fine));
+    }
+    this.textures.push(...textures.map(textureOf));
+  }
+
+  // Nothing of it stays, in the scene or in the graphics card.
+  remove(): void {
+    for (const batch of this.batches.values()) batch.remove();
+    for (const made of [...this.geometries, ...this.coarse, ...this.textures]) made.dispose();
+    this.batches.clear();
   }
 
   paint(parts: Part[]): void {
     for (const batch of this.batches.values()) batch.count = 0;
-    for (const part of parts) this.add(part);
+    for (const part of parts) this.addPart(part);
     for (const batch of this.batches.values()) batch.finish();
   }
 
-  private add({ columns, a, b, share, alpha, shadow }: Part): void {
+  private addPart({ columns, a, b, share, alpha, shadow }: Part): void {
     const from = columns.first[a];
     const to = columns.first[a + 1];
     const other = columns.first[b];
@@ -204,23 +227,27 @@ export class Painter {
 
   private put(columns: InstanceColumns, i: number, alpha: number, shadow: boolean): void {
     const isSmall = Math.max(this.scale.x, this.scale.y, this.scale.z) < this.small;
-    const mesh = columns.mesh[i] + (isSmall ? this.geometries.length / 2 : 0);
+    const mesh = columns.mesh[i];
+    if (mesh >= this.meshes.length) return; // it has not come yet
     const shininess = columns.shininess[i];
     const kind = alpha < 255 ? GHOST : shadow ? BODY : SOLID;
     // A ghost shows no texture.
     const texture = alpha < 255 ? 0 : columns.texture[i];
-    this.batch({ mesh, alpha, shininess, kind, texture }).add(this.matrix, this.color);
+    const look = { mesh, isSmall, alpha, shininess, kind, texture };
+    this.batch(look).add(this.matrix, this.color);
     if (columns.flags[i] & SEEN_THROUGH)
-      this.batch({ mesh, alpha, shininess, kind: HIDDEN, texture: 0 }).add(this.matrix, this.color);
+      this.batch({ ...look, kind: HIDDEN, texture: 0 }).add(this.matrix, this.color);
   }
 
   private batch(look: Look): Batch {
-    const { mesh, alpha, shininess, kind, texture } = look;
-    const key = (((mesh * 256 + alpha) * 256 + shininess) * 256 + texture) * 4 + kind;
+    const { mesh, isSmall, alpha, shininess, kind, texture } = look;
+    const size = isSmall ? 1 : 0;
+    const key = ((((2 * mesh + size) * 256 + alpha) * 256 + shininess) * 256 + texture) * 4 + kind;
     let batch = this.batches.get(key);
     if (!batch) {
       const materials = this.materialsOf(look);
-      batch = new Batch(this.scene, this.geometries[mesh], materials);
+      const geometry = (isSmall ? this.coarse : this.geometries)[mesh];
+      batch = new Batch(this.scene, geometry, materials);
       this.batches.set(key, batch);
     }
     return batch;
@@ -230,8 +257,8 @@ export class Painter {
     const gloss = shininess / 255;
     if (kind === HIDDEN) return hiddenMaterials(gloss, alpha / 255);
     if (kind === GHOST) return ghostMaterials(gloss, alpha / 255);
-    const { uv, twoSided } = this.meshes[mesh % this.meshes.length];
-    const map = texture > 0 && uv.length > 0 ? this.textures[texture - 1] : null;
+    const { uv, twoSided } = this.meshes[mesh];
+    const map = texture > 0 && uv.length > 0 ? (this.textures[texture - 1] ?? null) : null;
     const material = solidMaterial(gloss, map, twoSided);
     return [{ material, order: ORDER.solid, shadow: kind === BODY }];
   }

@@ -6,13 +6,14 @@ import { Arrows } from './arrows';
 import { Ground } from './ground';
 import { Painter, type Part } from './painter';
 
-export type ViewName = 'start' | 'front' | 'side' | 'top';
+export type ViewName = 'start' | 'front' | 'side' | 'top' | 'iso';
 
 // From the target to the eye. Top: x to the right, y up.
 const DIRECTIONS: Record<Exclude<ViewName, 'start'>, [number, number, number]> = {
   front: [0, -1, 0.07],
   side: [1, 0, 0.07],
   top: [0, -0.001, 1],
+  iso: [1, -1, 0.82],
 };
 
 // The painter's studio: from the bottom to the top by a smooth step, mixed as light mixes. At night
@@ -38,17 +39,17 @@ export class Stage {
   readonly controls: OrbitControls;
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
-  private readonly painter: Painter;
-  private readonly ground: Ground;
-  readonly arrows: Arrows;
+  private painter!: Painter;
+  private ground!: Ground;
+  arrows!: Arrows;
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.2);
   private readonly sky = new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.5);
   private followed: THREE.Vector3 | null = null;
 
   constructor(
-    private readonly host: HTMLElement,
-    private readonly view: View,
-    { meshes, textures }: { meshes: MeshData[]; textures: ImageBitmap[] },
+    readonly host: HTMLElement,
+    private view: View,
+    data: { meshes: MeshData[]; textures: ImageBitmap[] },
     private readonly changed: () => void,
   ) {
     this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
@@ -58,20 +59,47 @@ export class Stage {
     canvas.setAttribute('aria-label', 'the robot, to be turned, moved and zoomed');
     host.prepend(canvas);
 
-    const degrees = (view.fieldOfView * 180) / Math.PI;
-    this.camera = new THREE.PerspectiveCamera(degrees, 1, 0.01 * view.radius, 60 * view.radius);
+    this.camera = new THREE.PerspectiveCamera();
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.minDistance = 0.15 * view.radius;
-    this.controls.maxDistance = 20 * view.radius;
     this.controls.addEventListener('change', changed);
-    this.addLights();
-    this.ground = new Ground(this.scene, view);
-    this.arrows = new Arrows(this.scene, 0.008 * view.radius);
-    this.painter = new Painter(this.scene, meshes, textures, 0.03 * view.radius);
+    this.scene.add(this.sky, this.sun, this.sun.target);
+    this.furnish(view);
+    this.add(data.meshes, data.textures);
     this.look('start');
     new ResizeObserver(() => this.resize()).observe(host);
     this.resize();
+  }
+
+  // Another run, without its meshes; the camera stays where it is.
+  refurnish(view: View): void {
+    this.painter.remove();
+    this.ground.remove();
+    this.arrows.remove();
+    this.furnish(view);
+  }
+
+  // Behind the meshes that it has.
+  add(meshes: MeshData[], textures: ImageBitmap[]): void {
+    this.painter.add(meshes, textures);
+  }
+
+  get geometries(): THREE.BufferGeometry[] {
+    return this.painter.geometries;
+  }
+
+  private furnish(view: View): void {
+    this.view = view;
+    this.camera.fov = (view.fieldOfView * 180) / Math.PI;
+    this.camera.near = 0.01 * view.radius;
+    this.camera.far = 60 * view.radius;
+    this.camera.updateProjectionMatrix();
+    this.controls.minDistance = 0.15 * view.radius;
+    this.controls.maxDistance = 20 * view.radius;
+    this.placeLights();
+    this.ground = new Ground(this.scene, view);
+    this.arrows = new Arrows(this.scene, 0.008 * view.radius);
+    this.painter = new Painter(this.scene, 0.03 * view.radius);
   }
 
   // Nothing is drawn before draw().
@@ -147,7 +175,7 @@ export class Stage {
     this.changed();
   }
 
-  private addLights(): void {
+  private placeLights(): void {
     const target = new THREE.Vector3(...this.view.target);
     const reach = 1.9 * this.view.radius;
     this.sky.position.set(0, 0, 1);
@@ -166,7 +194,7 @@ export class Stage {
     box.far = 5 * reach;
     this.sun.shadow.normalBias = 0.004 * this.view.radius;
     this.sun.shadow.radius = 3;
-    this.scene.add(this.sky, this.sun, this.sun.target);
+    box.updateProjectionMatrix();
   }
 
   // To the room that it has; the middle of the picture is that of what the switches leave free.

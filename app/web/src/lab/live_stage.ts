@@ -1,0 +1,132 @@
+// The view of the run: the newest frame, as it came. Nothing is interpolated between frames: that
+// would show each of them one frame later, and a hand feels that.
+import type { LabelColumns } from '../data/run';
+import { Labels } from '../view/labels';
+import type { Part } from '../view/painter';
+import { Stage } from '../view/stage';
+import { labelText, placeOf, type Frame, type SceneMessage } from './link';
+import { MeshStore } from './meshes';
+
+const TINT = [0, 114, 178]; // of what is selected: blue, that all eyes tell from grey
+const SHARE = 0.5;
+
+export class LiveStage {
+  stage: Stage | null = null; // before the first scene, and where a browser cannot draw: none
+  readonly canDraw = hasWebGl();
+  private readonly store = new MeshStore();
+  private readonly labels: Labels;
+  private readonly tag: HTMLElement;
+  private scene: SceneMessage | null = null;
+  private meshes = 0; // that the stage has
+  private textures = 0;
+  private dark = false;
+  private numbers = new Uint32Array(); // 0, 1, 2, ..
+
+  constructor(
+    private readonly host: HTMLElement,
+    labels: HTMLElement,
+    private readonly changed: () => void,
+  ) {
+    this.labels = new Labels(labels);
+    this.tag = document.createElement('div');
+    this.tag.className = 'tag';
+    this.tag.hidden = true;
+    host.append(this.tag);
+  }
+
+  // A scene of the same number has more of everything, and nothing else.
+  async show(scene: SceneMessage): Promise<void> {
+    const before = this.scene;
+    this.scene = scene;
+    if (!this.canDraw) return;
+    if (!this.stage) {
+      this.stage = new Stage(this.host, scene.view, { meshes: [], textures: [] }, this.changed);
+      this.stage.setTheme(this.dark);
+    } else if (before?.scene !== scene.scene) {
+      this.stage.refurnish(scene.view);
+      this.stage.setTheme(this.dark);
+      if (before?.file !== scene.file) this.stage.look('start');
+      this.meshes = this.textures = 0;
+    }
+    const [meshes, textures] = await Promise.all([
+      this.store.get(scene.meshes),
+      this.store.images(scene.textures),
+    ]);
+    if (this.scene !== scene) return; // another one has come meanwhile
+    this.stage.add(meshes.slice(this.meshes), textures.slice(this.textures));
+    this.meshes = meshes.length;
+    this.textures = textures.length;
+    this.changed();
+  }
+
+  setTheme(dark: boolean): void {
+    this.dark = dark;
+    this.stage?.setTheme(dark);
+  }
+
+  get isReady(): boolean {
+    return this.scene !== null && this.meshes === this.scene.meshes.length;
+  }
+
+  // `shown`: names of layers. `selected`, `followed`: bodies.
+  paint(
+    frame: Frame,
+    shown: Set<string>,
+    { selected, followed }: { selected: number | null; followed: number | null },
+  ): void {
+    const { stage, scene } = this;
+    if (!stage || !scene) return;
+    if (followed !== null) stage.follow(placeOf(frame.link, followed));
+    const bodies = selected === null ? frame : { ...frame, color: tinted(frame, selected) };
+    const parts: Part[] = [];
+    scene.layers.forEach(({ name }, l) => {
+      if (l >= frame.layers || !(l === 0 || shown.has(name))) return;
+      parts.push({ columns: l === 0 ? bodies : frame, a: l, b: l, share: 0, shadow: l === 0 });
+    });
+    stage.paint(parts);
+    stage.draw();
+    this.paintLabels(stage, frame, parts);
+    this.paintTag(stage, frame, selected);
+  }
+
+  private paintLabels(stage: Stage, frame: Frame, parts: Part[]): void {
+    const count = frame.textEnd.length;
+    if (this.numbers.length < count) this.numbers = Uint32Array.from({ length: 2 * count }, (_, i) => i);
+    const columns: LabelColumns = {
+      first: frame.firstLabel,
+      text: this.numbers,
+      position: frame.labelPosition,
+      offset: frame.labelOffset,
+    };
+    const texts = Array.from({ length: count }, (_, i) => labelText(frame, i));
+    const layers = count > 0 ? parts.map(({ a }) => ({ columns, frame: a })) : [];
+    this.labels.paint(stage, texts, layers);
+  }
+
+  // The name of what is selected, beside it.
+  private paintTag(stage: Stage, frame: Frame, body: number | null): void {
+    const place = body === null ? null : placeOf(frame.link, body);
+    const at = place && stage.project(...place);
+    this.tag.hidden = !at;
+    if (!at || body === null) return;
+    const name = this.scene?.bodies[body]?.name ?? '';
+    if (this.tag.textContent !== name) this.tag.textContent = name;
+    this.tag.style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px)`;
+  }
+}
+
+function tinted(frame: Frame, body: number): Uint8Array {
+  const color = frame.color.slice();
+  for (let i = frame.first[0]; i < frame.first[1]; ++i)
+    if (frame.body[i] === body)
+      for (let c = 0; c < 3; ++c)
+        color[4 * i + c] = Math.round((1 - SHARE) * color[4 * i + c] + SHARE * TINT[c]);
+  return color;
+}
+
+function hasWebGl(): boolean {
+  if (new URLSearchParams(location.search).has('plain')) return false; // asked to do without
+  const context = document.createElement('canvas').getContext('webgl2');
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  return context !== null;
+}
