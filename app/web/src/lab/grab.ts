@@ -5,6 +5,7 @@ import type { Stage } from '../view/stage';
 import type { Hand } from './hand';
 import { axisOf, inLink, inWorld, type Handles } from './handles';
 import { JointLeash } from './joint_leash';
+import type { Pulling } from './key_hand';
 import { Leash } from './leash';
 import { type Frame, type SceneJoint, type SceneMessage, type Vector } from './link';
 import { pick, type Hit } from './pick';
@@ -60,19 +61,21 @@ export class Grab {
     this.hover = null;
   }
 
-  // After the frame is painted.
-  draw({ stage, scene, frame }: Seen): void {
+  // After the frame is painted. `keys`: what the keyboard pulls or turns.
+  draw({ stage, scene, frame }: Seen, keys: { joint: SceneJoint | null; pulling: Pulling | null }): void {
     const { held, handles } = this;
     const at = handles.showTip(stage, handles.tipPlace(frame, scene));
     const goal = held?.kind === 'tip' ? stage.project(...held.leash.goal.toArray()) : null;
     handles.showLeader(at, goal);
-    const value = this.joint ? this.valueOf(frame, scene, this.joint) : 0;
-    handles.showArc(stage, frame, this.joint, value, 0.2 * scene.view.radius);
-    if (held?.kind !== 'pull') return handles.showSpring(null, null, '');
-    const from = inWorld(frame.link, held.body, held.point);
-    const to = stage.project(...held.leash.goal.toArray());
+    const joint = this.joint ?? keys.joint;
+    const value = joint ? this.valueOf(frame, scene, joint) : 0;
+    handles.showArc(stage, frame, joint, value, 0.2 * scene.view.radius);
+    const pull = held?.kind === 'pull' ? { ...held, goal: held.leash.goal } : keys.pulling;
+    if (!pull) return handles.showSpring(null, null, '');
+    const from = inWorld(frame.link, pull.body, pull.point);
     const newtons = channel(frame, scene, 'pull');
     const words = Number.isFinite(newtons) ? `${newtons.toFixed(1)} N` : '';
+    const to = stage.project(...pull.goal.toArray());
     handles.showSpring(from && stage.project(...from.toArray()), to, words);
   }
 

@@ -49,11 +49,10 @@ export class Handles {
   private readonly turned = path('arc turned');
   private readonly leader = path('leader');
   private readonly spring = path('spring');
-  private readonly words = element('output', { class: 'force', hidden: '' });
+  private readonly words = element('output', { class: 'pulled', hidden: '' });
 
   constructor(host: HTMLElement) {
     this.tip.setAttribute('aria-label', 'the hand: arrow keys move it, page up and down too');
-    this.svg.setAttribute('class', 'handles');
     this.svg.setAttribute('aria-hidden', 'true');
     this.svg.append(this.track, this.turned, this.leader, this.spring);
     host.append(this.svg, this.words, this.tip);

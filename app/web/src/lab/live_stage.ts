@@ -24,14 +24,14 @@ export class LiveStage {
 
   constructor(
     private readonly host: HTMLElement,
-    labels: HTMLElement,
+    parts: { labels: HTMLElement; handles: HTMLElement },
     private readonly changed: () => void,
   ) {
-    this.labels = new Labels(labels);
+    this.labels = new Labels(parts.labels);
     this.tag = document.createElement('div');
     this.tag.className = 'tag';
     this.tag.hidden = true;
-    host.append(this.tag);
+    parts.handles.append(this.tag);
   }
 
   // A scene of the same number has more of everything, and nothing else.

@@ -42,7 +42,7 @@ export interface PanelSet {
   knobs: Panel;
   plots: Panel;
   ledger: Panel;
-  time: Panel; // the bar below the view
+  time: Panel & { toggle(): void; askBranch(): void }; // the bar below the view
   hand: Panel; // in the view's lower corner: force with its limit
   gallery: Panel; // root: a <dialog> that the header's button opens
   dead: Panel; // over the view; hides itself

@@ -6,6 +6,7 @@ export class Tabs {
   private readonly list = element('div', { role: 'tablist' });
   private readonly tabs: HTMLButtonElement[] = [];
   private readonly panels: HTMLElement[] = [];
+  current = 0;
 
   constructor() {
     this.root = element('aside', {}, this.list);
@@ -28,6 +29,7 @@ export class Tabs {
   }
 
   show(chosen: number): void {
+    this.current = chosen;
     this.tabs.forEach((tab, i) => tab.setAttribute('aria-selected', String(i === chosen)));
     this.panels.forEach((panel, i) => (panel.hidden = i !== chosen));
   }

@@ -54,7 +54,7 @@ export class Labels {
     const { left, top } = this.host.getBoundingClientRect();
     const boxes: Box[] = [];
     for (const other of this.host.parentElement?.children ?? []) {
-      if (other === this.host || other instanceof HTMLCanvasElement) continue;
+      if (other === this.host || other.matches('canvas, .handles')) continue;
       const box = other.getBoundingClientRect();
       if (box.width === 0) continue;
       boxes.push({

@@ -1,0 +1,295 @@
+// The lab's page: a run that goes on elsewhere, seen and moved from here. This file holds together
+// the connection, the view, the hand and the panels; once a picture it takes the newest of
+// everything that has come, and nothing older.
+import 'uplot/dist/uPlot.min.css';
+import './style.css';
+import './lab.css';
+import { glassOf } from './lab/glass';
+import { Controller } from './lab/gamepad';
+import { Grab, type Seen } from './lab/grab';
+import { Hand } from './lab/hand';
+import { Handles } from './lab/handles';
+import { KeyHand } from './lab/key_hand';
+import { isKept, labKeys, MOUSE } from './lab/lab_keys';
+import * as wire from './lab/link';
+import { LiveStage } from './lab/live_stage';
+import { remember, remembered } from './lab/memory';
+import { Overlays } from './lab/overlays';
+import type { LabPage, Panel, PanelSet } from './lab/panel';
+import { panelsOf } from './lab/panels';
+import { Picture } from './lab/picture';
+import { Pace } from './lab/pace';
+import { Views } from './lab/views';
+import { Words } from './lab/words';
+import { button, element, icon } from './ui/dom';
+import { help, listen } from './ui/keys';
+import { Tabs } from './ui/tabs';
+import { Theme } from './ui/theme';
+import type { Arrow } from './view/arrows';
+import type { ViewName } from './view/stage';
+
+const TABS = ['Knobs', 'Plots', 'Glass', 'Ledger'];
+// Commands that need no hand.
+const FREE = new Set(['layers', 'glass', 'look', 'take']);
+
+class Page implements LabPage {
+  scene: wire.SceneMessage | null = null;
+  state: wire.StateMessage | null = null;
+  frame: wire.Frame | null = null;
+  selected: number | null = null;
+  readonly link: wire.Link;
+  readonly hand: Hand;
+  readonly live: LiveStage;
+  readonly overlays = new Overlays(() => this.sendLayers());
+  readonly views = new Views((name) => this.look(name), () => this.touch());
+  readonly pace = new Pace();
+  private readonly words = new Words();
+  private readonly host = element('div', { class: 'stage' });
+  private readonly handles: Handles;
+  readonly grab: Grab;
+  private readonly keys: KeyHand;
+  private readonly controller: Controller;
+  private readonly picture: Picture | null;
+  private readonly tabs = new Tabs();
+  private readonly theme: Theme;
+  private readonly set: PanelSet;
+  private readonly panels: Panel[];
+  private readonly title = element('h1', {}, 'twinarm lab');
+  private readonly file = element('p', {});
+  private readonly arrowsOf = new Map<string, Arrow[]>();
+  private readonly news: { scene?: wire.SceneMessage; state?: wire.StateMessage; glass?: wire.GlassMessage } = {};
+  private stale = true;
+
+  constructor() {
+    const over = element('div', { class: 'handles' });
+    const labels = element('div', { class: 'labels', 'aria-hidden': 'true' });
+    this.host.append(labels, over);
+    this.theme = new Theme(() => this.recolor());
+    this.live = new LiveStage(this.host, { labels, handles: over }, () => this.touch());
+    this.handles = new Handles(over);
+    this.link = new wire.Link(socketAddress(), {
+      scene: (message) => (this.news.scene = message),
+      state: (message) => (this.news.state = message),
+      glass: (message) => (this.news.glass = message),
+      connection: (open) => this.connected(open),
+    });
+    this.hand = new Hand(this.link, () => this.state, (words) => this.say(words));
+    this.grab = new Grab(this.host, () => this.seen(), this.hand, this.handles, {
+      select: (body) => this.select(body),
+      changed: () => this.touch(),
+    });
+    this.keys = new KeyHand(() => this.seen(), this.hand, this.handles, this.grab, () => this.touch());
+    this.controller = new Controller(this.hand, (words) => this.say(words));
+    this.picture = this.live.canDraw ? null : new Picture();
+    this.set = panelsOf(this);
+    const glass = glassOf(this);
+    const { knobs, plots, ledger, time, hand, gallery, dead } = this.set;
+    this.panels = [knobs, plots, glass, ledger, time, hand, gallery, dead];
+    [knobs, plots, glass, ledger].forEach((panel, i) => this.tabs.add(TABS[i], panel.root));
+    this.build();
+    const theme = remembered<boolean | null>('dark', null);
+    if (theme !== null) this.theme.set(theme);
+    this.recolor();
+    requestAnimationFrame((now) => this.tick(now));
+  }
+
+  get dark(): boolean {
+    return this.theme.dark;
+  }
+  get holds(): boolean {
+    return this.hand.holds;
+  }
+
+  send(command: wire.Command): boolean {
+    if (!FREE.has(command.do) && !this.hand.claim()) return false;
+    return this.link.send(command);
+  }
+
+  select(body: number | null): void {
+    if (body === this.selected) return;
+    this.selected = body;
+    this.host.dataset.selected = body === null ? '' : (this.scene?.bodies[body]?.name ?? '');
+    for (const panel of this.panels) panel.onSelect?.(body);
+    this.touch();
+  }
+
+  say(words: string): void {
+    this.words.say(words);
+  }
+
+  arrows(owner: string, arrows: Arrow[]): void {
+    this.arrowsOf.set(owner, arrows);
+    this.live.stage?.arrows.set([...this.arrowsOf.values()].flat());
+    this.touch();
+  }
+
+  showTab(title: string): void {
+    this.fold(false);
+    this.tabs.show(Math.max(0, TABS.indexOf(title)));
+    for (const panel of this.panels) panel.onTheme?.();
+  }
+
+  private build(): void {
+    const { knobs: _, ...set } = this.set;
+    const gallery = set.gallery.root as HTMLDialogElement;
+    const keys = labKeys({
+      page: this,
+      panels: this.set,
+      live: this.live,
+      overlays: this.overlays,
+      hand: this.hand,
+      keys: this.keys,
+      look: (name) => this.look(name),
+      followNext: () => this.views.next(this.selected),
+      isTab: (title) => !this.folded && this.tabs.current === TABS.indexOf(title),
+      togglePanel: () => this.fold(!this.folded),
+      toggleTheme: () => this.toggleTheme(),
+      help: () => (dialog.open ? dialog.close() : dialog.showModal()),
+    });
+    const dialog = help(keys, MOUSE);
+    const scenes = button(icon('gallery'), 'scenes (e)', () => gallery.showModal(), 'words');
+    scenes.append('Scenes');
+    this.host.append(
+      ...(this.picture ? [this.picture.root] : []),
+      element('div', { class: 'corner' }, this.overlays.root, this.overlays.legend),
+      this.views.root,
+      element('div', { class: 'foot' }, this.words.look, this.words.hint),
+      element('div', { class: 'hand-corner' }, set.hand.root),
+      this.words.banner,
+      set.dead.root,
+    );
+    document.body.classList.add('lab');
+    document.body.append(
+      element(
+        'header',
+        {},
+        this.title,
+        this.file,
+        scenes,
+        button('?', 'keys (?)', () => dialog.showModal()),
+        button(icon('theme'), 'light or dark (t)', () => this.toggleTheme()),
+        button(icon('panel'), 'the panel (\\)', () => this.fold(!this.folded)),
+      ),
+      element('main', {}, this.host, set.time.root, this.tabs.root),
+      gallery,
+      dialog,
+    );
+    listen(keys, isKept);
+    this.fold(remembered('folded', false));
+  }
+
+  private get folded(): boolean {
+    return document.body.classList.contains('folded');
+  }
+  private fold(folded: boolean): void {
+    document.body.classList.toggle('folded', folded);
+    remember('folded', folded);
+  }
+
+  private toggleTheme(): void {
+    remember('dark', !this.theme.dark);
+    this.theme.set(!this.theme.dark);
+  }
+
+  private recolor(): void {
+    this.live?.setTheme(this.theme.dark);
+    for (const panel of this.panels ?? []) panel.onTheme?.();
+    this.touch();
+  }
+
+  private look(name: ViewName): void {
+    this.views.body = null;
+    this.live.stage?.look(name);
+  }
+
+  private touch(): void {
+    this.stale = true;
+  }
+
+  private seen(): Seen | null {
+    const { scene, frame } = this;
+    const { stage } = this.live;
+    return stage && scene && frame ? { stage, scene, frame } : null;
+  }
+
+  private connected(open: boolean): void {
+    this.words.connection(open);
+    if (!open) return;
+    this.sendLayers();
+  }
+
+  private sendLayers(): void {
+    this.link.send({ do: 'layers', names: this.overlays.names });
+    this.touch();
+  }
+
+  private tick(now: number): void {
+    requestAnimationFrame((next) => this.tick(next));
+    this.controller.poll();
+    this.grab.tick();
+    this.hand.flush();
+    this.takeNews();
+    const frame = this.link.take();
+    if (frame && frame.scene === this.scene?.scene) this.takeFrame(frame);
+    if (this.stale && this.frame) this.paint(this.frame, now);
+    this.picture?.tick(now);
+    this.words.tick(now, this.keys.hint ?? this.grab.hint);
+    for (const panel of this.panels)
+      if (panel.draw && !(panel.root.closest('[hidden]') || (this.folded && panel.root.closest('aside'))))
+        panel.draw();
+  }
+
+  private takeNews(): void {
+    const { scene, state, glass } = this.news;
+    this.news.scene = this.news.state = this.news.glass = undefined;
+    if (scene) this.takeScene(scene);
+    if (state) {
+      this.state = state;
+      for (const panel of this.panels) panel.onState?.(state);
+    }
+    if (glass) for (const panel of this.panels) panel.onGlass?.(glass);
+  }
+
+  private takeScene(scene: wire.SceneMessage): void {
+    if (scene.scene !== this.scene?.scene) {
+      this.frame = null;
+      this.select(null);
+      this.keys.leave();
+    }
+    this.scene = scene;
+    document.title = `${scene.title} · twinarm lab`;
+    this.title.textContent = scene.title;
+    this.file.textContent = scene.file;
+    this.views.show(scene);
+    this.overlays.show(scene);
+    this.words.show(scene);
+    void this.live.show(scene);
+    for (const panel of this.panels) panel.onScene?.(scene);
+  }
+
+  private takeFrame(frame: wire.Frame): void {
+    this.frame = frame;
+    this.stale = true;
+    for (const panel of this.panels) panel.onFrame?.(frame);
+  }
+
+  private paint(frame: wire.Frame, now: number): void {
+    this.stale = false;
+    const { selected } = this;
+    this.live.paint(frame, this.overlays.shown, { selected, followed: this.views.body });
+    if (this.views.body !== null) this.stale = false; // that moved the camera, and is drawn now
+    const seen = this.seen();
+    if (seen) this.grab.draw(seen, this.keys);
+    this.hand.painted(frame);
+    this.pace.painted(now);
+    if (this.live.isReady) document.documentElement.dataset.ready = 'true';
+  }
+}
+
+function socketAddress(): string {
+  const address = new URL('/live', location.href);
+  address.protocol = address.protocol.replace('http', 'ws');
+  return address.href;
+}
+
+Object.assign(window, { twinarm: { page: new Page() } });

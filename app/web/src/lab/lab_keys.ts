@@ -1,0 +1,163 @@
+// The keyboard of the lab: everything that a mouse can do.
+import type { Key } from '../ui/keys';
+import type { ViewName } from '../view/stage';
+import type { Hand } from './hand';
+import type { KeyHand } from './key_hand';
+import type { LabPage, PanelSet } from './panel';
+import type { Overlays } from './overlays';
+import type { LiveStage } from './live_stage';
+
+export interface KeyTargets {
+  page: LabPage;
+  panels: PanelSet;
+  live: LiveStage;
+  overlays: Overlays;
+  hand: Hand;
+  keys: KeyHand;
+  look(name: ViewName): void;
+  followNext(): void;
+  isTab(title: string): boolean;
+  togglePanel(): void;
+  toggleTheme(): void;
+  help(): void;
+}
+
+const SPEEDS = [0.01, 0.1, 0.25, 0.5, 1, 2, 5, 10];
+const VIEWS: ViewName[] = ['front', 'side', 'top', 'iso'];
+const FRAME = 1 / 60; // [s]
+
+export function labKeys(at: KeyTargets): Key[] {
+  return [...runKeys(at), ...handKeys(at), ...viewKeys(at), ...pageKeys(at)];
+}
+
+const key = (keys: string[], shown: string, what: string, act: Key['act']): Key => ({
+  keys,
+  shown,
+  what,
+  act,
+});
+
+function runKeys({ page, panels, isTab }: KeyTargets): Key[] {
+  const faster = (by: number) => () => {
+    const speed = page.state?.speed ?? 1;
+    const nearest = SPEEDS.reduce((a, b) => (Math.abs(b - speed) < Math.abs(a - speed) ? b : a));
+    const factor = SPEEDS[SPEEDS.indexOf(nearest) + by];
+    if (factor) page.send({ do: 'speed', factor });
+  };
+  const step = () => {
+    if (!isTab('Glass')) page.send({ do: 'step', steps: 1 }); // else a step of the call
+  };
+  return [
+    key([' ', 'k'], 'space', 'play, pause', () => panels.time.toggle()),
+    key(['.'], '.', 'one step of the run (beside the Glass: of the call; , back)', step),
+    key(['['], '[ ]', 'slower, faster', faster(-1)),
+    key([']'], '', '', faster(1)),
+    key(['End'], 'End', 'back to now', () => page.send({ do: 'look', at: null })),
+    key(['b'], 'b', 'branch from this instant', () => panels.time.askBranch()),
+  ];
+}
+
+// Arrows move what the hand has; without it they look back in time.
+function handKeys({ page, hand, keys }: KeyTargets): Key[] {
+  const move = (right: number, up: number, away: number) => (event: KeyboardEvent) => {
+    if (keys.isOn) return keys.move(right, up, away, event.shiftKey);
+    const { state } = page;
+    if (!state || right === 0) return;
+    if (state.playing && page.holds) page.send({ do: 'play', on: false });
+    const goal = (state.at ?? state.last) + right * (event.shiftKey ? 0.5 : FRAME);
+    page.send({ do: 'look', at: goal >= state.last ? null : Math.max(state.first, goal) });
+  };
+  return [
+    key(['h'], 'h', 'the hand: arrows move the tip, page up and down away and toward', () =>
+      keys.focusTip(),
+    ),
+    key(['j'], 'j', 'the next joint: arrows turn it', () => keys.nextJoint()),
+    key(['x'], 'x', 'a spring at the selected body: arrows pull; x lets go', () =>
+      keys.togglePull(page.selected),
+    ),
+    key(['ArrowLeft'], '← →', 'else: back and on in time; with shift half a second', move(-1, 0, 0)),
+    key(['ArrowRight'], '', '', move(1, 0, 0)),
+    key(['ArrowUp'], '', '', move(0, 1, 0)),
+    key(['ArrowDown'], '', '', move(0, -1, 0)),
+    key(['PageUp'], '', '', move(0, 0, 1)),
+    key(['PageDown'], '', '', move(0, 0, -1)),
+    key(['g'], 'g', 'gripper', () => {
+      hand.button(0, !hand.grip);
+      page.say(hand.grip ? 'The gripper is closed.' : 'The gripper is open.');
+    }),
+    key(['c'], 'c', 'clutch', () => {
+      hand.button(1, !hand.clutch);
+      page.say(hand.clutch ? 'The clutch is pressed.' : 'The clutch is released.');
+    }),
+  ];
+}
+
+function viewKeys({ page, live, overlays, look, followNext }: KeyTargets): Key[] {
+  let view = 0;
+  const orbit = (around: number, up: number, closer: number) => () =>
+    live.stage?.orbit(around, up, closer);
+  const selectNext = (by: number) => () => {
+    const { scene } = page;
+    if (!scene) return;
+    const moving = scene.bodies.flatMap(({ moves }, i) => (moves ? [i] : []));
+    const at = page.selected === null ? -1 : moving.indexOf(page.selected);
+    page.select(moving[(at + by + moving.length) % moving.length] ?? null);
+  };
+  return [
+    key(['m'], 'm', 'select the next body; with shift the one before', selectNext(1)),
+    key(['M'], '', '', selectNext(-1)),
+    key(['f'], 'f', 'follow the selected body, or the next one', followNext),
+    key(['a'], 'a d w s', 'turn the view', orbit(-0.1, 0, 1)),
+    key(['d'], '', '', orbit(0.1, 0, 1)),
+    key(['w'], '', '', orbit(0, 0.08, 1)),
+    key(['s'], '', '', orbit(0, -0.08, 1)),
+    key(['+', '='], '+ −', 'nearer, farther', orbit(0, 0, 0.88)),
+    key(['-'], '', '', orbit(0, 0, 1 / 0.88)),
+    key(['r'], 'r', 'the view of the start', () => look('start')),
+    key(['v'], 'v', 'front, side, top, from a corner', () => look(VIEWS[view++ % VIEWS.length])),
+    key(['o'], 'o', 'what is shown', () => overlays.fold(!overlays.folded)),
+    ...[1, 2, 3, 4, 5, 6, 7, 8, 9].map((n) =>
+      key([String(n)], n === 1 ? '1 – 9' : '', 'show or hide an overlay', () =>
+        overlays.toggleNumber(n),
+      ),
+    ),
+  ];
+}
+
+function pageKeys({ page, panels, keys, overlays, togglePanel, toggleTheme, help }: KeyTargets): Key[] {
+  const tabs: [string, string][] = [['n', 'Knobs'], ['p', 'Plots'], ['i', 'Glass'], ['l', 'Ledger']];
+  const leave = () => {
+    if (!overlays.folded) overlays.fold(true);
+    else if (keys.isOn) keys.leave();
+    else page.select(null);
+  };
+  return [
+    ...tabs.map(([letter, title], i) =>
+      key([letter], i === 0 ? 'n p i l' : '', 'knobs, plots, glass, ledger', () => page.showTab(title)),
+    ),
+    key(['\\'], '\\', 'fold the panel away', togglePanel),
+    key(['e'], 'e', 'scenes', () => (panels.gallery.root as HTMLDialogElement).showModal()),
+    key(['Escape'], 'Esc', 'lets go of the hand, of the selection', leave),
+    key(['t'], 't', 'light or dark', toggleTheme),
+    key(['?'], '?', 'this help', help),
+  ];
+}
+
+// Sliders, tabs and dialogs keep the keys that they know.
+export function isKept(event: KeyboardEvent): boolean {
+  const at = event.target;
+  if (!(at instanceof Element)) return false;
+  if (at.closest('dialog[open]') || document.querySelector('dialog:modal')) return true;
+  const moves = /^(Arrow|Page|Home|End)/.test(event.key);
+  if (at instanceof HTMLInputElement && at.type === 'range') return moves;
+  if (at.closest('[role=radiogroup], [role=tablist], [role=slider], details[open]'))
+    return moves || event.key === 'Escape';
+  return at.closest('summary') !== null && (event.key === ' ' || event.key === 'Enter');
+}
+
+export const MOUSE =
+  'Mouse: the ring at the tip leads the robot, its ghost turns joint by joint, a solid body is ' +
+  'pulled by a spring; a click selects it. Elsewhere dragging turns the view, the right button ' +
+  'moves it, the wheel zooms; with Alt, everywhere. While dragging, shift goes straight up and ' +
+  'down, the wheel nearer and farther. A game controller moves the hand: left stick right and ' +
+  'toward, right stick up and yaw, first button grips.';

@@ -1,0 +1,53 @@
+// What stands in words over the view: what to look for, what the pointer would do, and whether the
+// lab is there.
+import { button, element } from '../ui/dom';
+import type { SceneMessage } from './link';
+
+const STAYS = 4000; // [ms]
+const PATIENCE = 500; // before a lost connection is spoken of
+
+export class Words {
+  readonly look = element('section', { class: 'look', hidden: '', 'aria-label': 'what to look for' });
+  readonly hint = element('p', { class: 'hint-line' });
+  readonly banner = element('div', { class: 'banner', role: 'status', hidden: '' });
+  private said = '';
+  private until = 0;
+  private shown = '';
+  private file = '';
+  private lostAt: number | null = 0;
+
+  constructor() {
+    this.banner.append(element('i'), element('span'));
+  }
+
+  show(scene: SceneMessage): void {
+    if (scene.file === this.file) return;
+    this.file = scene.file;
+    this.look.hidden = scene.look.length === 0;
+    this.look.replaceChildren(
+      element('h2', {}, 'What to look for'),
+      button('×', 'away', () => (this.look.hidden = true), 'close'),
+      element('ul', {}, ...scene.look.map((line) => element('li', {}, line))),
+    );
+  }
+
+  say(words: string): void {
+    this.said = words;
+    this.until = performance.now() + STAYS;
+  }
+
+  connection(open: boolean): void {
+    this.lostAt = open ? null : (this.lostAt ?? performance.now());
+  }
+
+  // Once a picture.
+  tick(now: number, hint: string): void {
+    const words = now < this.until ? this.said : hint;
+    if (words !== this.shown) this.hint.textContent = this.shown = words;
+    const isLost = this.lostAt !== null && now - this.lostAt > PATIENCE;
+    if (this.banner.hidden !== isLost) return;
+    this.banner.hidden = !isLost;
+    const words_ = this.lostAt === 0 ? 'Waiting for the lab ..' : 'The connection is lost. It is tried again; what the lab remembers stays.';
+    this.banner.lastElementChild!.textContent = words_;
+  }
+}
