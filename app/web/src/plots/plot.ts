@@ -193,11 +193,11 @@ function colorOf(curve: Curve): string {
   return token(`--c${curve.color % 8}`);
 }
 
-function timeText(time: number): string {
+export function timeText(time: number): string {
   return `${+time.toPrecision(6)} s`;
 }
 
-function tickText(value: number): string {
+export function tickText(value: number): string {
   if (value === 0) return '0';
   const size = Math.abs(value);
   const text = size >= 1e5 || size < 1e-3 ? value.toExponential(1) : String(+value.toPrecision(4));

@@ -1,0 +1,100 @@
+// Numbers and pictures out of the page, as files.
+import { element } from '../ui/dom';
+
+export interface CsvColumn {
+  name: string;
+  unit: string;
+  value: (row: number) => number;
+}
+
+// One line a row, all digits; what has no value is empty. RFC 4180.
+export function csvText(columns: CsvColumn[], rows: number): string {
+  const quoted = (text: string) =>
+    /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  const lines = [columns.map(({ name, unit }) => quoted(unit ? `${name} [${unit}]` : name)).join()];
+  for (let row = 0; row < rows; ++row)
+    lines.push(
+      columns
+        .map((column) => {
+          const value = column.value(row);
+          return Number.isNaN(value) ? '' : String(value);
+        })
+        .join(),
+    );
+  return lines.join('\r\n') + '\r\n';
+}
+
+export function download(name: string, content: Blob): void {
+  const address = URL.createObjectURL(content);
+  const link = element('a', { href: address, download: name });
+  link.click();
+  // Not at once: the browser still reads it.
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+export function saveCsv(name: string, columns: CsvColumn[], rows: number): void {
+  download(name, new Blob([csvText(columns, rows)], { type: 'text/csv' }));
+}
+
+// "Hand and obstacles", "error": "hand-and-obstacles-error.csv".
+export function fileName(title: string, what: string, ending: string): string {
+  const plain = `${title}-${what}`.toLowerCase().replaceAll(/[^\p{L}\p{N}]+/gu, '-');
+  return `${plain.replaceAll(/^-+|-+$/g, '')}.${ending}`;
+}
+
+export interface PictureLine {
+  name: string;
+  color: string;
+  dashed: boolean;
+}
+
+// A plot's canvas with its title above and its names below, on the page's paper.
+export function savePicture(
+  name: string,
+  title: string,
+  plot: HTMLCanvasElement,
+  lines: PictureLine[],
+  paper: string,
+  ink: string,
+): void {
+  const scale = plot.width / plot.clientWidth || 1;
+  const row = 18 * scale;
+  const canvas = element('canvas');
+  const context = canvas.getContext('2d')!;
+  const font = `${12 * scale}px system-ui, sans-serif`;
+  context.font = font;
+  const widths = lines.map((line) => context.measureText(line.name).width + 40 * scale);
+  const places: [number, number][] = [];
+  let x = 8 * scale;
+  let y = 0;
+  for (const width of widths) {
+    if (x + width > plot.width && x > 8 * scale) {
+      x = 8 * scale;
+      y += row;
+    }
+    places.push([x, y]);
+    x += width;
+  }
+  canvas.width = plot.width;
+  canvas.height = plot.height + y + 2.5 * row;
+  context.fillStyle = paper;
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  context.drawImage(plot, 0, row);
+  context.fillStyle = ink;
+  context.font = `600 ${13 * scale}px system-ui, sans-serif`;
+  context.fillText(title, 8 * scale, 14 * scale);
+  context.font = font;
+  context.lineWidth = 2.5 * scale;
+  lines.forEach((line, i) => {
+    const [left, down] = places[i];
+    const base = plot.height + 2 * row + down;
+    context.strokeStyle = line.color;
+    context.setLineDash(line.dashed ? [4 * scale, 3 * scale] : []);
+    context.beginPath();
+    context.moveTo(left, base - 4 * scale);
+    context.lineTo(left + 18 * scale, base - 4 * scale);
+    context.stroke();
+    context.fillText(line.name, left + 24 * scale, base);
+  });
+  canvas.toBlob((blob) => blob && download(name, blob));
+}

@@ -1,0 +1,200 @@
+// Which plots a live run has, and which curves stand in them. What has not moved or acted yet has
+// no curve; what has once been shown keeps its colour.
+import { screenUnit } from '../plots/panels';
+import type { SceneChannel } from './link';
+import type { RunRecord } from './run_record';
+
+export interface LiveCurve {
+  column: number; // of the record
+  name: string;
+  color: number; // of the theme's; -1: ink
+  style: 'line' | 'dashed' | 'dotted';
+}
+
+export interface LiveSpec {
+  id: string;
+  title: string;
+  unit: string; // SI
+  curves: LiveCurve[];
+  sum?: number; // column: the curves are areas upon each other, and this is their sum
+  limit?: { value: number; words: string; always: boolean }; // seen whatever the curves are
+  omitted: number;
+}
+
+export const DEVICE_LIMIT = 3.3; // [N], the Omni's nominal largest force
+const MOST = 7; // curves that the eye can tell apart
+
+interface Numbered extends SceneChannel {
+  column: number;
+}
+
+export class LiveSpecs {
+  private readonly colors = new Map<number, number>();
+  private readonly channels: Numbered[];
+
+  constructor(private readonly record: RunRecord) {
+    this.channels = record.scene.channels.map((channel, column) => ({ ...channel, column }));
+  }
+
+  // `step`: of the run [s], the time that a step may take.
+  all(step: number): LiveSpec[] {
+    const acting = (kind: string) =>
+      this.of(kind).filter(({ column }) => this.size(column) > 0);
+    return [
+      ...this.coordinates('rad'),
+      ...this.error(),
+      ...this.ledger(),
+      ...this.plain('couplings', 'Pull of the couplings', this.of('coupling')),
+      ...this.plain('contacts', 'Contact force', acting('contact')),
+      ...this.device(),
+      ...this.plain('pull', 'Pull of the mouse', acting('pull')),
+      ...this.coordinates('m'),
+      ...this.plain('energies', 'Energies', this.of('energy')),
+      ...this.loop(step),
+    ].filter((spec) => spec.curves.length > 0);
+  }
+
+  // Any one quantity.
+  single(column: number): LiveSpec | null {
+    const channel = this.channels[column];
+    if (!channel) return null;
+    const curves = [curve(column, channel.name, 0)];
+    return { id: 'pick', title: channel.name, unit: channel.unit, curves, omitted: 0 };
+  }
+
+  private of(kind: string): Numbered[] {
+    return this.channels.filter((channel) => channel.kind === kind);
+  }
+
+  private span(column: number): number {
+    return Math.max(0, this.record.high[column] - this.record.low[column]);
+  }
+  private size(column: number): number {
+    return Math.max(0, this.record.high[column], -this.record.low[column]);
+  }
+
+  // The largest of them, in their own order.
+  private largest(all: Numbered[], measure: (column: number) => number): Numbered[] {
+    if (all.length <= MOST) return all;
+    const sorted = [...all].sort((a, b) => measure(b.column) - measure(a.column));
+    const chosen = new Set(sorted.slice(0, MOST));
+    return all.filter((channel) => chosen.has(channel));
+  }
+
+  // Those that have one keep it; the others take what is free.
+  private paint(columns: number[]): number[] {
+    const taken = new Set(columns.map((column) => this.colors.get(column)));
+    for (const column of columns) {
+      if (this.colors.has(column)) continue;
+      let free = 0;
+      while (taken.has(free)) free += 1;
+      this.colors.set(column, free);
+      taken.add(free);
+    }
+    return columns.map((column) => this.colors.get(column)!);
+  }
+
+  private plain(id: string, title: string, channels: Numbered[]): LiveSpec[] {
+    const units = [...new Set(channels.map((channel) => channel.unit))];
+    return units.map((unit, i) => {
+      const all = channels.filter((channel) => channel.unit === unit);
+      const shown = this.largest(all, (column) => this.size(column));
+      const colors = this.paint(shown.map((channel) => channel.column));
+      return {
+        id: i === 0 ? id : `${id}-${i}`,
+        title,
+        unit,
+        curves: shown.map((channel, k) => curve(channel.column, channel.of, colors[k])),
+        omitted: all.length - shown.length,
+      };
+    });
+  }
+
+  // The dynamic robot as a line, the kinematic one in the same colour, dashed.
+  private coordinates(unit: 'rad' | 'm'): LiveSpec[] {
+    const targets = new Map(this.of('target').map((channel) => [channel.of, channel.column]));
+    const all = this.of('coordinate').filter(
+      (channel) =>
+        channel.unit === unit && (targets.has(channel.of) || this.span(channel.column) > 1e-9),
+    );
+    const led = all.filter((channel) => targets.has(channel.of)).slice(0, MOST);
+    const shown = led.length > 0 ? led : this.largest(all, (column) => this.span(column));
+    const colors = this.paint(shown.map((channel) => channel.column));
+    const curves = shown.flatMap(({ column, of }, i) => {
+      const target = targets.get(of);
+      if (target === undefined) return [curve(column, of, colors[i])];
+      return [
+        curve(column, `${of} DVR`, colors[i]),
+        curve(target, `${of} KVR`, colors[i], 'dashed'),
+      ];
+    });
+    const [id, title] = unit === 'rad' ? ['angles', 'Angles'] : ['positions', 'Positions'];
+    return [{ id, title, unit, curves, omitted: all.length - shown.length }];
+  }
+
+  private error(): LiveSpec[] {
+    return this.record.errors.flatMap(({ unit, channels, most, mean }) => {
+      const own = channels.map((column) => this.channels[column]);
+      const [spec] = this.plain(`error-${unit}`, 'Error: DVR less KVR', own);
+      const curves = [
+        ...spec.curves,
+        curve(most, 'largest so far', -1, 'dashed'),
+        curve(mean, 'mean so far', -1, 'dotted'),
+      ];
+      return [{ ...spec, curves }];
+    });
+  }
+
+  private ledger(): LiveSpec[] {
+    const { works, sum, scene } = this.record;
+    const all = scene.ledger
+      .map((of, row): Numbered => ({ name: of, of, unit: 'J', kind: 'energy', column: works + row }))
+      .filter(({ column }) => this.size(column) > 0);
+    const [spec] = this.plain('ledger', 'Energy ledger, stacked', all);
+    if (!spec) return [];
+    return [{ ...spec, sum }];
+  }
+
+  private device(): LiveSpec[] {
+    const words = `the device's limit, ${DEVICE_LIMIT} N`;
+    return this.plain('device', 'Hand device', this.of('hand').filter(isShown)).map((spec) =>
+      spec.unit === 'N'
+        ? { ...spec, title: 'Device force', limit: { value: DEVICE_LIMIT, words, always: true } }
+        : spec,
+    );
+  }
+
+  private loop(step: number): LiveSpec[] {
+    const words = 'the time of a step';
+    return this.plain('loop', 'Loop', this.of('time')).map((spec) =>
+      spec.unit === 's'
+        ? { ...spec, title: 'Loop time', limit: { value: step, words, always: false } }
+        : spec,
+    );
+  }
+}
+
+function curve(
+  column: number,
+  name: string,
+  color: number,
+  style: LiveCurve['style'] = 'line',
+): LiveCurve {
+  return { column, name, color, style };
+}
+
+// Angles of the device's own joints stand among its coordinates already.
+function isShown(channel: SceneChannel): boolean {
+  return channel.unit !== 'rad' && channel.unit !== '1';
+}
+
+// On screen: degrees if asked for, microseconds, millimetres where all is small.
+export function liveUnit(
+  unit: string,
+  degrees: boolean,
+  size: number,
+): { unit: string; factor: number } {
+  if (unit === 's') return { unit: 'µs', factor: 1e6 };
+  if (!degrees && unit.startsWith('rad')) return { unit, factor: 1 };
+  return screenUnit(unit, size);
+}

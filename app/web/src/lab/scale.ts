@@ -1,0 +1,91 @@
+// A knob's slider: where a value stands on it, what stands at a place, what an arrow key makes of
+// it; and its number as text. Places go from 0 to 1.
+export interface Scale {
+  form: 'log' | 'linear';
+  low: number;
+  high: number;
+}
+
+const DECADES = 6; // of a logarithmic slider that begins at zero
+const DIGITS = 3; // that a slider sets
+
+function foot(scale: Scale): number {
+  return scale.low > 0 ? scale.low : scale.high / 10 ** DECADES;
+}
+
+export function placeOf(scale: Scale, value: number): number {
+  const { form, low, high } = scale;
+  const share =
+    form === 'linear'
+      ? (value - low) / (high - low)
+      : value <= 0
+        ? 0
+        : Math.log(value / foot(scale)) / Math.log(high / foot(scale));
+  return Number.isFinite(share) ? Math.min(1, Math.max(0, share)) : 0;
+}
+
+export function valueAt(scale: Scale, place: number): number {
+  const { form, low, high } = scale;
+  if (place <= 0) return low;
+  if (place >= 1) return high;
+  if (form === 'log') return clamp(scale, round(foot(scale) * (high / foot(scale)) ** place));
+  const step = niceStep((high - low) / 1000);
+  return clamp(scale, tidy(Math.round((low + place * (high - low)) / step) * step));
+}
+
+// Up (1) or down (-1): a tenth of the value, or of the decade's worth of a linear scale; a coarse
+// step doubles, or is ten small ones.
+export function stepped(scale: Scale, value: number, way: 1 | -1, coarse: boolean): number {
+  if (scale.form === 'linear') {
+    const step = niceStep((scale.high - scale.low) / 100) * (coarse ? 10 : 1);
+    return clamp(scale, tidy((Math.round(value / step) + way) * step));
+  }
+  const factor = coarse ? 2 : 1.1;
+  if (value <= 0) return way > 0 ? foot(scale) : scale.low;
+  const next = round(way > 0 ? value * factor : value / factor);
+  return next < foot(scale) ? scale.low : clamp(scale, next);
+}
+
+function clamp({ low, high }: Scale, value: number): number {
+  return Math.min(high, Math.max(low, value));
+}
+
+function round(value: number): number {
+  return Number(value.toPrecision(DIGITS));
+}
+
+// Without what binary fractions leave over: 0.30000000000000004.
+function tidy(value: number): number {
+  return Number(value.toPrecision(12));
+}
+
+// 1, 2 or 5 times a power of ten, at most the size.
+export function niceStep(size: number): number {
+  const power = 10 ** Math.floor(Math.log10(size) + 1e-9);
+  const lead = size / power + 1e-9;
+  return tidy((lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power);
+}
+
+// As it stands in a field: all that was typed, without needless digits.
+export function numberText(value: number): string {
+  if (!Number.isFinite(value)) return String(value);
+  const size = Math.abs(value);
+  const text = size !== 0 && (size < 1e-4 || size >= 1e7) ? value.toExponential() : String(value);
+  const shorter = size !== 0 && text.length > 9 ? String(Number(value.toPrecision(6))) : text;
+  return shorter.replace('e+', 'e');
+}
+
+const PREFIXES: Record<string, number> = { M: 1e6, k: 1e3, m: 1e-3, u: 1e-6, µ: 1e-6, μ: 1e-6 };
+
+// "800", "1.2e4", "12k", "12 kN/m", "−3,5 ms": in the knob's own unit. NaN: none of these.
+export function parseNumber(text: string, unit: string): number {
+  const said = text.trim().replaceAll('−', '-').replace(',', '.');
+  const found = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i.exec(said);
+  if (!found) return NaN;
+  const [, digits, rest] = found;
+  const value = Number(digits);
+  if (rest === '' || rest === unit) return value;
+  const scale = PREFIXES[rest[0]];
+  const isScaled = scale !== undefined && (rest.length === 1 || rest.slice(1) === unit);
+  return isScaled ? tidy(value * scale) : NaN;
+}
