@@ -104,7 +104,7 @@ export class LiveSpecs {
         id: i === 0 ? id : `${id}-${i}`,
         title,
         unit,
-        curves: shown.map((channel, k) => curve(channel.column, channel.of, colors[k])),
+        curves: shown.map((channel, k) => curve(channel.column, channel.of || channel.name, colors[k])),
         omitted: all.length - shown.length,
       };
     });
@@ -166,11 +166,11 @@ export class LiveSpecs {
 
   private loop(step: number): LiveSpec[] {
     const words = 'the time of a step';
-    return this.plain('loop', 'Loop', this.of('time')).map((spec) =>
-      spec.unit === 's'
-        ? { ...spec, title: 'Loop time', limit: { value: step, words, always: false } }
-        : spec,
-    );
+    return this.plain('loop', 'Loop', this.of('time')).map((spec) => {
+      const value = spec.unit === 'us' ? 1e6 * step : step;
+      if (spec.unit !== 's' && spec.unit !== 'us') return spec;
+      return { ...spec, title: 'Loop time', limit: { value, words, always: false } };
+    });
   }
 }
 
@@ -195,6 +195,7 @@ export function liveUnit(
   size: number,
 ): { unit: string; factor: number } {
   if (unit === 's') return { unit: 'µs', factor: 1e6 };
+  if (unit === 'us') return { unit: 'µs', factor: 1 };
   if (!degrees && unit.startsWith('rad')) return { unit, factor: 1 };
   return screenUnit(unit, size);
 }

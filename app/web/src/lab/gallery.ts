@@ -1,0 +1,143 @@
+// Scenes to choose from, each with what to look for; and files of one's own: a URDF, a scene, a
+// recording. The lab imports them; what it says of faults is shown as it says it.
+import { button, element } from '../ui/dom';
+import type { StateMessage } from './link';
+import type { LabPage, Panel } from './panel';
+
+const MESHES = /\.(stl|obj|dae|ply|png|jpe?g|mtl)$/i; // go first: a robot's file names them
+const ROBOTS = '.urdf,.xml,.xacro,.toml,.twinrec,.stl,.obj,.dae,.ply,.png';
+
+export class Gallery implements Panel {
+  readonly root = element('dialog', { class: 'card-dialog gallery', 'aria-label': 'scenes' });
+  private readonly cards = element('div', { class: 'cards' });
+  private readonly zone = element('div', { class: 'zone' });
+  private readonly said = element('div', { class: 'said', role: 'status' });
+  private readonly input = element('input', { type: 'file', multiple: '', accept: ROBOTS });
+  private shown = '';
+
+  constructor(private readonly page: LabPage) {
+    this.input.hidden = true;
+    this.input.addEventListener('change', () => {
+      void this.open([...(this.input.files ?? [])]);
+      this.input.value = '';
+    });
+    this.zone.append(
+      element('p', {}, 'Drop a robot (URDF, with its meshes), a scene or a recording anywhere on this page, or'),
+      button('open files …', 'from this computer', () => this.input.click()),
+      this.input,
+    );
+    const close = button('×', 'close (Escape)', () => this.root.close(), 'close');
+    this.root.append(
+      element('header', {}, element('h2', {}, 'Scenes'), close),
+      this.said,
+      this.cards,
+      this.zone,
+    );
+    this.root.addEventListener('click', (event) => {
+      if (event.target === this.root) this.root.close();
+    });
+    this.root.addEventListener('keydown', (event) => this.press(event));
+    this.takeDrops();
+  }
+
+  onState({ gallery }: StateMessage): void {
+    const wanted = JSON.stringify(gallery);
+    if (wanted === this.shown) return;
+    this.shown = wanted;
+    this.cards.replaceChildren(...gallery.map((entry) => this.card(entry)));
+  }
+
+  private card({ name, title, look }: StateMessage['gallery'][number]): HTMLElement {
+    const image = element('img', {
+      src: `/gallery/${encodeURIComponent(name)}.png`,
+      alt: '',
+      loading: 'lazy',
+    });
+    image.addEventListener('error', () => (image.style.visibility = 'hidden'));
+    const card = element(
+      'button',
+      { type: 'button', class: 'card', 'data-scene': name },
+      image,
+      element('b', {}, title),
+      element('ul', {}, ...look.map((line) => element('li', {}, line))),
+    );
+    card.addEventListener('click', () => {
+      if (this.page.send({ do: 'scene', name })) this.root.close();
+    });
+    return card;
+  }
+
+  // Arrows go from card to card as they lie.
+  private press(event: KeyboardEvent): void {
+    event.stopPropagation();
+    const cards = [...this.cards.children] as HTMLElement[];
+    const at = cards.indexOf(document.activeElement as HTMLElement);
+    if (at < 0) return;
+    const top = cards[0].offsetTop;
+    const across = cards.filter((card) => card.offsetTop === top).length;
+    const way = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: across, ArrowUp: -across }[event.key];
+    const next = way && cards[at + way];
+    if (!next) return;
+    event.preventDefault();
+    next.focus();
+  }
+
+  private takeDrops(): void {
+    const curtain = element('div', { class: 'curtain', 'aria-hidden': 'true' }, 'Let go to open it here');
+    curtain.hidden = true;
+    document.body.append(curtain);
+    const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
+    document.addEventListener('dragover', (event) => {
+      if (!hasFiles(event)) return;
+      event.preventDefault();
+      curtain.hidden = false;
+    });
+    document.addEventListener('dragleave', (event) => {
+      if (!event.relatedTarget) curtain.hidden = true;
+    });
+    document.addEventListener('drop', (event) => {
+      if (!hasFiles(event)) return;
+      event.preventDefault();
+      curtain.hidden = true;
+      void this.open([...event.dataTransfer!.files]);
+    });
+  }
+
+  // Meshes first, one by one, then what names them.
+  async open(files: File[]): Promise<void> {
+    if (files.length === 0) return;
+    const sorted = [...files].sort((a, b) => Number(MESHES.test(b.name)) - Number(MESHES.test(a.name)));
+    for (const file of sorted) {
+      this.tell('note', `Opening ${file.name} …`, []);
+      const fault = await post(file);
+      if (fault !== null) {
+        this.tell('error', `${file.name} was not opened`, fault.split('\n').filter((line) => line.trim()));
+        if (!this.root.open) this.root.showModal();
+        return;
+      }
+    }
+    this.said.replaceChildren();
+    this.root.close();
+    this.page.say(`${sorted[sorted.length - 1].name} is open`);
+  }
+
+  private tell(level: string, words: string, faults: string[]): void {
+    this.said.className = `said ${level}`;
+    const list = faults.map((fault) => element('li', {}, fault));
+    this.said.replaceChildren(element('b', {}, words));
+    if (list.length > 0) this.said.append(element('ul', {}, ...list));
+  }
+}
+
+// Null: it is open. Else what the lab says of it.
+async function post(file: File): Promise<string | null> {
+  try {
+    const answer = await fetch(`/open?name=${encodeURIComponent(file.name)}`, {
+      method: 'POST',
+      body: file,
+    });
+    return answer.ok ? null : (await answer.text()) || `the lab answers ${answer.status}`;
+  } catch {
+    return 'the lab does not answer';
+  }
+}

@@ -1,0 +1,87 @@
+// When the run has stopped by itself: what, where, why, and what would have held.
+import { button, element } from '../ui/dom';
+import type { Death, StateMessage } from './link';
+import type { LabPage, Panel } from './panel';
+import { sign } from './sign';
+import type { Rewind } from './rewind';
+
+const BEFORE = 1; // a remedy goes back so far [s]
+const SLOW = 0.1; // of the last second, when it is looked at
+
+export class PostMortem implements Panel {
+  readonly root = element('section', { class: 'post-mortem', role: 'alertdialog', 'aria-label': 'the run has stopped' });
+  private shown = '';
+  private away = false; // put aside
+
+  constructor(
+    private readonly page: LabPage,
+    private readonly rewind: Rewind,
+  ) {
+    this.root.hidden = true;
+    this.root.tabIndex = -1;
+    this.root.addEventListener('keydown', (event) => {
+      if (event.key !== 'Escape') return;
+      this.hide();
+      event.stopPropagation();
+    });
+  }
+
+  onState({ dead, first, holder, you }: StateMessage): void {
+    const watches = holder !== null && holder !== you;
+    const wanted = JSON.stringify([dead, watches]);
+    if (wanted === this.shown) return;
+    const isNew = dead !== null && this.root.hidden;
+    if (this.shown === '' || JSON.parse(this.shown)[0]?.time !== dead?.time) this.away = false;
+    this.shown = wanted;
+    this.root.hidden = dead === null || this.away;
+    if (!dead) return;
+    this.root.replaceChildren(...this.content(dead, first, watches));
+    if (isNew && !this.away) this.root.focus({ preventScroll: true });
+  }
+
+  private hide(): void {
+    this.away = true;
+    this.root.hidden = true;
+  }
+
+  private content(dead: Death, first: number, watches: boolean): Node[] {
+    const [headline, ...rest] = dead.words;
+    const facts = element('dl');
+    const fact = (name: string, value: string | undefined) => {
+      if (value) facts.append(element('dt', {}, name), element('dd', {}, value));
+    };
+    fact('when', `${dead.time.toFixed(3)} s`);
+    fact('quantity', dead.quantity);
+    fact('body', dead.body);
+    fact('spring', dead.spring);
+    const back = Math.max(first, dead.time - BEFORE);
+    const remedies = dead.remedies.map(({ words, changes }, i) => {
+      const made = element('button', { type: 'button', class: i === 0 ? 'main' : '' }, words);
+      made.title = `goes back ${(dead.time - back).toFixed(1)} s with ${changes.join(', ')}`;
+      made.disabled = watches;
+      made.addEventListener('click', () => this.mend(back, changes));
+      return made;
+    });
+    const look = button('Look at the last second, slowly', 'at a tenth of the speed', () =>
+      this.rewind.play(back, SLOW, dead.time),
+    );
+    const again = button('Begin anew', 'from the start, as it is', () => this.page.send({ do: 'reset' }));
+    again.disabled = watches;
+    return [
+      element('header', {}, sign('beyond'), element('h2', {}, headline ?? 'The run has stopped'), button('×', 'put aside (Escape)', () => this.hide(), 'close')),
+      ...rest.map((line) => element('p', {}, line)),
+      facts,
+      ...(remedies.length > 0
+        ? [element('h3', {}, `What holds, from ${(dead.time - back).toFixed(1)} s before`), element('div', { class: 'remedies' }, ...remedies)]
+        : []),
+      element('div', { class: 'ends' }, look, again),
+    ];
+  }
+
+  private mend(at: number, changes: string[]): void {
+    this.rewind.pause();
+    this.page.send({ do: 'branch', at, changes });
+    this.page.send({ do: 'look', at: null });
+    this.page.send({ do: 'play', on: true });
+  }
+}
