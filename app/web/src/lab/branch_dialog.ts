@@ -1,7 +1,9 @@
 // Going on from an instant with other knobs: which ones is chosen here.
 import { button, element } from '../ui/dom';
+import { unitText } from './knob_row';
 import type { Knob } from './link';
 import type { LabPage } from './panel';
+import type { Rewind } from './rewind';
 import { numberText, parseNumber } from './scale';
 
 interface Line {
@@ -21,6 +23,7 @@ export class BranchDialog {
 
   constructor(
     private readonly page: LabPage,
+    private readonly rewind: Rewind,
     private readonly changes: () => string[],
   ) {
     const form = element('form', { method: 'dialog' });
@@ -77,7 +80,7 @@ export class BranchDialog {
       { class: 'line' },
       element('span', {}, label),
       control,
-      element('span', { class: 'unit' }, unit === '1' ? '' : unit),
+      element('span', { class: 'unit' }, unitText(unit)),
     );
     const line = { knob, root, control };
     root.append(button('×', `leave ${label} as it was`, () => this.remove(line)));
@@ -104,16 +107,17 @@ export class BranchDialog {
       changes.push(`${knob.path}=${isNumber ? number : control.value}`);
     }
     this.root.close();
+    this.rewind.seek(null);
     this.page.send({ do: 'branch', at: this.at, changes });
-    this.page.send({ do: 'look', at: null });
     this.page.send({ do: 'play', on: true });
   }
 }
 
 function controlOf(knob: Knob): HTMLInputElement | HTMLSelectElement {
   const label = { 'aria-label': knob.label };
+  const value = knob.value === null ? '' : numberText(Number(knob.value));
   if (knob.form !== 'choice')
-    return element('input', { type: 'text', ...label, value: numberText(Number(knob.value)) });
+    return element('input', { type: 'text', ...label, value });
   const control = element('select', label);
   for (const name of knob.choices ?? []) control.append(element('option', { value: name }, name));
   control.value = String(knob.value);

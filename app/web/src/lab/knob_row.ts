@@ -44,7 +44,7 @@ export abstract class KnobRow {
     this.turn(this.knob.path, value);
   }
 
-  protected abstract show(value: number | string): void;
+  protected abstract show(value: Knob['value']): void;
   protected abstract isHeld(): boolean;
   protected limited(_limit: number | null): void {}
 
@@ -66,7 +66,7 @@ export abstract class KnobRow {
     if (lag) lines.push(element('span', { class: 'lag' }, `lag ${lag}`));
     this.side.replaceChildren(...lines);
     this.root.dataset.limit = limit?.state ?? '';
-    this.limited(limit ? limit.value : null);
+    this.limited(limit?.value ?? null);
   }
 }
 
@@ -92,6 +92,7 @@ class NumberRow extends KnobRow {
       inputmode: 'decimal',
       autocomplete: 'off',
       spellcheck: 'false',
+      placeholder: '–',
       title: `${knob.meaning}. Enter sets it, Escape leaves it; arrows change it`,
     });
     const controls: HTMLElement[] = [];
@@ -104,7 +105,7 @@ class NumberRow extends KnobRow {
       });
       controls.push(element('div', { class: 'track' }, this.slider, this.mark));
     }
-    const words = element('span', { class: 'unit' }, unit === '1' ? '' : unit);
+    const words = element('span', { class: 'unit' }, unitText(unit));
     controls.push(element('div', { class: 'number' }, this.field, words));
     this.head(controls, id);
     this.listen();
@@ -116,9 +117,9 @@ class NumberRow extends KnobRow {
     return this.sliding || document.activeElement === this.field;
   }
 
-  protected show(value: number | string): void {
-    this.value = Number(value);
-    this.field.value = numberText(this.value);
+  protected show(value: Knob['value']): void {
+    this.value = value === null ? NaN : Number(value);
+    this.field.value = value === null ? '' : numberText(this.value);
     this.field.setCustomValidity('');
     if (!this.scale || !this.slider) return;
     const place = placeOf(this.scale, this.value);
@@ -184,13 +185,10 @@ class NumberRow extends KnobRow {
   }
 
   private commit(): void {
-    const { low = -Infinity, high = Infinity, unit } = this.knob;
+    const { unit } = this.knob;
     const value = parseNumber(this.field.value, unit);
-    const fault = Number.isNaN(value)
-      ? `a number${unit && unit !== '1' ? ` in ${unit}` : ''}, such as ${numberText(this.value)}`
-      : value < low || value > high
-        ? `from ${numberText(low)} to ${numberText(high)}`
-        : '';
+    const words = unit && unit !== '1' ? `a number in ${unitText(unit)}` : 'a number';
+    const fault = Number.isNaN(value) ? words : '';
     this.field.setCustomValidity(fault);
     if (fault) {
       this.field.reportValidity();
@@ -199,6 +197,11 @@ class NumberRow extends KnobRow {
     this.put(value);
     this.field.select();
   }
+}
+
+export function unitText(unit: string): string {
+  if (unit === '1') return '';
+  return unit.replaceAll('^2', '²').replaceAll('^3', '³');
 }
 
 // Buttons side by side, or a list where they are many.
@@ -227,7 +230,7 @@ class ChoiceRow extends KnobRow {
   protected isHeld(): boolean {
     return false;
   }
-  protected show(value: number | string): void {
+  protected show(value: Knob['value']): void {
     if (this.control instanceof Segments) this.control.show(String(value));
     else this.control.value = String(value);
   }

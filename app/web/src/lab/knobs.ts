@@ -42,7 +42,8 @@ export class Knobs implements Panel {
       this.scene = scene;
       this.first.clear();
     }
-    this.values = new Map(knobs.map(({ path, value }) => [path, String(value)]));
+    const told = knobs.filter(({ value }) => value !== null);
+    this.values = new Map(told.map(({ path, value }) => [path, String(value)]));
     for (const [path, value] of this.values)
       if (!this.first.has(path)) this.first.set(path, value);
     const shape = knobs.map(shapeOf).join();

@@ -4,23 +4,24 @@ import uPlot from 'uplot';
 import { tickText, timeText } from '../plots/plot';
 import { button, element, short } from '../ui/dom';
 import { token } from '../ui/theme';
+import {
+  colorOf,
+  ghostsOf,
+  lines,
+  lineSeries,
+  rangeOf,
+  stack,
+  stackSeries,
+  type Ghost,
+  type Window,
+} from './chart_data';
+import { drawOver } from './chart_over';
 import { savePicture, type CsvColumn } from './export';
 import { liveUnit, type LiveCurve, type LiveSpec } from './live_specs';
 import type { RunRecord } from './run_record';
-import { bucketsOf, outline, samples, timesOf, type Points, type Store } from './store';
+import { bucketsOf } from './store';
 
 const HEIGHT = 128;
-const PALE = '80'; // opacity of what was left
-const DASH: Record<LiveCurve['style'], number[] | undefined> = {
-  line: undefined,
-  dashed: [6, 4],
-  dotted: [2, 4],
-};
-
-export interface Window {
-  from: number;
-  to: number;
-}
 
 export interface ChartUser {
   degrees: boolean;
@@ -28,12 +29,6 @@ export interface ChartUser {
   look(time: number): void;
   saveCsv(what: string, columns: CsvColumn[]): void;
   pictureName(what: string): string;
-}
-
-interface Ghost {
-  times: number[];
-  values: Points;
-  color: string;
 }
 
 export class LiveChart {
@@ -88,8 +83,10 @@ export class LiveChart {
     const end = Math.min(store.length, store.after(window.to) + 1);
     const buckets = bucketsOf(begin, end, store.dropped, width / 1.5);
     this.scaleUnits();
-    const data = this.spec.sum === undefined ? this.lines(buckets) : this.stack(buckets);
-    this.ghosts = this.ghostsOf(window);
+    const { spec, shown, factor } = this;
+    const isStack = spec.sum !== undefined;
+    const data = isStack ? stack(store, buckets, shown, spec.sum!) : lines(store, buckets, shown, factor);
+    this.ghosts = ghostsOf(this.record, window, spec, shown, factor);
     const wanted = `${width} ${this.unit}`;
     if (this.made !== wanted || !this.chart) {
       this.make(width);
@@ -148,61 +145,19 @@ export class LiveChart {
     this.title.textContent = ` [${unit}]`;
   }
 
+  private get limit(): LiveSpec['limit'] {
+    const { limit } = this.spec;
+    return limit && { ...limit, value: limit.value * this.factor };
+  }
   private get shown(): LiveCurve[] {
     return this.spec.curves.filter((curve) => !this.hidden.has(curve));
-  }
-
-  private scaled(values: Points): Points {
-    if (this.factor === 1) return values;
-    return values.map((value) => (value === null ? null : value * this.factor));
-  }
-
-  private lines(buckets: ReturnType<typeof bucketsOf>): uPlot.AlignedData {
-    const { store } = this.record;
-    const curves = this.shown.map((curve) =>
-      this.scaled(outline(store.column(curve.column), buckets)),
-    );
-    return [timesOf(store.times, buckets, true), ...curves];
-  }
-
-  // What is positive piles up above zero, what is negative below; their sum is the line.
-  private stack(buckets: ReturnType<typeof bucketsOf>): uPlot.AlignedData {
-    const { store } = this.record;
-    const times = timesOf(store.times, buckets, false);
-    const data: uPlot.AlignedData = [times];
-    const parts = this.shown.map((curve) => samples(store.column(curve.column), buckets));
-    for (const sign of [1, -1]) {
-      let edge: number[] = times.map(() => 0);
-      data.push(edge);
-      for (const part of parts) {
-        edge = edge.map((y, i) => y + sign * Math.max(0, sign * (part[i] ?? 0)));
-        data.push(edge);
-      }
-    }
-    data.push(samples(store.column(this.spec.sum!), buckets));
-    return data;
-  }
-
-  private ghostsOf(window: Window): Ghost[] {
-    const { before } = this.record;
-    if (!before || before.length === 0) return [];
-    const begin = Math.max(0, before.after(window.from) - 1);
-    const end = Math.min(before.length, before.after(window.to) + 1);
-    const buckets = bucketsOf(begin, end, 0, 400);
-    const times = timesOf(before.times, buckets, true);
-    const of = (store: Store, column: number) =>
-      this.scaled(outline(store.column(column), buckets));
-    if (this.spec.sum !== undefined)
-      return [{ times, values: of(before, this.spec.sum), color: token('--ink') }];
-    return this.shown
-      .filter((curve) => curve.color >= 0)
-      .map((curve) => ({ times, values: of(before, curve.column), color: colorOf(curve) }));
   }
 
   // Anew, in the colours of the theme.
   private make(width: number): void {
     this.chart?.destroy();
-    const { series, bands } = this.spec.sum === undefined ? this.lineSeries() : this.stackSeries();
+    const isStack = this.spec.sum !== undefined;
+    const { series, bands } = isStack ? stackSeries(this.shown) : lineSeries(this.shown);
     const grid = { stroke: token('--grid'), width: 1 };
     const font = '11px system-ui, sans-serif';
     const axis = { stroke: token('--muted'), grid, ticks: { show: false }, font };
@@ -212,7 +167,7 @@ export class LiveChart {
       legend: { show: false },
       scales: {
         x: { time: false },
-        y: { range: (_, low, high) => this.range(low, high) },
+        y: { range: (_, low, high) => rangeOf(low, high, this.ghosts, this.limit) },
       },
       padding: [8, 10, 0, 0],
       cursor: {
@@ -237,57 +192,12 @@ export class LiveChart {
       hooks: {
         setCursor: [() => this.tell()],
         setSelect: [(chart) => this.select(chart)],
-        draw: [(chart) => this.drawOver(chart)],
+        draw: [(chart) => drawOver(chart, this.ghosts, this.limit, this.at)],
       },
     };
     this.chart = new uPlot(options, [[], ...series.map(() => [])], this.canvas);
     for (const { curve, chip } of this.chips)
       chip.style.setProperty('--curve', curve ? colorOf(curve) : token('--ink'));
-  }
-
-  private lineSeries() {
-    const series = this.shown.map((curve) => ({
-      stroke: colorOf(curve),
-      width: curve.style === 'line' ? 1.75 : 1.5,
-      dash: DASH[curve.style],
-      points: { show: false },
-    }));
-    return { series, bands: [] as uPlot.Band[] };
-  }
-
-  private stackSeries() {
-    const series: uPlot.Series[] = [];
-    const bands: uPlot.Band[] = [];
-    for (const sign of [1, -1]) {
-      series.push({ stroke: 'transparent', points: { show: false } });
-      for (const curve of this.shown) {
-        series.push({ stroke: colorOf(curve), width: 0.75, points: { show: false } });
-        const at = series.length;
-        const pair: [number, number] = sign > 0 ? [at, at - 1] : [at - 1, at];
-        bands.push({ series: pair, fill: `${colorOf(curve)}8c` });
-      }
-    }
-    series.push({ stroke: token('--ink'), width: 1.75, points: { show: false } });
-    return { series, bands };
-  }
-
-  private range(low: number | null, high: number | null): [number, number] {
-    let a = low ?? 0;
-    let b = high ?? 0;
-    for (const { values } of this.ghosts)
-      for (const value of values) {
-        if (value === null) continue;
-        a = Math.min(a, value);
-        b = Math.max(b, value);
-      }
-    const { limit } = this.spec;
-    if (limit && (limit.always || b > 0.3 * limit.value * this.factor)) {
-      b = Math.max(b, limit.value * this.factor);
-      a = Math.min(a, 0);
-    }
-    if (a === b) return a === 0 ? [-1, 1] : [a - 0.1 * Math.abs(a), b + 0.1 * Math.abs(b)];
-    const [from, to] = uPlot.rangeNum(a, b, 0.08, true);
-    return [from ?? a, to ?? b];
   }
 
   private select(chart: uPlot): void {
@@ -298,44 +208,6 @@ export class LiveChart {
       to: chart.posToVal(left + width, 'x'),
     });
     chart.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
-  }
-
-  private drawOver(chart: uPlot): void {
-    const { ctx, bbox } = chart;
-    const px = devicePixelRatio;
-    ctx.save();
-    ctx.beginPath();
-    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
-    ctx.clip();
-    ctx.lineWidth = 1.75 * px;
-    ctx.setLineDash([1.5 * px, 3.5 * px]);
-    for (const ghost of this.ghosts) {
-      ctx.strokeStyle = ghost.color + PALE;
-      strokeLine(chart, ghost);
-    }
-    this.drawLimit(chart, px);
-    if (this.at !== null) {
-      ctx.setLineDash([]);
-      ctx.strokeStyle = token('--accent');
-      const x = chart.valToPos(this.at, 'x', true);
-      stroke(ctx, [x, bbox.top], [x, bbox.top + bbox.height]);
-    }
-    ctx.restore();
-  }
-
-  private drawLimit(chart: uPlot, px: number): void {
-    const { limit } = this.spec;
-    if (!limit) return;
-    const { ctx, bbox } = chart;
-    const y = chart.valToPos(limit.value * this.factor, 'y', true);
-    ctx.strokeStyle = ctx.fillStyle = token('--beyond');
-    ctx.lineWidth = px;
-    ctx.setLineDash([8 * px, 3 * px]);
-    stroke(ctx, [bbox.left, y], [bbox.left + bbox.width, y]);
-    ctx.font = `${11 * px}px system-ui, sans-serif`;
-    ctx.textAlign = 'left';
-    ctx.textBaseline = 'top';
-    ctx.fillText(limit.words, bbox.left + 6 * px, y + 3 * px);
   }
 
   // Drag with shift: back to that instant.
@@ -381,31 +253,4 @@ export class LiveChart {
     const canvas = this.chart.ctx.canvas;
     savePicture(name, title, canvas, lines, token('--surface'), token('--ink'));
   }
-}
-
-function stroke(ctx: CanvasRenderingContext2D, a: [number, number], b: [number, number]): void {
-  ctx.beginPath();
-  ctx.moveTo(...a);
-  ctx.lineTo(...b);
-  ctx.stroke();
-}
-
-function strokeLine(chart: uPlot, { times, values }: Ghost): void {
-  const { ctx } = chart;
-  ctx.beginPath();
-  let isDown = false;
-  values.forEach((value, i) => {
-    if (value !== null) {
-      const x = chart.valToPos(times[i], 'x', true);
-      const y = chart.valToPos(value, 'y', true);
-      if (isDown) ctx.lineTo(x, y);
-      else ctx.moveTo(x, y);
-    }
-    isDown = value !== null;
-  });
-  ctx.stroke();
-}
-
-function colorOf(curve: LiveCurve): string {
-  return token(curve.color < 0 ? '--ink' : `--c${curve.color % 8}`);
 }

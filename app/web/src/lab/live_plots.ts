@@ -3,7 +3,8 @@
 import { element } from '../ui/dom';
 import { fileName, saveCsv, type CsvColumn } from './export';
 import type { Frame, SceneMessage, StateMessage } from './link';
-import { LiveChart, type ChartUser, type Window } from './live_chart';
+import type { Window } from './chart_data';
+import { LiveChart, type ChartUser } from './live_chart';
 import { LiveSpecs, type LiveSpec } from './live_specs';
 import type { LabPage, Panel } from './panel';
 import { PlotBar } from './plot_bar';
@@ -56,13 +57,13 @@ export class LivePlots implements Panel, ChartUser {
 
   onScene(scene: SceneMessage): void {
     const old = this.record?.scene;
-    const isSame = old?.scene === scene.scene && old.channels.length === scene.channels.length;
-    if (!isSame) {
-      this.record = new RunRecord(scene);
-      this.specs = new LiveSpecs(this.record);
+    const isSame = old?.scene === scene.scene;
+    const names = (of: SceneMessage) => JSON.stringify([of.channels, of.ledger]);
+    if (!isSame || names(old) !== names(scene)) {
+      this.record = isSame ? this.record!.grownTo(scene) : new RunRecord(scene);
+      this.specs = new LiveSpecs(this.record, isSame ? this.specs?.colors : undefined);
       this.signature = '';
-      this.window = null;
-      this.bar.showPaused(false);
+      if (!isSame) this.zoom(null);
       this.fillPick(scene);
       this.review();
     }

@@ -29,10 +29,12 @@ interface Numbered extends SceneChannel {
 }
 
 export class LiveSpecs {
-  private readonly colors = new Map<number, number>();
   private readonly channels: Numbered[];
 
-  constructor(private readonly record: RunRecord) {
+  constructor(
+    private readonly record: RunRecord,
+    readonly colors = new Map<string, number>(), // by name
+  ) {
     this.channels = record.scene.channels.map((channel, column) => ({ ...channel, column }));
   }
 
@@ -82,16 +84,16 @@ export class LiveSpecs {
   }
 
   // Those that have one keep it; the others take what is free.
-  private paint(columns: number[]): number[] {
-    const taken = new Set(columns.map((column) => this.colors.get(column)));
-    for (const column of columns) {
-      if (this.colors.has(column)) continue;
+  private paint(channels: Numbered[]): number[] {
+    const taken = new Set(channels.map(({ name }) => this.colors.get(name)));
+    for (const { name } of channels) {
+      if (this.colors.has(name)) continue;
       let free = 0;
       while (taken.has(free)) free += 1;
-      this.colors.set(column, free);
+      this.colors.set(name, free);
       taken.add(free);
     }
-    return columns.map((column) => this.colors.get(column)!);
+    return channels.map(({ name }) => this.colors.get(name)!);
   }
 
   private plain(id: string, title: string, channels: Numbered[]): LiveSpec[] {
@@ -99,12 +101,12 @@ export class LiveSpecs {
     return units.map((unit, i) => {
       const all = channels.filter((channel) => channel.unit === unit);
       const shown = this.largest(all, (column) => this.size(column));
-      const colors = this.paint(shown.map((channel) => channel.column));
+      const colors = this.paint(shown);
       return {
         id: i === 0 ? id : `${id}-${i}`,
         title,
         unit,
-        curves: shown.map((channel, k) => curve(channel.column, channel.of || channel.name, colors[k])),
+        curves: shown.map((channel, k) => curve(channel.column, labelOf(channel), colors[k])),
         omitted: all.length - shown.length,
       };
     });
@@ -119,7 +121,7 @@ export class LiveSpecs {
     );
     const led = all.filter((channel) => targets.has(channel.of)).slice(0, MOST);
     const shown = led.length > 0 ? led : this.largest(all, (column) => this.span(column));
-    const colors = this.paint(shown.map((channel) => channel.column));
+    const colors = this.paint(shown);
     const curves = shown.flatMap(({ column, of }, i) => {
       const target = targets.get(of);
       if (target === undefined) return [curve(column, of, colors[i])];
@@ -157,7 +159,7 @@ export class LiveSpecs {
 
   private device(): LiveSpec[] {
     const words = `the device's limit, ${DEVICE_LIMIT} N`;
-    return this.plain('device', 'Hand device', this.of('hand').filter(isShown)).map((spec) =>
+    return this.plain('device', 'Torques of the device’s motors', this.of('hand').filter(isShown)).map((spec) =>
       spec.unit === 'N'
         ? { ...spec, title: 'Device force', limit: { value: DEVICE_LIMIT, words, always: true } }
         : spec,
@@ -166,7 +168,7 @@ export class LiveSpecs {
 
   private loop(step: number): LiveSpec[] {
     const words = 'the time of a step';
-    return this.plain('loop', 'Loop', this.of('time')).map((spec) => {
+    return this.plain('loop', 'Pace: run time over wall time', this.of('time')).map((spec) => {
       const value = spec.unit === 'us' ? 1e6 * step : step;
       if (spec.unit !== 's' && spec.unit !== 'us') return spec;
       return { ...spec, title: 'Loop time', limit: { value, words, always: false } };
@@ -181,6 +183,12 @@ function curve(
   style: LiveCurve['style'] = 'line',
 ): LiveCurve {
   return { column, name, color, style };
+}
+
+// What is of the run itself has names that tell it; joints, couplings, pairs are told by theirs.
+function labelOf({ name, kind, of }: SceneChannel): string {
+  const isOwn = kind === 'hand' || kind === 'time' || kind === 'pull';
+  return isOwn || !of ? name.slice(name.indexOf('/') + 1) : of;
 }
 
 // Angles of the device's own joints stand among its coordinates already.

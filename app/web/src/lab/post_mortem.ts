@@ -79,9 +79,8 @@ export class PostMortem implements Panel {
   }
 
   private mend(at: number, changes: string[]): void {
-    this.rewind.pause();
+    this.rewind.seek(null);
     this.page.send({ do: 'branch', at, changes });
-    this.page.send({ do: 'look', at: null });
     this.page.send({ do: 'play', on: true });
   }
 }

@@ -17,7 +17,7 @@ export class Rewind {
 
   // Of the lab's state, unless this page is just choosing.
   follow(at: number | null): void {
-    if (!this.playing && performance.now() - this.sentAt > 400) this.at = at;
+    if (!this.playing && performance.now() - this.sentAt > 400) this.at = this.sent = at;
   }
 
   seek(at: number | null): void {

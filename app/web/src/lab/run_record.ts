@@ -3,7 +3,7 @@
 //
 // Columns: the scene's channels, its ledger rows, the ledger's sum, and for each unit of the errors
 // the largest of any joint so far and the mean over time of the largest of each instant.
-import type { Frame, SceneMessage, StateMessage } from './link';
+import type { Frame, SceneChannel, SceneMessage, StateMessage } from './link';
 import { Store } from './store';
 
 const MOST = 36_000; // frames: ten minutes at sixty a second
@@ -21,6 +21,8 @@ export interface ErrorGroup {
 export interface History {
   scene: number;
   times: Float64Array;
+  width: number; // channels of a frame
+  rows: number; // of the ledger
   channels: Float64Array; // frame by frame
   works: Float64Array;
 }
@@ -36,6 +38,8 @@ export function decodeHistory(buffer: ArrayBuffer): History | null {
   return {
     scene,
     times: part(0, frames),
+    width: channels,
+    rows,
     channels: part(frames, frames * channels),
     works: part(frames * (1 + channels), frames * rows),
   };
@@ -66,10 +70,10 @@ export class RunRecord {
     this.works = channels.length;
     this.sum = this.works + ledger.length;
     let next = this.sum + 1;
-    const kinds = channels.map((channel, i) => ({ ...channel, i }));
-    const errors = kinds.filter((channel) => channel.kind === 'error');
-    for (const unit of new Set(errors.map((channel) => channel.unit))) {
-      const own = errors.filter((channel) => channel.unit === unit).map((channel) => channel.i);
+    const errors = channels.map(({ kind, unit }, i) => ({ kind, unit, i }));
+    const isError = ({ kind }: { kind: string }) => kind === 'error';
+    for (const unit of new Set(errors.filter(isError).map((channel) => channel.unit))) {
+      const own = errors.filter((one) => isError(one) && one.unit === unit).map(({ i }) => i);
       this.errors.push({ unit, channels: own, most: next, mean: next + 1 });
       next += 2;
     }
@@ -87,23 +91,43 @@ export class RunRecord {
   }
 
   // What the page has not seen, or missed: takes the place of what is remembered of that time.
-  addHistory({ scene, times, channels, works }: History): void {
+  addHistory({ scene, times, width: C, rows: R, channels, works }: History): void {
     if (scene !== this.scene.scene || times.length === 0) return;
-    const C = this.scene.channels.length;
-    const R = this.scene.ledger.length;
     const end = times[times.length - 1];
     const later = this.store.last > end ? this.store.copy(end) : null;
     const first = this.store.after(times[0] - 1e-12);
     this.store.cut(first > 0 ? this.store.times[first - 1] : -Infinity);
+    if (first === 0) this.began = NaN;
     times.forEach((time, f) =>
       this.addRow(time, channels.subarray(f * C, (f + 1) * C), works.subarray(f * R, (f + 1) * R)),
     );
-    if (!later) return;
-    const row = new Float64Array(C + R);
-    later.times.forEach((time, f) => {
-      if (time <= end) return;
-      row.forEach((_, i) => (row[i] = later.value(i, f)));
-      this.addRow(time, row.subarray(0, C), row.subarray(C));
+    if (later) this.replay(later, this, end);
+  }
+
+  // The same run, of which more is told now: pairs that touch come up as they do.
+  grownTo(scene: SceneMessage): RunRecord {
+    const made = new RunRecord(scene, this.store.most);
+    made.replay(this.store, this);
+    if (this.before) {
+      const left = new RunRecord(scene, Math.max(1, this.before.length));
+      left.replay(this.before, this);
+      made.before = left.store;
+    }
+    Object.assign(made, { branch: this.branch, number: this.number, began: this.began });
+    return made;
+  }
+
+  // Rows later than a time of a store with the columns of another record.
+  private replay(store: Store, of: RunRecord, after = -Infinity): void {
+    const channels = columnsOf(this.scene.channels, of.scene.channels);
+    const ledger = this.scene.ledger.map((name) => of.scene.ledger.indexOf(name));
+    const values = new Float64Array(channels.length);
+    const works = new Float64Array(ledger.length);
+    store.times.forEach((time, row) => {
+      if (time <= after) return;
+      channels.forEach((from, i) => (values[i] = from < 0 ? NaN : store.value(from, row)));
+      ledger.forEach((from, i) => (works[i] = from < 0 ? 0 : store.value(of.works + from, row)));
+      this.addRow(time, values, works);
     });
   }
 
@@ -138,12 +162,14 @@ export class RunRecord {
       if (value < this.low[index]) this.low[index] = value;
       if (value > this.high[index]) this.high[index] = value;
     };
-    channels.forEach((value, i) => keep(i, value));
+    // A frame may be older or newer than the scene: what comes up stands behind all others.
+    for (let i = 0; i < this.works; ++i) keep(i, channels[i] ?? NaN);
     let sum = 0;
-    works.forEach((value, i) => {
-      keep(this.works + i, value);
-      sum += value;
-    });
+    for (let i = this.works; i < this.sum; ++i) {
+      const work = works[i - this.works] ?? 0;
+      keep(i, work);
+      sum += work;
+    }
     keep(this.sum, sum);
     const previous = this.store.length - 2;
     for (const group of this.errors) this.follow(group, channels, time, previous, keep);
@@ -171,4 +197,10 @@ export class RunRecord {
     keep(most, Math.max(this.store.value(most, previous), now));
     keep(mean, (this.store.value(mean, previous) * passed + now * (time - then)) / all);
   }
+}
+
+// For each of the first where it stands among the second; -1: nowhere.
+function columnsOf(wanted: SceneChannel[], there: SceneChannel[]): number[] {
+  const places = new Map(there.map(({ name }, i) => [name, i]));
+  return wanted.map(({ name }) => places.get(name) ?? -1);
 }

@@ -36,10 +36,10 @@ export class TimeBar implements Panel {
     changes: () => string[],
   ) {
     this.rewind = new Rewind(page);
-    this.dialog = new BranchDialog(page, changes);
+    this.dialog = new BranchDialog(page, this.rewind, changes);
     this.play = button(icon('play'), 'go on or stand (space)', () => this.toggle(), 'play');
-    this.step = button(icon('on'), 'one step', () => this.single());
-    this.again = button(icon('first'), 'to the start: the run begins anew', () =>
+    this.step = button(icon('step'), 'one step', () => this.single());
+    this.again = button(icon('again'), 'to the start: the run begins anew', () =>
       this.page.send({ do: 'reset' }),
     );
     this.branch = button('branch here …', 'go on from this instant, with other knobs', () =>

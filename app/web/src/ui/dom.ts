@@ -26,6 +26,8 @@ export function button(
 const ICONS = {
   first: 'M3 3h2v10H3zM13 3v10L6 8z',
   back: 'M11 3v10L4 8z',
+  step: 'M3 3h2v10H3zM7 3v10l7-5z',
+  again: 'M8 2a6 6 0 1 0 6 6h-2a4 4 0 1 1-4-4v3l5-4-5-4z',
   play: 'M4 2.5v11l9-5.5z',
   pause: 'M4 3h3v10H4zM9 3h3v10H9z',
   on: 'M5 3v10l7-5z',

@@ -1,0 +1,139 @@
+// What uPlot gets of a record: rows of a window thinned to what can be seen, as lines or as areas
+// upon each other; and the same of the branch that was left.
+import uPlot from 'uplot';
+import { token } from '../ui/theme';
+import type { LiveCurve, LiveSpec } from './live_specs';
+import type { RunRecord } from './run_record';
+import { bucketsOf, outline, samples, timesOf, type Buckets, type Points, type Store } from './store';
+
+const MOST_LEFT = 400; // buckets of what was left
+const DASH: Record<LiveCurve['style'], number[] | undefined> = {
+  line: undefined,
+  dashed: [6, 4],
+  dotted: [2, 4],
+};
+
+export interface Window {
+  from: number;
+  to: number;
+}
+
+export interface Ghost {
+  times: number[];
+  values: Points;
+  color: string;
+}
+
+export function colorOf(curve: LiveCurve): string {
+  return token(curve.color < 0 ? '--ink' : `--c${curve.color % 8}`);
+}
+
+function scaled(values: Points, factor: number): Points {
+  if (factor === 1) return values;
+  return values.map((value) => (value === null ? null : value * factor));
+}
+
+export function lines(
+  store: Store,
+  buckets: Buckets,
+  curves: LiveCurve[],
+  factor: number,
+): uPlot.AlignedData {
+  const values = curves.map(({ column }) => scaled(outline(store.column(column), buckets), factor));
+  return [timesOf(store.times, buckets, true), ...values];
+}
+
+// What is positive piles up above zero, what is negative below; their sum is the line.
+export function stack(
+  store: Store,
+  buckets: Buckets,
+  curves: LiveCurve[],
+  sum: number,
+): uPlot.AlignedData {
+  const times = timesOf(store.times, buckets, false);
+  const data: uPlot.AlignedData = [times];
+  const parts = curves.map(({ column }) => samples(store.column(column), buckets));
+  for (const sign of [1, -1]) {
+    let edge: number[] = times.map(() => 0);
+    data.push(edge);
+    for (const part of parts) {
+      edge = edge.map((y, i) => y + sign * Math.max(0, sign * (part[i] ?? 0)));
+      data.push(edge);
+    }
+  }
+  data.push(samples(store.column(sum), buckets));
+  return data;
+}
+
+interface Series {
+  series: uPlot.Series[];
+  bands: uPlot.Band[];
+}
+
+export function lineSeries(curves: LiveCurve[]): Series {
+  const series = curves.map((curve) => ({
+    stroke: colorOf(curve),
+    width: curve.style === 'line' ? 1.75 : 1.5,
+    dash: DASH[curve.style],
+    points: { show: false },
+  }));
+  return { series, bands: [] };
+}
+
+export function stackSeries(curves: LiveCurve[]): Series {
+  const series: uPlot.Series[] = [];
+  const bands: uPlot.Band[] = [];
+  for (const sign of [1, -1]) {
+    series.push({ stroke: 'transparent', points: { show: false } });
+    for (const curve of curves) {
+      series.push({ stroke: colorOf(curve), width: 0.75, points: { show: false } });
+      const at = series.length;
+      const pair: [number, number] = sign > 0 ? [at, at - 1] : [at - 1, at];
+      bands.push({ series: pair, fill: `${colorOf(curve)}8c` });
+    }
+  }
+  series.push({ stroke: token('--ink'), width: 1.75, points: { show: false } });
+  return { series, bands };
+}
+
+export function ghostsOf(
+  { before }: RunRecord,
+  window: Window,
+  spec: LiveSpec,
+  curves: LiveCurve[],
+  factor: number,
+): Ghost[] {
+  if (!before || before.length === 0) return [];
+  const begin = Math.max(0, before.after(window.from) - 1);
+  const end = Math.min(before.length, before.after(window.to) + 1);
+  const buckets = bucketsOf(begin, end, 0, MOST_LEFT);
+  const times = timesOf(before.times, buckets, true);
+  const of = (column: number) => scaled(outline(before.column(column), buckets), factor);
+  if (spec.sum !== undefined) return [{ times, values: of(spec.sum), color: token('--ink') }];
+  const shown = curves.filter((curve) => curve.color >= 0);
+  return shown.map((curve) => ({ times, values: of(curve.column), color: colorOf(curve) }));
+}
+
+// So that all of it can be seen, the branch and the limit too.
+export function rangeOf(
+  low: number | null,
+  high: number | null,
+  ghosts: Ghost[],
+  limit: LiveSpec['limit'],
+): [number, number] {
+  let a = low ?? 0;
+  let b = high ?? 0;
+  for (const { values } of ghosts)
+    for (const value of values) {
+      if (value === null) continue;
+      a = Math.min(a, value);
+      b = Math.max(b, value);
+    }
+  if (limit && (limit.always || b > 0.3 * limit.value)) {
+    a = Math.min(a, 0);
+    b = Math.max(b, limit.value);
+  }
+  if (a === b) return a === 0 ? [-1, 1] : [a - 0.1 * Math.abs(a), b + 0.1 * Math.abs(b)];
+  const [from, to] = uPlot.rangeNum(a, b, 0.08, true);
+  return [from ?? a, to ?? b];
+}
