@@ -1,6 +1,7 @@
 #include "app/lab/lab_painter.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/lab/state_message.h"
 #include "app/record/shown_instant.h"
@@ -13,11 +14,11 @@ constexpr double kGlassEvery = 0.2, kKnobsEvery = 0.4, kIdle = 0.1;  // [s]
 constexpr double kRate = 60, kSlowRate = 30;  // frames a second, to few clients and to more
 constexpr std::size_t kManyClients = 2;
 
-double seconds(std::chrono::steady_clock::duration time) {
+double as_seconds(std::chrono::steady_clock::duration time) {
   return std::chrono::duration<double>(time).count();
 }
 
-Bytes bytes_of(std::string message) {
+Bytes shared(std::string message) {
   return std::make_shared<const std::string>(std::move(message));
 }
 
@@ -85,10 +86,10 @@ void LabPainter::do_jobs() {
   }
   for (const auto& job : jobs) job(*this);
   if (newcomers.empty()) return;
-  const Bytes scene = bytes_of(view_->scene_message());
+  const Bytes scene = shared(view_->scene_message());
   for (const ClientId client : newcomers) {
     post_(client, scene_channel, scene, false);
-    if (!state_.empty()) post_(client, state_channel, bytes_of(addressed(state_, client)), false);
+    if (!state_.empty()) post_(client, state_channel, shared(addressed(state_, client)), false);
     if (last_frame_) post_(client, frame_channel, last_frame_, true);
   }
 }
@@ -121,7 +122,10 @@ void LabPainter::look_at_knobs(const LabNow& now) {
   if (!now.frame || !is_due(last_knobs_, kKnobsEvery)) return;
   SimulatePlan& plan = now.scene->knobs->prepared;
   const State<double> x = instant_of(now.frame->recorded, plan.input.robot.model).x;
-  if (x.q.allFinite() && x.qd.allFinite()) predict_knobs(plan, x, knobs_);
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  if (std::all_of(x.q.begin(), x.q.end(), is_finite) &&
+      std::all_of(x.qd.begin(), x.qd.end(), is_finite))
+    predict_knobs(plan, x, knobs_);
 }
 
 // To each its own, since it says who is who.
@@ -131,7 +135,7 @@ void LabPainter::tell_state(const LabNow& now) {
   if (state == state_) return;
   state_ = std::move(state);
   for (const ClientId client : audience.clients)
-    post_(client, state_channel, bytes_of(addressed(state_, client)), false);
+    post_(client, state_channel, shared(addressed(state_, client)), false);
 }
 
 void LabPainter::tell_frame(const LabNow& now) {
@@ -143,10 +147,10 @@ void LabPainter::tell_frame(const LabNow& now) {
   facts.stands = !now.status->playing;
   facts.looked_back = now.status->at.has_value();
   facts.stopped = now.status->dead.has_value();
-  facts.input_age = now.frame->input_stamp != 0 ? seconds(Clock::now() - now.input_came) : 0.0;
+  facts.input_age = now.frame->input_stamp != 0 ? as_seconds(Clock::now() - now.input_came) : 0.0;
   std::string frame = view_->frame(*now.frame, now.before.get(), audience_.layers(), facts);
   if (view_->revision() != revision_) tell_scene();
-  last_frame_ = bytes_of(std::move(frame));
+  last_frame_ = shared(std::move(frame));
   for (const ClientId client : audience_.view().clients)
     post_(client, frame_channel, last_frame_, true);
 }
@@ -166,7 +170,7 @@ void LabPainter::tell_glass(const LabNow& now) {
     question.body = static_cast<std::size_t>(std::max(0L, body));
     question.stands = !now.status->playing;
     question.scene = static_cast<unsigned>(now.scene_number);
-    post_(client, glass_channel, bytes_of(glass_->message(*now.frame, question)), false);
+    post_(client, glass_channel, shared(glass_->message(*now.frame, question)), false);
   }
 }
 
@@ -178,13 +182,13 @@ std::string LabPainter::history(double from) {
 }
 
 void LabPainter::to_all(Channel channel, const std::string& message, bool is_binary) {
-  const Bytes bytes = bytes_of(message);
+  const Bytes bytes = shared(message);
   for (const ClientId client : audience_.view().clients) post_(client, channel, bytes, is_binary);
 }
 
 bool LabPainter::is_due(Clock::time_point& last, double interval) const {
   const Clock::time_point now = Clock::now();
-  if (seconds(now - last) < interval) return false;
+  if (as_seconds(now - last) < interval) return false;
   last = now;
   return true;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "app/output_file.h"
 #include "app/web/replay_page.h"
 #include "solver/fault.h"
 #include "solver/whole_file.h"

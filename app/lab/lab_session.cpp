@@ -289,15 +289,15 @@ void LabSession::save(const std::filesystem::path& file) const {
   LabHistory history;
   std::shared_ptr<const Built> scene;
   LabNames names;
-  std::vector<int> led;
+  std::vector<std::size_t> led;
   {
     const std::lock_guard lock(mutex_);
     history = history_;
     scene = scene_;
     names = names_;
-    led = run_->driven();
+    led = run_->led();
   }
-  history.save(*scene->scene, names, scene->view->prepared, led, file);
+  history.save(*scene->scene, names, led, file);
 }
 
 }  // namespace twinarm

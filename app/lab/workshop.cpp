@@ -35,7 +35,7 @@ Order order_to_open(const GalleryScene& scene) {
 Built build(Order order) {
   Built built;
   built.scene = order.what == Order::What::open ? open_scene(order.file) : order.scene;
-  built.header = built.scene->header(order.changes);
+  built.header = built.scene->header(order.changes, {});
   built.run = built.scene->plan(order.changes);
   built.view = built.scene->plan(order.changes);
   built.knobs = built.scene->plan(order.changes);

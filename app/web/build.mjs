@@ -41,12 +41,20 @@ function licences() {
 
 const inScript = (text) => text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
 const form = readFileSync(join(here, 'page.html'), 'utf8');
-async function page(name) {
+const POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
+// A page that carries its data, or one that asks the program for it.
+const CARRIES = {
+  POLICY,
+  DATA: `<script type="application/json" id="run">@RUN@</script>
+<script type="text/plain" id="run-bytes">@BYTES@</script>`,
+};
+const ASKS = { POLICY: `${POLICY} blob: 'self'; connect-src 'self'`, TITLE: 'twinarm lab', DATA: '' };
+async function page(name, own) {
   const { script, style } = await bundle(name);
-  const parts = { STYLE: style, LICENCES: licences(), SCRIPT: inScript(script) };
-  return form.replace(/@(STYLE|LICENCES|SCRIPT)@/g, (_, part) => parts[part].trim());
+  const parts = { STYLE: style, LICENCES: licences(), SCRIPT: inScript(script), ...own };
+  return form.replace(/@([A-Z]+)@/g, (mark, part) => parts[part]?.trim() ?? mark);
 }
-const raw = async (name) => `R"=twinarm=(${await page(name)})=twinarm="`;
+const raw = async (name, own) => `R"=twinarm=(${await page(name, own)})=twinarm="`;
 writeFileSync(
   out,
   `// Made by app/web/build.mjs.
@@ -55,7 +63,11 @@ writeFileSync(
 #pragma GCC diagnostic ignored "-Woverlength-strings"
 
 namespace twinarm {
-WebBundle web_bundle() { return {${await raw('replay')}, ${await raw('inspect')}, ""}; }
+WebBundle web_bundle() {
+  return {${await raw('replay', CARRIES)},
+          ${await raw('inspect', CARRIES)},
+          ${await raw('lab', ASKS)}, ""};
+}
 }  // namespace twinarm
 `,
 );

@@ -45,7 +45,7 @@ if(missing)
   file(WRITE ${BUNDLE} "// Made by app/web/bundle.cmake.
 #include \"app/web/web_bundle.h\"
 namespace twinarm {
-WebBundle web_bundle() { return {\"\", \"\", \"${missing}\"}; }
+WebBundle web_bundle() { return {\"\", \"\", \"\", \"${missing}\"}; }
 }  // namespace twinarm
 ")
 else()

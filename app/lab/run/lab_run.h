@@ -27,6 +27,9 @@ class LabRun {
   // over where it has the same layout, and goes on with the same bits where nothing was changed;
   // else it begins anew where the frame stands, ledgers at zero: begun_anew() says why.
   LabRun(const LabScene& scene, std::vector<Change> changes, LabHand& hand, const LabFrame& from);
+  // The same with a plan that was made elsewhere, of these changes; `from` null: the start.
+  LabRun(std::unique_ptr<LabScene::Plan> plan, std::vector<Change> changes, LabHand& hand,
+         const LabFrame* from);
   ~LabRun();
 
   // One step, moved by the hand as it is now. False: the run goes on no more, see post_mortem().
@@ -67,7 +70,6 @@ class LabRun {
   const PostMortem* post_mortem(const std::vector<LedgerRow>& before = {});
 
  private:
-  LabRun(const LabScene& scene, std::vector<Change> changes, LabHand& hand, const LabFrame* from);
   void start(const LabFrame* from);
   void make_couplings();
   void begin_anew(const LabFrame& from);
