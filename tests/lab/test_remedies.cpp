@@ -1,0 +1,79 @@
+// Each remedy tried: the run that stopped, again, with its changes.
+#include <doctest/doctest.h>
+
+#include "app/lab/knobs/remedies.h"
+#include "tests/lab/knob_scenes.h"
+
+using namespace twinarm;
+
+namespace {
+
+struct BadScene {
+  const char* name;
+  std::string file;
+  std::vector<std::string> changes;
+};
+
+std::vector<BadScene> bad_scenes() {
+  const auto folder = read_gallery().front().file.parent_path();
+  const auto scene = [&](const char* name) { return (folder / name).string(); };
+  const std::string held =
+      held_arm("", "type = \"linear\"\nstiffness = 1e5\ndamping = 100\nrate = 100\n");
+  return {{"stiff", scene("tracking_map.toml"), {"coupling.stiffness=1e7"}},
+          {"damped too much", scene("tracking_map.toml"), {"coupling.damping=20000"}},
+          {"euler", scene("tracking_map.toml"), {"integrator=euler", "coupling.stiffness=1e5"}},
+          {"long step", scene("tracking_map.toml"), {"step=0.02"}},
+          {"as printed", scene("study_e4.toml"), {"coupling[1].stiffness=500000"}},
+          {"as printed, turning", scene("study_e3.toml"), {"coupling[0].stiffness=200000"}},
+          {"study",
+           scene("study.toml"),
+           {"coupling[0].treatment=explicit", "coupling[0].stiffness=1e7",
+            "coupling[0].target=paper", "coupling[1].target=paper"}},
+          {"held", temporary_scene("held", held).string(), {}}};
+}
+
+}  // namespace
+
+TEST_CASE("remedies: each that is offered holds for two seconds where the run had stopped") {
+  for (const BadScene& bad : bad_scenes()) {
+    INFO(bad.name);
+    const SimulatePlan plan = planned(bad.file, bad.changes, 2000);
+    const SimulateResult dead = run_plan(plan.input, plan.run, {});
+    REQUIRE(dead.post_mortem);
+    const std::vector<Remedy> remedies = remedies_of(plan, *dead.post_mortem);
+    CHECK(!remedies.empty());
+    for (const Remedy& remedy : remedies) {
+      INFO(remedy.words);
+      CHECK(!remedy.words.empty());
+      std::vector<std::string> changes = bad.changes;
+      for (const std::string& change : remedy.changes) {
+        INFO(change);
+        changes.push_back(change);
+      }
+      SimulatePlan again = planned(bad.file, changes);
+      again.run.duration = 2;
+      again.run.energy_bound = 1e4;
+      const SimulateResult result = run_plan(again.input, again.run, {});
+      CHECK(!result.post_mortem);
+      CHECK(result.end == doctest::Approx(2));
+    }
+  }
+}
+
+TEST_CASE("remedies: a step, a gain and a treatment are offered for a spring that is too stiff") {
+  const BadScene bad = bad_scenes().front();
+  const SimulatePlan plan = planned(bad.file, bad.changes, 2000);
+  std::vector<std::string> first;
+  for (const Remedy& remedy : remedies_of(plan, PostMortem())) first.push_back(remedy.changes[0]);
+  REQUIRE(first.size() == 3);
+  CHECK(first[0].find("step=") == 0);
+  CHECK(first[1].find("coupling[0].stiffness=") == 0);
+  CHECK(first[2].find("coupling[0].treatment=implicit") == 0);
+}
+
+TEST_CASE("remedies: a run that is well has none") {
+  const auto folder = read_gallery().front().file.parent_path();
+  const SimulatePlan plan = planned(folder / "tracking_map.toml", {});
+  for (const Remedy& remedy : remedies_of(plan, PostMortem()))
+    CHECK(remedy.words.find("more room") != std::string::npos);
+}
