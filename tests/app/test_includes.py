@@ -62,7 +62,7 @@ LIBRARIES = {
                         "app/render/scene_pass.cpp", "app/render/shaders.cpp"}),
     "FreeType": (r"ft2build|freetype/", {"app/render/lettering.cpp"}),
     "zlib": (r"zlib\.h", {"app/lab/server/http_text.cpp", "app/record/recording.cpp",
-                          "app/web/page_bytes.cpp"}),
+                          "app/web/page_bytes.cpp", "tests/lab/test_lab_requests.cpp"}),
     "turbojpeg": (r"turbojpeg\.h", {"app/render/image_decode.cpp",
                                     "tests/render/test_visual_model.cpp"}),
     "PNG": (r"png\.h", {"app/render/image.cpp", "app/render/image_decode.cpp"}),
