@@ -11,12 +11,18 @@ namespace {
 
 bool same_motion(const SceneCoupling& a, const SceneCoupling& b) {
   return a.robot == b.robot && a.target == b.target && a.trace == b.trace && a.rest.q == b.rest.q &&
-         a.delay == b.delay && a.speed == b.speed && a.seed == b.seed &&
-         a.driven.gripper == b.driven.gripper;
+         a.delay == b.delay && a.speed == b.speed && a.seed == b.seed;
 }
 
-// One coupling for each kinematic side that is to be seen. Where one of a robot's couplings leads
-// it somewhere, those that hold it at its start have nothing to show.
+// The hand that leads both moves the gripper of one of them at most.
+bool is_one_twin(const SceneCoupling& a, const SceneCoupling& b) {
+  return same_motion(a, b) && (a.driven.gripper.empty() || b.driven.gripper.empty() ||
+                               a.driven.gripper == b.driven.gripper);
+}
+
+// One coupling for each kinematic side that is to be seen; of those with one twin the one that
+// moves its gripper too. Where one of a robot's couplings leads it somewhere, those that hold it at
+// its start have nothing to show.
 std::vector<std::size_t> leaders(const SceneModel& scene) {
   const auto& all = scene.couplings;
   std::vector<std::size_t> found;
@@ -27,8 +33,13 @@ std::vector<std::size_t> leaders(const SceneModel& scene) {
     if (all[c].target == CouplingTarget::Kind::start &&
         std::any_of(all.begin(), all.end(), outranks))
       continue;
-    const auto same = [&](std::size_t other) { return same_motion(all[c], all[other]); };
-    if (std::none_of(found.begin(), found.end(), same)) found.push_back(c);
+    const auto same = std::find_if(found.begin(), found.end(), [&](std::size_t other) {
+      return is_one_twin(all[c], all[other]);
+    });
+    if (same == found.end())
+      found.push_back(c);
+    else if (all[*same].driven.gripper.empty())
+      *same = c;
   }
   return found;
 }

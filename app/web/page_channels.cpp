@@ -14,7 +14,8 @@ PageChannels::PageChannels(const FilmedRun& run)
     for (const RecordedContact& c : instant.contacts) pairs.emplace_back(c.a, c.b);
   std::sort(pairs.begin(), pairs.end());
   for (const auto& [a, b] : pairs) channels_.add_pair(a, b);
-  channels_.add_led_joints(run_.plan.input);
+  if (const SceneModel* scene = run_.plan.input.scene.get())
+    channels_.add_led_joints(run_.plan.input.robot.coordinates, scene->couplings);
   values_.resize(channels_.all().size());
 }
 

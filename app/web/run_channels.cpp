@@ -65,12 +65,9 @@ bool RunChannels::add_pair(int a, int b) {
 }
 
 // Each joint once; of the recorded columns the one of the same name.
-void RunChannels::add_led_joints(const SimulateInput& input) {
-  if (!input.scene) return;
-  const Coordinates& coordinates = input.robot.coordinates;
-  const auto& couplings = input.scene->couplings;
+void RunChannels::add_led_joints(const Coordinates& coordinates,
+                                 const std::vector<SceneCoupling>& couplings) {
   for (std::size_t c = 0; c < couplings.size(); ++c) {
-    if (couplings[c].target == CouplingTarget::Kind::start) continue;
     for (const std::string& turned : couplings[c].driven.turned) {
       const NamedJoint* joint = coordinates.find(turned);
       if (!joint || joint->components().size() != 1) continue;

@@ -25,7 +25,7 @@ class RunChannels {
   // Two geometries that touch. True: it was not there yet.
   bool add_pair(int a, int b);
   // Joints that a hand turns: where it has them, and the recorded value less that.
-  void add_led_joints(const SimulateInput& input);
+  void add_led_joints(const Coordinates& coordinates, const std::vector<SceneCoupling>& couplings);
   // One of the caller's own, which fills it in; its place.
   std::size_t add(const std::string& name, const std::string& unit, const std::string& kind,
                   const std::string& of);

@@ -2,9 +2,10 @@
 
 namespace twinarm {
 
-LabChannels::LabChannels(const SimulateInput& input, const RecordingHeader& header)
+LabChannels::LabChannels(const SimulateInput& input, const RecordingHeader& header,
+                         const std::vector<SceneCoupling>& led)
     : channels_(input, header) {
-  channels_.add_led_joints(input);
+  channels_.add_led_joints(input.robot.coordinates, led);
   pull_ = channels_.add("pull", "N", "pull", "mouse");
   hand_ = channels_.add("hand/force", "N", "hand", "force");
   for (const char* motor : {"1", "2", "3"})

@@ -11,7 +11,9 @@ namespace twinarm {
 
 class LabChannels {
  public:
-  LabChannels(const SimulateInput& input, const RecordingHeader& header);
+  // `led`: the scene's couplings as a hand can lead them.
+  LabChannels(const SimulateInput& input, const RecordingHeader& header,
+              const std::vector<SceneCoupling>& led);
   // Pairs that touch come up as they do, behind all others. True: one did.
   bool add_pairs(const LabFrame& frame);
   const std::vector<RunChannel>& all() const { return channels_.all(); }

@@ -1,77 +1,96 @@
 #include "app/lab/stream/lab_moment.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "app/lab/run/hand_lead.h"
 #include "app/record/shown_instant.h"
 
 namespace twinarm {
 namespace {
 
-using Target = CouplingTarget::Kind;
+// A hand that stood there all around that time.
+HandStep stand_at(const LabHandFrame& hand, double t) {
+  LiveHand told(1);
+  told.set({hand.q_K, std::vector<double>(hand.q_K.size(), 0.0), hand.gripper_closed}, t - 2, 4);
+  return told.newest();
+}
 
-bool is_moved(const SceneCoupling& coupling) {
-  return coupling.target != Target::start && coupling.target != Target::state;
+bool is_at_zero(const LabHandFrame& hand) {
+  return std::all_of(hand.theta.begin(), hand.theta.end(), [](double angle) { return angle == 0; });
 }
 
 }  // namespace
+
+// The scene's couplings, with a lead in place as in the run; but nobody steps it.
+struct LabMoments::Led {
+  Led(const SceneModel& of, double h)
+      : scene(of), lead(&scene, nobody, h), couplings(scene, h, nullptr, lead.in_place()) {
+    lead.attach(couplings);
+  }
+  SceneModel scene;
+  LabHand nobody;
+  HandLead lead;
+  SceneCouplings couplings;
+};
 
 LabMoments::LabMoments(const SimulatePlan& plan) {
   change(plan);
 }
 
-bool LabMoments::follows_device() const {
-  const SceneModel* scene = plan_->input.scene.get();
-  return scene && std::any_of(scene->couplings.begin(), scene->couplings.end(),
-                              [](const auto& c) { return c.target == Target::device; });
-}
+LabMoments::~LabMoments() = default;
 
 void LabMoments::change(const SimulatePlan& plan) {
-  std::unique_ptr<SceneCouplings> own, led;
-  std::unique_ptr<SceneModel> in_hand;
-  const double h = plan.run.step;
-  if (const SceneModel* scene = plan.input.scene.get()) {
-    own = std::make_unique<SceneCouplings>(*scene, h, &hand_);
-    const auto& all = scene->couplings;
-    const bool follows = std::any_of(all.begin(), all.end(),
-                                     [](const auto& c) { return c.target == Target::device; });
-    if (!follows && std::any_of(all.begin(), all.end(), is_moved)) {
-      in_hand = std::make_unique<SceneModel>(*scene);
-      for (SceneCoupling& coupling : in_hand->couplings)
-        if (is_moved(coupling)) coupling.target = Target::device;
-      led = std::make_unique<SceneCouplings>(*in_hand, h, &hand_);
-    }
-  }
-  led_ = std::move(led);
-  own_ = std::move(own);
-  in_hand_ = std::move(in_hand);
+  const SceneModel* scene = plan.input.scene.get();
+  led_ = scene ? std::make_unique<Led>(*scene, plan.run.step) : nullptr;
   plan_ = &plan;
 }
 
-SceneCouplings* LabMoments::couplings(const LabFrame& frame) {
-  return frame.hand && led_ ? led_.get() : own_.get();
+SceneCouplings* LabMoments::couplings() {
+  return led_ ? &led_->couplings : nullptr;
+}
+
+const std::vector<SceneCoupling>& LabMoments::pulls() const {
+  static const std::vector<SceneCoupling> none;
+  return led_ ? led_->scene.couplings : none;
+}
+
+std::vector<int> LabMoments::driven() const {
+  return led_ ? led_->lead.driven() : std::vector<int>{};
+}
+
+std::optional<std::pair<int, Vector3>> LabMoments::tip() const {
+  return led_ ? led_->lead.tip() : std::nullopt;
+}
+
+bool LabMoments::follows_device() const {
+  return std::any_of(pulls().begin(), pulls().end(), [](const SceneCoupling& c) {
+    return c.target == CouplingTarget::Kind::device;
+  });
 }
 
 void LabMoments::tell(const LabFrame& frame) {
-  if (!frame.hand) return;
-  hand_.tell(frame.hand->q_K, frame.hand->gripper_closed);
-  SceneCouplings* told = couplings(frame);
-  if (!told) return;
+  if (!led_) return;
+  led_->lead.take_again(std::nullopt);
+  const double t = frame.recorded.t;
+  if (frame.hand && frame.hand->leads) led_->lead.take_again(stand_at(*frame.hand, t));
   // A kinematic robot does not look again at an instant that it has seen; but the hand may have
   // been elsewhere, in another branch.
-  for (std::size_t c = 0; c < told->size(); ++c) told->target(c, frame.recorded.t + 1);
+  for (std::size_t c = 0; c < led_->couplings.size(); ++c) led_->couplings.target(c, t + 1);
 }
 
 Moment LabMoments::at_start() {
-  return moment_of(plan_->input, own_.get(), {plan_->input.robot.state.x, {}, {}});
+  return moment_of(plan_->input, couplings(), {plan_->input.robot.state.x, {}, {}});
 }
 
 Moment LabMoments::of(const LabFrame& frame) {
   tell(frame);
   const Model<double>& model = plan_->input.robot.model;
-  Moment moment = moment_of(plan_->input, couplings(frame), instant_of(frame.recorded, model));
-  if (frame.hand)
-    moment.hands = {{frame.hand->theta, frame.hand->gripper_closed, frame.hand->force_W}};
+  Moment moment = moment_of(plan_->input, couplings(), instant_of(frame.recorded, model));
+  if (const auto& hand = frame.hand; hand && hand->leads) {
+    moment.hands.clear();
+    // Without a device all of its angles are zero.
+    if (!is_at_zero(*hand)) moment.hands = {{hand->theta, hand->gripper_closed, hand->force_W}};
+  }
   if (frame.pull && frame.pull->body > 0 && frame.pull->body < model.body_count()) {
     const LabPull& pull = *frame.pull;
     moment.grip = {static_cast<std::size_t>(pull.body), moment.k.position(pull.body, pull.p_L),

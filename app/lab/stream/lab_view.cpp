@@ -34,7 +34,7 @@ struct LabView::Impl {
         moments(*plan),
         stage(plan->input.scene ? make_stage(*plan->input.scene)
                                 : make_stage(plan->input.robot.robot, plan->input.robot.model)),
-        channels(plan->input, header) {
+        channels(plan->input, header, moments.pulls()) {
     columns.scene = number;
     legends.resize(layer_names().size());
     set_live_view(stage, plan->input.robot, moments.at_start(), moments.follows_device());
@@ -98,7 +98,7 @@ void LabView::Impl::draw_layers(const Moment& moment, const std::vector<std::str
 
 void LabView::Impl::take_values(const LabFrame& frame, const Moment& moment) {
   if (channels.add_pairs(frame)) ++revision;
-  channels.values(frame, moment, moments.couplings(frame), columns.channels);
+  channels.values(frame, moment, moments.couplings(), columns.channels);
   columns.works = works_by_row(frame.recorded, rows.size());
 }
 
@@ -127,8 +127,9 @@ std::uint64_t LabView::revision() const {
 }
 
 std::string LabView::scene_message() const {
-  return twinarm::scene_message({impl_->columns.scene, *impl_->plan, impl_->words, impl_->stage,
-                                 impl_->store, impl_->legends, impl_->channels.all(), impl_->rows});
+  return twinarm::scene_message({impl_->columns.scene, *impl_->plan, impl_->words, impl_->moments,
+                                 impl_->stage, impl_->store, impl_->legends, impl_->channels.all(),
+                                 impl_->rows});
 }
 
 std::shared_ptr<const std::string> LabView::mesh(const std::string& hash) const {

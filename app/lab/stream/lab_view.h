@@ -17,9 +17,7 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/lab/run/lab_frame.h"
@@ -33,10 +31,6 @@ class DrawList;
 struct SceneWords {
   std::string title, file;        // title empty: the file's name in words
   std::vector<std::string> look;  // what to look for
-  // As LabRun has them: joints that a hand drives (the bodies that they carry), and the point that
-  // it leads, on a body in link axes.
-  std::vector<int> driven;
-  std::optional<std::pair<int, Vector3>> tip;
 };
 
 // What the session knows of a frame that the frame does not say.

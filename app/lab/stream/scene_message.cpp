@@ -111,11 +111,11 @@ std::string scene_message(const SceneFacts& facts) {
   write_channels(json, facts.channels);
   json.key("ledger").texts(facts.rows);
   write_bodies(json, facts.plan);
-  write_joints(json, facts.plan.input.robot, facts.words.driven);
-  if (facts.words.tip) {
+  write_joints(json, facts.plan.input.robot, facts.moments.driven());
+  if (const auto tip = facts.moments.tip()) {
     json.key("tip").begin_object();
-    json.key("body").count(facts.words.tip->first);
-    json.key("p").vector(facts.words.tip->second);
+    json.key("body").count(tip->first);
+    json.key("p").vector(tip->second);
     json.end_object();
   }
   write_view(json, facts.stage);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/lab/stream/lab_channels.h"
+#include "app/lab/stream/lab_moment.h"
 #include "app/lab/stream/lab_view.h"
 #include "app/lab/stream/mesh_store.h"
 #include "app/show/stage.h"
@@ -19,6 +20,7 @@ struct SceneFacts {
   std::uint32_t number = 0;
   const SimulatePlan& plan;
   const SceneWords& words;
+  const LabMoments& moments;
   const Stage& stage;
   const MeshStore& store;
   const std::vector<std::vector<LegendLine>>& legends;  // by layer
