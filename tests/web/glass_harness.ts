@@ -1,0 +1,45 @@
+// The glass without the lab around it: messages are given by hand, commands kept.
+import '../../app/web/src/style.css';
+import { glassOf } from '../../app/web/src/lab/glass';
+import type { Command, GlassMessage, SceneMessage } from '../../app/web/src/lab/link';
+import type { LabPage } from '../../app/web/src/lab/panel';
+
+const sent: Command[] = [];
+let arrows: unknown[] = [];
+const bodies = (document.documentElement.dataset.bodies ?? 'world,base').split(',');
+const page = {
+  scene: {
+    kind: 'scene',
+    scene: 1,
+    bodies: bodies.map((name, i) => ({ name, moves: i > 1, robot: i > 0 })),
+    joints: [],
+    view: { radius: 1 },
+  } as unknown as SceneMessage,
+  selected: null as number | null,
+  send(command: Command) {
+    sent.push(command);
+    return true;
+  },
+  select(body: number | null) {
+    page.selected = body;
+    panel.onSelect?.(body);
+  },
+  arrows(_: string, given: unknown[]) {
+    arrows = given;
+  },
+};
+const panel = glassOf(page as unknown as LabPage);
+document.body.className = 'harness';
+document.body.append(panel.root);
+Object.assign(window, {
+  glass: {
+    panel,
+    sent,
+    get arrows() {
+      return arrows;
+    },
+    give: (message: unknown) => panel.onGlass?.(message as GlassMessage),
+    theme: (dark: boolean) => (document.documentElement.dataset.theme = dark ? 'dark' : 'light'),
+  },
+});
+document.documentElement.dataset.ready = 'true';

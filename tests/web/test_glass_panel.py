@@ -1,0 +1,211 @@
+#!/usr/bin/env python3
+"""The glass of the lab, alone in a browser: numbers, equations, diagram, the walk through a call.
+
+    test_glass_panel.py FOLDER_OF_NODE_MODULES [FOLDER_FOR_PICTURES]
+"""
+import json
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from browser import Browser, find_browser
+
+HERE = pathlib.Path(__file__).resolve().parent
+MODULES = pathlib.Path(sys.argv.pop(1)).resolve()
+PICTURES = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else None
+# Of the arm in hand_and_obstacles.toml as it leans on a box, written by Glass::message().
+TOLD = json.loads((HERE / "glass_message.json").read_text(encoding="utf-8"))
+NODE = shutil.which("node") or shutil.which("nodejs")
+
+BUNDLE = """
+const [modules, entry] = process.argv.slice(1);
+const esbuild = require(modules + '/esbuild');
+esbuild.build({entryPoints: [entry], nodePaths: [modules], bundle: true, write: false,
+  outfile: 'out.js', format: 'iife', target: 'es2021'}).then((built) => {
+  const text = (end) => built.outputFiles.find((file) => file.path.endsWith(end)).text;
+  process.stdout.write(JSON.stringify([text('.js'), text('.css')]));
+});
+"""
+STYLE = "body.harness{display:block;height:auto;padding:12px;background:var(--surface)}"
+
+
+def flat(value):
+    """All numbers of a quantity, in the order in which they are told."""
+    if isinstance(value, list):
+        return [number for item in value for number in flat(item)]
+    return [value]
+
+
+@unittest.skipUnless(find_browser(), "no Chromium here: scripts/setup --lab installs it")
+@unittest.skipUnless(NODE and (MODULES / "katex").is_dir(), "the pages' packages are not installed")
+class GlassPanel(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        done = subprocess.run([NODE, "-e", BUNDLE, str(MODULES), str(HERE / "glass_harness.ts")],
+                              capture_output=True, text=True, check=True, timeout=240)
+        script, style = json.loads(done.stdout)
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.page = pathlib.Path(cls.folder.name) / "glass.html"
+        cls.names = ["world"] + [row["body"] for row in TOLD["rows"]]
+        if TOLD["pass"] == 2:
+            cls.names[1:] = reversed(cls.names[1:])
+        cls.page.write_text(
+            f'<!doctype html><html data-theme="light" data-bodies="{",".join(cls.names)}"><meta charset="utf-8">'
+            f"<style>{style}{STYLE}</style><body><script>"
+            + script.replace("</script", "<\\/script") + "</script></body></html>", encoding="utf-8")
+        cls.browser = Browser(420, 900)
+        cls.browser.__enter__()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.__exit__()
+        cls.folder.cleanup()
+
+    def setUp(self):
+        self.browser.open(self.page.as_uri())
+        self.browser.wait_for("glass.sent.length > 0")
+
+    def tearDown(self):
+        self.assertEqual(self.browser.errors, [])
+
+    def give(self, told):
+        self.browser.evaluate(f"glass.give({json.dumps(told)})")
+
+    def go_to(self, pass_, body):
+        """By clicks on the passes and on the body's name."""
+        self.browser.evaluate(f"document.querySelectorAll('.stepper .pass')[{pass_ - 1}].click()")
+        self.browser.evaluate("[...document.querySelectorAll('.stepper .current button')].find("
+                              f"b => b.textContent === {json.dumps(body)}).click()")
+
+    def test_it_asks_for_the_first_body_of_the_robot_and_follows_the_selection(self):
+        self.assertEqual(self.browser.evaluate("glass.sent.at(-1)"),
+                         {"do": "glass", "on": True, "body": 2, "pass": 1})
+        self.browser.evaluate("glass.panel.onSelect(3)")
+        self.assertEqual(self.browser.evaluate("glass.sent.at(-1)"),
+                         {"do": "glass", "on": True, "body": 3, "pass": 1})
+
+    def test_keys_walk_through_one_call_outward_inward_outward(self):
+        links = self.names[1:]
+        wanted = [(p, b) for p in (1, 2, 3) for b in (links[::-1] if p == 2 else links)]
+        self.go_to(1, links[0])
+        walked = []
+        for _ in wanted:
+            state = self.browser.evaluate("glass.panel.state")
+            walked.append((state["pass"], state["body"]))
+            self.browser.press(".")
+        self.assertEqual(walked, wanted)
+        self.browser.press(",")
+        state = self.browser.evaluate("glass.panel.state")
+        self.assertEqual((state["pass"], state["body"]), wanted[-2])
+
+    def test_every_number_of_every_pass_stands_in_its_card_with_all_digits(self):
+        for step in TOLD["passes"]:
+            self.go_to(step["pass"], TOLD["name"])
+            self.give(TOLD)
+            shown = self.browser.evaluate(
+                "Object.fromEntries([...document.querySelectorAll('.content > [data-quantity]')].map("
+                "card => [card.dataset.quantity, [...card.querySelectorAll('[title]')].map(e => e.title)]))")
+            for quantity in step["quantities"]:
+                digits = [float(text) for text in shown[quantity["name"]] if is_number(text)]
+                for number in flat(quantity["value"]):
+                    self.assertIn(number, digits, quantity["name"])
+
+    def test_equations_are_set_and_their_terms_stand_beside_the_sum(self):
+        self.go_to(1, TOLD["name"])
+        self.give(TOLD)
+        self.assertGreater(self.browser.evaluate(
+            "Math.min(...[...document.querySelectorAll('.set math')].map("
+            "m => m.getBoundingClientRect().width))"), 60)
+        v = next(e for e in TOLD["equations"] if e["name"] == "v")
+        rows = self.browser.evaluate(
+            "[...document.querySelectorAll('[data-quantity=v] tbody tr')].map("
+            "row => [...row.querySelectorAll('.number')].map(cell => Number(cell.title)))")
+        for k, row in enumerate(rows):
+            self.assertEqual(row, [term["value"][k] for term in v["terms"]] + [v["value"][k]])
+            self.assertAlmostEqual(sum(row[:-1]), row[-1], delta=1e-9)
+
+    def test_the_diagram_comes_back_to_where_it_began(self):
+        self.give(TOLD)
+        for plane in ("xz", "yz", "xy"):
+            self.browser.evaluate(f"document.querySelector('[data-plane={plane}]').click()")
+            for figure in (0, 1):
+                dot, tip = self.browser.evaluate(
+                    "(() => { const svg = document.querySelectorAll('.diagram svg')[%d];"
+                    "const dot = svg.querySelector('circle');"
+                    "const tips = [...svg.querySelectorAll('polygon')];"
+                    "return [dot ? [+dot.getAttribute('cx'), +dot.getAttribute('cy')] : null,"
+                    "tips.length ? tips.at(-1).getAttribute('points').split(' ')[0].split(',')"
+                    ".map(Number) : null]; })()" % figure)
+                if tip:
+                    self.assertLess(math.dist(dot, tip), 2)  # of 200; the shortest are not drawn
+        self.assertEqual(len(self.browser.evaluate("glass.arrows")),
+                         len(TOLD["balance"][0]["wrenches"]))
+
+    def test_what_a_quantity_is_shows_by_keyboard_focus_and_stays_while_numbers_change(self):
+        self.go_to(3, TOLD["name"])
+        self.give(TOLD)
+        self.browser.evaluate("document.querySelector('[data-quantity=a]').focus({focusVisible: true})")
+        for t in (1, 2):
+            self.give({**TOLD, "t": t, "stands": False})
+            tip = self.browser.evaluate(
+                "(() => { const tip = document.querySelector('[data-quantity=a] .tip');"
+                "return [getComputedStyle(tip).visibility, tip.textContent]; })()")
+            self.assertEqual(tip[0], "visible")
+            self.assertIn("rad/s^2; m/s^2", tip[1])
+            self.assertIn("table 7.1", tip[1])
+        self.assertEqual(self.browser.evaluate("glass.arrows"), [])  # they would lag behind
+
+    def test_what_is_not_a_number_breaks_nothing(self):
+        broken = json.loads(json.dumps(TOLD))
+        for step in broken["passes"]:
+            for quantity in step["quantities"]:
+                quantity["value"] = nothing(quantity["value"])
+        for equation in broken["equations"]:
+            equation["residual"] = None
+            for part in [equation, *equation["terms"]]:
+                part["value"] = nothing(part["value"])
+        for wrench in broken["balance"][0]["wrenches"]:
+            wrench["force"] = wrench["torque"] = [None] * 3
+        for pass_ in (1, 2, 3):
+            self.go_to(pass_, TOLD["name"])
+            self.give(broken)
+        self.give({"kind": "glass", "scene": 1, "t": 1, "pass": 1, "stands": True,
+                   "warnings": ["cannot be looked into"]})
+        self.assertIn("cannot be looked into", self.browser.evaluate("document.body.textContent"))
+
+    @unittest.skipUnless(PICTURES, "no folder for pictures")
+    def test_pictures(self):
+        PICTURES.mkdir(parents=True, exist_ok=True)
+        for width in (400, 1100):
+            self.browser.call("Emulation.setDeviceMetricsOverride", width=width, height=1500,
+                              deviceScaleFactor=1, mobile=False)
+            for pass_ in (1, 2, 3):
+                for dark in (False, True):
+                    self.browser.evaluate(f"glass.theme({json.dumps(dark)})")
+                    self.go_to(pass_, TOLD["name"])
+                    self.give(TOLD)
+                    self.browser.frames(2)
+                    theme = "dark" if dark else "light"
+                    self.browser.picture(PICTURES / f"glass_{width}_{pass_}_{theme}.png")
+        self.browser.call("Emulation.setDeviceMetricsOverride", width=420, height=900,
+                          deviceScaleFactor=1, mobile=False)
+
+
+def is_number(text):
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def nothing(value):
+    return [nothing(item) for item in value] if isinstance(value, list) else None
+
+
+if __name__ == "__main__":
+    unittest.main()
