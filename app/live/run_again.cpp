@@ -11,14 +11,8 @@
 namespace twinarm {
 namespace {
 
-TomlValue* member_of(TomlValue& table, const std::string& key) {
-  for (TomlValue& member : table.members)
-    if (member.key == key) return &member;
-  return nullptr;
-}
-
 void put_number(TomlValue& table, const std::string& key, double number) {
-  TomlValue* member = member_of(table, key);
+  TomlValue* member = table.find(key);
   if (!member) {
     table.members.emplace_back();
     member = &table.members.back();
@@ -33,9 +27,9 @@ void put_number(TomlValue& table, const std::string& key, double number) {
 void write_scene_of_log(const std::filesystem::path& scene, const std::filesystem::path& log,
                         double step, double duration, const std::filesystem::path& file) {
   TomlValue tree = read_toml(scene);
-  if (TomlValue* couplings = member_of(tree, "coupling"))
+  if (TomlValue* couplings = tree.find("coupling"))
     for (TomlValue& coupling : couplings->items)
-      if (TomlValue* target = member_of(coupling, "target"); target && target->text == "device")
+      if (TomlValue* target = coupling.find("target"); target && target->text == "device")
         target->text = std::filesystem::absolute(log).lexically_normal().string();
   put_number(tree, "step", step);
   put_number(tree, "duration", duration);

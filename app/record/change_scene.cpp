@@ -34,14 +34,8 @@ std::vector<StepOfPath> steps_of_path(const std::string& path) {
   return steps;
 }
 
-TomlValue* member_named(TomlValue& table, const std::string& key) {
-  for (TomlValue& member : table.members)
-    if (member.key == key) return &member;
-  return nullptr;
-}
-
 TomlValue& made_member(TomlValue& table, const std::string& key, int line) {
-  if (TomlValue* found = member_named(table, key)) return *found;
+  if (TomlValue* found = table.find(key)) return *found;
   TomlValue& made = table.members.emplace_back();
   made.key = key;
   made.line = line;
@@ -85,7 +79,7 @@ class SceneChange {
 
  private:
   bool into_member(TomlValue& table, std::size_t s) {
-    TomlValue* found = s == 0 ? member_named(table, steps_[s].name) : nullptr;
+    TomlValue* found = s == 0 ? table.find(steps_[s].name) : nullptr;
     if (s == 0 && !found) return false;
     TomlValue& member = found ? *found : made_member(table, steps_[s].name, line_);
     const long index = steps_[s].index;
@@ -131,7 +125,7 @@ void add_left_out(const std::string& name, int line, TomlValue& scene) {
        {"contact", "rigid"},
        {"duration", "1"}}};
   for (const auto& [key, text] : kDefaults)
-    if (name == key && !member_named(scene, name))
+    if (name == key && !scene.find(name))
       write_toml_value(made_member(scene, name, line), text, line);
 }
 
@@ -154,7 +148,7 @@ void apply(const Change& change, int line, TomlValue& scene, FaultList& faults) 
   add_left_out(name, line, scene);
   std::vector<std::string> names;
   for (const TomlValue& member : scene.members) names.push_back(member.key);
-  if (!member_named(scene, name))
+  if (!scene.find(name))
     return fault("the scene has no '" + name + "'", name_remedy(name, names, "keys"));
   if (!wanted.apply(scene))
     fault("the scene has no such " + name,

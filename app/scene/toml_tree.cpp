@@ -1,5 +1,7 @@
 #include "app/scene/toml_tree.h"
 
+#include <utility>
+
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -45,6 +47,10 @@ const TomlValue* TomlValue::find(const std::string& name) const {
   for (const TomlValue& member : members)
     if (member.key == name) return &member;
   return nullptr;
+}
+
+TomlValue* TomlValue::find(const std::string& name) {
+  return const_cast<TomlValue*>(std::as_const(*this).find(name));
 }
 
 std::string describe(const TomlValue& value) {

@@ -17,6 +17,7 @@ struct TomlValue {
   std::vector<TomlValue> items, members;  // of a list, of a table in the order of its keys
 
   const TomlValue* find(const std::string& name) const;
+  TomlValue* find(const std::string& name);
 };
 // "a list of 3", "the text 'box'", ...: what stands there, for messages.
 std::string describe(const TomlValue& value);

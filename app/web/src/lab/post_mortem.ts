@@ -35,6 +35,7 @@ export class PostMortem implements Panel {
     this.shown = wanted;
     this.root.hidden = dead === null || this.away;
     if (!dead) return;
+    this.root.classList.remove('small');
     this.root.replaceChildren(...this.content(dead, first, watches));
     if (isNew && !this.away) this.root.focus({ preventScroll: true });
   }
@@ -48,7 +49,7 @@ export class PostMortem implements Panel {
     const [headline, ...rest] = dead.words;
     const facts = element('dl');
     const fact = (name: string, value: string | undefined) => {
-      if (value) facts.append(element('dt', {}, name), element('dd', {}, value));
+      if (value) facts.append(element('div', {}, element('dt', {}, name), element('dd', {}, value)));
     };
     fact('when', `${dead.time.toFixed(3)} s`);
     fact('quantity', dead.quantity);
@@ -62,9 +63,11 @@ export class PostMortem implements Panel {
       made.addEventListener('click', () => this.mend(back, changes));
       return made;
     });
-    const look = button('Look at the last second, slowly', 'at a tenth of the speed', () =>
-      this.rewind.play(back, SLOW, dead.time),
-    );
+    // The card makes room for it.
+    const look = button('Look at the last second, slowly', 'at a tenth of the speed', () => {
+      this.root.classList.add('small');
+      this.rewind.play(back, SLOW, dead.time);
+    });
     const again = button('Begin anew', 'from the start, as it is', () => this.page.send({ do: 'reset' }));
     again.disabled = watches;
     return [

@@ -1,0 +1,358 @@
+// What the lab's page computes without a browser: sliders, what plots keep, files. Run by
+// test_lab_logic.py, which bundles the modules: node --test lab_logic.mjs, MODULES in the environment.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+
+const page = await import(pathToFileURL(process.env.MODULES).href);
+const { placeOf, valueAt, stepped, niceStep, numberText, parseNumber } = page;
+const { Store, bucketsOf, outline, samples, timesOf, csvText, fileName } = page;
+const { RunRecord, decodeHistory, LiveSpecs } = page;
+
+// The same numbers each time.
+function random(seed) {
+  let state = seed;
+  return () => (state = (1103515245 * state + 12345) % 2 ** 31) / 2 ** 31;
+}
+
+const scales = [
+  { form: 'log', low: 1, high: 1e6 },
+  { form: 'log', low: 1e-5, high: 0.1 },
+  { form: 'log', low: 0, high: 1000 },
+  { form: 'linear', low: -20, high: 20 },
+  { form: 'linear', low: 0, high: 1.5 },
+];
+
+test('a slider gives back the value that it was set to, to a slider’s digits', () => {
+  for (const scale of scales)
+    for (let i = 0; i <= 200; ++i) {
+      const value = valueAt(scale, i / 200);
+      assert.ok(value >= scale.low && value <= scale.high, `${value}`);
+      assert.ok(Math.abs(placeOf(scale, value) - i / 200) < 0.004, `${i} ${value}`);
+      const again = valueAt(scale, placeOf(scale, value));
+      assert.ok(Math.abs(again - value) <= 0.001 * (scale.high - scale.low) + 1e-12, `${again}`);
+    }
+});
+
+test('the middle of a logarithmic slider is the geometric mean', () => {
+  assert.equal(valueAt({ form: 'log', low: 1, high: 1e6 }, 0.5), 1000);
+  assert.equal(placeOf({ form: 'log', low: 1, high: 1e6 }, 1000), 0.5);
+});
+
+test('a logarithmic slider that begins at zero has zero at its left end', () => {
+  const scale = { form: 'log', low: 0, high: 1000 };
+  assert.equal(valueAt(scale, 0), 0);
+  assert.equal(placeOf(scale, 0), 0);
+  assert.ok(stepped(scale, 0, 1, false) > 0);
+  let value = 1000;
+  for (let i = 0; i < 400; ++i) value = stepped(scale, value, -1, false);
+  assert.equal(value, 0);
+});
+
+test('arrows go up and down by about a tenth or by half, and stop at the ends', () => {
+  for (const scale of scales) {
+    let value = scale.low;
+    for (let i = 0; i < 2000; ++i) {
+      const next = stepped(scale, value, 1, false);
+      assert.ok(next > value || next === scale.high, `${value} ${next}`);
+      value = next;
+    }
+    assert.equal(value, scale.high);
+  }
+  assert.equal(stepped(scales[0], 800, 1, false), 880);
+  assert.equal(stepped(scales[0], 800, 1, true), 1600);
+  assert.equal(stepped(scales[3], -9.8, 1, false), -9.6);
+});
+
+test('steps are 1, 2 or 5 times a power of ten', () => {
+  for (const [size, step] of [[0.04, 0.02], [1, 1], [4.9, 2], [5, 5], [73, 50], [0.001, 0.001]])
+    assert.equal(niceStep(size), step);
+});
+
+test('what is typed is read in the knob’s unit, with its prefixes, or refused', () => {
+  const read = [
+    ['800', 'N/m', 800], ['1.2e4', 'N/m', 12000], ['12k', 'N/m', 12000], ['12 kN/m', 'N/m', 12000],
+    ['0.5 ms', 's', 0.0005], ['−3,5', 'm', -3.5], ['63 µs', 's', 63e-6], ['2 m', 'm', 2],
+    ['2 mm', 'm', 0.002], ['.5', '1', 0.5], [' 7 ', '', 7],
+  ];
+  for (const [text, unit, value] of read) assert.equal(parseNumber(text, unit), value, text);
+  for (const text of ['', 'x', '1 2', '12 kg', '1e', 'k', '--1', '1.2.3', 'NaN', 'Infinity'])
+    assert.ok(Number.isNaN(parseNumber(text, 'N/m')), text);
+});
+
+test('numbers stand in a field so that they read back', () => {
+  for (const value of [0, 1, -9.81, 0.001, 800, 1e6, 123456, 2.5e-7, 1e9])
+    assert.equal(parseNumber(numberText(value), ''), value);
+  assert.ok(numberText(1 / 3).length <= 9);
+});
+
+// A store without memory management, to compare with.
+class Plain {
+  rows = [];
+  dropped = 0;
+  constructor(most) {
+    this.most = most;
+  }
+  add(time, values) {
+    const last = this.rows.at(-1);
+    if (last && time < last[0]) return;
+    if (last && time === last[0]) this.rows.pop();
+    this.rows.push([time, ...values]);
+    if (this.rows.length > this.most) {
+      this.rows.shift();
+      this.dropped += 1;
+    }
+  }
+}
+function same(store, plain) {
+  assert.equal(store.length, plain.rows.length);
+  assert.deepEqual([...store.times], plain.rows.map((row) => row[0]));
+  for (let c = 0; c < store.columns; ++c)
+    assert.deepEqual([...store.column(c)], plain.rows.map((row) => row[c + 1]));
+}
+
+test('a store keeps the newest rows, as a plain list would', () => {
+  const next = random(3);
+  const store = new Store(2, 50);
+  const plain = new Plain(50);
+  let time = 0;
+  for (let i = 0; i < 1500; ++i) {
+    const what = next();
+    if (what < 0.02 && plain.rows.length > 0) {
+      time = plain.rows[Math.floor(next() * plain.rows.length)][0];
+      store.cut(time);
+      plain.rows = plain.rows.filter((row) => row[0] <= time);
+    } else {
+      if (what < 0.9) time += next();
+      const asked = what > 0.97 ? time - 1 : time; // sometimes too late
+      const values = [next(), next() < 0.1 ? NaN : next()];
+      const put = store.add(asked);
+      if (put) values.forEach((value, c) => put(c, value));
+      plain.add(asked, values);
+    }
+    same(store, plain);
+    const from = time - 5 * next();
+    assert.equal(store.after(from), plain.rows.filter((row) => row[0] <= from).length);
+  }
+  assert.equal(store.dropped, plain.dropped);
+});
+
+test('a copy has what is later, and one row more, and stays as it is', () => {
+  const store = new Store(1, 10);
+  for (let i = 0; i < 14; ++i) store.add(i)(0, 10 * i);
+  const copy = store.copy(8.5);
+  store.cut(5);
+  assert.deepEqual([...copy.times], [8, 9, 10, 11, 12, 13]);
+  assert.deepEqual([...copy.column(0)], [80, 90, 100, 110, 120, 130]);
+});
+
+test('thinning loses no peak and keeps time in order', () => {
+  const next = random(5);
+  const values = Float64Array.from({ length: 5000 }, () => next() ** 9);
+  const times = Float64Array.from(values, (_, i) => 0.01 * i);
+  for (const [begin, end, most] of [[0, 5000, 300], [17, 4321, 100], [3, 40, 500], [0, 1, 10]]) {
+    const buckets = bucketsOf(begin, end, 0, most);
+    assert.ok(buckets.edges.length - 1 <= most + 1);
+    const points = outline(values, buckets);
+    const at = timesOf(times, buckets, true);
+    assert.equal(at.length, points.length);
+    at.forEach((time, i) => assert.ok(i === 0 || time >= at[i - 1]));
+    const part = values.subarray(begin, end);
+    assert.equal(Math.max(...points), Math.max(...part));
+    assert.equal(Math.min(...points), Math.min(...part));
+    assert.equal(timesOf(times, buckets, false).length, samples(values, buckets).length);
+  }
+});
+
+test('curves do not shiver: thinned points stay when rows come and go', () => {
+  const store = new Store(1, 400);
+  const next = random(7);
+  const seen = new Map(); // begin of a bucket -> its points
+  for (let i = 0; i < 2000; ++i) {
+    store.add(i)(0, next());
+    if (i < 500) continue;
+    const buckets = bucketsOf(0, store.length, store.dropped, 60);
+    const points = outline(store.column(0), buckets);
+    const at = timesOf(store.times, buckets, true);
+    for (let b = 1; b + 2 < buckets.edges.length; ++b) {
+      const text = `${points[2 * b]} ${points[2 * b + 1]}`;
+      assert.equal(seen.get(at[2 * b]) ?? text, text);
+      seen.set(at[2 * b], text);
+    }
+  }
+});
+
+test('what has no value makes a gap', () => {
+  const values = Float64Array.from([1, NaN, NaN, NaN, NaN, 2, 3, NaN]);
+  assert.deepEqual(outline(values, bucketsOf(0, 8, 0, 4)), [1, 1, null, null, 2, 2, 3, 3]);
+  assert.deepEqual(outline(values, bucketsOf(0, 3, 0, 4)), [1, null, null]);
+});
+
+test('a table reads back bit by bit', () => {
+  const next = random(11);
+  const rows = Array.from({ length: 40 }, () => [next() * 1e-7, -next() * 1e12, next() < 0.3 ? NaN : next()]);
+  const names = ['time', 'contact/"a",b', 'line\nend'];
+  const columns = names.map((name, c) => ({ name, unit: c === 0 ? 's' : '', value: (row) => rows[row][c] }));
+  const text = csvText(columns, rows.length);
+  // RFC 4180, read letter by letter.
+  const read = [[]];
+  let field = '';
+  let quoted = false;
+  for (let i = 0; i < text.length; ++i) {
+    const letter = text[i];
+    if (quoted) {
+      if (letter !== '"') field += letter;
+      else if (text[i + 1] === '"') field += text[++i];
+      else quoted = false;
+    } else if (letter === '"') quoted = true;
+    else if (letter === ',' || letter === '\n') {
+      read.at(-1).push(field);
+      field = '';
+      if (letter === '\n') read.push([]);
+    } else if (letter !== '\r') field += letter;
+  }
+  read.pop();
+  assert.deepEqual(read[0], ['time [s]', 'contact/"a",b', 'line\nend']);
+  read.slice(1).forEach((line, r) =>
+    line.forEach((word, c) =>
+      assert.ok(word === '' ? Number.isNaN(rows[r][c]) : Object.is(Number(word), rows[r][c])),
+    ),
+  );
+  assert.equal(fileName('Hand & obstacles', 'all', 'csv'), 'hand-obstacles-all.csv');
+});
+
+const scene = (extra = []) => ({
+  scene: 7,
+  channels: [
+    { name: 'q/a', unit: 'rad', kind: 'coordinate', of: 'a' },
+    { name: 'target/a', unit: 'rad', kind: 'target', of: 'a' },
+    { name: 'error/a', unit: 'rad', kind: 'error', of: 'a' },
+    { name: 'error/b', unit: 'rad', kind: 'error', of: 'b' },
+    ...extra,
+  ],
+  ledger: ['gravity', 'numerical'],
+});
+const frame = (time, a, b, number = 1, extra = []) => ({
+  scene: 7,
+  time,
+  number,
+  lookedBack: false,
+  channels: Float64Array.from([a, 0, a, b, ...extra]),
+  works: Float64Array.from([3 * time, -time]),
+});
+
+test('the running largest and mean error are those of all that was seen, at uneven times', () => {
+  const next = random(13);
+  const record = new RunRecord(scene(), 30); // less than what comes
+  const [{ most, mean }] = record.errors;
+  let time = 0;
+  let largest = 0;
+  let area = 0;
+  for (let i = 0; i < 100; ++i) {
+    const passed = i === 0 ? 0 : 0.01 + next();
+    time += passed;
+    const [a, b] = [next() - 0.5, next() < 0.2 ? NaN : next() - 0.5];
+    const now = Math.max(Math.abs(a), Math.abs(b) || 0);
+    largest = Math.max(largest, now);
+    area += now * passed;
+    record.addFrame(frame(time, a, b));
+    const row = record.store.length - 1;
+    assert.equal(record.store.value(most, row), largest);
+    if (i > 0) assert.ok(Math.abs(record.store.value(mean, row) - area / time) < 1e-12);
+    assert.ok(Math.abs(record.store.value(record.sum, row) - 2 * time) < 1e-9);
+  }
+});
+
+test('going back leaves the branch beside the run, whichever message comes first', () => {
+  for (const stateFirst of [true, false]) {
+    const record = new RunRecord(scene());
+    for (let i = 0; i <= 100; ++i) record.addFrame(frame(i, i, 0));
+    const state = { branch: { from: 60, changes: [], number: 1 } };
+    if (stateFirst) record.onState(state);
+    record.addFrame(frame(60, 60, 0));
+    record.addFrame(frame(61, -61, 0));
+    if (!stateFirst) record.onState(state);
+    assert.equal(record.store.last, 61);
+    assert.equal(record.store.value(0, 61), -61);
+    assert.equal(record.before.first, 60);
+    assert.equal(record.before.last, 100);
+    assert.equal(record.before.value(0, 1), 61);
+    record.onState({ branch: null });
+    assert.equal(record.before, null);
+  }
+});
+
+test('frames of the past and of other scenes are not remembered twice', () => {
+  const record = new RunRecord(scene());
+  for (let i = 0; i <= 10; ++i) record.addFrame(frame(i, i, 0));
+  record.addFrame({ ...frame(4, 99, 0), lookedBack: true });
+  record.addFrame({ ...frame(40, 99, 0), scene: 8 });
+  record.addFrame(frame(10, 11, 0)); // it stands, and something was changed
+  assert.equal(record.store.length, 11);
+  assert.equal(record.store.value(0, 10), 11);
+});
+
+function history(frames, width) {
+  const numbers = [
+    ...frames.map((one) => one.time),
+    ...frames.flatMap((one) => [...one.channels].slice(0, width)),
+    ...frames.flatMap((one) => [...one.works]),
+  ];
+  const buffer = new ArrayBuffer(24 + 8 * numbers.length);
+  new Uint32Array(buffer, 0, 6).set([0x31485754, 7, frames.length, width, 2, 0]);
+  new Float64Array(buffer, 24).set(numbers);
+  return buffer;
+}
+
+test('what was missed is filled in, and what came later stays', () => {
+  const all = Array.from({ length: 50 }, (_, i) => frame(i, Math.sin(i), 0, i));
+  const whole = new RunRecord(scene());
+  for (const one of all) whole.addFrame(one);
+  const record = new RunRecord(scene());
+  for (const one of [...all.slice(5, 10), ...all.slice(30)]) record.addFrame(one);
+  assert.equal(record.lost, 9);
+  record.addHistory(decodeHistory(history(all.slice(0, 40), 4)));
+  assert.deepEqual([...record.store.times], [...whole.store.times]);
+  for (let c = 0; c < whole.store.columns; ++c)
+    record.store.column(c).forEach((value, row) =>
+      assert.ok(Math.abs(value - whole.store.value(c, row)) < 1e-12, `${c} ${row}`),
+    );
+  const cut = history(all, 4);
+  assert.equal(decodeHistory(cut.slice(0, cut.byteLength - 8)), null);
+  assert.equal(decodeHistory(new ArrayBuffer(8)), null);
+});
+
+test('pairs that begin to touch get a column, and nothing is forgotten', () => {
+  const record = new RunRecord(scene());
+  for (let i = 0; i <= 20; ++i) record.addFrame(frame(i, i, 0, i));
+  record.onState({ branch: { from: 15, changes: [], number: 1 } });
+  record.addFrame(frame(16, -16, 0, 21));
+  const pair = { name: 'contact/x-y', unit: 'N', kind: 'contact', of: 'x-y' };
+  const grown = record.grownTo(scene([pair]));
+  grown.addFrame(frame(17, 17, 0, 22, [5]));
+  assert.equal(grown.store.length, 18);
+  assert.equal(grown.store.value(0, 16), -16);
+  assert.ok(Number.isNaN(grown.store.value(4, 16)));
+  assert.equal(grown.store.value(4, 17), 5);
+  assert.equal(grown.store.value(grown.sum, 17), 34);
+  assert.equal(grown.before.last, 20);
+  assert.equal(grown.lost, null);
+});
+
+test('plots show what moves and acts, in colours that stay', () => {
+  const pairs = ['x', 'y', 'z'].map((of) => ({ name: `contact/${of}`, unit: 'N', kind: 'contact', of }));
+  const record = new RunRecord(scene(pairs));
+  const specs = new LiveSpecs(record);
+  const named = (id) => specs.all(1e-3).find((spec) => spec.id === id);
+  record.addFrame(frame(0, 0.1, 0, 1, [0, 0, 0]));
+  assert.equal(named('contacts'), undefined);
+  record.addFrame(frame(1, 0.2, 0, 2, [0, 4, 0]));
+  assert.deepEqual(named('contacts').curves.map((curve) => curve.name), ['y']);
+  const color = named('contacts').curves[0].color;
+  record.addFrame(frame(2, 0.3, 0, 3, [9, 4, 1]));
+  const later = named('contacts').curves;
+  assert.deepEqual(later.map((curve) => curve.name), ['x', 'y', 'z']);
+  assert.equal(later[1].color, color);
+  assert.equal(new Set(later.map((curve) => curve.color)).size, 3);
+  assert.deepEqual(named('angles').curves.map((curve) => curve.style), ['line', 'dashed']);
+});

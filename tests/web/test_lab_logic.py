@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+"""What the lab's page computes without a browser, in Node.
+
+    test_lab_logic.py FOLDER_OF_MODULES
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+LAB = HERE.parents[1] / "app" / "web" / "src" / "lab"
+MODULES = pathlib.Path(sys.argv.pop(1)).resolve()
+NODE = shutil.which("node") or shutil.which("nodejs")
+PARTS = ("scale", "store", "export", "run_record", "live_specs")
+BUNDLE = """
+import { createRequire } from 'node:module';
+const [modules, entry, out] = process.argv.slice(2);
+const esbuild = createRequire(modules + '/any.js')('esbuild');
+await esbuild.build({ entryPoints: [entry], outfile: out, bundle: true, format: 'esm',
+  platform: 'node', nodePaths: [modules], logLevel: 'error' });
+"""
+
+
+class LabLogic(unittest.TestCase):
+    @unittest.skipUnless(NODE, "no Node here: scripts/setup --lab installs it")
+    @unittest.skipUnless((MODULES / "esbuild").is_dir(), "the program was built without its pages")
+    def test_it_holds_what_its_sentences_say(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "bundle.mjs").write_text(BUNDLE, encoding="utf-8")
+            entry = "".join(f"export * from '{LAB / part}.ts';\n" for part in PARTS)
+            (folder / "entry.ts").write_text(entry, encoding="utf-8")
+            out = folder / "lab.mjs"
+            subprocess.run([NODE, folder / "bundle.mjs", MODULES, folder / "entry.ts", out],
+                           check=True, timeout=120)
+            done = subprocess.run([NODE, "--test", HERE / "lab_logic.mjs"], check=False,
+                                  env={**os.environ, "MODULES": str(out)}, timeout=120,
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
