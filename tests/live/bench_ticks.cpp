@@ -1,0 +1,239 @@
+// What a servo tick costs: the same deterministic run several times over, each tick by the least
+// processor time that it took in any of them. So what is left is the algorithm's: interrupts, other
+// programs and the thread's own wakings hit another tick each time.
+//
+//   bench_ticks [--scene FILE] [--device HAND] [--duration S] [--runs N] [--cold KB] [--paced]
+//               [--spin US]
+//
+// --cold KB   before each tick so much memory is written: what a thread finds that has slept
+// --paced     one run at the pace of its steps, and empty ticks beside it; --spin US: the clock is
+//             asked over and over for the last US microseconds before each deadline
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/hand/devices.h"
+#include "app/live/live_run.h"
+#include "app/live/servo_clock.h"
+#include "app/scene/read_scene.h"
+
+namespace twinarm {
+namespace {
+
+struct TicksOptions {
+  std::string scene = TWINARM_SOURCE_DIR "/assets/scenes/hand_and_obstacles.toml";
+  std::string device = "virtual";
+  double duration = 60;
+  int runs = 5;
+  std::size_t cold = 0;  // [bytes]
+  bool paced = false;
+  double spin = 0;  // [s]
+};
+
+struct Tick {
+  double cpu = 1e300;  // [s]
+  int points = 0, impacts = 0;
+  ImpulseReport impulses;
+};
+
+double quantile(std::vector<double> values, double p) {
+  if (values.empty()) return 0;
+  const auto place = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + place, values.end());
+  return values[static_cast<std::size_t>(place)];
+}
+
+void print_line(const std::string& name, const std::vector<double>& seconds) {
+  double sum = 0;
+  for (const double s : seconds) sum += s;
+  std::printf("%-26s %7zu %8.2f", name.c_str(), seconds.size(),
+              1e6 * sum / static_cast<double>(std::max<std::size_t>(1, seconds.size())));
+  for (const double p : {0.5, 0.9, 0.99, 0.999, 1.0})
+    std::printf(" %8.2f", 1e6 * quantile(seconds, p));
+  std::printf("\n");
+}
+
+void print_head() {
+  std::printf("%-26s %7s %8s %8s %8s %8s %8s %8s\n", "processor time of a tick", "ticks", "mean us",
+              "median", "p90", "p99", "p99.9", "largest");
+}
+
+std::vector<double> times_of(const std::vector<Tick>& ticks,
+                             const std::function<bool(const Tick&)>& which) {
+  std::vector<double> times;
+  for (const Tick& tick : ticks)
+    if (which(tick)) times.push_back(tick.cpu);
+  return times;
+}
+
+// By a number that each tick has; what is rarer than others goes together at the end.
+void print_by(const char* name, const std::vector<Tick>& ticks,
+              const std::function<int(const Tick&)>& number) {
+  constexpr int kMost = 12;
+  std::printf("\n");
+  for (int n = 0; n <= kMost; ++n) {
+    const auto times = times_of(
+        ticks, [&](const Tick& tick) { return n < kMost ? number(tick) == n : number(tick) >= n; });
+    if (!times.empty())
+      print_line(std::string(name) + " " + std::to_string(n) + (n < kMost ? "" : " or more"),
+                 times);
+  }
+}
+
+void print_heaviest(std::vector<Tick> ticks, double step) {
+  std::vector<std::size_t> order(ticks.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const std::size_t most = std::min<std::size_t>(order.size(), 20);
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most), order.end(),
+                    [&](std::size_t a, std::size_t b) { return ticks[a].cpu > ticks[b].cpu; });
+  std::printf("\n%10s %8s %7s %8s %7s %7s %8s %5s\n", "t [s]", "us", "points", "impacts", "solved",
+              "newton", "interior", "path");
+  for (std::size_t i = 0; i < most; ++i) {
+    const Tick& tick = ticks[order[i]];
+    std::printf("%10.3f %8.2f %7d %8d %7d %7d %8d %5d\n", step * static_cast<double>(order[i]),
+                1e6 * tick.cpu, tick.points, tick.impacts, tick.impulses.solved,
+                tick.impulses.newton, tick.impulses.interior, tick.impulses.path);
+  }
+}
+
+void note(const LiveRun& run, double cpu, Tick& tick) {
+  tick.cpu = std::min(tick.cpu, cpu);
+  const ContactConstraints* contacts = run.contacts().contacts();
+  tick.points = contacts ? static_cast<int>(contacts->points().size()) : 0;
+  tick.impacts = run.simulation().constraints().report().impacts;
+  tick.impulses = run.simulation().constraints().report().step;
+}
+
+// Time between two looks at the clock: what every tick's figure has on top.
+std::vector<double> empty_ticks(std::size_t count) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double before = thread_cpu_time();
+    times.push_back(thread_cpu_time() - before);
+  }
+  return times;
+}
+
+void measure_unpaced(const SceneModel& scene, const TicksOptions& options) {
+  std::vector<Tick> least;
+  std::vector<double> once;
+  std::vector<unsigned char> sweep(options.cold);
+  State<double> end;
+  double step = 0;
+  for (int k = 0; k < options.runs; ++k) {
+    const auto device = open_device(options.device);
+    LiveRun run(scene, *device, {});
+    step = run.step();
+    least.resize(static_cast<std::size_t>(options.duration / step + 0.5));
+    for (Tick& tick : least) {
+      for (std::size_t i = 0; i < sweep.size(); i += 64) ++sweep[i];
+      const double before = thread_cpu_time();
+      run.tick();
+      const double cpu = thread_cpu_time() - before;
+      if (k == 0) once.push_back(cpu);
+      note(run, cpu, tick);
+    }
+    if (k > 0 && (end.q != run.simulation().state().q || end.qd != run.simulation().state().qd))
+      std::printf("the runs differ: their least is that of nothing\n");
+    end = run.simulation().state();
+  }
+  print_head();
+  print_line("empty", empty_ticks(least.size()));
+  print_line("one run", once);
+  print_line("least of " + std::to_string(options.runs),
+             times_of(least, [](const Tick&) { return true; }));
+  print_by("contact points", least, [](const Tick& tick) { return tick.points; });
+  print_by("newton steps", least, [](const Tick& tick) { return tick.impulses.newton; });
+  print_by("interior iterations", least, [](const Tick& tick) { return tick.impulses.interior; });
+  print_by("impacts", least, [](const Tick& tick) { return tick.impacts; });
+  print_heaviest(least, step);
+}
+
+// Sleeps until `spin` seconds before the deadline and asks the clock from there on.
+void wait(double deadline, double spin) {
+  const double until = deadline - spin;
+  const timespec time{static_cast<time_t>(until),
+                      static_cast<long>(1e9 * (until - std::floor(until)))};
+  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr);
+  while (monotonic_time() < deadline) {
+  }
+}
+
+// Each other second the ticks are empty.
+void measure_paced(const SceneModel& scene, const TicksOptions& options) {
+  const auto device = open_device(options.device);
+  LiveRun run(scene, *device, {});
+  const auto count = static_cast<long>(options.duration / run.step() + 0.5);
+  const auto each_second = static_cast<long>(1 / run.step() + 0.5);
+  std::vector<Tick> ticks;
+  std::vector<double> empty;
+  ticks.reserve(static_cast<std::size_t>(count));
+  empty.reserve(ticks.capacity());
+  double deadline = monotonic_time();
+  for (long total = 0; static_cast<long>(ticks.size()) < count; ++total) {
+    wait(deadline += run.step(), options.spin);
+    const double before = thread_cpu_time();
+    if (total / each_second % 2 == 1) {
+      empty.push_back(thread_cpu_time() - before);
+      continue;
+    }
+    run.tick();
+    const double cpu = thread_cpu_time() - before;
+    note(run, cpu, ticks.emplace_back());
+  }
+  print_head();
+  print_line("empty, paced", empty);
+  print_line("paced", times_of(ticks, [](const Tick&) { return true; }));
+  print_heaviest(ticks, run.step());
+}
+
+bool read_options(int argc, char** argv, TicksOptions& options) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view name = argv[i];
+    if (name == "--paced") {
+      options.paced = true;
+      continue;
+    }
+    if (++i >= argc) return false;
+    const char* const value = argv[i];
+    if (name == "--scene")
+      options.scene = value;
+    else if (name == "--device")
+      options.device = value;
+    else if (name == "--duration")
+      options.duration = std::atof(value);
+    else if (name == "--runs")
+      options.runs = std::max(1, std::atoi(value));
+    else if (name == "--cold")
+      options.cold = 1024 * static_cast<std::size_t>(std::atol(value));
+    else if (name == "--spin")
+      options.spin = 1e-6 * std::atof(value);
+    else
+      return false;
+  }
+  return options.duration > 0;
+}
+
+}  // namespace
+}  // namespace twinarm
+
+int main(int argc, char** argv) {
+  using namespace twinarm;
+  TicksOptions options;
+  if (!read_options(argc, argv, options)) {
+    std::fprintf(stderr, "bench_ticks: options as its first lines say\n");
+    return 2;
+  }
+  const SceneModel scene = build_scene(read_scene(options.scene));
+  if (options.paced)
+    measure_paced(scene, options);
+  else
+    measure_unpaced(scene, options);
+}
