@@ -1,10 +1,9 @@
 #include "app/scene/toml_tree.h"
 
-#include <utility>
-
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "collision/import/number_text.h"
 #include "solver/fault.h"
