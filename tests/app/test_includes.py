@@ -77,8 +77,8 @@ LAB = {
     "app/lab/run/": {"coupling", "hand", "interrupt.h", "live", "nearest_name.h", "output_file.h", "record",
                      "scene", "show", "simulate"},
     "app/lab/knobs/": {"coupling", "find_assets.h", "lab/run", "nearest_name.h", "record", "scene", "simulate"},
-    "app/lab/stream/": {"lab/run", "record", "scene", "show", "simulate", "web"},
-    "app/lab/glass/": {"dynamics", "inspect", "lab/run", "record", "scene", "simulate"},
+    "app/lab/stream/": {"dynamics", "lab/run", "record", "render", "scene", "show", "simulate", "web"},
+    "app/lab/glass/": {"inspect", "lab/run", "record", "scene", "simulate"},
     "app/lab/server/": set(),
 }
 
