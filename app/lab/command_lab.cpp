@@ -34,8 +34,11 @@ std::string random_token() {
 Order first_order(const LabOptions& options, const std::vector<GalleryScene>& gallery) {
   Order order;
   if (options.scene.empty()) return order_to_open(gallery.front());
+  std::error_code ignored;
   for (const GalleryScene& scene : gallery)
-    if (scene.name == options.scene.string()) return order_to_open(scene);
+    if (scene.name == options.scene.string() ||
+        std::filesystem::equivalent(scene.file, options.scene, ignored))
+      return order_to_open(scene);
   order.file = options.scene;
   order.name = options.scene.stem().string();
   order.words.title = order.name;
@@ -81,6 +84,7 @@ class Lab {
   ~Lab() {
     session_.end();
     painter_.end();
+    routes_.end();
     server_.reset();
   }
   std::string url() const { return server_->url(); }

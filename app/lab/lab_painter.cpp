@@ -5,7 +5,6 @@
 
 #include "app/lab/state_message.h"
 #include "app/record/shown_instant.h"
-#include "app/render/painter.h"
 
 namespace twinarm {
 namespace {
@@ -98,6 +97,7 @@ void LabPainter::do_jobs() {
 void LabPainter::take_scene(const LabNow& now) {
   if (now.change_number == change_number_) return;
   const std::shared_ptr<const SimulatePlan> plan(now.scene->view, &now.scene->view->prepared);
+  const std::lock_guard drawing(view_mutex_);
   if (now.scene_number != scene_number_) {
     view_ = std::make_unique<LabView>(static_cast<std::uint32_t>(now.scene_number), plan,
                                       now.scene->header, now.scene->order.words);
@@ -148,16 +148,18 @@ void LabPainter::tell_frame(const LabNow& now) {
   facts.looked_back = now.status->at.has_value();
   facts.stopped = now.status->dead.has_value();
   facts.input_age = now.frame->input_stamp != 0 ? as_seconds(Clock::now() - now.input_came) : 0.0;
+  std::unique_lock drawing(view_mutex_);
   std::string frame = view_->frame(*now.frame, now.before.get(), audience_.layers(), facts);
+  drawing.unlock();
   if (view_->revision() != revision_) tell_scene();
   last_frame_ = shared(std::move(frame));
   for (const ClientId client : audience_.view().clients)
     post_(client, frame_channel, last_frame_, true);
 }
 
-std::string LabPainter::picture(int width, int height) {
-  Painter painter(Backend::osmesa, width, height, Quality::draft);
-  return encode_png(painter.paint(view_->drawn()));
+DrawList LabPainter::drawn() {
+  const std::lock_guard lock(view_mutex_);
+  return view_ ? view_->drawn() : DrawList();
 }
 
 void LabPainter::tell_glass(const LabNow& now) {

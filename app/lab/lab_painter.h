@@ -20,6 +20,7 @@
 #include "app/lab/lab_session.h"
 #include "app/lab/server/lab_server.h"
 #include "app/lab/stream/lab_view.h"
+#include "app/render/draw_list.h"
 
 namespace twinarm {
 
@@ -41,10 +42,12 @@ class LabPainter {
   void welcome(ClientId client);          // it is to be told everything
   void look_again() { session_.wake(); }  // something about clients has changed
 
+  // A copy of what was drawn last, for whoever paints it elsewhere. From any thread.
+  DrawList drawn();
+
   // Of the painter's thread.
   LabView& view() { return *view_; }
   std::string history(double from);
-  std::string picture(int width, int height);  // PNG
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -65,7 +68,8 @@ class LabPainter {
   const std::vector<GalleryScene>& gallery_;
   Post post_;
 
-  std::mutex mutex_;  // of the next three
+  std::mutex view_mutex_;  // of what view_ has drawn
+  std::mutex mutex_;       // of the next three
   std::deque<std::function<void(LabPainter&)>> jobs_;
   std::vector<ClientId> newcomers_;
   bool stop_ = false;

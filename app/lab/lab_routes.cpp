@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "app/output_file.h"
+#include "app/render/painter.h"
 #include "app/web/replay_page.h"
 #include "solver/fault.h"
 #include "solver/whole_file.h"
@@ -15,14 +16,14 @@ namespace {
 
 constexpr double kMostPixels = 1920;
 
-Bytes bytes_of(std::string text) {
+Bytes shared_bytes(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
 }
 
 HttpReply reply_of(int status, const std::string& text) {
   HttpReply reply;
   reply.status = status;
-  reply.body = bytes_of(text + "\n");
+  reply.body = shared_bytes(text + "\n");
   return reply;
 }
 
@@ -105,7 +106,7 @@ LabRoutes::LabRoutes(LabSession& session, LabPainter& painter,
     : session_(session),
       painter_(painter),
       gallery_(gallery),
-      page_(bytes_of(std::move(page))),
+      page_(shared_bytes(std::move(page))),
       missing_(std::move(missing)),
       folder_(temporary_folder()) {}
 
@@ -124,67 +125,79 @@ void LabRoutes::answer(const HttpRequest& request, const Answer& answer) {
                                  : file_of("text/html; charset=utf-8", page_, false));
   if (const std::string name = after(request.path, "/gallery/"); !name.empty())
     return answer_picture(name, answer);
-  answer_later(request, answer);
+  for (const char* path : {"/frame.png", "/save", "/share", "/scene"})
+    if (request.path == path) return ask_errands(request, answer);
+  for (const char* start : {"/mesh/", "/texture/", "/history"})
+    if (request.path.rfind(start, 0) == 0) return ask_painter(request, answer);
+  answer(not_found());
 }
 
 void LabRoutes::answer_picture(const std::string& name, const Answer& answer) const {
   for (const GalleryScene& scene : gallery_)
     if (scene.name + ".png" == name && !scene.picture.empty())
-      return answer(file_of("image/png", bytes_of(read_whole_file(scene.picture)), false));
+      return answer(file_of("image/png", shared_bytes(read_whole_file(scene.picture)), false));
   answer(not_found());
 }
 
-void LabRoutes::answer_later(const HttpRequest& request, const Answer& answer) {
-  painter_.ask([this, request, answer](LabPainter& painter) {
+void LabRoutes::end() {
+  errands_.end();
+}
+
+void LabRoutes::ask_painter(const HttpRequest& request, const Answer& answer) {
+  painter_.ask([request, answer](LabPainter& painter) {
     const std::string& path = request.path;
-    try {
-      if (const std::string hash = after(path, "/mesh/"); !hash.empty()) {
-        const Bytes mesh = painter.view().mesh(hash);
-        answer(mesh ? file_of("application/octet-stream", mesh, true) : not_found());
-      } else if (const std::string picture = after(path, "/texture/"); !picture.empty()) {
-        const Bytes texture = painter.view().texture(picture);
-        answer(texture ? file_of("image/png", texture, true) : not_found());
-      } else if (path == "/history") {
-        const double from = number_of(request.query, "from", 0);
-        answer(file_of("application/octet-stream", bytes_of(painter.history(from)), false));
-      } else if (path == "/frame.png") {
-        const auto size = [&](const char* key, double otherwise) {
-          return static_cast<int>(
-              std::clamp(number_of(request.query, key, otherwise), 64.0, kMostPixels));
-        };
-        answer(file_of("image/png",
-                       bytes_of(painter.picture(size("width", 960), size("height", 540))), false));
-      } else if (path == "/save") {
-        answer(save());
-      } else if (path == "/share") {
-        answer(share());
-      } else if (path == "/scene") {
-        const LabNow now = session_.now();
-        answer(file_of("application/toml; charset=utf-8",
-                       bytes_of(now.scene->scene->text(now.status->changes)), false));
-      } else {
-        answer(not_found());
-      }
-    } catch (const InputError& error) {
-      answer(faults_of(error));
+    if (path == "/history") {
+      const double from = number_of(request.query, "from", 0);
+      return answer(
+          file_of("application/octet-stream", shared_bytes(painter.history(from)), false));
     }
+    const std::string mesh = after(path, "/mesh/"), texture = after(path, "/texture/");
+    const Bytes found = mesh.empty() ? painter.view().texture(texture) : painter.view().mesh(mesh);
+    if (!found) return answer(not_found());
+    answer(file_of(mesh.empty() ? "image/png" : "application/octet-stream", found, true));
   });
 }
 
-HttpReply LabRoutes::save() const {
-  const std::filesystem::path file = folder_ / "save.twinrec";
+void LabRoutes::ask_errands(const HttpRequest& request, const Answer& answer) {
+  const bool is_taken = errands_.add([this, request, answer] {
+    try {
+      answer(run_errand(request));
+    } catch (const InputError& error) {
+      answer(faults_of(error));
+    } catch (const std::exception& error) {
+      answer(reply_of(500, error.what()));
+    }
+  });
+  if (!is_taken) answer(reply_of(503, "too much was asked for at once; try again"));
+}
+
+HttpReply LabRoutes::run_errand(const HttpRequest& request) const {
+  if (request.path == "/frame.png") return picture(request);
+  const LabNow now = session_.now();
+  if (request.path == "/scene") {
+    HttpReply reply = file_of("application/toml; charset=utf-8",
+                              shared_bytes(now.scene->scene->text(now.status->changes)), false);
+    reply.file_name = "lab.toml";
+    return reply;
+  }
+  const std::filesystem::path file = folder_ / "lab.twinrec";
   session_.save(file);
-  HttpReply reply = file_of("application/octet-stream", bytes_of(read_whole_file(file)), false);
-  reply.file_name = "lab.twinrec";
+  const bool is_page = request.path == "/share";
+  HttpReply reply =
+      is_page ? file_of("text/html; charset=utf-8", shared_bytes(replay_page(file).html), false)
+              : file_of("application/octet-stream", shared_bytes(read_whole_file(file)), false);
+  reply.file_name = is_page ? "lab.html" : "lab.twinrec";
   return reply;
 }
 
-HttpReply LabRoutes::share() const {
-  const std::filesystem::path file = folder_ / "share.twinrec";
-  session_.save(file);
-  HttpReply reply = file_of("text/html; charset=utf-8", bytes_of(replay_page(file).html), false);
-  reply.file_name = "lab.html";
-  return reply;
+// What was drawn last, by the program's own renderer.
+HttpReply LabRoutes::picture(const HttpRequest& request) const {
+  const auto size = [&](const char* key, double otherwise) {
+    return static_cast<int>(
+        std::clamp(number_of(request.query, key, otherwise), 64.0, kMostPixels));
+  };
+  Painter painter(Backend::osmesa, size("width", 960), size("height", 540), Quality::draft);
+  return file_of("image/png", shared_bytes(encode_png(painter.paint(painter_.drawn()))), false);
 }
 
 // What is no scene by itself (a mesh) waits in the folder for the one that names it.

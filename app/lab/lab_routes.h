@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/lab/errands.h"
 #include "app/lab/lab_painter.h"
 #include "app/lab/lab_session.h"
 #include "app/lab/server/lab_server.h"
@@ -22,16 +23,19 @@ class LabRoutes {
   LabRoutes(const LabRoutes&) = delete;
   LabRoutes& operator=(const LabRoutes&) = delete;
 
-  // By the server's thread. What takes long is answered later, by the painter's.
+  void end();  // nothing is answered any more
+  // By the server's thread. What takes long is answered later: by the painter's thread what only it
+  // knows, by one of their own what would hold it up.
   using Answer = std::function<void(HttpReply)>;
   void answer(const HttpRequest& request, const Answer& answer);
 
  private:
   void answer_picture(const std::string& name, const Answer& answer) const;
-  void answer_later(const HttpRequest& request, const Answer& answer);
+  void ask_painter(const HttpRequest& request, const Answer& answer);
+  void ask_errands(const HttpRequest& request, const Answer& answer);
+  HttpReply picture(const HttpRequest& request) const;
   void answer_open(const HttpRequest& request, const Answer& answer);
-  HttpReply save() const;
-  HttpReply share() const;
+  HttpReply run_errand(const HttpRequest& request) const;
 
   LabSession& session_;
   LabPainter& painter_;
@@ -39,6 +43,7 @@ class LabRoutes {
   Bytes page_;
   std::string missing_;
   std::filesystem::path folder_;  // of files that pages have brought
+  Errands errands_;
 };
 
 }  // namespace twinarm

@@ -1,12 +1,13 @@
 #include "app/lab/stream/frame_bytes.h"
 
-#include <cmath>
+#include <Eigen/Geometry>
 
 namespace twinarm {
 namespace {
 
 constexpr std::uint32_t kFrame = 0x31465754, kHistory = 0x31485754;  // "TWF1", "TWH1"
 constexpr std::uint16_t kNoBody = 65535;
+constexpr std::size_t kPlace = 7;  // numbers of a body's place
 constexpr double kFarthest = 1e9;  // [m]: a run that flies apart
 
 // Little-endian, as the machine: solver/memory.h asserts it.
@@ -81,10 +82,22 @@ void FrameColumns::add(const Label& label) {
   text_end.push_back(count_of(text.size()));
 }
 
+void put_places(const std::vector<Pose>& X_WL, std::size_t first, std::size_t end,
+                std::vector<float>& places) {
+  for (std::size_t i = first; i < end; ++i) {
+    const Eigen::Quaterniond turn(X_WL[i].R);
+    const Vector3& p = X_WL[i].p;
+    std::size_t at = kPlace * i;
+    for (const double value : {p.x(), p.y(), p.z(), turn.x(), turn.y(), turn.z(), turn.w()})
+      places[at++] = static_cast<float>(value);
+  }
+}
+
 std::string frame_bytes(const FrameColumns& frame) {
   Block block;
   block.reserve(256 + 8 * (frame.channels.size() + frame.works.size()) + 48 * frame.body.size() +
-                20 * frame.text_end.size() + frame.text.size() + 8 * frame.first.size());
+                20 * frame.text_end.size() + frame.text.size() + 8 * frame.first.size() +
+                8 * frame.link.size());
   block.put(kFrame);
   block.put(frame.scene);
   block.put(frame.time);
@@ -95,10 +108,12 @@ std::string frame_bytes(const FrameColumns& frame) {
   block.put(frame.flags);
   for (const std::size_t count :
        {frame.channels.size(), frame.works.size(), frame.first.size() - 1, frame.body.size(),
-        frame.text_end.size(), frame.text.size(), std::size_t{0}, std::size_t{0}})
+        frame.text_end.size(), frame.text.size(), frame.link.size() / kPlace, std::size_t{0}})
     block.put(count_of(count));
   block.put_all(frame.channels);
   block.put_all(frame.works);
+  block.put_all(frame.link);
+  block.put_all(frame.twin);
   block.put_all(frame.instances.position);
   block.put_all(frame.instances.scale);
   block.put_all(frame.instances.turn);

@@ -15,6 +15,8 @@ struct FrameColumns {
   double time = 0, stamp = 0, age = 0;  // [s]
   std::uint64_t step = 0;
   std::vector<double> channels, works;
+  // By body: x y z, and the turn as a quaternion x y z w. Not finite: it has none.
+  std::vector<float> link, twin;
   InstanceColumns instances;
   std::vector<std::uint16_t> body;
   LabelColumns labels;
@@ -28,6 +30,10 @@ struct FrameColumns {
   void add(const Instance& instance);
   void add(const Label& label);
 };
+
+// Where bodies stand; those without a place (a kinematic robot has but its own) are NaN.
+void put_places(const std::vector<Pose>& X_WL, std::size_t first, std::size_t end,
+                std::vector<float>& places);
 
 std::string frame_bytes(const FrameColumns& frame);
 

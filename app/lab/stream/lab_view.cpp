@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/lab/stream/frame_bytes.h"
 #include "app/lab/stream/lab_moment.h"
@@ -44,6 +45,7 @@ struct LabView::Impl {
   void draw_layers(const Moment& moment, const std::vector<std::string>& wanted);
   void take_legend(std::size_t layer, const Drawn& from, std::size_t end);
   void take_values(const LabFrame& frame, const Moment& moment);
+  void take_places(const Moment& moment);
 
   std::shared_ptr<const SimulatePlan> plan;
   SceneWords words;
@@ -102,6 +104,19 @@ void LabView::Impl::take_values(const LabFrame& frame, const Moment& moment) {
   columns.works = works_by_row(frame.recorded, rows.size());
 }
 
+// Of all bodies, and of their kinematic twins.
+void LabView::Impl::take_places(const Moment& moment) {
+  const std::vector<Pose>& links = moment.k.X_WL;
+  columns.link.assign(7 * links.size(), std::numeric_limits<float>::quiet_NaN());
+  columns.twin = columns.link;
+  put_places(links, 0, links.size(), columns.link);
+  for (const ShownTwin& twin : moment.twins) {
+    const auto [first, last] = plan->input.scene->bodies_of_robot(twin.robot);
+    put_places(twin.X_WL, static_cast<std::size_t>(first), static_cast<std::size_t>(last) + 1,
+               columns.twin);
+  }
+}
+
 LabView::LabView(std::uint32_t number, std::shared_ptr<const SimulatePlan> plan,
                  const RecordingHeader& header, SceneWords words)
     : impl_(std::make_unique<Impl>(number, std::move(plan), header, std::move(words))) {}
@@ -151,6 +166,7 @@ std::string LabView::frame(const LabFrame& now, const LabFrame* before,
   impl_->draw_layers(moment, is_whole ? layers : std::vector<std::string>{});
   if (impl_->store.take(impl_->stage.list)) ++impl_->revision;
   impl_->take_values(now, moment);
+  impl_->take_places(moment);
   columns.number = facts.number;
   columns.flags =
       (facts.stands ? 1u : 0u) | (facts.looked_back ? 2u : 0u) | (facts.stopped ? 4u : 0u);

@@ -65,6 +65,11 @@ void write_bodies(JsonWriter& json, const SimulatePlan& plan) {
   json.end_array();
 }
 
+bool turns_or_slides(JointDescription::Type type) {
+  using Type = JointDescription::Type;
+  return type == Type::revolute || type == Type::continuous || type == Type::prismatic;
+}
+
 void write_joints(JsonWriter& json, const RobotInput& robots, const std::vector<int>& driven) {
   json.key("joints").begin_array();
   for (const NamedJoint& joint : robots.coordinates.all()) {
@@ -78,6 +83,10 @@ void write_joints(JsonWriter& json, const RobotInput& robots, const std::vector<
     if (found != all.end() && found->is_limited()) {
       if (std::isfinite(found->lower)) json.key("low").number(found->lower);
       if (std::isfinite(found->upper)) json.key("high").number(found->upper);
+    }
+    if (found != all.end() && turns_or_slides(found->type)) {
+      json.key("axis").vector(found->axis);
+      json.key("slides").boolean(found->type == JointDescription::Type::prismatic);
     }
     const auto place = std::find(driven.begin(), driven.end(), static_cast<int>(joint.body));
     if (place != driven.end()) json.key("driven").count(place - driven.begin());

@@ -1,0 +1,63 @@
+// A thread that does one thing after the other, in the order in which they were asked for.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace twinarm {
+
+class Errands {
+ public:
+  Errands() : thread_([this] { work(); }) {}
+  ~Errands() { end(); }
+  Errands(const Errands&) = delete;
+  Errands& operator=(const Errands&) = delete;
+
+  // From any thread. False where too many wait already. It must not throw.
+  bool add(std::function<void()> errand) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (errands_.size() >= kMost || stop_) return false;
+      errands_.push_back(std::move(errand));
+    }
+    wake_.notify_one();
+    return true;
+  }
+  // After the one that is being done; what waits is left.
+  void end() {
+    {
+      const std::lock_guard lock(mutex_);
+      stop_ = true;
+    }
+    wake_.notify_one();
+    if (thread_.joinable()) thread_.join();
+  }
+
+ private:
+  static constexpr std::size_t kMost = 16;
+
+  void work() {
+    for (;;) {
+      std::function<void()> errand;
+      {
+        std::unique_lock lock(mutex_);
+        wake_.wait(lock, [this] { return stop_ || !errands_.empty(); });
+        if (stop_) return;
+        errand = std::move(errands_.front());
+        errands_.pop_front();
+      }
+      errand();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<std::function<void()>> errands_;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace twinarm
