@@ -79,10 +79,9 @@ std::size_t LabHistory::at(double t) const {
   return later == frames_.begin() ? 0 : static_cast<std::size_t>(later - frames_.begin()) - 1;
 }
 
-// A frame on a border is the last of the old one: it was made before the change.
 const LabHistory::Segment& LabHistory::segment_of(long step) const {
   std::size_t s = segments_.size() - 1;
-  while (s > 0 && segments_[s].first_step >= step) --s;
+  while (s > 0 && segments_[s].first_step > step) --s;
   return segments_[s];
 }
 
@@ -107,7 +106,7 @@ LabHistory LabHistory::cut(std::size_t n) {
   bytes_ -= left.bytes_ - bytes_of(*frames_[n]);
   inputs_.erase(later, inputs_.end());
   frames_.resize(n + 1);
-  while (segments_.size() > 1 && segments_.back().first_step >= step) segments_.pop_back();
+  while (segments_.size() > 1 && segments_.back().first_step > step) segments_.pop_back();
   return left;
 }
 

@@ -27,7 +27,8 @@ class LabHistory {
   Frame add(LabFrame frame);
   // Of the step that was just taken. Steps without a hand and a pull need not be told.
   void add(const LabInput& input);
-  // From the newest frame on the run is one of these changes: the first frame after a change.
+  // From the newest frame on the run is another one, with these changes; then its first frame is
+  // added, in place of the last one of the old run.
   void begin_segment(std::vector<Change> changes);
 
   bool empty() const { return frames_.empty(); }

@@ -115,6 +115,7 @@ bool LabRun::step() {
   const State<double>& x = run_->simulation().state();
   input_.step = run_->step() + 1;
   input_.hand = lead_->before_step(x, x.t, step_length());
+  input_.pull = mouse_;
   input_.stamp = hand_.stamp();
   return take();
 }
@@ -130,16 +131,15 @@ bool LabRun::step(const LabInput& again) {
 bool LabRun::pull(int body, const Vector3& p_L, const Vector3& goal_W, double stamp) {
   if (!goal_W.allFinite()) return false;
   hand_.set_stamp(stamp);
-  if (input_.pull && input_.pull->body == body && input_.pull->p_L == p_L) {
-    input_.pull->goal_W = goal_W;
-    return true;
-  }
-  input_.pull = pull_->grab(run_->simulation().state(), body, p_L, goal_W);
-  return input_.pull.has_value();
+  if (mouse_ && mouse_->body == body && mouse_->p_L == p_L)
+    mouse_->goal_W = goal_W;
+  else
+    mouse_ = pull_->grab(run_->simulation().state(), body, p_L, goal_W);
+  return mouse_.has_value();
 }
 
 void LabRun::drop() {
-  input_.pull.reset();
+  mouse_.reset();
 }
 
 LabFrame LabRun::frame(LabNames& names) {

@@ -83,6 +83,7 @@ class LabRun {
   std::unique_ptr<MousePull> pull_;
   std::unique_ptr<SteppedRun> run_;
   LabInput input_;
+  std::optional<PullInput> mouse_;  // as it is now
   std::string begun_anew_;
   std::vector<std::string> warnings_;
   std::optional<PostMortem> post_mortem_;
