@@ -281,7 +281,7 @@ class Page implements LabPage {
     const seen = this.seen();
     if (seen) this.grab.draw(seen, this.keys);
     this.hand.painted(frame);
-    this.pace.painted(now);
+    if (this.pace.painted(now) && !frame.stands) this.live.coarsen();
     if (this.live.isReady) document.documentElement.dataset.ready = 'true';
   }
 }

@@ -43,7 +43,7 @@ export function axisOf(frame: Frame, { body, axis, slides }: SceneJoint): Axis |
 }
 
 export class Handles {
-  readonly tip = element('button', { type: 'button', class: 'tip', hidden: '' });
+  readonly tip = element('button', { type: 'button', class: 'grip', hidden: '' });
   private readonly svg = document.createElementNS(SVG, 'svg');
   private readonly track = path('arc');
   private readonly turned = path('arc turned');

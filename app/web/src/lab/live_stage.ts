@@ -9,10 +9,12 @@ import { MeshStore } from './meshes';
 
 const TINT = [0, 114, 178]; // of what is selected: blue, that all eyes tell from grey
 const SHARE = 0.5;
+const NO_DATA = { meshes: [], textures: [] };
 
 export class LiveStage {
   stage: Stage | null = null; // before the first scene, and where a browser cannot draw: none
-  readonly canDraw = hasWebGl();
+  private readonly gl = webGl();
+  readonly canDraw = this.gl !== 'none';
   private readonly store = new MeshStore();
   private readonly labels: Labels;
   private readonly tag: HTMLElement;
@@ -40,7 +42,8 @@ export class LiveStage {
     this.scene = scene;
     if (!this.canDraw) return;
     if (!this.stage) {
-      this.stage = new Stage(this.host, scene.view, { meshes: [], textures: [] }, this.changed);
+      this.stage = new Stage(this.host, scene.view, NO_DATA, this.changed, this.gl === 'slow');
+      if (this.gl === 'slow') this.stage.coarsen();
       this.stage.setTheme(this.dark);
     } else if (before?.scene !== scene.scene) {
       this.stage.refurnish(scene.view);
@@ -89,6 +92,11 @@ export class LiveStage {
     this.paintTag(stage, frame, selected);
   }
 
+  // The page is too slow for what comes.
+  coarsen(): void {
+    this.stage?.coarsen();
+  }
+
   private paintLabels(stage: Stage, frame: Frame, parts: Part[]): void {
     const count = frame.textEnd.length;
     if (this.numbers.length < count) this.numbers = Uint32Array.from({ length: 2 * count }, (_, i) => i);
@@ -124,9 +132,13 @@ function tinted(frame: Frame, body: number): Uint8Array {
   return color;
 }
 
-function hasWebGl(): boolean {
-  if (new URLSearchParams(location.search).has('plain')) return false; // asked to do without
+// Slow: a program draws in the place of a graphics card.
+function webGl(): 'none' | 'slow' | 'fast' {
+  if (new URLSearchParams(location.search).has('plain')) return 'none'; // asked to do without
   const context = document.createElement('canvas').getContext('webgl2');
-  context?.getExtension('WEBGL_lose_context')?.loseContext();
-  return context !== null;
+  if (!context) return 'none';
+  const names = context.getExtension('WEBGL_debug_renderer_info');
+  const name = names ? String(context.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
+  context.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|basic render/i.test(name) ? 'slow' : 'fast';
 }

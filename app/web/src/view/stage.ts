@@ -34,6 +34,13 @@ function shares(bytes: [number, number, number]): [number, number, number] {
   return [bytes[0] / 255, bytes[1] / 255, bytes[2] / 255];
 }
 
+// What a slow machine saves: pixels, and those of the shadows. From fine to coarse.
+const DETAILS = [
+  { pixels: 2, shadow: 2048 },
+  { pixels: 1, shadow: 1024 },
+  { pixels: 0.75, shadow: 512 },
+];
+
 export class Stage {
   readonly camera: THREE.PerspectiveCamera;
   readonly controls: OrbitControls;
@@ -44,6 +51,7 @@ export class Stage {
   arrows!: Arrows;
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.2);
   private readonly sky = new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.5);
+  private detail = 0;
   private followed: THREE.Vector3 | null = null;
 
   constructor(
@@ -51,8 +59,9 @@ export class Stage {
     private view: View,
     data: { meshes: MeshData[]; textures: ImageBitmap[] },
     private readonly changed: () => void,
+    isSlow = false, // no graphics card: no smoothing of edges
   ) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
+    this.renderer = new THREE.WebGLRenderer({ antialias: !isSlow, alpha: true });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     const canvas = this.renderer.domElement;
@@ -82,6 +91,18 @@ export class Stage {
   // Behind the meshes that it has.
   add(meshes: MeshData[], textures: ImageBitmap[]): void {
     this.painter.add(meshes, textures);
+  }
+
+  // Draws less finely from now on; false: it does already.
+  coarsen(): boolean {
+    if (this.detail === DETAILS.length - 1) return false;
+    this.detail += 1;
+    const { shadow } = this.sun;
+    shadow.mapSize.setScalar(DETAILS[this.detail].shadow);
+    shadow.map?.dispose();
+    shadow.map = null;
+    this.resize();
+    return true;
   }
 
   get geometries(): THREE.BufferGeometry[] {
@@ -186,7 +207,7 @@ export class Stage {
       .add(target);
     this.sun.target.position.copy(target);
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.mapSize.setScalar(DETAILS[this.detail].shadow);
     const box = this.sun.shadow.camera;
     box.left = box.bottom = -reach;
     box.right = box.top = reach;
@@ -202,7 +223,7 @@ export class Stage {
     const { clientWidth, clientHeight } = this.host;
     // Laid out for paper it has the legend below it, and its picture already.
     if (clientWidth === 0 || clientHeight === 0 || matchMedia('print').matches) return;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, DETAILS[this.detail].pixels));
     this.renderer.setSize(clientWidth, clientHeight);
     this.camera.aspect = clientWidth / clientHeight;
     const covered = this.host.querySelector<HTMLElement>('.switches')?.offsetWidth ?? 0;
