@@ -78,7 +78,7 @@ class Page implements LabPage {
       select: (body) => this.select(body),
       changed: () => this.touch(),
     });
-    this.keys = new KeyHand(() => this.seen(), this.hand, this.handles, this.grab, () => this.touch());
+    this.keys = new KeyHand(() => this.known(), this.hand, this.handles, this.grab, () => this.touch());
     this.controller = new Controller(this.hand, (words) => this.say(words));
     this.picture = this.live.canDraw ? null : new Picture();
     this.set = panelsOf(this);
@@ -206,10 +206,13 @@ class Page implements LabPage {
     this.stale = true;
   }
 
-  private seen(): Seen | null {
+  private known() {
     const { scene, frame } = this;
-    const { stage } = this.live;
-    return stage && scene && frame ? { stage, scene, frame } : null;
+    return scene && frame ? { scene, frame, stage: this.live.stage } : null;
+  }
+  private seen(): Seen | null {
+    const known = this.known();
+    return known?.stage ? { ...known, stage: known.stage } : null;
   }
 
   private connected(open: boolean): void {
@@ -233,7 +236,7 @@ class Page implements LabPage {
     if (frame && frame.scene === this.scene?.scene) this.takeFrame(frame);
     if (this.stale && this.frame) this.paint(this.frame, now);
     this.picture?.tick(now);
-    this.words.tick(now, this.keys.hint ?? this.grab.hint);
+    this.words.tick(now, (!this.grab.held && this.keys.hint) || this.grab.hint);
     for (const panel of this.panels)
       if (panel.draw && !(panel.root.closest('[hidden]') || (this.folded && panel.root.closest('aside'))))
         panel.draw();

@@ -186,6 +186,7 @@ export class Grab {
 
   private release(): void {
     this.held = null;
+    this.hint = HINTS.view;
     delete this.host.dataset.held;
     const seen = this.seen();
     if (seen) seen.stage.controls.enabled = true;

@@ -1,10 +1,11 @@
 // The hand by keys alone: the tip, a joint, or a spring at the selected body, whichever was chosen;
 // arrows then move it as the picture shows it.
 import * as THREE from 'three';
+import type { Stage } from '../view/stage';
+import type { Grab } from './grab';
 import type { Hand } from './hand';
 import { inWorld, type Handles } from './handles';
-import type { SceneJoint, Vector } from './link';
-import type { Grab, Seen } from './grab';
+import type { Frame, SceneJoint, SceneMessage, Vector } from './link';
 
 const STEP = 0.02; // of the size of what is seen
 const TURN = Math.PI / 90;
@@ -16,6 +17,13 @@ export interface Pulling {
   goal: THREE.Vector3;
 }
 
+// Without a stage (the browser cannot draw) the hand moves along the world's axes.
+interface Known {
+  scene: SceneMessage;
+  frame: Frame;
+  stage: Stage | null;
+}
+
 type Mode = { kind: 'tip' } | { kind: 'joint'; joint: SceneJoint; value: number } | { kind: 'pull'; at: Pulling };
 
 export class KeyHand {
@@ -24,7 +32,7 @@ export class KeyHand {
   private readonly stylus = [0, 0, 0];
 
   constructor(
-    private readonly seen: () => Seen | null,
+    private readonly seen: () => Known | null,
     private readonly hand: Hand,
     private readonly handles: Handles,
     private readonly grab: Grab,
@@ -107,7 +115,7 @@ export class KeyHand {
     this.changed();
   }
 
-  private moveTip(seen: Seen, by: THREE.Vector3): void {
+  private moveTip(seen: Known, by: THREE.Vector3): void {
     const tip = this.handles.tipPlace(seen.frame, seen.scene);
     if (!tip || !this.hand.lead('drag')) return;
     if (!this.goal || this.goal.distanceTo(tip) > FAR * seen.scene.view.radius) this.goal = tip;
@@ -128,8 +136,9 @@ export class KeyHand {
     this.hand.turn(this.stylus[0], this.stylus[1], this.stylus[2]);
   }
 
-  private along({ stage, scene }: Seen, right: number, up: number, away: number): THREE.Vector3 {
-    const x = new THREE.Vector3(1, 0, 0).applyQuaternion(stage.camera.quaternion).setZ(0).normalize();
+  private along({ stage, scene }: Known, right: number, up: number, away: number): THREE.Vector3 {
+    const x = new THREE.Vector3(1, 0, 0);
+    if (stage) x.applyQuaternion(stage.camera.quaternion).setZ(0).normalize();
     const z = new THREE.Vector3(0, 0, 1);
     const y = z.clone().cross(x);
     return x.multiplyScalar(right).addScaledVector(z, up).addScaledVector(y, away)

@@ -7,8 +7,8 @@ import { Stage } from '../view/stage';
 import { labelText, placeOf, type Frame, type SceneMessage } from './link';
 import { MeshStore } from './meshes';
 
-const TINT = [0, 114, 178]; // of what is selected: blue, that all eyes tell from grey
-const SHARE = 0.5;
+const [RIM, DARK_RIM] = ['#0067a5', '#6cb8ee']; // around what is selected: the accent
+const FINE = new URLSearchParams(location.search).has('fine'); // for pictures, at any cost
 const NO_DATA = { meshes: [], textures: [] };
 
 export class LiveStage {
@@ -42,8 +42,9 @@ export class LiveStage {
     this.scene = scene;
     if (!this.canDraw) return;
     if (!this.stage) {
-      this.stage = new Stage(this.host, scene.view, NO_DATA, this.changed, this.gl === 'slow');
-      if (this.gl === 'slow') this.stage.coarsen();
+      const isSlow = this.gl === 'slow' && !FINE;
+      this.stage = new Stage(this.host, scene.view, NO_DATA, this.changed, isSlow);
+      if (isSlow) this.stage.coarsen();
       this.stage.setTheme(this.dark);
     } else if (before?.scene !== scene.scene) {
       this.stage.refurnish(scene.view);
@@ -68,6 +69,7 @@ export class LiveStage {
   }
 
   get isReady(): boolean {
+    if (!this.canDraw) return true;
     return this.scene !== null && this.meshes === this.scene.meshes.length;
   }
 
@@ -80,21 +82,25 @@ export class LiveStage {
     const { stage, scene } = this;
     if (!stage || !scene) return;
     if (followed !== null) stage.follow(placeOf(frame.link, followed));
-    const bodies = selected === null ? frame : { ...frame, color: tinted(frame, selected) };
     const parts: Part[] = [];
     scene.layers.forEach(({ name }, l) => {
       if (l >= frame.layers || !(l === 0 || shown.has(name))) return;
-      parts.push({ columns: l === 0 ? bodies : frame, a: l, b: l, share: 0, shadow: l === 0 });
+      parts.push({ columns: frame, a: l, b: l, share: 0, shadow: l === 0 });
     });
-    stage.paint(parts);
+    const marked = [...parts];
+    if (selected !== null) {
+      const outline = { color: this.dark ? DARK_RIM : RIM, of: (i: number) => frame.body[i] === selected };
+      marked.push({ columns: frame, a: 0, b: 0, share: 0, outline });
+    }
+    stage.paint(marked);
     stage.draw();
     this.paintLabels(stage, frame, parts);
     this.paintTag(stage, frame, selected);
   }
 
-  // The page is too slow for what comes.
+  // The page is too slow for what comes. Without a graphics card it helps little.
   coarsen(): void {
-    this.stage?.coarsen();
+    if (this.gl === 'fast' && !FINE) this.stage?.coarsen();
   }
 
   private paintLabels(stage: Stage, frame: Frame, parts: Part[]): void {
@@ -121,15 +127,6 @@ export class LiveStage {
     if (this.tag.textContent !== name) this.tag.textContent = name;
     this.tag.style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px)`;
   }
-}
-
-function tinted(frame: Frame, body: number): Uint8Array {
-  const color = frame.color.slice();
-  for (let i = frame.first[0]; i < frame.first[1]; ++i)
-    if (frame.body[i] === body)
-      for (let c = 0; c < 3; ++c)
-        color[4 * i + c] = Math.round((1 - SHARE) * color[4 * i + c] + SHARE * TINT[c]);
-  return color;
 }
 
 // Slow: a program draws in the place of a graphics card.

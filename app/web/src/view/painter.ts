@@ -11,12 +11,15 @@ export interface Part {
   share: number;
   alpha?: number; // 0 to 255, in the place of that of the entries
   shadow?: boolean; // whether its entries throw one
+  // Instead of the entries a line around those that are meant, in this colour.
+  outline?: { color: THREE.ColorRepresentation; of: (entry: number) => boolean };
 }
 
 const SEEN_THROUGH = 1;
-// How an entry is drawn: with a shadow, without, over what hides it, translucent.
-const [BODY, SOLID, HIDDEN, GHOST] = [0, 1, 2, 3];
-const ORDER = { solid: 0, hidden: 5, ghostDepth: 6, ghost: 7 };
+// How an entry is drawn: with a shadow, without, over what hides it, translucent, as a line around.
+const [BODY, SOLID, HIDDEN, GHOST, OUTLINE] = [0, 1, 2, 3, 4];
+const KINDS = 5;
+const ORDER = { solid: 0, outline: 1, hidden: 5, ghostDepth: 6, ghost: 7 };
 
 function geometryOf(mesh: MeshData): THREE.BufferGeometry {
   const geometry = new THREE.BufferGeometry();
@@ -158,6 +161,23 @@ function hiddenMaterials(shininess: number, alpha: number) {
   return [{ material: color, order: ORDER.hidden, shadow: false }];
 }
 
+// The back of a hull that is wider by a few pixels at any distance: of it only the rim is seen.
+const WIDER = `
+vec3 lengths = vec3(dot(instanceMatrix[0], instanceMatrix[0]),
+  dot(instanceMatrix[1], instanceMatrix[1]), dot(instanceMatrix[2], instanceMatrix[2]));
+vec3 outward = normalize(mat3(modelViewMatrix) * (mat3(instanceMatrix) * (normal / lengths)));
+vec4 mvPosition = modelViewMatrix * instanceMatrix * vec4(transformed, 1.0);
+mvPosition.xyz += 0.0035 * -mvPosition.z * outward;
+gl_Position = projectionMatrix * mvPosition;`;
+
+function outlineMaterials() {
+  const material = new THREE.MeshBasicMaterial({ side: THREE.BackSide });
+  material.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', WIDER);
+  };
+  return [{ material, order: ORDER.outline, shadow: false }];
+}
+
 export class Painter {
   readonly geometries: THREE.BufferGeometry[] = []; // by mesh
   private readonly coarse: THREE.BufferGeometry[] = [];
@@ -202,7 +222,7 @@ export class Painter {
     for (const batch of this.batches.values()) batch.finish();
   }
 
-  private addPart({ columns, a, b, share, alpha, shadow }: Part): void {
+  private addPart({ columns, a, b, share, alpha, shadow, outline }: Part): void {
     const from = columns.first[a];
     const to = columns.first[a + 1];
     const other = columns.first[b];
@@ -211,6 +231,7 @@ export class Painter {
     for (let i = 0; between && i < to - from; ++i)
       between = columns.mesh[from + i] === columns.mesh[other + i];
     for (let i = from; i < to; ++i) {
+      if (outline && !outline.of(i)) continue;
       this.place(columns, i, this.position, this.turn, this.scale);
       if (between) {
         this.place(columns, other + i - from, this.otherPosition, this.otherTurn, this.otherScale);
@@ -219,6 +240,10 @@ export class Painter {
         this.scale.lerp(this.otherScale, share);
       }
       this.matrix.compose(this.position, this.turn, this.scale);
+      if (outline) {
+        this.putOutline(columns.mesh[i], outline.color);
+        continue;
+      }
       const [red, green, blue] = columns.color.subarray(4 * i, 4 * i + 3);
       this.color.setRGB(red / 255, green / 255, blue / 255, THREE.SRGBColorSpace);
       this.put(columns, i, alpha ?? columns.color[4 * i + 3], shadow ?? false);
@@ -239,10 +264,17 @@ export class Painter {
       this.batch({ ...look, kind: HIDDEN, texture: 0 }).add(this.matrix, this.color);
   }
 
+  private putOutline(mesh: number, color: THREE.ColorRepresentation): void {
+    if (mesh >= this.meshes.length) return;
+    const look = { mesh, isSmall: false, alpha: 255, shininess: 0, kind: OUTLINE, texture: 0 };
+    this.batch(look).add(this.matrix, this.color.set(color));
+  }
+
   private batch(look: Look): Batch {
     const { mesh, isSmall, alpha, shininess, kind, texture } = look;
     const size = isSmall ? 1 : 0;
-    const key = ((((2 * mesh + size) * 256 + alpha) * 256 + shininess) * 256 + texture) * 4 + kind;
+    const surface = ((2 * mesh + size) * 256 + alpha) * 256 + shininess;
+    const key = (surface * 256 + texture) * KINDS + kind;
     let batch = this.batches.get(key);
     if (!batch) {
       const materials = this.materialsOf(look);
@@ -255,6 +287,7 @@ export class Painter {
 
   private materialsOf({ mesh, alpha, shininess, kind, texture }: Look) {
     const gloss = shininess / 255;
+    if (kind === OUTLINE) return outlineMaterials();
     if (kind === HIDDEN) return hiddenMaterials(gloss, alpha / 255);
     if (kind === GHOST) return ghostMaterials(gloss, alpha / 255);
     const { uv, twoSided } = this.meshes[mesh];
