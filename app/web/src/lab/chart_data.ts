@@ -76,6 +76,7 @@ export function lineSeries(curves: LiveCurve[]): Series {
     width: curve.style === 'line' ? 1.75 : 1.5,
     dash: DASH[curve.style],
     points: { show: false },
+    auto: curve.color >= 0, // what was summed up gets what room is left
   }));
   return { series, bands: [] };
 }
@@ -114,24 +115,34 @@ export function ghostsOf(
   return shown.map((curve) => ({ times, values: of(curve.column), color: colorOf(curve) }));
 }
 
-// So that all of it can be seen, the branch and the limit too.
+export interface Beside {
+  ghosts: Ghost[];
+  limit: LiveSpec['limit'];
+  sums: number[];
+  isForce: boolean;
+}
+
+const FAR = 3; // what is so many times larger than the curves would press them flat
+
+// So that all of it can be seen: the branch that was left, the limit, what was summed up.
 export function rangeOf(
   low: number | null,
   high: number | null,
-  ghosts: Ghost[],
-  limit: LiveSpec['limit'],
+  { ghosts, limit, sums, isForce }: Beside,
 ): [number, number] {
   let a = low ?? 0;
   let b = high ?? 0;
-  for (const { values } of ghosts)
-    for (const value of values) {
-      if (value === null) continue;
-      a = Math.min(a, value);
-      b = Math.max(b, value);
-    }
-  if (limit && (limit.always || b > 0.3 * limit.value)) {
-    a = Math.min(a, 0);
-    b = Math.max(b, limit.value);
+  if (isForce) a = Math.min(a, 0); // how much it is, is read against nothing
+  const room = (value: number) => {
+    a = Math.min(a, value);
+    b = Math.max(b, value);
+  };
+  for (const { values } of ghosts) for (const value of values) if (value !== null) room(value);
+  const far = FAR * Math.max(Math.abs(a), Math.abs(b));
+  for (const sum of sums) if (Math.abs(sum) <= far) room(sum);
+  if (limit && (limit.always || b > limit.value / FAR)) {
+    room(0);
+    room(limit.value);
   }
   if (a === b) return a === 0 ? [-1, 1] : [a - 0.1 * Math.abs(a), b + 0.1 * Math.abs(b)];
   const [from, to] = uPlot.rangeNum(a, b, 0.08, true);

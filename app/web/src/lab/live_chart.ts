@@ -12,6 +12,7 @@ import {
   rangeOf,
   stack,
   stackSeries,
+  type Beside,
   type Ghost,
   type Window,
 } from './chart_data';
@@ -22,6 +23,7 @@ import type { RunRecord } from './run_record';
 import { bucketsOf } from './store';
 
 const HEIGHT = 128;
+const PICTURE = { width: 960, height: 420 };
 
 export interface ChartUser {
   degrees: boolean;
@@ -41,6 +43,8 @@ export class LiveChart {
   private chart: uPlot | null = null;
   private made = ''; // what the chart was made for
   private ghosts: Ghost[] = [];
+  private sums: number[] = []; // of the curves in ink: the largest so far, at the window's end
+  private window: Window = { from: 0, to: 1 };
   private factor = 1;
   private unit = '';
   private at: number | null = null; // the instant that is looked at
@@ -78,6 +82,7 @@ export class LiveChart {
     const width = this.canvas.clientWidth;
     if (width < 60) return;
     this.at = at;
+    this.window = window;
     const { store } = this.record;
     const begin = Math.max(0, store.after(window.from) - 1);
     const end = Math.min(store.length, store.after(window.to) + 1);
@@ -86,6 +91,9 @@ export class LiveChart {
     const { spec, shown, factor } = this;
     const isStack = spec.sum !== undefined;
     const data = isStack ? stack(store, buckets, shown, spec.sum!) : lines(store, buckets, shown, factor);
+    this.sums = shown
+      .filter((curve) => curve.color < 0 && end > 0)
+      .map((curve) => factor * store.value(curve.column, end - 1));
     this.ghosts = ghostsOf(this.record, window, spec, shown, factor);
     const wanted = `${width} ${this.unit}`;
     if (this.made !== wanted || !this.chart) {
@@ -149,6 +157,10 @@ export class LiveChart {
     const { limit } = this.spec;
     return limit && { ...limit, value: limit.value * this.factor };
   }
+  // What the range makes room for, besides the curves.
+  private get beside(): Beside {
+    return { ghosts: this.ghosts, limit: this.limit, sums: this.sums, isForce: this.spec.unit === 'N' };
+  }
   private get shown(): LiveCurve[] {
     return this.spec.curves.filter((curve) => !this.hidden.has(curve));
   }
@@ -156,18 +168,25 @@ export class LiveChart {
   // Anew, in the colours of the theme.
   private make(width: number): void {
     this.chart?.destroy();
+    const options = this.options(width, HEIGHT);
+    this.chart = new uPlot(options, [[], ...options.series.slice(1).map(() => [])], this.canvas);
+    for (const { curve, chip } of this.chips)
+      chip.style.setProperty('--curve', curve ? colorOf(curve) : token('--ink'));
+  }
+
+  private options(width: number, height: number): uPlot.Options {
     const isStack = this.spec.sum !== undefined;
     const { series, bands } = isStack ? stackSeries(this.shown) : lineSeries(this.shown);
     const grid = { stroke: token('--grid'), width: 1 };
     const font = '11px system-ui, sans-serif';
     const axis = { stroke: token('--muted'), grid, ticks: { show: false }, font };
-    const options: uPlot.Options = {
+    return {
       width,
-      height: HEIGHT,
+      height,
       legend: { show: false },
       scales: {
         x: { time: false },
-        y: { range: (_, low, high) => rangeOf(low, high, this.ghosts, this.limit) },
+        y: { range: (_, low, high) => rangeOf(low, high, this.beside) },
       },
       padding: [8, 10, 0, 0],
       cursor: {
@@ -195,9 +214,6 @@ export class LiveChart {
         draw: [(chart) => drawOver(chart, this.ghosts, this.limit, this.at)],
       },
     };
-    this.chart = new uPlot(options, [[], ...series.map(() => [])], this.canvas);
-    for (const { curve, chip } of this.chips)
-      chip.style.setProperty('--curve', curve ? colorOf(curve) : token('--ink'));
   }
 
   private select(chart: uPlot): void {
@@ -241,8 +257,16 @@ export class LiveChart {
     this.user.saveCsv(this.spec.id, columns);
   }
 
+  // Drawn once more, larger than on the page.
   private savePicture(): void {
     if (!this.chart) return;
+    const host = element('div', { class: 'unseen', 'aria-hidden': 'true' });
+    document.body.append(host);
+    const options = this.options(PICTURE.width, PICTURE.height);
+    const { from, to } = this.window;
+    const chart = new uPlot({ ...options, cursor: { show: false } }, [[]], host);
+    chart.setData(this.chart.data, false);
+    chart.setScale('x', { min: from, max: to });
     const lines = this.shown.map((curve) => ({
       name: curve.name,
       color: colorOf(curve),
@@ -250,7 +274,11 @@ export class LiveChart {
     }));
     const title = `${this.spec.title} [${this.unit}]`;
     const name = this.user.pictureName(this.spec.id);
-    const canvas = this.chart.ctx.canvas;
-    savePicture(name, title, canvas, lines, token('--surface'), token('--ink'));
+    // uPlot draws when this is done.
+    setTimeout(() => {
+      savePicture(name, title, chart.ctx.canvas, lines, token('--surface'), token('--ink'));
+      chart.destroy();
+      host.remove();
+    });
   }
 }

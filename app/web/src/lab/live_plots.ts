@@ -11,6 +11,7 @@ import { PlotBar } from './plot_bar';
 import { decodeHistory, RunRecord } from './run_record';
 
 const DRAW = 33; // [ms]
+const SHARE = 5; // where drawing is slow, it takes one in so many milliseconds
 const REVIEW = 1000; // how often it is asked which curves there are [ms]
 const REFILL = 3000; // how often missed frames are asked for [ms]
 
@@ -29,6 +30,7 @@ export class LivePlots implements Panel, ChartUser {
   private single: LiveChart | null = null;
   private window: Window | null = null; // zoomed; null: the newest
   private drawnAt = 0;
+  private pauseAfter = DRAW; // a picture
   private drawn = '';
   private reviewedAt = 0;
   private askedAt = -Infinity;
@@ -89,7 +91,7 @@ export class LivePlots implements Panel, ChartUser {
   draw(): void {
     const now = performance.now();
     const { record } = this;
-    if (!record || now - this.drawnAt < DRAW) return;
+    if (!record || now - this.drawnAt < this.pauseAfter) return;
     if (now - this.reviewedAt > REVIEW) this.review();
     const window = this.shownWindow(record);
     const at = this.page.state?.at ?? null;
@@ -98,6 +100,7 @@ export class LivePlots implements Panel, ChartUser {
     this.drawn = wanted;
     this.drawnAt = now;
     for (const chart of this.every) if (chart.isSeen) chart.draw(window, at);
+    this.pauseAfter = Math.max(DRAW, SHARE * (performance.now() - now));
   }
 
   // Of a chart.

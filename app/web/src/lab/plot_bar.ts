@@ -34,7 +34,7 @@ export class PlotBar {
       lengths.root,
       angles.root,
       element('span', { class: 'space' }),
-      button('all as CSV', 'every quantity that is remembered, as a file', () => user.saveCsv()),
+      button('all CSV', 'every quantity that is remembered, as a file', () => user.saveCsv()),
     );
   }
 

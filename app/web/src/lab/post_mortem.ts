@@ -26,7 +26,9 @@ export class PostMortem implements Panel {
     });
   }
 
-  onState({ dead, first, holder, you }: StateMessage): void {
+  onState({ dead, first, at, holder, you }: StateMessage): void {
+    // While the past is seen, the card makes room.
+    this.root.classList.toggle('small', at !== null);
     const watches = holder !== null && holder !== you;
     const wanted = JSON.stringify([dead, watches]);
     if (wanted === this.shown) return;
@@ -35,7 +37,6 @@ export class PostMortem implements Panel {
     this.shown = wanted;
     this.root.hidden = dead === null || this.away;
     if (!dead) return;
-    this.root.classList.remove('small');
     this.root.replaceChildren(...this.content(dead, first, watches));
     if (isNew && !this.away) this.root.focus({ preventScroll: true });
   }
@@ -63,11 +64,9 @@ export class PostMortem implements Panel {
       made.addEventListener('click', () => this.mend(back, changes));
       return made;
     });
-    // The card makes room for it.
-    const look = button('Look at the last second, slowly', 'at a tenth of the speed', () => {
-      this.root.classList.add('small');
-      this.rewind.play(back, SLOW, dead.time);
-    });
+    const look = button('Look at the last second, slowly', 'at a tenth of the speed', () =>
+      this.rewind.play(back, SLOW, dead.time),
+    );
     const again = button('Begin anew', 'from the start, as it is', () => this.page.send({ do: 'reset' }));
     again.disabled = watches;
     return [

@@ -3,6 +3,7 @@
 import type { LabPage } from './panel';
 
 const PAUSE = 33; // between two instants that are asked for [ms]
+const SETTLE = 400; // until the lab says what was asked for [ms]
 
 export class Rewind {
   playing = false;
@@ -10,6 +11,7 @@ export class Rewind {
   private rate = 1;
   private until: number | null = null; // null: to the newest
   private last = 0; // of the wall clock [ms]
+  private startedAt = -Infinity;
   private sentAt = -Infinity;
   private sent: number | null = null;
 
@@ -17,7 +19,9 @@ export class Rewind {
 
   // Of the lab's state, unless this page is just choosing.
   follow(at: number | null): void {
-    if (!this.playing && performance.now() - this.sentAt > 400) this.at = this.sent = at;
+    const now = performance.now();
+    if (at === null && now - this.startedAt > SETTLE) this.playing = false; // somebody went on
+    if (!this.playing && now - this.sentAt > SETTLE) this.at = this.sent = at;
   }
 
   seek(at: number | null): void {
@@ -30,7 +34,7 @@ export class Rewind {
     this.playing = true;
     this.rate = rate;
     this.until = until;
-    this.last = performance.now();
+    this.last = this.startedAt = performance.now();
     this.ask(from);
   }
 

@@ -61,10 +61,14 @@ export class TimeBar implements Panel {
     );
     this.scrub();
     this.root.append(
-      element('div', { class: 'buttons' }, this.again, this.play, this.step, this.speed),
       element('div', { class: 'track' }, this.slider, this.fork, this.end),
-      element('div', { class: 'reading' }, this.clock, this.where),
-      this.ends,
+      element(
+        'div',
+        { class: 'row' },
+        element('div', { class: 'buttons' }, this.play, this.step, this.again, this.speed),
+        element('div', { class: 'reading' }, this.clock, this.where),
+        this.ends,
+      ),
       this.dialog.root,
     );
     this.ends.append(this.branch, this.present, new SaveMenu().root);
@@ -181,7 +185,7 @@ export class TimeBar implements Panel {
 
   private words(state: StateMessage, at: number | null, pace: number): (Node | string)[] {
     if (at !== null) return [`${(state.last - at).toFixed(2)} s ago`];
-    if (state.dead) return ['stopped by itself'];
+    if (state.dead) return ['stopped'];
     if (!state.playing) return ['stands'];
     const lags = Math.abs(pace - 1) > REAL_TIME;
     const speed = state.speed === 1 ? 'real time' : `${speedText(state.speed)}× slow`;
