@@ -1,17 +1,17 @@
 #include "app/lab/glass/glass.h"
 
 #include <algorithm>
-#include <array>
 #include <exception>
-#include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "app/dynamics/dynamics.h"
 #include "app/inspect/command/inspect_input.h"
 #include "app/inspect/command/inspect_output.h"
 #include "app/inspect/equations.h"
+#include "app/lab/run/hand_lead.h"
 #include "app/simulate/run.h"
 #include "coupling/device/live_hand.h"
 #include "solver/integrator_rewind.h"
@@ -20,25 +20,44 @@
 namespace twinarm {
 namespace {
 
-// The device where the frame has it, at rest.
-class StillHand final : public HandSource {
- public:
-  void stand(const LabHandFrame& frame) {
-    HandTarget target;
-    target.q = frame.q_K;
-    target.qd.assign(frame.q_K.size(), 0.0);
-    target.gripper_closed = frame.gripper_closed;
-    LiveHand hand(1);
-    hand.set(target, 0, 1);
-    now_ = hand.newest().hand;
+// The newest hand of a frame, for all pulls that it leads.
+struct FrameHand {
+  std::optional<LiveHand> live;  // nothing: the scene's own hands lead
+
+  void take(const LabFrame& frame, double h) {
+    live.reset();
+    if (!frame.hand || !frame.hand->leads) return;
+    const LabHandFrame& hand = *frame.hand;
+    HandTarget target{hand.q_K, hand.qd_K, hand.gripper_closed};
+    target.qd.resize(target.q.size());
+    for (std::size_t j = 0; j < target.q.size(); ++j) target.q[j] += h * target.qd[j];
+    live.emplace(1);
+    live->set(target, frame.recorded.t, h);
   }
-  HandSample sample(double, double) const override { return now_; }
-  double duration() const override { return std::numeric_limits<double>::infinity(); }
-  std::string description() const override { return "a hand at rest"; }
+};
+
+class Led final : public HandSource {
+ public:
+  Led(const FrameHand& hand, std::unique_ptr<HandSource> own) : hand_(hand), own_(std::move(own)) {}
+  HandSample sample(double t, double toward) const override {
+    return hand_.live ? hand_.live->sample(t, toward) : own_->sample(t, toward);
+  }
+  double duration() const override { return own_->duration(); }
+  std::string description() const override { return own_->description(); }
 
  private:
-  HandSample now_;
+  const FrameHand& hand_;
+  std::unique_ptr<HandSource> own_;
 };
+
+// Those pulls that the run's hand would lead (hand_lead.h).
+HandInPlace in_place_of(HandLead& lead, const FrameHand& hand) {
+  return [&hand, leads = lead.in_place()](std::size_t pull, std::unique_ptr<HandSource> own) {
+    const HandSource* before = own.get();
+    std::unique_ptr<HandSource> made = leads(pull, std::move(own));
+    return made.get() == before ? std::move(made) : std::make_unique<Led>(hand, std::move(made));
+  };
+}
 
 // The mouse's spring, with the force of the step that led to the frame.
 class HeldPull final : public ForceSource, public Rewindable {
@@ -96,14 +115,22 @@ void write_equations(JsonWriter& json, const Inspection& in, std::size_t body) {
   json.end_array();
 }
 
+using Names = std::initializer_list<std::string_view>;
+
+std::vector<Shown> some_of(const Inspection& in, int pass, std::size_t body, Names names) {
+  std::vector<Shown> all = shown_quantities(in, pass, body);
+  std::erase_if(all, [&](const Shown& shown) {
+    return std::find(names.begin(), names.end(), shown.quantity.name) == names.end();
+  });
+  return all;
+}
+
 // What the equations of a body take from another one.
 void write_neighbour(JsonWriter& json, const Inspection& in, std::size_t body, const char* is,
-                     const std::array<int, 2>& passes, std::initializer_list<const char*> names) {
+                     Names names) {
   std::vector<Shown> taken;
-  for (const int pass : passes)
-    for (Shown& shown : shown_quantities(in, pass, body))
-      for (const std::string_view name : names)
-        if (name == shown.quantity.name) taken.push_back(std::move(shown));
+  for (const int pass : {1, 2, 3})
+    for (Shown& shown : some_of(in, pass, body, names)) taken.push_back(std::move(shown));
   json.begin_object();
   json.key("body").text(in.model.body_name[body]);
   json.key("is").text(is);
@@ -113,9 +140,25 @@ void write_neighbour(JsonWriter& json, const Inspection& in, std::size_t body, c
 
 void write_neighbours(JsonWriter& json, const Inspection& in, std::size_t body) {
   json.begin_array();
-  if (in.parent(body) > 0) write_neighbour(json, in, in.parent(body), "parent", {1, 3}, {"v", "a"});
+  if (in.parent(body) > 0) write_neighbour(json, in, in.parent(body), "parent", {"v", "a"});
   for (const std::size_t child : in.children(body))
-    write_neighbour(json, in, child, "child", {1, 2}, {"Xup", "Ia", "pa"});
+    write_neighbour(json, in, child, "child", {"Xup", "Ia", "pa"});
+  json.end_array();
+}
+
+// The whole call in its order: what a glance at each step tells.
+void write_call(JsonWriter& json, const Inspection& in) {
+  json.begin_array();
+  const auto step = [&](int pass, std::size_t body, Names names) {
+    json.begin_object();
+    json.key("pass").count(pass);
+    json.key("body").text(in.model.body_name[body]);
+    write_quantities(json.key("quantities"), some_of(in, pass, body, names));
+    json.end_object();
+  };
+  for (std::size_t i = 1; i < in.body_count(); ++i) step(1, i, {"v"});
+  for (std::size_t i = in.body_count(); i-- > 1;) step(2, i, {"D", "u"});
+  for (std::size_t i = 1; i < in.body_count(); ++i) step(3, i, {"qdd", "a"});
   json.end_array();
 }
 
@@ -123,24 +166,27 @@ void write_neighbours(JsonWriter& json, const Inspection& in, std::size_t body) 
 
 struct Glass::Impl {
   SimulatePlan plan;
-  std::vector<std::string> ledger;
   GivenState given;  // of the start
-  StillHand hand;
+  LabHand nobody;    // asked for nothing
+  std::optional<HandLead> lead;
+  FrameHand hand;
   HeldPull pull;
   std::optional<SceneInspector> scene;
 
-  Impl(SimulatePlan of, std::vector<std::string> names)
-      : plan(std::move(of)), ledger(std::move(names)), given(plan.input.robot.state) {
+  explicit Impl(SimulatePlan of) : plan(std::move(of)), given(plan.input.robot.state) {
     SimulateInput& input = plan.input;
     if (!input.scene) return;
-    input.couplings = std::make_unique<SceneCouplings>(*input.scene, plan.run.step, &hand);
-    scene.emplace(input, plan.run.step, std::vector<NamedSource>{{"mouse", &pull}});
+    const double h = plan.run.step;
+    lead.emplace(input.scene.get(), nobody, h);
+    input.couplings =
+        std::make_unique<SceneCouplings>(*input.scene, h, nullptr, in_place_of(*lead, hand));
+    scene.emplace(input, h, std::vector<NamedSource>{{"mouse", &pull}});
   }
 
   Inspected look(const LabFrame& frame) {
     Memory memory = simulation_memory(frame.recorded.memory);
     if (scene) {
-      if (frame.hand) hand.stand(*frame.hand);
+      hand.take(frame, plan.run.step);
       pull.hold(frame.pull);
       return scene->look(&memory);
     }
@@ -156,7 +202,8 @@ struct Glass::Impl {
     return inspect_robot(robot);
   }
 
-  InspectView view_of(const Inspection& in, const LabFrame& frame, std::size_t body) const {
+  static InspectView view_of(const Inspection& in, const LabFrame& frame, std::size_t body,
+                             const std::vector<std::string>& ledger) {
     InspectView view;
     view.bodies = {body};
     view.forces_alone = true;
@@ -176,7 +223,8 @@ struct Glass::Impl {
         question.body > 0 && question.body < model.parent.size() ? question.body : 1;
     Inspected found = look(frame);
     const Inspection in(model, found.x, std::move(found.actors), std::move(found.loops));
-    InspectView view = view_of(in, frame, body);
+    static const std::vector<std::string> no_names;
+    InspectView view = view_of(in, frame, body, question.ledger ? *question.ledger : no_names);
     view.warnings = std::move(found.warnings);
     warn_of_bad_numbers(in, view.warnings);
     std::vector<Check> checks;
@@ -189,15 +237,11 @@ struct Glass::Impl {
     write_inspection(json, in, view, checks);
     write_equations(json.key("equations"), in, body);
     write_neighbours(json.key("neighbours"), in, body);
-    if (!question.stands) return;
-    std::vector<std::size_t> all;
-    for (std::size_t i = 1; i < in.body_count(); ++i) all.push_back(i);
-    write_passes(json.key("rows"), in, {std::clamp(question.pass, 1, 3)}, all);
+    if (question.stands) write_call(json.key("rows"), in);
   }
 };
 
-Glass::Glass(SimulatePlan plan, std::vector<std::string> ledger)
-    : impl_(std::make_unique<Impl>(std::move(plan), std::move(ledger))) {}
+Glass::Glass(SimulatePlan plan) : impl_(std::make_unique<Impl>(std::move(plan))) {}
 Glass::~Glass() = default;
 Glass::Glass(Glass&&) noexcept = default;
 Glass& Glass::operator=(Glass&&) noexcept = default;
@@ -209,7 +253,6 @@ std::string Glass::message(const LabFrame& frame, const GlassQuestion& question)
     json.key("scene").count(static_cast<long>(question.scene));
     json.key("t").number(frame.recorded.t);
     json.key("step").count(frame.recorded.step);
-    json.key("pass").count(std::clamp(question.pass, 1, 3));
     json.key("stands");
     json.boolean(question.stands);
   };

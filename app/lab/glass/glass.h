@@ -2,8 +2,8 @@
 //
 // The frame's memory is put back into a simulation that was built alike, one semi-implicit step is
 // taken there to learn by whose name each force acts, and aba() is asked once more with FullTrace:
-// what `twinarm inspect` does with a recording. A hand that moves the robot stands still for that
-// step. Nothing is shared with the thread that runs.
+// what `twinarm inspect` does with a recording. A hand that leads goes on for that step as in the
+// one before, and the mouse pulls as it did. Nothing is shared with the thread that runs.
 //
 // Cost: a step and an aba(); where time stands still also the second ways, O(n^4) at worst.
 #pragma once
@@ -20,16 +20,17 @@ namespace twinarm {
 
 struct GlassQuestion {
   std::size_t body = 1;  // of the model; one that is not there is the first
-  int pass = 1;          // 1 to 3: of whom, standing, all bodies come
-  bool stands = false;   // time stands still: with the rows of all bodies, and second ways
+  bool stands = false;   // time stands still: with all bodies' steps of the call, and second ways
   unsigned scene = 0;    // its number, for the page
+  const std::vector<std::string>* ledger =
+      nullptr;  // names of RecordedFrame::rows; null: no ledger
 };
 
 class Glass {
  public:
-  // A plan of its own, made of what the run was made of, its changes included. `ledger`: names of
-  // RecordedFrame::rows. Throws InputError as a run would.
-  Glass(SimulatePlan plan, std::vector<std::string> ledger);
+  // A plan of its own, made of what the run was made of, its changes included; files that it names
+  // are read here. Throws InputError as a run would.
+  explicit Glass(SimulatePlan plan);
   ~Glass();
   Glass(Glass&&) noexcept;
   Glass& operator=(Glass&&) noexcept;

@@ -186,6 +186,8 @@ std::optional<LabHandFrame> HandLead::frame(double t) const {
   LabHandFrame frame;
   frame.leads = leads_ || goes_on_;
   frame.q_K = frame.leads ? target_.q : own_q(t, t - 1e-6);
+  frame.qd_K.assign(turned_.size(), 0.0);
+  if (frame.leads) frame.qd_K = target_.qd;
   frame.gripper_closed = frame.leads ? target_.gripper_closed : own_->sample(t, t - 1e-6).button;
   if (!loop_ || !is_live_) return frame;
   const OmniFigures& figures = hand_.device()->figures();

@@ -24,6 +24,7 @@ struct LabHandFrame {
   bool leads = false;              // false: the scene's own hand moves the robot
   std::array<double, 6> theta{};   // of the (virtual) Omni [rad]
   std::vector<double> q_K;         // the driven joints' targets, at the start of the step [rad, m]
+  std::vector<double> qd_K;        // and how fast they went on from there [rad/s, m/s]
   std::array<double, 3> torque{};  // of its motors [N m]
   Vector3 force_W = Vector3::Zero();  // on the stylus, world axes [N]
   bool gripper_closed = false;
