@@ -23,17 +23,19 @@ export interface Neighbour {
   quantities: Quantity[];
 }
 
+// What a glance at a step tells.
+export type CallStep = Omit<PassStep, 'joint'>;
+
 // Absent: the frame could not be looked into, and a warning says why.
 export interface GlassNumbers extends Partial<Inspection> {
   kind: 'glass';
   scene: number;
   t: number;
   step: number;
-  pass: number;
   stands: boolean;
   body?: number;
   name?: string;
   equations?: Equation[];
   neighbours?: Neighbour[];
-  rows?: PassStep[]; // of the pass, all bodies in the order of the call; where time stands
+  rows?: CallStep[]; // the whole call in its order, where time stands
 }

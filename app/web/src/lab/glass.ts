@@ -6,7 +6,7 @@ import type { Equation, GlassNumbers } from '../data/glass';
 import type { Quantity } from '../data/inspection';
 import { balanceTable, wrenchColor } from '../ui/balance';
 import { checkTable, checkWords } from '../ui/checks';
-import { button, element, icon, short } from '../ui/dom';
+import { button, element, icon, short, unitText } from '../ui/dom';
 import { math, source, texNumber, texOf } from '../ui/formula';
 import { listen } from '../ui/keys';
 import { morph } from '../ui/morph';
@@ -110,7 +110,7 @@ class Glass implements Panel {
 
   private ask(): void {
     if (this.bodies.length === 0) return;
-    if (this.seen) this.page.send({ do: 'glass', on: true, body: this.body, pass: this.pass });
+    if (this.seen) this.page.send({ do: 'glass', on: true, body: this.body });
     else this.page.send({ do: 'glass', on: false });
   }
 
@@ -123,14 +123,13 @@ class Glass implements Panel {
     this.pass = pass;
     this.body = this.bodies.indexOf(body) + 1;
     this.show();
-    if (this.page.selected === this.body) this.ask();
-    else this.page.select(this.body); // which comes back by onSelect
+    if (this.page.selected !== this.body) this.page.select(this.body); // and comes back by onSelect
+    else if (this.newest && this.seen) this.render(this.newest);
   }
 
   private goPass(pass: number): void {
     this.pass = pass;
     this.show();
-    this.ask();
     if (this.newest && this.seen) this.render(this.newest);
   }
 
@@ -179,10 +178,14 @@ class Glass implements Panel {
     };
     const contacts = contactTables(forces, name);
     const taken = neighbourCards(neighbours, this.pass);
-    const all = [
-      ...notes,
+    const rows = numbers.rows?.filter(({ pass }) => pass === this.pass) ?? [];
+    const checked = checks?.length ? checkWords(checks) : 'while time stands still';
+    // Always the same parts in the same places: morph() goes by them.
+    return [
+      element('div', {}, ...notes),
+      element('div', { class: 'so-far' }, ...(rows.length > 0 ? [soFar(rows, name)] : [])),
       element('h3', {}, PASSES[this.pass][0], element('span', {}, ` ${PASSES[this.pass][1]}`)),
-      ...this.cards(numbers),
+      element('div', { class: 'cards' }, ...this.cards(numbers)),
       fold('From its neighbours', false, ...(taken.length ? taken : [words('nothing in this pass')])),
       fold(
         'Free body',
@@ -197,12 +200,9 @@ class Glass implements Panel {
         true,
         ...(contacts.length ? contacts : [words('nothing touches it')]),
       ),
+      fold('Ledger of energy, of all bodies', false, ledgerTable(ledger ?? {})),
+      fold(`Checks: ${checked}`, false, checkTable(checks ?? [], [])),
     ];
-    if (ledger) all.push(fold('Ledger of energy, of all bodies', false, ledgerTable(ledger)));
-    if (checks?.length)
-      all.push(fold(`Checks: ${checkWords(checks)}`, false, checkTable(checks, [])));
-    const walk = numbers.rows?.[0]?.pass === this.pass ? [soFar(numbers.rows, name)] : [];
-    return [...(walk.length ? [element('div', { class: 'so-far' }, ...walk)] : []), ...all];
   }
 
   // Of a joint: the first where it turns, the second where it shifts.
@@ -287,14 +287,14 @@ function block(equation: Equation, quantity: Quantity, numbers: GlassNumbers, un
     ];
   const [u, felt] = equation.terms.map(({ value }) => value as number);
   const minus = `${felt > 0 ? '+' : '-'} ${texNumber(Math.abs(felt))}`;
-  const tex = `\\frac{${texNumber(u)} ${minus}}{${texNumber(D)}} = \\mathbf{${texNumber(quantity.value)}}`;
+  const tex = `\\dfrac{${texNumber(u)} ${minus}}{${texNumber(D)}} = \\mathbf{${texNumber(quantity.value)}}`;
   return [
     element('p', { class: 'set' }, math(texOf("qdd = D^-1 ( u - U^T a' )"))),
     element(
       'p',
       { class: 'line', title: String(quantity.value) },
       math(tex),
-      element('span', { class: 'unit' }, ` ${unit}`),
+      element('span', { class: 'unit' }, ` ${unitText(unit)}`),
     ),
   ];
 }

@@ -2,7 +2,7 @@
 // signs between; matrices below one another; of one number all in a line.
 import type { Equation, Term } from '../data/glass';
 import type { Value } from '../data/inspection';
-import { element, short } from '../ui/dom';
+import { element, largestOf, short, unitText } from '../ui/dom';
 import { math, texNumber, texOf } from '../ui/formula';
 import { valueOf } from '../ui/quantity';
 
@@ -29,10 +29,13 @@ export function isMatrix(value: Value): value is number[][] {
   return Array.isArray(value) && Array.isArray(value[0]);
 }
 
-// Two parts of three, as the book has them; of a joint as many rows as it has velocities.
+// Two parts of three, as the book has them; of a joint as many rows as it has velocities. One term
+// alone is not told twice.
 function columns(equation: Equation, body: string, unit: string): HTMLElement {
-  const { terms, name } = equation;
+  const { name } = equation;
+  const terms = equation.terms.length > 1 ? equation.terms : [];
   const value = equation.value as number[];
+  const isSix = value.length === 6;
   const parts: { sign: string; symbol: string; words: string; numbers: number[] }[] = terms.map(
     (term, i) => ({
       sign: isMinus(term) ? '−' : i > 0 ? '+' : '',
@@ -41,13 +44,15 @@ function columns(equation: Equation, body: string, unit: string): HTMLElement {
       numbers: signed(term),
     }),
   );
-  parts.push({ sign: '=', symbol: name, words: '', numbers: value });
+  parts.push({ sign: terms.length > 0 ? '=' : '', symbol: name, words: '', numbers: value });
+  // Each half has a unit of its own, and so a size.
+  const half = (from: number) => largestOf(parts.flatMap(({ numbers }) => numbers.slice(from, from + 3)));
+  const sizes = isSix ? [half(0), half(3)] : [largestOf(parts.flatMap(({ numbers }) => numbers))];
   const head = parts.flatMap(({ sign, symbol, words }) => [
     element('td', { class: 'sign' }, sign),
     element('th', { scope: 'col', title: words }, math(texOf(symbol))),
   ]);
   const units = unit.split(';').map((text) => text.trim());
-  const isSix = value.length === 6;
   const rows = value.map((_, k) =>
     element(
       'tr',
@@ -58,10 +63,10 @@ function columns(equation: Equation, body: string, unit: string): HTMLElement {
         element(
           'td',
           { class: i === parts.length - 1 ? 'number total' : 'number', title: String(numbers[k]) },
-          short(numbers[k]),
+          short(numbers[k], sizes[isSix ? Math.floor(k / 3) : 0]),
         ),
       ]),
-      element('td', { class: 'unit' }, k % 3 === 0 ? (units[Math.floor(k / 3)] ?? units[0]) : ''),
+      element('td', { class: 'unit' }, k % 3 === 0 ? unitText(units[Math.floor(k / 3)] ?? units[0]) : ''),
     ),
   );
   const table = element(
@@ -103,7 +108,7 @@ function inLine(equation: Equation, unit: string): HTMLElement {
     'p',
     { class: 'line', title: String(equation.value) },
     math(`${left}\\mathbf{${total}}`),
-    element('span', { class: 'unit' }, ` ${unit}`),
+    element('span', { class: 'unit' }, ` ${unitText(unit)}`),
   );
 }
 

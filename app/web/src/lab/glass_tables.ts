@@ -1,14 +1,14 @@
 // What else acts on the body: along its joint, in contacts, in joules; and what a pass has found so
 // far.
-import type { Neighbour } from '../data/glass';
-import type { JointBalance, NamedForce, PassStep, Quantity } from '../data/inspection';
-import { element, short } from '../ui/dom';
+import type { CallStep, Neighbour } from '../data/glass';
+import type { JointBalance, NamedForce, Quantity } from '../data/inspection';
+import { element, largestOf, short, unitText } from '../ui/dom';
 import { math, source, texOf } from '../ui/formula';
 import { quantityCard } from '../ui/quantity';
 
-function numbers(values: number[]): HTMLElement[] {
+function numbers(values: number[], scale = 0): HTMLElement[] {
   return values.map((value) =>
-    element('td', { class: 'number', title: String(value) }, short(value)),
+    element('td', { class: 'number', title: String(value) }, short(value, scale)),
   );
 }
 
@@ -20,13 +20,14 @@ function table(heads: string[], rows: HTMLElement[]): HTMLElement {
 export function jointTables(balances: JointBalance[], unit: string): HTMLElement[] {
   return balances.map(({ joint, component, torques, residual }) => {
     const name = balances.length > 1 ? `${joint}, ${component + 1}` : joint;
+    const most = largestOf(torques.map(({ value }) => value));
     const rows = torques.map(({ source: who, value }) =>
-      element('tr', {}, element('th', { scope: 'row' }, who), ...numbers([value])),
+      element('tr', {}, element('th', { scope: 'row' }, who), ...numbers([value], most)),
     );
     return element(
       'div',
       {},
-      table([`along ${name || 'its joint'}`, `[${unit}]`], rows),
+      table([`along ${name || 'its joint'}`, `[${unitText(unit)}]`], rows),
       element('p', { class: 'hint' }, `They add up to ${short(residual)} of the largest.`),
     );
   });
@@ -41,7 +42,7 @@ export function contactTables(forces: NamedForce[], body: string): HTMLElement[]
       const along = force.reduce((sum, part, k) => sum + part * axis![k], 0);
       const outward = axis!.map((part) => (along < 0 ? -part : part) + 0);
       const row = (what: string, values: number[]) =>
-        element('tr', {}, element('th', { scope: 'row' }, what), ...numbers(values));
+        element('tr', {}, element('th', { scope: 'row' }, what), ...numbers(values, largestOf(values)));
       const share = normal ? `, ${short((friction ?? 0) / normal)} of it` : '';
       return element(
         'div',
@@ -106,7 +107,7 @@ const TOLD: Record<number, { of: string; heads: string[]; read: (value: never) =
 };
 
 // Row by row as the call goes on: what comes later is not known yet.
-export function soFar(rows: PassStep[], body: string): HTMLElement {
+export function soFar(rows: CallStep[], body: string): HTMLElement {
   const { pass } = rows[0];
   const at = rows.findIndex((row) => row.body === body);
   const told = TOLD[pass];

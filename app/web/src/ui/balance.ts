@@ -10,8 +10,9 @@ export function wrenchColor(i: number): string {
   return token(`--c${i % COLORS}`);
 }
 
+// With its number: colours alone do not tell eight apart.
 export function swatch(i: number): HTMLElement {
-  const made = element('i', { class: 'swatch' });
+  const made = element('i', { class: 'swatch' }, String(i + 1));
   made.style.background = `var(--c${i % COLORS})`;
   return made;
 }
@@ -22,7 +23,9 @@ export function balanceTable(
   about: string,
 ): HTMLElement {
   const numbers = (values: number[]) =>
-    values.map((value) => element('td', { class: 'number', title: String(value) }, short(value)));
+    values.map((value) =>
+      element('td', { class: 'number', title: String(value) }, short(value, largest)),
+    );
   const rows = wrenches.map(({ source, force, torque }, i) =>
     element(
       'tr',

@@ -51,11 +51,20 @@ export function icon(name: keyof typeof ICONS): SVGSVGElement {
   return made;
 }
 
-// Digits that people read; all of them stand in the tables.
-export function short(value: number | null | undefined): string {
+// Digits that people read; all of them stand in the tables. What is rounding beside `scale` is 0.
+export function short(value: number | null | undefined, scale = 0): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
-  if (value === 0) return '0';
   const size = Math.abs(value);
+  if (size <= 1e-13 * scale) return '0';
   if (size < 1e-3 || size >= 1e6) return value.toExponential(2).replaceAll('-', '−');
   return value.toPrecision(4).replaceAll('-', '−');
+}
+
+// "kg m^2" as print has it.
+export function unitText(unit: string): string {
+  return unit.replaceAll('^2', '²').replace(/^1$/, '');
+}
+
+export function largestOf(values: (number | null)[]): number {
+  return values.reduce<number>((most, value) => Math.max(most, Math.abs(value ?? 0)), 0);
 }

@@ -2,7 +2,7 @@
 // equation at the pointer.
 import type { Quantity } from '../data/inspection';
 import './inspection.css';
-import { element, short } from './dom';
+import { element, short, unitText } from './dom';
 
 const AXES = ['x', 'y', 'z'];
 
@@ -18,7 +18,7 @@ function six(values: number[], unit: string): HTMLElement {
       'tr',
       {},
       ...half.map((value) => cell(value)),
-      element('td', { class: 'unit' }, units[i] ?? units[0]),
+      element('td', { class: 'unit' }, unitText(units[i] ?? units[0])),
     ),
   );
   const heads = AXES.map((axis) => element('th', { scope: 'col' }, axis));
@@ -58,7 +58,7 @@ export function heat(rows: number[][]): HTMLElement {
 
 export function valueOf({ value, unit }: Pick<Quantity, 'value' | 'unit'>): HTMLElement {
   if (typeof value === 'number')
-    return element('p', { class: 'one', title: String(value) }, short(value), ` ${unit}`);
+    return element('p', { class: 'one', title: String(value) }, short(value), ` ${unitText(unit)}`);
   if (Array.isArray(value[0])) {
     const rows = value as number[][];
     if (rows.length === 6 && rows[0].length === 6) return heat(rows);
@@ -68,7 +68,7 @@ export function valueOf({ value, unit }: Pick<Quantity, 'value' | 'unit'>): HTML
   const numbers = value as number[];
   if (numbers.length === 6) return six(numbers, unit);
   const parts = numbers.map((n) => element('span', { title: String(n) }, `${short(n)}, `));
-  return element('p', { class: 'one' }, ...parts, unit);
+  return element('p', { class: 'one' }, ...parts, unitText(unit));
 }
 
 // What a page has to say of it in its own way: nothing is left out where it says nothing.
@@ -87,7 +87,7 @@ export function quantityCard(quantity: Quantity, telling: Telling = {}): HTMLEle
     'dl',
     { class: 'tip', role: 'tooltip' },
     ...fact('is', quantity.meaning),
-    ...fact('unit', quantity.unit),
+    ...fact('unit', quantity.unit.replaceAll('^2', '²')),
     ...fact('frame', quantity.frame),
     ...fact('from', telling.equation ?? quantity.equation),
   );
