@@ -165,13 +165,13 @@ DrawList LabPainter::drawn() {
 void LabPainter::tell_glass(const LabNow& now) {
   const std::map<ClientId, long> asked = audience_.glass();
   if (asked.empty() || !now.frame || !is_due(last_glass_, kGlassEvery)) return;
-  if (!glass_)
-    glass_.emplace(std::move(now.scene->scene->plan(now.status->changes)->prepared), *now.rows);
+  if (!glass_) glass_.emplace(std::move(now.scene->scene->plan(now.status->changes)->prepared));
   for (const auto& [client, body] : asked) {
     GlassQuestion question;
     question.body = static_cast<std::size_t>(std::max(0L, body));
     question.stands = !now.status->playing;
     question.scene = static_cast<unsigned>(now.scene_number);
+    question.ledger = now.rows.get();
     post_(client, glass_channel, shared(glass_->message(*now.frame, question)), false);
   }
 }

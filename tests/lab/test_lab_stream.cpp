@@ -52,7 +52,7 @@ struct Watched {
     scene = std::make_unique<LabScene>(options);
     run = std::make_unique<LabRun>(*scene, std::vector<Change>{}, hand);
     plan = scene->plan();
-    header = scene->header();
+    header = scene->header({}, {});
     view = std::make_unique<LabView>(7, std::shared_ptr<const SimulatePlan>(plan, &plan->prepared),
                                      header, SceneWords{});
   }
