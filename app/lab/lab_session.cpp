@@ -24,6 +24,7 @@ double seconds(std::chrono::steady_clock::duration time) {
 
 LabSession::LabSession(Built scene, const std::vector<GalleryScene>& gallery) : gallery_(gallery) {
   adopt(std::move(scene));
+  publish();  // from now on there is something to be seen
   workshop_ =
       std::make_unique<Workshop>(Workshop::Out{[this](Built built) {
                                                  {
@@ -268,6 +269,7 @@ void LabSession::die() {
   if (!found) return note("note", "the run has come to its end");
   LabEnd end;
   end.time = found->time;
+  end.from = changed_at_;
   end.words = found->words;
   end.quantity = found->field;
   end.body = found->body;

@@ -109,6 +109,7 @@ class LabSession {
   LabStatus status_;
   std::vector<Change> wanted_;  // changes that stand, and those that are being built
   long change_number_ = 0, notes_ = 0;
+  double changed_at_ = 0;             // time of the run [s]
   long steps_left_ = 0;               // of single steps
   bool does_again_ = false;           // what came in the steps of before_ comes again
   bool is_stale_ = true;              // the newest frame is not the run's

@@ -18,6 +18,7 @@ struct LabNote {
 // A run that stopped by itself, and what would have held.
 struct LabEnd {
   double time = 0;  // of the last good state [s]
+  double from = 0;  // the last change, or the start: to go on from with a remedy [s]
   std::vector<std::string> words;
   std::string quantity, body, spring;
   std::vector<Remedy> remedies;

@@ -230,6 +230,7 @@ void LabSession::adopt(Built built) {
     history_.begin_segment(order.changes);
   }
   ++change_number_;
+  changed_at_ = run_->time();
   status_.dead.reset();
   is_stale_ = is_news_ = true;
   pace_.begin(Clock::now(), run_->time(), status_.speed);

@@ -17,7 +17,11 @@ void write_changes(JsonWriter& json, const std::vector<Change>& changes) {
 }
 
 void write_audience(JsonWriter& json, const Audience::View& audience) {
-  json.key("holder").count(as_long(audience.holder));
+  json.key("holder");
+  if (audience.holder != 0)
+    json.count(as_long(audience.holder));
+  else
+    json.null();
   json.key("clients").count(static_cast<long>(audience.clients.size()));
   json.key("asked").begin_array();
   for (const ClientId client : audience.asked) json.count(as_long(client));
@@ -66,6 +70,7 @@ void write_end(JsonWriter& json, const LabStatus& status) {
   json.begin_object();
   json.key("words").texts(dead.words);
   json.key("time").number(dead.time);
+  json.key("from").number(dead.from);
   json.key("quantity").text(dead.quantity);
   json.key("body").text(dead.body);
   json.key("spring").text(dead.spring);

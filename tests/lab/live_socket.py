@@ -208,12 +208,13 @@ class Frame:
     """A frame: its head as attributes, its arrays as flat memoryviews."""
     def __init__(self, data):
         (magic, self.scene, self.time, self.stamp, self.input_age, self.step, self.number, self.flags,
-         channels, works, layers, instances, labels, size, _, _) = FRAME_HEAD.unpack_from(data)
+         channels, works, layers, instances, labels, size, bodies, _) = FRAME_HEAD.unpack_from(data)
         if magic != FRAME_MAGIC:
             raise ValueError(f"a frame begins with {magic:#x}")
         arrays = Arrays(data, FRAME_HEAD.size)
         self.layers, self.instances, self.labels = layers, instances, labels
         self.channels, self.works = arrays.take("d", channels), arrays.take("d", works)
+        self.link, self.twin = arrays.take("f", 7 * bodies), arrays.take("f", 7 * bodies)
         self.position, self.scale = arrays.take("f", 3 * instances), arrays.take("f", 3 * instances)
         self.turn = arrays.take("h", 4 * instances)
         self.label_position, self.label_offset = arrays.take("f", 3 * labels), arrays.take("h", 2 * labels)

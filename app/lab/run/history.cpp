@@ -142,7 +142,7 @@ LabHistory::Saved LabHistory::save(const LabScene& scene, const LabNames& names,
     throw InputError({{file.string(), 0, "save", "nothing is remembered yet", "let it run"}});
   const long first = first_step_to_save();
   RecordingHeader header = scene.header(segments_.back().changes, {led, log_of_hand()});
-  header.duration = newest()->recorded.t;
+  header.duration = time_in_memory(newest()->recorded.memory);
   header.options.duration = header.duration;
   RecordingWriter writer(file, std::move(header));
   Saved saved;

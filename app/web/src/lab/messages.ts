@@ -76,6 +76,7 @@ export interface Remedy {
 export interface Death {
   words: string[];
   time: number;
+  from: number; // the last change: to go on from with a remedy
   quantity?: string;
   body?: string;
   spring?: string;

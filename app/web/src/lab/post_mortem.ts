@@ -56,7 +56,7 @@ export class PostMortem implements Panel {
     fact('quantity', dead.quantity);
     fact('body', dead.body);
     fact('spring', dead.spring);
-    const back = Math.max(first, dead.time - BEFORE);
+    const back = Math.max(first, Math.min(dead.from, dead.time - BEFORE));
     const remedies = dead.remedies.map(({ words, changes }, i) => {
       const made = element('button', { type: 'button', class: i === 0 ? 'main' : '' }, words);
       made.title = `goes back ${(dead.time - back).toFixed(1)} s with ${changes.join(', ')}`;

@@ -1,0 +1,281 @@
+#!/usr/bin/env python3
+"""`twinarm lab`: the whole program over its socket, as pages and strangers meet it.
+
+    test_lab_command.py PROGRAM
+"""
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/lab"))
+from live_socket import Lab  # noqa: E402
+
+PROGRAM = None
+PENDULUM = """<robot name="rod"><link name="base"/>
+<link name="rod"><inertial><origin xyz="0 0 -0.5"/><mass value="1"/>
+<inertia ixx="0.1" iyy="0.1" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
+<visual><origin xyz="0 0 -0.5"/><geometry><box size="0.1 0.1 1"/></geometry></visual></link>
+<joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint>
+</robot>"""
+SCENE = """duration = 5
+[[robot]]
+name = "rod"
+model = "rod.urdf"
+q = { hinge = 0.7 }
+[[body]]
+name = "ball"
+shape = { sphere = { radius = 0.1 } }
+mass = 1
+position = [2, 0, 3]
+[[body]]
+name = "floor"
+fixed = true
+shape = { halfspace = { normal = [0, 0, 1], offset = -2 } }
+[[coupling]]
+name = "pull"
+type = "torsional"
+measure = "joint"
+link = "rod"
+stiffness = 20
+damping = 2
+treatment = "explicit"
+target = "device"
+"""
+
+
+def program(*words, code=0):
+    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=120)
+    assert done.returncode == code, f"{done.returncode}: {done.stdout}{done.stderr}"
+    return done.stdout
+
+
+class Running:
+    """The program with a scene, and its page's address."""
+
+    def __init__(self, scene):
+        self.process = subprocess.Popen([PROGRAM, "lab", str(scene), "--json", "--no-browser"],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.url = json.loads(self.process.stdout.readline())["url"]
+
+    def end(self, how=signal.SIGINT):
+        self.process.send_signal(how)
+        _, errors = self.process.communicate(timeout=30)
+        return self.process.returncode, errors
+
+
+class LabTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = pathlib.Path(self.folder.name)
+        (self.path / "rod.urdf").write_text(PENDULUM)
+        self.scene = self.path / "rod.toml"
+        self.scene.write_text(SCENE)
+        self.running = Running(self.scene)
+        self.lab = Lab(self.running.url)
+        self.live = self.lab.live()
+
+    def tearDown(self):
+        self.live.close()
+        self.assertEqual(self.running.end(), (0, ""))
+        self.folder.cleanup()
+
+    def state(self, condition=lambda state: True, live=None):
+        return (live or self.live).wait_for("state", condition)
+
+    def frame(self, condition=lambda frame: True):
+        return self.live.wait_for("frame", condition)
+
+    def saved(self, name):
+        file = self.path / name
+        file.write_bytes(self.lab.get("/save").body)
+        return file
+
+    def told(self, state):
+        return " ".join(note["text"] for note in state["notes"])
+
+    def by_step(self, file):
+        """Of a recording: coordinates and link positions by step."""
+        told = json.loads(program("export", file, "--json"))
+        names = [column["name"] for column in told["columns"]]
+        return {frame["step"]: {"t": frame["t"], "values": dict(zip(names, frame["values"]))}
+                for frame in told["frames"]}
+
+    def test_a_newcomer_is_told_everything(self):
+        scene = self.live.wait_for("scene")
+        self.assertEqual([layer["name"] for layer in scene["layers"]][0], "bodies")
+        self.assertEqual([body["name"] for body in scene["bodies"]], ["world", "base", "rod", "ball"])
+        state = self.state()
+        self.assertTrue(state["playing"])
+        self.assertEqual(state["holder"], state["you"])
+        self.assertIn("coupling[0].stiffness", json.dumps(state["knobs"]))
+        frame = self.frame()
+        self.assertEqual(frame.scene, scene["scene"])
+        self.assertEqual(len(frame.channels), len(scene["channels"]))
+        for mesh in scene["meshes"]:
+            self.assertEqual(self.lab.get(f"/mesh/{mesh}").status, 200)
+
+    def test_what_pages_see_is_what_is_recorded_and_the_recording_replays_bit_for_bit(self):
+        names = [c["name"] for c in self.live.wait_for("scene")["channels"]]
+        seen = {}
+        for kind, message in self.live.messages(2.0):
+            if kind == "frame":
+                seen[message.step] = dict(zip(names, message.channels))
+        file = self.saved("run.twinrec")
+        self.assertIn("same bits", program("replay", file))
+        recorded = self.by_step(file)
+        both = sorted(set(seen) & set(recorded))
+        self.assertGreater(len(both), 60)
+        for step in both:
+            for name in ("q/hinge", "qd/hinge", "links/rod/x", "kinetic_energy"):
+                self.assertEqual(seen[step][name], recorded[step]["values"][name], name)
+
+    def test_standing_it_is_taken_step_by_step(self):
+        self.live.do("play", on=False)
+        self.state(lambda s: not s["playing"])
+        before = self.frame(lambda f: f.stands)
+        self.live.do("step", steps=7)
+        after = self.frame(lambda f: f.step == before.step + 7)
+        self.assertAlmostEqual(after.time - before.time, 0.007, places=12)
+        self.live.do("look", at=before.time / 2)
+        old = self.frame(lambda f: f.looked_back)
+        self.assertLessEqual(old.time, before.time / 2)
+        self.live.do("look", at=None)
+        self.assertEqual(self.frame(lambda f: not f.looked_back).step, after.step)
+
+    def test_a_branch_without_a_change_is_the_same_run_and_with_one_another(self):
+        self.frame(lambda f: f.time > 1.5)
+        self.live.do("play", on=False)
+        self.state(lambda s: not s["playing"])
+        first = self.by_step(self.saved("first.twinrec"))
+        compared = {}
+        for changes, is_same in ((["coupling[0].stiffness=20"], True),
+                                 (["coupling[0].stiffness=35"], False)):
+            self.live.do("branch", at=0.5, changes=changes)
+            state = self.state(lambda s: s["branch"] and s["branch"]["changes"] == changes)
+            self.assertAlmostEqual(state["branch"]["from"], 0.5, delta=0.02)
+            self.frame(lambda f: f.time > 1.4)
+            self.live.do("play", on=False)
+            self.state(lambda s: not s["playing"])
+            branch = self.by_step(self.saved("branch.twinrec"))
+            both = [step for step in set(first) & set(branch) if first[step]["t"] > 0.6]
+            compared[is_same] = [first[s]["values"] == branch[s]["values"] for s in both]
+        self.assertTrue(compared[True])
+        self.assertTrue(all(compared[True]))
+        self.assertFalse(any(compared[False]))
+
+    def test_an_explosion_stops_the_run_says_why_and_what_would_hold_does(self):
+        self.frame(lambda f: f.time > 0.5)
+        self.live.do("set", changes=["coupling[0].stiffness=1e8"])
+        dead = self.state(lambda s: s["dead"])["dead"]
+        self.assertIn("pull", dead["spring"])
+        self.assertTrue(dead["words"])
+        self.assertTrue(dead["remedies"])
+        self.assertLess(dead["from"], dead["time"])
+        self.assertTrue(self.frame(lambda f: f.is_dead))
+        for remedy in dead["remedies"]:
+            self.live.do("branch", at=dead["from"], changes=remedy["changes"])
+            self.state(lambda s: s["branch"] and not s["dead"])
+            self.frame(lambda f: f.time > 1.5)
+            self.assertIsNone(self.state()["dead"], remedy["words"])
+
+    def test_a_hand_leads_the_robot_and_a_spring_pulls_the_ball(self):
+        scene = self.live.wait_for("scene")
+        names = [c["name"] for c in scene["channels"]]
+        ball = [b["name"] for b in scene["bodies"]].index("ball")
+        self.live.do("joint", index=0, value=-0.4, stamp=42.0)
+        frame = self.frame(lambda f: f.stamp == 42.0)
+        self.assertLess(frame.input_age, 0.2)
+        at = names.index("q/hinge")
+        self.frame(lambda f: abs(f.channels[at] + 0.4) < 0.2)
+        self.live.do("pull", body=ball, point=[0, 0, 0], goal=[2, 1, 1], stamp=43.0)
+        y = names.index("links/ball/y")
+        self.frame(lambda f: f.channels[y] > 0.8)
+        self.live.do("drop")
+
+    def test_one_has_the_hand_and_gives_it_to_who_asks(self):
+        you = self.state()["you"]
+        with self.lab.live() as other:
+            second = self.state(live=other)
+            self.assertEqual(second["holder"], you)
+            other.do("set", changes=["coupling[0].stiffness=21"])
+            self.assertIn("hand", self.told(self.state(lambda s: s["notes"], live=other)))
+            other.do("take")
+            self.state(lambda s: s["asked"] == [second["you"]])
+            self.live.do("give", to=second["you"])
+            self.state(lambda s: s["holder"] == second["you"], live=other)
+            other.do("set", changes=["coupling[0].stiffness=21"])
+            self.state(lambda s: s["changes"] == ["coupling[0].stiffness=21"], live=other)
+        self.state(lambda s: s["holder"] == you)  # who is left has it
+
+    def test_what_is_no_command_and_no_scene_is_refused_and_the_run_goes_on(self):
+        for text in ("", "{", "[1, 2]", '{"do": "fly"}', '{"do": "tip", "goal": ["a"]}',
+                     '{"do": "set", "changes": ["coupling[0].colour=red"]}',
+                     '{"do": "set", "changes": ["coupling[0].stiffness=-5"]}',
+                     '{"do": "set", "changes": ["step=0"]}', '{"do": "scene", "name": "nowhere"}',
+                     '{"do": "hand", "source": "device", "spec": "ouija"}'):
+            known = len(self.told(self.state())) if text else 0
+            self.live.say(text)
+            self.state(lambda s: len(self.told(s)) > known)
+        bad = self.lab.post("/open?name=bad.toml", "[[robot]]\nmodel = 'no.urdf'\nmass = 3\n")
+        self.assertEqual(bad.status, 422)
+        self.assertIn("no.urdf", bad.body.decode())
+        for name in ("../../etc/x.toml", "", "a%2f..%2fb.toml"):
+            self.assertEqual(self.lab.post(f"/open?name={name}", "x").status, 422)
+        step = self.frame().step
+        self.frame(lambda f: f.step > step)
+
+    def test_a_robot_is_dropped_onto_the_page(self):
+        number = self.live.wait_for("scene")["scene"]
+        self.assertEqual(self.lab.post("/open?name=fresh.urdf", PENDULUM).status, 200)
+        scene = self.live.wait_for("scene", lambda s: s["scene"] > number)
+        self.assertEqual(scene["file"], "fresh.urdf")
+        self.frame(lambda f: f.scene == scene["scene"])
+
+    def test_the_scene_with_its_changes_and_the_page_to_share_stand_alone(self):
+        self.live.do("set", changes=["coupling[0].stiffness=33"])
+        self.state(lambda s: s["changes"])
+        text = self.lab.get("/scene").body.decode()
+        self.assertIn("33", text)
+        (self.path / "again.toml").write_text(text)
+        program("simulate", self.path / "again.toml", "--json")
+        self.frame(lambda f: f.time > 1)
+        page = self.lab.get("/share")
+        self.assertEqual(page.status, 200)
+        self.assertIn(b"<html", page.body[:200])
+        picture = self.lab.get("/frame.png?width=320&height=200")
+        self.assertEqual(picture.body[:4], b"\x89PNG")
+
+    def test_a_client_that_never_reads_slows_nobody(self):
+        with self.lab.stalled():
+            start, begin = self.frame(), time.monotonic()
+            frames = sum(kind == "frame" for kind, _ in self.live.messages(2.0))
+            end = self.frame()
+            self.assertGreater(frames, 60)
+            self.assertGreater((end.time - start.time) / (time.monotonic() - begin), 0.8)
+
+
+class LabEnds(unittest.TestCase):
+    def test_it_ends_with_0_when_it_is_told_and_leaves_nothing(self):
+        scene = ROOT / "assets/scenes/cradle.toml"
+        for how in (signal.SIGINT, signal.SIGTERM):
+            with tempfile.TemporaryDirectory() as folder:
+                running = Running(scene)
+                with Lab(running.url).live() as live:
+                    live.wait_for("frame")
+                self.assertEqual(running.end(how), (0, ""))
+
+    def test_bad_words_are_told(self):
+        self.assertIn("does not exist", program("lab", "nowhere.toml", "--json", code=2))
+        self.assertIn("--port", program("lab", "--port", "70000", "--json", code=2))
+        self.assertIn("--listen", program("lab", "--listen", "300.1.1.1", "--json", code=2))
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main()
