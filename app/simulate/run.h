@@ -94,9 +94,6 @@ struct RunWatch {
 
 // Of RunView::memory() the part that Simulation::visit_memory reads.
 Memory simulation_memory(const std::string& memory);
-// The time of its grid that it stands at; the state's own is a sum of steps, and differs in its
-// last bits [s].
-double time_in_memory(const std::string& memory);
 
 // Samples between two points of the grid are reached by a side step from the earlier one; the run
 // is the same, whatever is sampled.

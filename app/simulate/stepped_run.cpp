@@ -38,14 +38,6 @@ Memory simulation_memory(const std::string& memory) {
   return all;
 }
 
-double time_in_memory(const std::string& memory) {
-  Memory all(memory);
-  long steps = 0, unsolved = 0, unlocated = 0;
-  double end = 0;
-  visit_head(all, steps, end, unsolved, unlocated);
-  return end;
-}
-
 SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, const RunWatch& watch,
                        const RunStart* from, OutsideForce* outside)
     : input_(simulated.robot),

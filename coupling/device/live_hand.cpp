@@ -1,6 +1,7 @@
 #include "coupling/device/live_hand.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace twinarm {
 
@@ -22,7 +23,8 @@ void LiveHand::set(const HandStep& step) noexcept {
 HandSample LiveHand::sample(double t, double toward) const {
   if (count_ == 0) return {};
   // The step that an instant just inside, seen from `toward`, belongs to: by halving, oldest first.
-  const double inside = t + 1e-9 * (toward - t);
+  double inside = t + 1e-9 * (toward - t);
+  if (inside == t) inside = std::nextafter(t, toward);  // late in a run that is less than an ulp
   const std::size_t oldest = count_ - std::min(count_, steps_.size());
   std::size_t low = oldest, high = count_;
   while (high - low > 1) {

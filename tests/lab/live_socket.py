@@ -75,6 +75,7 @@ class LiveSocket:
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self.unread = bytearray()
         self.pieces = []  # of a message that comes in several frames
+        self.waiting = collections.deque()  # messages that nobody has looked at
         self.newest, self.count, self.bytes = {}, collections.Counter(), 0
         self.close_code, self.close_reason = None, ""
         key = base64.b64encode(os.urandom(16)).decode()
@@ -163,10 +164,12 @@ class LiveSocket:
     def messages(self, timeout=10.0):
         """Messages as they come, (kind, decoded), until the wait is over."""
         end = time.monotonic() + timeout
-        while (left := end - time.monotonic()) > 0:
-            if select.select([self.socket], [], [], left)[0]:
-                for kind, payload in self.pump():
-                    yield kind, decoded(kind, payload)
+        while self.waiting or (left := end - time.monotonic()) > 0:
+            if self.waiting:
+                kind, payload = self.waiting.popleft()
+                yield kind, decoded(kind, payload)
+            elif select.select([self.socket], [], [], left)[0]:
+                self.waiting.extend(self.pump())
 
     def wait_for(self, kind, condition=lambda message: True, timeout=10.0):
         """The next message of a kind for which a condition holds; TimeoutError if none comes."""

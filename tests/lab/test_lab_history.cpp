@@ -26,10 +26,8 @@ TEST_CASE("lab run: a branch that is moved as before repeats the frames' hashes 
       REQUIRE(again.step(input ? *input : LabInput{}));
     }
     const LabFrame frame = again.frame(s.names);
-    same += frame.recorded.hash == left.frame(n)->recorded.hash &&
-                    frame.recorded.works == left.frame(n)->recorded.works
-                ? 1
-                : 0;
+    same += frame.recorded.hash == left.frame(n)->recorded.hash ? 1 : 0;
+    CHECK(frame.recorded.works == left.frame(n)->recorded.works);
   }
   CHECK(left.size() > 30);
   CHECK(same == left.size() - 1);
@@ -70,7 +68,7 @@ TEST_CASE("lab history: what is saved replays bit for bit, hand and changes and 
   drag(20);
   check(0.4, 20);
   // After a pull: what no header describes is left out.
-  REQUIRE(s.run->pull(s.run->driven()[0], Vector3::Zero(), Vector3(0.2, 0.2, 0.2), 3));
+  REQUIRE(s.run->pull(s.run->driven()[1], Vector3(0.35, 0, 0.1), Vector3(0.2, 0.2, 0.2), 3));
   drag(5);
   s.run->drop();
   drag(20);

@@ -13,7 +13,7 @@ std::size_t steps_remembered(double h) {
 }
 
 // The first wins: a device's, any hand's, one that stands still.
-int rank_of(const SceneCoupling& coupling) {
+int rank_of_target(const SceneCoupling& coupling) {
   if (coupling.target == CouplingTarget::Kind::device) return 2;
   return coupling.driven.turned.empty() ? 0 : 1;
 }
@@ -31,7 +31,8 @@ class HandLead::Led final : public HandSource {
  public:
   Led(const HandLead& lead, std::unique_ptr<HandSource> own) : lead_(lead), own_(std::move(own)) {}
   HandSample sample(double t, double toward) const override {
-    const double inside = t + 1e-9 * (toward - t);
+    double inside = t + 1e-9 * (toward - t);
+    if (inside == t) inside = std::nextafter(t, toward);
     if (!lead_.leads_ || inside < lead_.first_.newest().t) return own_->sample(t, toward);
     const bool is_first = inside <= lead_.first_.duration();
     return (is_first ? lead_.first_ : lead_.live_).sample(t, toward);
@@ -54,7 +55,8 @@ void HandLead::choose_pulls() {
   std::vector<SceneCoupling>& all = scene_->couplings;
   const SceneCoupling* leader = nullptr;
   for (const SceneCoupling& c : all)
-    if (c.leads() && !c.outside && c.speed == 1 && (!leader || rank_of(c) > rank_of(*leader)))
+    if (c.leads() && !c.outside && c.speed == 1 &&
+        (!leader || rank_of_target(c) > rank_of_target(*leader)))
       leader = &c;
   if (!leader) return;
   if (leader->driven.turned.empty()) {
@@ -104,14 +106,15 @@ void HandLead::take_over(double t, double h) {
   goes_on_ = false;
 }
 
-void HandLead::make_loop() {
+void HandLead::make_loop(double h) {
   made_for_ = hand_.chosen();
   is_live_ = true;
   loop_.reset();
   if (!hand_.device()) return;
   loop_ = std::make_unique<HandLoop>(*scene_, *couplings_, led_, *hand_.device(),
                                      HandLoopOptions{hand_.mapping(), hand_.force()});
-  loop_->begin(target_.q, hand_.tick(0));
+  loop_->begin(target_.q, hand_.tick(h));
+  is_fresh_ = true;
 }
 
 // No joint faster than LabHand::kFastest.
@@ -136,7 +139,7 @@ std::optional<HandStep> HandLead::before_step(const State<double>& x, double t, 
   if (!leads_ && !goes_on_ && source == LabHand::Source::scene) return std::nullopt;
   const bool begins = !leads_;
   if (begins) take_over(t, h);
-  if (!is_live_ || made_for_ != hand_.chosen()) make_loop();
+  if (!is_live_ || made_for_ != hand_.chosen()) make_loop(h);
   std::vector<double> goal = target_.q;
   if (source == LabHand::Source::scene) {
     goal = own_q(t, t + h);
@@ -147,7 +150,9 @@ std::optional<HandStep> HandLead::before_step(const State<double>& x, double t, 
     }
   } else if (loop_) {
     follow_tip();
-    target_ = loop_->before_step(x, hand_.tick(h), h);
+    // At first as the device was when it took over: the robot stands where it stood.
+    target_ = loop_->before_step(x, hand_.tick(is_fresh_ ? 0 : h), h);
+    is_fresh_ = false;
   } else {
     const auto& goals = hand_.joint_goals();
     for (std::size_t j = 0; j < std::min(goal.size(), goals.size()); ++j)

@@ -49,7 +49,7 @@ class HandLead {
   void choose_pulls();
   std::vector<double> own_q(double t, double toward) const;
   void take_over(double t, double h);
-  void make_loop();
+  void make_loop(double h);
   void move_towards(const std::vector<double>& goal, double h);
   void follow_tip();
 
@@ -63,7 +63,7 @@ class HandLead {
   HandTarget target_;
   std::unique_ptr<HandLoop> loop_;
   unsigned long made_for_ = 0;  // of LabHand::chosen()
-  bool leads_ = false, is_live_ = false, goes_on_ = false;
+  bool leads_ = false, is_live_ = false, goes_on_ = false, is_fresh_ = false;
 };
 
 }  // namespace twinarm

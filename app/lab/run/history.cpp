@@ -142,7 +142,8 @@ LabHistory::Saved LabHistory::save(const LabScene& scene, const LabNames& names,
     throw InputError({{file.string(), 0, "save", "nothing is remembered yet", "let it run"}});
   const long first = first_step_to_save();
   RecordingHeader header = scene.header(segments_.back().changes, {led, log_of_hand()});
-  header.duration = time_in_memory(newest()->recorded.memory);
+  // Beyond the last step, so that this one ends on the grid of the run and not where the run ends.
+  header.duration = newest()->recorded.t + 0.5 * header.step;
   header.options.duration = header.duration;
   RecordingWriter writer(file, std::move(header));
   Saved saved;

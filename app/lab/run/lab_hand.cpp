@@ -10,6 +10,9 @@ namespace twinarm {
 LabHand::LabHand() {
   mapping_.kind = MappingKind::cartesian;
   mapping_.scale = 5;
+  // What a mouse drags is held by a soft arm: with the power of virtual work, 25 times as stiff, it
+  // would buzz against its motors' limit. So the stylus feels a fifth of the force on the tip.
+  mapping_.force_scale = 1 / (mapping_.scale * mapping_.scale);
 }
 
 void LabHand::choose(Source source, const std::string& spec) {

@@ -8,11 +8,12 @@
 #include "app/lab/run/mouse_pull.h"
 #include "app/record/post_mortem.h"
 #include "app/record/record_run.h"
+#include "app/simulate/run_end.h"
 
 namespace twinarm {
 namespace {
 
-std::uint32_t number_of(std::vector<std::string>& names, const std::string& name) {
+std::uint32_t number_of_row(std::vector<std::string>& names, const std::string& name) {
   const auto place = std::find(names.begin(), names.end(), name);
   const auto number = static_cast<std::uint32_t>(place - names.begin());
   if (place == names.end()) names.push_back(name);
@@ -107,11 +108,12 @@ bool LabRun::take() {
   pull_->set(input_.pull);
   const bool goes_on = run_->advance();
   lead_->after_step(run_->simulation(), step_length(), goes_on);
-  return goes_on;
+  stopped_ = !goes_on || run_->result().alarm;
+  return !stopped_;
 }
 
 bool LabRun::step() {
-  if (run_->result().post_mortem || post_mortem_) return false;
+  if (stopped_) return false;
   const State<double>& x = run_->simulation().state();
   input_.step = run_->step() + 1;
   input_.hand = lead_->before_step(x, x.t, step_length());
@@ -121,7 +123,7 @@ bool LabRun::step() {
 }
 
 bool LabRun::step(const LabInput& again) {
-  if (run_->result().post_mortem || post_mortem_) return false;
+  if (stopped_) return false;
   input_ = again;
   input_.step = run_->step() + 1;
   lead_->take_again(input_.hand);
@@ -146,11 +148,11 @@ LabFrame LabRun::frame(LabNames& names) {
   LabFrame frame;
   frame.recorded = frame_of(*run_, plan_->prepared);
   for (const LedgerRow& row : run_->ledger()) {
-    frame.recorded.rows.push_back(number_of(names.rows, row.name));
+    frame.recorded.rows.push_back(number_of_row(names.rows, row.name));
     frame.recorded.works.push_back(row.work);
   }
   for (const MomentumRow& row : run_->momentum()) {
-    frame.recorded.momentum_rows.push_back(number_of(names.momentum_rows, row.name));
+    frame.recorded.momentum_rows.push_back(number_of_row(names.momentum_rows, row.name));
     frame.recorded.momenta.insert(frame.recorded.momenta.end(), {row.linear, row.angular});
   }
   frame.hand = lead_->frame(frame.recorded.t);
@@ -185,13 +187,22 @@ bool LabRun::scene_leads() const {
   return !lead_->leads();
 }
 
+// The last state is a good one, but nobody would believe it.
+PostMortem LabRun::stopped_by_alarm() const {
+  const Simulation& simulation = run_->simulation();
+  PostMortem found = examine_end({}, simulation, simulation.state(), run_->time(), run_->step());
+  found.by_energy = true;
+  found.reason = "it creates energy";
+  return found;
+}
+
 const PostMortem* LabRun::post_mortem(const std::vector<LedgerRow>& before) {
-  if (!post_mortem_ && run_->result().post_mortem) {
-    SimulateResult result = run_->finish();
-    explain_at_once(plan_->prepared, *run_, before, result);
-    post_mortem_ = std::move(result.post_mortem);
-  }
-  return post_mortem_ ? &*post_mortem_ : nullptr;
+  if (!stopped_ || post_mortem_) return post_mortem_ ? &*post_mortem_ : nullptr;
+  SimulateResult result = run_->finish();
+  if (!result.post_mortem) result.post_mortem = stopped_by_alarm();
+  explain_at_once(plan_->prepared, *run_, before, result);
+  post_mortem_ = std::move(result.post_mortem);
+  return &*post_mortem_;
 }
 
 }  // namespace twinarm

@@ -66,7 +66,7 @@ InputError by_change(const InputError& error, const std::vector<Change>& changes
   return InputError(std::move(faults));
 }
 
-void put_text(TomlValue& scene, const std::string& key, const std::string& text) {
+void put_scene_text(TomlValue& scene, const std::string& key, const std::string& text) {
   TomlValue value;
   value.kind = TomlValue::Kind::text;
   value.key = key;
@@ -75,8 +75,8 @@ void put_text(TomlValue& scene, const std::string& key, const std::string& text)
   scene.members.push_back(std::move(value));
 }
 
-void put_number_of(TomlValue& scene, const std::string& key, double number) {
-  put_text(scene, key, "");
+void put_scene_number(TomlValue& scene, const std::string& key, double number) {
+  put_scene_text(scene, key, "");
   scene.members.back().kind = TomlValue::Kind::number;
   scene.members.back().number = number;
 }
@@ -131,7 +131,7 @@ TomlValue LabScene::tree(const std::vector<Change>& changes) const {
     if (change.path == "gravity") beside.robot.gravity = change.value;
   if (!beside.robot.gravity.empty())
     if (const auto g = parse_gravity(beside.robot.gravity, faults)) {
-      put_number_of(scene, "gravity", 0);
+      put_scene_number(scene, "gravity", 0);
       TomlValue& gravity = scene.members.back();
       gravity.kind = TomlValue::Kind::list;
       for (const double component : *g) {
@@ -141,9 +141,9 @@ TomlValue LabScene::tree(const std::vector<Change>& changes) const {
       }
     }
   faults.check();
-  if (beside.step) put_number_of(scene, "step", *beside.step);
-  if (!beside.integrator.empty()) put_text(scene, "integrator", beside.integrator);
-  if (!beside.contact.empty()) put_text(scene, "contact", beside.contact);
+  if (beside.step) put_scene_number(scene, "step", *beside.step);
+  if (!beside.integrator.empty()) put_scene_text(scene, "integrator", beside.integrator);
+  if (!beside.contact.empty()) put_scene_text(scene, "contact", beside.contact);
   return scene;
 }
 
@@ -166,7 +166,7 @@ RecordingHeader LabScene::header(const std::vector<Change>& changes, const Hand&
   for (TomlValue& list : scene.members)
     for (const std::size_t place : hand.couplings)
       if (list.key == "coupling" && place < list.items.size() && !hand.log.empty())
-        put_text(list.items[place], "target", log.string());
+        put_scene_text(list.items[place], "target", log.string());
   for (RecordedFile& file : header.files)
     if (file.path == header.options.robot.model) file.bytes = to_toml(scene);
   if (!hand.log.empty()) header.files.push_back({log.string(), hand.log});
