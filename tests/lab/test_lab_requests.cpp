@@ -226,6 +226,20 @@ TEST_CASE("lab server: what is too long or too slow is cut off") {
   CHECK(lab.is_alive());
 }
 
+TEST_CASE("lab server: requests have a rate too") {
+  ServerOptions options;
+  options.messages_per_second = 50;
+  const LabHost lab(options);
+  RawClient client(lab.server.port());
+  int done = 0, status = 200;
+  for (; status == 200 && done < 5000; ++done)
+    status = client.ask(lab.request("GET /", lab.cookie())).status;
+  CHECK(status == 429);
+  CHECK(done > 50);
+  CHECK(client.hear_end());
+  CHECK(lab.is_alive());
+}
+
 TEST_CASE("lab server: an address that cannot be listened on is refused with a remedy") {
   const LabHost lab;
   ServerOptions options;

@@ -68,7 +68,11 @@ struct Core : std::enable_shared_from_this<Core> {
 
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(Core& core, Socket socket) : core_(core), socket_(std::move(socket)) {}
+  Connection(Core& core, Socket socket)
+      : core_(core),
+        socket_(std::move(socket)),
+        allowance_(core.options.messages_per_second),
+        allowed_at_(Clock::now()) {}
   void start();  // waits for a request
   void send_next();
   void sweep(Clock::time_point now);
@@ -86,13 +90,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void write(ResponseHead head, Bytes body);
   void linger();
   bool has_token(std::string_view target);
+  bool is_allowed();  // one message or request more, at this moment
 
   // The WebSocket: connection_live.inl
   void go_live();
   void read_message();
   void take_message();
   void take_control(websocket::frame_type kind, std::string_view text);
-  bool is_too_fast();
+  bool is_too_fast();  // true: it is told so
   void ping();
   void say_goodbye(websocket::close_code code, const std::string& why);
   void drop();
@@ -119,7 +124,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool is_closing_ = false, is_pinging_ = false;
   std::uint64_t sent_ = 0, pinged_ = 0, answered_ = 0;  // messages, by their number
   Clock::time_point progress_, pinged_at_;
-  double allowance_ = 0;  // of messages, now
+  double allowance_;  // of messages, now
   Clock::time_point allowed_at_;
 };
 

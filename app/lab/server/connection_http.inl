@@ -63,6 +63,15 @@ bool Connection::has_token(std::string_view target) {
          is_secret(cookie_value(view(parser_->get()[http::field::cookie]), core_.cookie), token);
 }
 
+bool Connection::is_allowed() {
+  const double most = core_.options.messages_per_second;
+  const Clock::time_point now = Clock::now();
+  const double gone = std::chrono::duration<double>(now - allowed_at_).count();
+  allowance_ = std::min(most, allowance_ + gone * most) - 1;
+  allowed_at_ = now;
+  return allowance_ >= 0;
+}
+
 bool Connection::is_welcome() {
   const Request& request = parser_->get();
   const std::string_view host = view(request[http::field::host]);
@@ -82,6 +91,8 @@ bool Connection::is_welcome() {
   } else if (!is_post && request.method() != http::verb::get &&
              request.method() != http::verb::head) {
     refuse(405, "GET, HEAD and POST are understood");
+  } else if (!is_allowed()) {
+    refuse(429, "too many requests a second");
   } else if (!is_post && !parser_->is_done()) {
     refuse(400, "only POST has a body");
   } else {

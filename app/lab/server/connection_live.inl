@@ -25,8 +25,7 @@ void Connection::go_live() {
   ws_->async_accept(parser_->get(), [self = shared_from_this()](error_code error) {
     if (error) return self->drop();
     self->parser_.reset();
-    self->allowance_ = self->core_.options.messages_per_second;
-    self->allowed_at_ = self->progress_ = self->pinged_at_ = Clock::now();
+    self->progress_ = self->pinged_at_ = Clock::now();
     self->client_ = ++self->core_.last_client;
     self->core_.mailboxes.open(self->client_);
     try {
@@ -76,14 +75,10 @@ void Connection::take_control(websocket::frame_type kind, std::string_view text)
 }
 
 bool Connection::is_too_fast() {
-  const double most = core_.options.messages_per_second;
-  const Clock::time_point now = Clock::now();
-  const double gone = std::chrono::duration<double>(now - allowed_at_).count();
-  allowance_ = std::min(most, allowance_ + gone * most) - 1;
-  allowed_at_ = now;
-  if (allowance_ >= 0) return false;
+  if (is_allowed()) return false;
   say_goodbye(websocket::close_code::policy_error,
-              "more than " + std::to_string(std::lround(most)) + " messages a second");
+              "more than " + std::to_string(std::lround(core_.options.messages_per_second)) +
+                  " messages a second");
   return true;
 }
 
@@ -131,6 +126,11 @@ void Connection::say_goodbye(websocket::close_code code, const std::string& why)
 }
 
 void Connection::sweep(Clock::time_point now) {
+  // A WebSocket that has ended, by its client's will or fault, waits for the client to hang up.
+  if (client_ != 0 && !is_closing_ && !ws_->is_open()) {
+    is_closing_ = true;
+    deadline_ = now + kFarewell;
+  }
   if (client_ == 0 || is_closing_) {
     if (now > deadline_) drop();
     return;

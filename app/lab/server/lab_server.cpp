@@ -1,5 +1,6 @@
 #include "app/lab/server/lab_server.h"
 
+#include <pthread.h>
 #include <sys/random.h>
 
 #include <cmath>
@@ -65,6 +66,7 @@ struct LabServer::Impl {
     accept();
     sweep();
     thread = std::thread([this] { work(); });
+    pthread_setname_np(thread.native_handle(), "lab server");
   }
   ~Impl() {
     core->io.stop();
@@ -84,9 +86,12 @@ struct LabServer::Impl {
     if (!error) acceptor.bind(place, error);
     if (!error) acceptor.listen(Acceptor::max_listen_connections, error);
     if (error) refuse_address(options, error.message());
-    const std::uint16_t port = acceptor.local_endpoint().port();
+    port = acceptor.local_endpoint().port();
     core->hosts.emplace(address.to_string(), port, address.is_loopback(), address.is_unspecified());
     core->cookie = "twinarm_" + std::to_string(port);
+    const std::string name = address.is_unspecified() ? "127.0.0.1" : address.to_string();
+    url = "http://" + (name.find(':') == name.npos ? name : "[" + name + "]") + ":" +
+          std::to_string(port) + "/?token=" + options.token;
   }
 
   void accept() {
@@ -139,6 +144,8 @@ struct LabServer::Impl {
   Acceptor acceptor;
   net::steady_timer timer;
   bool needs_accept = false;
+  std::uint16_t port = 0;
+  std::string url;
   std::thread thread;
 };
 
@@ -147,14 +154,10 @@ LabServer::LabServer(const ServerOptions& options, ServerHandlers handlers)
 LabServer::~LabServer() = default;
 
 std::uint16_t LabServer::port() const {
-  return impl_->acceptor.local_endpoint().port();
+  return impl_->port;
 }
-
 std::string LabServer::url() const {
-  const net::ip::address address = impl_->acceptor.local_endpoint().address();
-  const std::string name = address.is_unspecified() ? "127.0.0.1" : address.to_string();
-  return "http://" + (address.is_v6() && !address.is_unspecified() ? "[" + name + "]" : name) +
-         ":" + std::to_string(port()) + "/?token=" + impl_->core->options.token;
+  return impl_->url;
 }
 
 void LabServer::send(ClientId client, int channel, Bytes message, bool is_binary) {
