@@ -213,27 +213,29 @@ TEST_CASE("lab frame: the kinematic robot stands where the hand has it, at the s
   frame.hand->leads = true;
   for (const double angle : {0.3, -0.5, 0.3}) {
     frame.hand->q_K = {angle, 0.4, -0.2};
-    State<double> x = watched.run->view().simulation().state();
+    State<double> x = watched.plan->prepared.input.robot.state.x;
     const char* const joints[] = {"joint1", "joint2", "joint3"};
     for (std::size_t j = 0; j < 3; ++j)
       x.q[model.iq[static_cast<std::size_t>(model.find_joint(joints[j]))]] = frame.hand->q_K[j];
     Kinematics k(model);
     forward_kinematics(model, x, k);
     const ReadFrame read(watched.view->frame(frame, nullptr, {"ghost"}, {}));
-    const auto [first, last] = read.layer(ghost);
+    const std::size_t first = read.first[ghost], last = read.first[ghost + 1];
+    Kinematics now(model);
+    forward_kinematics(model, watched.run->view().simulation().state(), now);
+    // Its link's pose, by way of the same part of the dynamic robot, whose link stands at `now`.
+    const auto is_like = [&](std::size_t i, std::size_t j) {
+      return read.body[i] == read.body[j] && read.mesh[i] == read.mesh[j];
+    };
     int seen = 0;
-    for (std::size_t i = first; i < last; ++i) {
-      // Its link's pose, by way of the same part of the dynamic robot, whose link stands at x.
-      for (std::size_t j = 0; j < first; ++j) {
-        if (read.body[j] != read.body[i] || read.mesh[j] != read.mesh[i]) continue;
-        Kinematics now(model);
-        forward_kinematics(model, watched.run->view().simulation().state(), now);
-        const Pose& X_WL = now.X_WL[read.body[j]];
-        const Vector3 p_L = X_WL.R.transpose() * (position_of(read, j) - X_WL.p);
-        CHECK((position_of(read, i) - k.X_WL[read.body[i]] * p_L).norm() < 1e-5);
-        seen += read.body[i] == tip ? 1 : 0;
-        break;
-      }
+    std::size_t j = 0;  // parts come in the same order
+    for (std::size_t i = first; i < last; ++i, ++j) {
+      while (j < first && !is_like(i, j)) ++j;
+      REQUIRE(j < first);
+      const Pose& X_WL = now.X_WL[read.body[j]];
+      const Vector3 p_L = X_WL.R.transpose() * (position_of(read, j) - X_WL.p);
+      CHECK((position_of(read, i) - k.X_WL[read.body[i]] * p_L).norm() < 1e-5);
+      seen += read.body[i] == tip ? 1 : 0;
     }
     CHECK(seen > 0);
     const auto at = [&](const char* name) {
@@ -427,7 +429,7 @@ TEST_CASE(
   for (RecordedContact& c : frame.recorded.contacts) c.force *= 1000;
   const float struck = length();
   CHECK(struck < 1000 * at_rest);
-  CHECK(struck > 300 * at_rest);  // one step: half or two fifths of it
+  CHECK(struck > 150 * at_rest);  // one step: a fifth of it at least, both being rounded
   float last = struck;
   for (int i = 0; i < 12; ++i) {
     const float now = length();

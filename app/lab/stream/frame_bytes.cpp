@@ -1,6 +1,7 @@
 #include "app/lab/stream/frame_bytes.h"
 
 #include <Eigen/Geometry>
+#include <utility>
 
 namespace twinarm {
 namespace {

@@ -75,10 +75,13 @@ void LabMoments::tell(const LabFrame& frame) {
   if (frame.hand && frame.hand->leads) led_->lead.take_again(stand_at(*frame.hand, t));
   // A kinematic robot does not look again at an instant that it has seen; but the hand may have
   // been elsewhere, in another branch.
-  for (std::size_t c = 0; c < led_->couplings.size(); ++c) led_->couplings.target(c, t + 1);
+  if (t == last_time_)
+    for (std::size_t c = 0; c < led_->couplings.size(); ++c) led_->couplings.target(c, t + 1);
+  last_time_ = t;
 }
 
 Moment LabMoments::at_start() {
+  last_time_ = plan_->input.robot.state.x.t;
   return moment_of(plan_->input, couplings(), {plan_->input.robot.state.x, {}, {}});
 }
 

@@ -37,6 +37,7 @@ class LabMoments {
 
   const SimulatePlan* plan_ = nullptr;
   std::unique_ptr<Led> led_;  // null for a robot alone
+  double last_time_ = 0;      // that the kinematic robots have seen
 };
 
 }  // namespace twinarm

@@ -12,7 +12,7 @@ namespace {
 constexpr double kLeastPull = 1e-3;    // of the largest
 constexpr double kLeastArrow = 0.005;  // of the weight, and of that at half the scene's extent
 
-struct PulledBy {
+struct DrawnPulls {
   bool force = false, couple = false;
 };
 
@@ -38,7 +38,7 @@ void draw_pull(Stage& stage, const ShownPull& pull, const Color& color) {
   }
 }
 
-void add_ramp_legend(Stage& stage, const PulledBy& drawn) {
+void add_ramp_legend(Stage& stage, const DrawnPulls& drawn) {
   if (drawn.force) {
     stage.list.legend.push_back({palette::ramp(0), "spring-damper that pulls little"});
     stage.list.legend.push_back(
@@ -52,7 +52,7 @@ void add_ramp_legend(Stage& stage, const PulledBy& drawn) {
 }  // namespace
 
 void show_couplings(Stage& stage, const Moment& moment) {
-  PulledBy drawn;
+  DrawnPulls drawn;
   const Model<double>& model = *stage.model;
   const double weight = total_motion(model, moment.k).mass * to_eigen(model.gravity).norm();
   for (const ShownPull& pull : moment.pulls) {
