@@ -2,6 +2,7 @@
 //
 // Made once for a scene. Used by one thread, the painter; with the run it shares nothing that
 // changes: it has couplings of its own, and leads their kinematic side by what a frame says.
+// The plan is to be one of its own, of LabScene::plan(): a run changes the state in its plan.
 //
 // Meshes, channels, rows of the ledger and legends may come up during a run. They are only ever
 // added at the end, so a frame can be read with an older `scene` message; revision() says when a
