@@ -57,7 +57,6 @@ class Page implements LabPage {
   private readonly title = element('h1', {}, 'twinarm lab');
   private readonly file = element('p', {});
   private readonly arrowsOf = new Map<string, Arrow[]>();
-  private readonly news: { scene?: wire.SceneMessage; state?: wire.StateMessage; glass?: wire.GlassMessage } = {};
   private stale = true;
 
   constructor() {
@@ -67,12 +66,7 @@ class Page implements LabPage {
     this.theme = new Theme(() => this.recolor());
     this.live = new LiveStage(this.host, { labels, handles: over }, () => this.touch());
     this.handles = new Handles(over);
-    this.link = new wire.Link(socketAddress(), {
-      scene: (message) => (this.news.scene = message),
-      state: (message) => (this.news.state = message),
-      glass: (message) => (this.news.glass = message),
-      connection: (open) => this.connected(open),
-    });
+    this.link = new wire.Link(socketAddress(), (open) => this.connected(open));
     this.hand = new Hand(this.link, () => this.state, (words) => this.say(words));
     this.grab = new Grab(this.host, () => this.seen(), this.hand, this.handles, {
       select: (body) => this.select(body),
@@ -231,9 +225,7 @@ class Page implements LabPage {
     this.controller.poll();
     this.grab.tick();
     this.hand.flush();
-    this.takeNews();
-    const frame = this.link.take();
-    if (frame && frame.scene === this.scene?.scene) this.takeFrame(frame);
+    this.takeNews(this.link.take());
     if (this.stale && this.frame) this.paint(this.frame, now);
     this.picture?.tick(now);
     this.words.tick(now, (!this.grab.held && this.keys.hint) || this.grab.hint);
@@ -242,15 +234,14 @@ class Page implements LabPage {
         panel.draw();
   }
 
-  private takeNews(): void {
-    const { scene, state, glass } = this.news;
-    this.news.scene = this.news.state = this.news.glass = undefined;
+  private takeNews({ scene, state, glass, frame }: wire.News): void {
     if (scene) this.takeScene(scene);
     if (state) {
       this.state = state;
       for (const panel of this.panels) panel.onState?.(state);
     }
     if (glass) for (const panel of this.panels) panel.onGlass?.(glass);
+    if (frame && frame.scene === this.scene?.scene) this.takeFrame(frame);
   }
 
   private takeScene(scene: wire.SceneMessage): void {

@@ -104,7 +104,8 @@ export class Handles {
     }
     const { origin, direction: axis } = found;
     const radial = aside(frame, joint.body, axis, origin).multiplyScalar(reach);
-    const bound = (limit: number, otherwise: number) => (Math.abs(limit) < 1e3 ? limit : otherwise);
+    const bound = (limit: number | undefined, otherwise: number) =>
+      limit !== undefined && Math.abs(limit) < 1e3 ? limit : otherwise;
     const low = bound(joint.low, value - Math.PI);
     const high = bound(joint.high, value + Math.PI);
     // The link is at `value` now: angles are counted from there.

@@ -13,6 +13,10 @@ export interface Axis {
 const STEPS = 4;
 const LEAST = 30; // pixels: from where the axis hides the motion, a small one is not made a large one
 
+export function within({ low, high }: { low?: number; high?: number }, value: number): number {
+  return Math.min(high ?? Infinity, Math.max(low ?? -Infinity, value));
+}
+
 export class JointLeash {
   private readonly start: number;
 
@@ -21,7 +25,7 @@ export class JointLeash {
     private readonly axis: Axis,
     private readonly grabbed: THREE.Vector3,
     public value: number,
-    private readonly range: { low: number; high: number },
+    private readonly range: { low?: number; high?: number },
   ) {
     this.start = value;
   }
@@ -38,8 +42,7 @@ export class JointLeash {
       const most = this.axis.slides ? Infinity : 0.5;
       this.value += Math.min(most, Math.max(-most, step));
     }
-    const { low, high } = this.range;
-    this.value = Math.min(high, Math.max(low, this.value));
+    this.value = within(this.range, this.value);
     return this.value;
   }
 

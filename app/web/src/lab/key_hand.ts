@@ -5,6 +5,7 @@ import type { Stage } from '../view/stage';
 import type { Grab } from './grab';
 import type { Hand } from './hand';
 import { inWorld, type Handles } from './handles';
+import { within } from './joint_leash';
 import type { Frame, SceneJoint, SceneMessage, Vector } from './link';
 
 const STEP = 0.02; // of the size of what is seen
@@ -125,8 +126,8 @@ export class KeyHand {
 
   private moveJoint(mode: Mode & { kind: 'joint' }, by: number): void {
     if (!this.hand.lead('joints')) return;
-    const { low, high, slides, driven } = mode.joint;
-    mode.value = Math.min(high, Math.max(low, mode.value + by * (slides ? 0.01 : TURN)));
+    const { slides, driven } = mode.joint;
+    mode.value = within(mode.joint, mode.value + by * (slides ? 0.01 : TURN));
     this.hand.joint(driven!, mode.value);
   }
 

@@ -1,33 +1,35 @@
-// The connection to the lab. Of frames only the newest is kept, and nobody looks at it before the
-// next picture is drawn: a page that draws slowly sees less, never later. A lost connection is
-// tried again until it holds.
+// The connection to the lab. Of each kind of message only the newest is kept, and nobody looks at
+// it before the next picture is drawn: a page that draws slowly sees less, never later. A lost
+// connection is tried again until it holds.
 import { decodeFrame, type Frame } from './frame';
 import type { Command, GlassMessage, SceneMessage, StateMessage } from './messages';
 
 export * from './frame';
 export * from './messages';
 
-export interface Listener {
-  scene(message: SceneMessage): void;
-  state(message: StateMessage): void;
-  glass(message: GlassMessage): void;
-  connection(open: boolean): void;
+export interface News {
+  scene: SceneMessage | null;
+  state: StateMessage | null;
+  glass: GlassMessage | null;
+  frame: Frame | null;
 }
 
 const FIRST_PAUSE = 250; // [ms]
 const LONGEST_PAUSE = 2000;
+const KIND = /"kind":\s*"(\w+)"/; // stands before anything that a scene could name
 
 export class Link {
   open = false;
   received = 0; // frames, shown or not
   private socket: WebSocket | null = null;
   private waiting: ArrayBuffer | null = null;
+  private readonly texts = new Map<string, string>(); // by kind
   private pause = FIRST_PAUSE;
   private timer = 0;
 
   constructor(
     private readonly url: string,
-    private readonly listener: Listener,
+    private readonly changed: (open: boolean) => void,
   ) {
     addEventListener('online', () => this.connect());
     document.addEventListener('visibilitychange', () => {
@@ -43,11 +45,23 @@ export class Link {
     return true;
   }
 
-  // The newest frame, once; null: none has come since.
-  take(): Frame | null {
-    const newest = this.waiting;
+  // The newest of each kind, once; null: none has come since.
+  take(): News {
+    const text = <T>(kind: string) => {
+      const found = this.texts.get(kind);
+      return found === undefined ? null : (JSON.parse(found) as T);
+    };
+    const state = text<StateMessage>('state');
+    if (state) state.holder ||= null; // 0: nobody
+    const news: News = {
+      scene: text<SceneMessage>('scene'),
+      state,
+      glass: text<GlassMessage>('glass'),
+      frame: this.waiting && decodeFrame(this.waiting),
+    };
     this.waiting = null;
-    return newest && decodeFrame(newest);
+    this.texts.clear();
+    return news;
   }
 
   // At once, if there is none.
@@ -60,7 +74,7 @@ export class Link {
     socket.onopen = () => {
       this.open = true;
       this.pause = FIRST_PAUSE;
-      this.listener.connection(true);
+      this.changed(true);
     };
     socket.onmessage = ({ data }: MessageEvent<string | ArrayBuffer>) => this.receive(data);
     socket.onclose = () => this.lose();
@@ -72,17 +86,15 @@ export class Link {
       this.received += 1;
       return;
     }
-    const message = JSON.parse(data) as SceneMessage | StateMessage | GlassMessage;
-    if (message.kind === 'scene') this.listener.scene(message);
-    else if (message.kind === 'state') this.listener.state(message);
-    else if (message.kind === 'glass') this.listener.glass(message);
+    const kind = KIND.exec(data)?.[1];
+    if (kind) this.texts.set(kind, data);
   }
 
   private lose(): void {
     this.socket = null;
     this.open = false;
     this.waiting = null;
-    this.listener.connection(false);
+    this.changed(false);
     this.timer = setTimeout(() => this.connect(), this.pause);
     this.pause = Math.min(2 * this.pause, LONGEST_PAUSE);
   }

@@ -26,8 +26,8 @@ export interface SceneBody {
 export interface SceneJoint {
   name: string;
   body: number;
-  low: number;
-  high: number;
+  low?: number; // absent: no limit
+  high?: number;
   driven?: number; // its place in hand.q; absent: the hand does not drive it
   axis?: Vector; // link axes of `body`, through its origin; absent: it has not one axis
   slides?: boolean; // along the axis, else about it

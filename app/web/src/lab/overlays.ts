@@ -5,7 +5,7 @@ import { LayerChoice } from '../ui/layers';
 import type { SceneMessage } from './link';
 import { remember, remembered } from './memory';
 
-const AT_FIRST = ['ghost', 'device', 'couplings', 'contacts', 'before'];
+const AT_FIRST = ['ghost', 'device', 'couplings', 'contacts', 'felt', 'before'];
 type Head = SceneMessage['layers'][number] & { shown: boolean };
 
 export class Overlays {
@@ -15,7 +15,8 @@ export class Overlays {
   private chosen = new Set(remembered<string[]>('layers', AT_FIRST));
   private readonly toggle: HTMLButtonElement;
   private readonly list = element('div', { class: 'list', hidden: '' });
-  private known = '';
+  private known = ''; // names of layers
+  private heads: Head[] = [];
 
   constructor(private readonly changed: () => void) {
     this.toggle = button(icon('layers'), 'what is shown (o)', () => this.fold(!this.list.hidden));
@@ -40,10 +41,16 @@ export class Overlays {
   }
 
   show(scene: SceneMessage): void {
-    const known = JSON.stringify(scene.layers);
-    if (known === this.known) return;
+    const known = JSON.stringify(scene.layers.map(({ name }) => name));
+    if (known === this.known) {
+      // What the colours mean changes on the way: scales of arrows grow.
+      scene.layers.forEach(({ legend }, l) => (this.heads[l].legend = legend));
+      this.choice?.fillLegend();
+      return;
+    }
     this.known = known;
     const heads = scene.layers.map((layer) => ({ ...layer, shown: this.chosen.has(layer.name) }));
+    this.heads = heads;
     this.choice = new LayerChoice<Head>(heads, () => this.take(heads));
     this.list.replaceChildren(this.choice.switches);
     this.legend.replaceChildren(this.choice.legend);
