@@ -147,7 +147,7 @@ class Page implements LabPage {
       ...(this.picture ? [this.picture.root] : []),
       element('div', { class: 'corner' }, this.overlays.root, this.overlays.legend),
       this.views.root,
-      element('div', { class: 'foot' }, this.words.look, this.words.hint),
+      element('div', { class: 'foot' }, this.words.look, this.words.again, this.words.hint),
       element('div', { class: 'hand-corner' }, set.hand.root),
       this.words.banner,
       set.dead.root,

@@ -8,6 +8,8 @@ const PATIENCE = 500; // before a lost connection is spoken of
 
 export class Words {
   readonly look = element('section', { class: 'look', hidden: '', 'aria-label': 'what to look for' });
+  // Brings it back.
+  readonly again = button('What to look for', 'what this scene shows', () => this.fold(false));
   readonly hint = element('p', { class: 'hint-line' });
   readonly banner = element('div', { class: 'banner', role: 'status', hidden: '' });
   private said = '';
@@ -17,18 +19,25 @@ export class Words {
   private lostAt: number | null = 0;
 
   constructor() {
+    this.again.hidden = true;
     this.banner.append(element('i'), element('span'));
   }
 
   show(scene: SceneMessage): void {
     if (scene.file === this.file) return;
     this.file = scene.file;
-    this.look.hidden = scene.look.length === 0;
+    this.fold(false);
+    if (scene.look.length === 0) this.look.hidden = true;
     this.look.replaceChildren(
       element('h2', {}, 'What to look for'),
-      button('×', 'away', () => (this.look.hidden = true), 'close'),
+      button('×', 'away', () => this.fold(true), 'close'),
       element('ul', {}, ...scene.look.map((line) => element('li', {}, line))),
     );
+  }
+
+  private fold(away: boolean): void {
+    this.look.hidden = away;
+    this.again.hidden = !away;
   }
 
   say(words: string): void {
