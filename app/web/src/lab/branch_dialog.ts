@@ -16,7 +16,7 @@ export class BranchDialog {
   readonly root = element('dialog', { class: 'card-dialog branch', 'aria-labelledby': 'branch-title' });
   private readonly title = element('h2', { id: 'branch-title' });
   private readonly list = element('div', { class: 'lines' });
-  private readonly none = element('p', { class: 'hint' }, 'No knob: the run is done again as it was.');
+  private readonly none = element('p', { class: 'hint' }, 'All knobs are left as they are now.');
   private readonly more = element('select', { 'aria-label': 'turn one more knob' });
   private lines: Line[] = [];
   private at = 0;
@@ -83,7 +83,7 @@ export class BranchDialog {
       element('span', { class: 'unit' }, unitText(unit)),
     );
     const line = { knob, root, control };
-    root.append(button('×', `leave ${label} as it was`, () => this.remove(line)));
+    root.append(button('×', `leave ${label} as it is now`, () => this.remove(line)));
     this.lines.push(line);
     this.list.append(root);
     this.offer();
@@ -109,7 +109,6 @@ export class BranchDialog {
     this.root.close();
     this.rewind.seek(null);
     this.page.send({ do: 'branch', at: this.at, changes });
-    this.page.send({ do: 'play', on: true });
   }
 }
 

@@ -1,6 +1,6 @@
 // The hand: who moves the robot, what the device would push back, who may turn things.
 import { button, element } from '../ui/dom';
-import type { Frame, SceneMessage, StateMessage } from './link';
+import { watches, type Frame, type HandState, type SceneMessage, type StateMessage } from './link';
 import { DEVICE_LIMIT } from './live_specs';
 import type { LabPage, Panel } from './panel';
 import { signed } from './sign';
@@ -43,6 +43,7 @@ export class HandBar implements Panel {
   private readonly fill = element('i');
   private readonly number = element('output', { class: 'newtons', 'aria-live': 'off' });
   private readonly warning = element('div', { class: 'warning' });
+  private readonly grip = button('', 'gripper (g)', () => this.page.hand.button(0, !this.page.hand.grip));
   private column = -1;
   private newest: Frame | null = null;
   private drawn = '';
@@ -61,7 +62,7 @@ export class HandBar implements Panel {
     });
     this.force.append(this.fill, element('i', { class: 'mark' }));
     this.root.append(
-      element('div', { class: 'line' }, element('b', {}, 'Hand'), this.source),
+      element('div', { class: 'line' }, element('b', {}, 'Hand'), this.source, this.grip),
       this.spec,
       element('div', { class: 'line' }, this.force, this.number),
       this.warning,
@@ -78,19 +79,19 @@ export class HandBar implements Panel {
   }
 
   onState(state: StateMessage): void {
-    const { hand, holder, you } = state;
-    const watches = holder !== null && holder !== you;
-    this.root.dataset.without = String(!hand);
-    if (!this.choosing) {
-      const name = hand?.source ?? 'scene';
-      this.source.value = SOURCES.some((one) => one.name === name) ? name : 'device';
-    }
-    this.source.disabled = watches;
+    const { hand } = state;
+    const leads = !!hand && hand.source !== '';
+    const isWatching = watches(state);
+    if (!this.choosing) this.source.value = leads ? chosen(hand) : 'scene';
+    this.source.disabled = isWatching || !leads;
+    this.grip.disabled = isWatching;
+    this.grip.hidden = !leads;
     const words: string[] = [];
-    if (hand) {
-      words.push(`${hand.mapping} mapping`, MODES[hand.mode] ?? hand.mode);
-      if (!hand.felt) words.push('the force is shown only');
-    } else words.push('No hand leads this scene: pull at a body.');
+    if (leads) {
+      words.push(`${hand.mapping} mapping`);
+      if (hand.source === 'device') words.push(hand.felt);
+      if (hand.mode) words.push(MODES[hand.mode] ?? hand.mode);
+    } else words.push('No hand leads this scene. Pull at a body.');
     const text = words.join(' · ');
     if (this.facts.textContent !== text) this.facts.textContent = text;
     this.showHolder(state);
@@ -101,6 +102,11 @@ export class HandBar implements Panel {
   }
 
   draw(): void {
+    const closed = String(this.page.hand.grip);
+    if (this.grip.getAttribute('aria-pressed') !== closed) {
+      this.grip.setAttribute('aria-pressed', closed);
+      this.grip.textContent = closed === 'true' ? 'grips' : 'grip';
+    }
     const force = this.newest && this.column >= 0 ? this.newest.channels[this.column] : NaN;
     const hasForce = Number.isFinite(force);
     const text = hasForce ? `${force.toFixed(2)} N` : '';
@@ -147,10 +153,10 @@ export class HandBar implements Panel {
     const parts: Node[] = [];
     const say = (words: string) => parts.push(element('span', {}, words));
     const isAlone = clients < 2;
-    if (holder === null && !isAlone) {
+    if (!holder && !isAlone) {
       say('Nobody holds the hand.');
       parts.push(button('Take it', 'to move the robot', () => this.page.send({ do: 'take' })));
-    } else if (holder !== null && holder !== you) {
+    } else if (holder && holder !== you) {
       const isAsking = asked.includes(you);
       say(isAsking ? 'You have asked for the hand.' : 'Somebody else holds the hand.');
       const ask = button('Ask for it', 'the holder is asked', () => this.page.send({ do: 'take' }));
@@ -165,4 +171,9 @@ export class HandBar implements Panel {
         );
     this.holder.replaceChildren(...parts);
   }
+}
+
+function chosen({ source, felt }: HandState): string {
+  if (source !== 'device') return source;
+  return ['synthetic', 'trace'].find((name) => felt.includes(name)) ?? 'device';
 }

@@ -2,7 +2,7 @@
 // one moment (a slider that moves) are sent as one, ten times a second.
 import { button, element } from '../ui/dom';
 import { knobRow, shapeOf, type KnobRow } from './knob_row';
-import type { Knob, StateMessage } from './link';
+import { watches, type Knob, type StateMessage } from './link';
 import type { LabPage, Panel } from './panel';
 
 const PAUSE = 100; // between two messages [ms]
@@ -22,44 +22,51 @@ export class Knobs implements Panel {
   private scene = -1;
   private readonly first = new Map<string, string>(); // values that the scene came with
   private values = new Map<string, string>();
+  private told = new Set<string>(); // paths that were turned, as the lab says
 
   constructor(private readonly page: LabPage) {
     this.again = button('Reset knobs', 'all knobs as the scene has them', () => this.reset());
     this.root.append(this.watching, this.presets, this.groups, this.again);
   }
 
-  // What differs from the scene: what a branch may be asked with.
+  // What differs from the scene's file.
   get changes(): string[] {
-    return [...this.values]
-      .filter(([path, value]) => this.first.has(path) && this.first.get(path) !== value)
-      .map(([path, value]) => `${path}=${value}`);
+    return this.changed.map((path) => `${path}=${this.values.get(path)}`);
+  }
+  private get changed(): string[] {
+    const { first, values, told } = this;
+    return [...values.keys()].filter((path) =>
+      first.has(path) ? first.get(path) !== values.get(path) : told.has(path),
+    );
   }
 
   onState(state: StateMessage): void {
-    const { knobs, presets, holder, you } = state;
+    const { knobs, presets } = state;
     const scene = this.page.scene?.scene ?? 0;
     if (scene !== this.scene) {
       this.scene = scene;
       this.first.clear();
     }
-    const told = knobs.filter(({ value }) => value !== null);
-    this.values = new Map(told.map(({ path, value }) => [path, String(value)]));
+    const known = knobs.filter(({ value }) => value !== null);
+    this.values = new Map(known.map(({ path, value }) => [path, String(value)]));
+    // What had been turned before this page came, nobody tells how it was.
+    this.told = new Set((state.changes ?? []).map((change) => change.split('=')[0]));
     for (const [path, value] of this.values)
-      if (!this.first.has(path)) this.first.set(path, value);
+      if (!this.first.has(path) && !this.told.has(path)) this.first.set(path, value);
     const shape = knobs.map(shapeOf).join();
     if (shape !== this.shape) {
       this.shape = shape;
       this.build(knobs);
     } else for (const knob of knobs) this.rows.get(knob.path)!.update(knob);
     this.showPresets(presets);
-    const watches = holder !== null && holder !== you;
-    this.watching.hidden = !watches;
-    this.watching.textContent = watches
+    const isWatching = watches(state);
+    this.watching.hidden = !isWatching;
+    this.watching.textContent = isWatching
       ? 'Somebody else holds the hand: you see what they turn. Ask for the hand to turn yourself.'
       : '';
-    for (const row of this.rows.values()) row.enable(!watches);
-    for (const preset of this.presets.querySelectorAll('button')) preset.disabled = watches;
-    this.again.disabled = watches || this.changes.length === 0;
+    for (const row of this.rows.values()) row.enable(!isWatching);
+    for (const preset of this.presets.querySelectorAll('button')) preset.disabled = isWatching;
+    this.again.disabled = isWatching || this.changes.length === 0;
   }
 
   private build(knobs: Knob[]): void {
@@ -113,9 +120,15 @@ export class Knobs implements Panel {
     this.page.send({ do: 'set', changes });
   }
 
+  // As the scene has them; where that is not known, the scene is opened again.
   private reset(): void {
-    for (const [path, value] of this.first)
-      if (this.values.get(path) !== value) this.waiting.set(path, value);
+    const { changed, first } = this;
+    const name = this.page.state?.name;
+    if (name && changed.some((path) => !first.has(path))) {
+      this.page.send({ do: 'scene', name });
+      return;
+    }
+    for (const path of changed) if (first.has(path)) this.waiting.set(path, first.get(path)!);
     if (this.waiting.size > 0) this.flush();
   }
 }

@@ -168,7 +168,7 @@ export class LiveSpecs {
 
   private loop(step: number): LiveSpec[] {
     const words = 'the time of a step';
-    return this.plain('loop', 'Pace: run time over wall time', this.of('time')).map((spec) => {
+    return this.plain('loop', 'Wall time over run time', this.of('time')).map((spec) => {
       const value = spec.unit === 'us' ? 1e6 * step : step;
       if (spec.unit !== 's' && spec.unit !== 'us') return spec;
       return { ...spec, title: 'Loop time', limit: { value, words, always: false } };

@@ -50,13 +50,13 @@ export interface SceneMessage {
   view: View;
 }
 
-export type Limit = { value: number; words: string; state: 'ok' | 'near' | 'beyond' };
+export type Limit = { value: number | null; words: string; state: 'ok' | 'near' | 'beyond' };
 
 export interface Knob {
   path: string;
   label: string;
   group: string;
-  value: number | string;
+  value: number | string | null; // null: the scene leaves it out
   unit: string;
   form: 'log' | 'linear' | 'choice' | 'number';
   low?: number;
@@ -90,17 +90,17 @@ export interface Note {
 }
 
 export interface HandState {
-  source: 'scene' | 'drag' | 'joints' | 'synthetic' | 'trace' | string;
+  source: 'scene' | 'drag' | 'joints' | 'device' | ''; // '': no hand leads this scene
   mapping: string;
   q: number[];
-  felt: boolean; // whether the force comes back to it
-  mode: string;
+  felt: string; // what device it is
+  mode?: string; // live, held, released
 }
 
 export interface StateMessage {
   kind: 'state';
   you: number;
-  holder: number | null;
+  holder: number | null; // 0, null: nobody
   clients: number;
   asked: number[]; // who asks for the hand
   playing: boolean;
@@ -117,6 +117,9 @@ export interface StateMessage {
   knobs: Knob[];
   presets: { name: string; what: string }[];
   gallery: { name: string; title: string; look: string[] }[];
+  name?: string; // of the gallery
+  changes?: string[]; // to the scene's file
+  building?: string; // what is being prepared
   dead: Death | null;
   notes: Note[];
 }
@@ -149,3 +152,8 @@ export type Command =
   | { do: 'button'; index: number; down: boolean; stamp: number }
   | { do: 'pull'; body: number; point: Vector; goal: Vector; stamp: number }
   | { do: 'drop' };
+
+// Somebody else holds the hand.
+export function watches({ holder, you }: StateMessage): boolean {
+  return !!holder && holder !== you;
+}

@@ -24,6 +24,7 @@ export interface LabPage {
   readonly state: StateMessage | null;
   readonly frame: Frame | null;
   readonly selected: number | null; // body
+  readonly hand: { readonly grip: boolean; button(index: 0 | 1, down: boolean): void };
   readonly holds: boolean; // the hand: it may send all commands
   readonly dark: boolean;
   // Commands that need the hand ask for it first where nobody has it. False: not sent.

@@ -1,6 +1,6 @@
 // When the run has stopped by itself: what, where, why, and what would have held.
 import { button, element } from '../ui/dom';
-import type { Death, StateMessage } from './link';
+import { watches, type Death, type StateMessage } from './link';
 import type { LabPage, Panel } from './panel';
 import { sign } from './sign';
 import type { Rewind } from './rewind';
@@ -26,18 +26,19 @@ export class PostMortem implements Panel {
     });
   }
 
-  onState({ dead, first, at, holder, you }: StateMessage): void {
+  onState(state: StateMessage): void {
+    const { dead, first, at } = state;
     // While the past is seen, the card makes room.
     this.root.classList.toggle('small', at !== null);
-    const watches = holder !== null && holder !== you;
-    const wanted = JSON.stringify([dead, watches]);
+    const isWatching = watches(state);
+    const wanted = JSON.stringify([dead, isWatching]);
     if (wanted === this.shown) return;
     const isNew = dead !== null && this.root.hidden;
     if (this.shown === '' || JSON.parse(this.shown)[0]?.time !== dead?.time) this.away = false;
     this.shown = wanted;
     this.root.hidden = dead === null || this.away;
     if (!dead) return;
-    this.root.replaceChildren(...this.content(dead, first, watches));
+    this.root.replaceChildren(...this.content(dead, first, isWatching));
     if (isNew && !this.away) this.root.focus({ preventScroll: true });
   }
 
@@ -46,7 +47,7 @@ export class PostMortem implements Panel {
     this.root.hidden = true;
   }
 
-  private content(dead: Death, first: number, watches: boolean): Node[] {
+  private content(dead: Death, first: number, isWatching: boolean): Node[] {
     const [headline, ...rest] = dead.words;
     const facts = element('dl');
     const fact = (name: string, value: string | undefined) => {
@@ -60,7 +61,7 @@ export class PostMortem implements Panel {
     const remedies = dead.remedies.map(({ words, changes }, i) => {
       const made = element('button', { type: 'button', class: i === 0 ? 'main' : '' }, words);
       made.title = `goes back ${(dead.time - back).toFixed(1)} s with ${changes.join(', ')}`;
-      made.disabled = watches;
+      made.disabled = isWatching;
       made.addEventListener('click', () => this.mend(back, changes));
       return made;
     });
@@ -68,7 +69,7 @@ export class PostMortem implements Panel {
       this.rewind.play(back, SLOW, dead.time),
     );
     const again = button('Begin anew', 'from the start, as it is', () => this.page.send({ do: 'reset' }));
-    again.disabled = watches;
+    again.disabled = isWatching;
     return [
       element('header', {}, sign('beyond'), element('h2', {}, headline ?? 'The run has stopped'), button('×', 'put aside (Escape)', () => this.hide(), 'close')),
       ...rest.map((line) => element('p', {}, line)),
@@ -82,7 +83,6 @@ export class PostMortem implements Panel {
 
   private mend(at: number, changes: string[]): void {
     this.rewind.seek(null);
-    this.page.send({ do: 'branch', at, changes });
-    this.page.send({ do: 'play', on: true });
+    this.page.send({ do: 'branch', at, changes }); // which goes on by itself
   }
 }

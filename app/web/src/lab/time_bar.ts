@@ -1,7 +1,7 @@
 // The bar below the view: whether the run goes on, how fast, and which of its instants is seen.
 import { button, element, icon } from '../ui/dom';
 import { BranchDialog } from './branch_dialog';
-import type { Frame, StateMessage } from './link';
+import { watches, type Frame, type StateMessage } from './link';
 import type { LabPage, Panel } from './panel';
 import { Rewind } from './rewind';
 import { SaveMenu } from './save_menu';
@@ -151,13 +151,13 @@ export class TimeBar implements Panel {
   }
 
   private show(state: StateMessage): void {
-    const { first, last, branch, dead, holder, you } = state;
+    const { first, last, branch, dead } = state;
     const { at } = this.rewind;
     const goes = at === null ? state.playing && !dead : this.rewind.playing;
-    const watches = holder !== null && holder !== you;
+    const isWatching = watches(state);
     const pace = state.pace > 0 ? state.pace : 1;
-    const wanted = [goes, first, last, branch?.number, dead?.time, at, state.speed, watches];
-    const text = [...wanted, pace.toFixed(2), this.scrubbing].join();
+    const wanted = [goes, first, last, branch?.number, dead?.time, at, state.speed, isWatching];
+    const text = [...wanted, pace.toFixed(2), this.scrubbing, state.building].join();
     if (text === this.shown) return;
     this.shown = text;
     const isPaused = this.play.dataset.goes !== String(goes);
@@ -177,13 +177,14 @@ export class TimeBar implements Panel {
       this.fork.title = `branch at ${branch.from.toFixed(3)} s: ${branch.changes.join(', ')}`;
     this.mark(this.end, dead ? (dead.time - first) / span : -1);
     this.present.disabled = at === null;
-    this.play.disabled = at === null && (watches || dead !== null);
-    this.step.disabled = watches || (at === null && dead !== null);
-    this.again.disabled = this.speed.disabled = this.branch.disabled = watches;
+    this.play.disabled = at === null && (isWatching || dead !== null);
+    this.step.disabled = isWatching || (at === null && dead !== null);
+    this.again.disabled = this.speed.disabled = this.branch.disabled = isWatching;
     this.where.replaceChildren(...this.words(state, at, pace));
   }
 
   private words(state: StateMessage, at: number | null, pace: number): (Node | string)[] {
+    if (state.building) return [element('b', {}, `${state.building} …`)];
     if (at !== null) return [`${(state.last - at).toFixed(2)} s ago`];
     if (state.dead) return ['stopped'];
     if (!state.playing) return ['stands'];
