@@ -7,7 +7,7 @@ import type { RunRecord } from './run_record';
 import { bucketsOf, outline, samples, timesOf, type Buckets, type Points, type Store } from './store';
 
 const MOST_LEFT = 400; // buckets of what was left
-const DASH: Record<LiveCurve['style'], number[] | undefined> = {
+export const DASH: Record<LiveCurve['style'], number[] | undefined> = {
   line: undefined,
   dashed: [6, 4],
   dotted: [2, 4],

@@ -45,7 +45,7 @@ export function fileName(title: string, what: string, ending: string): string {
 export interface PictureLine {
   name: string;
   color: string;
-  dashed: boolean;
+  dash: number[];
 }
 
 // A plot's canvas with its title above and its names below, on the page's paper.
@@ -89,7 +89,7 @@ export function savePicture(
     const [left, down] = places[i];
     const base = plot.height + 2 * row + down;
     context.strokeStyle = line.color;
-    context.setLineDash(line.dashed ? [4 * scale, 3 * scale] : []);
+    context.setLineDash(line.dash.map((length) => length * scale));
     context.beginPath();
     context.moveTo(left, base - 4 * scale);
     context.lineTo(left + 18 * scale, base - 4 * scale);

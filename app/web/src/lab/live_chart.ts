@@ -6,6 +6,7 @@ import { button, element, short } from '../ui/dom';
 import { token } from '../ui/theme';
 import {
   colorOf,
+  DASH,
   ghostsOf,
   lines,
   lineSeries,
@@ -270,7 +271,7 @@ export class LiveChart {
     const lines = this.shown.map((curve) => ({
       name: curve.name,
       color: colorOf(curve),
-      dashed: curve.style !== 'line',
+      dash: DASH[curve.style] ?? [],
     }));
     const title = `${this.spec.title} [${this.unit}]`;
     const name = this.user.pictureName(this.spec.id);

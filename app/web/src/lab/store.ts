@@ -113,12 +113,14 @@ export function bucketsOf(begin: number, end: number, dropped: number, most: num
 
 export type Points = (number | null)[];
 
-// Times of the points that `outline` and `samples` give.
-export function timesOf(times: Float64Array, { stride, edges }: Buckets, pairs: boolean): number[] {
+// Times of the points that `outline` (two a bucket) and `samples` give.
+export function timesOf(times: Float64Array, buckets: Buckets, pairs: boolean): number[] {
+  const { stride, edges } = buckets;
+  if (!pairs) return sampled(buckets).map((row) => times[row]);
   const out: number[] = [];
   for (let b = 0; b + 1 < edges.length; ++b) {
     out.push(times[edges[b]]);
-    if (pairs && stride > 1) out.push(times[edges[b + 1] - 1]);
+    if (stride > 1) out.push(times[edges[b + 1] - 1]);
   }
   return out;
 }
@@ -142,7 +144,13 @@ export function outline(values: Float64Array, { stride, edges }: Buckets): Point
   return out;
 }
 
-// One point a bucket, its first: of areas upon each other, which must be of one instant.
-export function samples(values: Float64Array, { edges }: Buckets): Points {
-  return edges.slice(0, -1).map((i) => (Number.isNaN(values[i]) ? null : values[i]));
+// One point a bucket, its first, and the very last: of areas upon each other, which must be of one
+// instant.
+export function samples(values: Float64Array, buckets: Buckets): Points {
+  return sampled(buckets).map((row) => (Number.isNaN(values[row]) ? null : values[row]));
+}
+
+function sampled({ stride, edges }: Buckets): number[] {
+  const last = stride > 1 ? edges.slice(-1).map((edge) => edge - 1) : [];
+  return [...edges.slice(0, -1), ...last];
 }
