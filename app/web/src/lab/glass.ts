@@ -2,19 +2,16 @@
 // the equations, the free-body diagram, contacts, ledger; and, while time stands still, a walk
 // through one call of the algorithm.
 import './glass.css';
-import type { Equation, GlassNumbers } from '../data/glass';
-import type { Quantity } from '../data/inspection';
+import type { GlassNumbers } from '../data/glass';
 import { balanceTable, wrenchColor } from '../ui/balance';
 import { checkTable, checkWords } from '../ui/checks';
-import { button, element, icon, short, unitText } from '../ui/dom';
-import { math, source, texNumber, texOf } from '../ui/formula';
+import { button, element, icon, short } from '../ui/dom';
 import { listen } from '../ui/keys';
 import { morph } from '../ui/morph';
-import { quantityCard } from '../ui/quantity';
 import { PASSES, Stepper, type Step } from '../ui/stepper';
 import type { GlassMessage, SceneMessage } from './link';
+import { passCards, unitOf } from './glass_cards';
 import { closing, diagram, type Plane } from './glass_diagram';
-import { equationBlock } from './glass_equation';
 import { contactTables, jointTables, ledgerTable, neighbourCards, soFar } from './glass_tables';
 import type { LabPage, Panel } from './panel';
 
@@ -185,7 +182,7 @@ class Glass implements Panel {
       element('div', {}, ...notes),
       element('div', { class: 'so-far' }, ...(rows.length > 0 ? [soFar(rows, name)] : [])),
       element('h3', {}, PASSES[this.pass][0], element('span', {}, ` ${PASSES[this.pass][1]}`)),
-      element('div', { class: 'cards' }, ...this.cards(numbers)),
+      element('div', { class: 'cards' }, ...passCards(numbers, this.pass)),
       fold('From its neighbours', false, ...(taken.length ? taken : [words('nothing in this pass')])),
       fold(
         'Free body',
@@ -193,7 +190,7 @@ class Glass implements Panel {
         diagram(balance[0], this.plane),
         words(closing(balance[0])),
         element('div', { class: 'wide' }, balanceTable(balance[0], axes, about)),
-        ...jointTables(joint_balance, this.unitOf(numbers, 'N m; N')),
+        ...jointTables(joint_balance, unitOf(numbers, 'N m; N')),
       ),
       fold(
         `Contacts: ${contacts.length || 'none'}`,
@@ -203,48 +200,6 @@ class Glass implements Panel {
       fold('Ledger of energy, of all bodies', false, ledgerTable(ledger ?? {})),
       fold(`Checks: ${checked}`, false, checkTable(checks ?? [], [])),
     ];
-  }
-
-  // Of a joint: the first where it turns, the second where it shifts.
-  private unitOf({ passes }: GlassNumbers, unit: string): string {
-    const S = passes?.[0].quantities.find(({ name }) => name === 'S')?.value;
-    const [turn, shift] = unit.split(';').map((text) => text.trim());
-    if (!S || !shift) return unit;
-    if (typeof (S as number[])[0] !== 'number') return unit;
-    return (S as number[]).slice(0, 3).every((part) => part === 0) ? shift : turn;
-  }
-
-  // Each quantity of the pass, in its equation where it has one.
-  private cards(numbers: GlassNumbers): HTMLElement[] {
-    const step = numbers.passes!.find(({ pass }) => pass === this.pass)!;
-    const equations = (numbers.equations ?? []).filter(({ pass }) => pass === this.pass);
-    const find = (name: string) =>
-      equations.find((equation) => equation.name === name || equation.name === `D ${name}`);
-    const card = (quantity: Quantity) => {
-      const found = find(quantity.name);
-      const unit =
-        quantity.frame === 'joint' ? this.unitOf(numbers, quantity.unit) : quantity.unit;
-      return quantityCard(quantity, {
-        symbol: math(texOf(quantity.name)),
-        equation: source(quantity.equation),
-        content: found && block(found, quantity, numbers, unit),
-      });
-    };
-    const before = find("a'");
-    const a = step.quantities.find(({ name }) => name === 'a');
-    const as_if: Quantity[] =
-      before && a
-        ? [
-            {
-              ...a,
-              name: "a'",
-              meaning: 'acceleration as if its joint kept still',
-              equation: `${before.text}, table 7.1`,
-              value: before.value,
-            },
-          ]
-        : [];
-    return [...as_if, ...step.quantities].map(card);
   }
 
   // The forces on the body, from the point about which torques are taken; where time goes on they
@@ -268,35 +223,6 @@ class Glass implements Panel {
 
 function words(text: string): HTMLElement {
   return element('p', { class: 'hint' }, text);
-}
-
-// Of one degree of freedom the division is shown too.
-function block(equation: Equation, quantity: Quantity, numbers: GlassNumbers, unit: string): Node[] {
-  if (equation.name !== 'D qdd') return equationBlock(equation, numbers.name ?? '', unit);
-  const D = numbers.passes
-    ?.find(({ pass }) => pass === 2)
-    ?.quantities.find(({ name }) => name === 'D')?.value;
-  if (typeof D !== 'number' || typeof quantity.value !== 'number')
-    return [
-      ...equationBlock(equation, numbers.name ?? '', ''),
-      ...equationBlock(
-        { ...equation, name: 'qdd', text: 'qdd = D^-1 (D qdd)', terms: [], value: quantity.value },
-        numbers.name ?? '',
-        unit,
-      ),
-    ];
-  const [u, felt] = equation.terms.map(({ value }) => value as number);
-  const minus = `${felt > 0 ? '+' : '-'} ${texNumber(Math.abs(felt))}`;
-  const tex = `\\dfrac{${texNumber(u)} ${minus}}{${texNumber(D)}} = \\mathbf{${texNumber(quantity.value)}}`;
-  return [
-    element('p', { class: 'set' }, math(texOf("qdd = D^-1 ( u - U^T a' )"))),
-    element(
-      'p',
-      { class: 'line', title: String(quantity.value) },
-      math(tex),
-      element('span', { class: 'unit' }, ` ${unitText(unit)}`),
-    ),
-  ];
 }
 
 export function glassOf(page: LabPage): Panel {
