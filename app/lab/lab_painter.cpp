@@ -9,7 +9,7 @@
 namespace twinarm {
 namespace {
 
-constexpr double kGlassEvery = 0.2, kKnobsEvery = 0.4, kIdle = 0.1;  // [s]
+constexpr double kGlassEvery = 0.2, kGlassStanding = 0.05, kKnobsEvery = 0.4, kIdle = 0.1;  // [s]
 constexpr double kRate = 60, kSlowRate = 30;  // frames a second, to few clients and to more
 constexpr std::size_t kManyClients = 2;
 
@@ -162,18 +162,27 @@ DrawList LabPainter::drawn() {
   return view_ ? view_->drawn() : DrawList();
 }
 
+// What has been told is not told again: where time stands, it would cost the same each time.
 void LabPainter::tell_glass(const LabNow& now) {
-  const std::map<ClientId, long> asked = audience_.glass();
-  if (asked.empty() || !now.frame || !is_due(last_glass_, kGlassEvery)) return;
+  std::map<ClientId, GlassTold> wanted;
+  const bool stands = !now.status->playing;
+  for (const auto& [client, body] : audience_.glass())
+    wanted[client] = {now.scene_number, now.number, body, stands};
+  if (wanted == told_glass_ || !now.frame) return;
+  if (!is_due(last_glass_, stands ? kGlassStanding : kGlassEvery)) return;
   if (!glass_) glass_.emplace(std::move(now.scene->scene->plan(now.status->changes)->prepared));
-  for (const auto& [client, body] : asked) {
+  for (const auto& [client, told] : wanted) {
+    if (const auto before = told_glass_.find(client);
+        before != told_glass_.end() && before->second == told)
+      continue;
     GlassQuestion question;
-    question.body = static_cast<std::size_t>(std::max(0L, body));
-    question.stands = !now.status->playing;
+    question.body = static_cast<std::size_t>(std::max(0L, told.body));
+    question.stands = stands;
     question.scene = static_cast<unsigned>(now.scene_number);
     question.ledger = now.rows.get();
     post_(client, glass_channel, shared(glass_->message(*now.frame, question)), false);
   }
+  told_glass_ = std::move(wanted);
 }
 
 std::string LabPainter::history(double from) {

@@ -75,7 +75,15 @@ class LabPainter {
   bool stop_ = false;
 
   std::unique_ptr<LabView> view_;
+  struct GlassTold {
+    long scene = 0;
+    std::uint64_t number = 0;  // LabNow's
+    long body = 0;
+    bool stands = false;
+    bool operator==(const GlassTold&) const = default;
+  };
   std::optional<Glass> glass_;
+  std::map<ClientId, GlassTold> told_glass_;
   std::vector<Knob> knobs_;
   long scene_number_ = -1, change_number_ = -1;
   std::uint64_t revision_ = 0;  // of the view's scene message that was told
