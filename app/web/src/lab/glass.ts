@@ -189,7 +189,7 @@ class Glass implements Panel {
         true,
         diagram(balance[0], this.plane),
         words(closing(balance[0])),
-        element('div', { class: 'wide' }, balanceTable(balance[0], axes, about)),
+        element('div', { class: 'wide wrenches' }, balanceTable(balance[0], axes, about)),
         ...jointTables(joint_balance, unitOf(numbers, 'N m; N')),
       ),
       fold(
