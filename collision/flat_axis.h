@@ -15,6 +15,8 @@ class FlatAxis {
   bool best(const Placed& a, const Placed& b, double margin, Axis& axis);
 
  private:
+  bool try_flats(const Placed& a, const Placed& b, const Placed& own, double sign, double margin,
+                 Axis& axis);
   bool best_of_polytopes(const Placed& a, const Placed& b, double margin, Axis& axis);
   bool try_slabs(const Polytope& own, const Polytope& other, const Pose& X_own_other, double sign,
                  double margin, const Matrix3& R_W_own, double radii, Axis& axis);
