@@ -1,7 +1,7 @@
 // Products with the blocks of impulse_problem.h. A contact has three rows and a free body six
 // velocities; where the compiler knows both numbers, it unrolls the loops and needs half the time
-// or less. All other shapes run through the same text with numbers that are known at run time; sums
-// are taken in the same order.
+// or less, and of a contact of a robot at least the rows. All other shapes run through the same
+// text with numbers that are known at run time; sums are taken in the same order.
 #pragma once
 
 #include <cmath>
@@ -18,21 +18,26 @@ void with_size(int n, F&& f) {
     f(n);
 }
 
-// f(rows, n), both constants where it is a contact of a free body.
+// f(rows, n), constants: the rows of a contact, and the velocities of a free body.
 template <class F>
 void with_shape(int rows, int n, F&& f) {
+  constexpr std::integral_constant<int, 3> three;
   if (rows == 3 && n == 6)
-    f(std::integral_constant<int, 3>{}, std::integral_constant<int, 6>{});
+    f(three, std::integral_constant<int, 6>{});
+  else if (rows == 3)
+    f(three, n);
   else
     f(rows, n);
 }
 
-// f(rows, m, n): all constants where it is a contact of two free bodies.
+// f(rows, m, n): likewise, where both are free bodies.
 template <class F>
 void with_shapes(int rows, int m, int n, F&& f) {
+  constexpr std::integral_constant<int, 3> three;
   if (rows == 3 && m == 6 && n == 6)
-    f(std::integral_constant<int, 3>{}, std::integral_constant<int, 6>{},
-      std::integral_constant<int, 6>{});
+    f(three, std::integral_constant<int, 6>{}, std::integral_constant<int, 6>{});
+  else if (rows == 3)
+    f(three, m, n);
   else
     f(rows, m, n);
 }

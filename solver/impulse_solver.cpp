@@ -128,7 +128,8 @@ double ImpulseSolver::relax(ImpulseProblem& problem, const Island& island) {
   return settle(problem, island);
 }
 
-// The rounds from the guess; where that does not do soon, from the middle. The best of all is kept.
+// From what is near the guess; else the rounds from the guess; where that does not do soon, from
+// the middle. The best of all is kept.
 void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
                                  ImpulseReport& report) {
   ++report.solved;
@@ -150,6 +151,12 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
     run_rounds(problem, island, most, yields, report);
     judge();
   };
+  if (island.constraints.size() <= few && start_near(problem, island, report)) {
+    judge();
+    if (best <= accepted) return;
+    for (const int i : island.constraints) problem.constraints()[i].p = guess_p_[i];
+    settle(problem, island);
+  }
   go_on(quick_newton, false, first_rho);
   const auto finish = [&](bool yields) {
     judge();
@@ -253,34 +260,6 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
     last = residual;
   }
   if (!(last <= best)) bring_back();
-}
-
-// From a solution to one whose digits are all right, as long as that comes nearer: rounds of one
-// Newton step, with a rho that is small enough for the rounding of u to do no harm.
-double ImpulseSolver::polish(ImpulseProblem& problem, const Island& island, double residual) {
-  constexpr int most = 3;
-  rho_ratio_ = first_rho;
-  for (int k = 0; k < most && residual > 0.01 * tolerance; ++k) {
-    for (const int i : island.constraints) {
-      const ImpulseConstraint& c = problem.constraints()[i];
-      remember(c, problem.constraints(), c.u, c.p, memory_[i]);
-      memory_[i].rho = rho_ratio_ * rho0_[i];
-      best_p_[i] = c.p;
-    }
-    const Gradient now = gradient(problem, island, Shift::followed);
-    if (!(now.squared > 0)) break;
-    find_direction(problem, island, false);
-    move(problem, island, 1);
-    gradient(problem, island, Shift::followed);
-    for (const int i : island.constraints) problem.constraints()[i].p = p_[i];
-    const double before = residual;
-    residual = settle(problem, island);
-    if (residual < 0.5 * before) continue;
-    if (residual < before) break;
-    for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
-    return settle(problem, island);
-  }
-  return residual;
 }
 
 }  // namespace twinarm

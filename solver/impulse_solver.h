@@ -10,11 +10,11 @@
 // compliance stands in place of the rounds). Redundant contacts do no harm, since M alone makes the
 // matrix positive. A round ends with Newton steps whose shift follows u, as long as they come
 // nearer. First of all the guess is tried: what has come to rest costs one check. A solution that
-// had to stop a motion is no good guess for the step after, so that one is solved too. Where the
-// rounds do not end soon, impulse_interior.cpp finds a start for them, and where that fails too,
-// impulse_path.cpp; the best p of all that is tried counts. A small island gets one more Newton
-// step or two, down to rounding. Islands (trees joined by constraints) are solved one by one.
-// Deterministic.
+// had to stop a motion is no good guess for the step after, so that one is solved too. A small
+// island that has one is first tried by impulse_near.cpp, and gets one more Newton step or two at
+// the end, down to rounding. Where the rounds do not end soon, impulse_interior.cpp finds a start
+// for them, and where that fails too, impulse_path.cpp; the best p of all that is tried counts.
+// Islands (trees joined by constraints) are solved one by one. Deterministic.
 #pragma once
 
 #include <cmath>
@@ -65,6 +65,8 @@ class ImpulseSolver {
   void solve_island(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
   void run_rounds(ImpulseProblem& problem, const Island& island, int most, bool yields,
                   ImpulseReport& report);
+  bool start_near(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
+  double take_one_step(ImpulseProblem& problem, const Island& island, double residual);
   double polish(ImpulseProblem& problem, const Island& island, double residual);
   void order(const ImpulseProblem& problem, const Island& island);
   void lay_out(const ImpulseProblem& problem, const Island& island);
