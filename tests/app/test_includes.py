@@ -70,6 +70,7 @@ LIBRARIES = {
 # Parts of the program that are libraries of their own, so that tests can look at them.
 TESTS_OF_LIBRARY = {"tests/scene/": "app/scene/", "tests/hand/": "app/hand/",
                     "tests/lab/": "app/", "tests/live/": "app/live/", "tests/inspect/": "app/inspect/",
+                    "tests/live/": ("app/live/", "app/hand/", "app/scene/"), "tests/inspect/": "app/inspect/",
                     "tests/render/": "app/render/", "tests/show/": ("app/show/", "app/render/")}
 
 # The rooms of the lab (app/lab/README.md), and what of the program each may include besides itself.
