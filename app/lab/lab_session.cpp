@@ -100,8 +100,7 @@ void LabSession::wake() {
 
 void LabSession::set_rate(double frames_per_second) {
   const std::lock_guard lock(mutex_);
-  frame_interval_ = std::chrono::duration_cast<Clock::duration>(
-      std::chrono::duration<double>(1 / frames_per_second));
+  frame_interval_ = 1 / frames_per_second;
 }
 
 // The run's thread.
@@ -151,10 +150,20 @@ void LabSession::take_steps(Clock::time_point begin, double due) {
     longest_cpu_ = std::max(longest_cpu_, taken);
     ++steps_;
     is_stale_ = true;
+    if (is_frame_due()) publish();
     if (steps_left_ > 0 && --steps_left_ == 0) return;
     if (seconds(Clock::now() - begin) > kLongestBurst) break;
   }
   pace_.forgive(Clock::now(), run_->time(), kForgiven);
+}
+
+// Frames stand at multiples of as many steps as fit between two of them: evenly, and in a branch at
+// the same steps as before. Of a run that does not keep up, more often.
+bool LabSession::is_frame_due() const {
+  const double steps = status_.speed * frame_interval_ / run_->step_length();
+  long apart = std::max(1L, static_cast<long>(steps));
+  while (apart > 1 && status_.pace < 0.75 * static_cast<double>(apart) / steps) apart /= 2;
+  return run_->step_count() % apart == 0;
 }
 
 // By the hand as it is now; in a branch, as long as it is known, by what the hand did then.
@@ -183,7 +192,7 @@ void LabSession::publish() {
   const Clock::time_point now = Clock::now();
   bool says_new = take_notes();
   if (seconds(now - last_told_) >= kStatusEvery && status_.playing) says_new = true;
-  const bool is_due = is_stale_ && now >= next_frame_;
+  const bool is_due = is_stale_ && is_frame_due();
   const bool is_last = is_stale_ && (!status_.playing && steps_left_ == 0);
   if (!is_due && !is_last && !says_new && !is_news_) return;
   if (is_due || is_last) {
@@ -206,7 +215,6 @@ void LabSession::remember() {
   cpu_ = longest_cpu_ = 0;
   steps_ = 0;
   const std::lock_guard lock(mutex_);
-  next_frame_ = std::max(next_frame_ + frame_interval_, Clock::now() - frame_interval_);
   history_.add(std::move(frame));
 }
 

@@ -5,6 +5,7 @@
 // time falls behind wall time, and `pace` says by how much; it is never made up for in a rush.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -66,6 +67,7 @@ class LabSession {
   void rest();
   void take_steps(Clock::time_point begin, double due);
   bool take_step();
+  bool is_frame_due() const;
   void die();
   void publish();
   void remember();
@@ -97,9 +99,10 @@ class LabSession {
   bool has_failed_ = false;  // an order
   LabNow now_;
   LabHistory history_, before_;  // before_: of the branch that was left, from where it was left
-  Clock::duration frame_interval_ = std::chrono::microseconds(16'667);
   std::uint64_t woken_ = 0;
   bool stop_ = false;
+
+  std::atomic<double> frame_interval_ = 1.0 / 60;  // [s]
 
   // Of the run's thread alone.
   std::shared_ptr<const Built> scene_;
@@ -117,7 +120,7 @@ class LabSession {
   double cpu_ = 0, longest_cpu_ = 0;  // since the frame before [s]
   long steps_ = 0;                    // likewise
   Pace pace_;
-  Clock::time_point input_came_{}, next_frame_{}, last_told_{}, next_tick_{};
+  Clock::time_point input_came_{}, last_told_{}, next_tick_{};
   std::shared_ptr<const std::vector<std::string>> rows_;
 
   std::thread thread_;

@@ -214,7 +214,9 @@ void LabSession::adopt(Built built) {
   if (goes_on && !(from = start_of(order)))
     return note("error", "that instant is not remembered any more");
   auto run = std::make_unique<LabRun>(std::move(built.run), order.changes, hand_, from.get());
-  for (const std::string& warning : run->warnings()) note("warning", warning);
+  if (from) run->keep_books(*from, names_);
+  for (const std::string& warning : run->warnings())
+    if (!goes_on) note("warning", warning);
   if (!run->begun_anew().empty()) note("note", run->begun_anew());
   if (!goes_on) forget();
   if (order.what == Order::What::open) {

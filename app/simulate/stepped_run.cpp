@@ -28,6 +28,14 @@ void visit_head(Memory& memory, long& steps, double& end, long& unsolved, long& 
   memory.visit(unlocated);
 }
 
+// A new one stands before the last, `numerical`.
+LedgerRow& row_named(const std::string& name, std::vector<LedgerRow>& rows) {
+  const auto is_it = [&](const LedgerRow& row) { return row.name == name; };
+  const auto found = std::find_if(rows.begin(), rows.end(), is_it);
+  if (found != rows.end()) return *found;
+  return *rows.insert(rows.empty() ? rows.end() : rows.end() - 1, {name, 0});
+}
+
 }  // namespace
 
 Memory simulation_memory(const std::string& memory) {
@@ -100,7 +108,15 @@ std::vector<LedgerRow> SteppedRun::ledger() const {
   if (contacts_) add(contacts_->rows());
   add(momentum_->energy_rows(sim_, contacts()));
   if (outside_ && outside_->has_acted()) add({{outside_->name(), outside_->total().work}});
+  for (const LedgerRow& row : carried_) row_named(row.name, all).work += row.work;
   return all;
+}
+
+void SteppedRun::keep_books(const std::vector<LedgerRow>& told) {
+  carried_.clear();
+  std::vector<LedgerRow> carried = told;
+  for (const LedgerRow& row : ledger()) row_named(row.name, carried).work -= row.work;
+  carried_ = std::move(carried);
 }
 
 std::string SteppedRun::memory() {

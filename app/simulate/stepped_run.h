@@ -24,6 +24,9 @@ class SteppedRun final : public RunView {
   SteppedRun(const SimulateInput& simulated, const RunPlan& plan, const RunWatch& watch,
              const RunStart* from = nullptr, OutsideForce* outside = nullptr);
 
+  // The rows of the ledger go on from these, whatever the change of a gain has made of the energy
+  // in its spring: of a run that was taken up with other numbers.
+  void keep_books(const std::vector<LedgerRow>& told);
   // What watchers see before the first step.
   void begin();
   // One step, or substep of an adaptive integrator. False where the run goes on no more: at its
@@ -78,7 +81,8 @@ class SteppedRun final : public RunView {
   std::optional<SceneContacts> contacts_;
   std::optional<Simulation> before_;  // the run at the start of the step
   std::vector<State<double>> inner_;
-  std::size_t next_ = 0;  // sample
+  std::vector<LedgerRow> carried_;  // added to the rows of these names; together nothing
+  std::size_t next_ = 0;            // sample
   long unsolved_ = 0, unlocated_ = 0, last_step_ = std::numeric_limits<long>::max();
   bool on_grid_ = true;
   double bound_ = 0;

@@ -104,6 +104,13 @@ void LabRun::begin_anew(const LabFrame& from) {
   run_ = std::make_unique<SteppedRun>(prepared.input, prepared.run, watch_, &start, pull_.get());
 }
 
+void LabRun::keep_books(const LabFrame& from, const LabNames& names) {
+  std::vector<LedgerRow> told;
+  for (std::size_t i = 0; i < from.recorded.rows.size(); ++i)
+    told.push_back({names.rows[from.recorded.rows[i]], from.recorded.works[i]});
+  run_->keep_books(told);
+}
+
 bool LabRun::take() {
   pull_->set(input_.pull);
   const bool goes_on = run_->advance();

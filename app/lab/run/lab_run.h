@@ -49,6 +49,9 @@ class LabRun {
   // With ledgers, memory and hash; numbers of rows by `names`, to which new ones are added.
   LabFrame frame(LabNames& names);
 
+  // The ledger goes on from that of the frame that it began at.
+  void keep_books(const LabFrame& from, const LabNames& names);
+
   const SimulatePlan& prepared() const { return plan_->prepared; }
   SteppedRun& view() { return *run_; }
   const std::vector<Change>& changes() const { return changes_; }
