@@ -441,6 +441,14 @@ TEST_CASE(
   CHECK(length() < 0.01f * at_rest);  // the scale has stayed: too short, or not drawn
 }
 
+TEST_CASE("moment: a robot of whose couplings one moves the gripper too has one twin, one hand") {
+  const Watched watched = arm();
+  const SimulateInput& input = watched.plan->prepared.input;
+  const Moment moment = moment_of(*input.scene, *input.couplings, input.scene->start, {});
+  CHECK(moment.twins.size() == 1);
+  CHECK(moment.hands.size() == 1);
+}
+
 TEST_CASE("lab history: frame by frame the channels and works of the frames") {
   Watched watched = boxes();
   std::vector<LabFrame> frames;
