@@ -65,7 +65,7 @@ export class KeyHand {
       const shown = mode.joint.slides
         ? `${(1000 * mode.value).toFixed(0)} mm`
         : `${((180 / Math.PI) * mode.value).toFixed(0)}°`;
-      return `joint ${mode.joint.name}, ${shown} · arrows: turn it · j: next joint · h: the tip`;
+      return `joint ${mode.joint.name}, ${shown.replace('-', '−')} · arrows: turn it · j: next joint · h: the tip`;
     }
     if (mode?.kind === 'pull') return 'arrows: pull · page up, down: away, toward · x: let go';
     return null;

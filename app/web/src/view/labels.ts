@@ -6,6 +6,7 @@ import type { Stage } from './stage';
 
 const SVG = 'http://www.w3.org/2000/svg';
 const LINE = 17; // pixels from one line to the next
+const LOOK_AGAIN = 300; // [ms]: asking for places makes the browser lay out the page
 
 interface Box {
   left: number;
@@ -22,6 +23,8 @@ interface Item {
 export class Labels {
   private readonly items: Item[] = [];
   private readonly leaders: SVGSVGElement;
+  private others: Box[] = []; // as they were a moment ago
+  private lookedAt = -Infinity;
 
   constructor(private readonly host: HTMLElement) {
     this.leaders = document.createElementNS(SVG, 'svg');
@@ -29,7 +32,11 @@ export class Labels {
   }
 
   paint(stage: Stage, texts: string[], parts: { columns: LabelColumns; frame: number }[]): void {
-    const taken = this.covered();
+    if (parts.length > 0 && performance.now() - this.lookedAt > LOOK_AGAIN) {
+      this.others = this.covered();
+      this.lookedAt = performance.now();
+    }
+    const taken = [...this.others];
     let used = 0;
     for (const { columns, frame } of parts)
       for (let i = columns.first[frame]; i < columns.first[frame + 1]; ++i) {
