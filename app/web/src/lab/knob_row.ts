@@ -1,12 +1,16 @@
 // One knob: its name, its control, and beside it what is predicted for its value.
-import { element } from '../ui/dom';
+import { element, icon } from '../ui/dom';
 import type { Knob } from './link';
 import { numberText, parseNumber, placeOf, stepped, valueAt, type Scale } from './scale';
 import { Segments } from './segments';
 import { signed } from './sign';
 
 const SETTLE = 800; // for so long the lab may take to say the value that was set [ms]
-const FEW = 3; // choices that stand side by side
+const FEW = 3; // choices that stand side by side, if they have room: letters and gaps [pixels]
+const ROOM = 250;
+const LETTER = 7.4;
+const GAP = 20;
+const RESTARTS = 'restarts: the run goes on from where all is, what laws remember begins anew';
 const FINE = 10_000; // places of the slider
 
 export type Turn = (path: string, value: string) => void;
@@ -52,8 +56,12 @@ export abstract class KnobRow {
     const { label, meaning, restarts } = this.knob;
     const name = element(id ? 'label' : 'span', { class: 'name', title: meaning }, label);
     if (id) name.setAttribute('for', id);
-    if (restarts)
-      name.append(element('small', { title: 'the run begins anew with it' }, 'restarts'));
+    if (restarts) {
+      const again = element('span', { class: 'restarts', role: 'img', title: RESTARTS });
+      again.setAttribute('aria-label', RESTARTS);
+      again.append(icon('again'));
+      name.append(again);
+    }
     this.root.append(name, ...control, this.side);
   }
 
@@ -212,7 +220,7 @@ class ChoiceRow extends KnobRow {
     super(knob, turn);
     const choices = knob.choices ?? [];
     const letters = choices.join('').length;
-    if (choices.length <= FEW && letters < 34) {
+    if (choices.length <= FEW && LETTER * letters + GAP * choices.length < ROOM) {
       this.control = new Segments(knob.label, choices, (name) => this.set(name));
       this.head([this.control.root]);
     } else {

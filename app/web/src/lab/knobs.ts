@@ -15,6 +15,7 @@ export class Knobs implements Panel {
   private readonly again: HTMLButtonElement;
   private readonly rows = new Map<string, KnobRow>();
   private readonly waiting = new Map<string, string>(); // changes not sent yet
+  private readonly folded = new Set<string>(); // groups
   private timer = 0;
   private sentAt = -Infinity;
   private shape = '';
@@ -77,12 +78,23 @@ export class Knobs implements Panel {
       this.rows.set(knob.path, row);
       let group = groups.get(knob.group);
       if (!group) {
-        group = element('fieldset', { class: 'group' }, element('legend', {}, knob.group));
+        group = this.group(knob.group);
         groups.set(knob.group, group);
       }
       group.append(row.root);
     }
     this.groups.replaceChildren(...groups.values());
+  }
+
+  // Stays folded when the knobs are built anew.
+  private group(name: string): HTMLElement {
+    const made = element('details', { class: 'group' }, element('summary', {}, name));
+    made.open = !this.folded.has(name);
+    made.addEventListener('toggle', () => {
+      if (made.open) this.folded.delete(name);
+      else this.folded.add(name);
+    });
+    return made;
   }
 
   private showPresets(presets: StateMessage['presets']): void {

@@ -16,7 +16,7 @@ export class LedgerPanel implements Panel {
   private scene: SceneMessage | null = null;
 
   constructor() {
-    const heads = ['work', 'from the start to now [J]', ''];
+    const heads = ['work since the start', 'now [J]', ''];
     const head = element('tr', {}, ...heads.map((text) => element('th', { scope: 'col' }, text)));
     const foot = element('tr', {}, element('th', { scope: 'row' }, 'their sum: rise of kinetic energy'), this.sum);
     const hint =

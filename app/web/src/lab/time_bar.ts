@@ -42,10 +42,10 @@ export class TimeBar implements Panel {
     this.again = button(icon('again'), 'to the start: the run begins anew', () =>
       this.page.send({ do: 'reset' }),
     );
-    this.branch = button('branch here …', 'go on from this instant, with other knobs', () =>
+    this.branch = button('branch …', 'go on from this instant, with other knobs', () =>
       this.askBranch(),
     );
-    this.present = button('back to now', 'to the newest instant', () => this.rewind.seek(null));
+    this.present = button('to now', 'to the newest instant', () => this.rewind.seek(null));
     this.slider = element('input', {
       type: 'range',
       min: '0',
