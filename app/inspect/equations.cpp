@@ -11,15 +11,26 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
+double size_of(const Matrix& m) {
+  return m.size() ? m.cwiseAbs().maxCoeff() : 0;
+}
+double size_of(const Matrix& a, const Matrix& b) {
+  return size_of(a) * size_of(b);
+}
+
+EquationTerm product(const char* symbol, const char* words, std::size_t of, const Matrix& a,
+                     const Matrix& b) {
+  return {symbol, words, of, a * b, size_of(a, b)};
+}
+
 // What is summed up here and what is left to the passes to say.
 Equation equation(std::string name, std::string text, std::vector<EquationTerm> terms, Matrix value,
                   bool by_columns = false) {
   Matrix sum = Matrix::Zero(value.rows(), value.cols());
-  const auto size_of = [](const Matrix& m) { return m.size() ? m.cwiseAbs().maxCoeff() : 0.0; };
   double largest = size_of(value);
   for (const EquationTerm& term : terms) {
     sum += term.value;
-    largest = std::max(largest, size_of(term.value));
+    largest = std::max({largest, size_of(term.value), term.size});
   }
   const double rest = size_of(sum - value);
   return {std::move(name),  std::move(text), std::move(terms),
@@ -44,25 +55,27 @@ class BodyEquations {
     const Motion<double> from_parent = in_.w.Xup[i_] * in_.w.v[parent_];
     const Motion<double> vJ = in_.w.v[i_] - from_parent;
     const std::string Xv = std::string("Xup v") + of_parent_;
-    std::vector<EquationTerm> terms{
-        {Xv, "velocity of its parent, seen from here", parent_, X_ * of(parent_, in_.w.v)}};
+    std::vector<EquationTerm> terms{product(Xv.c_str(), "velocity of its parent, seen from here",
+                                            parent_, X_, of(parent_, in_.w.v))};
     if (is_driven_)
       terms.push_back({"vJ", "what the given motion adds", i_, axes_.show(vJ)});
     else if (has_joint())
-      terms.push_back({"S qd", "what its joint adds", i_, S_ * axes_.joint(in_.x.qd)});
+      terms.push_back(product("S qd", "what its joint adds", i_, S_, axes_.joint(in_.x.qd)));
     all.push_back(sum_of("v", std::move(terms), axes_.show(in_.w.v[i_])));
     if (has_joint() || is_driven_) {
       const Motion<double> turned = crm(in_.w.v[i_], vJ);
       const Vector6 cJ = axes_.show(in_.w.c[i_] - turned);
-      std::vector<EquationTerm> parts{
-          {"v x S qd", "the joint's axis is carried along", i_, axes_.show(turned)}};
-      if (cJ.lpNorm<Eigen::Infinity>() > 1e-12)
+      std::vector<EquationTerm> parts{{"v x S qd", "the joint's axis is carried along", i_,
+                                       axes_.show(turned),
+                                       size_of(axes_.show(in_.w.v[i_]), axes_.show(vJ))}};
+      if (size_of(cJ) > 1e-12 * std::max(parts[0].size, size_of(parts[0].value)))
         parts.push_back({"cJ", "the axis moves in the body itself", i_, cJ});
       all.push_back(sum_of("c", std::move(parts), axes_.show(in_.w.c[i_])));
     }
     const Force<double> gyroscopic = crf(in_.w.v[i_], in_.model.I[i_] * in_.w.v[i_]);
     std::vector<EquationTerm> own{
-        {"v x* I v", "its momentum turns along: gyroscopic", i_, axes_.show(gyroscopic)}};
+        {"v x* I v", "its momentum turns along: gyroscopic", i_, axes_.show(gyroscopic),
+         size_of(axes_.show(in_.w.v[i_]), axes_.show(in_.model.I[i_] * in_.w.v[i_]))}};
     const Vector6 f_ext = axes_.show(in_.forces.f_ext[i_]);
     if (!f_ext.isZero(0))
       own.push_back({"- f_ext", "what pushes it from outside, taken off", i_, -f_ext});
@@ -81,10 +94,11 @@ class BodyEquations {
     for (const std::size_t child : in_.children(i_)) {
       const LinkAxes its(in_, child);
       const Matrix6 X = its.show(in_.w.Xup[child]);
-      inertias.push_back({"X^T Ia X", "what hangs on it, felt through its joint", child,
-                          X.transpose() * its.show(in_.trace.Ia[child]) * X});
-      forces.push_back({"X^T pa", "what hangs on it, felt through its joint", child,
-                        X.transpose() * its.show(in_.trace.pa[child])});
+      const char* felt = "what hangs on it, felt through its joint";
+      inertias.push_back(product("X^T Ia X", felt, child, X.transpose(),
+                                 Matrix6(its.show(in_.trace.Ia[child]) * X)));
+      forces.push_back(
+          product("X^T pa", felt, child, X.transpose(), its.show(in_.trace.pa[child])));
     }
     all.push_back(sum_of("IA", std::move(inertias), axes_.show(in_.w.IA[i_])));
     all.push_back(sum_of("pA", std::move(forces), axes_.show(in_.w.pA[i_])));
@@ -100,7 +114,7 @@ class BodyEquations {
     const Vector6 given = axes_.show(before), a = axes_.show(in_.w.a[i_]);
     const char* whose = parent_ == 0 ? "gravity, as an upward acceleration of the base"
                                      : "acceleration of its parent, seen from here";
-    std::vector<EquationTerm> terms{{Xa, whose, parent_, X_ * of(parent_, in_.w.a)},
+    std::vector<EquationTerm> terms{product(Xa.c_str(), whose, parent_, X_, of(parent_, in_.w.a)),
                                     {"c", "by the velocities alone", i_, axes_.show(in_.w.c[i_])}};
     if (!has_joint()) {
       all.push_back(sum_of("a", std::move(terms), a));
@@ -111,11 +125,11 @@ class BodyEquations {
     all.push_back(
         sum_of("D qdd",
                {{"u", "force left at the joint", i_, axes_.joint(in_.w.u)},
-                {"- U^T a'", "what a' takes of it already", i_, -U().transpose() * given}},
+                product("- U^T a'", "what a' takes of it already", i_, -U().transpose(), given)},
                D() * qdd));
     all.push_back(sum_of("a",
                          {{"a'", "as if the joint kept still", i_, given},
-                          {"S qdd", "what its joint adds", i_, S_ * qdd}},
+                          product("S qdd", "what its joint adds", i_, S_, qdd)},
                          a));
     return all;
   }
@@ -140,22 +154,23 @@ class BodyEquations {
 
   void add_joint(std::vector<Equation>& all) const {
     const Matrix6 IA = axes_.show(in_.w.IA[i_]);
-    all.push_back(equation("U", "U = IA S",
-                           {{"IA S", "what a unit acceleration of the joint takes", i_, IA * S_}},
-                           U(), axes_.nv() > 1));
+    all.push_back(
+        equation("U", "U = IA S",
+                 {product("IA S", "what a unit acceleration of the joint takes", i_, IA, S_)}, U(),
+                 axes_.nv() > 1));
     std::vector<double> rotor(in_.w.D.size());
     for (std::size_t k = 0; k < axes_.nv(); ++k) {
       const std::size_t dof = in_.model.iv[i_] + k;
       rotor[in_.w.iD[i_] + k * axes_.nv() + k] = in_.model.armature[dof] + in_.forces.armature[dof];
     }
-    std::vector<EquationTerm> parts{{"S^T U", "of the bodies", i_, S_.transpose() * U()}};
+    std::vector<EquationTerm> parts{product("S^T U", "of the bodies", i_, S_.transpose(), U())};
     if (const Matrix armature = axes_.square(rotor); !armature.isZero(0))
       parts.push_back({"armature", "of the rotor, and of implicit terms", i_, armature});
     all.push_back(sum_of("D", std::move(parts), D()));
     all.push_back(sum_of("u",
                          {{"tau", "force at the joint", i_, axes_.joint(in_.forces.tau)},
-                          {"- S^T pA", "what it takes to hold still", i_,
-                           -S_.transpose() * axes_.show(in_.w.pA[i_])}},
+                          product("- S^T pA", "what it takes to hold still", i_, -S_.transpose(),
+                                  axes_.show(in_.w.pA[i_]))},
                          axes_.joint(in_.w.u)));
   }
 
@@ -165,11 +180,12 @@ class BodyEquations {
     std::vector<EquationTerm> inertias{{"IA", "all that hangs on the joint", i_, IA}};
     std::vector<EquationTerm> forces{
         {"pA", "all that hangs on the joint", i_, pA},
-        {"Ia c", "by the velocities alone", i_, Ia * axes_.show(in_.w.c[i_])}};
+        product("Ia c", "by the velocities alone", i_, Ia, axes_.show(in_.w.c[i_]))};
     if (has_joint()) {
       const Matrix UD = D().ldlt().solve(U().transpose()).transpose();
-      inertias.push_back({"- U D^-1 U^T", "where the joint gives way", i_, -UD * U().transpose()});
-      forces.push_back({"U D^-1 u", "what drives the joint", i_, UD * axes_.joint(in_.w.u)});
+      inertias.push_back(
+          product("- U D^-1 U^T", "where the joint gives way", i_, -UD, U().transpose()));
+      forces.push_back(product("U D^-1 u", "what drives the joint", i_, UD, axes_.joint(in_.w.u)));
     }
     all.push_back(sum_of("Ia", std::move(inertias), Ia));
     all.push_back(sum_of("pa", std::move(forces), pa));

@@ -19,6 +19,7 @@ struct EquationTerm {
   const char* words;      // what it is
   std::size_t of;         // the body that hands it over; the body itself where nobody does
   Eigen::MatrixXd value;  // 6 x 1, 6 x 6, nv x 1, nv x nv, 6 x nv
+  double size = 0;        // of a product: of what it sums up, beside which rounding is nothing
 };
 
 struct Equation {
@@ -27,7 +28,7 @@ struct Equation {
   std::vector<EquationTerm> terms;
   Eigen::MatrixXd value;
   bool by_columns = false;  // 6 x nv, a column for each velocity of the joint
-  double residual = 0;      // largest number of terms less value, as a part of the largest of all
+  double residual = 0;  // largest number of terms less value, as a part of the largest of all sizes
 };
 
 // Of a pass (1 to 3) at a body, in the order in which they are used. Link axes, about the link's
