@@ -152,7 +152,7 @@ class Glass implements Panel {
     morph(this.content, made);
     const { name, t, stands, passes } = numbers;
     const joint = passes?.[0]?.joint;
-    const parent = numbers.neighbours?.find(({ is }) => is === 'parent')?.body ?? 'the base';
+    const parent = numbers.neighbours?.find(({ is }) => is === 'parent')?.body ?? 'the world';
     const when = stands ? 'time stands still' : 'stop the time to walk through the call';
     this.who.replaceChildren(
       element('h2', {}, name ?? ''),
