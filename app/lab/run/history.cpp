@@ -112,26 +112,25 @@ LabHistory LabHistory::cut(std::size_t n) {
 
 // The step after which neither changes, nor who moves the robot, nor a pull came.
 long LabHistory::first_step_to_save() const {
-  const long last = newest()->recorded.step;
-  long first = segments_.back().first_step;
-  if (inputs_.empty()) return first;
-  if (inputs_.back().step < last) return std::max(first, inputs_.back().step);
-  auto input = inputs_.rbegin();
-  if (!input->hand || input->pull) return last;
+  const long last = newest()->recorded.step, change = segments_.back().first_step;
   long step = last;
-  for (; input != inputs_.rend() && input->step == step && input->hand && !input->pull; ++input)
-    --step;
-  return std::max(first, step);
+  if (input(last)) {
+    for (const LabInput* its = input(step); its && its->hand && !its->pull; its = input(step))
+      --step;
+  } else {
+    while (step > change && !input(step)) --step;
+  }
+  return std::max(change, step);
 }
 
+// Of the steps that lead up to the newest frame, without a gap; those before what is saved too, for
+// couplings may see the hand late.
 std::string LabHistory::log_of_hand() const {
-  if (inputs_.empty() || inputs_.back().step < newest()->recorded.step) return "";
-  std::size_t n = inputs_.size();  // earlier steps too: couplings may see the hand late
-  while (n > 0 && inputs_[n - 1].hand &&
-         (n == inputs_.size() || inputs_[n - 1].step + 1 == inputs_[n].step))
-    --n;
-  std::string log = n < inputs_.size() ? hand_log_header() : "";
-  for (; n < inputs_.size(); ++n) log += hand_log_line(*inputs_[n].hand);
+  const long last = newest()->recorded.step;
+  long first = last + 1;
+  for (const LabInput* its = input(last); its && its->hand; its = input(first - 1)) --first;
+  std::string log = first <= last ? hand_log_header() : "";
+  for (long step = first; step <= last; ++step) log += hand_log_line(*input(step)->hand);
   return log;
 }
 
