@@ -135,6 +135,7 @@ void HandLead::follow_tip() {
 
 std::optional<HandStep> HandLead::before_step(const State<double>& x, double t, double h) {
   if (led_.empty()) return std::nullopt;
+  couplings_->forget_targets();
   const LabHand::Source source = hand_.source();
   if (!leads_ && !goes_on_ && source == LabHand::Source::scene) return std::nullopt;
   const bool begins = !leads_;
@@ -168,6 +169,7 @@ std::optional<HandStep> HandLead::before_step(const State<double>& x, double t, 
 
 void HandLead::take_again(const std::optional<HandStep>& told) {
   is_live_ = goes_on_ = false;
+  if (!led_.empty()) couplings_->forget_targets();
   if (!told || led_.empty()) {
     leads_ = false;
     return;

@@ -25,7 +25,7 @@ class HandLead {
   // couplings are made, with in_place(). All must outlive this. The scene may be null.
   HandLead(SceneModel* scene, LabHand& hand, double h);
   HandInPlace in_place();
-  void attach(const SceneCouplings& couplings) { couplings_ = &couplings; }
+  void attach(SceneCouplings& couplings) { couplings_ = &couplings; }
   // The robot stands where that frame left it.
   void go_on_from(const LabHandFrame& frame);
 
@@ -55,7 +55,7 @@ class HandLead {
 
   SceneModel* scene_;
   LabHand& hand_;
-  const SceneCouplings* couplings_ = nullptr;
+  SceneCouplings* couplings_ = nullptr;
   std::vector<std::size_t> led_;
   std::vector<int> turned_;
   const HandSource* own_ = nullptr;  // of the first that is led
