@@ -87,6 +87,11 @@ TEST_CASE("lab live: what RFC 6455 forbids ends that connection with its code, a
   good.say_frame(Raw::kText, "still here");
   CHECK(good.hear_message().payload == "you said still here");
   CHECK(comes_true([&] { return lab.closed == 11; }));
+  // Who stays on the line after that is hung up on.
+  RawClient stays(lab.server.port());
+  lab.open(stays);
+  stays.say(Raw::frame(Raw::kText, "plain", true, false));
+  CHECK(comes_true([&] { return lab.closed == 12; }));
 }
 
 TEST_CASE("lab live: a client that reads gets every message while another does not read at all") {
