@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -24,7 +25,7 @@ struct ReadFrame {
   double time, stamp, age;
   std::uint64_t step;
   std::vector<double> channels, works;
-  std::vector<float> position, scale, label_position;
+  std::vector<float> link, twin, position, scale, label_position;
   std::vector<std::int16_t> turn, label_offset;
   std::vector<std::uint32_t> text_end, first, first_label;
   std::vector<std::uint16_t> mesh, body;
@@ -45,12 +46,13 @@ struct ReadFrame {
       return std::size_t{value_at<std::uint32_t>(bytes, at)};
     };
     const std::size_t C = count(48), R = count(52), L = count(56), N = count(60), M = count(64),
-                      B = count(68);
-    CHECK(count(72) == 0);
+                      B = count(68), P = count(72);
     CHECK(count(76) == 0);
     end = 80;
     take(bytes, C, channels);
     take(bytes, R, works);
+    take(bytes, 7 * P, link);
+    take(bytes, 7 * P, twin);
     take(bytes, 3 * N, position);
     take(bytes, 3 * N, scale);
     take(bytes, 4 * N, turn);
@@ -69,6 +71,12 @@ struct ReadFrame {
     REQUIRE(end + B <= bytes.size());
     text = bytes.substr(end, B);
     end += B;
+  }
+  // x y z of a body's place, in `link` or `twin`; and its quaternion, x y z w.
+  static std::array<float, 7> place(const std::vector<float>& places, std::size_t body) {
+    std::array<float, 7> place{};
+    for (std::size_t c = 0; c < 7; ++c) place[c] = places.at(7 * body + c);
+    return place;
   }
   std::size_t instances() const { return body.size(); }
   std::string label(std::size_t m) const {

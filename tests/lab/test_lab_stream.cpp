@@ -1,6 +1,7 @@
 // Frames of the lab as bytes, read back by the protocol's table, against the run that they are of.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -91,6 +92,12 @@ Matrix3 turn_of(const ReadFrame& read, std::size_t i) {
   return Eigen::Quaterniond(part(3), part(0), part(1), part(2)).toRotationMatrix();
 }
 
+void check_place(const std::array<float, 7>& place, const Pose& X_WL) {
+  CHECK((Vector3(place[0], place[1], place[2]) - X_WL.p).norm() < 1e-6);
+  const Eigen::Quaterniond turn(place[6], place[3], place[4], place[5]);
+  CHECK((turn.toRotationMatrix() - X_WL.R).cwiseAbs().maxCoeff() < 1e-6);
+}
+
 // The same frame with other coordinates: they stand in the memory after its head.
 LabFrame with_first_q(LabFrame frame, double old, double value) {
   std::string& memory = frame.recorded.memory;
@@ -149,6 +156,11 @@ TEST_CASE("lab frame: bodies stand and are turned as forward kinematics has them
       CHECK(read.scale[3 * i + static_cast<std::size_t>(c)] == static_cast<float>(size[c]));
   }
   CHECK(seen == std::vector<std::string>{"resting", "spinning"});
+  REQUIRE(read.link.size() == 7 * bodies.size());
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    check_place(ReadFrame::place(read.link, body), k.X_WL[body]);
+    CHECK(std::isnan(ReadFrame::place(read.twin, body)[0]));  // no kinematic robot
+  }
 }
 
 TEST_CASE("lab frame: channels and works are those of the recorded frame, by name") {
@@ -238,6 +250,11 @@ TEST_CASE("lab frame: the kinematic robot stands where the hand has it, at the s
       seen += read.body[i] == tip ? 1 : 0;
     }
     CHECK(seen > 0);
+    for (int body = 1; body < model.body_count(); ++body) {
+      const auto i = static_cast<std::size_t>(body);
+      check_place(ReadFrame::place(read.twin, i), k.X_WL[i]);
+      check_place(ReadFrame::place(read.link, i), now.X_WL[i]);
+    }
     const auto at = [&](const char* name) {
       return read.channels.at(watched.place_of("channels", "name", name));
     };
