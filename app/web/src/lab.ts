@@ -152,6 +152,9 @@ class Page implements LabPage {
       this.words.banner,
       set.dead.root,
     );
+    this.host.addEventListener('pointerdown', ({ target }) => {
+      if (target instanceof HTMLCanvasElement || target === this.handles.tip) this.words.fold(true);
+    });
     document.body.classList.add('lab');
     document.body.append(
       element(

@@ -16,6 +16,7 @@ export class Words {
   private until = 0;
   private shown = '';
   private file = '';
+  private count = 0; // lines of what to look for
   private lostAt: number | null = 0;
 
   constructor() {
@@ -26,8 +27,9 @@ export class Words {
   show(scene: SceneMessage): void {
     if (scene.file === this.file) return;
     this.file = scene.file;
-    this.fold(false);
-    if (scene.look.length === 0) this.look.hidden = true;
+    this.count = scene.look.length;
+    this.look.hidden = this.count === 0;
+    this.again.hidden = true;
     this.look.replaceChildren(
       element('h2', {}, 'What to look for'),
       button('×', 'away', () => this.fold(true), 'close'),
@@ -35,7 +37,9 @@ export class Words {
     );
   }
 
-  private fold(away: boolean): void {
+  // Who has turned to the robot has read it.
+  fold(away: boolean): void {
+    if (this.file === '' || this.count === 0) return;
     this.look.hidden = away;
     this.again.hidden = !away;
   }
