@@ -10,7 +10,7 @@ export interface Axis {
   slides: boolean;
 }
 
-const STEPS = 4;
+const STEPS = 8;
 const LEAST = 30; // pixels: from where the axis hides the motion, a small one is not made a large one
 
 export function within({ low, high }: { low?: number; high?: number }, value: number): number {
@@ -31,7 +31,7 @@ export class JointLeash {
   }
 
   move(at: { x: number; y: number }): number {
-    const unit = this.axis.slides ? 0.01 : 0.05;
+    const unit = this.axis.slides ? 0.001 : 0.005; // small: J is that of here
     for (let i = 0; i < STEPS; ++i) {
       const here = this.pixel(this.value);
       const there = this.pixel(this.value + unit);

@@ -1,0 +1,198 @@
+// What the lab's view computes without a browser: frames as they come, and points that a pointer
+// leads. Run by test_lab_logic.py: node --test lab_view.mjs, MODULES in the environment.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+
+const page = await import(pathToFileURL(process.env.MODULES).href);
+const { decodeFrame, labelText, placeOf, decodeMesh, inWorld, inLink, THREE } = page;
+const { Leash, JointLeash, Pace } = page;
+
+// A frame by the protocol's table, written down here once more.
+const ORDER = [
+  ['channels', Float64Array], ['works', Float64Array], ['link', Float32Array], ['twin', Float32Array],
+  ['position', Float32Array], ['scale', Float32Array], ['turn', Int16Array],
+  ['labelPosition', Float32Array], ['labelOffset', Int16Array], ['textEnd', Uint32Array],
+  ['first', Uint32Array], ['firstLabel', Uint32Array], ['mesh', Uint16Array], ['body', Uint16Array],
+  ['color', Uint8Array], ['flags', Uint8Array], ['shininess', Uint8Array], ['texture', Uint8Array],
+  ['text', Uint8Array],
+];
+function bytesOf(frame) {
+  const parts = ORDER.map(([name, Kind]) => Buffer.from(Kind.from(frame[name]).buffer));
+  const size = parts.reduce((at, part) => Math.ceil(at / 8) * 8 + part.length, 80);
+  const out = Buffer.alloc(size);
+  out.writeUInt32LE(0x31465754, 0);
+  out.writeUInt32LE(7, 4);
+  out.writeDoubleLE(1.25, 8);
+  out.writeDoubleLE(99.5, 16);
+  out.writeDoubleLE(0.004, 24);
+  out.writeBigUInt64LE(1250n, 32);
+  out.writeUInt32LE(3, 40);
+  out.writeUInt32LE(2 | 4, 44);
+  const counts = [frame.channels.length, frame.works.length, frame.first.length - 1,
+    frame.mesh.length, frame.textEnd.length, frame.text.length, frame.link.length / 7, 0];
+  counts.forEach((count, i) => out.writeUInt32LE(count, 48 + 4 * i));
+  let at = 80;
+  for (const part of parts) {
+    at = Math.ceil(at / 8) * 8;
+    part.copy(out, at);
+    at += part.length;
+  }
+  return out.buffer.slice(out.byteOffset, out.byteOffset + size);
+}
+const text = Buffer.from('armµ2');
+const frame = {
+  channels: [0.1, NaN, -3], works: [1e-9], link: [0, 0, 0, 0, 0, 0, 1, 1, 2, 3, 0, 0, 1, 0],
+  twin: [NaN, NaN, NaN, NaN, NaN, NaN, NaN, 4, 5, 6, 0, 0, 0, 1], position: [1, 2, 3], scale: [1, 1, 2],
+  turn: [0, 0, 0, 32767], labelPosition: [1, 1, 1, 2, 2, 2], labelOffset: [10, -6, 0, 0],
+  textEnd: [3, text.length], first: [0, 1, 1], firstLabel: [0, 0, 2], mesh: [5], body: [1],
+  color: [1, 2, 3, 255], flags: [1], shininess: [80], texture: [0], text: [...text],
+};
+
+test('a frame is read as the protocol has it, without a copy', () => {
+  const buffer = bytesOf(frame);
+  const read = decodeFrame(buffer);
+  for (const [name, Kind] of ORDER) {
+    assert.deepEqual(read[name], Kind.from(frame[name]), name);
+    assert.equal(read[name].buffer, buffer, name);
+  }
+  assert.deepEqual([read.scene, read.time, read.stamp, read.delay, read.step, read.number],
+    [7, 1.25, 99.5, 0.004, 1250, 3]);
+  assert.deepEqual([read.stands, read.lookedBack, read.dead], [false, true, true]);
+  assert.deepEqual([labelText(read, 0), labelText(read, 1)], ['arm', 'µ2']);
+  assert.deepEqual(placeOf(read.link, 1), [1, 2, 3]);
+  assert.equal(placeOf(read.twin, 0), null);
+});
+
+test('a frame that was cut off anywhere is none, and nothing throws', () => {
+  const whole = bytesOf(frame);
+  for (let size = 0; size < whole.byteLength; ++size)
+    assert.equal(decodeFrame(whole.slice(0, size)), null, `${size} bytes`);
+  const other = whole.slice(0);
+  new DataView(other).setUint32(0, 1, true);
+  assert.equal(decodeFrame(other), null);
+});
+
+test('a mesh is read as the protocol has it', () => {
+  const out = Buffer.alloc(16 + 4 * (3 + 3 + 2 + 3));
+  [1, 3, 3, 0].forEach((word, i) => out.writeUInt32LE(word, 4 * i));
+  [1, 2, 3, 0, 0, 1, 0.25, 0.5].forEach((value, i) => out.writeFloatLE(value, 16 + 4 * i));
+  const mesh = decodeMesh(out.buffer.slice(out.byteOffset, out.byteOffset + out.length));
+  assert.deepEqual([...mesh.position], [1, 2, 3]);
+  assert.deepEqual([...mesh.normal], [0, 0, 1]);
+  assert.deepEqual([...mesh.uv], [0.25, 0.5]);
+  assert.deepEqual([...mesh.index], [0, 0, 0]);
+  assert.equal(mesh.twoSided, true);
+});
+
+const near = (a, b, limit, words) => assert.ok(Math.abs(a - b) < limit, `${words ?? ''} ${a} ${b}`);
+
+test('link axes and world axes lead to one another', () => {
+  const half = Math.SQRT1_2; // a quarter turn about z at (1, 2, 3): x goes to y
+  const places = Float32Array.from([0, 0, 0, 0, 0, 0, 1, 1, 2, 3, 0, 0, half, half]);
+  const world = inWorld(places, 1, [0.5, 0, 0.25]);
+  [1, 2.5, 3.25].forEach((value, i) => near(world.toArray()[i], value, 1e-6));
+  inLink(places, 1, world).forEach((value, i) => near(value, [0.5, 0, 0.25][i], 1e-6));
+});
+
+function stageAt(eye) {
+  const camera = new THREE.PerspectiveCamera(40, 1.5, 0.01, 100);
+  camera.up.set(0, 0, 1);
+  camera.position.set(...eye);
+  camera.lookAt(0.1, 0.05, 0.2);
+  camera.updateMatrixWorld();
+  const host = { clientWidth: 900, clientHeight: 600 };
+  const project = (x, y, z) => {
+    const p = new THREE.Vector3(x, y, z).project(camera);
+    return { x: (0.5 + 0.5 * p.x) * 900, y: (0.5 - 0.5 * p.y) * 600 };
+  };
+  return { host, camera, project };
+}
+const EYES = [[2, -1, 1], [0.3, 2, 0.2], [-1.5, -1.5, 2.5], [0.1, 0.05, 3]];
+const START = [0.3, -0.1, 0.35];
+
+test('a point on the leash stays as far from the pointer as it was taken, in the plane of the view', () => {
+  for (const eye of EYES) {
+    const stage = stageAt(eye);
+    const goal = new THREE.Vector3(...START);
+    const begin = stage.project(...START);
+    const leash = new Leash(stage, goal.clone(), { x: begin.x + 4, y: begin.y - 3 });
+    leash.move({ x: begin.x + 84, y: begin.y - 53 }, false);
+    const end = stage.project(...leash.goal.toArray());
+    near(end.x, begin.x + 80, 0.7);
+    near(end.y, begin.y - 50, 0.7);
+    const sight = stage.camera.getWorldDirection(new THREE.Vector3());
+    near(leash.goal.clone().sub(goal).dot(sight), 0, 1e-9);
+  }
+});
+
+test('with shift only the height changes; back without it, nothing jumps', () => {
+  for (const eye of EYES) {
+    const stage = stageAt(eye);
+    const begin = stage.project(...START);
+    const leash = new Leash(stage, new THREE.Vector3(...START), begin);
+    leash.move({ x: begin.x + 40, y: begin.y - 60 }, true);
+    const [x, y, z] = leash.goal.toArray();
+    assert.deepEqual([x, y], START.slice(0, 2));
+    if (eye !== EYES[3]) assert.ok(z > START[2] + 0.01, `${z}`);
+    leash.move({ x: begin.x + 40, y: begin.y - 60 }, false);
+    [x, y, z].forEach((value, i) => near(leash.goal.toArray()[i], value, 1e-9));
+  }
+});
+
+test('the wheel leads along the line of sight', () => {
+  const stage = stageAt(EYES[0]);
+  const begin = stage.project(...START);
+  const leash = new Leash(stage, new THREE.Vector3(...START), begin);
+  const far = stage.camera.position.distanceTo(leash.goal);
+  leash.deepen(0.2);
+  near(stage.camera.position.distanceTo(leash.goal), 1.2 * far, 1e-9);
+  const end = stage.project(...leash.goal.toArray());
+  near(end.x, begin.x, 1e-6);
+  near(end.y, begin.y, 1e-6);
+});
+
+// Where the point moves along the line of sight, no pixel says how far.
+test('a joint goes to where the grabbed point is under the pointer, from sides that show it', () => {
+  const axes = [
+    { direction: [0, 0, 1], slides: false }, { direction: [0, 1, 0], slides: false },
+    { direction: [0.6, 0, 0.8], slides: true },
+  ];
+  for (const eye of [EYES[0], [1.2, 1.6, 0.5], EYES[2]])
+    for (const { direction, slides } of axes) {
+      const stage = stageAt(eye);
+      const along = new THREE.Vector3(...direction);
+      const origin = new THREE.Vector3(0, 0, 0.1);
+      const grabbed = new THREE.Vector3(...START);
+      const leash = new JointLeash(stage, { origin, direction: along, slides }, grabbed, 0.2, {});
+      let value = 0.2;
+      const step = slides ? 0.01 : 0.04;
+      for (let i = 0; i < 12; ++i) {
+        value += step;
+        const turned = grabbed.clone();
+        if (slides) turned.addScaledVector(along, value - 0.2);
+        else turned.sub(origin).applyAxisAngle(along, value - 0.2).add(origin);
+        near(leash.move(stage.project(...turned.toArray())), value, 0.02 * Math.abs(value), `${eye}`);
+      }
+    }
+});
+
+test('a joint stops at its limits and needs none', () => {
+  const stage = stageAt(EYES[0]);
+  const axis = { origin: new THREE.Vector3(), direction: new THREE.Vector3(0, 0, 1), slides: false };
+  const leash = new JointLeash(stage, axis, new THREE.Vector3(...START), 0, { low: -0.1, high: 0.1 });
+  const { x, y } = stage.project(...START);
+  assert.equal(Math.abs(leash.move({ x: x + 300, y })), 0.1);
+  assert.equal(Math.abs(leash.move({ x: x - 300, y })), 0.1);
+});
+
+test('pictures that come slowly for a while ask for coarser ones; a pause does not', () => {
+  const asked = (times) => {
+    const pace = new Pace();
+    return times.map((time) => pace.painted(time)).filter(Boolean).length;
+  };
+  const every = (pause, count, from = 0) => Array.from({ length: count }, (_, i) => from + i * pause);
+  assert.equal(asked(every(16, 600)), 0);
+  assert.equal(asked(every(100, 62)), 1);
+  assert.equal(asked([...every(16, 40), ...every(16, 40, 60_000)]), 0);
+});
