@@ -115,7 +115,15 @@ export function ghostsOf(
   return shown.map((curve) => ({ times, values: of(curve.column), color: colorOf(curve) }));
 }
 
+// The size that nine of ten points stay below: without the last instants of a run that blew up.
+export function usualSize(values: (number | null | undefined)[]): number {
+  const known = values.filter((value): value is number => typeof value === 'number');
+  const sizes = known.map(Math.abs).sort((one, other) => one - other);
+  return sizes[Math.floor(0.9 * sizes.length)] ?? 0;
+}
+
 export interface Beside {
+  usual: number; // of the curves; infinite: all of them have room
   ghosts: Ghost[];
   limit: LiveSpec['limit'];
   sums: number[];
@@ -128,16 +136,19 @@ const FAR = 3; // what is so many times larger than the curves would press them 
 export function rangeOf(
   low: number | null,
   high: number | null,
-  { ghosts, limit, sums, isForce }: Beside,
+  { usual, ghosts, limit, sums, isForce }: Beside,
 ): [number, number] {
-  let a = low ?? 0;
-  let b = high ?? 0;
+  const inner = usual > 0 ? FAR * usual : Infinity;
+  let a = Math.max(-inner, low ?? 0);
+  let b = Math.min(inner, high ?? 0);
   if (isForce) a = Math.min(a, 0); // how much it is, is read against nothing
   const room = (value: number) => {
     a = Math.min(a, value);
     b = Math.max(b, value);
   };
-  for (const { values } of ghosts) for (const value of values) if (value !== null) room(value);
+  const left = ghosts.flatMap(({ values }) => values);
+  const most = FAR * Math.max(Math.abs(a), Math.abs(b), usualSize(left));
+  for (const value of left) if (value !== null && Math.abs(value) <= most) room(value);
   const far = FAR * Math.max(Math.abs(a), Math.abs(b));
   for (const sum of sums) if (Math.abs(sum) <= far) room(sum);
   if (limit && (limit.always || b > limit.value / FAR)) {

@@ -53,7 +53,7 @@ export class Gallery implements Panel {
       alt: '',
       loading: 'lazy',
     });
-    image.addEventListener('error', () => (image.style.visibility = 'hidden'));
+    image.addEventListener('error', () => image.remove());
     const card = element(
       'button',
       { type: 'button', class: 'card', 'data-scene': name },

@@ -159,7 +159,10 @@ class NumberRow extends KnobRow {
         this.put(valueAt(scale, Number(slider.value) / FINE)),
       );
     }
-    field.addEventListener('focus', () => field.select());
+    field.addEventListener('focus', () => {
+      if (!Number.isNaN(this.value)) field.value = String(this.value); // all digits
+      field.select();
+    });
     field.addEventListener('input', () => field.setCustomValidity(''));
     field.addEventListener('blur', () => this.show(this.knob.value));
     // Before the page's own keys.
@@ -215,6 +218,7 @@ export function unitText(unit: string): string {
 // Buttons side by side, or a list where they are many.
 class ChoiceRow extends KnobRow {
   private readonly control: Segments | HTMLSelectElement;
+  private readonly left = element('option', { value: '', disabled: '' }, 'as the scene leaves it');
 
   constructor(knob: Knob, turn: Turn) {
     super(knob, turn);
@@ -225,6 +229,7 @@ class ChoiceRow extends KnobRow {
       this.head([this.control.root]);
     } else {
       this.control = element('select', { 'aria-label': knob.label, title: knob.meaning });
+      this.control.append(this.left);
       for (const name of choices) this.control.append(element('option', { value: name }, name));
       const { control } = this;
       control.addEventListener('change', () => this.set(control.value));
@@ -240,7 +245,12 @@ class ChoiceRow extends KnobRow {
   }
   protected show(value: Knob['value']): void {
     if (this.control instanceof Segments) this.control.show(String(value));
-    else this.control.value = String(value);
+    else {
+      const name = String(value ?? '');
+      const isOffered = this.knob.choices?.includes(name) ?? false;
+      this.left.hidden = isOffered;
+      this.control.value = isOffered ? name : '';
+    }
   }
 }
 

@@ -13,6 +13,7 @@ import {
   rangeOf,
   stack,
   stackSeries,
+  usualSize,
   type Beside,
   type Ghost,
   type Window,
@@ -44,6 +45,7 @@ export class LiveChart {
   private chart: uPlot | null = null;
   private made = ''; // what the chart was made for
   private ghosts: Ghost[] = [];
+  private usual = Infinity; // size of the curves, if the largest ones have no room
   private sums: number[] = []; // of the curves in ink: the largest so far, at the window's end
   private window: Window = { from: 0, to: 1 };
   private factor = 1;
@@ -78,8 +80,8 @@ export class LiveChart {
     this.made = '';
   }
 
-  // `at`: what is looked at, if not the newest.
-  draw(window: Window, at: number | null): void {
+  // `at`: what is looked at, if not the newest; `isBlown`: the run has ended in huge numbers.
+  draw(window: Window, at: number | null, isBlown: boolean): void {
     const width = this.canvas.clientWidth;
     if (width < 60) return;
     this.at = at;
@@ -92,6 +94,7 @@ export class LiveChart {
     const { spec, shown, factor } = this;
     const isStack = spec.sum !== undefined;
     const data = isStack ? stack(store, buckets, shown, spec.sum!) : lines(store, buckets, shown, factor);
+    this.usual = isBlown ? usualSize(data.slice(1).flatMap((column) => [...column])) : Infinity;
     this.sums = shown
       .filter((curve) => curve.color < 0 && end > 0)
       .map((curve) => factor * store.value(curve.column, end - 1));
@@ -160,7 +163,8 @@ export class LiveChart {
   }
   // What the range makes room for, besides the curves.
   private get beside(): Beside {
-    return { ghosts: this.ghosts, limit: this.limit, sums: this.sums, isForce: this.spec.unit === 'N' };
+    const { usual, ghosts, limit, sums, spec } = this;
+    return { usual, ghosts, limit, sums, isForce: spec.unit === 'N' };
   }
   private get shown(): LiveCurve[] {
     return this.spec.curves.filter((curve) => !this.hidden.has(curve));

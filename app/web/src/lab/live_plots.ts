@@ -95,11 +95,12 @@ export class LivePlots implements Panel, ChartUser {
     if (now - this.reviewedAt > REVIEW) this.review();
     const window = this.shownWindow(record);
     const at = this.page.state?.at ?? null;
+    const isBlown = (this.page.state?.dead ?? null) !== null;
     const wanted = `${record.version} ${window.from} ${window.to} ${at}`;
     if (wanted === this.drawn) return;
     this.drawn = wanted;
     this.drawnAt = now;
-    for (const chart of this.every) if (chart.isSeen) chart.draw(window, at);
+    for (const chart of this.every) if (chart.isSeen) chart.draw(window, at, isBlown);
     this.pauseAfter = Math.max(DRAW, SHARE * (performance.now() - now));
   }
 

@@ -66,12 +66,12 @@ export function niceStep(size: number): number {
   return tidy((lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power);
 }
 
-// As it stands in a field: all that was typed, without needless digits.
+// As it stands in a field: what was typed, else five digits.
 export function numberText(value: number): string {
   if (!Number.isFinite(value)) return String(value);
   const size = Math.abs(value);
   const text = size !== 0 && (size < 1e-4 || size >= 1e7) ? value.toExponential() : String(value);
-  const shorter = size !== 0 && text.length > 9 ? String(Number(value.toPrecision(6))) : text;
+  const shorter = size !== 0 && text.length > 8 ? String(Number(value.toPrecision(5))) : text;
   return shorter.replace('e+', 'e');
 }
 
