@@ -36,7 +36,7 @@ std::vector<BadScene> bad_scenes() {
 
 TEST_CASE("remedies: each that is offered holds for two seconds where the run had stopped") {
   for (const BadScene& bad : bad_scenes()) {
-    INFO(bad.name);
+    INFO(std::string(bad.name));
     const SimulatePlan plan = planned(bad.file, bad.changes, 2000);
     const SimulateResult dead = run_plan(plan.input, plan.run, {});
     REQUIRE(dead.post_mortem);
@@ -71,7 +71,8 @@ TEST_CASE("remedies: a step, a gain and a treatment are offered for a spring tha
   CHECK(first[2].find("coupling[0].treatment=implicit") == 0);
 }
 
-TEST_CASE("remedies: a run that is well has none") {
+TEST_CASE(
+    "remedies: where nothing is beyond its limit only a shorter step is offered, and says so") {
   const auto folder = read_gallery().front().file.parent_path();
   const SimulatePlan plan = planned(folder / "tracking_map.toml", {});
   for (const Remedy& remedy : remedies_of(plan, PostMortem()))

@@ -21,6 +21,7 @@ using LimitState = KnobLimit::State;
 using Holds = std::function<bool(double)>;
 
 constexpr double kStride = 4, kFine = 1.01, kRoomLeft = 0.25;
+constexpr double kBeyond = 1000;  // of a slider's range: how far a limit is sought
 
 // Where `holds` changes between `good` and `bad`: the side that holds.
 double edge_between(double good, double bad, const Holds& holds) {
@@ -141,8 +142,8 @@ class Limits {
     const bool starts = value > 0;
     const double now = starts ? value : knob.low;
     const Holds holds = [&](double x) { return step_.holds_with_gain(coupling, key.gain, x); };
-    const Edge edge =
-        find_edge(now, knob.low, knob.high, key.upward, starts ? holds_ : holds(now), holds);
+    const Edge edge = find_edge(now, knob.low / kBeyond, knob.high * kBeyond, key.upward,
+                                starts ? holds_ : holds(now), holds);
     knob.limit = limit_of(edge, starts ? value : 0, knob.unit, " at this step");
     if (!holds_) knob.limit->state = LimitState::beyond;
   }

@@ -71,7 +71,7 @@ class CouplingKnobs {
     add_treatment();
     if (has_gains) {
       gain("stiffness", "stiffness k", c_.stiffness, is_length ? "N/m" : "N m/rad",
-           is_length ? 1 : 0.01, is_length ? 1e6 : 1e5,
+           is_length ? 1 : 0.01, is_length ? 1e7 : 1e6,
            "Pull per distance between the robot and its twin: stiffer follows closer, and swings "
            "faster.");
       gain("damping", "damping b", c_.damping, is_length ? "N s/m" : "N m s/rad",
