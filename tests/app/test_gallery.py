@@ -15,7 +15,7 @@ import robot_command
 from robot_command import ROOT
 
 SCENES = ROOT / "assets/scenes"
-GALLERY = tomllib.loads((SCENES / "gallery.toml").read_text())["scene"]
+GALLERY = tomllib.loads((SCENES / "gallery/gallery.toml").read_text())["scene"]
 G = 9.81
 
 

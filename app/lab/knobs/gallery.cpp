@@ -14,12 +14,12 @@ GalleryScene read_entry(SceneTable& table, const std::filesystem::path& folder) 
     table.missing(key, "give name, file, title and three lines of look");
   scene.name = table.text("name").value_or("");
   scene.title = table.text("title").value_or("");
-  scene.file = folder / table.text("file").value_or("");
+  scene.file = (folder.parent_path() / table.text("file").value_or("")).lexically_normal();
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(scene.file, ignored))
     table.fault("file", "the file '" + scene.file.string() + "' does not exist",
-                "name a scene beside the gallery");
-  scene.picture = folder / "gallery" / (scene.name + ".png");
+                "name a scene of the folder above");
+  scene.picture = folder / (scene.name + ".png");
   if (!std::filesystem::is_regular_file(scene.picture, ignored)) scene.picture.clear();
   const TomlValue* look = table.find("look");
   const bool fits = look && look->items.size() == scene.look.size() &&
@@ -55,7 +55,8 @@ std::vector<GalleryScene> read_gallery(const std::filesystem::path& file) {
 }
 
 std::vector<GalleryScene> read_gallery() {
-  return read_gallery(std::filesystem::absolute(find_assets()) / "scenes" / "gallery.toml");
+  return read_gallery(std::filesystem::absolute(find_assets()) / "scenes" / "gallery" /
+                      "gallery.toml");
 }
 
 const GalleryScene* find_scene(const std::vector<GalleryScene>& gallery, const std::string& name) {

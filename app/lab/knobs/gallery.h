@@ -1,4 +1,5 @@
-// The scenes that the lab offers: assets/scenes/gallery.toml.
+// The scenes that the lab offers: assets/scenes/gallery/gallery.toml, with its pictures beside
+// it; the scenes lie in the folder above.
 #pragma once
 
 #include <array>
