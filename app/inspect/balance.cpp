@@ -56,6 +56,14 @@ double carried_weight(const Inspection& in, std::size_t i) {
 
 }  // namespace
 
+double turning_load(const Inspection& in, std::size_t i) {
+  const Force<double> h = in.model.I[i] * in.w.v[i];
+  const Vector3 w = to_eigen(in.w.v[i].w), v = to_eigen(in.w.v[i].v);
+  const Vector3 n = to_eigen(h.n), f = to_eigen(h.f);
+  return std::max((w.cross(n) + v.cross(f)).lpNorm<Eigen::Infinity>(),
+                  w.cross(f).lpNorm<Eigen::Infinity>());
+}
+
 Force<double> joint_force(const Inspection& in, std::size_t i) {
   return in.w.IA[i] * in.w.a[i] + in.w.pA[i];
 }
@@ -86,7 +94,7 @@ BodyBalance balance_of(const Inspection& in, std::size_t body, const Viewpoint& 
                                 wrench.torque.lpNorm<Eigen::Infinity>()});
   }
   const double rest = std::max(force.lpNorm<Eigen::Infinity>(), torque.lpNorm<Eigen::Infinity>());
-  const double size = std::max(balance.largest, carried_weight(in, body));
+  const double size = std::max({balance.largest, carried_weight(in, body), turning_load(in, body)});
   balance.residual = rest == 0 ? 0 : rest / size;
   return balance;
 }

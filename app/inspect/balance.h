@@ -17,8 +17,8 @@ struct BodyBalance {
   std::size_t body = 0;
   std::vector<NamedWrench> wrenches;  // "inertia" last
   double largest = 0;                 // of all numbers [N, N m]
-  // The largest number of the sum, as a part of `largest`; of what falls freely, as a part of the
-  // weight that hangs on the body.
+  // The largest number of the sum, as a part of `largest`; of what falls or turns freely, as a
+  // part of the weight that hangs on the body, or of turning_load().
   double residual = 0;
 };
 
@@ -36,6 +36,10 @@ struct JointBalance {
   double largest = 0, residual = 0;
 };
 std::vector<JointBalance> joint_balances(const Inspection& in);
+
+// Of the rates of momentum that a turning body has even where nothing pushes, |v x* I v| [N, N m]:
+// they cancel within its inertia, and what is left is rounding of them.
+double turning_load(const Inspection& in, std::size_t i);
 
 // The wrench through joint i, as the parent exerts it: IA a + pA, body axes.
 Force<double> joint_force(const Inspection& in, std::size_t i);

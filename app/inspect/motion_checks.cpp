@@ -109,7 +109,7 @@ Errors momentum_errors(const Inspection& in) {
       sum.tail<3>() += balance.wrenches[k].torque;
     }
     const double error = (sum - rate[0][i]).lpNorm<Eigen::Infinity>();
-    errors[i] = error == 0 ? 0 : error / balance.largest;
+    errors[i] = error == 0 ? 0 : error / std::max(balance.largest, turning_load(in, i));
   }
   return errors;
 }
