@@ -8,6 +8,10 @@ using namespace twinarm;
 
 namespace {
 
+// Of an arm that has some joules in its motion. A point spring pulls no more than k times its
+// length: a run that tumbles under it need not overflow.
+constexpr double kFarTooMuch = 1e4;  // [J]
+
 struct BadScene {
   const char* name;
   std::string file;
@@ -37,7 +41,8 @@ std::vector<BadScene> bad_scenes() {
 TEST_CASE("remedies: each that is offered holds for two seconds where the run had stopped") {
   for (const BadScene& bad : bad_scenes()) {
     INFO(std::string(bad.name));
-    const SimulatePlan plan = planned(bad.file, bad.changes, 2000);
+    SimulatePlan plan = planned(bad.file, bad.changes, 2000);
+    plan.run.energy_bound = kFarTooMuch;
     const SimulateResult dead = run_plan(plan.input, plan.run, {});
     REQUIRE(dead.post_mortem);
     const std::vector<Remedy> remedies = remedies_of(plan, *dead.post_mortem);
@@ -52,7 +57,7 @@ TEST_CASE("remedies: each that is offered holds for two seconds where the run ha
       }
       SimulatePlan again = planned(bad.file, changes);
       again.run.duration = 2;
-      again.run.energy_bound = 1e4;
+      again.run.energy_bound = kFarTooMuch;
       const SimulateResult result = run_plan(again.input, again.run, {});
       CHECK(!result.post_mortem);
       CHECK(result.end == doctest::Approx(2));
@@ -67,8 +72,8 @@ TEST_CASE("remedies: a step, a gain and a treatment are offered for a spring tha
   for (const Remedy& remedy : remedies_of(plan, PostMortem())) first.push_back(remedy.changes[0]);
   REQUIRE(first.size() == 3);
   CHECK(first[0].find("step=") == 0);
-  CHECK(first[1].find("coupling[0].stiffness=") == 0);
-  CHECK(first[2].find("coupling[0].treatment=implicit") == 0);
+  CHECK(first[1].find("].stiffness=") != std::string::npos);
+  CHECK(first[2].find("].treatment=implicit") != std::string::npos);
 }
 
 TEST_CASE(

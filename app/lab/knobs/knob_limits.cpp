@@ -115,14 +115,14 @@ std::optional<std::pair<int, std::string>> coupling_and_key(const std::string& p
 class Limits {
  public:
   Limits(const SimulatePlan& plan, std::vector<Knob>& knobs)
-      : step_(plan), knobs_(knobs), holds_(step_.holds()) {}
+      : scene_(plan.input.scene->description), step_(plan), knobs_(knobs), holds_(step_.holds()) {}
 
   void add() {
     if (step_.is_empty()) return;
     for (Knob& knob : knobs_) {
       if (knob.path == "step") add_step(knob);
       const auto coupling = coupling_and_key(knob.path);
-      if (!coupling) continue;
+      if (!coupling || is_stop(coupling->first)) continue;
       if (coupling->second == "rate") add_rate(knob, coupling->first);
       for (const GainKey& gain : kGains)
         if (coupling->second == gain.key) add_gain(knob, coupling->first, gain);
@@ -172,6 +172,12 @@ class Limits {
     knob.limit = limit_of(edge, rate, "Hz", " with these gains");
   }
 
+  // A soft stop mostly does not act, and is left out of the prediction.
+  bool is_stop(int coupling) const {
+    return coupling >= 0 && scene_.couplings[static_cast<std::size_t>(coupling)].outside;
+  }
+
+  const SceneDescription& scene_;
   CoupledStep step_;
   std::vector<Knob>& knobs_;
   bool holds_;

@@ -40,6 +40,7 @@ class RemedyFinder {
     std::vector<Suspect> suspects = dead.suspects;
     if (suspects.empty()) suspects = find_suspects(plan);
     for (const Suspect& s : suspects) blame(s);
+    if (guilty_.empty() && !step_.holds()) blame_all();
   }
 
   std::vector<Remedy> find() {
@@ -64,6 +65,16 @@ class RemedyFinder {
     for (std::size_t i = 0; i < scene_.couplings.size(); ++i)
       if (s.name == "coupling '" + scene_.couplings[i].name + "'")
         guilty_.push_back(static_cast<int>(i));
+  }
+
+  // Each for itself is within its limit, all together are not.
+  void blame_all() {
+    for (std::size_t i = 0; i < scene_.couplings.size(); ++i) {
+      const CouplingDescription& c = scene_.couplings[i];
+      const bool is_stepped = c.law != CouplingSpec::Type::god_object && !c.outside &&
+                              c.treatment != Treatment::implicit;
+      if (is_stepped) guilty_.push_back(static_cast<int>(i));
+    }
   }
 
   bool any_rate() const {
