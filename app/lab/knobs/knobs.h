@@ -7,8 +7,8 @@
 // constraints are left out, and so is the geometric stiffness of points that are far from their
 // targets: the limit is about zero offset, in the pose of the moment.
 //
-// Cost: knobs_of some microseconds; predict_knobs of the S-103 with four couplings see
-// docs/lab.md.
+// Cost: knobs_of less than 0.1 ms; predict_knobs of the S-103 with four couplings less than 5 ms of
+// processor time.
 #pragma once
 
 #include <limits>
