@@ -9,6 +9,7 @@
 #include "app/inspect/command/inspect_input.h"
 #include "app/inspect/command/inspect_output.h"
 #include "app/lab/glass/glass.h"
+#include "app/lab/run/lab_run.h"
 #include "app/simulate/run.h"
 #include "tests/import/helpers.h"
 
@@ -179,6 +180,48 @@ TEST_CASE("glass: the numbers are those of inspect, digit by digit; its ledger t
       CHECK(at(ledger, told.ledger[i]).number == told.frame.recorded.works[i]);
     glass.message(told_of(file, 10).frame, {1, true, 1});
   }
+}
+
+TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
+  SimulateOptions options;
+  options.robot.model = TWINARM_SOURCE_DIR "/assets/scenes/hand_and_obstacles.toml";
+  options.duration = 1;
+  const LabScene scene(options);
+  LabHand hand;
+  LabRun run(scene, {}, hand);
+  hand.choose(LabHand::Source::joints);
+  hand.joint(0, 0.9, 1);  // at LabHand::kFastest it is under way for 0.3 s
+  for (int n = 0; n < 100; ++n) REQUIRE(run.step());
+  LabNames names;
+  const LabFrame frame = run.frame(names);
+  REQUIRE(frame.hand);
+  CHECK(frame.hand->leads);
+  Glass glass(std::move(scene.plan()->prepared));
+  const Model<double>& model = run.prepared().input.robot.model;
+  const auto body = static_cast<std::size_t>(model.find_joint("joint1"));
+  REQUIRE(run.step());
+  const double wanted = run.view().simulation().workspace().qdd[model.iv[body]];
+  CHECK(std::abs(wanted) > 0.1);
+  const auto told_by = [&](const LabFrame& of) {
+    const JsonValue message = parsed(glass.message(of, {body, true, 1, &names.rows}));
+    for (const JsonValue& check : at(message, "checks").items) CHECK(at(check, "pass").number == 1);
+    const JsonValue* qdd = quantity_of(at(message, "passes"), 3, "qdd");
+    REQUIRE(qdd);
+    return qdd->number;
+  };
+  CHECK(told_by(frame) == doctest::Approx(wanted).epsilon(1e-9));
+  // A hand that stood still would have another force.
+  LabFrame still = frame;
+  still.hand->qd_K.assign(still.hand->qd_K.size(), 0);
+  CHECK(std::abs(told_by(still) - wanted) > 1e-3 * std::abs(wanted));
+  LabFrame pulled = frame;
+  pulled.pull = LabPull{static_cast<int>(body), Vector3::Zero(), Vector3::Zero(), {0, 0, 10}};
+  const JsonValue message = parsed(glass.message(pulled, {body, false, 1}));
+  bool found = false;
+  for (const JsonValue& wrench : at(at(message, "balance").items.at(0), "wrenches").items)
+    if (at(wrench, "source").text == "mouse")
+      found = (vector_of(at(wrench, "force")) - Vector3(0, 0, 10)).norm() < 1e-12;
+  CHECK(found);
 }
 
 TEST_CASE("glass: where time stands, all bodies come in the order of the call") {

@@ -175,6 +175,7 @@ struct Glass::Impl {
 
   explicit Impl(SimulatePlan of) : plan(std::move(of)), given(plan.input.robot.state) {
     SimulateInput& input = plan.input;
+    input.robot.warnings.clear();  // of the scene: told when it was opened
     if (!input.scene) return;
     const double h = plan.run.step;
     lead.emplace(input.scene.get(), nobody, h);
