@@ -151,3 +151,26 @@ TEST_CASE("a small body that rolls fast is solved to 1e-11 m/s by rounds, as a r
   CHECK(held_ones > 200);
   CHECK(far < held_ones / 20);
 }
+
+// From a guess that presses too hard a large rho lets go at first sight; rounds whose shifts were
+// held then came nearer by mu at a time, and the interior path had to be asked.
+TEST_CASE("a point that slides on is found in a few steps, however hard its guess presses") {
+  const double mass = 2, mu = 0.3, falls = 0.05, slides = 0.4;
+  for (const double factor : {0.2, 0.9, 1.1, 1.5, 3.0}) {
+    ImpulseProblem problem;
+    problem.add_tree(3);
+    for (int k = 0; k < 3; ++k) problem.M(0)[4 * k] = mass;
+    problem.v0(0)[0] = slides, problem.v0(0)[2] = -falls;
+    ImpulseConstraint& c = problem.add(ImpulseLaw::coulomb, 3, 0, ImpulseConstraint::no_tree);
+    c.mu = mu;
+    problem.J(c, 0)[2] = problem.J(c, 0)[3] = problem.J(c, 0)[7] = 1;
+    c.p = {factor * mass * falls, -mu * factor * mass * falls, 0};
+    ImpulseSolver solver;
+    const ImpulseReport report = solver.solve(problem);
+    CAPTURE(factor);
+    CHECK(report.newton <= 8);
+    CHECK(report.interior == 0);
+    CHECK(std::abs(problem.v(0)[2]) < 1e-11);
+    CHECK(std::abs(problem.v(0)[0] - (slides - mu * falls)) < 1e-11);
+  }
+}
