@@ -1,8 +1,9 @@
 // Broad phase: of few boxes each with each, O(n^2), of many by FCL's dynamic tree, O(n log n +
 // pairs). Both find the same pairs.
 //
-// A tree of 24 boxes takes 25,000 instructions and 400 lines of the cache to refit and to ask; all
-// pairs of them take 3,000 and 20 lines, which counts where a thread has slept in between.
+// To refit and to ask the tree of an arm's 18 hulls and nine obstacles took a ninth of the
+// instructions of a servo tick and a seventh of the cache lines that it touched, which counts where
+// a thread has slept in between; each with each is 351 comparisons in a row.
 //
 // FCL would bound a turned body by its bounding sphere. We know tighter boxes and hand them over:
 // each object is a stand-in at the identity whose local box is rewritten each step. One instance
