@@ -97,7 +97,8 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
       attempt(faults, [&] { return std::make_unique<SceneCouplings>(made, plan.step); });
   faults.check();
   std::vector<std::string> warnings = made.description.warnings;
-  if (std::any_of(made.couplings.begin(), made.couplings.end(),
+  if (!options.has_hand &&
+      std::any_of(made.couplings.begin(), made.couplings.end(),
                   [](const SceneCoupling& c) { return c.target == CouplingTarget::Kind::device; }))
     warnings.push_back(
         "no hand device moves the targets of couplings here: they stand still; `twinarm hand` runs "

@@ -33,6 +33,7 @@ struct SimulateOptions {
   // What a fork changes in a scene before it is read; may be empty.
   std::function<void(TomlValue&, FaultList&)> change_scene;
   std::optional<TomlValue> scene;  // in place of the file that robot.model names
+  bool has_hand = false;           // one is at hand for couplings that follow a device
 };
 
 struct RunDefaults {

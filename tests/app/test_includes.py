@@ -79,11 +79,9 @@ LAB = {
                      "scene", "show", "simulate"},
     "app/lab/knobs/": {"coupling", "find_assets.h", "json_writer.h", "lab/run", "nearest_name.h", "record",
                        "scene", "simulate"},
+    "app/lab/stream/": {"dynamics", "json_writer.h", "lab/run", "record", "render", "scene", "show",
                         "simulate", "web"},
     "app/lab/glass/": {"dynamics", "inspect", "json_writer.h", "lab/run", "record", "scene", "simulate"},
-    "app/lab/glass/": {"inspect", "lab/run", "record", "scene", "simulate"},
-    "app/lab/stream/": {"dynamics", "json_writer.h", "lab/run", "record", "render", "scene", "show",
-    "app/lab/stream/": {"dynamics", "lab/run", "record", "render", "scene", "show", "simulate", "web"},
     "app/lab/server/": set(),
 }
 

@@ -10,6 +10,7 @@
 #include "app/lab/run/mouse_pull.h"
 #include "app/record/record_run.h"
 #include "app/record/replay.h"
+#include "coupling/device/virtual_omni.h"
 #include "solver/energy.h"
 #include "tests/scene/helpers.h"
 

@@ -116,6 +116,7 @@ std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& change
     options.tolerance = beside.tolerance;
     options.integrator = beside.integrator;
     options.contact = beside.contact;
+    options.has_hand = true;
     SimulatePlan prepared = prepare_simulation(options);
     if (prepared.run.is_adaptive() && !options.step)  // not all of the run in one
       prepared.run.step = prepared.input.scene ? prepared.input.scene->description.step : 0.001;
