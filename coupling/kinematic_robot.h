@@ -48,9 +48,6 @@ class KinematicRobot {
   // At a stage within the step, with the velocity of the sweep that the step belongs to.
   const KvrSample& at(double t);
 
-  // The hand says other things than before, of times that were asked for already.
-  void forget() { started_ = false; }
-
   const HandSource& hand() const { return hand_; }
 
  private:

@@ -62,9 +62,6 @@ class SceneCouplings {
   // The weightless inertia that the treatment added in the last step (docs/coupling.md).
   double m_star(std::size_t c) const;
   const SceneCoupling& spec(std::size_t c) const { return scene_.couplings[c]; }
-  // A hand in place of the scene's own has changed its mind about times that target() was asked
-  // for.
-  void forget_targets();
   // What moves the kinematic side; of a target that stands still a hand at rest.
   const HandSource& hand(std::size_t c) const;
 

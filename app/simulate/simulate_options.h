@@ -55,7 +55,6 @@ struct RunPlan {
   // its kinetic energy at the start, and its weight over 1 m.
   double energy_bound = -1;  // [J]
   static constexpr double kGrowth = 1e12;
-  long energy_every = 8;  // steps between two looks at it: each costs a pass
   bool is_adaptive() const { return integrator == Integrator::dopri5; }
 };
 

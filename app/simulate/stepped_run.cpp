@@ -19,6 +19,7 @@ constexpr double kDeepStart = 1e-4;
 
 // Between two checkpoints, from the earlier of which a post-mortem is computed again.
 constexpr long kCheckpoint = 1000;
+constexpr long kEnergyEvery = 8;  // steps: the check costs a pass
 
 void visit_head(Memory& memory, long& steps, double& end, long& unsolved, long& unlocated) {
   memory.visit(steps);
@@ -236,7 +237,7 @@ bool SteppedRun::one_step(double t, double h_most) {
     later_ = memory();
   }
   if (watch_.alarm && result_.steps % LedgerAlarm::kWindow == 0) look_at_ledger();
-  return result_.steps % plan_.energy_every != 0 || stays_bounded(report);
+  return result_.steps % kEnergyEvery != 0 || stays_bounded(report);
 }
 
 // Into all ledgers what the step from t did.

@@ -133,13 +133,21 @@ void HandLead::follow_tip() {
     hand_.gestures()->place(*stylus);
 }
 
+// A kinematic robot that was asked for its target at t, as ledgers do, keeps the answer: where
+// another hand begins to lead, that is no longer true. Asked for another time it forgets.
+void HandLead::ask_elsewhere(double t) {
+  for (const std::size_t pull : led_) couplings_->target(pull, t - 1);
+}
+
 std::optional<HandStep> HandLead::before_step(const State<double>& x, double t, double h) {
   if (led_.empty()) return std::nullopt;
-  couplings_->forget_targets();
   const LabHand::Source source = hand_.source();
   if (!leads_ && !goes_on_ && source == LabHand::Source::scene) return std::nullopt;
   const bool begins = !leads_;
-  if (begins) take_over(t, h);
+  if (begins) {
+    take_over(t, h);
+    ask_elsewhere(t);
+  }
   if (!is_live_ || made_for_ != hand_.chosen()) make_loop(h);
   std::vector<double> goal = target_.q;
   if (source == LabHand::Source::scene) {
@@ -147,6 +155,7 @@ std::optional<HandStep> HandLead::before_step(const State<double>& x, double t, 
     move_towards(goal, h);
     if (target_.q == goal) {
       leads_ = false;
+      ask_elsewhere(t);
       return std::nullopt;
     }
   } else if (loop_) {
@@ -169,11 +178,12 @@ std::optional<HandStep> HandLead::before_step(const State<double>& x, double t, 
 
 void HandLead::take_again(const std::optional<HandStep>& told) {
   is_live_ = goes_on_ = false;
-  if (!led_.empty()) couplings_->forget_targets();
+  const bool led = leads_;
   if (!told || led_.empty()) {
     leads_ = false;
     return;
   }
+  if (!led) ask_elsewhere(told->t);
   live_.set(*told);
   if (!leads_) first_.set(*told);
   leads_ = true;

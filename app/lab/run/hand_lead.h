@@ -52,6 +52,7 @@ class HandLead {
   void make_loop(double h);
   void move_towards(const std::vector<double>& goal, double h);
   void follow_tip();
+  void ask_elsewhere(double t);
 
   SceneModel* scene_;
   LabHand& hand_;

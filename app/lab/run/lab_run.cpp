@@ -9,9 +9,15 @@
 #include "app/record/post_mortem.h"
 #include "app/record/record_run.h"
 #include "app/simulate/run_end.h"
+#include "solver/energy.h"
 
 namespace twinarm {
 namespace {
+
+// A run of the lab stops where its kinetic energy has grown so much, over the largest of 1 J, that
+// at the start, and the weight over 1 m: sooner than in `simulate` (RunPlan::kGrowth), for at such
+// speeds contacts and limits take a second a step, and somebody waits.
+constexpr double kMostGrowth = 1e3;
 
 std::uint32_t number_of_row(std::vector<std::string>& names, const std::string& name) {
   const auto place = std::find(names.begin(), names.end(), name);
@@ -46,6 +52,9 @@ LabRun::LabRun(std::unique_ptr<LabScene::Plan> plan_of_changes, std::vector<Chan
   const RunPlan& plan = plan_->prepared.run;
   lead_ = std::make_unique<HandLead>(input.scene.get(), hand_, plan.step);
   make_couplings();
+  const RobotInput& robot = input.robot;
+  most_energy_ = kMostGrowth * std::max({1.0, kinetic_energy(robot.model, robot.state.x),
+                                         weight_of(robot.model)});
   watch_.warn = [this](const std::string& words) { warnings_.push_back(words); };
   watch_.alarm = [this](const Alarm& alarm) {
     warnings_.push_back(alarm_words(alarm, plan_->prepared));
@@ -115,7 +124,9 @@ bool LabRun::take() {
   pull_->set(input_.pull);
   const bool goes_on = run_->advance();
   lead_->after_step(run_->simulation(), step_length(), goes_on);
-  stopped_ = !goes_on || run_->result().alarm;
+  const Simulation& simulation = run_->simulation();
+  stopped_ = !goes_on || run_->result().alarm ||
+             kinetic_energy(simulation.model(), simulation.state()) > most_energy_;
   return !stopped_;
 }
 
@@ -195,10 +206,11 @@ bool LabRun::scene_leads() const {
 }
 
 // The last state is a good one, but nobody would believe it.
-PostMortem LabRun::stopped_by_alarm() const {
+PostMortem LabRun::stopped_by_energy() const {
   const Simulation& simulation = run_->simulation();
   PostMortem found = examine_end({}, simulation, simulation.state(), run_->time(), run_->step());
   found.by_energy = true;
+  found.energy_bound = most_energy_;
   found.reason = "it creates energy";
   return found;
 }
@@ -206,7 +218,7 @@ PostMortem LabRun::stopped_by_alarm() const {
 const PostMortem* LabRun::post_mortem(const std::vector<LedgerRow>& before) {
   if (!stopped_ || post_mortem_) return post_mortem_ ? &*post_mortem_ : nullptr;
   SimulateResult result = run_->finish();
-  if (!result.post_mortem) result.post_mortem = stopped_by_alarm();
+  if (!result.post_mortem) result.post_mortem = stopped_by_energy();
   explain_at_once(plan_->prepared, *run_, before, result);
   post_mortem_ = std::move(result.post_mortem);
   return &*post_mortem_;

@@ -68,9 +68,9 @@ class LabRun {
   // way.
   bool scene_leads() const;
 
-  // Why it stopped (by itself, or by the alarm of the ledger: it creates energy), with suspects and
-  // their remedies; null while it goes on. `before`: the ledger some time before, to tell the row
-  // that grew.
+  // Why it stopped (by itself, by the ledger's alarm, or as it has far too much energy), with
+  // suspects and their remedies; null while it goes on. `before`: the ledger some time before, to
+  // tell the row that grew.
   const PostMortem* post_mortem(const std::vector<LedgerRow>& before = {});
 
  private:
@@ -78,7 +78,7 @@ class LabRun {
   void make_couplings();
   void begin_anew(const LabFrame& from);
   bool take();
-  PostMortem stopped_by_alarm() const;
+  PostMortem stopped_by_energy() const;
 
   std::vector<Change> changes_;
   LabHand& hand_;
@@ -91,6 +91,7 @@ class LabRun {
   std::optional<PullInput> mouse_;  // as it is now
   std::string begun_anew_;
   bool stopped_ = false;
+  double most_energy_ = 0;  // kinetic [J]
   std::vector<std::string> warnings_;
   std::optional<PostMortem> post_mortem_;
 };

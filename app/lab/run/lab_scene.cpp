@@ -6,9 +6,7 @@
 
 #include "app/record/record_run.h"
 #include "app/scene/toml_text.h"
-#include "app/simulate/run_end.h"
 #include "collision/import/number_text.h"
-#include "solver/energy.h"
 
 namespace twinarm {
 
@@ -19,11 +17,6 @@ struct LabScene::Files {
 };
 
 namespace {
-
-// A run of the lab stops where its kinetic energy has grown so much, over the largest of 1 J, that
-// at the start, and the weight over 1 m. Sooner than in `simulate` (RunPlan::kGrowth): at such
-// speeds contacts and limits take a second a step, and somebody waits.
-constexpr double kMostGrowth = 1e3;
 
 // What a change turns that stands beside the scene, as on the command line of `simulate`.
 bool turns_option(const Change& change, SimulateOptions& options, FaultList& faults) {
@@ -122,13 +115,6 @@ std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& change
       prepared.run.step = prepared.input.scene ? prepared.input.scene->description.step : 0.001;
     prepared.run.duration = HUGE_VAL;
     prepared.run.times.clear();
-    if (prepared.run.energy_bound < 0) {
-      const RobotInput& robot = prepared.input.robot;
-      prepared.run.energy_bound =
-          kMostGrowth *
-          std::max({1.0, kinetic_energy(robot.model, robot.state.x), weight_of(robot.model)});
-      prepared.run.energy_every = 1;
-    }
     return std::make_unique<Plan>(Plan{std::move(prepared), files_});
   } catch (const InputError& error) {
     throw by_change(files_->unpacked.as_typed(error, others), changes);
