@@ -240,7 +240,9 @@ class Page implements LabPage {
   private takeNews({ scene, state, glass, frame }: wire.News): void {
     if (scene) this.takeScene(scene);
     if (state) {
+      const asked = this.state?.asked.includes(this.state.you);
       this.state = state;
+      if (asked && this.holds) this.say('The hand is yours now.');
       for (const panel of this.panels) panel.onState?.(state);
     }
     if (glass) for (const panel of this.panels) panel.onGlass?.(glass);

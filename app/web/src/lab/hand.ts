@@ -61,11 +61,12 @@ export class Hand {
   pull(body: number, point: Vector, goal: Vector): void {
     this.waiting.set('pull', { do: 'pull', body, point, goal });
   }
-  button(index: 0 | 1, down: boolean): void {
-    if (!this.claim()) return;
+  button(index: 0 | 1, down: boolean): boolean {
+    if (!this.claim()) return false;
     this.sendNow({ do: 'button', index, down });
     if (index === 0) this.grip = down;
     else this.clutch = down;
+    return true;
   }
   drop(): void {
     this.waiting.delete('pull');

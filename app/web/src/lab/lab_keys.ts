@@ -82,12 +82,10 @@ function handKeys({ page, hand, keys }: KeyTargets): Key[] {
     key(['PageUp'], '', '', move(0, 0, 1)),
     key(['PageDown'], '', '', move(0, 0, -1)),
     key(['g'], 'g', 'gripper', () => {
-      hand.button(0, !hand.grip);
-      page.say(hand.grip ? 'The gripper is closed.' : 'The gripper is open.');
+      if (hand.button(0, !hand.grip)) page.say(hand.grip ? 'The gripper is closed.' : 'The gripper is open.');
     }),
     key(['c'], 'c', 'clutch', () => {
-      hand.button(1, !hand.clutch);
-      page.say(hand.clutch ? 'The clutch is pressed.' : 'The clutch is released.');
+      if (hand.button(1, !hand.clutch)) page.say(hand.clutch ? 'The clutch is pressed.' : 'The clutch is released.');
     }),
   ];
 }
