@@ -13,7 +13,10 @@ interface Line {
 }
 
 export class BranchDialog {
-  readonly root = element('dialog', { class: 'card-dialog branch', 'aria-labelledby': 'branch-title' });
+  readonly root = element('dialog', {
+    class: 'card-dialog branch',
+    'aria-labelledby': 'branch-title',
+  });
   private readonly title = element('h2', { id: 'branch-title' });
   private readonly list = element('div', { class: 'lines' });
   private readonly none = element('p', { class: 'hint' }, 'All knobs are left as they are now.');
@@ -40,7 +43,12 @@ export class BranchDialog {
       this.list,
       this.none,
       this.more,
-      element('div', { class: 'ends' }, button('Cancel', 'nothing happens (Escape)', () => this.root.close()), go),
+      element(
+        'div',
+        { class: 'ends' },
+        button('Cancel', 'nothing happens (Escape)', () => this.root.close()),
+        go,
+      ),
     );
     form.addEventListener('submit', (event) => {
       event.preventDefault();

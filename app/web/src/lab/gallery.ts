@@ -22,7 +22,11 @@ export class Gallery implements Panel {
       this.input.value = '';
     });
     this.zone.append(
-      element('p', {}, 'Drop a robot (URDF, with its meshes), a scene or a recording anywhere on this page, or'),
+      element(
+        'p',
+        {},
+        'Drop a robot (URDF, with its meshes), a scene or a recording anywhere on this page, or',
+      ),
       button('open files …', 'from this computer', () => this.input.click()),
       this.input,
     );
@@ -83,7 +87,8 @@ export class Gallery implements Panel {
   }
 
   private takeDrops(): void {
-    const curtain = element('div', { class: 'curtain', 'aria-hidden': 'true' }, 'Let go to open it here');
+    const hidden = { class: 'curtain', 'aria-hidden': 'true' };
+    const curtain = element('div', hidden, 'Let go to open it here');
     curtain.hidden = true;
     document.body.append(curtain);
     const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
@@ -106,12 +111,14 @@ export class Gallery implements Panel {
   // Meshes first, one by one, then what names them.
   async open(files: File[]): Promise<void> {
     if (files.length === 0) return;
-    const sorted = [...files].sort((a, b) => Number(MESHES.test(b.name)) - Number(MESHES.test(a.name)));
+    const rank = ({ name }: File) => (MESHES.test(name) ? 0 : 1);
+    const sorted = [...files].sort((a, b) => rank(a) - rank(b));
     for (const file of sorted) {
       this.tell('note', `Opening ${file.name} …`, []);
       const fault = await post(file);
       if (fault !== null) {
-        this.tell('error', `${file.name} was not opened`, fault.split('\n').filter((line) => line.trim()));
+        const faults = fault.split('\n').filter((line) => line.trim());
+        this.tell('error', `${file.name} was not opened`, faults);
         if (!this.root.open) this.root.showModal();
         return;
       }

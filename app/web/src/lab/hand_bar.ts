@@ -43,7 +43,9 @@ export class HandBar implements Panel {
   private readonly fill = element('i');
   private readonly number = element('output', { class: 'newtons', 'aria-live': 'off' });
   private readonly warning = element('div', { class: 'warning' });
-  private readonly grip = button('', 'gripper (g)', () => this.page.hand.button(0, !this.page.hand.grip));
+  private readonly grip = button('', 'gripper (g)', () =>
+    this.page.hand.button(0, !this.page.hand.grip),
+  );
   private column = -1;
   private newest: Frame | null = null;
   private drawn = '';

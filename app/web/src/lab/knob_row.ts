@@ -259,6 +259,7 @@ export function knobRow(knob: Knob, turn: Turn): KnobRow {
 }
 
 // Two that differ only by their numbers can be shown by the same row.
-export function shapeOf({ path, form, choices, unit, low, high, label, group, restarts }: Knob): string {
+export function shapeOf(knob: Knob): string {
+  const { path, form, choices, unit, low, high, label, group, restarts } = knob;
   return JSON.stringify([path, form, choices, unit, low, high, label, group, restarts]);
 }

@@ -18,10 +18,12 @@ export class LedgerPanel implements Panel {
   constructor() {
     const heads = ['work since the start', 'now [J]', ''];
     const head = element('tr', {}, ...heads.map((text) => element('th', { scope: 'col' }, text)));
-    const foot = element('tr', {}, element('th', { scope: 'row' }, 'their sum: rise of kinetic energy'), this.sum);
+    const name = element('th', { scope: 'row' }, 'their sum: rise of kinetic energy');
+    const foot = element('tr', {}, name, this.sum);
     const hint =
       'Each row is the work that something has done. The rows add up to the rise of kinetic ' +
-      'energy; “numerical” is what is left over, the integrator’s error. All digits stand at the pointer.';
+      'energy; “numerical” is what is left over, the integrator’s error. All digits stand at ' +
+      'the pointer.';
     this.root.append(
       element('h3', {}, 'Energy'),
       element('p', { class: 'hint' }, hint),

@@ -93,7 +93,9 @@ export class LiveChart {
     this.scaleUnits();
     const { spec, shown, factor } = this;
     const isStack = spec.sum !== undefined;
-    const data = isStack ? stack(store, buckets, shown, spec.sum!) : lines(store, buckets, shown, factor);
+    const data = isStack
+      ? stack(store, buckets, shown, spec.sum!)
+      : lines(store, buckets, shown, factor);
     this.usual = isBlown ? usualSize(data.slice(1).flatMap((column) => [...column])) : Infinity;
     this.sums = shown
       .filter((curve) => curve.color < 0 && end > 0)

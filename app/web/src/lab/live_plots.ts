@@ -47,7 +47,8 @@ export class LivePlots implements Panel, ChartUser {
       saveCsv: () => this.saveAll(),
     });
     this.pick.addEventListener('change', () => this.choose(this.pick.value));
-    this.root.append(this.bar.root, this.list, element('section', { class: 'pick' }, this.pick, this.picked));
+    const pick = element('section', { class: 'pick' }, this.pick, this.picked);
+    this.root.append(this.bar.root, this.list, pick);
     this.watch = new IntersectionObserver((entries) => {
       for (const { target, isIntersecting } of entries)
         for (const chart of this.every) if (chart.root === target) chart.isSeen = isIntersecting;

@@ -159,7 +159,8 @@ export class LiveSpecs {
 
   private device(): LiveSpec[] {
     const words = `the device's limit, ${DEVICE_LIMIT} N`;
-    return this.plain('device', 'Torques of the device’s motors', this.of('hand').filter(isShown)).map((spec) =>
+    const shown = this.of('hand').filter(isShown);
+    return this.plain('device', 'Torques of the device’s motors', shown).map((spec) =>
       spec.unit === 'N'
         ? { ...spec, title: 'Device force', limit: { value: DEVICE_LIMIT, words, always: true } }
         : spec,

@@ -50,5 +50,6 @@ export class Notes implements Panel {
 }
 
 function line(tag: 'li' | 'div', { level, text }: Note): HTMLElement {
-  return element(tag, { class: `said ${level}` }, sign(SIGNS[level] ?? 'ok'), element('span', {}, text));
+  const mark = sign(SIGNS[level] ?? 'ok');
+  return element(tag, { class: `said ${level}` }, mark, element('span', {}, text));
 }

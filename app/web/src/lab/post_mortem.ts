@@ -9,7 +9,11 @@ const BEFORE = 1; // a remedy goes back so far [s]
 const SLOW = 0.1; // of the last second, when it is looked at
 
 export class PostMortem implements Panel {
-  readonly root = element('section', { class: 'post-mortem', role: 'alertdialog', 'aria-label': 'the run has stopped' });
+  readonly root = element('section', {
+    class: 'post-mortem',
+    role: 'alertdialog',
+    'aria-label': 'the run has stopped',
+  });
   private shown = '';
   private away = false; // put aside
 
@@ -68,17 +72,23 @@ export class PostMortem implements Panel {
     const look = button('Look at the last second, slowly', 'at a tenth of the speed', () =>
       this.rewind.play(back, SLOW, dead.time),
     );
-    const again = button('Begin anew', 'from the start, as it is', () => this.page.send({ do: 'reset' }));
+    const again = button('Begin anew', 'from the start, as it is', () =>
+      this.page.send({ do: 'reset' }),
+    );
     again.disabled = isWatching;
-    return [
-      element('header', {}, sign('beyond'), element('h2', {}, headline ?? 'The run has stopped'), button('×', 'put aside (Escape)', () => this.hide(), 'close')),
+    const close = button('×', 'put aside (Escape)', () => this.hide(), 'close');
+    const title = element('h2', {}, headline ?? 'The run has stopped');
+    const parts: Node[] = [
+      element('header', {}, sign('beyond'), title, close),
       ...rest.map((line) => element('p', {}, line)),
       facts,
-      ...(remedies.length > 0
-        ? [element('h3', {}, `What holds, from ${(dead.time - back).toFixed(1)} s before`), element('div', { class: 'remedies' }, ...remedies)]
-        : []),
-      element('div', { class: 'ends' }, look, again),
     ];
+    if (remedies.length > 0)
+      parts.push(
+        element('h3', {}, `What holds, from ${(dead.time - back).toFixed(1)} s before`),
+        element('div', { class: 'remedies' }, ...remedies),
+      );
+    return [...parts, element('div', { class: 'ends' }, look, again)];
   }
 
   private mend(at: number, changes: string[]): void {

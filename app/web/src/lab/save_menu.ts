@@ -13,7 +13,8 @@ export class SaveMenu {
   constructor() {
     const list = element('div', { class: 'sheet' });
     for (const [address, name, what] of FILES) {
-      const link = element('a', { href: address, download: '' }, element('b', {}, name), element('span', {}, what));
+      const words = [element('b', {}, name), element('span', {}, what)];
+      const link = element('a', { href: address, download: '' }, ...words);
       link.addEventListener('click', () => (this.root.open = false));
       list.append(link);
     }

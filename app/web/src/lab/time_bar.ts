@@ -193,7 +193,8 @@ export class TimeBar implements Panel {
     const words = state.speed > 1 ? `${state.speed}× fast` : speed;
     if (!lags) return [words];
     const title = 'run time over the time that it should take: the machine does not keep up';
-    return [`${words}, `, element('b', { class: 'pace', title }, `pace ${pace.toFixed(2)}`)];
+    const badge = element('b', { class: 'pace', title }, `pace ${pace.toFixed(2)}`);
+    return state.speed === 1 ? [badge] : [`${words}, `, badge];
   }
 
   private showSpeed(speed: number): void {

@@ -200,6 +200,8 @@ export function timeText(time: number): string {
 export function tickText(value: number): string {
   if (value === 0) return '0';
   const size = Math.abs(value);
-  const text = size >= 1e5 || size < 1e-3 ? value.toExponential(1).replace('.0e', 'e') : String(+value.toPrecision(4));
+  const isFar = size >= 1e5 || size < 1e-3;
+  const far = value.toExponential(1).replace('.0e', 'e');
+  const text = isFar ? far : String(+value.toPrecision(4));
   return text.replaceAll('-', '−');
 }
