@@ -175,6 +175,7 @@ test('curves do not shiver: thinned points stay when rows come and go', () => {
     const points = outline(store.column(0), buckets);
     const at = timesOf(store.times, buckets, true);
     for (let b = 1; b + 2 < buckets.edges.length; ++b) {
+      assert.equal(at[2 * b] % buckets.stride, 0); // rows are numbered by their times
       const text = `${points[2 * b]} ${points[2 * b + 1]}`;
       assert.equal(seen.get(at[2 * b]) ?? text, text);
       seen.set(at[2 * b], text);
