@@ -190,12 +190,13 @@ TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
   LabHand hand;
   LabRun run(scene, {}, hand);
   hand.choose(LabHand::Source::joints);
-  hand.joint(0, 0.9, 1);  // at LabHand::kFastest it is under way for 0.3 s
+  hand.joint(0, 2.5, 1);  // at LabHand::kFastest it is long under way
   for (int n = 0; n < 100; ++n) REQUIRE(run.step());
   LabNames names;
   const LabFrame frame = run.frame(names);
   REQUIRE(frame.hand);
   CHECK(frame.hand->leads);
+  CHECK(frame.hand->qd_K.at(0) == doctest::Approx(LabHand::kFastest));
   Glass glass(std::move(scene.plan()->prepared));
   const Model<double>& model = run.prepared().input.robot.model;
   const auto body = static_cast<std::size_t>(model.find_joint("joint1"));

@@ -3,7 +3,7 @@ import type { Equation, GlassNumbers } from '../data/glass';
 import type { Quantity } from '../data/inspection';
 import { element, unitText } from '../ui/dom';
 import { math, source, texNumber, texOf } from '../ui/formula';
-import { quantityCard } from '../ui/quantity';
+import { quantityCard, unitOfSix } from '../ui/quantity';
 import { equationBlock } from './glass_equation';
 
 // Of a joint: the first where it turns, the second where it shifts.
@@ -24,7 +24,7 @@ export function passCards(numbers: GlassNumbers, which: number): HTMLElement[] {
   const card = (quantity: Quantity) => {
     const found = find(quantity.name);
     const unit =
-      quantity.frame === 'joint' ? unitOf(numbers, quantity.unit) : quantity.unit;
+      typeof quantity.value === 'number' ? unitOf(numbers, quantity.unit) : unitOfSix(quantity);
     return quantityCard(quantity, {
       symbol: math(texOf(quantity.name)),
       equation: source(quantity.equation),

@@ -88,11 +88,10 @@ function matrices(equation: Equation, body: string, unit: string): Node[] {
       valueOf({ value: term.value, unit }),
     ),
   );
-  const words = terms.length > 1 ? `its ${terms.length} terms` : 'its term';
-  return [
-    valueOf({ value: equation.value, unit }),
-    element('details', { class: 'terms' }, element('summary', {}, words), ...terms),
-  ];
+  const sum = valueOf({ value: equation.value, unit });
+  if (terms.length < 2) return [sum];
+  const words = `its ${terms.length} terms`;
+  return [sum, element('details', { class: 'terms' }, element('summary', {}, words), ...terms)];
 }
 
 function inLine(equation: Equation, unit: string): HTMLElement {

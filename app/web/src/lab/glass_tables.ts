@@ -86,7 +86,8 @@ export function ledgerTable(ledger: Record<string, number>): HTMLElement {
 }
 
 const length = (values: number[]) => Math.hypot(...values);
-const one = (value: number[] | number) => (typeof value === 'number' ? value : length(value));
+// Of several velocities the units differ.
+const one = (value: unknown) => (typeof value === 'number' ? value : NaN);
 // Of each pass, what a glance at a body tells.
 const TOLD: Record<number, { of: string; heads: string[]; read: (value: never) => number[] }[]> = {
   1: [
@@ -97,11 +98,11 @@ const TOLD: Record<number, { of: string; heads: string[]; read: (value: never) =
     },
   ],
   2: [
-    { of: 'D', heads: ['D'], read: (D: number | number[][]) => (typeof D === 'number' ? [D] : [NaN]) },
-    { of: 'u', heads: ['u'], read: (u: number | number[]) => [one(u)] },
+    { of: 'D', heads: ['D'], read: (D: unknown) => [one(D)] },
+    { of: 'u', heads: ['u'], read: (u: unknown) => [one(u)] },
   ],
   3: [
-    { of: 'qdd', heads: ["q''"], read: (qdd: number | number[]) => [one(qdd)] },
+    { of: 'qdd', heads: ["q''"], read: (qdd: unknown) => [one(qdd)] },
     { of: 'a', heads: ['|a| [m/s²]'], read: (a: number[]) => [length(a.slice(3))] },
   ],
 };

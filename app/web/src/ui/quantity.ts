@@ -4,6 +4,8 @@ import type { Quantity } from '../data/inspection';
 import './inspection.css';
 import { element, short, unitText } from './dom';
 
+export type Numbers = Pick<Quantity, 'value' | 'unit'> & { frame?: string };
+
 const AXES = ['x', 'y', 'z'];
 
 function cell(value: number, className = ''): HTMLTableCellElement {
@@ -56,7 +58,16 @@ export function heat(rows: number[][]): HTMLElement {
   return element('table', { class: 'heat' }, element('tbody', {}, ...lines));
 }
 
-export function valueOf({ value, unit }: Pick<Quantity, 'value' | 'unit'>): HTMLElement {
+// Units of both halves of six numbers. Those of a joint (it floats) shift first and turn then; told
+// is where a joint turns, and where it shifts.
+export function unitOfSix({ value, unit, frame }: Numbers): string {
+  const isJoint = frame === 'joint' && Array.isArray(value) && value.length === 6;
+  return isJoint ? unit.split(';').reverse().join(';') : unit;
+}
+
+export function valueOf(quantity: Numbers): HTMLElement {
+  const { value } = quantity;
+  const unit = unitOfSix(quantity);
   if (typeof value === 'number')
     return element('p', { class: 'one', title: String(value) }, short(value), ` ${unitText(unit)}`);
   if (Array.isArray(value[0])) {
