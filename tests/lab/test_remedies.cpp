@@ -25,14 +25,15 @@ std::vector<BadScene> bad_scenes() {
       held_arm("", "type = \"linear\"\nstiffness = 1e5\ndamping = 100\nrate = 100\n");
   return {{"stiff", scene("tracking_map.toml"), {"coupling.stiffness=1e7"}},
           {"damped too much", scene("tracking_map.toml"), {"coupling.damping=20000"}},
-          {"euler", scene("tracking_map.toml"), {"integrator=euler", "coupling.stiffness=1e5"}},
+          {"euler", scene("tracking_map.toml"), {"integrator=euler", "coupling.stiffness=2e6"}},
           {"long step", scene("tracking_map.toml"), {"step=0.02"}},
           {"as printed", scene("study_e4.toml"), {"coupling[1].stiffness=500000"}},
           {"as printed, turning", scene("study_e3.toml"), {"coupling[0].stiffness=200000"}},
           {"study",
            scene("study.toml"),
-           {"coupling[0].treatment=explicit", "coupling[0].stiffness=1e7",
-            "coupling[0].target=paper", "coupling[1].target=paper"}},
+           {"coupling[0].treatment=explicit", "coupling[0].stiffness=1e8",
+            "coupling[0].target=paper", "robot.q.joint1=1.5707963267948966",
+            "robot.q.joint2=-0.7853981633974483", "coupling[1].target=paper"}},
           {"held", temporary_scene("held", held).string(), {}}};
 }
 
@@ -44,7 +45,8 @@ TEST_CASE("remedies: each that is offered holds for two seconds where the run ha
     SimulatePlan plan = planned(bad.file, bad.changes, 2000);
     plan.run.energy_bound = kFarTooMuch;
     const SimulateResult dead = run_plan(plan.input, plan.run, {});
-    REQUIRE(dead.post_mortem);
+    CHECK(dead.post_mortem);
+    if (!dead.post_mortem) continue;
     const std::vector<Remedy> remedies = remedies_of(plan, *dead.post_mortem);
     CHECK(!remedies.empty());
     for (const Remedy& remedy : remedies) {
