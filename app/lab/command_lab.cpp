@@ -2,7 +2,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
-#include <sys/random.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -20,15 +19,6 @@ extern char** environ;
 
 namespace twinarm {
 namespace {
-
-std::string random_token() {
-  std::array<unsigned char, 16> bytes;
-  if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw InputError({{"", 0, "lab", "the system gives no random numbers", "try again"}});
-  std::string token;
-  for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
-  return token;
-}
 
 // Of what was asked for; else the gallery's first.
 Order first_order(const LabOptions& options, const std::vector<GalleryScene>& gallery) {

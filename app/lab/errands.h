@@ -1,6 +1,8 @@
 // A thread that does one thing after the other, in the order in which they were asked for.
 #pragma once
 
+#include <pthread.h>
+
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -40,6 +42,7 @@ class Errands {
   static constexpr std::size_t kMost = 16;
 
   void work() {
+    pthread_setname_np(pthread_self(), "lab errands");
     for (;;) {
       std::function<void()> errand;
       {

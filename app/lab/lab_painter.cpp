@@ -1,5 +1,7 @@
 #include "app/lab/lab_painter.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -58,6 +60,7 @@ void LabPainter::welcome(ClientId client) {
 }
 
 void LabPainter::work() {
+  pthread_setname_np(pthread_self(), "lab painter");
   for (;;) {
     const LabNow now = session_.now();
     take_scene(now);

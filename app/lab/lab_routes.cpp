@@ -46,31 +46,8 @@ HttpReply faults_of(const InputError& error) {
   return reply_of(422, words);
 }
 
-// The value of a key in "a=1&b=x%20y"; empty where there is none.
-std::string query_value(const std::string& query, const std::string& key) {
-  for (std::size_t begin = 0; begin < query.size();) {
-    const std::size_t end = std::min(query.find('&', begin), query.size());
-    const std::string part = query.substr(begin, end - begin);
-    begin = end + 1;
-    if (part.rfind(key + "=", 0) != 0) continue;
-    std::string value;
-    for (std::size_t i = key.size() + 1; i < part.size(); ++i) {
-      unsigned code = 0;
-      if (part[i] == '%' && i + 2 < part.size() &&
-          std::from_chars(&part[i + 1], &part[i + 3], code, 16).ptr == &part[i + 3]) {
-        value += static_cast<char>(code);
-        i += 2;
-      } else {
-        value += part[i] == '+' ? ' ' : part[i];
-      }
-    }
-    return value;
-  }
-  return "";
-}
-
 double number_of(const std::string& query, const std::string& key, double otherwise) {
-  const std::string text = query_value(query, key);
+  const std::string text = query_value(query, key).value_or("");
   double value = 0;
   const auto end = text.data() + text.size();
   const bool is_number =
@@ -202,7 +179,7 @@ HttpReply LabRoutes::picture(const HttpRequest& request) const {
 
 // What is no scene by itself (a mesh) waits in the folder for the one that names it.
 void LabRoutes::answer_open(const HttpRequest& request, const Answer& answer) {
-  const std::string name = query_value(request.query, "name");
+  const std::string name = query_value(request.query, "name").value_or("");
   if (!is_plain(name))
     return answer(reply_of(422, "name: '" + name + "' is none for a file; use letters, digits, -"));
   try {

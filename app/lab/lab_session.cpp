@@ -1,5 +1,7 @@
 #include "app/lab/lab_session.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -105,6 +107,7 @@ void LabSession::set_rate(double frames_per_second) {
 
 // The run's thread.
 void LabSession::work() {
+  pthread_setname_np(pthread_self(), "lab run");
   next_tick_ = Clock::now();
   pace_.begin(next_tick_, run_->time(), status_.speed);
   for (;;) {

@@ -1,5 +1,7 @@
 #include "app/lab/workshop.h"
 
+#include <pthread.h>
+
 #include "app/record/recording_reader.h"
 #include "solver/fault.h"
 
@@ -63,6 +65,7 @@ void Workshop::order(Order order) {
 }
 
 void Workshop::work() {
+  pthread_setname_np(pthread_self(), "lab workshop");
   for (;;) {
     Order order;
     {
