@@ -175,16 +175,15 @@ TEST_CASE("lab run: a spring beyond its limit stops the run, and says which and 
   Session s(arm_with("paper"));
   s.step(100);
   const auto rows = s.run->view().ledger();
-  s.change({{"coupling.treatment", "explicit"}, {"coupling.one.stiffness", "3e7"}});
+  s.change({{"coupling.one.treatment", "explicit"}, {"coupling.one.stiffness", "3e7"}});
   long n = 0;
   while (s.run->step() && n < 2000) ++n;
   const PostMortem* found = s.run->post_mortem(rows);
   REQUIRE(found);
-  CHECK(n > 0);
   REQUIRE(!found->suspects.empty());
   CHECK(found->suspects.front().name == "coupling 'one'");
   CHECK(found->suspects.front().step > found->suspects.front().largest_step);
-  CHECK(found->suspects.front().largest_gain > 0);
+  CHECK(!found->suspects.front().remedy.empty());
   CHECK(found->words.size() >= 2);
   CHECK(!found->row.empty());
   CHECK(!s.run->step());

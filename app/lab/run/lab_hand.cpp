@@ -20,7 +20,9 @@ void LabHand::choose(Source source, const std::string& spec) {
   std::unique_ptr<HandDevice> device;
   if (source == Source::device) device = open_device(spec);
   if (source == Source::drag) {
-    const VirtualOmniSettings settings;
+    VirtualOmniSettings settings;
+    // No encoders: their counts, magnified and divided by a millisecond, are felt in every damper.
+    settings.figures.resolution = 0;
     gestures = std::make_shared<GestureHand>(settings.figures);
     device = std::make_unique<VirtualOmni>(gestures, settings);
   }
