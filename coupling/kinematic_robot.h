@@ -43,6 +43,8 @@ class KinematicRobot {
   void stand_at(const State<double>& x);
   // Looks at the hand for the step [t, t + h]. Asking again for the same step costs nothing.
   void begin_step(double t, double h);
+  // The hand has another past now: a step that was looked at is looked at again.
+  void forget() { started_ = false; }
   const KvrSample& start() const { return start_; }
   const KvrSample& end() const { return end_; }
   // At a stage within the step, with the velocity of the sweep that the step belongs to.

@@ -237,6 +237,12 @@ ForceSource* SceneCouplings::source(std::size_t c) {
   return spec(c).leader == c ? ties_[c]->source.get() : nullptr;
 }
 
+void SceneCouplings::forget_hands() {
+  for (const std::shared_ptr<Tie>& tie : ties_) {
+    tie->twin->kvr.forget();
+    tie->twin->shown.forget();
+  }
+}
 const HandSource& SceneCouplings::hand(std::size_t c) const {
   return *ties_[c]->twin->hand;
 }

@@ -64,6 +64,8 @@ class SceneCouplings {
   const SceneCoupling& spec(std::size_t c) const { return scene_.couplings[c]; }
   // What moves the kinematic side; of a target that stands still a hand at rest.
   const HandSource& hand(std::size_t c) const;
+  // Hands lead otherwise now, also at times that were looked at.
+  void forget_hands();
 
  private:
   struct Twin;

@@ -188,6 +188,7 @@ struct Glass::Impl {
     Memory memory = simulation_memory(frame.recorded.memory);
     if (scene) {
       hand.take(frame, plan.run.step);
+      plan.input.couplings->forget_hands();
       pull.hold(frame.pull);
       return scene->look(&memory);
     }
