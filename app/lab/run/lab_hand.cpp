@@ -13,6 +13,9 @@ LabHand::LabHand() {
   // What a mouse drags is held by a soft arm: with the power of virtual work, 25 times as stiff, it
   // would buzz against its motors' limit. So the stylus feels a fifth of the force on the tip.
   mapping_.force_scale = 1 / (mapping_.scale * mapping_.scale);
+  // And not each millisecond's damping: held for a step, 300 N s/m on 0.15 kg would swing to and
+  // fro.
+  force_.cutoff = 15;
 }
 
 void LabHand::choose(Source source, const std::string& spec) {
