@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "app/interrupt.h"
-#include "app/scene/toml_text.h"
 #include "app/record/record_run.h"
+#include "app/scene/toml_text.h"
 #include "collision/import/number_text.h"
 #include "solver/whole_file.h"
 

@@ -18,8 +18,9 @@ constexpr long kLastSteps = 1000;
 void explain(const SimulatePlan& prepared, RecordingHeader header,
              const std::filesystem::path& file, SimulateResult& result);
 
-// The same without a recording, for a run that cannot be computed again from its checkpoint, or that
-// is remembered elsewhere. `run` stands where it stopped; `before`: its ledger some time earlier.
+// The same without a recording, for a run that cannot be computed again from its checkpoint, or
+// that is remembered elsewhere. `run` stands where it stopped; `before`: its ledger some time
+// earlier.
 void explain_at_once(const SimulatePlan& prepared, const RunView& run,
                      const std::vector<LedgerRow>& before, SimulateResult& result);
 
