@@ -48,6 +48,25 @@ def inertia_of_shape(shape, m):
     raise ValueError(kind)
 
 
+def with_point(m, com, inertia, more, point):
+    """A body and a point mass on it as one, inertia about their common centre (Steiner)."""
+    both = m + more
+    center = tuple((m * c + more * p) / both for c, p in zip(com, point))
+    for part, place in ((m, com), (more, point)):
+        d = add(place, center, -1)
+        inertia = tuple(tuple(value + part * ((dot(d, d) if i == j else 0) - d[i] * d[j])
+                              for j, value in enumerate(row)) for i, row in enumerate(inertia))
+    return both, center, inertia
+
+
+def has_motors(scene):
+    """Whether motors turn with its joints: their inertia is in no body."""
+    robots = tomllib.loads(scene.read_text()).get("robot", [])
+    files = (f for robot in robots for f in (scene.parent / robot["model"],
+                                             ROOT / "assets" / robot["model"]) if f.exists())
+    return any("armature" in file.read_text() for file in files)
+
+
 def bodies_of(scene):
     """{link: (mass, centre of mass, inertia about it)}, of all that forces can move."""
     description = tomllib.loads(scene.read_text())
@@ -70,6 +89,9 @@ def bodies_of(scene):
             name = robot["name"] + "/" + link.get("name") if many else link.get("name")
             bodies[name] = (float(inertial.find("mass").get("value")), com,
                             symmetric(i["ixx"], i["iyy"], i["izz"], i["ixy"], i["ixz"], i["iyz"]))
+            for load in robot.get("payload", []):
+                if load["link"] == link.get("name"):
+                    bodies[name] = with_point(*bodies[name], load["mass"], load["point"])
     for body in description.get("body", []):
         if body.get("fixed") or "motion" in body:
             continue

@@ -77,14 +77,11 @@ TESTS_OF_LIBRARY = {"tests/scene/": "app/scene/", "tests/hand/": "app/hand/",
 LAB = {
     "app/lab/run/": {"coupling", "hand", "interrupt.h", "live", "nearest_name.h", "output_file.h", "record",
                      "scene", "show", "simulate"},
-                        "simulate", "web"},
-                       "scene", "simulate"},
-    "app/lab/glass/": {"dynamics", "inspect", "json_writer.h", "lab/run", "record", "scene", "simulate"},
-    "app/lab/glass/": {"dynamics", "inspect", "lab/run", "record", "scene", "simulate"},
     "app/lab/knobs/": {"coupling", "find_assets.h", "json_writer.h", "lab/run", "nearest_name.h", "record",
-    "app/lab/knobs/": {"json_writer.h", "coupling", "find_assets.h", "lab/run", "nearest_name.h", "record", "scene", "simulate"},
+                       "scene", "simulate"},
     "app/lab/stream/": {"dynamics", "json_writer.h", "lab/run", "record", "render", "scene", "show",
-    "app/lab/stream/": {"dynamics", "lab/run", "record", "render", "scene", "show", "simulate", "web"},
+                        "simulate", "web"},
+    "app/lab/glass/": {"dynamics", "inspect", "json_writer.h", "lab/run", "record", "scene", "simulate"},
     "app/lab/server/": set(),
 }
 

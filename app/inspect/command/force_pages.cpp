@@ -111,7 +111,7 @@ void write_named_forces(const Inspection& in, const InspectView& view, Sheet& sh
     std::string head = "\n" + named.source;
     if (named.point) head += " at " + point_text(*named.point);
     if (named.parts)
-      head += fmt::format(": presses with {} N, friction {} N", short_number(named.parts->normal),
+      head += fmt::format(": normal {} N, friction {} N", short_number(named.parts->normal),
                           short_number(named.parts->friction, named.parts->normal));
     sheet.line(head);
     for (const NamedForce::End& end : named.ends)
