@@ -87,8 +87,10 @@ def bodies_of(scene):
                 assert set(origin.get("rpy", "0 0 0").split()) <= {"0", "0.0"}
             i = {k: float(v) for k, v in inertial.find("inertia").attrib.items()}
             name = robot["name"] + "/" + link.get("name") if many else link.get("name")
-            bodies[name] = (float(inertial.find("mass").get("value")), com,
-                            symmetric(i["ixx"], i["iyy"], i["izz"], i["ixy"], i["ixz"], i["iyz"]))
+            scale = robot.get("mass_scale", {}).get(link.get("name"), 1)
+            bodies[name] = (scale * float(inertial.find("mass").get("value")), com,
+                            symmetric(*(scale * i[k] for k in ("ixx", "iyy", "izz",
+                                                               "ixy", "ixz", "iyz"))))
             for load in robot.get("payload", []):
                 if load["link"] == link.get("name"):
                     bodies[name] = with_point(*bodies[name], load["mass"], load["point"])

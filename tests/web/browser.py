@@ -27,7 +27,7 @@ def find_browser():
 
 
 class Browser:
-    def __init__(self, width=1280, height=720, timeout=240, dark=False):
+    def __init__(self, width=1280, height=720, timeout=60, dark=False):
         self.timeout = timeout
         self.errors = []  # of the console, and exceptions
         self.requests = []  # whatever the page asked for besides itself

@@ -66,7 +66,7 @@ class LabPage(unittest.TestCase):
         return self.page.evaluate(expression)
 
     def until(self, expression):
-        self.page.wait_for(expression)
+        self.page.wait_for(f"!!({expression})")
 
     def click(self, text, within="document"):
         """A button by its words."""
@@ -172,7 +172,7 @@ class LabPage(unittest.TestCase):
               "input[type=range][aria-label^=instant]')"
         self.value(f"{bar}.value = (+{bar}.min + +{bar}.max) / 2; "
                    f"{bar}.dispatchEvent(new Event('input', {{bubbles: true}}))")
-        self.until(f"{STATE}.at !== null && (twinarm.page.frame.flags & 2)")
+        self.until(f"{STATE}.at !== null && twinarm.page.frame.lookedBack")
         self.picture("back")
         at = self.value(f"{STATE}.at")
         self.click("branch")
