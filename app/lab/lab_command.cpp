@@ -10,7 +10,7 @@
 namespace twinarm {
 namespace {
 
-using Do = LabCommand::Do;
+using Spoken = LabCommand::Do;
 using Kind = JsonValue::Kind;
 
 constexpr std::size_t kMostNames = 64;
@@ -95,7 +95,7 @@ bool take_index(const JsonValue& value, LabCommand& command) {
 
 struct Form {
   const char* name;
-  Do what;
+  Spoken what;
   bool needs_hand;
   std::vector<Field> fields;
 };
@@ -112,39 +112,42 @@ const std::vector<Form>& forms() {
   const Field changes{"changes", "a list of at most 64 texts", take_texts};
   const Field index{"index", "a whole number", take_index<15>};
   static const std::vector<Form> all{
-      {"layers", Do::layers, false, {{"names", "a list of at most 64 texts", take_texts}}},
-      {"glass", Do::glass, false, {on, {"body", "a body's number", take_index<kMostIndex>, true}}},
-      {"take", Do::take, false, {}},
-      {"give", Do::give, false, {{"to", "a client's number", take_index<kMostIndex>}}},
-      {"look", Do::look, false, {{"at", "seconds, or null", take_instant}}},
-      {"play", Do::play, true, {on}},
-      {"step", Do::step, true, {{"steps", "1 to 100000", take_index<100'000>}}},
-      {"speed", Do::speed, true, {{"factor", "0.001 to 10", take_factor}}},
-      {"set", Do::set, true, {changes}},
-      {"branch", Do::branch, true, {{"at", "seconds, or null", take_instant}, changes}},
-      {"preset", Do::preset, true, {{"name", "a text", name}}},
-      {"scene", Do::scene, true, {{"name", "a text", name}}},
-      {"reset", Do::reset, true, {}},
-      {"hand", Do::hand, true, {{"source", "a text", name}, {"spec", "a text", spec, true}}},
-      {"tip", Do::tip, true, {{"goal", "three numbers", goal}, stamp}},
-      {"joint", Do::joint, true, {index, {"value", "a number", value}, stamp}},
+      {"layers", Spoken::layers, false, {{"names", "a list of at most 64 texts", take_texts}}},
+      {"glass",
+       Spoken::glass,
+       false,
+       {on, {"body", "a body's number", take_index<kMostIndex>, true}}},
+      {"take", Spoken::take, false, {}},
+      {"give", Spoken::give, false, {{"to", "a client's number", take_index<kMostIndex>}}},
+      {"look", Spoken::look, false, {{"at", "seconds, or null", take_instant}}},
+      {"play", Spoken::play, true, {on}},
+      {"step", Spoken::step, true, {{"steps", "1 to 100000", take_index<100'000>}}},
+      {"speed", Spoken::speed, true, {{"factor", "0.001 to 10", take_factor}}},
+      {"set", Spoken::set, true, {changes}},
+      {"branch", Spoken::branch, true, {{"at", "seconds, or null", take_instant}, changes}},
+      {"preset", Spoken::preset, true, {{"name", "a text", name}}},
+      {"scene", Spoken::scene, true, {{"name", "a text", name}}},
+      {"reset", Spoken::reset, true, {}},
+      {"hand", Spoken::hand, true, {{"source", "a text", name}, {"spec", "a text", spec, true}}},
+      {"tip", Spoken::tip, true, {{"goal", "three numbers", goal}, stamp}},
+      {"joint", Spoken::joint, true, {index, {"value", "a number", value}, stamp}},
       {"turn",
-       Do::turn,
+       Spoken::turn,
        true,
        {{"yaw", "a number", take_turn<0>},
         {"pitch", "a number", take_turn<1>},
         {"roll", "a number", take_turn<2>},
         stamp}},
-      {"axes", Do::axes, true, {{"rates", "six numbers", take_rates}, stamp}},
-      {"button", Do::button, true, {index, {"down", "true or false", take_flag}, stamp}},
+      {"axes", Spoken::axes, true, {{"rates", "six numbers", take_rates}, stamp}},
+      {"button", Spoken::button, true, {index, {"down", "true or false", take_flag}, stamp}},
       {"pull",
-       Do::pull,
+       Spoken::pull,
        true,
        {{"body", "a body's number", take_index<kMostIndex>},
         {"point", "three numbers", point},
         {"goal", "three numbers", goal},
         stamp}},
-      {"drop", Do::drop, true, {}}};
+      {"drop", Spoken::drop, true, {}}};
   return all;
 }
 
