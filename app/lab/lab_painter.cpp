@@ -88,10 +88,10 @@ void LabPainter::do_jobs() {
   }
   for (const auto& job : jobs) job(*this);
   if (newcomers.empty()) return;
+  state_.clear();  // told anew, to all: who has the hand may have changed
   const Bytes scene = shared(view_->scene_message());
   for (const ClientId client : newcomers) {
     post_(client, scene_channel, scene, false);
-    if (!state_.empty()) post_(client, state_channel, shared(addressed(state_, client)), false);
     if (last_frame_) post_(client, frame_channel, last_frame_, true);
   }
 }
