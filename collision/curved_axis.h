@@ -21,10 +21,10 @@ class CurvedAxis {
     std::vector<Vector3> along;  // of each ridge, unit
     std::vector<Patches::Round> rounds;
   };
-  static void place(const Placed& body, const Placed& other, const Vector3& origin, double reach,
-                    Posed& posed);
+  void place(const Placed& body, const Placed& other, double reach, Posed& posed);
   void offer(const Vector3& n_W, double handicap);
   void offer_round(const Vector3& n_W, const Patches::Round& round, bool is_of_a);
+  double limit() const;
   void try_flats();
   void try_seeds();
   void try_patches(double reach);
@@ -39,7 +39,8 @@ class CurvedAxis {
   bool overlaps_ = false, is_deep_ = false;
   NearestPair seed_, best_;
   Posed a_, b_;
-  std::vector<Vector3> found_;
+  std::vector<Vector3> found_, corners_;
+  std::vector<double> bounds_;  // by flat
 };
 
 }  // namespace twinarm

@@ -1,8 +1,6 @@
 // Polytopes: the corners of one body in the frame of the other, and one pass over them for each
 // slab (a face with the face opposite to it, if it is parallel).  Box-box: 48 products, 0.1 us.
-// Caps of cylinders: overlap(n). Faces of a hull against a curved body: n . x <= offset tells how
-// far the hull reaches, but for what its corners scatter about the plane; only a face that can be
-// better than the best before asks all corners.
+// Against a curved body: overlap(n), of a face only where it can be better than the best before.
 #include "collision/flat_axis.h"
 
 #include <algorithm>
@@ -19,17 +17,14 @@ bool FlatAxis::best(const Placed& a, const Placed& b, double margin, Axis& axis)
 // Of `own`, which is a with sign 1 or b with -1.
 bool FlatAxis::try_flats(const Placed& a, const Placed& b, const Placed& own, double sign,
                          double margin, Axis& axis) {
-  constexpr double scatter = 1e-5;  // of the extent: 100 times that of convex_hull()
-  const Placed& other = sign > 0 ? b : a;
-  const bool is_hull = own.solid.core.exists;
-  const double slack = own.solid.core.radius + scatter * own.solid.half.norm();
   const std::vector<Vector3>& flats = own.solid.patches.flats;
-  for (std::size_t f = 0; f < flats.size(); ++f) {
+  const Placed& other = sign > 0 ? b : a;
+  const std::size_t first = bound_flats(own, other, bounds_);
+  for (std::size_t k = 0; k < flats.size(); ++k) {
+    const std::size_t f = (first + k) % flats.size();
+    if (bounds_[f] > axis.overlap) continue;
     const Vector3 out = own.X_WG.R * flats[f];
-    if (is_hull) {
-      const double near = (own.X_WG.p - other.support_W(-out)).dot(out);
-      if (near + own.solid.core.hull.offsets[f] - slack > axis.overlap) continue;
-    }
+    if (bound_flat(own, f, out, other) > axis.overlap) continue;
     consider(a, b, sign * out, 0, axis);
     if (!(axis.overlap > -margin)) return false;
   }

@@ -22,6 +22,7 @@ class FlatAxis {
                  double margin, const Matrix3& R_W_own, double radii, Axis& axis);
 
   std::vector<Vector3> vertices_;
+  std::vector<double> bounds_;  // by flat
 };
 
 }  // namespace twinarm

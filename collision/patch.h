@@ -25,9 +25,9 @@ struct Patches {
     Matrix3 Q;  // square of the half axes, zero for a corner [m^2]
   };
   std::vector<Vector3> flats;  // outward unit normals
-  std::vector<Ridge> ridges;
-  std::vector<Round> rounds;
-  double roundness = 0;  // [m]
+  std::vector<Ridge> ridges;   // of a polytope: its edges, in their order
+  std::vector<Round> rounds;   // of a polytope: its corners, in their order
+  double roundness = 0;        // [m]
 };
 
 // Of any convex bounded shape, in its frame; empty for the others.
