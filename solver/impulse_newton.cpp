@@ -43,7 +43,7 @@ ImpulseSolver::Round ImpulseSolver::solve_round(ImpulseProblem& problem, const I
     ++steps;
     Gradient then = gradient(problem, island, Shift::followed);
     double step = 1;
-    if (most > quick_newton)
+    if (most > quick_newton_few)
       for (; !(then.squared < (1 - 0.5 * step) * now.squared) && step > 0.05; step *= 0.5) {
         move(problem, island, -0.5 * step);
         then = gradient(problem, island, Shift::followed);

@@ -157,7 +157,7 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
     for (const int i : island.constraints) problem.constraints()[i].p = guess_p_[i];
     settle(problem, island);
   }
-  go_on(quick_newton, false, first_rho);
+  go_on(island.constraints.size() <= few ? quick_newton_few : quick_newton, false, first_rho);
   const auto finish = [&](bool yields) {
     judge();
     if (best <= accepted) return;

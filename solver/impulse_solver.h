@@ -39,11 +39,12 @@ struct ImpulseReport {
 
 class ImpulseSolver {
  public:
-  double good_guess = 5e-9;  // residual of a guess that will do [m/s]
-  double accepted = 5e-9;    // residual of a solution that will do [m/s]
-  double tolerance = 1e-10;  // residual that a solution aims at [m/s]
-  int quick_newton = 12;     // steps before the start of impulse_interior.cpp is asked for
-  int most_newton = 400;     // steps in all
+  double good_guess = 5e-9;   // residual of a guess that will do [m/s]
+  double accepted = 5e-9;     // residual of a solution that will do [m/s]
+  double tolerance = 1e-10;   // residual that a solution aims at [m/s]
+  int quick_newton = 12;      // steps before the start of impulse_interior.cpp is asked for,
+  int quick_newton_few = 28;  // and of a small island, where a start costs as much as these
+  int most_newton = 400;      // steps in all
 
   // Writes v of the problem, and p and u of its constraints.
   ImpulseReport solve(ImpulseProblem& problem);

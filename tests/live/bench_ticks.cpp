@@ -6,8 +6,10 @@
 //               [--spin US]
 //
 // --cold KB   before each tick so much memory is written: what a thread finds that has slept
-// --paced     one run at the pace of its steps, and empty ticks beside it; --spin US: the clock is
-//             asked over and over for the last US microseconds before each deadline
+// --paced     one run at the pace of its steps; beside it empty ticks, and ticks that do 20 us of
+//             arithmetic in registers, a second of each in turn: what these take longer is the
+//             machine's. --spin US: the clock is asked over and over for the last US microseconds
+//             before each deadline
 #include <time.h>
 
 #include <algorithm>
@@ -29,7 +31,7 @@ namespace {
 
 struct TicksOptions {
   std::string scene = TWINARM_SOURCE_DIR "/assets/scenes/hand_and_obstacles.toml";
-  std::string device = "virtual";
+  std::string device = "virtual:synthetic:1";  // as of `twinarm hand`
   double duration = 60;
   int runs = 5;
   std::size_t cold = 0;  // [bytes]
@@ -166,30 +168,53 @@ void wait(double deadline, double spin) {
   }
 }
 
-// Each other second the ticks are empty.
+// So many steps of a sum that nothing can shorten, in registers.
+void add_up(long steps) {
+  double x = 1;
+  for (long i = 0; i < steps; ++i) x = x * 0.999999 + 1e-9;
+  [[maybe_unused]] volatile double sum = x;  // or the compiler would leave it out
+}
+
+// Steps of add_up() that take so long where nothing interrupts them.
+long steps_of(double seconds) {
+  constexpr long kSteps = 10000;
+  double least = 1e300;
+  for (int i = 0; i < 100; ++i) {
+    const double before = thread_cpu_time();
+    add_up(kSteps);
+    least = std::min(least, thread_cpu_time() - before);
+  }
+  return static_cast<long>(seconds / least * static_cast<double>(kSteps));
+}
+
+// A second of ticks, a second of empty ones, a second of arithmetic.
 void measure_paced(const SceneModel& scene, const TicksOptions& options) {
+  constexpr double kArithmetic = 20e-6;  // [s]
   const auto device = open_device(options.device);
   LiveRun run(scene, *device, {});
-  const auto count = static_cast<long>(options.duration / run.step() + 0.5);
+  const auto count = static_cast<std::size_t>(options.duration / run.step() + 0.5);
   const auto each_second = static_cast<long>(1 / run.step() + 0.5);
+  const long steps = steps_of(kArithmetic);
   std::vector<Tick> ticks;
-  std::vector<double> empty;
-  ticks.reserve(static_cast<std::size_t>(count));
-  empty.reserve(ticks.capacity());
+  std::vector<double> empty, arithmetic;
+  for (auto* times : {&empty, &arithmetic}) times->reserve(count);
+  ticks.reserve(count);
   double deadline = monotonic_time();
-  for (long total = 0; static_cast<long>(ticks.size()) < count; ++total) {
+  for (long total = 0; ticks.size() < count; ++total) {
     wait(deadline += run.step(), options.spin);
+    const long kind = total / each_second % 3;
     const double before = thread_cpu_time();
-    if (total / each_second % 2 == 1) {
-      empty.push_back(thread_cpu_time() - before);
-      continue;
-    }
-    run.tick();
+    if (kind == 0) run.tick();
+    if (kind == 2) add_up(steps);
     const double cpu = thread_cpu_time() - before;
-    note(run, cpu, ticks.emplace_back());
+    if (kind == 0)
+      note(run, cpu, ticks.emplace_back());
+    else
+      (kind == 1 ? empty : arithmetic).push_back(cpu);
   }
   print_head();
   print_line("empty, paced", empty);
+  print_line("20 us of arithmetic, paced", arithmetic);
   print_line("paced", times_of(ticks, [](const Tick&) { return true; }));
   print_heaviest(ticks, run.step());
 }
