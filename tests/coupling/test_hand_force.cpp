@@ -2,11 +2,11 @@
 // Newton's law, and through the device's Jacobian.
 #include <doctest/doctest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
 #include "coupling/device/hand_force.h"
+#include "solver/dense_algebra.h"
 #include "solver/spring.h"
 #include "tests/coupling/mapped_robots.h"
 #include "tests/coupling/one_joint.h"
@@ -116,8 +116,7 @@ struct TipHand {
   }
   Vector3 stylus_force_W(const DeviceForce& felt) const {
     const Vector3 torque(felt.torque[0], felt.torque[1], felt.torque[2]);
-    return world_from_device(
-        omni_jacobian(omni, device.theta).transpose().partialPivLu().solve(torque));
+    return world_from_device(solve_pivoted(omni_jacobian(omni, device.theta).transpose(), torque));
   }
 };
 CouplingSpec at_tip(double k) {

@@ -2,12 +2,12 @@
 // system and the frequency response of the wall.
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "coupling/device/sampled_wall.h"
+#include "solver/dense_algebra.h"
 
 using namespace twinarm;
 
@@ -32,7 +32,7 @@ double radius_of_walled(const SampledDevice& d, double K, double B) {
   }
   A(2, 0) = 1;
   for (Eigen::Index row = 3; row < n; ++row) A(row, row - 1) = 1;
-  return Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues_of(A).cwiseAbs().maxCoeff();
 }
 
 double exact_stiffness(const SampledDevice& d, double B) {
