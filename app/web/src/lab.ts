@@ -147,7 +147,7 @@ class Page implements LabPage {
       ...(this.picture ? [this.picture.root] : []),
       element('div', { class: 'corner' }, this.overlays.root, this.overlays.legend),
       this.views.root,
-      element('div', { class: 'foot' }, this.words.look, this.words.again, this.words.hint),
+      element('div', { class: 'foot' }, this.words.look, this.words.again, this.words.hint, this.words.spoken),
       element('div', { class: 'hand-corner' }, set.hand.root),
       this.words.banner,
       set.dead.root,
@@ -255,6 +255,7 @@ class Page implements LabPage {
       this.select(null);
       this.keys.leave();
     }
+    if (!this.scene) performance.mark('scene is here');
     this.scene = scene;
     document.title = `${scene.title} · twinarm lab`;
     this.title.textContent = scene.title;
@@ -281,7 +282,10 @@ class Page implements LabPage {
     if (seen) this.grab.draw(seen, this.keys);
     this.hand.painted(frame);
     if (this.pace.painted(now) && !frame.stands) this.live.coarsen();
-    if (this.live.isReady) document.documentElement.dataset.ready = 'true';
+    if (this.live.isReady && document.documentElement.dataset.ready !== 'true') {
+      document.documentElement.dataset.ready = 'true';
+      performance.mark('first frame');
+    }
   }
 }
 
@@ -291,4 +295,7 @@ function socketAddress(): string {
   return address.href;
 }
 
+// Marks on the way to the first frame: scripts/lab_first_frame.
+performance.mark('script runs');
 Object.assign(window, { twinarm: { page: new Page() } });
+performance.mark('page is built');

@@ -9,6 +9,7 @@ import type { Pulling } from './key_hand';
 import { Leash } from './leash';
 import { type Frame, type SceneJoint, type SceneMessage, type Vector } from './link';
 import { pick, type Hit } from './pick';
+import { Pinch } from './pinch';
 
 export interface Seen {
   stage: Stage;
@@ -36,16 +37,16 @@ export class Grab {
   joint: SceneJoint | null = null; // whose arc is shown
   hint = HINTS.view;
   private hover: PointerEvent | null = null; // looked at once a picture
-  private readonly host: HTMLElement;
+  private readonly pinch: Pinch;
 
   constructor(
-    host: HTMLElement,
+    private readonly host: HTMLElement,
     private readonly seen: () => Seen | null,
     private readonly hand: Hand,
     private readonly handles: Handles,
     private readonly on: { select(body: number | null): void; changed(): void },
   ) {
-    this.host = host;
+    this.pinch = new Pinch(host, () => seen()?.stage ?? null, () => this.letGo());
     // Before the camera's own listeners, which lie on the canvas.
     host.addEventListener('pointerdown', (event) => this.down(event), { capture: true });
     host.addEventListener('pointermove', (event) => this.move(event));
@@ -90,7 +91,7 @@ export class Grab {
 
   private down(event: PointerEvent): void {
     const seen = this.seen();
-    if (!seen || event.button !== 0 || !event.isPrimary || event.altKey || !this.isOurs(event)) return;
+    if (this.pinch.isPassing() || !seen || event.button !== 0 || !event.isPrimary || event.altKey || !this.isOurs(event)) return;
     const at = this.place(event);
     if (event.target === this.handles.tip) {
       const tip = this.handles.tipPlace(seen.frame, seen.scene);
@@ -182,6 +183,16 @@ export class Grab {
     if (held.kind === 'pull') this.hand.drop();
     this.release();
     this.hover = event;
+  }
+
+  // A second finger has come. True: the camera did not have the first one. The ring is kept.
+  private letGo(): boolean {
+    const { held } = this;
+    const hasCamera = this.seen()?.stage.controls.enabled ?? true;
+    if (held?.kind === 'tip') return false;
+    if (held?.kind === 'pull') this.hand.drop();
+    this.release();
+    return !hasCamera;
   }
 
   private release(): void {

@@ -1,7 +1,7 @@
 // One plot of a run that goes on: uPlot over the rows that are in its window, a legend with the
 // numbers of one instant, the branch that was left as dots, and a limit as a line.
 import uPlot from 'uplot';
-import { tickText, timeText } from '../plots/plot';
+import { axesOfTime } from '../plots/axes';
 import { button, element, short } from '../ui/dom';
 import { token } from '../ui/theme';
 import {
@@ -38,7 +38,7 @@ export interface ChartUser {
 export class LiveChart {
   readonly root: HTMLElement;
   isSeen = true; // within what is scrolled to
-  private readonly canvas = element('div', { class: 'canvas' });
+  private readonly canvas = element('div', { class: 'canvas', role: 'img' });
   private readonly title = element('span');
   private readonly chips: { curve: LiveCurve | null; chip: HTMLElement; value: HTMLElement }[] = [];
   private readonly hidden = new Set<LiveCurve>();
@@ -72,6 +72,10 @@ export class LiveChart {
     if (spec.omitted > 0)
       legend.append(element('span', { class: 'omitted' }, `${spec.omitted} smaller not shown`));
     this.root = element('section', { class: 'plot live', id: `live-${spec.id}` }, head);
+    for (const [i, file] of ['CSV', 'PNG'].entries())
+      head.querySelectorAll('button')[i].setAttribute('aria-label', `${file}: ${spec.title}`);
+    const names = spec.curves.map(({ name }) => name).join(', ');
+    this.canvas.setAttribute('aria-label', `${spec.title} over time: ${names}`);
     this.root.append(this.canvas, legend);
     this.scrub();
   }
@@ -184,9 +188,6 @@ export class LiveChart {
   private options(width: number, height: number): uPlot.Options {
     const isStack = this.spec.sum !== undefined;
     const { series, bands } = isStack ? stackSeries(this.shown) : lineSeries(this.shown);
-    const grid = { stroke: token('--grid'), width: 1 };
-    const font = '11px system-ui, sans-serif';
-    const axis = { stroke: token('--muted'), grid, ticks: { show: false }, font };
     return {
       width,
       height,
@@ -209,10 +210,7 @@ export class LiveChart {
           },
         },
       },
-      axes: [
-        { ...axis, size: 24, gap: 2, values: (_, ticks) => ticks.map(timeText) },
-        { ...axis, size: 52, gap: 4, values: (_, ticks) => ticks.map(tickText) },
-      ],
+      axes: axesOfTime(),
       series: [{}, ...series],
       bands,
       hooks: {

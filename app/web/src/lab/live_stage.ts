@@ -9,18 +9,21 @@ import { MeshStore } from './meshes';
 
 const [RIM, DARK_RIM] = ['#0067a5', '#6cb8ee']; // around what is selected: the accent
 const FINE = new URLSearchParams(location.search).has('fine'); // for pictures, at any cost
+const SHADOWS_AFTER = 300; // [ms]
 const NO_DATA = { meshes: [], textures: [] };
 
 export class LiveStage {
   stage: Stage | null = null; // before the first scene, and where a browser cannot draw: none
-  private readonly gl = webGl();
-  readonly canDraw = this.gl !== 'none';
+  private readonly gl = webGl(); // null: none
+  private readonly isSlow = this.gl !== null && isSoftware(this.gl) && !FINE;
+  readonly canDraw = this.gl !== null;
   private readonly store = new MeshStore();
   private readonly labels: Labels;
   private readonly tag: HTMLElement;
   private scene: SceneMessage | null = null;
   private meshes = 0; // that the stage has
   private textures = 0;
+  private isSeen = false;
   private dark = false;
   private numbers = new Uint32Array(); // 0, 1, 2, ..
 
@@ -42,9 +45,10 @@ export class LiveStage {
     this.scene = scene;
     if (!this.canDraw) return;
     if (!this.stage) {
-      const isSlow = this.gl === 'slow' && !FINE;
-      this.stage = new Stage(this.host, scene.view, NO_DATA, this.changed, isSlow);
-      if (isSlow) this.stage.coarsen();
+      // A context costs a tenth of a second there: the one that was asked is drawn with.
+      const plain = this.isSlow ? this.gl : null;
+      this.stage = new Stage(this.host, scene.view, NO_DATA, this.changed, plain);
+      if (!plain) this.gl!.getExtension('WEBGL_lose_context')?.loseContext();
       this.stage.setTheme(this.dark);
     } else if (before?.scene !== scene.scene) {
       this.stage.refurnish(scene.view);
@@ -94,13 +98,17 @@ export class LiveStage {
     }
     stage.paint(marked);
     stage.draw();
+    if (this.isReady && !this.isSeen) {
+      this.isSeen = true;
+      setTimeout(() => stage.addShadows(), SHADOWS_AFTER);
+    }
     this.paintLabels(stage, frame, parts);
     this.paintTag(stage, frame, selected);
   }
 
   // The page is too slow for what comes. Without a graphics card it helps little.
   coarsen(): void {
-    if (this.gl === 'fast' && !FINE) this.stage?.coarsen();
+    if (!this.isSlow && !FINE) this.stage?.coarsen();
   }
 
   private paintLabels(stage: Stage, frame: Frame, parts: Part[]): void {
@@ -129,13 +137,14 @@ export class LiveStage {
   }
 }
 
-// Slow: a program draws in the place of a graphics card.
-function webGl(): 'none' | 'slow' | 'fast' {
-  if (new URLSearchParams(location.search).has('plain')) return 'none'; // asked to do without
-  const context = document.createElement('canvas').getContext('webgl2');
-  if (!context) return 'none';
-  const names = context.getExtension('WEBGL_debug_renderer_info');
-  const name = names ? String(context.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
-  context.getExtension('WEBGL_lose_context')?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|basic render/i.test(name) ? 'slow' : 'fast';
+function webGl(): WebGL2RenderingContext | null {
+  if (new URLSearchParams(location.search).has('plain')) return null; // asked to do without
+  return document.createElement('canvas').getContext('webgl2', { antialias: false });
+}
+
+// A program draws in the place of a graphics card.
+function isSoftware(gl: WebGL2RenderingContext): boolean {
+  const names = gl.getExtension('WEBGL_debug_renderer_info');
+  const name = names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
+  return /swiftshader|llvmpipe|softpipe|basic render/i.test(name);
 }

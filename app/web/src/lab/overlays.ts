@@ -33,6 +33,7 @@ export class Overlays {
   }
 
   fold(folded: boolean): void {
+    if (folded && this.list.contains(document.activeElement)) this.toggle.focus();
     this.list.hidden = folded;
     this.toggle.setAttribute('aria-expanded', String(!folded));
   }

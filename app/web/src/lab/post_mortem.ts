@@ -16,6 +16,7 @@ export class PostMortem implements Panel {
   });
   private shown = '';
   private away = false; // put aside
+  private before: Element | null = null; // had the focus
 
   constructor(
     private readonly page: LabPage,
@@ -38,16 +39,28 @@ export class PostMortem implements Panel {
     const wanted = JSON.stringify([dead, isWatching]);
     if (wanted === this.shown) return;
     const isNew = dead !== null && this.root.hidden;
+    if (!dead) this.giveBack();
     if (this.shown === '' || JSON.parse(this.shown)[0]?.time !== dead?.time) this.away = false;
     this.shown = wanted;
     this.root.hidden = dead === null || this.away;
     if (!dead) return;
     this.root.replaceChildren(...this.content(dead, first, isWatching));
-    if (isNew && !this.away) this.root.focus({ preventScroll: true });
+    if (!isNew || this.away) return;
+    this.before = document.activeElement;
+    this.root.focus({ preventScroll: true });
+  }
+
+  // The focus, to where it was.
+  private giveBack(): void {
+    const { before } = this;
+    if (!this.root.contains(document.activeElement)) return;
+    const play = document.querySelector<HTMLElement>('.transport .play');
+    (before instanceof HTMLElement && before !== document.body ? before : play)?.focus();
   }
 
   private hide(): void {
     this.away = true;
+    this.giveBack();
     this.root.hidden = true;
   }
 

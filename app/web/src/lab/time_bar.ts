@@ -164,6 +164,8 @@ export class TimeBar implements Panel {
     if (isPaused) {
       this.play.dataset.goes = String(goes);
       this.play.replaceChildren(icon(goes ? 'pause' : 'play'));
+      this.play.title = goes ? 'stand (space)' : 'go on (space)';
+      this.play.setAttribute('aria-label', this.play.title);
     }
     this.root.dataset.past = String(at !== null);
     if (this.speed.value !== String(state.speed)) this.showSpeed(state.speed);

@@ -11,6 +11,7 @@ export class Words {
   // Brings it back.
   readonly again = button('What to look for', 'what this scene shows', () => this.fold(false));
   readonly hint = element('p', { class: 'hint-line' });
+  readonly spoken = element('p', { class: 'unseen', role: 'status' }); // what is said, for ears
   readonly banner = element('div', { class: 'banner', role: 'status', hidden: '' });
   private said = '';
   private until = 0;
@@ -40,12 +41,15 @@ export class Words {
   // Who has turned to the robot has read it.
   fold(away: boolean): void {
     if (this.file === '' || this.count === 0) return;
+    const at = document.activeElement;
     this.look.hidden = away;
     this.again.hidden = !away;
+    if (away && this.look.contains(at)) this.again.focus();
+    if (!away && at === this.again) this.look.querySelector('button')!.focus();
   }
 
   say(words: string): void {
-    this.said = words;
+    this.said = this.spoken.textContent = words;
     this.until = performance.now() + STAYS;
   }
 

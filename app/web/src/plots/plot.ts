@@ -3,6 +3,7 @@ import uPlot from 'uplot';
 import { element, short } from '../ui/dom';
 import type { Player } from '../ui/player';
 import { token } from '../ui/theme';
+import { axesOfTime } from './axes';
 import type { Curve, PanelSpec } from './panels';
 
 const HEIGHT = 132;
@@ -43,10 +44,6 @@ export class Plot {
   draw(): void {
     this.chart?.destroy();
     const { series, bands, data } = this.spec.stacked ? this.stack() : this.lines();
-    const ink = token('--muted');
-    const grid = { stroke: token('--grid'), width: 1 };
-    const font = '11px system-ui, sans-serif';
-    const axis = { stroke: ink, grid, ticks: { show: false }, font };
     const options: uPlot.Options = {
       width: Math.max(120, this.canvas.clientWidth),
       height: HEIGHT,
@@ -60,10 +57,7 @@ export class Plot {
         drag: { x: true, y: false, setScale: true },
         bind: { mousedown: (_, __, handler) => (e) => (e.shiftKey ? handler(e) : null) },
       },
-      axes: [
-        { ...axis, size: 24, gap: 2, values: (_, ticks) => ticks.map(timeText) },
-        { ...axis, size: 52, gap: 4, values: (_, ticks) => ticks.map(tickText) },
-      ],
+      axes: axesOfTime(),
       series: [{}, ...series],
       bands,
       hooks: {
@@ -191,17 +185,4 @@ export class Plot {
 
 function colorOf(curve: Curve): string {
   return token(`--c${curve.color % 8}`);
-}
-
-export function timeText(time: number): string {
-  return `${+time.toPrecision(6)} s`;
-}
-
-export function tickText(value: number): string {
-  if (value === 0) return '0';
-  const size = Math.abs(value);
-  const isFar = size >= 1e5 || size < 1e-3;
-  const far = value.toExponential(1).replace('.0e', 'e');
-  const text = isFar ? far : String(+value.toPrecision(4));
-  return text.replaceAll('-', '−');
 }

@@ -1,4 +1,4 @@
-// Pages of the side panel.
+// Pages of the side panel. One stop of the tab key; arrows go from one to the next.
 import { element } from './dom';
 
 export class Tabs {
@@ -9,16 +9,29 @@ export class Tabs {
   current = 0;
 
   constructor() {
-    this.root = element('aside', {}, this.list);
+    this.root = element('aside', { 'aria-label': 'panel' }, this.list);
+    this.list.addEventListener('keydown', (event) => {
+      const last = this.tabs.length - 1;
+      const { current } = this;
+      const to = { ArrowRight: current + 1, ArrowLeft: current - 1, Home: 0, End: last }[event.key];
+      if (to === undefined) return;
+      event.preventDefault();
+      this.show(to < 0 ? last : to > last ? 0 : to);
+      this.tabs[this.current].focus();
+    });
   }
 
   add(title: string, ...content: Node[]): void {
     const at = this.tabs.length;
-    const panel = element('div', { role: 'tabpanel', id: `panel-${at}` }, ...content);
     const tab = element(
       'button',
-      { type: 'button', role: 'tab', 'aria-controls': panel.id },
+      { type: 'button', role: 'tab', id: `tab-${at}`, 'aria-controls': `panel-${at}` },
       title,
+    );
+    const panel = element(
+      'div',
+      { role: 'tabpanel', id: `panel-${at}`, 'aria-labelledby': tab.id },
+      ...content,
     );
     tab.addEventListener('click', () => this.show(at));
     this.tabs.push(tab);
@@ -30,7 +43,10 @@ export class Tabs {
 
   show(chosen: number): void {
     this.current = chosen;
-    this.tabs.forEach((tab, i) => tab.setAttribute('aria-selected', String(i === chosen)));
+    this.tabs.forEach((tab, i) => {
+      tab.setAttribute('aria-selected', String(i === chosen));
+      tab.tabIndex = i === chosen ? 0 : -1;
+    });
     this.panels.forEach((panel, i) => (panel.hidden = i !== chosen));
   }
 }

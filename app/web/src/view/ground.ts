@@ -78,6 +78,10 @@ export class Ground {
     }
   }
 
+  showShadow(on: boolean): void {
+    this.shadow.visible = on && this.grid.visible;
+  }
+
   setTheme(dark: boolean): void {
     const { ink } = this.grid.material.uniforms;
     (ink.value as THREE.Color).set(dark ? 0xb6c4d4 : 0x303842);

@@ -125,12 +125,14 @@ class Batch {
   }
 }
 
-function surface(shininess: number): THREE.MeshStandardMaterial {
-  return new THREE.MeshStandardMaterial({ roughness: 0.85 - 0.5 * shininess, metalness: 0.05 });
-}
+// Plain: without gloss, a third of the work for a processor that draws by itself.
+type Surface = THREE.MeshStandardMaterial | THREE.MeshLambertMaterial;
+type SurfaceOf = (shininess: number) => Surface;
+const glossy: SurfaceOf = (shininess) =>
+  new THREE.MeshStandardMaterial({ roughness: 0.85 - 0.5 * shininess, metalness: 0.05 });
+const plainly: SurfaceOf = () => new THREE.MeshLambertMaterial();
 
-function solidMaterial(shininess: number, map: THREE.Texture | null, twoSided: boolean) {
-  const material = surface(shininess);
+function solidMaterial(material: Surface, map: THREE.Texture | null, twoSided: boolean) {
   material.map = map;
   if (twoSided) material.side = THREE.DoubleSide;
   return material;
@@ -138,10 +140,9 @@ function solidMaterial(shininess: number, map: THREE.Texture | null, twoSided: b
 
 // Depth first, then colour where nearest: a shell shows one surface and not its inside. Both are
 // pushed back a little: a ghost in the place of a body vanishes instead of flickering.
-function ghostMaterials(shininess: number, alpha: number) {
+function ghostMaterials(color: Surface, alpha: number) {
   const pushed = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 };
   const depth = new THREE.MeshBasicMaterial({ colorWrite: false, transparent: true, ...pushed });
-  const color = surface(shininess);
   color.setValues({ transparent: true, opacity: alpha, depthWrite: false, ...pushed });
   return [
     { material: depth, order: ORDER.ghostDepth, shadow: false },
@@ -150,8 +151,7 @@ function ghostMaterials(shininess: number, alpha: number) {
 }
 
 // What lies behind bodies, laid over them.
-function hiddenMaterials(shininess: number, alpha: number) {
-  const color = surface(shininess);
+function hiddenMaterials(color: Surface, alpha: number) {
   color.setValues({
     transparent: true,
     opacity: 0.45 * alpha,
@@ -192,11 +192,15 @@ export class Painter {
   private readonly scale = new THREE.Vector3();
   private readonly otherScale = new THREE.Vector3();
   private readonly color = new THREE.Color();
+  private readonly surface: SurfaceOf;
 
   constructor(
     private readonly scene: THREE.Scene,
     private readonly small: number, // size of what is drawn coarsely
-  ) {}
+    isPlain = false,
+  ) {
+    this.surface = isPlain ? plainly : glossy;
+  }
 
   // Behind those that it has.
   add(meshes: MeshData[], textures: ImageBitmap[]): void {
@@ -286,13 +290,13 @@ export class Painter {
   }
 
   private materialsOf({ mesh, alpha, shininess, kind, texture }: Look) {
-    const gloss = shininess / 255;
     if (kind === OUTLINE) return outlineMaterials();
-    if (kind === HIDDEN) return hiddenMaterials(gloss, alpha / 255);
-    if (kind === GHOST) return ghostMaterials(gloss, alpha / 255);
+    const surface = this.surface(shininess / 255);
+    if (kind === HIDDEN) return hiddenMaterials(surface, alpha / 255);
+    if (kind === GHOST) return ghostMaterials(surface, alpha / 255);
     const { uv, twoSided } = this.meshes[mesh];
     const map = texture > 0 && uv.length > 0 ? (this.textures[texture - 1] ?? null) : null;
-    const material = solidMaterial(gloss, map, twoSided);
+    const material = solidMaterial(surface, map, twoSided);
     return [{ material, order: ORDER.solid, shadow: kind === BODY }];
   }
 

@@ -52,6 +52,8 @@ export class Stage {
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.2);
   private readonly sky = new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.5);
   private detail = 0;
+  private readonly isPlain: boolean;
+  private hasShadows: boolean;
   private followed: THREE.Vector3 | null = null;
 
   constructor(
@@ -59,18 +61,28 @@ export class Stage {
     private view: View,
     data: { meshes: MeshData[]; textures: ImageBitmap[] },
     private readonly changed: () => void,
-    isSlow = false, // no graphics card: no smoothing of edges
+    // Without a graphics card: drawn plainly, with this.
+    plain: WebGL2RenderingContext | null = null,
   ) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: !isSlow, alpha: true });
+    const canvas = plain?.canvas as HTMLCanvasElement | undefined;
+    this.isPlain = plain !== null;
+    this.renderer = new THREE.WebGLRenderer({
+      antialias: true, // of its own context
+      alpha: true,
+      ...(plain ? { canvas, context: plain } : {}),
+    });
+    if (plain) this.detail = DETAILS.length - 1;
+    this.hasShadows = plain === null; // else after the first picture
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
-    const canvas = this.renderer.domElement;
-    canvas.setAttribute('aria-label', 'the robot, to be turned, moved and zoomed');
-    host.prepend(canvas);
+    const { domElement } = this.renderer;
+    domElement.setAttribute('role', 'img');
+    domElement.setAttribute('aria-label', 'the robot, to be turned, moved and zoomed');
+    host.prepend(domElement);
 
     this.camera = new THREE.PerspectiveCamera();
     this.camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls = new OrbitControls(this.camera, domElement);
     this.controls.addEventListener('change', changed);
     this.scene.add(this.sky, this.sun, this.sun.target);
     this.furnish(view);
@@ -91,6 +103,14 @@ export class Stage {
   // Behind the meshes that it has.
   add(meshes: MeshData[], textures: ImageBitmap[]): void {
     this.painter.add(meshes, textures);
+  }
+
+  // They need shaders of their own, which a slow machine makes when there is something to see.
+  addShadows(): void {
+    if (this.hasShadows) return;
+    this.hasShadows = this.sun.castShadow = true;
+    this.ground.showShadow(true);
+    this.changed();
   }
 
   // Draws less finely from now on; false: it does already.
@@ -119,8 +139,9 @@ export class Stage {
     this.controls.maxDistance = 20 * view.radius;
     this.placeLights();
     this.ground = new Ground(this.scene, view);
+    this.ground.showShadow(this.hasShadows);
     this.arrows = new Arrows(this.scene, 0.008 * view.radius);
-    this.painter = new Painter(this.scene, 0.03 * view.radius);
+    this.painter = new Painter(this.scene, 0.03 * view.radius, this.isPlain);
   }
 
   // Nothing is drawn before draw().
@@ -206,7 +227,7 @@ export class Stage {
       .multiplyScalar(3 * reach)
       .add(target);
     this.sun.target.position.copy(target);
-    this.sun.castShadow = true;
+    this.sun.castShadow = this.hasShadows;
     this.sun.shadow.mapSize.setScalar(DETAILS[this.detail].shadow);
     const box = this.sun.shadow.camera;
     box.left = box.bottom = -reach;
