@@ -6,6 +6,7 @@ carries them as HTML and MathML, and no script has to run for them.
 import atexit
 import json
 import pathlib
+import re
 import subprocess
 
 HERE = pathlib.Path(__file__).parent
@@ -69,6 +70,18 @@ def raise_skip():
     raise SkipNode
 
 
+def name_what_is_outside(app, docname, source):
+    """A link to a Markdown file beside docs/ keeps its words alone: that file is in the sources, not on the site."""
+    here = pathlib.Path(app.env.doc2path(docname)).parent
+
+    def words(link):
+        target = (here / link[2]).resolve()
+        outside = not target.is_relative_to(pathlib.Path(app.srcdir).resolve())
+        return link[1] if outside and target.is_file() else link[0]  # what is not there stays, and is told
+
+    source[0] = re.sub(r"\[([^\]]*)\]\((\.\./[^)#]*\.md)(?:#[^)]*)?\)", words, source[0])
+
+
 def list_the_rest(app, docname, source):
     """Pages that index.md does not name go into a last list, so that none is lost."""
     if docname == root_doc:
@@ -79,5 +92,6 @@ def list_the_rest(app, docname, source):
 
 
 def setup(app):
+    app.connect("source-read", name_what_is_outside)
     app.connect("source-read", list_the_rest)
     app.add_html_math_renderer("katex", (visit_inline, None), (visit_block, None))
