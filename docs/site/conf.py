@@ -1,0 +1,97 @@
+"""Sphinx makes docs/ a site that needs no network: scripts/site.
+
+Formulas are set by KaTeX while the site is built (katex_lines.js, one process for all of them), so a page
+carries them as HTML and MathML, and no script has to run for them.
+"""
+import atexit
+import json
+import pathlib
+import re
+import subprocess
+
+HERE = pathlib.Path(__file__).parent
+KATEX = pathlib.Path("/usr/share/javascript/katex")  # Debian's libjs-katex
+
+project = "twinarm"
+html_title = "twinarm"
+copyright = "the authors of twinarm; BSD-3-Clause"
+language = "en"
+root_doc = "index"
+extensions = ["myst_parser"]
+exclude_patterns = ["site"]
+highlight_language = "none"
+
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 4  # of each heading, as GitHub has them
+suppress_warnings = ["myst.header"]  # README.md of docs begins with the folder's name
+
+html_theme = "furo"
+html_static_path = ["static", str(KATEX)]
+html_css_files = ["katex.min.css", "site.css"]
+html_show_sphinx = False
+html_copy_source = False
+html_math_renderer = "katex"
+html_theme_options = {"navigation_with_keys": True}
+
+
+class Katex:
+    """KaTeX in a process of its own: a formula in, its HTML out, a line each."""
+
+    process = None
+
+    def html(self, formula, display):
+        if self.process is None:
+            self.process = subprocess.Popen(["node", HERE / "katex_lines.js", KATEX / "katex.js"], text=True,
+                                            stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+            atexit.register(self.process.kill)
+        self.process.stdin.write(json.dumps({"formula": formula, "display": display}) + "\n")
+        self.process.stdin.flush()
+        answer = json.loads(self.process.stdout.readline())
+        if "error" in answer:
+            raise ValueError(f"{answer['error']} in {formula}")
+        return answer["html"]
+
+
+katex = Katex()
+
+
+def visit_inline(translator, node):
+    translator.body.append(katex.html(node.astext(), False))
+    raise_skip()
+
+
+def visit_block(translator, node):
+    translator.body.append(f'<div class="formula">{katex.html(node.astext(), True)}</div>')
+    raise_skip()
+
+
+def raise_skip():
+    from docutils.nodes import SkipNode
+    raise SkipNode
+
+
+def name_what_is_outside(app, docname, source):
+    """A link to a Markdown file beside docs/ keeps its words alone: that file is in the sources, not on the site."""
+    here = pathlib.Path(app.env.doc2path(docname)).parent
+
+    def words(link):
+        target = (here / link[2]).resolve()
+        outside = not target.is_relative_to(pathlib.Path(app.srcdir).resolve())
+        return link[1] if outside and target.is_file() else link[0]  # what is not there stays, and is told
+
+    source[0] = re.sub(r"\[([^\]]*)\]\((\.\./[^)#]*\.md)(?:#[^)]*)?\)", words, source[0])
+
+
+def list_the_rest(app, docname, source):
+    """Pages that index.md does not name go into a last list, so that none is lost."""
+    if docname == root_doc:
+        named = set(source[0].split())
+        rest = sorted(name for name in app.env.found_docs - named - {root_doc} if "lessons/" not in name)
+        if rest:
+            source[0] += "\n".join(["", "```{toctree}", ":hidden:", ":caption: More", "", *rest, "```", ""])
+
+
+def setup(app):
+    app.connect("source-read", name_what_is_outside)
+    app.connect("source-read", list_the_rest)
+    app.add_html_math_renderer("katex", (visit_inline, None), (visit_block, None))

@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""docs/ as a site: every page has a title, no link leads nowhere, formulas are set, the browser has nothing to say.
+
+    test_site.py [FOLDER_FOR_PICTURES]
+"""
+import importlib.util
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from browser import Browser, find_browser
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PICTURES = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else None
+spec = importlib.util.spec_from_file_location("check_site", ROOT / "docs/site/check_site.py")
+check_site = importlib.util.module_from_spec(spec)
+sys.dont_write_bytecode = True
+spec.loader.exec_module(check_site)
+
+HAS_GENERATOR = bool(shutil.which("sphinx-build") and pathlib.Path("/usr/share/javascript/katex").is_dir())
+
+
+class Checker(unittest.TestCase):
+    """What check_site.py is there to find."""
+
+    def faults(self, **pages):
+        with tempfile.TemporaryDirectory() as place:
+            for name, body in pages.items():
+                (pathlib.Path(place) / f"{name}.html").write_text(body)
+            return check_site.faults_of(pathlib.Path(place).resolve())[0]
+
+    def test_pages_that_lead_to_each_other_are_right(self):
+        self.assertEqual(self.faults(a="<title>A</title><a href='b.html#here'>b</a><a href='https://example.org'>",
+                                     b="<title>B</title><p id='here'><img src='data:image/png;base64,AA'>"), [])
+
+    def test_each_fault_is_told(self):
+        title = "<title>A</title>"
+        for body, said in (("<svg><title>picture</title></svg>", "no title"),
+                           (title + "<a href='c.html'>", "leads nowhere"),
+                           (title + "<a href='#there'>", "has no there"),
+                           (title + "<img src='p.png'>", "leads nowhere"),
+                           (title + "<script src='https://cdn.example.org/x.js'></script>", "no network"),
+                           (title + "<link href='//fonts.example.org/x.css'>", "no network")):
+            faults = self.faults(a=body)
+            self.assertEqual(len(faults), 1, body)
+            self.assertIn(said, faults[0])
+
+
+@unittest.skipUnless(HAS_GENERATOR, "scripts/setup --docs installs the generator")
+class Site(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.site = pathlib.Path(cls.temporary.name) / "site"
+        # As scripts/site does it, but for the look at the packages.
+        made = subprocess.run(["sphinx-build", "-q", "-W", "--keep-going", "-c", ROOT / "docs/site", "-d",
+                               cls.site.parent / "doctrees", "-b", "html", ROOT / "docs", cls.site],
+                              capture_output=True, text=True, timeout=300)
+        if made.returncode:
+            raise AssertionError(made.stderr)
+        cls.pages = sorted(cls.site.rglob("*.html"))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_every_page_has_a_title_and_every_link_an_end(self):
+        faults, pages, links = check_site.faults_of(self.site.resolve())
+        self.assertEqual(faults, [])
+        self.assertGreater(pages, 40)
+        self.assertGreater(links, 1000)
+
+    def test_each_page_of_docs_is_there(self):
+        for page in (ROOT / "docs").rglob("*.md"):
+            self.assertTrue((self.site / page.relative_to(ROOT / "docs")).with_suffix(".html").is_file(), page)
+
+    def test_formulas_are_set_and_none_is_left_as_text(self):
+        lesson = (self.site / "lessons/01_six_integrators/lesson.html").read_text()
+        self.assertGreater(lesson.count('class="katex"'), 20)
+        self.assertNotIn("$\\omega", lesson)
+
+    @unittest.skipUnless(find_browser(), "no browser")
+    def test_the_browser_opens_every_page_without_a_word_and_without_a_network(self):
+        with Browser(width=1280, height=900) as page:
+            for file in self.pages:
+                page.errors.clear()
+                page.requests.clear()
+                page.call("Page.navigate", url=file.as_uri())
+                page.wait_for(f"location.href === {file.as_uri()!r} && document.readyState === 'complete'")
+                self.assertEqual(page.errors, [], file.name)
+                self.assertEqual([url for url in page.requests if not url.startswith(("file:", "data:"))], [], file)
+                if PICTURES and file.stem in ("index", "lesson", "contact"):
+                    page.picture(PICTURES / f"{file.parent.name}_{file.stem}.png")
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())
