@@ -52,7 +52,7 @@ ForwardDynamicsDerivatives forward_dynamics_derivatives(const Model<double>& mod
       for (std::size_t row = 0; row < model.nv; ++row)
         for (std::size_t k = 0; k < count; ++k)
           derivative(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(first + k)) =
-              w.qdd[row].d[k];
+              w.qdd[row].d[static_cast<int>(k)];
     }
   };
   using Numbers = std::vector<D>;

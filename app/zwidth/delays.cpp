@@ -139,7 +139,7 @@ void run_delay(const SampledDevice& device, unsigned seed, DelayRow& row) {
   double x = start, v = 0, E = 0, farthest = 0, low = 0, high = 0, felt = 0;
   long pressed = 0;
   constexpr int kParts = 10;
-  for (long n = 0; n * h < kRunTime; ++n) {
+  for (long n = 0; static_cast<double>(n) * h < kRunTime; ++n) {
     const double t = static_cast<double>(n) * h;
     const double arrived = n == 0 ? start : there.pass(t, x - start) + start;
     const double wanted = back.pass(t, robot.follow(arrived, h));

@@ -47,12 +47,12 @@ class Press final : public ForceSource {
         right_(model.iv[static_cast<std::size_t>(right)] + 3) {}
   void add_forces(const State<double>&, const Kinematics&,
                   Forces<double>& forces) noexcept override {
-    forces.tau[static_cast<std::size_t>(left_)] += kPress;
-    forces.tau[static_cast<std::size_t>(right_)] -= kPress;
+    forces.tau[left_] += kPress;
+    forces.tau[right_] -= kPress;
   }
 
  private:
-  int left_, right_;
+  std::size_t left_, right_;
 };
 
 // How far the wedge comes up in half a second [m].

@@ -88,7 +88,7 @@ TEST_CASE("a file with bytes exchanged, taken out or doubled is read or refused"
   int refused = 0;
   for (int k = 0; k < 600; ++k) {
     std::string text = good;
-    for (unsigned n = 1 + random() % 3; n > 0; --n) {
+    for (auto n = 1 + random() % 3; n > 0; --n) {
       const std::size_t at = random() % text.size(), length = random() % 20;
       switch (random() % 3) {
         case 0:

@@ -26,13 +26,13 @@ TriangleMesh senseless_mesh(std::mt19937& random) {
                                         -3e38, 1e-7, 0.5, 1e19,  2,     1 + 1e-7};
   const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
   TriangleMesh mesh;
-  const unsigned vertices = 3 + random() % 12;
+  const auto vertices = static_cast<unsigned>(3 + random() % 12);
   for (unsigned v = 0; v < vertices; ++v) {
     Vector3 p;
     for (double& x : p) x = kNumbers[below(12)];
     mesh.vertices.push_back(p);
   }
-  for (unsigned t = 1 + random() % 30; t > 0; --t) {
+  for (auto t = 1 + random() % 30; t > 0; --t) {
     const std::array<int, 3> corners{below(vertices), below(vertices), below(vertices)};
     if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
       mesh.triangles.push_back(corners);
