@@ -128,6 +128,7 @@ const std::vector<Form>& forms() {
       {"preset", Spoken::preset, true, {{"name", "a text", name}}},
       {"scene", Spoken::scene, true, {{"name", "a text", name}}},
       {"reset", Spoken::reset, true, {}},
+      {"restore", Spoken::restore, true, {}},
       {"hand", Spoken::hand, true, {{"source", "a text", name}, {"spec", "a text", spec, true}}},
       {"tip", Spoken::tip, true, {{"goal", "three numbers", goal}, stamp}},
       {"joint", Spoken::joint, true, {index, {"value", "a number", value}, stamp}},

@@ -28,6 +28,7 @@ struct LabCommand {
     preset,
     scene,
     reset,
+    restore,
     hand,
     tip,
     joint,

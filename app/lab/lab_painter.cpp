@@ -108,8 +108,12 @@ void LabPainter::take_scene(const LabNow& now) {
   } else {
     view_->change(plan);
   }
+  if (now.scene_number != scene_number_)
+    unchanged_ = now.scene->order.changes.empty() ? knobs_of(*plan)
+                                                  : knobs_of(now.scene->scene->plan()->prepared);
   glass_.reset();
   knobs_ = knobs_of(*plan);
+  know_starts(unchanged_, knobs_);
   last_knobs_ = {};
   scene_number_ = now.scene_number;
   change_number_ = now.change_number;

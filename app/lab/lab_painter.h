@@ -84,7 +84,7 @@ class LabPainter {
   };
   std::optional<Glass> glass_;
   std::map<ClientId, GlassTold> told_glass_;
-  std::vector<Knob> knobs_;
+  std::vector<Knob> knobs_, unchanged_;  // now; of the scene as it was opened
   long scene_number_ = -1, change_number_ = -1;
   std::uint64_t revision_ = 0;  // of the view's scene message that was told
   std::uint64_t told_ = 0;      // LabNow::number of the last frame

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "app/lab/brought_file.h"
 #include "app/output_file.h"
 #include "app/render/painter.h"
 #include "app/web/replay_page.h"
@@ -183,12 +184,13 @@ void LabRoutes::answer_open(const HttpRequest& request, const Answer& answer) {
   if (!is_plain(name))
     return answer(reply_of(422, "name: '" + name + "' is none for a file; use letters, digits, -"));
   try {
-    const std::filesystem::path file = folder_ / name;
+    const BroughtFile brought = brought_file(name, request.body);
+    if (!brought.fault.empty()) return answer(reply_of(422, name + ": " + brought.fault));
+    const std::filesystem::path file = folder_ / brought.path;
     std::error_code ignored;
     std::filesystem::create_directories(file.parent_path(), ignored);
     write_whole_file(file, request.body);
-    const std::string end = file.extension().string();
-    if (end != ".toml" && end != ".urdf" && end != ".twinrec") return answer(reply_of(200, "kept"));
+    if (!brought.opens) return answer(reply_of(200, "kept"));
     Order order;
     order.file = file;
     order.name = file.stem().string();

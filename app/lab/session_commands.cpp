@@ -83,6 +83,9 @@ void LabSession::act(const LabCommand& command) {
       return open_from_gallery(command.name);
     case Do::reset:
       return order(Order::What::reset, 0);
+    case Do::restore:
+      wanted_.clear();
+      return order(Order::What::change, 0);
     default:
       return act_on_hand(command);
   }

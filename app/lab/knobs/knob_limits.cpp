@@ -87,8 +87,7 @@ KnobLimit limit_of(const Edge& edge, double now, const std::string& unit, const 
     limit.words = fmt::format("{} {} {}{}", edge.holds_now ? "stable" : "would be stable",
                               edge.is_lower ? "from" : "up to", short_value(*edge.value, unit), at);
   else
-    limit.words = edge.holds_now ? fmt::format("any value is stable{}", at)
-                                 : "no value of this alone makes it stable";
+    limit.words = edge.holds_now ? fmt::format("any value is stable{}", at) : "";
   return limit;
 }
 
@@ -127,9 +126,25 @@ class Limits {
       for (const GainKey& gain : kGains)
         if (coupling->second == gain.key) add_gain(knob, coupling->first, gain);
     }
+    if (!holds_) tell_once();
   }
 
  private:
+  // Of a step that does not hold: knobs that would mend it alone say so, the others nothing; where
+  // none would, the step says it for all.
+  void tell_once() {
+    const bool is_mended = std::any_of(knobs_.begin(), knobs_.end(), [](const Knob& knob) {
+      return knob.limit && knob.limit->value;
+    });
+    for (Knob& knob : knobs_) {
+      if (!knob.limit || knob.limit->value) continue;
+      if (knob.path == "step" && !is_mended)
+        knob.limit->words = "no knob alone makes it stable";
+      else
+        knob.limit.reset();
+    }
+  }
+
   void add_step(Knob& knob) {
     const double now = step_.step();
     const Edge edge =

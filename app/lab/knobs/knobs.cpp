@@ -123,9 +123,20 @@ void write_value(const std::optional<double>& value, JsonWriter& json) {
 
 }  // namespace
 
+std::string Knob::value() const {
+  if (form == Form::choice) return text;
+  return number ? number_text(*number) : "";
+}
+
 std::string Knob::change() const {
-  if (form == Form::choice) return text.empty() ? "" : path + "=" + text;
-  return number ? path + "=" + number_text(*number) : "";
+  const std::string now = value();
+  return now.empty() ? "" : path + "=" + now;
+}
+
+void know_starts(const std::vector<Knob>& unchanged, std::vector<Knob>& knobs) {
+  for (Knob& knob : knobs)
+    for (const Knob& before : unchanged)
+      if (before.path == knob.path) knob.start = before.value();
 }
 
 std::vector<Knob> knobs_of(const SimulatePlan& plan) {
@@ -152,6 +163,7 @@ void write_knobs(const std::vector<Knob>& knobs, JsonWriter& json) {
       json.text(knob.text);
     else
       write_value(knob.number, json);
+    if (knob.start) json.key("start").text(*knob.start);
     json.key("unit").text(knob.unit);
     json.key("form").text(word_of(knob.form));
     json.key("low").number(knob.low);

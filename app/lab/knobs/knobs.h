@@ -35,6 +35,9 @@ struct Knob {
   std::optional<double>
       number;        // value now; none: as the scene leaves it out, "every step" of a rate
   std::string text;  // value now of a choice
+  // VALUE of the scene as it was opened, as change() writes it; empty: that leaves it out; none:
+  // that has no such knob.
+  std::optional<std::string> start;
   std::string unit;
   Form form = Form::number;
   double low = 0, high = 0;  // what a slider offers; the value may lie outside
@@ -46,13 +49,16 @@ struct Knob {
   // (held forces, differences, contacts) begins anew.
   bool restarts = false;
 
-  // "PATH=VALUE" as it stands; empty where it has no value.
-  std::string change() const;
+  std::string value() const;   // as VALUE of PATH=VALUE; empty where it has none
+  std::string change() const;  // "PATH=VALUE" as it stands; likewise
 };
 
 // In the order of a page: time and world, robots, couplings, surfaces. Values that the file leaves
 // out are those of its reader.
 std::vector<Knob> knobs_of(const SimulatePlan& plan);
+
+// Fills `start` from the knobs of the scene without changes.
+void know_starts(const std::vector<Knob>& unchanged, std::vector<Knob>& knobs);
 
 // Adds limits and lags about `now`. The plan is the caller's own: its state is set to `now`.
 void predict_knobs(SimulatePlan& plan, const State<double>& now, std::vector<Knob>& knobs);

@@ -4,8 +4,8 @@ import { button, element } from '../ui/dom';
 import type { StateMessage } from './link';
 import type { LabPage, Panel } from './panel';
 
-const MESHES = /\.(stl|obj|dae|ply|png|jpe?g|mtl)$/i; // go first: a robot's file names them
-const ROBOTS = '.urdf,.xml,.xacro,.toml,.twinrec,.stl,.obj,.dae,.ply,.png';
+const MESHES = /\.(stl|obj|dae|ply|gltf|glb|bin|png|jpe?g|mtl)$/i; // go first: a robot's file names them
+const ROBOTS = '.urdf,.xml,.xacro,.toml,.twinrec,.stl,.obj,.dae,.ply,.gltf,.glb,.mtl,.png,.jpg,.jpeg';
 
 export class Gallery implements Panel {
   readonly root = element('dialog', { class: 'card-dialog gallery', 'aria-label': 'scenes' });
@@ -113,19 +113,27 @@ export class Gallery implements Panel {
     if (files.length === 0) return;
     const rank = ({ name }: File) => (MESHES.test(name) ? 0 : 1);
     const sorted = [...files].sort((a, b) => rank(a) - rank(b));
+    let opened = false;
     for (const file of sorted) {
       this.tell('note', `Opening ${file.name} …`, []);
-      const fault = await post(file);
-      if (fault !== null) {
-        const faults = fault.split('\n').filter((line) => line.trim());
+      const { ok, words } = await post(file);
+      if (!ok) {
+        const faults = words.split('\n').filter((line) => line.trim());
         this.tell('error', `${file.name} was not opened`, faults);
         if (!this.root.open) this.root.showModal();
         return;
       }
+      opened = words.trim() === 'opened';
+    }
+    const { name } = sorted[sorted.length - 1];
+    if (!opened) {
+      this.tell('note', `${name} is kept: now open the robot that names it`, []);
+      if (!this.root.open) this.root.showModal();
+      return;
     }
     this.said.replaceChildren();
     this.root.close();
-    this.page.say(`${sorted[sorted.length - 1].name} is open`);
+    this.page.say(`${name} is open`);
   }
 
   private tell(level: string, words: string, faults: string[]): void {
@@ -136,15 +144,16 @@ export class Gallery implements Panel {
   }
 }
 
-// Null: it is open. Else what the lab says of it.
-async function post(file: File): Promise<string | null> {
+// What the lab says of it: that it is open or kept, or all its faults.
+async function post(file: File): Promise<{ ok: boolean; words: string }> {
   try {
     const answer = await fetch(`/open?name=${encodeURIComponent(file.name)}`, {
       method: 'POST',
       body: file,
     });
-    return answer.ok ? null : (await answer.text()) || `the lab answers ${answer.status}`;
+    const words = await answer.text();
+    return { ok: answer.ok, words: words || `the lab answers ${answer.status}` };
   } catch {
-    return 'the lab does not answer';
+    return { ok: false, words: 'the lab does not answer' };
   }
 }

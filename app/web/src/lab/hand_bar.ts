@@ -12,7 +12,7 @@ const SOURCES: Source[] = [
   { name: 'drag', words: 'I drag the tip' },
   { name: 'joints', words: 'I drag the joints' },
   { name: 'synthetic', words: 'synthetic hand', spec: 'virtual:synthetic' },
-  { name: 'trace', words: 'recorded hand', spec: 'virtual:trace:assets/traces/synthetic_seed1.csv' },
+  { name: 'trace', words: 'recorded hand', spec: 'virtual:trace:' }, // and a file
   { name: 'device', words: 'a device …', spec: 'vrpn:Phantom0@localhost' },
 ];
 const MODES: Record<string, string> = {
@@ -134,7 +134,8 @@ export class HandBar implements Panel {
     this.choosing = asks;
     this.spec.hidden = !asks;
     if (asks) {
-      this.spec.value = source.spec!;
+      const file = name === 'trace' ? (this.page.state?.hand?.trace ?? '') : '';
+      this.spec.value = source.spec! + file;
       this.spec.focus();
       this.spec.select();
     } else if (source.spec) this.sendSpec(source.spec);

@@ -1,6 +1,6 @@
 // One knob: its name, its control, and beside it what is predicted for its value.
 import { element, icon } from '../ui/dom';
-import type { Knob } from './link';
+import { isTurned, type Knob } from './link';
 import { numberText, parseNumber, placeOf, stepped, valueAt, type Scale } from './scale';
 import { Segments } from './segments';
 import { signed } from './sign';
@@ -36,9 +36,18 @@ export abstract class KnobRow {
     this.tell(knob);
   }
 
+  focus(): void {
+    this.root.querySelector<HTMLElement>('input, select, [tabindex="0"]')?.focus();
+  }
+
   enable(on: boolean): void {
     for (const control of this.root.querySelectorAll('input, select, button'))
       control.toggleAttribute('disabled', !on);
+  }
+
+  // Many couplings have a stiffness.
+  protected get fullName(): string {
+    return `${this.knob.group}: ${this.knob.label}`;
   }
 
   protected sent = '';
@@ -65,13 +74,18 @@ export abstract class KnobRow {
     this.root.append(name, ...control, this.side);
   }
 
-  private tell({ limit, lag }: Knob): void {
-    const wanted = JSON.stringify([limit, lag]);
+  private tell(knob: Knob): void {
+    const { limit, lag, start, unit } = knob;
+    const turned = isTurned(knob);
+    const wanted = JSON.stringify([limit, lag, turned]);
     if (wanted === this.told) return;
     this.told = wanted;
     const lines: HTMLElement[] = [];
     if (limit) lines.push(signed(limit.state, limit.words));
     if (lag) lines.push(element('span', { class: 'lag' }, `lag ${lag}`));
+    const from = start ? `${start} ${unitText(unit)}` : 'left out';
+    if (turned) lines.push(element('span', { class: 'from' }, `the scene: ${from.trim()}`));
+    this.root.classList.toggle('turned', turned);
     this.side.replaceChildren(...lines);
     this.root.dataset.limit = limit?.state ?? '';
     this.limited(limit?.value ?? null);
@@ -101,6 +115,7 @@ class NumberRow extends KnobRow {
       autocomplete: 'off',
       spellcheck: 'false',
       placeholder: '–',
+      'aria-label': `${this.fullName}${unit && unit !== '1' ? ` in ${unit}` : ''}`,
       title: `${knob.meaning}. Enter sets it, Escape leaves it; arrows change it`,
     });
     const controls: HTMLElement[] = [];
@@ -109,7 +124,7 @@ class NumberRow extends KnobRow {
         type: 'range',
         min: '0',
         max: String(FINE),
-        'aria-label': knob.label,
+        'aria-label': this.fullName,
       });
       controls.push(element('div', { class: 'track' }, this.slider, this.mark));
     }
@@ -225,10 +240,10 @@ class ChoiceRow extends KnobRow {
     const choices = knob.choices ?? [];
     const letters = choices.join('').length;
     if (choices.length <= FEW && LETTER * letters + GAP * choices.length < ROOM) {
-      this.control = new Segments(knob.label, choices, (name) => this.set(name));
+      this.control = new Segments(this.fullName, choices, (name) => this.set(name));
       this.head([this.control.root]);
     } else {
-      this.control = element('select', { 'aria-label': knob.label, title: knob.meaning });
+      this.control = element('select', { 'aria-label': this.fullName, title: knob.meaning });
       this.control.append(this.left);
       for (const name of choices) this.control.append(element('option', { value: name }, name));
       const { control } = this;

@@ -2,7 +2,7 @@
 // one moment (a slider that moves) are sent as one, ten times a second.
 import { button, element } from '../ui/dom';
 import { knobRow, shapeOf, type KnobRow } from './knob_row';
-import { watches, type Knob, type StateMessage } from './link';
+import { isTurned, watches, type Knob, type StateMessage } from './link';
 import type { LabPage, Panel } from './panel';
 
 const PAUSE = 100; // between two messages [ms]
@@ -20,40 +20,20 @@ export class Knobs implements Panel {
   private sentAt = -Infinity;
   private shape = '';
   private shownPresets = '';
-  private scene = -1;
-  private readonly first = new Map<string, string>(); // values that the scene came with
-  private values = new Map<string, string>();
-  private told = new Set<string>(); // paths that were turned, as the lab says
 
   constructor(private readonly page: LabPage) {
-    this.again = button('Reset knobs', 'all knobs as the scene has them', () => this.reset());
+    this.again = button('Reset knobs', 'all knobs as the scene came; the run goes on', () => this.reset());
     this.root.append(this.watching, this.presets, this.groups, this.again);
   }
 
   // What differs from the scene's file.
   get changes(): string[] {
-    return this.changed.map((path) => `${path}=${this.values.get(path)}`);
-  }
-  private get changed(): string[] {
-    const { first, values, told } = this;
-    return [...values.keys()].filter((path) =>
-      first.has(path) ? first.get(path) !== values.get(path) : told.has(path),
-    );
+    const turned = this.page.state?.knobs.filter(isTurned) ?? [];
+    return turned.filter(({ value }) => value !== null).map(({ path, value }) => `${path}=${value}`);
   }
 
   onState(state: StateMessage): void {
     const { knobs, presets } = state;
-    const scene = this.page.scene?.scene ?? 0;
-    if (scene !== this.scene) {
-      this.scene = scene;
-      this.first.clear();
-    }
-    const known = knobs.filter(({ value }) => value !== null);
-    this.values = new Map(known.map(({ path, value }) => [path, String(value)]));
-    // What had been turned before this page came, nobody tells how it was.
-    this.told = new Set((state.changes ?? []).map((change) => change.split('=')[0]));
-    for (const [path, value] of this.values)
-      if (!this.first.has(path) && !this.told.has(path)) this.first.set(path, value);
     const shape = knobs.map(shapeOf).join();
     if (shape !== this.shape) {
       this.shape = shape;
@@ -67,10 +47,12 @@ export class Knobs implements Panel {
       : '';
     for (const row of this.rows.values()) row.enable(!isWatching);
     for (const preset of this.presets.querySelectorAll('button')) preset.disabled = isWatching;
-    this.again.disabled = isWatching || this.changes.length === 0;
+    this.again.disabled = isWatching || !state.changes?.length;
   }
 
+  // Who was at a knob is there again.
   private build(knobs: Knob[]): void {
+    const at = document.activeElement?.closest<HTMLElement>('.knob')?.dataset.path;
     this.rows.clear();
     const groups = new Map<string, HTMLElement>();
     for (const knob of knobs) {
@@ -84,6 +66,7 @@ export class Knobs implements Panel {
       group.append(row.root);
     }
     this.groups.replaceChildren(...groups.values());
+    if (at !== undefined) this.rows.get(at)?.focus();
   }
 
   // Stays folded when the knobs are built anew.
@@ -132,15 +115,10 @@ export class Knobs implements Panel {
     this.page.send({ do: 'set', changes });
   }
 
-  // As the scene has them; where that is not known, the scene is opened again.
   private reset(): void {
-    const { changed, first } = this;
-    const name = this.page.state?.name;
-    if (name && changed.some((path) => !first.has(path))) {
-      this.page.send({ do: 'scene', name });
-      return;
-    }
-    for (const path of changed) if (first.has(path)) this.waiting.set(path, first.get(path)!);
-    if (this.waiting.size > 0) this.flush();
+    clearTimeout(this.timer);
+    this.timer = 0;
+    this.waiting.clear();
+    this.page.send({ do: 'restore' });
   }
 }

@@ -157,5 +157,5 @@ export const MOUSE =
   'Mouse: the ring at the tip leads the robot, its ghost turns joint by joint, a solid body is ' +
   'pulled by a spring; a click selects it. Elsewhere dragging turns the view, the right button ' +
   'moves it, the wheel zooms; with Alt, everywhere. While dragging, shift goes straight up and ' +
-  'down, the wheel nearer and farther. A game controller moves the hand: left stick right and ' +
-  'toward, right stick up and yaw, first button grips.';
+  'down, the wheel nearer and farther. One finger is a mouse, two move and zoom the view. A game ' +
+  'controller moves the hand: left stick right and toward, right stick up and yaw, first button grips.';

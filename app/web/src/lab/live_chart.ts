@@ -196,7 +196,7 @@ export class LiveChart {
         x: { time: false },
         y: { range: (_, low, high) => rangeOf(low, high, this.beside) },
       },
-      padding: [8, 10, 0, 0],
+      padding: [8, 16, 0, 0],
       cursor: {
         y: false,
         points: { show: false },

@@ -57,6 +57,7 @@ export interface Knob {
   label: string;
   group: string;
   value: number | string | null; // null: the scene leaves it out
+  start?: string; // as the scene was opened; '': left out; absent: it had no such knob
   unit: string;
   form: 'log' | 'linear' | 'choice' | 'number';
   low?: number;
@@ -95,6 +96,7 @@ export interface HandState {
   q: number[];
   felt: string; // what device it is
   mode?: string; // live, held, released
+  trace?: string; // file of a recorded hand
 }
 
 export interface StateMessage {
@@ -144,6 +146,7 @@ export type Command =
   | { do: 'preset'; name: string }
   | { do: 'scene'; name: string }
   | { do: 'reset' }
+  | { do: 'restore' }
   | { do: 'hand'; source: 'scene' | 'drag' | 'joints' | 'device'; spec?: string }
   | { do: 'tip'; goal: Vector; stamp: number }
   | { do: 'joint'; index: number; value: number; stamp: number }
@@ -152,6 +155,12 @@ export type Command =
   | { do: 'button'; index: number; down: boolean; stamp: number }
   | { do: 'pull'; body: number; point: Vector; goal: Vector; stamp: number }
   | { do: 'drop' };
+
+// Whether it differs from what the scene came with.
+export function isTurned({ value, start }: Knob): boolean {
+  if (start === undefined) return false;
+  return typeof value === 'number' && start !== '' ? Number(start) !== value : start !== (value ?? '');
+}
 
 // Somebody else holds the hand.
 export function watches({ holder, you }: StateMessage): boolean {

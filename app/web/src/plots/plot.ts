@@ -49,7 +49,7 @@ export class Plot {
       height: HEIGHT,
       legend: { show: false },
       scales: { x: { time: false } },
-      padding: [8, 10, 0, 0],
+      padding: [8, 16, 0, 0],
       cursor: {
         y: false,
         points: { show: false },

@@ -104,7 +104,12 @@ export function quantityCard(quantity: Quantity, telling: Telling = {}): HTMLEle
   );
   return element(
     'article',
-    { class: 'quantity', tabindex: '0', 'data-quantity': quantity.name },
+    {
+      class: 'quantity',
+      tabindex: '0',
+      'data-quantity': quantity.name,
+      'aria-label': `${quantity.name}: ${quantity.meaning}`,
+    },
     element('h4', {}, telling.symbol ?? quantity.name, element('span', {}, quantity.meaning)),
     ...(telling.content ?? [valueOf(quantity)]),
     tip,
