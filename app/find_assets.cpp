@@ -14,7 +14,8 @@ std::filesystem::path find_assets(const std::filesystem::path& given) {
     places.push_back(given);
   } else {
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    places.push_back(program.parent_path() / "../../assets");  // build/PRESET/twinarm
+    places.push_back(program.parent_path() / "../../assets");      // build/PRESET/twinarm
+    places.push_back(program.parent_path() / "../share/twinarm");  // bin/twinarm, installed
     places.push_back(fs::current_path(error) / "assets");
   }
   for (const fs::path& place : places)

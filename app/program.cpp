@@ -59,6 +59,7 @@ void check_values(int argc, char** argv) {
 int run_program(int argc, char** argv) {
   CLI::App app{"twinarm: a glass-box multibody laboratory\n\nExample:  twinarm study"};
   app.require_subcommand(1);
+  app.set_version_flag("--version", "twinarm " TWINARM_VERSION, "Print the version and exit");
   CommandLine line{{argv, argv + argc}, {}};
   for (const auto add : kAddCommands) add(app, line);
   const bool as_json =

@@ -46,9 +46,9 @@ void add_coupling(CLI::App& app, CommandLine& line) {
       "gains",
       "The same gains as a frequency, as a torsional coupling, in MuJoCo and as a PhysX drive\n\n"
       "Example:  twinarm coupling gains --inertia 0.5 --frequency 8 --damping-ratio 1");
-  add_file_option(*same, "model", gains->robot.model,
-                  "a scene in TOML, with couplings; may be left out");
-  add_file_option(*same, "--state", gains->robot.state, "JSON file: q");
+  add_input_option(*same, "model", gains->robot.model,
+                   "a scene in TOML, with couplings; may be left out");
+  add_input_option(*same, "--state", gains->robot.state, "JSON file: q");
   same->add_option("--frequency", gains->frequency, "wanted [Hz]");
   same->add_option("--damping-ratio", gains->damping_ratio, "wanted");
   same->add_option("--inertia", gains->inertia, "without a scene: what is moved [kg or kg m^2]");

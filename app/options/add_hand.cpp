@@ -15,8 +15,8 @@ void add_hand(CLI::App& app, CommandLine& line) {
       "A scene under a hand device, at 1 kHz in real time: the hand moves the kinematic robot and "
       "feels the springs\n\n"
       "Example:  twinarm hand assets/scenes/hand_and_obstacles.toml --duration 10 --timing");
-  add_file_option(*hand, "scene", options->scene,
-                  "TOML, with couplings whose target is \"device\"");
+  add_input_option(*hand, "scene", options->scene,
+                   "TOML, with couplings whose target is \"device\"");
   hand->add_option("--device", options->device, "who moves it; `--device list` says what there is")
       ->capture_default_str();
   hand->add_option("--mapping", options->mapping,

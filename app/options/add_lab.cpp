@@ -16,8 +16,8 @@ void add_lab(CLI::App& app, CommandLine& line) {
       "Example:  twinarm lab assets/scenes/hand_and_obstacles.toml\n\n"
       "Prints the page's address and opens it where there is a browser; Ctrl-C ends it. On another "
       "machine: ssh -L 8080:127.0.0.1:8080 HOST, and there: twinarm lab --port 8080 --no-browser");
-  add_file_option(*lab, "scene", options->scene,
-                  "a scene, a URDF or a recording; left out: the first of the gallery");
+  add_input_option(*lab, "scene", options->scene,
+                   "a scene, a URDF or a recording; left out: the first of the gallery");
   lab->get_option("scene")->required(false);
   lab->add_option("--port", options->port, "of the server; left out: any that is free")
       ->check(CLI::Range(0, 65535));

@@ -15,8 +15,8 @@ void add_map(CLI::App& app, CommandLine& line) {
       "A plane of two numbers of a scene: stable or not, errors, energy; each cell is a run\n\n"
       "Example:  twinarm map assets/scenes/tracking_map.toml --x "
       "coupling.stiffness:1e4:1e6:64:log --y step:1e-3:1e-2:64:log --svg map.svg");
-  add_file_option(*map, "scene", options->scene,
-                  "a scene in TOML; with --merge it may be left out");
+  add_input_option(*map, "scene", options->scene,
+                   "a scene in TOML; with --merge it may be left out");
   map->add_option(
       "--x", options->x,
       "PATH:FROM:TO:N[:log]: a number of the scene file, its range, and how many cells");

@@ -21,7 +21,7 @@ void add_study(CLI::App& app, CommandLine& line) {
       "hand of E1 and E2: synthetic, trace (the default if one is given), or a device "
       "as `twinarm hand --device list` has them");
   study->add_option("--seed", options->seed, "of the synthetic operator");
-  add_file_option(*study, "--trace", options->trace, "CSV of a recorded hand, for E1 and E2");
+  add_input_option(*study, "--trace", options->trace, "CSV of a recorded hand, for E1 and E2");
   study->add_flag("--recalibrate", options->recalibrate,
                   "search the unpublished gains again and write them to the assets (minutes)");
   study->add_flag("--identify", options->identify,

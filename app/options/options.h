@@ -22,6 +22,7 @@ void add_compare(CLI::App& app, CommandLine& line);
 void add_coupling(CLI::App& app, CommandLine& line);
 void add_dynamics(CLI::App& app, CommandLine& line);
 void add_hand(CLI::App& app, CommandLine& line);
+void add_help(CLI::App& app, CommandLine& line);
 void add_inspect(CLI::App& app, CommandLine& line);
 void add_lab(CLI::App& app, CommandLine& line);
 void add_make_robot(CLI::App& app, CommandLine& line);
@@ -39,6 +40,6 @@ void add_zwidth(CLI::App& app, CommandLine& line);
 inline constexpr void (*kAddCommands[])(CLI::App&, CommandLine&) = {
     add_lab,   add_dynamics,   add_inspect,    add_modes,  add_coupling, add_simulate,
     add_hand,  add_trial,      add_recordings, add_render, add_compare,  add_map,
-    add_study, add_make_robot, add_trace,      add_zwidth};
+    add_study, add_make_robot, add_trace,      add_zwidth, add_help};
 
 }  // namespace twinarm

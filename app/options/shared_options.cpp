@@ -3,16 +3,19 @@
 #include <CLI/CLI.hpp>
 
 #include "app/dynamics/robot_input.h"
+#include "app/find_input.h"
 
 namespace twinarm {
 namespace {
+
+constexpr const char* kFileCheck = "file";  // by its name a file is known from other texts
 
 // Said for all options at this one place: nothing would be read or written, and nobody told.
 CLI::Option* refuse_empty(CLI::Option* option) {
   const auto fault = [](const std::string& name) {
     return name.empty() ? std::string("the name of a file is empty") : std::string();
   };
-  return option->check(CLI::Validator(fault, ""));
+  return option->check(CLI::Validator(fault, "", kFileCheck));
 }
 
 }  // namespace
@@ -27,9 +30,26 @@ CLI::Option* add_file_option(CLI::App& command, const char* name,
   return refuse_empty(command.add_option(name, files, help));
 }
 
+CLI::Option* add_input_option(CLI::App& command, const char* name, std::filesystem::path& file,
+                              const char* help) {
+  const auto look_up = [](std::string& typed) {
+    typed = find_input(typed).string();
+    return std::string();
+  };
+  return add_file_option(command, name, file, help)->transform(CLI::Validator(look_up, ""));
+}
+
+bool is_file_option(CLI::Option& option) {
+  try {
+    return option.get_validator(kFileCheck) != nullptr;
+  } catch (const CLI::OptionNotFound&) {
+    return false;
+  }
+}
+
 void add_robot_options(CLI::App& command, RobotOptions& options, const char* model) {
-  add_file_option(command, "model", options.model, model)->required();
-  add_file_option(command, "--state", options.state, "JSON file: q, qd, tau, qdd, base, wrenches");
+  add_input_option(command, "model", options.model, model)->required();
+  add_input_option(command, "--state", options.state, "JSON file: q, qd, tau, qdd, base, wrenches");
   command.add_option("--gravity", options.gravity,
                      "x,y,z in world axes [m/s^2]; 0,0,-9.81 if not given");
   command.add_flag("--floating", options.floating, "the root link is free, not fixed to the world");

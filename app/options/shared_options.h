@@ -19,6 +19,10 @@ CLI::Option* add_file_option(CLI::App& command, const char* name, std::filesyste
                              const char* help);
 CLI::Option* add_file_option(CLI::App& command, const char* name,
                              std::vector<std::filesystem::path>& files, const char* help);
+// One that is only read: assets/.. is found wherever the program runs (find_input).
+CLI::Option* add_input_option(CLI::App& command, const char* name, std::filesystem::path& file,
+                              const char* help);
+bool is_file_option(CLI::Option& option);  // made by one of these
 
 // The model that a command is about, which `model` describes, its state, and what to leave out.
 void add_robot_options(CLI::App& command, RobotOptions& options, const char* model);

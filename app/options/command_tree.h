@@ -1,0 +1,32 @@
+// The commands and options of the program as plain lists, for what is written about them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace twinarm {
+
+struct ToldOption {
+  std::vector<std::string> names;  // "-h", "--help"; of a word without dashes its name alone
+  std::string value;               // "TEXT", "INT:INT in [0 - 65535]"; empty: a flag
+  std::string preset;              // what it is if not given; may be empty
+  std::string help;
+  bool is_word = false, is_file = false, is_required = false;
+};
+
+struct ToldCommand {
+  std::string name;                    // "coupling predict"; empty: the program itself
+  std::string summary;                 // the first paragraph of its description
+  std::vector<std::string> details;    // the others, an example first
+  std::vector<ToldOption> options;     // words without dashes first
+  std::vector<std::string> followers;  // names of commands that may come next
+};
+
+// The program first; each before the commands below it.
+std::vector<ToldCommand> command_tree(CLI::App& program);
+
+}  // namespace twinarm

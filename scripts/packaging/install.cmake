@@ -1,0 +1,67 @@
+# What `cmake --install` copies, and `cpack -G DEB` packs: the program with all that it needs
+# (component program: package twinarm), and the libraries (development: package libtwinarm-dev).
+# Nothing in it names the folder that it was built or installed in: it can be moved.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(PACKAGING ${CMAKE_CURRENT_LIST_DIR})
+set(MADE ${CMAKE_BINARY_DIR}/packaging)
+
+# The libraries. Includes are written from the root of the project, and likewise by users.
+set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/twinarm)
+set(libraries twinarm_solver twinarm_collision twinarm_import twinarm_coupling)
+foreach(library IN LISTS libraries)
+  string(REPLACE twinarm_ "" name ${library})
+  set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
+endforeach()
+target_include_directories(twinarm_solver
+  INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/twinarm>)
+target_compile_features(twinarm_solver INTERFACE $<INSTALL_INTERFACE:cxx_std_20>)
+# twinarm::collision is shapes and robots from files: two archives.
+target_link_libraries(twinarm_collision INTERFACE $<INSTALL_INTERFACE:twinarm::import>)
+install(TARGETS ${libraries} EXPORT twinarm
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(EXPORT twinarm NAMESPACE twinarm:: FILE twinarm-targets.cmake
+  DESTINATION ${cmake_folder} COMPONENT development)
+install(DIRECTORY solver collision coupling
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/twinarm COMPONENT development
+  FILES_MATCHING PATTERN "*.h" PATTERN recipe_toml.h EXCLUDE)  # the one that shows toml++
+configure_package_config_file(${PACKAGING}/twinarm-config.cmake.in ${MADE}/twinarm-config.cmake
+  INSTALL_DESTINATION ${cmake_folder} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(${MADE}/twinarm-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${MADE}/twinarm-config.cmake ${MADE}/twinarm-config-version.cmake
+  DESTINATION ${cmake_folder} COMPONENT development)
+
+# The program, and what it writes about itself.
+find_program(GZIP gzip REQUIRED)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+add_custom_command(OUTPUT ${MADE}/twinarm.1.gz ${MADE}/twinarm
+  COMMAND twinarm help --man > ${MADE}/twinarm.1
+  COMMAND ${GZIP} -9nf ${MADE}/twinarm.1
+  COMMAND twinarm help --completion > ${MADE}/twinarm
+  DEPENDS twinarm)
+set(changelog ${CMAKE_SOURCE_DIR}/docs/changelog.md)
+add_custom_command(OUTPUT ${MADE}/changelog.gz
+  COMMAND Python3::Interpreter ${PACKAGING}/debian_changelog.py ${changelog} ${MADE}/changelog
+  COMMAND ${GZIP} -9nf ${MADE}/changelog
+  DEPENDS ${changelog} ${PACKAGING}/debian_changelog.py)
+add_custom_target(twinarm_packaging ALL
+  DEPENDS ${MADE}/twinarm.1.gz ${MADE}/twinarm ${MADE}/changelog.gz)
+install(TARGETS twinarm RUNTIME COMPONENT program)
+install(DIRECTORY assets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/twinarm COMPONENT program
+  PATTERN cad EXCLUDE PATTERN "*.py" EXCLUDE)  # what assets are made from stays with the sources
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES ${MADE}/twinarm.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${MADE}/twinarm
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+
+# Both packages say whose they are, and what has changed.
+foreach(pair program:twinarm development:libtwinarm-dev)
+  string(REPLACE ":" ";" pair ${pair})
+  list(GET pair 0 component)
+  list(GET pair 1 package)
+  install(FILES ${PACKAGING}/copyright ${MADE}/changelog.gz
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
+endforeach()
+
+include(${PACKAGING}/deb.cmake)
