@@ -88,7 +88,7 @@ def name_what_is_outside(app, docname, source):
 def list_the_rest(app, docname, source):
     """Pages that index.md does not name go into a last list, so that none is lost."""
     if docname == root_doc:
-        named = set(source[0].split())
+        named = set(re.split(r"[\s<>]+", source[0]))
         rest = sorted(name for name in app.env.found_docs - named - {root_doc} if "lessons/" not in name)
         if rest:
             source[0] += "\n".join(["", "```{toctree}", ":hidden:", ":caption: More", "", *rest, "```", ""])
