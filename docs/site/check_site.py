@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Looks at a site on disk: every page has a title, every link, anchor and picture is there, and nothing
-is fetched from a network.
+"""Looks at a site on disk: every page has a title, every link, anchor, picture and style is there, and
+nothing is fetched from a network.
 
     check_site.py FOLDER
 """
 import html.parser
 import pathlib
+import re
 import sys
 import urllib.parse
 
@@ -52,6 +53,9 @@ def faults_of(folder):
                 faults.append(f"{name}: fetches {link}; a page must need no network")
         for link in page.links + page.fetched:
             faults += [f"{name}: {fault}" for fault in faults_of_link(link, file, pages)]
+    for style in folder.rglob("*.css"):
+        asked = [link.strip("'\"") for link in re.findall(r"url\(([^)]*)\)", style.read_text())]
+        faults += [f"{style.relative_to(folder)}: {fault}" for link in asked for fault in faults_of_link(link, style, {})]
     return faults, len(pages), sum(len(page.links) for page in pages.values())
 
 

@@ -7,10 +7,12 @@ import atexit
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 
 HERE = pathlib.Path(__file__).parent
 KATEX = pathlib.Path("/usr/share/javascript/katex")  # Debian's libjs-katex
+NORMALIZE = pathlib.Path("/usr/share/javascript/normalize.css/normalize.css")  # that Furo stands on
 
 project = "twinarm"
 html_title = "twinarm"
@@ -26,9 +28,10 @@ myst_heading_anchors = 4  # of each heading, as GitHub has them
 suppress_warnings = ["myst.header"]  # README.md of docs begins with the folder's name
 
 html_theme = "furo"
-html_static_path = ["static", str(KATEX)]
+html_static_path = ["static"]
 html_css_files = ["katex.min.css", "site.css"]
 html_show_sphinx = False
+html_show_search_summary = False  # a page on disk may not read the others
 html_copy_source = False
 html_math_renderer = "katex"
 html_theme_options = {"navigation_with_keys": True}
@@ -85,13 +88,33 @@ def name_what_is_outside(app, docname, source):
 def list_the_rest(app, docname, source):
     """Pages that index.md does not name go into a last list, so that none is lost."""
     if docname == root_doc:
-        named = set(source[0].split())
+        named = set(re.split(r"[\s<>]+", source[0]))
         rest = sorted(name for name in app.env.found_docs - named - {root_doc} if "lessons/" not in name)
         if rest:
             source[0] += "\n".join(["", "```{toctree}", ":hidden:", ":caption: More", "", *rest, "```", ""])
 
 
+def bring_styles(app, error):
+    """What the pages' styles ask for: KaTeX's; and what Debian's Furo has lost: the style that it stands on, the
+    module that its script imports (a page on disk can import none), and its colours in a dark browser."""
+    if error:
+        return
+    static = pathlib.Path(app.outdir) / "_static"
+    shutil.copy(KATEX / "katex.min.css", static)
+    shutil.copytree(KATEX / "fonts", static / "fonts", dirs_exist_ok=True)
+    shutil.copy(NORMALIZE, static / "styles")
+    furo = static / "styles/furo.css"
+    style = furo.read_text().replace("/javascript/normalize.css/", "")
+    dark = re.search(r'body\[data-theme="dark"\] \{([^}]*)\}', style)[1]
+    auto = f'@media screen and (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {{{dark}}} }}'
+    furo.write_text(f"{style}\n{auto}\n")
+    script = static / "scripts/furo.js"
+    scroll = (static / "scripts/gumshoe-patched.js").read_text()
+    script.write_text(scroll + script.read_text().replace('import Gumshoe from "./gumshoe-patched.js";', ""))
+
+
 def setup(app):
+    app.connect("build-finished", bring_styles)
     app.connect("source-read", name_what_is_outside)
     app.connect("source-read", list_the_rest)
     app.add_html_math_renderer("katex", (visit_inline, None), (visit_block, None))

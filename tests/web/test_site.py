@@ -36,6 +36,13 @@ class Checker(unittest.TestCase):
         self.assertEqual(self.faults(a="<title>A</title><a href='b.html#here'>b</a><a href='https://example.org'>",
                                      b="<title>B</title><p id='here'><img src='data:image/png;base64,AA'>"), [])
 
+    def test_a_style_that_asks_for_what_is_not_there_is_told(self):
+        with tempfile.TemporaryDirectory() as place:
+            folder = pathlib.Path(place).resolve()
+            (folder / "a.html").write_text("<title>A</title>")
+            (folder / "a.css").write_text("@import url(b.css); p { background: url('data:image/png;base64,AA') }")
+            self.assertEqual(check_site.faults_of(folder)[0], ["a.css: b.css leads nowhere"])
+
     def test_each_fault_is_told(self):
         title = "<title>A</title>"
         for body, said in (("<svg><title>picture</title></svg>", "no title"),
@@ -81,6 +88,24 @@ class Site(unittest.TestCase):
         lesson = (self.site / "lessons/01_six_integrators/lesson.html").read_text()
         self.assertGreater(lesson.count('class="katex"'), 20)
         self.assertNotIn("$\\omega", lesson)
+
+    @unittest.skipUnless(find_browser(), "no browser")
+    def test_it_is_as_light_or_dark_as_the_browser_likes_and_a_click_changes_it(self):
+        for dark in (False, True):
+            with Browser(width=1500, height=900, dark=dark) as page:
+                page.call("Page.navigate", url=(self.site / "contact.html").as_uri())
+                page.wait_for("location.protocol === 'file:' && document.readyState === 'complete'")
+                red = "Number(getComputedStyle(document.body).backgroundColor.match(/[0-9]+/)[0])"
+                self.assertEqual(page.evaluate(red) < 50, dark)
+                page.evaluate("document.querySelector('.theme-toggle-content .theme-toggle').click()")
+                self.assertEqual(page.evaluate(red) < 50, not dark)
+
+    @unittest.skipUnless(find_browser(), "no browser")
+    def test_the_search_finds_a_page_without_a_server(self):
+        with Browser() as page:
+            page.call("Page.navigate", url=(self.site / "search.html").as_uri() + "?q=torsional")
+            page.wait_for("document.querySelectorAll('#search-results li').length > 3")
+            self.assertEqual(page.errors, [])
 
     @unittest.skipUnless(find_browser(), "no browser")
     def test_the_browser_opens_every_page_without_a_word_and_without_a_network(self):
