@@ -61,23 +61,23 @@ std::shared_ptr<const HandSource> synthetic_hand_of(const std::string& seed) {
 
 const std::vector<HandEntry>& hand_entries() {
   static const std::vector<HandEntry> entries{
-      {{"paper", "", "the paper's automatic motion: three sweeps of a second each"},
+      {{"paper", "", "the paper's automatic motion: three sweeps of a second each", true},
        [](const std::string&) { return std::make_shared<AutomaticMotion>(HandMapping{}); }},
-      {{"step", "", "rests 1 s, jumps by 0.3 rad in every joint, rests"},
+      {{"step", "", "rests 1 s, jumps by 0.3 rad in every joint, rests", true},
        [](const std::string&) {
          return std::make_shared<StepHand>(kPosture, turned_by(kScriptTurn), 1.0, 5.0);
        }},
-      {{"chirp", "", "0.15 rad in every joint, from 0.1 to 5 Hz in 20 s"},
+      {{"chirp", "", "0.15 rad in every joint, from 0.1 to 5 Hz in 20 s", true},
        [](const std::string&) {
          OmniAngles amplitude{};
          amplitude.fill(kChirpTurn);
          return std::make_shared<ChirpHand>(kPosture, amplitude, 0.1, 5.0, 20.0);
        }},
-      {{"minimum-jerk", "", "rests 1 s, reaches 0.3 rad further in every joint in 1 s"},
+      {{"minimum-jerk", "", "rests 1 s, reaches 0.3 rad further in every joint in 1 s", true},
        [](const std::string&) {
          return std::make_shared<ReachHand>(kPosture, turned_by(kScriptTurn), 1.0, 1.0);
        }},
-      {{"synthetic", "[:SEED]", "random reaches with tremor; no person"}, synthetic_hand_of},
+      {{"synthetic", "[:SEED]", "random reaches with tremor; no person", true}, synthetic_hand_of},
       {{"trace", ":FILE", "a recorded hand, from a CSV file"},
        [](const std::string& file) -> std::shared_ptr<const HandSource> {
          if (file.empty()) refuse_spec("trace", "no file is given", "give one: trace:hand.csv");
@@ -118,7 +118,7 @@ VrpnAddress vrpn_address(const std::string& text) {
 const std::vector<DeviceEntry>& device_entries() {
   using Settings = VirtualOmniSettings;
   static const std::vector<DeviceEntry> entries{
-      {{"virtual", "[:HAND]", "a Phantom Omni in software, moved by a scripted hand", true},
+      {{"virtual", "[:HAND]", "a Phantom Omni in software, moved by a scripted hand", true, true},
        [](const std::string& hand, const Settings& settings) {
          return std::make_unique<VirtualOmni>(scripted_hand(hand.empty() ? "paper" : hand),
                                               settings);
@@ -199,6 +199,17 @@ std::shared_ptr<const HandSource> scripted_hand(const std::string& spec) {
   if (entry.hand.argument.empty() && !argument.empty())
     refuse_spec(spec, "this hand takes nothing after its name", "give " + name + " alone");
   return entry.make(argument);
+}
+
+bool stays_inside(const std::string& spec) {
+  const auto [name, argument] = parted(spec);
+  const auto& device = entry_named(
+      device_entries(), [](const DeviceEntry& e) { return e.kind.name; }, name, "device");
+  if (!device.kind.stays_inside || argument.empty()) return device.kind.stays_inside;
+  const auto& entry = entry_named(
+      hand_entries(), [](const HandEntry& e) { return e.hand.name; }, parted(argument).first,
+      "hand");
+  return entry.hand.stays_inside;
 }
 
 std::unique_ptr<HandDevice> open_device(const std::string& spec,

@@ -14,12 +14,14 @@ struct DeviceKind {
   std::string name, argument;  // as in "vrpn" and "NAME@HOST[:PORT]"; [..] may be left out
   std::string help;            // one line
   bool has_motors;
+  bool stays_inside = false;  // it opens no file, device or socket
 };
 const std::vector<DeviceKind>& device_kinds();
 
 // The hands that move a virtual device, as in virtual:NAME.
 struct ScriptedHand {
   std::string name, argument, help;
+  bool stays_inside = false;
 };
 const std::vector<ScriptedHand>& scripted_hands();
 
@@ -31,6 +33,10 @@ std::string device_list();
 // one InputError: names that are not known, and devices that do not answer, with what to do.
 std::unique_ptr<HandDevice> open_device(const std::string& spec,
                                         const VirtualOmniSettings& settings = {});
+
+// Whether it opens no file, device or socket of this machine: what somebody else may ask for.
+// Throws InputError: names that are not known.
+bool stays_inside(const std::string& spec);
 
 // The hand alone: "paper", "synthetic:7", "trace:hand.csv". Throws InputError.
 std::shared_ptr<const HandSource> scripted_hand(const std::string& spec);

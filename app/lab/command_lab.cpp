@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "app/commands.h"
+#include "app/hand/devices.h"
 #include "app/interrupt.h"
 #include "app/lab/lab_painter.h"
 #include "app/lab/lab_routes.h"
@@ -51,12 +52,36 @@ void open_browser(const std::string& url) {
   posix_spawn_file_actions_destroy(&quiet);
 }
 
+// Of a page that may be on another machine, where others are let in at all.
+void refuse_what_opens(const LabCommand& command) {
+  if (command.what != LabCommand::Do::hand || command.name != "device") return;
+  if (stays_inside(command.spec)) return;
+  throw InputError({{"command", 0, "hand, spec",
+                     "'" + command.spec +
+                         "' opens a file, a device or a socket of the machine that the lab runs "
+                         "on, and with --listen pages on other machines may not ask for that",
+                     "take virtual:synthetic or the like, or start the lab without --listen (over "
+                     "ssh -L)"}});
+}
+
+LabCommand drop_all() {
+  LabCommand command;
+  command.what = LabCommand::Do::drop;
+  return command;
+}
+
+bool is_loopback(const std::string& address) {
+  return address == "localhost" || address == "::1" || address.rfind("127.", 0) == 0;
+}
+
 // Session, painter and server, each with its thread; a message goes to whom it concerns.
 class Lab {
  public:
   Lab(const LabOptions& options, std::vector<GalleryScene> gallery)
       : gallery_(std::move(gallery)),
-        session_(build(first_order(options, gallery_)), gallery_),
+        is_private_(is_loopback(options.listen)),
+        session_(build(first_order(options, gallery_)), gallery_,
+                 static_cast<std::size_t>(options.remember) << 20),
         painter_(session_, audience_, gallery_,
                  [this](ClientId client, LabPainter::Channel channel, Bytes bytes, bool binary) {
                    server_->send(client, channel, std::move(bytes), binary);
@@ -90,6 +115,8 @@ class Lab {
       painter_.welcome(client);
     };
     handlers.closed = [this](ClientId client) {
+      // What a page held that is gone would be held for ever.
+      if (audience_.has_hand(client)) session_.push(drop_all());
       audience_.closed(client);
       session_.wake();
     };
@@ -102,6 +129,7 @@ class Lab {
       LabCommand command = parse_command(text);
       if (needs_hand(command.what) && !audience_.has_hand(client))
         return session_.note("warning", "somebody else has the hand; ask for it");
+      if (!is_private_) refuse_what_opens(command);
       switch (command.what) {
         case LabCommand::Do::layers:
           audience_.want_layers(client, std::move(command.names));
@@ -127,6 +155,7 @@ class Lab {
   }
 
   std::vector<GalleryScene> gallery_;
+  bool is_private_;  // no other machine is let in
   Audience audience_;
   std::unique_ptr<LabServer> server_;  // ends last: the others post to it
   LabSession session_;

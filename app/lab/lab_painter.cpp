@@ -14,6 +14,8 @@ namespace {
 constexpr double kGlassEvery = 0.2, kGlassStanding = 0.05, kKnobsEvery = 0.4, kIdle = 0.1;  // [s]
 constexpr double kRate = 60, kSlowRate = 30;  // frames a second, to few clients and to more
 constexpr std::size_t kManyClients = 2;
+// A run whose frames cannot stand so evenly, by its step, may send so much more of them.
+constexpr double kMore = 1.05;
 
 double as_seconds(std::chrono::steady_clock::duration time) {
   return std::chrono::duration<double>(time).count();
@@ -69,12 +71,13 @@ void LabPainter::work() {
       const std::lock_guard lock(mutex_);
       if (stop_) return;
     }
-    session_.set_rate(audience_.view().clients.size() > kManyClients ? kSlowRate : kRate);
+    const double rate = audience_.view().clients.size() > kManyClients ? kSlowRate : kRate;
+    session_.set_rate(rate);
     look_at_knobs(now);
     tell_state(now);
-    tell_frame(now);
+    const double left = tell_frame(now, kMore * rate);
     tell_glass(now);
-    session_.wait(now.number, kIdle);
+    session_.wait(now, std::min(left, kIdle));
   }
 }
 
@@ -145,23 +148,36 @@ void LabPainter::tell_state(const LabNow& now) {
     post_(client, state_channel, shared(addressed(state_, client)), false);
 }
 
-void LabPainter::tell_frame(const LabNow& now) {
-  if (!now.frame || now.number == told_) return;
-  told_ = now.number;
+// What has been told is not told again, whatever else is new. How long the next has to wait [s]:
+// what is new too soon is told then, or what is newer than that.
+double LabPainter::tell_frame(const LabNow& now, double per_second) {
+  if (!now.frame) return kIdle;
+  FrameTold wanted{now.frame,
+                   now.before,
+                   audience_.layers(),
+                   !now.status->playing,
+                   now.status->at.has_value(),
+                   now.status->dead.has_value()};
+  if (wanted == told_frame_) return kIdle;
+  const Clock::time_point time = Clock::now();
+  if (const double left = frames_.wait(time); left > 0) return left;
+  frames_.take(time, per_second);
+  told_frame_ = std::move(wanted);
   view_->name_rows(*now.rows);
   FrameFacts facts;
   facts.number = ++frame_;
-  facts.stands = !now.status->playing;
-  facts.looked_back = now.status->at.has_value();
-  facts.stopped = now.status->dead.has_value();
+  facts.stands = told_frame_.stands;
+  facts.looked_back = told_frame_.looked_back;
+  facts.stopped = told_frame_.stopped;
   facts.input_age = now.frame->input_stamp != 0 ? as_seconds(Clock::now() - now.input_came) : 0.0;
   std::unique_lock drawing(view_mutex_);
-  std::string frame = view_->frame(*now.frame, now.before.get(), audience_.layers(), facts);
+  std::string frame = view_->frame(*now.frame, now.before.get(), told_frame_.layers, facts);
   drawing.unlock();
   if (view_->revision() != revision_) tell_scene();
   last_frame_ = shared(std::move(frame));
   for (const ClientId client : audience_.view().clients)
     post_(client, frame_channel, last_frame_, true);
+  return kIdle;
 }
 
 DrawList LabPainter::drawn() {

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/lab/allowance.h"
 #include "app/lab/audience.h"
 #include "app/lab/glass/glass.h"
 #include "app/lab/knobs/gallery.h"
@@ -57,7 +58,7 @@ class LabPainter {
   void take_scene(const LabNow& now);
   void tell_scene();
   void tell_state(const LabNow& now);
-  void tell_frame(const LabNow& now);
+  double tell_frame(const LabNow& now, double per_second);
   void tell_glass(const LabNow& now);
   void look_at_knobs(const LabNow& now);
   void to_all(Channel channel, const std::string& message, bool is_binary);
@@ -87,11 +88,19 @@ class LabPainter {
   std::vector<Knob> knobs_, unchanged_;  // now; of the scene as it was opened
   long scene_number_ = -1, change_number_ = -1;
   std::uint64_t revision_ = 0;  // of the view's scene message that was told
-  std::uint64_t told_ = 0;      // LabNow::number of the last frame
   std::uint32_t frame_ = 0;
   std::string state_;  // that was told last
+  // What the last frame was made of.
+  struct FrameTold {
+    std::shared_ptr<const LabFrame> frame, before;
+    std::vector<std::string> layers;
+    bool stands = false, looked_back = false, stopped = false;
+    bool operator==(const FrameTold&) const = default;
+  };
+  FrameTold told_frame_;
+  Allowance frames_;
   Bytes last_frame_;
-  Clock::time_point last_painted_{}, last_glass_{}, last_knobs_{};
+  Clock::time_point last_glass_{}, last_knobs_{};
   std::thread thread_;
 };
 

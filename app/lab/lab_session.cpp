@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/lab/knobs/remedies.h"
 #include "app/live/servo_clock.h"
 #include "solver/fault.h"
 
@@ -16,7 +15,7 @@ constexpr auto kTick = std::chrono::milliseconds(1);
 constexpr double kLongestBurst = 0.004;  // of steps between two looks at commands [s]
 constexpr double kForgiven = 0.05;       // what is further behind is not made up for [s]
 constexpr double kStatusEvery = 0.25;    // [s]
-constexpr std::size_t kMostNotes = 20, kMostCommands = 4096;
+constexpr std::size_t kMostCommands = 4096;
 
 double seconds(std::chrono::steady_clock::duration time) {
   return std::chrono::duration<double>(time).count();
@@ -24,7 +23,9 @@ double seconds(std::chrono::steady_clock::duration time) {
 
 }  // namespace
 
-LabSession::LabSession(Built scene, const std::vector<GalleryScene>& gallery) : gallery_(gallery) {
+LabSession::LabSession(Built scene, const std::vector<GalleryScene>& gallery,
+                       std::size_t most_bytes)
+    : gallery_(gallery), history_(most_bytes), before_(most_bytes) {
   adopt(std::move(scene));
   publish();  // from now on there is something to be seen
   workshop_ =
@@ -68,34 +69,27 @@ void LabSession::push(LabCommand command) {
   told_.notify_all();
 }
 
-void LabSession::note(const std::string& level, const std::string& text) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (new_notes_.size() < kMostNotes) new_notes_.push_back({0, level, text});
-  }
-  told_.notify_all();
-}
-
 void LabSession::open(Order order) {
   workshop_->order(std::move(order));
 }
 
 LabNow LabSession::now() const {
   const std::lock_guard lock(mutex_);
-  return now_;
+  LabNow now = now_;
+  now.wakes = wakes_;
+  return now;
 }
 
-void LabSession::wait(std::uint64_t seen, double longest) const {
+void LabSession::wait(const LabNow& seen, double longest) const {
   std::unique_lock lock(mutex_);
-  const std::uint64_t woken = woken_;
   changed_.wait_for(lock, std::chrono::duration<double>(longest),
-                    [&] { return now_.number != seen || woken_ != woken; });
+                    [&] { return now_.number != seen.number || wakes_ != seen.wakes; });
 }
 
 void LabSession::wake() {
   {
     const std::lock_guard lock(mutex_);
-    ++woken_;
+    ++wakes_;
   }
   changed_.notify_all();
 }
@@ -190,21 +184,23 @@ bool LabSession::take_step() {
   return true;
 }
 
-// The newest frame is remembered, and handed over with whatever else is new.
+// The newest frame is remembered, and handed over with whatever else is new. The status goes with
+// news at once; its times and measures alone, now and then.
 void LabSession::publish() {
   const Clock::time_point now = Clock::now();
-  bool says_new = take_notes();
-  if (seconds(now - last_told_) >= kStatusEvery && status_.playing) says_new = true;
   const bool is_due = is_stale_ && is_frame_due();
   const bool is_last = is_stale_ && (!status_.playing && steps_left_ == 0);
-  if (!is_due && !is_last && !says_new && !is_news_) return;
+  const bool has_notes = take_notes();
+  const bool is_time = status_.playing && seconds(now - last_told_) >= kStatusEvery;
+  const bool says_status = has_notes || is_time || is_news_ || is_last;
+  if (!is_due && !says_status) return;
   if (is_due || is_last) {
     remember();
     is_stale_ = false;
   }
-  last_told_ = now;
+  if (says_status) last_told_ = now;
   is_news_ = false;
-  tell();
+  tell(says_status);
 }
 
 void LabSession::remember() {
@@ -217,6 +213,7 @@ void LabSession::remember() {
   status_.step_time = frame.step_time;
   cpu_ = longest_cpu_ = 0;
   steps_ = 0;
+  shown_input_came_ = input_came_;
   const std::lock_guard lock(mutex_);
   history_.add(std::move(frame));
 }
@@ -225,68 +222,6 @@ void LabSession::remember() {
 LabFrame LabSession::frame_of_run() {
   const std::lock_guard lock(mutex_);
   return run_->frame(names_);
-}
-
-void LabSession::tell() {
-  static const char* const kSources[] = {"scene", "drag", "joints", "device"};
-  static const char* const kMappings[] = {"paper", "arm", "cartesian"};
-  status_.time = run_->time();
-  status_.step = run_->step_length();
-  status_.hand_source = run_->driven().empty() ? "" : kSources[static_cast<int>(hand_.source())];
-  status_.hand_mapping = kMappings[static_cast<int>(hand_.mapping().kind)];
-  status_.hand_felt = hand_.description();
-  status_.hand_q = run_->driven_q();
-  {
-    const std::lock_guard lock(mutex_);
-    LabNow now;
-    now.number = now_.number + 1;
-    now.scene = scene_;
-    now.scene_number = status_.scene;
-    now.change_number = change_number_;
-    if (!history_.empty()) {
-      status_.first = history_.frame(0)->recorded.t;
-      status_.last = history_.newest()->recorded.t;
-      now.frame = status_.at ? history_.frame(history_.at(*status_.at)) : history_.newest();
-    }
-    if (now.frame && !before_.empty() && now.frame->recorded.t <= before_.newest()->recorded.t)
-      now.before = before_.frame(before_.at(now.frame->recorded.t));
-    now.status = std::make_shared<const LabStatus>(status_);
-    now.rows = rows_;
-    now.input_came = input_came_;
-    now_ = std::move(now);
-  }
-  changed_.notify_all();
-}
-
-bool LabSession::take_notes() {
-  const std::lock_guard lock(mutex_);
-  if (new_notes_.empty()) return false;
-  for (LabNote& note : new_notes_) {
-    note.number = ++notes_;
-    status_.notes.push_back(std::move(note));
-  }
-  new_notes_.clear();
-  if (status_.notes.size() > kMostNotes)
-    status_.notes.erase(status_.notes.begin(),
-                        status_.notes.end() - static_cast<std::ptrdiff_t>(kMostNotes));
-  return true;
-}
-
-void LabSession::die() {
-  status_.playing = false;
-  steps_left_ = 0;
-  is_stale_ = is_news_ = true;
-  const PostMortem* found = run_->post_mortem();
-  if (!found) return note("note", "the run has come to its end");
-  LabEnd end;
-  end.time = found->time;
-  end.from = changed_at_;
-  end.words = found->words;
-  end.quantity = found->field;
-  end.body = found->body;
-  if (!found->suspects.empty()) end.spring = found->suspects.front().name;
-  end.remedies = remedies_of(run_->prepared(), *found);
-  status_.dead = std::move(end);
 }
 
 std::vector<std::shared_ptr<const LabFrame>> LabSession::history(double from) const {

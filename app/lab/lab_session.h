@@ -37,12 +37,14 @@ struct LabNow {
   std::shared_ptr<const LabStatus> status;
   std::shared_ptr<const std::vector<std::string>> rows;  // of the ledger, by their numbers
   std::chrono::steady_clock::time_point input_came{};    // the newest input in the frame
+  std::uint64_t wakes = 0;  // of LabSession::wake() until it was looked at
 };
 
 class LabSession {
  public:
-  // The gallery must outlive it.
-  LabSession(Built scene, const std::vector<GalleryScene>& gallery);
+  // The gallery must outlive it. At most so much is remembered of a run [bytes].
+  LabSession(Built scene, const std::vector<GalleryScene>& gallery,
+             std::size_t most_bytes = LabHistory::kMostBytes);
   ~LabSession();
   void end();  // no thread of its own is left; now() stays as it was
 
@@ -51,8 +53,9 @@ class LabSession {
   void note(const std::string& level, const std::string& text);
   void open(Order order);
   LabNow now() const;
-  // Until there is something newer than `seen`, or wake() is called, or the time is over.
-  void wait(std::uint64_t seen, double longest) const;
+  // Until there is something newer than what was seen, or wake() was called since, or the time is
+  // over.
+  void wait(const LabNow& seen, double longest) const;
   void wake();
   std::vector<std::shared_ptr<const LabFrame>> history(double from) const;
   void set_rate(double frames_per_second);
@@ -68,12 +71,14 @@ class LabSession {
   void take_steps(Clock::time_point begin, double due);
   bool take_step();
   bool is_frame_due() const;
-  void die();
   void publish();
   void remember();
   LabFrame frame_of_run();
-  void tell();
+  // What it tells: session_status.cpp.
+  LabHandStatus status_of_hand() const;
+  void tell(bool says_status);
   bool take_notes();
+  void die();
   // What it is told: session_commands.cpp.
   void take_commands();
   void act(const LabCommand& command);
@@ -99,7 +104,7 @@ class LabSession {
   bool has_failed_ = false;  // an order
   LabNow now_;
   LabHistory history_, before_;  // before_: of the branch that was left, from where it was left
-  std::uint64_t woken_ = 0;
+  std::uint64_t wakes_ = 0;
   bool stop_ = false;
 
   std::atomic<double> frame_interval_ = 1.0 / 60;  // [s]
@@ -120,7 +125,8 @@ class LabSession {
   double cpu_ = 0, longest_cpu_ = 0;  // since the frame before [s]
   long steps_ = 0;                    // likewise
   Pace pace_;
-  Clock::time_point input_came_{}, last_told_{}, next_tick_{};
+  Clock::time_point input_came_{}, shown_input_came_{};  // the newest; the newest in a frame
+  Clock::time_point last_told_{}, next_tick_{};          // last_told_: the status
   std::shared_ptr<const std::vector<std::string>> rows_;
 
   std::thread thread_;

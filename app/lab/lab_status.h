@@ -30,6 +30,17 @@ struct LabBranch {
   int number = 0;  // counts branches
 };
 
+// Who moves the robot.
+struct LabHandStatus {
+  std::string source;         // scene, drag, joints, device; empty: no hand leads this scene
+  std::string spec;           // of a device, as it was asked for
+  std::string mapping, felt;  // felt: what device it is
+  std::vector<double> q;      // where the driven joints are told to stand
+  std::string mode;           // of a device: live, held, released; empty: there is none
+  bool gripper_closed =
+      false;  // as the user holds it; where the scene or a device moves: as theirs
+};
+
 struct LabStatus {
   long scene = 0;               // counts scenes: of frames, meshes, channels
   std::string scene_name;       // of the gallery, or the file's
@@ -40,8 +51,7 @@ struct LabStatus {
   std::optional<double> at;              // the instant that is looked at
   std::optional<LabBranch> branch;
   double pace = 1, step = 0, step_time = 0;  // real-time factor; [s], [s]
-  std::string hand_source, hand_mapping, hand_felt;
-  std::vector<double> hand_q;
+  LabHandStatus hand;
   std::optional<LabEnd> dead;
   std::vector<LabNote> notes;  // the last twenty
   std::string building;        // what is being prepared, in words; empty: nothing

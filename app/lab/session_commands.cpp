@@ -19,6 +19,13 @@ void put(std::vector<Change>& changes, const Change& change) {
     found->value = change.value;
 }
 
+// They come many times a second, and the next frame shows them.
+bool is_movement(LabCommand::Do what) {
+  using Do = LabCommand::Do;
+  return what == Do::tip || what == Do::joint || what == Do::turn || what == Do::axes ||
+         what == Do::pull;
+}
+
 }  // namespace
 
 void LabSession::take_commands() {
@@ -53,7 +60,7 @@ void LabSession::take_commands() {
 
 void LabSession::act(const LabCommand& command) {
   using Do = LabCommand::Do;
-  is_news_ = true;
+  is_news_ = is_news_ || !is_movement(command.what);
   switch (command.what) {
     case Do::play:
       if (command.on && status_.dead) return;
@@ -94,12 +101,15 @@ void LabSession::act(const LabCommand& command) {
 void LabSession::act_on_hand(const LabCommand& command) {
   using Do = LabCommand::Do;
   const double stamp = command.stamp;
-  input_came_ = command.came;
-  does_again_ = false;  // who moves it now outranks who did
   const auto index = static_cast<std::size_t>(command.count);
+  if (command.what == Do::drop) {
+    hand_.release();
+    return run_->drop();
+  }
+  does_again_ = false;  // who moves it now outranks who did
+  if (command.what == Do::hand) return choose_hand(command.name, command.spec);
+  input_came_ = command.came;
   switch (command.what) {
-    case Do::hand:
-      return choose_hand(command.name, command.spec);
     case Do::tip:
       lead_by(LabHand::Source::drag);
       return hand_.tip(command.goal, stamp);
@@ -118,9 +128,6 @@ void LabSession::act_on_hand(const LabCommand& command) {
       if (!run_->pull(static_cast<int>(command.count), command.point, command.goal, stamp))
         note("note", "no force moves that body");
       return;
-    case Do::drop:
-      hand_.release();
-      return run_->drop();
     default:
       return;
   }
@@ -243,8 +250,7 @@ void LabSession::adopt(Built built) {
 
 void LabSession::forget() {
   const std::lock_guard lock(mutex_);
-  history_ = LabHistory();
-  before_ = LabHistory();
+  history_ = before_ = LabHistory(history_.most_bytes());
   names_ = {};
   rows_.reset();
   does_again_ = false;

@@ -70,12 +70,15 @@ const std::string& recorded_hand() {
   return file;
 }
 
-void write_hand(JsonWriter& json, const LabStatus& status) {
+void write_hand(JsonWriter& json, const LabHandStatus& hand) {
   json.key("hand").begin_object();
-  json.key("source").text(status.hand_source);
-  json.key("mapping").text(status.hand_mapping);
-  json.key("q").numbers(status.hand_q);
-  json.key("felt").text(status.hand_felt);
+  json.key("source").text(hand.source);
+  json.key("spec").text(hand.spec);
+  json.key("mapping").text(hand.mapping);
+  json.key("q").numbers(hand.q);
+  json.key("felt").text(hand.felt);
+  json.key("mode").text(hand.mode);
+  json.key("gripper").boolean(hand.gripper_closed);
   if (!recorded_hand().empty()) json.key("trace").text(recorded_hand());
   json.end_object();
 }
@@ -122,7 +125,7 @@ std::string state_message(const LabStatus& status, const Audience::View& audienc
   write_changes(json, status.changes);
   write_audience(json, audience);
   write_time(json, status);
-  write_hand(json, status);
+  write_hand(json, status.hand);
   json.key("knobs");
   write_knobs(knobs, json);
   json.key("presets");

@@ -128,6 +128,7 @@ std::string live_json(const LiveSummary& summary) {
   json.key("largest_torque")
       .numbers({summary.largest_torque.begin(), summary.largest_torque.end()});
   if (summary.real_time) {
+    json.key("span").number(summary.servo.span);
     write_figures(json, "timing", summary.servo.run);
     if (summary.servo.empty.cpu.count() > 0) write_figures(json, "empty_loop", summary.servo.empty);
   }

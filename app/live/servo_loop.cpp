@@ -24,12 +24,13 @@ class Servo {
     const auto each_second = static_cast<long>(std::lround(1 / run_.step()));
     ServoClock clock(run_.step());
     clock.start();
-    double last = 0;
+    double last = 0, first = 0;
     long done = 0, total = 0;
     while (static_cast<double>(done) < ticks - 1e-9 && !stop_.load(std::memory_order_relaxed)) {
       const bool is_empty = plan_.control && (total / each_second) % 2 == 1;
       TickFigures& figures = is_empty ? result_.empty : result_.run;
       wait(clock, figures, last, total % each_second == 0);
+      if (total == 0) first = last;
       const double cpu = thread_cpu_time();
       if (!is_empty) {
         const TickView view = run_.tick();
@@ -43,6 +44,7 @@ class Servo {
       if (clock.is_behind()) ++figures.overruns;
       ++total;
     }
+    result_.span = last - first;
     done_.store(true, std::memory_order_release);
   }
   bool is_done() const { return done_.load(std::memory_order_acquire); }

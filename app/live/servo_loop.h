@@ -37,6 +37,7 @@ struct ServoResult {
   TickFigures run, empty;
   std::string refused;  // what real-time privileges were asked for and not given
   long lost = 0;        // ticks that the ring had no room for
+  double span = 0;  // from the beginning of the first tick to that of the last, by the clock [s]
   bool finite = true;
 };
 

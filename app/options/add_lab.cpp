@@ -25,6 +25,10 @@ void add_lab(CLI::App& app, CommandLine& line) {
                   "address: another than 127.0.0.1 lets others on the network in who have the "
                   "page's address with its token")
       ->capture_default_str();
+  lab->add_option("--remember", options->remember,
+                  "megabytes of frames: how far back one can go, some minutes at 256")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
   lab->add_flag("--no-browser", options->no_browser, "only print the address");
   lab->add_flag("--json", options->json, "print {\"url\": \"..\"} as the first line");
   lab->callback([options, &line] { line.chosen = [options] { return run_lab(*options); }; });

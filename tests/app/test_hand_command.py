@@ -88,6 +88,11 @@ class Hand(unittest.TestCase):
         summary = json.loads(done.stdout)
         self.assertEqual(summary["timing"]["ticks"], 1200)
         self.assertEqual(summary["empty_loop"]["ticks"], 1000)
+        # By the clock it was 2200 ticks: deadlines are absolute, so only the lateness of two of them is left.
+        both = (summary["timing"], summary["empty_loop"])
+        slipped = sum(kind["slipped"] for kind in both)
+        late = max(kind["late"]["largest"] for kind in both)
+        self.assertAlmostEqual(summary["span"], (2199 + slipped) * 0.001, delta=late + 0.001 * slipped + 1e-6)
         self.assertIn("<svg", (self.out / "timing.svg").read_text())
 
     def test_bad_input_is_told_with_its_remedy(self):

@@ -14,7 +14,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/lab"))
-from live_socket import Lab  # noqa: E402
+from live_socket import Frame, Lab  # noqa: E402
 
 PROGRAM = None
 PENDULUM = """<robot name="rod"><link name="base"/>
@@ -58,8 +58,8 @@ def program(*words, code=0):
 class Running:
     """The program with a scene, and its page's address."""
 
-    def __init__(self, scene):
-        self.process = subprocess.Popen([PROGRAM, "lab", str(scene), "--json", "--no-browser"],
+    def __init__(self, scene, *words):
+        self.process = subprocess.Popen([PROGRAM, "lab", str(scene), "--json", "--no-browser", *words],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.url = json.loads(self.process.stdout.readline())["url"]
 
@@ -90,6 +90,13 @@ class LabTest(unittest.TestCase):
 
     def frame(self, condition=lambda frame: True):
         return self.live.wait_for("frame", condition)
+
+    def stand(self):
+        """The frame at which it stands: one comes, before the state or after it."""
+        self.live.do("play", on=False)
+        self.state(lambda s: not s["playing"])
+        newest = Frame(self.live.newest["frame"])
+        return newest if newest.stands else self.frame(lambda f: f.stands)
 
     def saved(self, name):
         file = self.path / name
@@ -136,9 +143,7 @@ class LabTest(unittest.TestCase):
                 self.assertEqual(seen[step][name], recorded[step]["values"][name], name)
 
     def test_standing_it_is_taken_step_by_step(self):
-        self.live.do("play", on=False)
-        self.state(lambda s: not s["playing"])
-        before = self.frame(lambda f: f.stands)
+        before = self.stand()
         self.live.do("step", steps=7)
         after = self.frame(lambda f: f.step == before.step + 7)
         self.assertAlmostEqual(after.time - before.time, 0.007, places=12)
@@ -197,6 +202,33 @@ class LabTest(unittest.TestCase):
         y = names.index("links/ball/y")
         self.frame(lambda f: f.channels[y] > 0.8)
         self.live.do("drop")
+
+    def test_inputs_send_no_frames_of_their_own(self):
+        self.frame()
+        start, seen = time.monotonic(), []
+        for n in range(300):
+            self.live.do("joint", index=0, value=0.3 * (n % 2), stamp=1.0 + n)
+            seen += [frame for kind, frame in self.live.messages(0.005) if kind == "frame"]
+        self.assertLess(len(seen), 63 * (time.monotonic() - start) + 3)
+        self.assertEqual(len({frame.step for frame in seen}), len(seen))
+
+    def test_a_page_that_vanishes_holds_nothing_any_more(self):
+        scene = self.live.wait_for("scene")
+        names = [c["name"] for c in scene["channels"]]
+        ball = [b["name"] for b in scene["bodies"]].index("ball")
+        z = names.index("links/ball/z")
+        with self.lab.live() as other:
+            self.live.do("pull", body=ball, point=[0, 0, 0], goal=[2, 0, 4], stamp=1.0)
+            other.wait_for("frame", lambda f: f.time > 2)  # held: it would lie at -1.9 by now
+            self.assertGreater(other.wait_for("frame").channels[z], 2)
+            self.live.close()
+            other.wait_for("frame", lambda f: f.channels[z] < 0)
+            other.do("button", index=0, down=True, stamp=2.0)
+            other.do("hand", source="joints")
+            self.state(lambda s: s["hand"]["gripper"], live=other)
+        self.live = self.lab.live()  # and it finds the gripper as it was
+        self.assertTrue(self.state()["hand"]["gripper"])
+        self.assertEqual(self.state()["hand"]["source"], "joints")
 
     def test_one_has_the_hand_and_gives_it_to_who_asks(self):
         you = self.state()["you"]
@@ -269,6 +301,20 @@ class LabEnds(unittest.TestCase):
                 with Lab(running.url).live() as live:
                     live.wait_for("frame")
                 self.assertEqual(running.end(how), (0, ""))
+
+    def test_pages_of_other_machines_open_no_files_and_devices_here(self):
+        scene = ROOT / "assets/scenes/hand_and_obstacles.toml"
+        for listen, is_refused in (("0.0.0.0", True), ("127.0.0.1", False)):
+            running = Running(scene, "--listen", listen)
+            with Lab(running.url).live() as live:
+                for spec in ("virtual:trace:/etc/passwd", "gamepad:/dev/nowhere"):
+                    known = len(live.wait_for("state")["notes"])
+                    live.do("hand", source="device", spec=spec)
+                    notes = live.wait_for("state", lambda s: len(s["notes"]) > known)["notes"]
+                    self.assertEqual("other machines" in notes[-1]["text"], is_refused, notes[-1])
+                live.do("hand", source="device", spec="virtual:synthetic")
+                live.wait_for("state", lambda s: s["hand"]["spec"] == "virtual:synthetic")
+            running.end()
 
     def test_bad_words_are_told(self):
         self.assertIn("does not exist", program("lab", "nowhere.toml", "--json", code=2))

@@ -39,6 +39,16 @@ TEST_CASE("devices: each kind and each hand is in the list that people are shown
   CHECK(scripted_hands().size() == 6);
 }
 
+TEST_CASE("devices: only hands without a file stay inside the program") {
+  for (const char* spec : {"virtual", "virtual:paper", "virtual:synthetic:7", "virtual:chirp"})
+    CHECK_UNARY(stays_inside(spec));
+  for (const char* spec : {"virtual:trace:/etc/passwd", "keyboard", "keyboard:/dev/tty1", "gamepad",
+                           "spacemouse:/tmp/socket", "vrpn:Phantom0@lab"})
+    CHECK_UNARY_FALSE(stays_inside(spec));
+  CHECK_THROWS_AS(stays_inside("ouija"), InputError);
+  CHECK_THROWS_AS(stays_inside("virtual:ouija"), InputError);
+}
+
 TEST_CASE("devices: every scripted hand moves a virtual Omni within its ranges") {
   const std::string trace =
       (std::filesystem::temp_directory_path() / "twinarm-devices-trace.csv").string();

@@ -107,6 +107,38 @@ TEST_CASE("lab run: whoever moves the robot, it never jumps, and goes where it i
   CHECK(farthest > 1e-4);
 }
 
+TEST_CASE("lab run: a frame between the choice of another hand and the next step is a good one") {
+  Session s(arm_with("device"));
+  s.hand.choose(LabHand::Source::drag);
+  s.step(20);
+  REQUIRE(s.run->frame(s.names).hand->leads);
+  const std::vector<double> q = s.run->driven_q();
+  s.hand.choose(LabHand::Source::joints);  // which has no device
+  CHECK(s.run->frame(s.names).hand->q_K == q);
+  s.hand.choose(LabHand::Source::device, "virtual:step");
+  const LabHandFrame frame = *s.run->frame(s.names).hand;
+  CHECK(frame.q_K == q);
+  CHECK(frame.torque == std::array<double, 3>{});
+}
+
+TEST_CASE("lab run: the gripper stays as it is where keys are released and another device comes") {
+  Session s(arm_with("device"));
+  s.hand.choose(LabHand::Source::drag);
+  s.hand.button(0, true, 1);
+  s.hand.axes({1, 0, 0, 0, 0, 0}, 1);
+  s.step(20);
+  CHECK(s.run->frame(s.names).hand->gripper_closed);
+  s.hand.release();
+  s.step(20);
+  CHECK(s.run->frame(s.names).hand->gripper_closed);
+  s.hand.choose(LabHand::Source::drag);
+  s.step(20);
+  CHECK(s.run->frame(s.names).hand->gripper_closed);
+  s.hand.button(0, false, 2);
+  s.step(20);
+  CHECK_FALSE(s.run->frame(s.names).hand->gripper_closed);
+}
+
 TEST_CASE("lab run: a body on the mouse is a damped oscillator, and both ledgers close") {
   Session s(kFreeBox);
   const Vector3 goal(0.1, -0.05, 1.2);

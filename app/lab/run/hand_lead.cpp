@@ -206,7 +206,8 @@ std::optional<LabHandFrame> HandLead::frame(double t) const {
   frame.qd_K.assign(turned_.size(), 0.0);
   if (frame.leads) frame.qd_K = target_.qd;
   frame.gripper_closed = frame.leads ? target_.gripper_closed : own_->sample(t, t - 1e-6).button;
-  if (!loop_ || !is_live_) return frame;
+  // A device that was chosen since the last step has not moved anything yet.
+  if (!loop_ || !is_live_ || made_for_ != hand_.chosen()) return frame;
   const OmniFigures& figures = hand_.device()->figures();
   frame.theta = loop_->device().theta;
   frame.torque = loop_->felt().torque;

@@ -21,7 +21,8 @@ std::size_t bytes_of(const LabFrame& frame);
 class LabHistory {
  public:
   using Frame = std::shared_ptr<const LabFrame>;
-  explicit LabHistory(std::size_t most_bytes = std::size_t{256} << 20) : most_(most_bytes) {}
+  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+  explicit LabHistory(std::size_t most_bytes = kMostBytes) : most_(most_bytes) {}
 
   // Later than all before, else those that are not earlier are forgotten.
   Frame add(LabFrame frame);
@@ -38,6 +39,7 @@ class LabHistory {
   // The last frame at or before t; the oldest where all are later. Not of an empty history.
   std::size_t at(double t) const;
   std::size_t bytes() const { return bytes_; }
+  std::size_t most_bytes() const { return most_; }
   // The changes of the run that frame n belongs to.
   const std::vector<Change>& changes_of(std::size_t n) const;
 

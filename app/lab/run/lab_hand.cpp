@@ -28,11 +28,12 @@ void LabHand::choose(Source source, const std::string& spec) {
     settings.figures.resolution = 0;
     gestures = std::make_shared<GestureHand>(settings.figures);
     device = std::make_unique<VirtualOmni>(gestures, settings);
+    gestures->button(0, gripper_);
   }
   device_ = std::move(device);
   gestures_ = std::move(gestures);
   source_ = source;
-  spec_ = spec;
+  spec_ = source == Source::device ? spec : "";
   tip_.reset();
   joints_.clear();
   ++chosen_;
@@ -87,8 +88,9 @@ void LabHand::button(std::size_t index, bool down, double stamp) {
 
 void LabHand::release() {
   tip_.reset();
-  gripper_ = false;
-  if (gestures_) gestures_->release();
+  if (!gestures_) return;
+  gestures_->release();
+  gestures_->button(0, gripper_);
 }
 
 }  // namespace twinarm

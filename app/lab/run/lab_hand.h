@@ -39,6 +39,7 @@ class LabHand {
   // Null where the source has none.
   HandDevice* device() const { return device_.get(); }
   std::string description() const;
+  const std::string& spec() const { return spec_; }  // of the device that was chosen
 
   // What a user does. `stamp` comes back in frames.
   void tip(const Vector3& goal_W, double stamp);  // where the led point is to go
@@ -46,7 +47,8 @@ class LabHand {
   void turn(double yaw, double pitch, double roll, double stamp);  // the stylus, by [rad]
   void axes(const std::array<double, 6>& rates, double stamp);     // as GestureHand::axes
   void button(std::size_t index, bool down, double stamp);         // 0: gripper, 1: clutch
-  void release();  // keys, axes and buttons; the robot stays where it is
+  // Keys, axes and the clutch; the robot stays where it is, the gripper as it is.
+  void release();
 
   // For the run. Counts up with each choice: what was made of the old one is made anew.
   unsigned long chosen() const { return chosen_; }

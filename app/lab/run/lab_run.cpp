@@ -173,7 +173,7 @@ LabFrame LabRun::frame(LabNames& names) {
     frame.recorded.momentum_rows.push_back(number_of_row(names.momentum_rows, row.name));
     frame.recorded.momenta.insert(frame.recorded.momenta.end(), {row.linear, row.angular});
   }
-  frame.hand = lead_->frame(frame.recorded.t);
+  frame.hand = hand_frame();
   if (const auto& pull = input_.pull)
     frame.pull = LabPull{pull->body, pull->p_L, pull->goal_W, pull_->force()};
   if (pull_->has_acted()) {
@@ -191,6 +191,10 @@ const std::vector<int>& LabRun::driven() const {
 
 const std::vector<double>& LabRun::driven_q() const {
   return lead_->q();
+}
+
+std::optional<LabHandFrame> LabRun::hand_frame() const {
+  return lead_->frame(run_->time());
 }
 
 std::optional<std::pair<int, Vector3>> LabRun::tip() const {

@@ -61,6 +61,7 @@ class LabRun {
   // were told to stand; both empty where no coupling can be led. The point that the hand leads.
   const std::vector<int>& driven() const;
   const std::vector<double>& driven_q() const;
+  std::optional<LabHandFrame> hand_frame() const;  // at this instant
   std::optional<std::pair<int, Vector3>> tip() const;
   // The couplings that are led, by their places in the scene.
   std::vector<std::size_t> led() const;
