@@ -158,6 +158,53 @@ TEST_CASE("knobs: amber within a quarter of the limit, beyond it says what would
   CHECK(implicit.words.find("any value") == 0);
 }
 
+TEST_CASE("knobs: where it does not hold, those that would mend it alone say so, and no others") {
+  // The linear spring is beyond its limit, the torsional one is not to blame.
+  std::string text = held_arm("",
+                              "type = \"linear\"\nstiffness = 2e4\ndamping = 40\n"
+                              "treatment = \"explicit\"");
+  const auto knobs_with = [&](const std::vector<std::string>& changes) {
+    SimulatePlan plan = planned(temporary_scene("once", text), changes);
+    std::vector<Knob> knobs = knobs_of(plan);
+    predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
+    return knobs;
+  };
+  const std::vector<Knob> at_start = knobs_with({});
+  const double limit = *knob_at(at_start, "coupling[0].stiffness").limit->value;
+  const std::string too_stiff = fmt::format("coupling[0].stiffness={}", 3 * limit);
+  const std::vector<Knob> one = knobs_with({too_stiff});
+  CHECK(knob_at(one, "coupling[0].stiffness").limit->state == KnobLimit::State::beyond);
+  CHECK(knob_at(one, "step").limit->words.find("would be stable") == 0);
+  CHECK_FALSE(knob_at(one, "coupling[1].stiffness").limit);
+  CHECK_FALSE(knob_at(one, "coupling[1].damping").limit);
+  // Both beyond: neither alone mends it, a shorter step does.
+  const std::vector<Knob> both =
+      knobs_with({too_stiff, fmt::format("coupling[1].stiffness={}", 100 * limit)});
+  CHECK_FALSE(knob_at(both, "coupling[0].stiffness").limit);
+  CHECK_FALSE(knob_at(both, "coupling[1].stiffness").limit);
+  CHECK(knob_at(both, "step").limit->value);
+}
+
+TEST_CASE("knobs: each tells what the scene's file says, whatever was turned since") {
+  const auto file = read_gallery().front().file;
+  const std::vector<Knob> unchanged = knobs_of(planned(file, {}));
+  std::vector<Knob> knobs = knobs_of(
+      planned(file, {"coupling[0].stiffness=123", "step=0.0005", "coupling[0].type=weld"}));
+  know_starts(unchanged, knobs);
+  std::vector<std::string> back;
+  for (const Knob& knob : knobs) {
+    INFO(knob.path);
+    const auto before = std::find_if(unchanged.begin(), unchanged.end(),
+                                     [&](const Knob& other) { return other.path == knob.path; });
+    CHECK(knob.start.has_value() == (before != unchanged.end()));
+    if (knob.start) CHECK(knob.path + "=" + *knob.start == before->path + "=" + before->value());
+    if (knob.start && knob.start != knob.value()) back.push_back(knob.path);
+  }
+  CHECK(std::count(back.begin(), back.end(), "step") == 1);
+  CHECK(std::count(back.begin(), back.end(), "coupling[0].type") == 1);
+  CHECK_FALSE(knob_at(knobs, "coupling[0].time_constant").start);  // the file has no such key
+}
+
 TEST_CASE("knobs: the predicted lag is what the arm falls behind a twin that starts at 1 rad/s") {
   // One joint alone: peak of e'' = -w^2 e - 2 z w e', e(0) = 0, e'(0) = 1 rad/s.
   const std::string text = R"(

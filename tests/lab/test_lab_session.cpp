@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "app/lab/audience.h"
+#include "app/lab/brought_file.h"
 #include "app/lab/lab_command.h"
 #include "app/lab/pace.h"
 #include "solver/fault.h"
@@ -51,6 +52,36 @@ TEST_CASE("looking on needs no hand, moving the robot does") {
   CHECK_FALSE(needs_hand(LabCommand::Do::take));
   CHECK(needs_hand(LabCommand::Do::tip));
   CHECK(needs_hand(LabCommand::Do::set));
+}
+
+TEST_CASE("what a page brings is opened by what it is, kept, or refused in clear words") {
+  const std::string robot =
+      "\xef\xbb\xbf<?xml version=\"1.0\"?>\n<!-- <sdf> -->\n<robot name=\"a\"/>";
+  for (const char* name : {"arm.urdf", "arm.xml", "arm.xacro", "arm.URDF"}) {
+    INFO(std::string(name));
+    const BroughtFile file = brought_file(name, robot);
+    CHECK(file.fault.empty());
+    CHECK(file.opens);
+    CHECK(file.path == "arm.urdf");
+  }
+  CHECK(brought_file("s.toml", "").opens);
+  CHECK(brought_file("r.twinrec", "").opens);
+  for (const char* name : {"a.stl", "a.OBJ", "meshes/a.dae", "wood.png"}) {
+    const BroughtFile file = brought_file(name, "");
+    CHECK(file.fault.empty());
+    CHECK_FALSE(file.opens);
+    CHECK(file.path == name);
+  }
+  const auto said = [](const char* name, const char* bytes, const char* words) {
+    return brought_file(name, bytes).fault.find(words) != std::string::npos;
+  };
+  CHECK(said("a.xml", "<mujoco model=\"a\">", "MJCF"));
+  CHECK(said("a.xml", "<sdf version=\"1.7\">", "SDFormat"));
+  CHECK(said("a.xml", "<html>", "<html>"));
+  CHECK(said("a.xml", "<!-- never ended <robot>", "no XML"));
+  CHECK(said("a.xacro", "", "no XML"));
+  for (const char* name : {"junk.bin2", "photo", "a.exe", "notes.txt"})
+    CHECK(said(name, "<robot>", ".urdf"));
 }
 
 TEST_CASE("the first who comes has the hand, and others get it in turn") {

@@ -16,9 +16,11 @@ import tempfile
 import time
 
 PROGRAMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
-KEYS = {" ": "Space", "ArrowLeft": "ArrowLeft", "ArrowRight": "ArrowRight", "Home": "Home",
-        "End": "End"}
-CODES = {" ": 32, "ArrowLeft": 37, "ArrowRight": 39, "Home": 36, "End": 35}
+CODES = {" ": 32, "Tab": 9, "Enter": 13, "Escape": 27, "PageUp": 33, "PageDown": 34, "End": 35,
+         "Home": 36, "ArrowLeft": 37, "ArrowUp": 38, "ArrowRight": 39, "ArrowDown": 40}
+TEXTS = {"Enter": "\r"}
+SHIFT = 8
+OWN_WORDS = "GPU stall due to ReadPixels"  # what it says where it draws without a graphics card
 
 
 def find_browser():
@@ -40,7 +42,7 @@ class Browser:
         # One file for all streams: nothing blocks on a pipe that nobody reads.
         command = [find_browser(), "--headless=new", "--no-sandbox", "--disable-dev-shm-usage",
                    "--no-first-run", "--disable-extensions", "--disable-background-networking",
-                   "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                   "--enable-unsafe-swiftshader",  # draws WebGL where there is no graphics card
                    "--hide-scrollbars", f"--window-size={width},{height}",
                    f"--user-data-dir={self.folder}", "--remote-debugging-pipe", "about:blank"]
 
@@ -107,7 +109,8 @@ class Browser:
             self.errors.append(json.dumps(values["exceptionDetails"])[:800])
         elif method == "Runtime.consoleAPICalled" and values["type"] in ("error", "warning", "assert"):
             self.errors.append(json.dumps(values["args"])[:800])
-        elif method == "Log.entryAdded" and values["entry"]["level"] in ("error", "warning"):
+        elif (method == "Log.entryAdded" and values["entry"]["level"] in ("error", "warning")
+              and OWN_WORDS not in values["entry"]["text"]):
             self.errors.append(values["entry"]["text"])
         elif method == "Network.requestWillBeSent":
             self.requests.append(values["request"]["url"][:200])
@@ -155,14 +158,20 @@ class Browser:
         self.evaluate("new Promise(done => { let n = %d; const next = () => n-- > 0 ? "
                       "requestAnimationFrame(next) : done(true); next(); })" % count)
 
-    def press(self, key, text=None):
-        named = {"key": key, "code": KEYS.get(key, ""),
+    def press(self, key, shift=False):
+        code = "Space" if key == " " else key if len(key) > 1 else ""
+        named = {"key": key, "code": code, "modifiers": SHIFT if shift else 0,
                  "windowsVirtualKeyCode": CODES.get(key, ord(key[0].upper()))}
-        if len(key) == 1:
-            named["text"] = text or key
+        if text := TEXTS.get(key, key if len(key) == 1 else None):
+            named["text"] = text
         self.call("Input.dispatchKeyEvent", type="keyDown", **named)
-        self.call("Input.dispatchKeyEvent", type="keyUp", key=key, code=named["code"])
+        self.call("Input.dispatchKeyEvent", type="keyUp", key=key, code=code)
         self.frames(2)
+
+    def touch(self, kind, points, at=None):
+        """touchStart, touchMove, touchEnd: of all fingers that are down; `at`: as if at that time [s]."""
+        self.call("Input.dispatchTouchEvent", type=kind, **({"timestamp": at} if at else {}),
+                  touchPoints=[{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)])
 
     def drag(self, start, end, button="left"):
         def mouse(kind, at):
@@ -174,6 +183,14 @@ class Browser:
         mouse("mouseMoved", end)
         mouse("mouseReleased", end)
         self.frames(2)
+
+    def drop(self, name, text):
+        """A file let go over the page."""
+        self.evaluate("""((name, text) => { const data = new DataTransfer();
+            data.items.add(new File([text], name));
+            for (const kind of ['dragenter', 'dragover', 'drop']) document.body.dispatchEvent(
+                new DragEvent(kind, {bubbles: true, cancelable: true, dataTransfer: data}));
+            })(%s, %s)""" % (json.dumps(name), json.dumps(text)))
 
     def colors(self, points):
         """Of the picture as it is seen: (red, green, blue) at (x, y)."""

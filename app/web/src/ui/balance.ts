@@ -12,8 +12,9 @@ export function wrenchColor(i: number): string {
 
 // With its number: colours alone do not tell eight apart.
 export function swatch(i: number): HTMLElement {
-  const made = element('i', { class: 'swatch' }, String(i + 1));
-  made.style.background = `var(--c${i % COLORS})`;
+  const number = element('b', {}, String(i + 1));
+  const made = element('i', { class: 'swatch' }, number);
+  made.style.color = `var(--c${i % COLORS})`;
   return made;
 }
 

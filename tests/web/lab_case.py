@@ -1,0 +1,131 @@
+"""A lab with its page in a real browser: what tests of it have in common."""
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from browser import Browser, find_browser
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/lab"))
+from live_socket import Lab  # noqa: E402
+
+SCENE = ROOT / "assets/scenes/hand_and_obstacles.toml"
+STATE = "twinarm.page.state"
+KNOB = "document.getElementById('knob-coupling-0--%s')"
+
+
+class Program:
+    """`twinarm lab`, at .url; ends with the block."""
+    def __init__(self, program, scene=SCENE):
+        self.process = subprocess.Popen([program, "lab", str(scene), "--json", "--no-browser"],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.url = json.loads(self.process.stdout.readline())["url"]
+
+    def end(self):
+        """Its exit code, and what it said."""
+        self.process.send_signal(signal.SIGINT)
+        _, said = self.process.communicate(timeout=30)
+        return self.process.returncode, said
+
+
+class LabCase(unittest.TestCase):
+    program = None
+    pictures = None  # a folder
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = pathlib.Path(self.folder.name)
+        self.lab = Program(self.program)
+        self.url = self.lab.url
+        self.page = Browser(width=1280, height=720)
+        self.page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=self.folder.name)
+        self.page.open(self.url)
+
+    def tearDown(self):
+        errors = list(self.page.errors)
+        self.page.__exit__(None, None, None)
+        self.assertEqual(self.lab.end(), (0, ""))
+        self.assertEqual(errors, [])
+        self.folder.cleanup()
+
+    def picture(self, name):
+        if self.pictures:
+            self.page.frames(3)
+            self.page.picture(self.pictures / f"lab_{name}.png")
+
+    def value(self, expression):
+        return self.page.evaluate(expression)
+
+    def until(self, expression):
+        self.page.wait_for(f"!!({expression})")
+
+    def click(self, text, within="document"):
+        """A button by its words."""
+        self.until(f"[...{within}.querySelectorAll('button')].some(b => b.offsetParent && "
+                   f"b.textContent.trim().startsWith({text!r}))")
+        self.value(f"[...{within}.querySelectorAll('button')].find(b => b.offsetParent && "
+                   f"b.textContent.trim().startsWith({text!r})).click()")
+
+    def channel(self, name):
+        return self.value("(p => p.frame.channels[p.scene.channels.findIndex(c => c.name === "
+                          f"{name!r})])(twinarm.page)")
+
+    def type_into(self, field, text):
+        """As a person does: all of it replaced, then Enter."""
+        self.value(f"{field}.scrollIntoView(); {field}.focus(); {field}.select()")
+        self.page.call("Input.insertText", text=text)
+        self.page.press("Enter")
+
+    def mouse(self, kind, at):
+        self.page.call("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button="left",
+                       buttons=1, clickCount=1)
+
+    def downloaded(self, end):
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline:
+            found = [f for f in self.path.iterdir() if f.name.endswith(end)]
+            if found and found[0].stat().st_size > 0:
+                return found[0]
+            time.sleep(0.1)
+        self.fail(f"no {end} in {[f.name for f in self.path.iterdir()]}")
+
+    def drag_tip(self, right, down):
+        ring = "document.querySelector('button.grip').getBoundingClientRect()"
+        x, y = self.value(f"(r => [r.x + r.width / 2, r.y + r.height / 2])({ring})")
+        self.mouse("mouseMoved", (x, y))
+        self.mouse("mousePressed", (x, y))
+        for i in range(1, 11):
+            self.mouse("mouseMoved", (x + right * i / 10, y + down * i / 10))
+            time.sleep(0.05)
+        return x + right, y + down
+
+
+def page_is_there(program, test):
+    """False, with a line, where there is no browser or the program has no pages."""
+    if not find_browser():
+        print(f"{test}: skipped: no Chromium here; scripts/setup --lab installs it")
+        return False
+    lab = Program(program)
+    try:
+        Lab(lab.url)
+        return True
+    except ConnectionError as error:
+        print(f"{test}: skipped: {error}")
+        return False
+    finally:
+        lab.end()
+
+
+def main():
+    """TEST.py PATH/TO/twinarm [FOLDER_FOR_PICTURES] [options of unittest]"""
+    LabCase.program = sys.argv.pop(1)
+    if len(sys.argv) > 1 and not sys.argv[1].startswith("-") and "." not in sys.argv[1]:
+        LabCase.pictures = pathlib.Path(sys.argv.pop(1))
+        LabCase.pictures.mkdir(parents=True, exist_ok=True)
+    if page_is_there(LabCase.program, pathlib.Path(sys.argv[0]).stem):
+        unittest.main()

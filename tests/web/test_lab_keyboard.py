@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""The lab without a mouse: each stop of the tab key shows itself and has a name for ears; time,
+branch, knobs, overlays, hand, scenes, files and glass by keys alone; dialogs give the focus back.
+
+    test_lab_keyboard.py PATH/TO/twinarm
+"""
+from lab_case import STATE, LabCase, main
+
+AT = "document.activeElement"
+HAS_FOCUS = f"{AT} !== null && {AT} !== document.body"
+MOST = 160  # stops
+
+
+class Keyboard(LabCase):
+    def keys(self, *keys):
+        for key in keys:
+            self.page.press(key)
+
+    def type(self, text):
+        for letter in text:
+            self.page.press(letter)
+
+    def tab_to(self, selector, shift=False):
+        """By the tab key alone."""
+        for _ in range(MOST):
+            if self.value(f"{AT}.matches({selector!r})"):
+                return
+            self.page.press("Tab", shift)
+        self.fail(f"the tab key does not come to {selector}")
+
+    def at_focus(self):
+        """Role and name, as a screen reader tells them; whether it is seen; its place on the page."""
+        found = self.page.call("Runtime.evaluate", expression=AT)["result"]["objectId"]
+        tree = self.page.call("Accessibility.getPartialAXTree", objectId=found, fetchRelatives=False)
+        node = tree["nodes"][0]
+        seen, inside, number = self.value("""(at => {
+            const style = getComputedStyle(at), box = at.getBoundingClientRect();
+            const ring = style.outlineStyle !== 'none' && parseFloat(style.outlineWidth) >= 2;
+            const all = [...document.querySelectorAll('*')];
+            return [ring, box.width > 0 && box.right > 0 && box.bottom > 0 && box.left < innerWidth &&
+                    box.top < innerHeight, all.indexOf(at)]; })(%s)""" % AT)
+        text = {key: node.get(key, {}).get("value", "") for key in ("role", "name")}
+        return text["role"], text["name"], seen, inside, number
+
+    def test_each_stop_of_the_tab_key_is_seen_and_has_a_name(self):
+        self.page.call("Accessibility.enable")
+        for tab in ("Knobs", "Plots", "Glass", "Ledger"):
+            with self.subTest(tab):
+                self.value(f"{AT}.blur(); twinarm.page.showTab({tab!r}); twinarm.page.send({{do: 'play', on: false}})")
+                self.page.frames(30)
+                stops = []
+                for _ in range(MOST):
+                    self.page.press("Tab")
+                    if not self.value(HAS_FOCUS) or (stops and self.at_focus()[4] == stops[0][4]):
+                        break
+                    stops.append(self.at_focus())
+                self.assertGreater(len(stops), 15)
+                self.assertLess(len(stops), MOST)
+                for role, name, seen, inside, _ in stops:
+                    self.assertTrue(name.strip(), f"a {role} without a name")
+                    self.assertNotIn(role, ("generic", "none"), name)
+                    self.assertTrue(seen and inside, f"{role} '{name}' does not show the focus")
+                numbers = [stop[4] for stop in stops]
+                self.assertEqual(numbers, sorted(numbers))
+                names = [stop[:2] for stop in stops if stop[0] != "radio"]  # of named groups
+                if tab == "Knobs":  # of many couplings
+                    self.assertEqual(sorted(set(names)), sorted(names))
+
+    def test_time_goes_back_and_on_in_a_branch_and_dialogs_give_the_focus_back(self):
+        self.until(f"{STATE}.time > 1.5")
+        self.keys(" ")
+        self.until(f"!{STATE}.playing")
+        for _ in range(5):
+            self.page.press("ArrowLeft", shift=True)
+        self.until(f"{STATE}.at !== null && twinarm.page.frame.lookedBack")
+        self.tab_to(".lab-time .row button:not(.play, [disabled])")
+        self.value("window.before = document.activeElement")
+        self.keys("b")
+        self.until("document.querySelector('dialog.branch[open]')?.contains(document.activeElement)")
+        self.keys("Escape")
+        self.until("!document.querySelector('dialog[open]')")
+        self.assertTrue(self.value("before === document.activeElement"))
+        self.keys("b")
+        self.tab_to("dialog.branch button[type=submit]")
+        self.keys("Enter")
+        self.until(f"{STATE}.branch !== null && {STATE}.at === null && {STATE}.playing")
+        for key, dialog in (("?", "dialog.help"), ("e", "dialog.gallery")):
+            self.keys(key)
+            self.until(f"document.querySelector('{dialog}[open]')?.contains(document.activeElement)")
+            self.keys("Escape")
+            self.until("!document.querySelector('dialog[open]')")
+            self.assertTrue(self.value("before === document.activeElement"), dialog)
+
+    def test_knobs_are_turned_and_presets_and_tabs_chosen(self):
+        self.tab_to("[role=tab]")
+        self.keys("ArrowRight")
+        self.until(f"{AT}.textContent === 'Plots' && {AT}.getAttribute('aria-selected') === 'true'")
+        self.keys("Home")
+        self.until(f"{AT}.textContent === 'Knobs'")
+        self.tab_to("#knob-coupling-0--stiffness")
+        self.type("777")
+        self.keys("Enter")
+        self.until(f"{STATE}.knobs.find(k => k.path === 'coupling[0].stiffness').value === 777")
+        self.page.press("Tab", shift=True)
+        self.assertEqual(self.value(f"{AT}.type"), "range")
+        self.keys("ArrowRight")
+        self.until(f"{STATE}.knobs.find(k => k.path === 'coupling[0].stiffness').value === 855")
+        self.tab_to(".knobs > button")
+        self.keys("Enter")
+        self.until(f"{STATE}.changes.length === 0")
+        self.tab_to(".presets button:nth-child(3)", shift=True)
+        self.keys("Enter")
+        self.until(f"{STATE}.name === 'E3'")
+
+    def test_overlays_files_and_scenes_are_chosen_and_closed_where_they_were_opened(self):
+        self.keys("o")
+        self.tab_to(".overlays [data-layer=frames]")
+        self.keys(" ")
+        self.until("twinarm.page.overlays.names.includes('frames')")
+        self.keys("Escape")
+        self.until("document.querySelector('.overlays .list').hidden")
+        self.assertTrue(self.value(f"{AT}.matches('.overlays > button')"))
+        self.tab_to(".lab-time .menu summary")
+        self.keys("Enter")
+        self.until("document.querySelector('.lab-time .menu').open")
+        self.tab_to(".lab-time .menu a[href='/save']")
+        self.keys("Escape")
+        self.until("!document.querySelector('.lab-time .menu').open")
+        self.assertTrue(self.value(f"{AT}.matches('.menu summary')"))
+        self.tab_to(".lab-time .menu summary")
+        self.keys("Enter")
+        self.tab_to(".lab-time .menu a[href='/save']")
+        self.keys("Enter")
+        self.assertGreater(self.downloaded(".twinrec").stat().st_size, 1000)
+        self.keys("e")
+        self.tab_to("dialog.gallery .card")
+        self.keys("ArrowRight", "ArrowDown", "ArrowUp")
+        chosen = self.value(f"{AT}.dataset.scene")
+        self.keys("Enter")
+        self.until(f"{STATE}.name === {chosen!r}")
+        self.assertFalse(self.value("document.querySelector('dialog.gallery').open"))
+
+    def test_the_hand_joints_a_body_and_the_glass(self):
+        self.keys("j")
+        self.until(f"{AT}.matches('.grip')")
+        self.keys("ArrowUp", "ArrowUp", "ArrowUp")
+        self.until(f"{STATE}.hand.source === 'joints'")
+        self.keys("h", "ArrowRight", "ArrowUp", "PageUp")
+        self.until(f"{STATE}.hand.source === 'drag'")
+        self.keys("Escape", "m")
+        self.until("twinarm.page.selected !== null")
+        self.keys("x", "ArrowUp", "ArrowUp")
+        self.until("twinarm.page.keys.pulling !== null")
+        self.keys("x", " ", "i")
+        self.until("document.querySelector('.glass').checkVisibility() && "
+                   "document.querySelector('.glass .place').textContent.startsWith('step')")
+        before = self.value("document.querySelector('.glass .place').textContent")
+        self.keys(".")
+        self.until(f"document.querySelector('.glass .place').textContent !== {before!r}")
+        self.keys("Escape")
+        self.assertIsNone(self.value("twinarm.page.selected"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""The lab under fingers, in a real browser that says it has a touch screen.
+
+    test_lab_touch.py PATH/TO/twinarm
+"""
+import math
+import time
+
+from lab_case import STATE, LabCase, main
+
+CAMERA = """(({camera, controls: {target}}) => { const d = camera.position.clone().sub(target);
+  return [Math.atan2(d.y, d.x), d.z / d.length(), d.length()]; })(twinarm.page.live.stage)"""
+CANVAS = "document.querySelector('.stage canvas')"
+SMALL = """[...document.querySelectorAll('button, select, input, summary, a, label')].flatMap(at => {
+  if (!at.checkVisibility({visibilityProperty: true}) || at.closest('svg, [aria-hidden=true]')) return [];
+  if (document.querySelector('dialog:modal') && !at.closest('dialog')) return [];
+  if (at instanceof HTMLLabelElement && !at.querySelector('input')) return [];
+  const target = (at.type === 'checkbox' && at.closest('label')) || at;
+  const {width, height} = target.getBoundingClientRect();
+  if (width === 0 || (width >= 43.9 && height >= 43.9)) return [];
+  return [`${at.tagName} ${at.className} "${(at.textContent || at.title).slice(0, 20)}" ` +
+    `${width.toFixed(0)} x ${height.toFixed(0)}`]; })"""
+
+
+class Touch(LabCase):
+    def setUp(self):
+        super().setUp()
+        self.page.call("Emulation.setDeviceMetricsOverride", width=820, height=1180,
+                       deviceScaleFactor=1, mobile=True)
+        self.page.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
+        self.page.open(self.url)
+        self.page.frames(5)
+
+    def center(self):
+        return self.value("(r => [r.x + r.width / 2, r.y + r.height / 2])(%s.getBoundingClientRect())" % CANVAS)
+
+    def body(self):
+        """A point of the view where a solid body that moves is seen, away from the ring."""
+        return self.value("""(() => {
+            const {x, y, width, height} = %s.getBoundingClientRect(), {grab} = twinarm.page;
+            for (let v = .25; v < .8; v += .01) for (let u = .2; u < .8; u += .01) {
+                const at = {x: u * width, y: v * height};
+                const found = grab.find(grab.seen(), at);
+                if (found.kind === 'body' && twinarm.page.scene.bodies[found.hit?.body]?.moves &&
+                    document.elementFromPoint(x + at.x, y + at.y) instanceof HTMLCanvasElement)
+                    return [x + at.x, y + at.y];
+            }
+            return null; })()""" % CANVAS)
+
+    def pinch(self, first, second, early=None):
+        """Fingers part by half as much again; `early`: the first moves there before the second comes."""
+        now = time.time()
+        if early:
+            self.page.touch("touchStart", [first], now - 0.15)
+            self.page.touch("touchMove", [early], now - 0.05)
+            first = early
+        self.page.touch("touchStart", [first, second], now)
+        middle = [(a + b) / 2 for a, b in zip(first, second)]
+        for i in range(1, 9):
+            part = 1 + i / 16
+            self.page.touch("touchMove", [[m + part * (p - m) for m, p in zip(middle, point)]
+                                          for point in (first, second)])
+            self.page.frames(1)
+        self.page.touch("touchEnd", [])
+        self.page.frames(2)
+
+    def test_two_fingers_zoom_and_neither_turn_the_view_nor_pull_what_they_lie_on(self):
+        x, y = self.center()
+        on_body = self.body()
+        self.assertIsNotNone(on_body)
+        for name, first, second, early in (
+                ("on the floor", (60, y + 60), (160, y + 100), None),
+                ("on a body", on_body, (on_body[0] + 90, on_body[1] + 40), None),
+                ("one after the other", (60, y + 60), (180, y + 100), (84, y + 48)),
+                ("one after the other, on a body", on_body, (on_body[0] + 90, on_body[1] + 40),
+                 (on_body[0] - 20, on_body[1] - 16))):
+            with self.subTest(name):
+                around, rise, far = self.value(CAMERA)
+                selected = self.value("twinarm.page.selected")
+                self.pinch(first, second, early)
+                now = self.value(CAMERA)
+                self.assertAlmostEqual(now[0], around, places=6)
+                self.assertAlmostEqual(now[1], rise, places=6)
+                self.assertLess(now[2], 0.8 * far)
+                self.assertEqual(self.value("twinarm.page.selected"), selected)
+                self.assertIsNone(self.value("twinarm.page.grab.held"))
+                self.assertTrue(self.value("twinarm.page.live.stage.controls.enabled"))
+                self.value("twinarm.page.live.stage.look('start')")
+
+    def test_one_finger_turns_the_view_and_pulls_a_body(self):
+        _, y = self.center()
+        around = self.value(CAMERA)[0]
+        self.page.touch("touchStart", [(60, y)])
+        for i in range(1, 9):
+            self.page.touch("touchMove", [(60 + 10 * i, y)])
+        self.page.touch("touchEnd", [])
+        self.assertGreater(abs(math.remainder(self.value(CAMERA)[0] - around, 2 * math.pi)), 0.05)
+        self.value("twinarm.page.live.stage.look('start')")
+        at = self.body()
+        self.page.touch("touchStart", [at])
+        for i in range(1, 9):
+            self.page.touch("touchMove", [(at[0] + 5 * i, at[1])])
+            time.sleep(0.03)
+        self.assertEqual(self.value("twinarm.page.grab.held.kind"), "pull")
+        self.page.touch("touchEnd", [])
+        self.page.frames(2)
+        self.assertIsNone(self.value("twinarm.page.grab.held"))
+
+    def test_whatever_is_touched_is_44_pixels_high_and_wide(self):
+        self.assertTrue(self.value("matchMedia('(pointer: coarse)').matches"))
+        self.value("twinarm.page.send({do: 'set', changes: ['coupling[0].treatment=explicit']})")
+        for tab in ("Knobs", "Plots", "Glass", "Ledger"):
+            self.value(f"twinarm.page.showTab({tab!r}); twinarm.page.overlays.fold(false)")
+            self.page.frames(20)
+            self.assertEqual(self.value(SMALL), [], tab)
+            self.picture(f"touch_{tab.lower()}")
+        for opens in ("e", "?", "b"):
+            self.page.press(opens)
+            self.page.frames(3)
+            self.assertEqual(self.value(SMALL), [], opens)
+            self.picture(f"touch_dialog_{opens.replace('?', 'keys')}")
+            self.page.press("Escape")
+
+
+if __name__ == "__main__":
+    main()
