@@ -2,6 +2,9 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -31,6 +34,19 @@ void make_folder(const std::filesystem::path& folder, const char* option) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw cannot_write(folder, ": " + error.message(), option);
+}
+
+std::filesystem::path make_temporary_folder(const std::string& name) {
+  std::error_code error;
+  std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (error)  // it says that it is none, not which
+    if (const char* given = std::getenv("TMPDIR")) folder = given;
+  std::string made = (folder / (name + "-XXXXXX")).string();
+  if (!error && mkdtemp(made.data())) return made;
+  throw InputError({{folder.string(), 0, "temporary files",
+                     "no folder can be made there: " +
+                         (error ? error.message() : std::string(std::strerror(errno))),
+                     "let TMPDIR name a folder that can be written and has room"}});
 }
 
 void check_place(const std::filesystem::path& file, FaultList& faults) {

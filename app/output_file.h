@@ -13,6 +13,8 @@ namespace twinarm {
 void require_writable_folder(const std::filesystem::path& folder, const char* option = "--out");
 // With all that is above it. Throws likewise.
 void make_folder(const std::filesystem::path& folder, const char* option = "--out");
+// A fresh one, NAME-XXXXXX where temporary files go; who asks for it removes it. Throws likewise.
+std::filesystem::path make_temporary_folder(const std::string& name);
 // Adds a fault where a file cannot be written: to be told before the work, and not after it.
 void check_place(const std::filesystem::path& file, FaultList& faults);
 std::string read_whole_file(const std::filesystem::path& file);

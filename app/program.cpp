@@ -11,6 +11,7 @@
 #include "app/nearest_name.h"
 #include "app/options/options.h"
 #include "app/program.h"
+#include "app/streams.h"
 #include "solver/fault.h"
 
 namespace twinarm {
@@ -23,15 +24,27 @@ int tell(const InputError& error, bool as_json) {
   using Told = nlohmann::ordered_json;  // the one flavour of this program: it is compiled once
   Told errors = Told::array();
   for (const Fault& fault : error.faults()) {
-    fmt::print(stderr, "twinarm: {}\n", to_string(fault));
+    say("twinarm: {}\n", to_string(fault));
     errors.push_back({{"file", fault.file},
                       {"line", fault.line},
                       {"remedy", fault.remedy},
                       {"rule", fault.rule},
                       {"where", fault.where}});
   }
-  if (as_json) fmt::print("{}\n", Told{{"errors", errors}}.dump(1));
+  if (as_json)
+    std::puts(Told{{"errors", errors}}.dump(1).c_str());  // does not throw where it is full
   return kBadInput;
+}
+
+// What printed threw, perhaps: then that is the fault.
+int tell_internal(const std::exception& error, bool as_json) {
+  try {
+    check_stdout();
+  } catch (const InputError& full) {
+    return tell(full, as_json);
+  }
+  say("twinarm: internal fault: {}\n", error.what());
+  return kInternal;
 }
 
 // The first word, where it is meant to be a command and is none.
@@ -57,6 +70,7 @@ void check_values(int argc, char** argv) {
 }  // namespace
 
 int run_program(int argc, char** argv) {
+  fill_closed_streams();
   CLI::App app{"twinarm: a glass-box multibody laboratory\n\nExample:  twinarm study"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "twinarm " TWINARM_VERSION, "Print the version and exit");
@@ -77,15 +91,17 @@ int run_program(int argc, char** argv) {
 
   catch_interrupts();
   try {
-    return line.chosen();
+    const int code = line.chosen();
+    check_stdout();
+    return code;
   } catch (const InputError& error) {
-    return tell(error, as_json);
+    const int code = tell(error, as_json);
+    return is_interrupted() ? kInterrupted : code;  // Ctrl-C ends the reader of a mesh too
   } catch (const Interrupted&) {
-    fmt::print(stderr, "twinarm: interrupted; nothing half-written was left behind\n");
+    say("twinarm: interrupted; nothing half-written was left behind\n");
     return kInterrupted;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "twinarm: internal fault: {}\n", error.what());
-    return kInternal;
+    return tell_internal(error, as_json);
   }
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/streams.h"
+
 namespace twinarm {
 
 Progress::Progress(bool quiet)
@@ -27,7 +29,7 @@ void Progress::stage(const std::string& name, double weight) {
   if (terminal_)
     draw();
   else
-    fmt::print(stderr, "{}\n", name_);
+    say("{}\n", name_);
 }
 
 void Progress::advance(double fraction_of_stage) {
@@ -38,7 +40,7 @@ void Progress::advance(double fraction_of_stage) {
 }
 
 void Progress::finish() {
-  if (!quiet_ && terminal_ && !name_.empty()) fmt::print(stderr, "\r\033[K");
+  if (!quiet_ && terminal_ && !name_.empty()) say("\r\033[K");
   std::fflush(stderr);
   name_.clear();
 }
@@ -51,8 +53,8 @@ void Progress::draw() {
   const int full = static_cast<int>(done * width);
   std::string left = "";
   if (done > 0.03) left = fmt::format("  {:.0f} s left", elapsed * (1 - done) / done);
-  fmt::print(stderr, "\r\033[K[{}{}] {:3.0f} %  {}{}", std::string(full, '#'),
-             std::string(width - full, '.'), 100 * done, name_, left);
+  say("\r\033[K[{}{}] {:3.0f} %  {}{}", std::string(full, '#'), std::string(width - full, '.'),
+      100 * done, name_, left);
   std::fflush(stderr);
 }
 

@@ -62,7 +62,8 @@ void be_silent() {
 [[noreturn]] void be_child(const std::function<std::string()>& work, const ChildLimits& limits,
                            int pipe) {
   // Whatever the program does with signals, the child ends at once and without a word.
-  for (const int each : {SIGINT, SIGTERM, SIGPIPE, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
+  for (const int each :
+       {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
     std::signal(each, SIG_DFL);
   if (!kSanitized) be_silent();
   limit(RLIMIT_CORE, 0);
@@ -95,7 +96,7 @@ std::string fault_of(int status, const ChildLimits& limits) {
     const int signal = WTERMSIG(status);
     if (signal == SIGXCPU || signal == SIGKILL)
       return "takes more than " + std::to_string(limits.cpu_seconds) + " s of computing";
-    if (signal == SIGINT || signal == SIGTERM) return "was interrupted";
+    if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) return "was interrupted";
     return "crashes";
   }
   switch (WEXITSTATUS(status)) {

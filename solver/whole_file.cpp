@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "solver/fault.h"
@@ -12,6 +14,7 @@ void write_whole_file(const std::filesystem::path& file, const std::string& byte
   // The process number keeps two programs that write the same file apart.
   const std::filesystem::path temporary = file.string() + "." + std::to_string(::getpid()) + ".tmp";
   std::error_code error;
+  errno = 0;
   {
     std::ofstream out(temporary, std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -19,10 +22,12 @@ void write_whole_file(const std::filesystem::path& file, const std::string& byte
     if (out) std::filesystem::rename(temporary, file, error);
     if (out && !error) return;
   }
+  const std::string why = error ? error.message() : errno != 0 ? std::strerror(errno) : "";
   std::error_code ignored;
   std::filesystem::remove(temporary, ignored);
-  throw InputError({{file.string(), 0, "", "the file cannot be written",
-                     "choose a folder that exists and can be written"}});
+  throw InputError(
+      {{file.string(), 0, "", "the file cannot be written" + (why.empty() ? "" : ": " + why),
+        "choose a folder that exists, can be written and has room"}});
 }
 
 }  // namespace twinarm

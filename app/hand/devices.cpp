@@ -9,6 +9,7 @@
 #include "app/hand/gesture_device.h"
 #include "app/hand/vrpn_client.h"
 #include "app/nearest_name.h"
+#include "app/streams.h"
 #include "coupling/automatic_motion.h"
 #include "coupling/device/hand_log.h"
 #include "coupling/recorded_trace.h"
@@ -84,7 +85,7 @@ const std::vector<HandEntry>& hand_entries() {
          if (is_hand_log(file)) return read_hand_log(file);
          auto trace = std::make_shared<RecordedTrace>(file);
          for (const std::string& warning : trace->quality().warnings)
-           fmt::print(stderr, "twinarm: warning: {}: {}\n", file, warning);
+           say("twinarm: warning: {}: {}\n", file, warning);
          return trace;
        }}};
   return entries;

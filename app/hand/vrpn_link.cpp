@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "app/nearest_name.h"
+#include "app/streams.h"
 #include "solver/fault.h"
 
 namespace twinarm {
@@ -39,8 +40,7 @@ VrpnDevice::Link::Link(VrpnAddress address, const OmniFigures& figures, VrpnSett
       settings_(std::move(settings)),
       name_(fmt::format("{}@{}:{}", address_.device, address_.host, address_.port)),
       stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-  if (!settings_.say)
-    settings_.say = [](const std::string& line) { fmt::print(stderr, "twinarm: {}\n", line); };
+  if (!settings_.say) settings_.say = [](const std::string& line) { say("twinarm: {}\n", line); };
   try {
     peer_.emplace(address_.host, address_.port);
   } catch (const std::runtime_error& error) {

@@ -1,7 +1,5 @@
 #include "app/lab/lab_routes.h"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <charconv>
 
@@ -65,13 +63,6 @@ bool is_plain(const std::string& name) {
          name.find("..") == std::string::npos && std::all_of(name.begin(), name.end(), is_good);
 }
 
-std::filesystem::path temporary_folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "twinarm-lab-XXXXXX").string();
-  if (!mkdtemp(name.data()))
-    throw InputError({{name, 0, "", "a temporary folder cannot be made", "set TMPDIR"}});
-  return name;
-}
-
 std::string after(const std::string& path, const std::string& start) {
   return path.rfind(start, 0) == 0 ? path.substr(start.size()) : "";
 }
@@ -86,7 +77,7 @@ LabRoutes::LabRoutes(LabSession& session, LabPainter& painter,
       gallery_(gallery),
       page_(shared_bytes(std::move(page))),
       missing_(std::move(missing)),
-      folder_(temporary_folder()) {}
+      folder_(make_temporary_folder("twinarm-lab")) {}
 
 LabRoutes::~LabRoutes() {
   std::error_code ignored;

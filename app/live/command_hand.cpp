@@ -17,6 +17,7 @@
 #include "app/output_file.h"
 #include "app/progress.h"
 #include "app/scene/read_scene.h"
+#include "app/study/gnuplot.h"
 #include "solver/fault.h"
 
 namespace twinarm {
@@ -80,10 +81,13 @@ void run_live(LiveRun& run, const HandOptions& options, LiveLog& log, LiveSummar
       log.write(view.hand);
     }
     log.flush();
-    if (is_interrupted()) stop = true;  // an ordinary end: what was done is kept
+    // Ctrl-C is an ordinary end: what was done is kept. A run without its log is not worth going
+    // on.
+    if (is_interrupted() || !log.is_whole()) stop = true;
     if (options.duration) progress.advance(std::min(1.0, summary.duration / *options.duration));
   });
   progress.finish();
+  forget_interrupt();  // it was the run's: its recording and its picture are made all the same
   summary.silences = run.watch().silences();
 }
 
@@ -103,7 +107,9 @@ int run_hand(const HandOptions& options) {
   const std::unique_ptr<HandDevice> device = open_device(options.device);
   LiveRun run(scene, *device, live);
 
+  if (options.picture) require_gnuplot();
   make_folder(options.out);
+  require_writable_folder(options.out);
   LiveSummary summary;
   summary.scene = options.scene.string();
   summary.device = device->description();

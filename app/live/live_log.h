@@ -22,6 +22,7 @@ class LiveLog {
   }
   void write(const HandStep& step) { stream_ << hand_log_line(step); }
   void flush() { stream_.flush(); }
+  bool is_whole() const { return stream_.good(); }  // all that was to be written is
   // Throws InputError where not all of it could be written.
   void finish() {
     stream_.flush();

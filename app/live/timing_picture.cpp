@@ -54,7 +54,7 @@ std::string panel(Gnuplot& gnuplot, const std::string& label, const TickTimes& r
 }  // namespace
 
 void draw_timing(const LiveSummary& summary, const std::filesystem::path& file) {
-  Gnuplot gnuplot(file.has_parent_path() ? file.parent_path() : std::filesystem::path("."));
+  Gnuplot gnuplot;
   const TickFigures& run = summary.servo.run;
   const TickFigures& empty = summary.servo.empty;
   const std::string script =
@@ -63,11 +63,11 @@ void draw_timing(const LiveSummary& summary, const std::filesystem::path& file) 
       panel(gnuplot, "processor time of a tick [us]", run.cpu, empty.cpu, 50, "50 us") +
       panel(gnuplot, "woken late [us]", run.late, empty.late, 1e6 * summary.step, "one tick") +
       "unset multiplot\n";
-  const std::string name = file.stem().string();
   const std::string title =
       fmt::format("Punctuality of {} ticks of {} s", run.cpu.count(), summary.step);
-  write_whole_file(file, file.extension() == ".png" ? gnuplot.png(name, 1100, 420, script)
-                                                    : gnuplot.svg(name, title, 1000, 380, script));
+  write_whole_file(file, file.extension() == ".png"
+                             ? gnuplot.png("timing", 1100, 420, script)
+                             : gnuplot.svg("timing", title, 1000, 380, script));
 }
 
 }  // namespace twinarm

@@ -1,6 +1,7 @@
 // `twinarm map`: a plane of two numbers of a scene, computed cell by cell (docs/map.md).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "app/interrupt.h"
@@ -11,6 +12,8 @@
 #include "app/nearest_name.h"
 #include "app/output_file.h"
 #include "app/record/recording.h"
+#include "app/streams.h"
+#include "app/study/gnuplot.h"
 #include "collision/import/number_text.h"
 #include "solver/whole_file.h"
 
@@ -65,6 +68,8 @@ void check_outputs(const MapOptions& options, FaultList& faults) {
   check_output("--svg", options.svg, ".svg", options.force, faults);
   check_output("--png", options.png, ".png", options.force, faults);
   check_output("--csv", options.csv, ".csv", options.force, faults);
+  if (!options.svg.empty() || !options.png.empty())
+    attempt(faults, [] { return require_gnuplot(), true; });
   if (!options.merge.empty()) check_output("--work", options.work, "", options.force, faults);
   if (!options.record.empty()) {
     std::filesystem::path scene = options.record;
@@ -231,13 +236,15 @@ int compute(const MapOptions& options, const MapJob& job) {
   const std::vector<int> wanted = wanted_blocks(options, blocks);
   TileFile file = resume(work, empty, blocks, options.force);
   make_folder_of(work, "--work");
+  const auto is_missing = [&](int block) { return !file.blocks.contains(block); };
+  if (std::any_of(wanted.begin(), wanted.end(), is_missing))
+    require_writable_folder(work.has_parent_path() ? work.parent_path() : ".", "--work");
   try {
     compute_blocks(job, wanted, work, {options.threads, false}, file);
   } catch (const Interrupted&) {
-    fmt::print(stderr,
-               "twinarm: {} of {} blocks of cells are finished, in {}; the same command goes on "
-               "from there\n",
-               file.blocks.size(), wanted.size(), work.string());
+    say("twinarm: {} of {} blocks of cells are finished, in {}; the same command goes on "
+        "from there\n",
+        file.blocks.size(), wanted.size(), work.string());
     throw;
   }
   if (!is_part(options)) {

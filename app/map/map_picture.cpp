@@ -172,7 +172,7 @@ std::string title_of(const MapJob& job) {
 }  // namespace
 
 std::string map_svg(const MapJob& job, const TileFile& file, const std::vector<MapCurve>& curves) {
-  Gnuplot gnuplot(std::filesystem::temp_directory_path());
+  Gnuplot gnuplot;
   std::string drawn =
       gnuplot.svg("map", title_of(job), kWidth, kHeight, script(gnuplot, job, file, curves));
   // A cell is a pixel of an image in it: not to be smoothed where it is drawn larger.
@@ -183,7 +183,7 @@ std::string map_svg(const MapJob& job, const TileFile& file, const std::vector<M
 }
 
 std::string map_png(const MapJob& job, const TileFile& file, const std::vector<MapCurve>& curves) {
-  Gnuplot gnuplot(std::filesystem::temp_directory_path());
+  Gnuplot gnuplot;
   return gnuplot.png("map", kWidth, kHeight, script(gnuplot, job, file, curves));
 }
 

@@ -9,6 +9,7 @@
 #include "app/interrupt.h"
 #include "app/json_writer.h"
 #include "app/record/recording_reader.h"
+#include "app/streams.h"
 #include "app/web/export_page.h"
 #include "collision/import/number_text.h"
 
@@ -189,7 +190,7 @@ int run_export(const ExportOptions& options) {
     throw InputError({{"", 0, "--csv, --json", options.json ? "both are given" : "neither is given",
                        "give one of them, or the name of a page"}});
   const Recording recording(options.recording);
-  for (const std::string& note : recording.notes()) fmt::print(stderr, "twinarm: {}\n", note);
+  for (const std::string& note : recording.notes()) say("twinarm: {}\n", note);
   options.json ? print_recording_json(recording) : print_recording_csv(recording);
   return 0;
 }

@@ -4,6 +4,7 @@
 #include "app/commands.h"
 #include "app/json_writer.h"
 #include "app/record/fork_view.h"
+#include "app/streams.h"
 
 namespace twinarm {
 namespace {
@@ -84,7 +85,7 @@ int run_replay(const ReplayOptions& options) {
     throw InputError({{"", 0, "--plot", "there is one branch only", "give --set too"}});
   if (!options.plot.empty()) check_plot(options.plot);
   const Recording recording(options.recording);
-  for (const std::string& note : recording.notes()) fmt::print(stderr, "twinarm: {}\n", note);
+  for (const std::string& note : recording.notes()) say("twinarm: {}\n", note);
   const std::size_t first = options.from ? recording.at(*options.from, "--from") : 0;
   const Replay exact = replay(recording, first, {});
   std::optional<Replay> fork;

@@ -11,6 +11,7 @@
 #include "app/text_table.h"
 #include "collision/import/number_text.h"
 #include "solver/fault.h"
+#include "solver/whole_file.h"
 
 namespace twinarm {
 namespace {
@@ -180,7 +181,7 @@ void check_plot(const std::filesystem::path& file) {
   if (file.extension() != ".svg" || std::filesystem::is_directory(file, ignored))
     throw InputError(
         {{file.string(), 0, "--plot", "is drawn as SVG, a file", "give a name that ends in .svg"}});
-  const Gnuplot is_there(folder_of(file));
+  require_gnuplot();
   make_folder(folder_of(file), "--plot");
 }
 
@@ -223,7 +224,7 @@ void draw_fork(const Recording& recording, const Replay& recorded, const Replay&
   }
   std::string change;
   for (const std::string& text : changes) change += (change.empty() ? "" : ", ") + text;
-  Gnuplot gnuplot(folder_of(file));
+  Gnuplot gnuplot;
   std::string script = fmt::format(
       "set multiplot\nset xrange [{}:{}]\nset key at screen 0.735,0.93 left top Left reverse\n{}"
       "set format x ''\nset label 1 {} at screen 0.095,0.965 textcolor '#333333'\n"
@@ -247,8 +248,8 @@ void draw_fork(const Recording& recording, const Replay& recorded, const Replay&
                           3.2 - 0.6 * static_cast<double>(curve), kColours[curve], in_quotes(name));
     ++curve;
   }
-  gnuplot.draw(file.stem().string(), "Recorded run and fork: " + column.name, 1000, 620,
-               script + "\nunset multiplot\n");
+  write_whole_file(file, gnuplot.svg("fork", "Recorded run and fork: " + column.name, 1000, 620,
+                                     script + "\nunset multiplot\n"));
 }
 
 }  // namespace twinarm

@@ -9,6 +9,7 @@
 #include "app/record/recording_reader.h"
 #include "app/record/recording_writer.h"
 #include "app/simulate/run.h"
+#include "app/streams.h"
 
 namespace twinarm {
 bool is_recording(const std::filesystem::path& file) {
@@ -31,7 +32,7 @@ void check_recorded(const RobotOptions& given, FaultList& faults) {
 
 RecordedInstant open_instant(const std::filesystem::path& file, std::optional<double> at) {
   const Recording recording(file);
-  for (const std::string& note : recording.notes()) fmt::print(stderr, "twinarm: {}\n", note);
+  for (const std::string& note : recording.notes()) say("twinarm: {}\n", note);
   const RecordedFrame frame =
       recording.frame(at ? recording.at(*at, "--at") : recording.size() - 1);
   const auto files = std::make_shared<const UnpackedRun>(recording.header());

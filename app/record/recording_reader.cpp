@@ -26,6 +26,9 @@ Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
   if (!std::filesystem::exists(file, ignored) && std::filesystem::exists(part_of(file), ignored)) {
     file_ = part_of(file).string();
     notes_.push_back("the run that wrote it did not come to its end: read from " + file_);
+  } else if (file.extension() != ".part" && std::filesystem::exists(part_of(file), ignored)) {
+    notes_.push_back("it is of an earlier run than " + part_of(file).string() +
+                     ", which did not come to its end, or still goes on");
   }
   bytes_ = read_whole_file(file_);
   const auto refuse = [&](const std::string& rule, const std::string& remedy) {

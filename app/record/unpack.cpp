@@ -1,10 +1,8 @@
 #include "app/record/unpack.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 
+#include "app/output_file.h"
 #include "solver/whole_file.h"
 
 namespace twinarm {
@@ -18,10 +16,7 @@ int line_of_change(std::size_t change) {
 }  // namespace
 
 UnpackedRun::UnpackedRun(const RecordingHeader& header) : header_(header) {
-  std::string name = (std::filesystem::temp_directory_path() / "twinarm-replay-XXXXXX").string();
-  if (!mkdtemp(name.data()))
-    throw InputError({{name, 0, "", "a temporary folder cannot be made", "set TMPDIR"}});
-  folder_ = name;
+  folder_ = make_temporary_folder("twinarm-replay");
   for (const RecordedFile& file : header.files) {
     const std::filesystem::path copy = copy_of(file.path);
     std::error_code ignored;

@@ -9,6 +9,7 @@
 #include "app/record/post_mortem.h"
 #include "app/record/record_run.h"
 #include "app/simulate/simulate_output.h"
+#include "app/streams.h"
 
 namespace twinarm {
 namespace {
@@ -62,12 +63,10 @@ int run_simulate(const SimulateOptions& options) {
   try {
     PatientProgress progress(plan.duration);
     RunWatch watch;
-    watch.warn = [](const std::string& text) {
-      fmt::print(stderr, "twinarm: warning: {}\n", text);
-    };
+    watch.warn = [](const std::string& text) { say("twinarm: warning: {}\n", text); };
     watch.alarm = [&](const Alarm& alarm) {
       const std::string words = alarm_words(alarm, prepared);
-      fmt::print(stderr, "twinarm: alarm: {}\n", words);
+      say("twinarm: alarm: {}\n", words);
       if (recorder) recorder->alarm(words);
       return words;
     };
@@ -91,15 +90,12 @@ int run_simulate(const SimulateOptions& options) {
   output->end(result);
   if (!result.post_mortem) return 0;
   const PostMortem& found = *result.post_mortem;
-  fmt::print(stderr, "twinarm: stopped after t = {} s, in step {}: {}", found.time, found.step,
-             found.reason);
+  say("twinarm: stopped after t = {} s, in step {}: {}", found.time, found.step, found.reason);
   if (!found.field.empty())
-    fmt::print(stderr, "; first in '{}' of link '{}' (joint '{}')", found.field, found.body,
-               found.joint);
-  if (!found.fastest_joint.empty())
-    fmt::print(stderr, "; the fastest was joint '{}'", found.fastest_joint);
-  fmt::print(stderr, "\n");
-  for (const std::string& words : found.words) fmt::print(stderr, "twinarm:   {}\n", words);
+    say("; first in '{}' of link '{}' (joint '{}')", found.field, found.body, found.joint);
+  if (!found.fastest_joint.empty()) say("; the fastest was joint '{}'", found.fastest_joint);
+  say("\n");
+  for (const std::string& words : found.words) say("twinarm:   {}\n", words);
   return kStopped;
 }
 

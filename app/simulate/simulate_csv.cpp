@@ -6,6 +6,7 @@
 
 #include "app/dynamics/robot_table.h"
 #include "app/simulate/simulate_output.h"
+#include "app/streams.h"
 #include "collision/import/number_text.h"
 #include "solver/energy.h"
 #include "solver/kinematics.h"
@@ -66,7 +67,7 @@ class CsvOutput : public RunOutput {
   void end(const SimulateResult& result) override {
     std::fflush(stdout);
     for (const auto* warnings : {&input_.warnings, &result.warnings})
-      for (const std::string& warning : *warnings) fmt::print(stderr, "warning: {}\n", warning);
+      for (const std::string& warning : *warnings) say("warning: {}\n", warning);
   }
 
  private:

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "app/interrupt.h"
 #include "app/output_file.h"
 #include "solver/fault.h"
 #include "solver/whole_file.h"
@@ -44,13 +45,6 @@ std::filesystem::path find_program(const std::string& name) {
                      "install gnuplot-nox (scripts/setup does)"}});
 }
 
-std::filesystem::path make_temporary_folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "twinarm-figures-XXXXXX").string();
-  if (!mkdtemp(name.data()))
-    throw InputError({{name, 0, "", "a temporary folder cannot be made", "set TMPDIR"}});
-  return name;
-}
-
 // Runs the script in `folder`; no shell, so that no name needs quoting.
 bool run_gnuplot(const std::filesystem::path& folder, const std::filesystem::path& script,
                  const std::filesystem::path& messages) {
@@ -82,6 +76,10 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 
 }  // namespace
 
+void require_gnuplot() {
+  find_program("gnuplot");
+}
+
 std::string in_quotes(const std::string& text) {
   std::string doubled = text;
   replace_all(doubled, "'", "''");
@@ -89,8 +87,8 @@ std::string in_quotes(const std::string& text) {
 }
 
 Gnuplot::Gnuplot(std::filesystem::path folder) : folder_(std::move(folder)) {
-  find_program("gnuplot");
-  temporary_ = make_temporary_folder();
+  require_gnuplot();
+  temporary_ = make_temporary_folder("twinarm-figures");
 }
 
 Gnuplot::~Gnuplot() {
@@ -149,7 +147,9 @@ std::string Gnuplot::run(const std::string& name, const char* extension,
   write_whole_file(
       input, fmt::format("set terminal {}\nset output '{}'\n", terminal, made.filename().string()) +
                  kFigureStyle + script + "\nunset output\n");
-  if (!run_gnuplot(temporary_, input, messages) || !std::filesystem::exists(made))
+  const bool is_drawn = run_gnuplot(temporary_, input, messages) && std::filesystem::exists(made);
+  check_interrupt();  // Ctrl-C ends gnuplot too
+  if (!is_drawn)
     throw std::runtime_error("gnuplot could not draw " + name + ": " +
                              (std::filesystem::exists(messages) ? read_whole_file(messages) : ""));
   return read_whole_file(made);

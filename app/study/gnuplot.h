@@ -21,10 +21,14 @@ inline constexpr const char* faint = "#9A9A9A";
 
 extern const char* const kFigureStyle;  // in each figure; again after gnuplot's `reset`
 
+// Throws InputError where there is no gnuplot in PATH: what will draw asks before it computes.
+void require_gnuplot();
+
 class Gnuplot {
  public:
-  // Throws InputError if there is no gnuplot in PATH, or `folder` cannot be written.
-  explicit Gnuplot(std::filesystem::path folder);
+  // Throws InputError if there is no gnuplot in PATH, or no room for what it is given. `folder` is
+  // that of draw().
+  explicit Gnuplot(std::filesystem::path folder = {});
   ~Gnuplot();
   Gnuplot(const Gnuplot&) = delete;
   Gnuplot& operator=(const Gnuplot&) = delete;

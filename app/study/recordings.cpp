@@ -50,8 +50,14 @@ double record(const std::filesystem::path& scene, const std::filesystem::path& f
   };
   watch.interrupted = is_interrupted;
   watch.tick = [](double) { check_interrupt(); };
-  const SimulateResult result = run_plan(prepared.input, prepared.run, watch);
-  recorder.finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
+  try {
+    const SimulateResult result = run_plan(prepared.input, prepared.run, watch);
+    recorder.finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
+  } catch (const Interrupted&) {  // a study that has not come to its end has no use for half a run
+    std::error_code ignored;
+    std::filesystem::remove(part_of(file), ignored);
+    throw;
+  }
   return largest;
 }
 

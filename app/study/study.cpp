@@ -8,6 +8,7 @@
 #include "app/interrupt.h"
 #include "app/live/record_hand.h"
 #include "app/output_file.h"
+#include "app/streams.h"
 #include "app/study/calibrate.h"
 #include "app/study/figures.h"
 #include "app/study/findings.h"
@@ -59,7 +60,7 @@ std::unique_ptr<HandSource> make_hand(const StudyOptions& options, const StudySe
   if (!options.trace.empty()) {
     auto trace = std::make_unique<RecordedTrace>(options.trace);
     for (const std::string& warning : trace->quality().warnings)
-      fmt::print(stderr, "twinarm: warning: {}: {}\n", options.trace.string(), warning);
+      say("twinarm: warning: {}: {}\n", options.trace.string(), warning);
     return trace;
   }
   return std::make_unique<SyntheticOperator>(options.seed.value_or(settings.seed),
@@ -176,6 +177,7 @@ int run_study(const StudyOptions& options) {
   attempt([&] { hand = make_hand(options, inputs.settings); });
   if (!options.recalibrate) attempt([&] { calibration = read_calibration(calibration_file); });
   attempt([&] { require_writable_folder(options.out); });
+  attempt(require_gnuplot);
   faults.check();
   if (options.recalibrate) {
     Progress progress(false);

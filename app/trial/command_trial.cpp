@@ -13,6 +13,7 @@
 #include "app/hand/devices.h"
 #include "app/interrupt.h"
 #include "app/output_file.h"
+#include "app/streams.h"
 #include "app/study/calibration.h"
 #include "app/study/study_scene.h"
 #include "app/study/variants.h"
@@ -98,13 +99,13 @@ bool wait_for_enter() {
 
 void count_down() {
   for (int n = 3; n > 0; --n) {
-    fmt::print(stderr, "{} ", n);
+    say("{} ", n);
     for (int i = 0; i < 10; ++i) {
       check_interrupt();
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
   }
-  fmt::print(stderr, "go!\n");
+  say("go!\n");
 }
 
 // A picture on the place of the last one.
@@ -112,9 +113,8 @@ class TerminalShow {
  public:
   explicit TerminalShow(double seconds) : seconds_(seconds) {}
   void operator()(const std::string& picture, double t) {
-    if (lines_ > 0) fmt::print(stderr, "\x1b[{}A", lines_);
-    fmt::print(stderr, "{}{:5.1f} s of {:.0f}   # robot  . your hand  o object  [ ] goal\n",
-               picture, t, seconds_);
+    if (lines_ > 0) say("\x1b[{}A", lines_);
+    say("{}{:5.1f} s of {:.0f}   # robot  . your hand  o object  [ ] goal\n", picture, t, seconds_);
     lines_ = static_cast<int>(std::count(picture.begin(), picture.end(), '\n')) + 1;
   }
 
@@ -136,10 +136,9 @@ TrialResult run_step(const TrialOptions& options, const MappingSpec& mapping, co
   task.real_time = !options.simulated;
   const bool has_eyes = !options.simulated && isatty(STDERR_FILENO) != 0;
   if (!options.simulated) {
-    fmt::print(stderr, "\n{}: {}.\n{}\n", step.condition->name, step.condition->title,
-               instructions(step.pick));
+    say("\n{}: {}.\n{}\n", step.condition->name, step.condition->title, instructions(step.pick));
     if (!options.yes) {
-      fmt::print(stderr, "Press Enter when you are ready. ");
+      say("Press Enter when you are ready. ");
       if (!wait_for_enter())
         throw InputError({{"", 0, "trial", "nobody pressed Enter: there is no terminal",
                            "run it in a terminal, or give --yes"}});

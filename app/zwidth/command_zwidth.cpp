@@ -9,6 +9,7 @@
 #include "app/interrupt.h"
 #include "app/output_file.h"
 #include "app/progress.h"
+#include "app/study/gnuplot.h"
 #include "app/zwidth/zwidth.h"
 #include "solver/whole_file.h"
 
@@ -75,6 +76,7 @@ int run_zwidth(const ZwidthOptions& options) {
   FaultList faults;
   check(options, faults);
   faults.check();
+  if (!options.svg.empty() || !options.png.empty()) require_gnuplot();
   SampledDevice device;
   device.mass = options.mass;
   device.damping = options.damping;

@@ -99,13 +99,13 @@ std::string whole_script(Gnuplot& gnuplot, const ZwidthResult& result) {
 }  // namespace
 
 std::string zwidth_svg(const ZwidthResult& result) {
-  Gnuplot gnuplot(std::filesystem::temp_directory_path());
+  Gnuplot gnuplot;
   return gnuplot.svg("zwidth", "walls that a hand device can render", kPlotWidth, kPlotHeight,
                      whole_script(gnuplot, result));
 }
 
 std::string zwidth_png(const ZwidthResult& result) {
-  Gnuplot gnuplot(std::filesystem::temp_directory_path());
+  Gnuplot gnuplot;
   return gnuplot.png("zwidth", kPlotWidth, kPlotHeight, whole_script(gnuplot, result));
 }
 

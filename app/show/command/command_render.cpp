@@ -14,6 +14,7 @@
 #include "app/show/command/filmed_run.h"
 #include "app/show/command/rendering.h"
 #include "app/show/overlays.h"
+#include "app/streams.h"
 #include "collision/import/number_text.h"
 
 namespace twinarm {
@@ -178,7 +179,7 @@ int run_render(const RenderOptions& options) {
     film->finish();
   }
   progress.finish();
-  for (const std::string& note : rendering.notes()) fmt::print(stderr, "twinarm: {}\n", note);
+  for (const std::string& note : rendering.notes()) say("twinarm: {}\n", note);
   if (options.json)
     print_render_json(file, plan, runs.front(), rendering.notes());
   else

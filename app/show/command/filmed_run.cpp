@@ -10,6 +10,7 @@
 #include "app/record/record_run.h"
 #include "app/show/framing.h"
 #include "app/simulate/run.h"
+#include "app/streams.h"
 
 namespace twinarm {
 namespace {
@@ -53,7 +54,7 @@ void check_within(const Recording& recording, double from, double to) {
 
 FilmedRun film_recording(const std::filesystem::path& file, const FilmTimes& times) {
   auto recording = std::make_unique<const Recording>(file);
-  for (const std::string& note : recording->notes()) fmt::print(stderr, "twinarm: {}\n", note);
+  for (const std::string& note : recording->notes()) say("twinarm: {}\n", note);
   auto files = std::make_unique<const UnpackedRun>(recording->header());
   const auto prepared = [&] {
     try {
@@ -159,8 +160,8 @@ FilmedRun let_run(const RobotOptions& robot, const FilmTimes& times, const std::
   };
   const SimulateResult result = run_plan(run.plan.input, plan, watch);
   if (result.post_mortem)
-    fmt::print(stderr, "twinarm: the run stopped by itself after t = {:g} s: {}\n", result.end,
-               result.post_mortem->reason);
+    say("twinarm: the run stopped by itself after t = {:g} s: {}\n", result.end,
+        result.post_mortem->reason);
   if (run.shown.empty())
     throw InputError({{"", 0, "--at", "the run stopped before that time",
                        fmt::format("give one up to {:g} s", result.end)}});
