@@ -65,6 +65,7 @@ LIBRARIES = {
                           "app/web/page_bytes.cpp", "tests/lab/test_lab_requests.cpp"}),
     "turbojpeg": (r"turbojpeg\.h", {"app/render/image_decode.cpp",
                                     "tests/render/test_visual_model.cpp"}),
+    "pybind11": (r"pybind11/", {"app/python/"}),
     "PNG": (r"png\.h", {"app/render/image.cpp", "app/render/image_decode.cpp"}),
 }
 # Parts of the program that are libraries of their own, so that tests can look at them.
@@ -86,7 +87,8 @@ LAB = {
 }
 
 # Headers that show an outside library. Each is of use inside its own folder only.
-INNER_HEADERS = {"app/lab/server/connection.h", "collision/import/recipe_toml.h", "app/render/gl_table.h",
+INNER_HEADERS = {"app/python/arrays.h", "app/python/bind.h", "app/python/fast_arguments.h",
+                 "app/lab/server/connection.h", "collision/import/recipe_toml.h", "app/render/gl_table.h",
                  "app/render/gl_objects.h", "app/render/scene_pass.h"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)

@@ -1,0 +1,134 @@
+// Spring-dampers: what types there are, and what theory says of them before anything is run.
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "app/coupling/predicted.h"
+#include "app/python/arrays.h"
+#include "app/python/bind.h"
+#include "collision/import/number_text.h"
+#include "coupling/coupling_spec.h"
+#include "coupling/prediction_limits.h"
+
+namespace twinarm::python {
+namespace {
+
+py::list coupling_types() {
+  py::list all;
+  for (const CouplingFacts& facts : all_couplings) {
+    using Treatments = CouplingFacts::Treatments;
+    py::dict row;
+    row["name"] = facts.name;
+    row["treatments"] = facts.treatments == Treatments::all
+                            ? py::make_tuple("explicit", "semi-implicit", "implicit")
+                        : facts.treatments == Treatments::explicit_only ? py::make_tuple("explicit")
+                                                                        : py::make_tuple();
+    row["at_point"] = facts.at_point;
+    row["can_hold"] = facts.can_hold;
+    all.append(row);
+  }
+  return all;
+}
+
+Scheme scheme_of(const std::string& name) {
+  std::string names;
+  for (const Scheme scheme : all_schemes) {
+    if (name == name_of(scheme)) return scheme;
+    names += (names.empty() ? "'" : ", '") + std::string(name_of(scheme)) + "'";
+  }
+  throw py::value_error("there is no scheme '" + name + "'; there are " + names);
+}
+
+double positive(const char* name, double value) {
+  if (value > 0 && std::isfinite(value)) return value;
+  throw py::value_error(std::string(name) + " must be positive, is " + number_text(value));
+}
+
+py::object predict(const py::object& scene, const py::object& state,
+                   const std::optional<double>& step, const std::string& integrator, double turn,
+                   double time) {
+  SimulateOptions options;
+  options.robot.model = path_of(scene);
+  if (!state.is_none()) options.robot.state = path_of(state);
+  options.duration = 1;  // of a run that is not made
+  options.step = step;
+  options.integrator = integrator;
+  const PredictTask task{positive("turn", turn), positive("time", time), {}, {}};
+  SimulatePlan prepared = prepare_simulation(options);
+  if (!prepared.input.couplings || prepared.input.couplings->size() == 0)
+    throw InputError({{options.robot.model.string(), 0, "", "it has no coupling",
+                       "give a scene with a [[coupling]] (docs/scenes.md)"}});
+  const std::string json = predicted_json(predict_couplings(prepared, task), task);
+  return py::module_::import("json").attr("loads")(json);
+}
+
+// Square and of one size, or ValueError.
+Eigen::MatrixXd square(const char* name, const py::object& given, Eigen::Index size) {
+  const std::string what = std::string("largest_stable_step(): ") + name;
+  const Array numbers = numbers_of(given, what);
+  if (numbers.ndim() != 2 || numbers.shape(0) != numbers.shape(1) ||
+      (size > 0 && numbers.shape(0) != size))
+    throw py::value_error(what + " has shape " + shape_text(numbers) +
+                          ", must be square, M, K and B of one size");
+  check_finite(numbers.data(), static_cast<std::size_t>(numbers.size()), what);
+  Eigen::MatrixXd matrix(numbers.shape(0), numbers.shape(1));
+  for (Eigen::Index r = 0; r < matrix.rows(); ++r)
+    for (Eigen::Index c = 0; c < matrix.cols(); ++c) matrix(r, c) = *numbers.data(r, c);
+  return matrix;
+}
+
+}  // namespace
+
+void add_couplings(py::module_& m) {
+  m.def(
+      "coupling_types", coupling_types,
+      "A row for each type of [[coupling]] in a scene: name; treatments that it can have (of its\n"
+      "own: none); at_point, whether it pulls at a point; can_hold, whether its force can be held\n"
+      "at a rate. docs/coupling.md has the laws.");
+  m.def(
+      "schemes",
+      [] {
+        std::vector<std::string> names;
+        for (const Scheme scheme : all_schemes) names.emplace_back(name_of(scheme));
+        return names;
+      },
+      "Names of the ways to step a spring-damper of which limits are known.");
+  m.def(
+      "largest_omega_h",
+      [](const std::string& scheme, double zeta) {
+        if (!(zeta >= 0) || !std::isfinite(zeta))
+          throw py::value_error("zeta must not be negative, is " + number_text(zeta));
+        return largest_omega_h(scheme_of(scheme), zeta);
+      },
+      py::arg("scheme"), py::arg("zeta"),
+      "Of one spring-damper M e'' + b e' + k e = 0: the largest stable product of its frequency\n"
+      "sqrt(k/M) [rad/s] and the step [s], at the damping ratio zeta; inf where there is no "
+      "limit,\n"
+      "0 where no step is stable.");
+  m.def(
+      "largest_stable_step",
+      [](const py::object& M, const py::object& K, const py::object& B, const std::string& scheme) {
+        const Eigen::MatrixXd inertia = square("M", M, 0);
+        return largest_stable_step(inertia, square("K", K, inertia.rows()),
+                                   square("B", B, inertia.rows()), scheme_of(scheme));
+      },
+      py::arg("M"), py::arg("K"), py::arg("B"), py::arg("scheme"),
+      "Of M e'' + B e' + K e = 0 with symmetric (n, n) matrices [kg m^2, N m/rad, N m s/rad; of\n"
+      "lengths kg, N/m, N s/m]: the largest step [s] of which every smaller one is stable as "
+      "well.");
+  m.def(
+      "predict_couplings", predict, py::arg("scene"), py::kw_only(), py::arg("state") = py::none(),
+      py::arg("step") = py::none(), py::arg("integrator") = "", py::arg("turn") = std::numbers::pi,
+      py::arg("time") = 1.0,
+      "What theory says of a scene's couplings before it is run: what `twinarm coupling predict\n"
+      "--json` prints, as a dict (docs/command_line.md): K, B, mass_matrix, modes, limits of each\n"
+      "scheme, sag, and under 'scene' the largest_step [s] of the scene as it is stepped.\n\n"
+      "  state       a state file in JSON\n"
+      "  step        [s]; as the scene says if left out\n"
+      "  integrator  one of integrators(); as the scene says if left out\n"
+      "  turn, time  a target's move whose following error is told [rad], [s]");
+}
+
+}  // namespace twinarm::python

@@ -1,0 +1,180 @@
+#include <algorithm>
+
+#include "app/python/bind.h"
+#include "app/python/fast_arguments.h"
+#include "solver/dynamics.h"
+
+namespace twinarm::python {
+namespace {
+
+constexpr std::size_t kCallsBetweenSignals = 4096;
+
+// Ctrl-C ends a long call.
+void look_for_signals(std::size_t call) {
+  if (call % kCallsBetweenSignals == kCallsBetweenSignals - 1 && PyErr_CheckSignals() != 0)
+    throw py::error_already_set();
+}
+
+void take_q(const char* function, const Rows& q, std::size_t call, Robot& robot) {
+  q.copy(call, robot.x.q);
+  if (!robot.quaternions.empty()) robot.check_quaternions(robot.x.q, function);
+}
+
+// Wrenches in link axes into the passes' body axes; zero where none are given.
+void take_wrenches(const char* function, PyObject* given, const Robot& robot,
+                   std::vector<Force<double>>& f_ext) {
+  std::fill(f_ext.begin(), f_ext.end(), Force<double>{});
+  if (!given) return;
+  const std::string what = std::string(function) + "(): f_ext";
+  const Array numbers = numbers_of(given, what);
+  if (numbers.ndim() != 2 || static_cast<std::size_t>(numbers.shape(0)) != f_ext.size() ||
+      numbers.shape(1) != 6)
+    throw py::value_error(what + " has shape " + shape_text(numbers) + ", must have (" +
+                          std::to_string(f_ext.size()) +
+                          ", 6): a couple and a force on each body, the base first");
+  check_finite(numbers.data(), static_cast<std::size_t>(numbers.size()), what);
+  for (std::size_t i = 1; i < f_ext.size(); ++i) {
+    const double* of = numbers.data() + 6 * i;
+    const Mat3<double>& R_BL = robot.model.turn[i];
+    f_ext[i] = {R_BL * Vec3<double>{of[0], of[1], of[2]}, R_BL * Vec3<double>{of[3], of[4], of[5]}};
+  }
+}
+
+constexpr std::array kAba{"model", "q", "qd", "tau", "f_ext", "out"};
+PyObject* call_aba(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {
+  return guarded([&] {
+    const Arguments<kAba.size()> a("aba", kAba, 4, given, count, keywords);
+    Robot& robot = robot_of("aba", a.at[0]);
+    const std::size_t nv = robot.model.nv;
+    const Rows q("aba", "q", a.at[1], robot.model.nq, robot), qd("aba", "qd", a.at[2], nv, robot),
+        tau("aba", "tau", a.at[3], nv, robot);
+    const Calls calls("aba", {&q, &qd, &tau});
+    Output out("aba", a.at[5], calls, {nv});
+    take_wrenches("aba", a.at[4], robot, robot.forces.f_ext);
+    for (std::size_t i = 0; i < calls.count; ++i) {
+      take_q("aba", q, i, robot);
+      qd.copy(i, robot.x.qd);
+      tau.copy(i, robot.forces.tau);
+      aba(robot.model, robot.x, robot.forces, robot.of_aba);
+      std::copy_n(robot.of_aba.qdd.data(), nv, out.row(i));
+      robot.has_run_aba = true;
+      look_for_signals(i);
+    }
+    return out.release();
+  });
+}
+
+constexpr std::array kRnea{"model", "q", "qd", "qdd", "f_ext", "out"};
+PyObject* call_rnea(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {
+  return guarded([&] {
+    const Arguments<kRnea.size()> a("rnea", kRnea, 4, given, count, keywords);
+    Robot& robot = robot_of("rnea", a.at[0]);
+    const std::size_t nv = robot.model.nv;
+    const Rows q("rnea", "q", a.at[1], robot.model.nq, robot), qd("rnea", "qd", a.at[2], nv, robot),
+        qdd("rnea", "qdd", a.at[3], nv, robot);
+    const Calls calls("rnea", {&q, &qd, &qdd});
+    Output out("rnea", a.at[5], calls, {nv});
+    take_wrenches("rnea", a.at[4], robot, robot.f_ext);
+    for (std::size_t i = 0; i < calls.count; ++i) {
+      take_q("rnea", q, i, robot);
+      qd.copy(i, robot.x.qd);
+      qdd.copy(i, robot.qdd);
+      rnea(robot.model, robot.x, robot.qdd, robot.f_ext, robot.w);
+      std::copy_n(robot.w.tau.data(), nv, out.row(i));
+      look_for_signals(i);
+    }
+    return out.release();
+  });
+}
+
+constexpr std::array kByQ{"model", "q", "out"};
+// f(robot, nv x nv numbers to write) for every q.
+template <class F>
+PyObject* call_by_q(const char* function, PyObject* const* given, Py_ssize_t count,
+                    PyObject* keywords, F f) {
+  return guarded([&] {
+    const Arguments<kByQ.size()> a(function, kByQ, 2, given, count, keywords);
+    Robot& robot = robot_of(function, a.at[0]);
+    const Rows q(function, "q", a.at[1], robot.model.nq, robot);
+    const Calls calls(function, {&q});
+    Output out(function, a.at[2], calls, {robot.model.nv, robot.model.nv});
+    for (std::size_t i = 0; i < calls.count; ++i) {
+      take_q(function, q, i, robot);
+      f(robot, out.row(i));
+      look_for_signals(i);
+    }
+    return out.release();
+  });
+}
+PyObject* call_crba(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {
+  return call_by_q("crba", given, count, keywords, [](Robot& robot, double* M) {
+    crba(robot.model, robot.x, robot.w);
+    std::copy(robot.w.M.begin(), robot.w.M.end(), M);
+  });
+}
+PyObject* call_minv(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {
+  return call_by_q("minv", given, count, keywords, [](Robot& robot, double* M_inverse) {
+    const std::size_t nv = robot.model.nv;
+    std::fill(robot.x.qd.begin(), robot.x.qd.end(), 0.0);
+    const Forces<double> none(robot.model);
+    aba(robot.model, robot.x, none, robot.w);  // minv_times() takes the inertias that it leaves
+    std::vector<double>& unit = robot.qdd;
+    for (std::size_t k = 0; k < nv; ++k) {
+      std::fill(unit.begin(), unit.end(), 0.0);
+      unit[k] = 1;
+      minv_times(robot.model, unit, none.f_ext, robot.w);
+      std::copy_n(robot.w.y.data(), nv, M_inverse + k * nv);
+    }
+  });
+}
+
+template <class F>
+PyCFunction as_method(F* f) {
+  return reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(f));
+}
+constexpr int kFast = METH_FASTCALL | METH_KEYWORDS;
+
+PyMethodDef methods[] = {
+    {"aba", as_method(call_aba), kFast,
+     "aba(model, q, qd, tau, f_ext=None, out=None)\n--\n\n"
+     "Forward dynamics by the articulated-body algorithm, RBDA table 7.1, in O(n).\n\n"
+     "  q      (nq,)  joint coordinates [rad, m]; or (N, nq): N states in one call\n"
+     "  qd     (nv,) or (N, nv)  joint velocities [rad/s, m/s]\n"
+     "  tau    (nv,) or (N, nv)  joint forces [N m, N]\n"
+     "  f_ext  (bodies, 6)  couple and force [N m, N] on each body from outside, the base first, "
+     "in\n"
+     "         link axes about the link's origin; of every state alike\n"
+     "  out    (nv,) or (N, nv)  where the answer goes; a new array if left out\n\n"
+     "Returns qdd (nv,) or (N, nv) [rad/s^2, m/s^2]. Without the joints' damping, friction and\n"
+     "mimics: those are in forward_dynamics(). What it leaves of the last state is in\n"
+     "model.workspace()."},
+    {"rnea", as_method(call_rnea), kFast,
+     "rnea(model, q, qd, qdd, f_ext=None, out=None)\n--\n\n"
+     "Inverse dynamics by the recursive Newton-Euler algorithm, RBDA table 5.1, in O(n).\n\n"
+     "  q      (nq,) or (N, nq)  joint coordinates [rad, m]\n"
+     "  qd     (nv,) or (N, nv)  joint velocities [rad/s, m/s]\n"
+     "  qdd    (nv,) or (N, nv)  joint accelerations [rad/s^2, m/s^2]\n"
+     "  f_ext  (bodies, 6)  as of aba() [N m, N]\n"
+     "  out    (nv,) or (N, nv)  where the answer goes; a new array if left out\n\n"
+     "Returns tau (nv,) or (N, nv) [N m, N], gravity and rotors included, friction not."},
+    {"crba", as_method(call_crba), kFast,
+     "crba(model, q, out=None)\n--\n\n"
+     "The mass matrix by the composite-rigid-body algorithm, RBDA table 6.2.\n\n"
+     "  q    (nq,) or (N, nq)  joint coordinates [rad, m]\n"
+     "  out  (nv, nv) or (N, nv, nv)  where the answer goes; a new array if left out\n\n"
+     "Returns M (nv, nv) or (N, nv, nv) [kg m^2, kg m, kg], rotors on the diagonal included."},
+    {"minv", as_method(call_minv), kFast,
+     "minv(model, q, out=None)\n--\n\n"
+     "The inverse of the mass matrix, column by column from the articulated inertias, O(n^2).\n\n"
+     "  q    (nq,) or (N, nq)  joint coordinates [rad, m]\n"
+     "  out  (nv, nv) or (N, nv, nv)  where the answer goes; a new array if left out\n\n"
+     "Returns M^-1 (nv, nv) or (N, nv, nv) [1/(kg m^2), 1/(kg m), 1/kg]."},
+    {nullptr, nullptr, 0, nullptr}};
+
+}  // namespace
+
+void add_passes(py::module_& m) {
+  if (PyModule_AddFunctions(m.ptr(), methods) != 0) throw py::error_already_set();
+}
+
+}  // namespace twinarm::python

@@ -1,0 +1,160 @@
+// load(), and what a Model says of itself.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "app/python/arrays.h"
+#include "app/python/bind.h"
+#include "app/python/robot.h"
+#include "app/simulate/simulate_input.h"
+
+namespace twinarm::python {
+namespace {
+
+std::shared_ptr<Robot> load(const py::object& file, bool floating, bool friction, bool armature) {
+  SimulateOptions options;
+  options.robot.model = path_of(file);
+  options.robot.floating = floating;
+  options.robot.friction = friction;
+  options.robot.armature = armature;
+  options.duration = 1;  // of a run that is not made
+  return std::make_shared<Robot>(prepare_simulation(options).input.robot);
+}
+
+// By coordinate; of joints without limits -inf and inf.
+Array limits(const Robot& robot, double JointDescription::*limit, double none) {
+  std::vector<double> all(robot.model.nq, none);
+  for (const JointDescription& joint : robot.input.robot.joints) {
+    const int body = robot.model.find_joint(joint.name);
+    if (body > 0 && joint.is_limited())
+      all[robot.model.iq[static_cast<std::size_t>(body)]] = joint.*limit;
+  }
+  return frozen(all);
+}
+// By velocity, of joints of one degree of freedom; inf where the file says none.
+Array largest(const Robot& robot, double JointDescription::*limit) {
+  std::vector<double> all(robot.model.nv, std::numeric_limits<double>::infinity());
+  for (const JointDescription& joint : robot.input.robot.joints) {
+    const int body = robot.model.find_joint(joint.name);
+    if (body <= 0 || joint.*limit <= 0) continue;
+    const auto i = static_cast<std::size_t>(body);
+    if (robot.model.dofs(i) == 1) all[robot.model.iv[i]] = joint.*limit;
+  }
+  return frozen(all);
+}
+
+std::vector<std::string> joint_types(const Robot& robot) {
+  std::vector<std::string> names;
+  for (const JointType type : robot.model.joint) names.emplace_back(name_of(type));
+  names.front() = "";  // the base has none
+  return names;
+}
+
+py::slice slice_of(std::size_t begin, std::size_t count) {
+  return py::slice(static_cast<py::ssize_t>(begin), static_cast<py::ssize_t>(begin + count), 1);
+}
+std::size_t count_of_q(const Robot& robot, std::size_t i) {
+  return (i + 1 < robot.model.iq.size() ? robot.model.iq[i + 1] : robot.model.nq) -
+         robot.model.iq[i];
+}
+// {joint: slice of q, or of qd}
+py::dict places(const Robot& robot, bool of_q) {
+  py::dict all;
+  for (std::size_t i = 1; i < robot.model.parent.size(); ++i) {
+    const std::size_t count = of_q ? count_of_q(robot, i) : robot.model.dofs(i);
+    if (count == 0) continue;
+    all[py::str(robot.model.joint_name[i])] =
+        slice_of(of_q ? robot.model.iq[i] : robot.model.iv[i], count);
+  }
+  return all;
+}
+
+void set_gravity(Robot& robot, const py::object& given) {
+  const std::vector<double> g = vector_of(given, 3, "gravity", "x, y, z in world axes [m/s^2]");
+  robot.model.gravity = {g[0], g[1], g[2]};
+}
+
+}  // namespace
+
+void add_robots(py::module_& m) {
+  py::class_<Robot, std::shared_ptr<Robot>> model(
+      m, "Model", py::is_final(),
+      "A mechanism: bodies, joints, inertias. Made by load(). Body 0 is the "
+      "base;\nbody i is carried by joint i, and its parent has a lower number.");
+  model.def_property_readonly(
+      "name", [](const Robot& r) { return r.input.robot.name; }, "of the robot in its file");
+  model.def_property_readonly(
+      "bodies", [](const Robot& r) { return r.model.body_name; },
+      "names of the links by body, the base first");
+  model.def_property_readonly(
+      "joints", [](const Robot& r) { return r.model.joint_name; },
+      "names of the joints by body; of the base ''");
+  model.def_property_readonly("joint_types", joint_types,
+                              "by body: 'fixed', 'revolute', 'prismatic', ...; of the base ''");
+  model.def_property_readonly(
+      "parent", [](const Robot& r) { return r.model.parent; },
+      "by body: the number of its parent; of the base -1");
+  model.def_property_readonly(
+      "nq", [](const Robot& r) { return r.model.nq; }, "how many coordinates q has");
+  model.def_property_readonly(
+      "nv", [](const Robot& r) { return r.model.nv; }, "how many velocities qd has");
+  model.def_property_readonly(
+      "q_of", [](const Robot& r) { return places(r, true); },
+      "{joint: slice}: where in q its coordinates stand; of joints that have any");
+  model.def_property_readonly(
+      "qd_of", [](const Robot& r) { return places(r, false); },
+      "{joint: slice}: where in qd its velocities stand; of joints that move");
+  model.def_property_readonly(
+      "q", [](const Robot& r) { return frozen(r.input.state.x.q); },
+      "(nq,) where the file starts: joints at zero, or as the scene says [rad, m]");
+  model.def_property_readonly(
+      "qd", [](const Robot& r) { return frozen(r.input.state.x.qd); },
+      "(nv,) its velocity there [rad/s, m/s]");
+  model.def_property_readonly(
+      "lower",
+      [](const Robot& r) {
+        return limits(r, &JointDescription::lower, -std::numeric_limits<double>::infinity());
+      },
+      "(nq,) lower limits of q [rad, m]; -inf where there is none");
+  model.def_property_readonly(
+      "upper",
+      [](const Robot& r) {
+        return limits(r, &JointDescription::upper, std::numeric_limits<double>::infinity());
+      },
+      "(nq,) upper limits of q [rad, m]; inf where there is none");
+  model.def_property_readonly(
+      "largest_speed", [](const Robot& r) { return largest(r, &JointDescription::velocity); },
+      "(nv,) as the file says [rad/s, m/s]; inf where it says none; nothing holds it");
+  model.def_property_readonly(
+      "largest_effort", [](const Robot& r) { return largest(r, &JointDescription::effort); },
+      "(nv,) as the file says [N m, N]; inf where it says none; nothing holds it");
+  model.def_property(
+      "gravity",
+      [](const Robot& r) {
+        const Vec3<double>& g = r.model.gravity;
+        return frozen({g.x, g.y, g.z});
+      },
+      set_gravity, "(3,) in world axes [m/s^2]; can be set");
+  model.def_property_readonly(
+      "warnings", [](const Robot& r) { return r.input.warnings; },
+      "what was read but is suspicious, or has no effect");
+  model.def("__repr__", [](const Robot& r) {
+    return "<twinarm.Model '" + r.input.robot.name +
+           "': " + std::to_string(r.model.parent.size() - 1) + " bodies, " + r.size_of_q() + ", " +
+           r.size_of_qd() + ">";
+  });
+
+  m.def("load", load, py::arg("file"), py::kw_only(), py::arg("floating") = false,
+        py::arg("friction") = true, py::arg("armature") = true,
+        "Reads a robot's URDF; or of a scene in TOML the bodies, without contacts, couplings and\n"
+        "constraints: those act in simulate().\n\n"
+        "  floating  the root link is free, and not fixed to the world (of a URDF)\n"
+        "  friction  False: as if no joint had damping or friction\n"
+        "  armature  False: as if no joint had a rotor's inertia\n\n"
+        "Raises InputError, which tells all faults with their lines.");
+}
+
+}  // namespace twinarm::python

@@ -1,0 +1,167 @@
+// A scene, or a robot, run as `twinarm simulate` runs it.
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+
+#include "app/python/arrays.h"
+#include "app/python/bind.h"
+#include "app/python/robot.h"
+#include "app/simulate/run.h"
+#include "solver/energy.h"
+
+namespace twinarm::python {
+namespace {
+
+// One run: samples in rows.
+struct Run {
+  std::shared_ptr<Robot> robot;
+  std::vector<double> t, q, qd, kinetic, potential;
+  SimulateResult result;
+};
+
+Array by_rows(const std::vector<double>& numbers, std::size_t rows, std::size_t columns) {
+  Array array = zeros({static_cast<py::ssize_t>(rows), static_cast<py::ssize_t>(columns)});
+  std::copy(numbers.begin(), numbers.end(), array.mutable_data());
+  return array;
+}
+
+void check_signals(double) {
+  if (PyErr_Occurred() || PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+bool is_signalled() {
+  return PyErr_CheckSignals() != 0;  // the exception stays set: the tick that follows throws it
+}
+
+Run simulate(const py::object& file, const std::optional<double>& duration,
+             const std::optional<double>& step, const std::string& integrator,
+             const std::optional<double>& every, const py::object& state,
+             const std::string& contact, const std::optional<double>& tolerance, bool friction,
+             bool armature) {
+  SimulateOptions options;
+  options.robot.model = path_of(file);
+  if (!duration && options.robot.model.extension() != ".toml")
+    throw py::value_error("simulate(): of a robot the duration is missing; give duration=SECONDS");
+  if (!state.is_none()) options.robot.state = path_of(state);
+  options.robot.friction = friction;
+  options.robot.armature = armature;
+  options.duration = duration;
+  options.step = step;
+  options.integrator = integrator;
+  options.contact = contact;
+  options.tolerance = tolerance;
+  options.every = every;
+  SimulatePlan prepared = prepare_simulation(options);
+  const Model<double>& model = prepared.input.robot.model;
+
+  Run run;
+  RunWatch watch;
+  watch.sample = [&](double t, const State<double>& x) {
+    run.t.push_back(t);
+    run.q.insert(run.q.end(), x.q.begin(), x.q.end());
+    run.qd.insert(run.qd.end(), x.qd.begin(), x.qd.end());
+    run.kinetic.push_back(kinetic_energy(model, x));
+    run.potential.push_back(potential_energy(model, x));
+  };
+  watch.tick = check_signals;
+  watch.interrupted = is_signalled;
+  run.result = run_plan(prepared.input, prepared.run, watch);
+  run.robot = std::make_shared<Robot>(prepared.input.robot);
+  return run;
+}
+
+py::dict ledger_of(const std::vector<LedgerRow>& rows) {
+  py::dict all;
+  for (const LedgerRow& row : rows) all[py::str(row.name)] = row.work;
+  return all;
+}
+py::dict momentum_ledger_of(const std::vector<MomentumRow>& rows) {
+  py::dict all;
+  for (const MomentumRow& row : rows) {
+    Array six = zeros({6});
+    store(row.angular, six.mutable_data(0));
+    store(row.linear, six.mutable_data(3));
+    all[py::str(row.name)] = six;
+  }
+  return all;
+}
+
+py::object stopped(const Run& run) {
+  if (!run.result.post_mortem) return py::none();
+  const PostMortem& found = *run.result.post_mortem;
+  py::dict why;
+  why["time"] = found.time;
+  why["step"] = found.step;
+  why["reason"] = found.reason;
+  why["body"] = found.body;
+  why["joint"] = found.joint;
+  why["field"] = found.field;
+  return why;
+}
+
+}  // namespace
+
+void add_scenes(py::module_& m) {
+  py::class_<Run> run(m, "Run",
+                      "What simulate() gives: N samples in rows, and the books of the whole run.");
+  const auto array = [&](const char* name, std::vector<double> Run::*numbers, const char* doc) {
+    run.def_property_readonly(
+        name, [numbers](const Run& r) { return array_of(r.*numbers); }, doc);
+  };
+  array("t", &Run::t, "(N,) times of the samples [s]");
+  run.def_property_readonly(
+      "q", [](const Run& r) { return by_rows(r.q, r.t.size(), r.robot->model.nq); },
+      "(N, nq) coordinates [rad, m]; model.q_of says which is which");
+  run.def_property_readonly(
+      "qd", [](const Run& r) { return by_rows(r.qd, r.t.size(), r.robot->model.nv); },
+      "(N, nv) velocities [rad/s, m/s]; model.qd_of says which is which");
+  array("kinetic_energy", &Run::kinetic, "(N,) [J]");
+  array("potential_energy", &Run::potential, "(N,) in the field of gravity [J]");
+  run.def_property_readonly(
+      "model", [](const Run& r) { return r.robot; }, "all bodies of the scene, as one Model");
+  run.def_property_readonly(
+      "steps", [](const Run& r) { return r.result.steps; }, "how many were taken");
+  run.def_property_readonly(
+      "end", [](const Run& r) { return r.result.end; },
+      "when it ended; of a run that stopped by itself the last good time [s]");
+  run.def_property_readonly(
+      "stopped", stopped,
+      "None, or why it stopped by itself: time [s], step, reason, body, joint, field");
+  run.def_property_readonly(
+      "ledger", [](const Run& r) { return ledger_of(r.result.ledger); },
+      "{row: work [J]}: where the energy came from; 'numerical' is the integrator's");
+  run.def_property_readonly(
+      "momentum", [](const Run& r) { return momentum_ledger_of(r.result.momentum); },
+      "{row: (6,)}: where angular momentum (about the world's origin) and linear momentum came\n"
+      "from, world axes [N m s, N s]");
+  run.def_property_readonly(
+      "hand", [](const Run& r) { return ledger_of(r.result.hand); },
+      "{coupling: work of its kinematic side [J]}");
+  run.def_property_readonly(
+      "contacts", [](const Run& r) { return r.result.contacts; },
+      "how many points pressed in the last step");
+  run.def_property_readonly(
+      "warnings",
+      [](const Run& r) {
+        std::vector<std::string> all = r.robot->input.warnings;
+        all.insert(all.end(), r.result.warnings.begin(), r.result.warnings.end());
+        return all;
+      },
+      "of the files, and of the run");
+
+  m.def("simulate", simulate, py::arg("file"), py::kw_only(), py::arg("duration") = py::none(),
+        py::arg("step") = py::none(), py::arg("integrator") = "", py::arg("every") = py::none(),
+        py::arg("state") = py::none(), py::arg("contact") = "", py::arg("tolerance") = py::none(),
+        py::arg("friction") = true, py::arg("armature") = true,
+        "Runs a scene in TOML, or a robot's URDF, as `twinarm simulate` does, with the same bits:\n"
+        "contacts, couplings, constraints, limits. What is left out is as the scene says.\n\n"
+        "  duration, step  [s]\n"
+        "  integrator      one of integrators()\n"
+        "  every           a sample each so many seconds; the start and the end if left out\n"
+        "  state           a state file in JSON\n"
+        "  contact         'rigid', 'compliant' or 'event'\n"
+        "  tolerance       of dopri5, relative and absolute\n\n"
+        "Returns a Run. A run that explodes ends there, and says so in Run.stopped.");
+}
+
+}  // namespace twinarm::python

@@ -1,0 +1,208 @@
+// A robot alone in motion, step by step.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "app/nearest_name.h"
+#include "app/python/arrays.h"
+#include "app/python/bind.h"
+#include "app/python/robot.h"
+#include "collision/import/number_text.h"
+#include "solver/energy.h"
+#include "solver/simulation.h"
+
+namespace twinarm::python {
+namespace {
+
+// What the user sets, constant until the next time.
+class JointForces : public ForceSource {
+ public:
+  explicit JointForces(std::size_t nv) : tau(nv) {}
+  void add_forces(const State<double>&, const Kinematics&,
+                  Forces<double>& forces) noexcept override {
+    for (std::size_t k = 0; k < tau.size(); ++k) forces.tau[k] += tau[k];
+  }
+  std::vector<double> tau;
+};
+
+struct RobotInMotion {
+  Robot& robot;
+  JointForces forces;
+  Simulation simulation;
+  double h;
+  long steps = 0, unsolved = 0;
+
+  RobotInMotion(Robot& r, State<double> start, double step)
+      : robot(r), forces(r.model.nv), simulation(r.model, std::move(start)), h(step) {
+    simulation.add(forces);
+  }
+};
+
+State<double> state_of(const Robot& robot, const py::object& q, const py::object& qd, double t,
+                       const State<double>& where_left_out) {
+  State<double> x = where_left_out;
+  if (!q.is_none()) x.q = vector_of(q, robot.model.nq, "q", robot.size_of_q());
+  if (!qd.is_none()) x.qd = vector_of(qd, robot.model.nv, "qd", robot.size_of_qd());
+  if (!std::isfinite(t)) throw py::value_error("t must be a finite number of seconds");
+  x.t = t;
+  robot.check_quaternions(x.q, "Simulation");
+  return x;
+}
+
+Integrator integrator_of(const std::string& name) {
+  if (const auto found = find_integrator(name)) return *found;
+  std::vector<std::string> names;
+  for (const IntegratorFacts& facts : all_integrators) names.emplace_back(facts.name);
+  throw py::value_error("there is no integrator '" + name + "'; " +
+                        name_remedy(name, names, "integrators"));
+}
+
+std::unique_ptr<RobotInMotion> start(Robot& robot, const py::object& q, const py::object& qd,
+                                     const std::string& integrator, double h, double tolerance,
+                                     bool friction) {
+  const auto check = [](const char* name, double value) {
+    if (!(value > 0) || !std::isfinite(value))
+      throw py::value_error(std::string(name) + " must be positive, is " + number_text(value));
+  };
+  check("h", h);
+  check("tolerance", tolerance);
+  const Integrator chosen = integrator_of(integrator);
+  auto made =
+      std::make_unique<RobotInMotion>(robot, state_of(robot, q, qd, 0, robot.input.state.x), h);
+  made->simulation.set_integrator(chosen);
+  if (chosen == Integrator::dopri5) made->simulation.set_tolerance(tolerance);
+  made->simulation.set_joint_friction(friction);
+  return made;
+}
+
+void one_step(RobotInMotion& moving) {
+  const double t = moving.simulation.state().t;
+  const StepReport report = moving.simulation.step(moving.h);
+  ++moving.steps;
+  if (!report.converged) ++moving.unsolved;
+  if (report.finite && report.reached) return;
+  const std::string where =
+      "step " + std::to_string(moving.steps) + ", from t = " + short_number_text(t) + " s: ";
+  if (report.finite)
+    throw std::runtime_error(where +
+                             "no substep however short meets the tolerance; give a larger one");
+  const std::string what =
+      where + "'" + (report.bad_field ? report.bad_field : "q") + "' of body '" +
+      moving.robot.model.body_name[static_cast<std::size_t>(report.bad_body)] +
+      "' is the first that is not finite; take a shorter h or another integrator";
+  PyErr_SetString(PyExc_FloatingPointError, what.c_str());
+  throw py::error_already_set();
+}
+
+void step(RobotInMotion& moving, long count) {
+  constexpr long kBetweenSignals = 256;
+  if (count < 0) throw py::value_error("count must not be negative");
+  for (long n = 0; n < count; ++n) {
+    one_step(moving);
+    if (n % kBetweenSignals == kBetweenSignals - 1 && PyErr_CheckSignals() != 0)
+      throw py::error_already_set();
+  }
+}
+
+// The states at the start and after every so many steps.
+py::tuple run(RobotInMotion& moving, long count, long every) {
+  if (every < 1) throw py::value_error("every must be 1 step or more");
+  if (count < 0 || count % every != 0)
+    throw py::value_error("count must be a multiple of every, and not negative");
+  const auto rows = static_cast<py::ssize_t>(count / every + 1);
+  const auto nq = static_cast<py::ssize_t>(moving.robot.model.nq),
+             nv = static_cast<py::ssize_t>(moving.robot.model.nv);
+  Array t = zeros({rows}), q = zeros({rows, nq}), qd = zeros({rows, nv});
+  for (py::ssize_t r = 0; r < rows; ++r) {
+    if (r > 0) step(moving, every);
+    const State<double>& x = moving.simulation.state();
+    *t.mutable_data(r) = x.t;
+    std::copy(x.q.begin(), x.q.end(), q.mutable_data() + r * nq);
+    std::copy(x.qd.begin(), x.qd.end(), qd.mutable_data() + r * nv);
+  }
+  return py::make_tuple(t, q, qd);
+}
+
+py::list integrators() {
+  py::list all;
+  for (const IntegratorFacts& facts : all_integrators) {
+    py::dict row;
+    row["name"] = facts.name;
+    row["order"] = facts.order;
+    row["solves"] = facts.solves;
+    all.append(row);
+  }
+  return all;
+}
+
+}  // namespace
+
+void add_simulation(py::module_& m) {
+  py::class_<RobotInMotion> simulation(m, "Simulation",
+                                       "A robot alone in motion under gravity, its joints' "
+                                       "friction, and joint forces that you set.\n"
+                                       "Nothing touches, and position limits do not act: for those "
+                                       "write a scene, and simulate() it.");
+  simulation.def(
+      py::init(&start), py::arg("model"), py::arg("q") = py::none(), py::arg("qd") = py::none(),
+      py::kw_only(), py::arg("integrator") = "semi-implicit", py::arg("h") = 0.001,
+      py::arg("tolerance") = 1e-9, py::arg("friction") = true, py::keep_alive<1, 2>(),
+      "  q (nq,), qd (nv,)  the start [rad, m; rad/s, m/s]; the model's own if left out\n"
+      "  integrator         one of integrators()\n"
+      "  h                  the step [s]\n"
+      "  tolerance          of dopri5, relative and absolute\n"
+      "  friction           False: as if no joint had damping or friction");
+  simulation.def(
+      "step", step, py::arg("count") = 1,
+      "Goes on by so many steps of h. Raises FloatingPointError with the first quantity\n"
+      "that is not finite; the state is then of no use, and set_state() begins anew.");
+  simulation.def(
+      "run", run, py::arg("count"), py::arg("every") = 1,
+      "Goes on by count steps. Returns (t, q, qd) of the start and of every so many steps:\n"
+      "(N,) [s], (N, nq) [rad, m], (N, nv) [rad/s, m/s]. Raises as step().");
+  simulation.def(
+      "set_state",
+      [](RobotInMotion& moving, const py::object& q, const py::object& qd, double t) {
+        moving.simulation.set_state(state_of(moving.robot, q, qd, t, moving.simulation.state()));
+      },
+      py::arg("q") = py::none(), py::arg("qd") = py::none(), py::arg("t") = 0.0,
+      "Stands at q (nq,) [rad, m] with velocity qd (nv,) [rad/s, m/s] at time t [s]; what is left\n"
+      "out stays. Joints that follow others are placed by their leaders.");
+  simulation.def_property_readonly(
+      "t", [](const RobotInMotion& moving) { return moving.simulation.state().t; }, "time [s]");
+  simulation.def_property_readonly(
+      "q", [](const RobotInMotion& moving) { return frozen(moving.simulation.state().q); },
+      "(nq,) coordinates [rad, m]; a copy, set by set_state()");
+  simulation.def_property_readonly(
+      "qd", [](const RobotInMotion& moving) { return frozen(moving.simulation.state().qd); },
+      "(nv,) velocities [rad/s, m/s]; a copy, set by set_state()");
+  simulation.def_property(
+      "tau", [](const RobotInMotion& moving) { return frozen(moving.forces.tau); },
+      [](RobotInMotion& moving, const py::object& tau) {
+        moving.forces.tau = vector_of(tau, moving.robot.model.nv, "tau", moving.robot.size_of_qd());
+      },
+      "(nv,) joint forces [N m, N], constant until set again: sim.tau = [..]");
+  simulation.def_readonly("h", &RobotInMotion::h, "the step [s]");
+  simulation.def_property_readonly(
+      "integrator",
+      [](const RobotInMotion& moving) { return integrator_name(moving.simulation.integrator()); },
+      "its name");
+  simulation.def_readonly("steps", &RobotInMotion::steps, "how many were taken");
+  simulation.def_readonly(
+      "unsolved", &RobotInMotion::unsolved,
+      "in how many of them the equation of the step was not solved to rounding");
+  simulation.def(
+      "energy",
+      [](const RobotInMotion& moving) {
+        const State<double>& x = moving.simulation.state();
+        return py::make_tuple(kinetic_energy(moving.robot.model, x),
+                              potential_energy(moving.robot.model, x));
+      },
+      "(kinetic, potential) [J]");
+
+  m.def("integrators", integrators,
+        "A row for each: name; order, with which the error at a fixed time falls; solves, whether\n"
+        "an equation is solved in each step.");
+}
+
+}  // namespace twinarm::python
