@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "solver/fault.h"
@@ -15,6 +16,8 @@ void require_writable_folder(const std::filesystem::path& folder, const char* op
 void make_folder(const std::filesystem::path& folder, const char* option = "--out");
 // Adds a fault where a file cannot be written: to be told before the work, and not after it.
 void check_place(const std::filesystem::path& file, FaultList& faults);
+// Both throw InputError where there is no such file, or it cannot be read.
+std::ifstream open_file(const std::filesystem::path& file);
 std::string read_whole_file(const std::filesystem::path& file);
 
 }  // namespace twinarm

@@ -71,7 +71,8 @@ LIBRARIES = {
 TESTS_OF_LIBRARY = {"tests/scene/": "app/scene/", "tests/hand/": "app/hand/",
                     "tests/lab/": "app/", "tests/live/": "app/live/", "tests/inspect/": "app/inspect/",
                     "tests/live/": ("app/live/", "app/hand/", "app/scene/"), "tests/inspect/": "app/inspect/",
-                    "tests/render/": "app/render/", "tests/show/": ("app/show/", "app/render/")}
+                    "tests/render/": "app/render/", "tests/show/": ("app/show/", "app/render/"),
+                    "tests/fuzz/": "app/"}
 
 # The rooms of the lab (app/lab/README.md), and what of the program each may include besides itself.
 LAB = {
@@ -86,7 +87,7 @@ LAB = {
 }
 
 # Headers that show an outside library. Each is of use inside its own folder only.
-INNER_HEADERS = {"app/lab/server/connection.h", "collision/import/recipe_toml.h", "app/render/gl_table.h",
+INNER_HEADERS = {"app/lab/server/connection.h", "app/study/whole_number.h", "collision/import/recipe_toml.h", "app/render/gl_table.h",
                  "app/render/gl_objects.h", "app/render/scene_pass.h"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
