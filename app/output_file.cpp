@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <sstream>
 
 namespace twinarm {
@@ -62,7 +61,7 @@ void check_place(const std::filesystem::path& file, FaultList& faults) {
                 "choose a folder that can be written"});
 }
 
-std::string read_whole_file(const std::filesystem::path& file) {
+std::ifstream open_file(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
     throw InputError({{file.string(), 0, "", "the file does not exist",
@@ -73,9 +72,13 @@ std::string read_whole_file(const std::filesystem::path& file) {
   if (!stream)
     throw InputError({{file.string(), 0, "", "the file cannot be read",
                        "check its permissions: ls -l shows them"}});
+  return stream;
+}
+
+std::string read_whole_file(const std::filesystem::path& file) {
   std::stringstream content;
-  content << stream.rdbuf();
-  return content.str();
+  content << open_file(file).rdbuf();
+  return std::move(content).str();
 }
 
 }  // namespace twinarm

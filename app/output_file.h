@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "solver/fault.h"
@@ -17,6 +18,8 @@ void make_folder(const std::filesystem::path& folder, const char* option = "--ou
 std::filesystem::path make_temporary_folder(const std::string& name);
 // Adds a fault where a file cannot be written: to be told before the work, and not after it.
 void check_place(const std::filesystem::path& file, FaultList& faults);
+// Both throw InputError where there is no such file, or it cannot be read.
+std::ifstream open_file(const std::filesystem::path& file);
 std::string read_whole_file(const std::filesystem::path& file);
 
 }  // namespace twinarm

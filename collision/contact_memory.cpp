@@ -5,10 +5,14 @@
 namespace twinarm {
 
 void ContactConstraints::visit_memory(Memory& memory) {
+  constexpr std::size_t kPoint = 28 * sizeof(double),
+                        kWork = 9 * sizeof(double);  // bytes, at least
+  const auto count = static_cast<std::size_t>(world_.size());
   memory.visit(locates_);
-  memory.resize(points_, sizeof(double));
+  memory.resize(points_, kPoint);
   for (ContactPoint& p : points_) {
-    for (int* id : {&p.contact.a, &p.contact.b, &p.contact.feature}) memory.visit(*id);
+    for (int* id : {&p.contact.a, &p.contact.b}) memory.visit_index(*id, count);
+    memory.visit(p.contact.feature);
     for (double* number : {&p.contact.depth, &p.friction, &p.restitution, &p.compliance.stiffness,
                            &p.compliance.dissipation})
       memory.visit(*number);
@@ -18,9 +22,9 @@ void ContactConstraints::visit_memory(Memory& memory) {
     memory.visit(p.is_held);
     memory.visit(p.opens);
   }
-  memory.resize(work_, sizeof(double));
+  memory.resize(work_, kWork);
   for (ContactWork& work : work_) {
-    memory.visit(work.a), memory.visit(work.b);
+    for (int* id : {&work.a, &work.b}) memory.visit_index(*id, count);
     for (double* joules : {&work.normal, &work.friction, &work.impact}) memory.visit(*joules);
     memory.visit(work.impulse_W), memory.visit(work.moment_W);
   }

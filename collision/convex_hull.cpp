@@ -136,6 +136,14 @@ ConvexHull convex_hull(std::span<const Vector3> points, double flatness) {
   for (Vector3& p : scaled) p = (p - points[0]) / extent;
   Loops loops = run_qhull(scaled, flatness);
 
+  // Each plane is held against each point.
+  constexpr double kMostPlaneChecks = 4e9;
+  if (static_cast<double>(loops.size()) * static_cast<double>(points.size()) > kMostPlaneChecks)
+    throw InputError({{"", 0, "convex hull",
+                       "there are " + std::to_string(points.size()) + " points, and " +
+                           std::to_string(loops.size()) + " faces about them: too many",
+                       "simplify the mesh: a body that is to be touched needs some hundred"}});
+
   // Number the corners in the order of the input.
   std::map<int, int> index;
   for (const auto& [normal, loop] : loops) {

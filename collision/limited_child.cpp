@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <fstream>
 #include <new>
 #include <string_view>
 #include <system_error>
@@ -40,6 +41,13 @@ void limit(int what, rlim_t most) {
   setrlimit(static_cast<__rlimit_resource_t>(what), &both);
 }
 
+// Of this process [bytes].
+std::size_t addresses_in_use() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
 bool send(int pipe, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t sent = write(pipe, bytes.data(), bytes.size());
@@ -68,7 +76,7 @@ void be_silent() {
   if (!kSanitized) be_silent();
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.cpu_seconds);
-  if (!kSanitized) limit(RLIMIT_AS, limits.bytes);
+  if (!kSanitized) limit(RLIMIT_AS, addresses_in_use() + limits.bytes);
   int end = kDone;
   try {
     if (!send(pipe, work())) end = kCannotSend;

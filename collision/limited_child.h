@@ -9,7 +9,8 @@ namespace twinarm {
 
 struct ChildLimits {
   unsigned cpu_seconds = 20;
-  std::size_t bytes = std::size_t{4} << 30;  // of address space; not under sanitizers
+  // Of address space, beside what the program has already; not under sanitizers.
+  std::size_t bytes = std::size_t{1} << 30;
 };
 struct ChildResult {
   std::string bytes;  // what the work returned

@@ -1,6 +1,7 @@
 // When a force is computed: at every step and stage, or once in so many steps and held between.
 #pragma once
 
+#include <limits>
 #include <stdexcept>
 
 #include "solver/force_source.h"
@@ -23,7 +24,9 @@ class Hold {
   void computed() {
     if (every_ > 0) fresh_ = false;
   }
-  void visit_memory(Memory& memory) { memory.visit(steps_); }
+  void visit_memory(Memory& memory) {
+    memory.visit_index(steps_, std::numeric_limits<int>::max() / 2);
+  }
 
  private:
   int every_, steps_ = 0;

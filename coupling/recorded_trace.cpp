@@ -9,6 +9,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "coupling/text_lines.h"
 #include "solver/fault.h"
 #include "solver/whole_file.h"
 
@@ -18,7 +19,8 @@ namespace {
 constexpr std::array<const char*, 7> kColumns{"t[s]",        "theta1[rad]", "theta2[rad]",
                                               "theta3[rad]", "theta4[rad]", "theta5[rad]",
                                               "theta6[rad]"};
-constexpr std::size_t kMostFaults = 20;  // of one file; a wrong unit would name every line
+constexpr std::size_t kMostTraceFaults = 20;  // of one file; a wrong unit would name every line
+constexpr std::size_t kMostSamples = std::size_t{1} << 23;  // two hours at 1 kHz
 constexpr double kDegree = std::numbers::pi / 180;
 
 // The ends of the Omni's joints, theta3 told relative to theta2 or to the world [rad]. A trace may
@@ -60,7 +62,7 @@ class TraceReader {
  private:
   using Cells = std::vector<std::string>;
   void add(int line, const std::string& where, const std::string& rule, const std::string& remedy) {
-    if (++fault_count_ <= kMostFaults) faults_.add({trace_.file_, line, where, rule, remedy});
+    if (++fault_count_ <= kMostTraceFaults) faults_.add({trace_.file_, line, where, rule, remedy});
   }
   std::string column_name(std::size_t joint) const {
     return in_degrees_[joint] ? degree_column(joint) : kColumns[joint + 1];
@@ -82,7 +84,7 @@ class TraceReader {
 
 void TraceReader::read(std::istream& stream) {
   int line_number = 0;
-  for (std::string line; std::getline(stream, line);) {
+  for (std::string line; next_line(stream, line, trace_.file_, line_number + 1);) {
     ++line_number;
     const Cells cells = split(line);
     const bool blank = cells.empty() || (cells.size() == 1 && cells[0].empty());
@@ -95,9 +97,9 @@ void TraceReader::read(std::istream& stream) {
   if (fault_count_ == 0 && trace_.samples_.size() < 2)
     add(0, "", "the trace has fewer than two samples", "give a header line and at least two lines");
   check_angles();
-  if (fault_count_ > kMostFaults)
-    faults_.add(
-        {trace_.file_, 0, "", fmt::format("and {} more faults", fault_count_ - kMostFaults), ""});
+  if (fault_count_ > kMostTraceFaults)
+    faults_.add({trace_.file_, 0, "",
+                 fmt::format("and {} more faults", fault_count_ - kMostTraceFaults), ""});
   faults_.check();
   measure();
   const double start = trace_.samples_.front().t;
@@ -151,6 +153,9 @@ void TraceReader::read_sample(int line, const Cells& cells) {
         "sort the lines by time, one line for each instant");
     return;
   }
+  if (samples.size() == kMostSamples)
+    throw InputError({{trace_.file_, line, "", "the trace has more than 8 million samples",
+                       "cut it, or sample it more slowly"}});
   samples.push_back(sample);
 }
 

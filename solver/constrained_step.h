@@ -61,7 +61,8 @@ class ConstrainedStep {
   void set_usual_accuracy() { set_accuracy(usual_[0], usual_[1], usual_[2]); }
   // Guesses of impulses.
   void visit_memory(Memory& memory) {
-    for (auto* guess : {&friction_guess_, &mimic_guess_, &loop_guess_}) memory.visit(*guess);
+    for (auto* guess : {&friction_guess_, &mimic_guess_}) memory.visit_fixed(*guess);
+    memory.visit(loop_guess_);  // each step gives it its size
     solver_.visit_memory(memory);
   }
   // Loops: J qdd + gamma = 0, the forces of this instant, in place of g' = 0 after the step. A run

@@ -11,6 +11,25 @@ std::string line_by_line(const std::vector<Fault>& faults) {
   return text;
 }
 
+// Not within a letter of UTF-8.
+void shorten(std::string& text) {
+  constexpr std::size_t kLongest = 1000;
+  if (text.size() <= kLongest) return;
+  std::size_t end = kLongest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  text.resize(end);
+  text += "...";
+}
+
+void shorten(Fault& fault) {
+  for (std::string* text : {&fault.where, &fault.rule, &fault.remedy}) shorten(*text);
+}
+
+std::vector<Fault>& shortened(std::vector<Fault>& faults) {
+  for (Fault& fault : faults) shorten(fault);
+  return faults;
+}
+
 }  // namespace
 
 std::string to_string(const Fault& fault) {
@@ -26,15 +45,25 @@ std::string to_string(const Fault& fault) {
   return text;
 }
 
+void add_fault(std::vector<Fault>& faults, Fault fault) {
+  shorten(fault);
+  if (faults.size() < kMostFaults)
+    faults.push_back(std::move(fault));
+  else if (faults.size() == kMostFaults)
+    faults.push_back({std::move(fault.file), 0, "",
+                      "has more than " + std::to_string(kMostFaults) + " faults",
+                      "mend the others that are told, and try again"});
+}
+
 InputError::InputError(std::vector<Fault> faults)
-    : std::runtime_error(line_by_line(faults)), faults_(std::move(faults)) {}
+    : std::runtime_error(line_by_line(shortened(faults))), faults_(std::move(faults)) {}
 InputError::~InputError() = default;
 
 void FaultList::add(Fault fault) {
-  faults_.push_back(std::move(fault));
+  add_fault(faults_, std::move(fault));
 }
 void FaultList::add(const std::vector<Fault>& more) {
-  faults_.insert(faults_.end(), more.begin(), more.end());
+  for (const Fault& fault : more) add(fault);
 }
 void FaultList::check() const {
   if (!faults_.empty()) throw InputError(faults_);

@@ -21,6 +21,11 @@ struct Fault {
 // "robot.urdf:12: link 'arm1': mass is -3 kg, must be positive; give <mass value=...>"
 std::string to_string(const Fault& fault);
 
+// Of a hostile file there could be millions: so many are kept, and that there are more. A text in
+// one is cut after 1000 bytes, here and by InputError.
+inline constexpr std::size_t kMostFaults = 200;
+void add_fault(std::vector<Fault>& faults, Fault fault);
+
 // Bad input, with all its faults. what() has one line per fault.
 class InputError : public std::runtime_error {
  public:
@@ -38,6 +43,7 @@ class FaultList {
   void add(Fault fault);
   void add(const std::vector<Fault>& more);
   bool empty() const { return faults_.empty(); }
+  bool is_full() const { return faults_.size() > kMostFaults; }
   const std::vector<Fault>& faults() const { return faults_; }
   void check() const;
 

@@ -74,7 +74,7 @@ class ForwardDynamics {
   const std::vector<std::size_t>& at_rest(const State<double>& x) noexcept;
   // Stops what the last call holds, and what slides against its mode, exactly.
   void settle(State<double>& x) const;
-  void visit_memory(Memory& memory) { memory.visit(mode_); }
+  void visit_memory(Memory& memory) { memory.visit_fixed(mode_); }
 
  private:
   enum class Rule { now, end_of_step, as_chosen };

@@ -41,9 +41,9 @@ class JointLimits final : public EventSource, public Rewindable {
   void go_back() noexcept override { std::swap(limits_, kept_); }
   void visit_memory(Memory& memory) override {
     for (Limit& limit : limits_) memory.visit(limit.force), memory.visit(limit.work);
-    memory.resize(held_, sizeof(double));
+    memory.resize(held_, 2 * sizeof(double));
     for (Held& held : held_) {
-      memory.visit(held.limit);
+      memory.visit_index(held.limit, limits_.size());
       memory.visit(held.sign);
       memory.visit(held.opens);
     }

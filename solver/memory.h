@@ -38,7 +38,10 @@ class Memory {
       return;
     }
     need(sizeof value);
-    std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    if constexpr (std::is_same_v<T, bool>)
+      value = bytes_[at_] != 0;  // another byte is no bool
+    else
+      std::memcpy(&value, bytes_.data() + at_, sizeof value);
     at_ += sizeof value;
   }
   void visit(Vector3& v) {
@@ -48,6 +51,20 @@ class Memory {
   void visit(std::vector<T>& values) {
     resize(values, sizeof(T));
     for (T& value : values) visit(value);
+  }
+  // Of a vector that is as long as the scene makes it.
+  template <class T>
+  void visit_fixed(std::vector<T>& values) {
+    const std::size_t size = values.size();
+    visit(values);
+    if (values.size() != size) of_another_scene();
+  }
+  // Of one of `count` things of the scene.
+  template <class T>
+  void visit_index(T& index, std::size_t count) {
+    visit(index);
+    if (!std::in_range<std::size_t>(index) || static_cast<std::size_t>(index) >= count)
+      of_another_scene();
   }
   void visit(std::string& text) {
     std::uint64_t size = text.size();
@@ -66,15 +83,15 @@ class Memory {
     std::uint64_t size = values.size();
     visit(size);
     if (!reads_) return;
-    if (size > (bytes_.size() - at_) / least_bytes) too_short();
+    if (size > (bytes_.size() - at_) / least_bytes) of_another_scene();
     values.resize(size);
   }
 
  private:
   void need(std::size_t bytes) const {
-    if (bytes > bytes_.size() - at_) too_short();
+    if (bytes > bytes_.size() - at_) of_another_scene();
   }
-  [[noreturn]] static void too_short() {
+  [[noreturn]] static void of_another_scene() {
     throw std::runtime_error("what a run remembers is cut short, or is of another scene");
   }
   std::string bytes_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <unordered_set>
 #include <utility>
 
 #include "app/output_file.h"
@@ -53,7 +54,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
   bool end_array() override { return close(); }
   bool key(std::string& name) override {
     value_line_ = line_;
-    if (open_.back().find(name))
+    if (!seen_.back().insert(name).second)
       faults.add({file_, line_, name, "stands here twice", "leave one of them out"});
     names_.back() = name;
     return true;
@@ -101,20 +102,23 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
     item.line = line_;
     open_.push_back(std::move(item));
     names_.emplace_back();
+    seen_.emplace_back();
     return true;
   }
   bool close() {
     JsonValue item = std::move(open_.back());
     open_.pop_back();
     names_.pop_back();
+    seen_.pop_back();
     return add(std::move(item));
   }
 
   std::string file_;
   const int& line_;
   int value_line_ = 1;
-  std::vector<JsonValue> open_;     // the brackets around here
-  std::vector<std::string> names_;  // the key after which their next value comes
+  std::vector<JsonValue> open_;                        // the brackets around here
+  std::vector<std::string> names_;                     // the key after which their next value comes
+  std::vector<std::unordered_set<std::string>> seen_;  // all their keys
 };
 
 // Programs write NaN and Infinity into JSON that has neither: null in their place, so that all of
@@ -171,6 +175,10 @@ JsonValue read_json(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw InputError({{file.string(), 0, "", "is a folder", "name a JSON file"}});
+  constexpr std::uintmax_t kMostJsonBytes = 4u << 20;
+  if (std::filesystem::file_size(file, error) > kMostJsonBytes && !error)
+    throw InputError({{file.string(), 0, "", "has more than 4 MiB",
+                       "name a state file: a few numbers for each joint"}});
   return parse_json(read_whole_file(file), file.string());
 }
 

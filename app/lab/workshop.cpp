@@ -82,6 +82,7 @@ void Workshop::work() {
       if (asked.done) asked.done(words_of(error));
       out_.failed(asked, words_of(error));
     } catch (const std::exception& error) {
+      if (asked.done) asked.done(error.what());
       out_.failed(asked, error.what());
     }
   }

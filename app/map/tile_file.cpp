@@ -12,7 +12,8 @@ namespace twinarm {
 namespace {
 
 constexpr const char* kFirstLine = "twinarm map 1";
-constexpr std::size_t kHeadMost = 65536;  // bytes
+constexpr std::size_t kHeadMost = 65536;               // bytes
+constexpr std::uintmax_t kMostTileBytes = 256u << 20;  // four million cells
 
 std::string block_bytes(int number, const std::vector<double>& values) {
   Memory memory;
@@ -68,6 +69,10 @@ std::string to_bytes(const TileFile& file) {
 }
 
 TileFile read_tile_file(const std::filesystem::path& path) {
+  std::error_code unknown;
+  if (std::filesystem::file_size(path, unknown) > kMostTileBytes && !unknown)
+    throw InputError({{path.string(), 0, "", "has more than 256 MiB: no map is as large",
+                       "give a file that `twinarm map` has written with --work or --tile"}});
   const std::string bytes = read_whole_file(path);
   const std::size_t end = bytes.substr(0, kHeadMost).find("\n\n");
   if (!bytes.starts_with(std::string(kFirstLine) + "\n") || end == std::string::npos)
@@ -89,7 +94,8 @@ TileFile read_tile_file(const std::filesystem::path& path) {
       throw is_damaged(path, "a block is too large");
     if (bytes.size() - at < kFrame + 8 * cells) throw is_damaged(path, "its end is cut off");
     std::vector<double> values(cells);
-    std::memcpy(values.data(), bytes.data() + at + 2 * sizeof number, 8 * cells);
+    if (cells > 0)  // else there is no place to copy to
+      std::memcpy(values.data(), bytes.data() + at + 2 * sizeof number, 8 * cells);
     const std::string again = block_bytes(static_cast<int>(number), values);
     if (bytes.compare(at, again.size(), again) != 0)
       throw is_damaged(path, fmt::format("block {} has another check sum", number));

@@ -143,7 +143,11 @@ void apply(const Change& change, int line, TomlValue& scene, FaultList& faults) 
   const auto fault = [&](const std::string& rule, const std::string& remedy) {
     faults.add({"", 0, "--set " + change.path, rule, remedy});
   };
+  constexpr std::size_t kLongestPath = 16;  // each step is a table within a table
   SceneChange wanted(change, line);
+  if (wanted.count() > kLongestPath)
+    return fault("the path has " + std::to_string(wanted.count()) + " steps",
+                 "no number of a scene lies deeper than a few");
   const std::string& name = wanted.top();
   add_left_out(name, line, scene);
   std::vector<std::string> names;

@@ -5,11 +5,13 @@
 namespace twinarm {
 namespace {
 
+// Of items that take so many bytes at least: a file cannot ask for more of them than it can hold.
 template <class T, class F>
-void visit_all(Memory& memory, std::vector<T>& items, F f) {
-  memory.resize(items, 1);
+void visit_all(Memory& memory, std::vector<T>& items, std::size_t least, F f) {
+  memory.resize(items, least);
   for (T& item : items) f(item);
 }
+constexpr std::size_t kLeastText = 8, kVector = 24, kLeastContact = 16 + 4 * kVector;  // [bytes]
 
 void visit_path(Memory& memory, std::filesystem::path& path) {
   std::string text = path.string();
@@ -57,8 +59,8 @@ std::uint32_t checksum(const char* bytes, std::size_t count) {
 
 void visit(Memory& memory, RecordingHeader& header) {
   memory.visit(header.program);
-  visit_all(memory, header.command, [&](std::string& word) { memory.visit(word); });
-  visit_all(memory, header.files, [&](RecordedFile& file) {
+  visit_all(memory, header.command, kLeastText, [&](std::string& word) { memory.visit(word); });
+  visit_all(memory, header.files, 2 * kLeastText, [&](RecordedFile& file) {
     memory.visit(file.path);
     memory.visit(file.bytes);
   });
@@ -67,12 +69,12 @@ void visit(Memory& memory, RecordingHeader& header) {
   memory.visit(header.step);
   memory.visit(header.duration);
   memory.visit(header.seed);
-  visit_all(memory, header.columns, [&](RecordedColumn& column) {
+  visit_all(memory, header.columns, 2 * kLeastText, [&](RecordedColumn& column) {
     memory.visit(column.name);
     memory.visit(column.unit);
   });
-  visit_all(memory, header.couplings, [&](std::string& name) { memory.visit(name); });
-  visit_all(memory, header.geometries, [&](std::string& name) { memory.visit(name); });
+  visit_all(memory, header.couplings, kLeastText, [&](std::string& name) { memory.visit(name); });
+  visit_all(memory, header.geometries, kLeastText, [&](std::string& name) { memory.visit(name); });
 }
 
 void visit(Memory& memory, RecordedFrame& frame) {
@@ -80,8 +82,8 @@ void visit(Memory& memory, RecordedFrame& frame) {
   memory.visit(frame.t);
   memory.visit(frame.hash);
   memory.visit(frame.values);
-  visit_all(memory, frame.pulls, [&](Vector3& pull) { memory.visit(pull); });
-  visit_all(memory, frame.contacts, [&](RecordedContact& contact) {
+  visit_all(memory, frame.pulls, kVector, [&](Vector3& pull) { memory.visit(pull); });
+  visit_all(memory, frame.contacts, kLeastContact, [&](RecordedContact& contact) {
     memory.visit(contact.a);
     memory.visit(contact.b);
     memory.visit(contact.depth);
@@ -91,7 +93,7 @@ void visit(Memory& memory, RecordedFrame& frame) {
   memory.visit(frame.rows);
   memory.visit(frame.works);
   memory.visit(frame.momentum_rows);
-  visit_all(memory, frame.momenta, [&](Vector3& momentum) { memory.visit(momentum); });
+  visit_all(memory, frame.momenta, kVector, [&](Vector3& momentum) { memory.visit(momentum); });
   memory.visit(frame.memory);
 }
 

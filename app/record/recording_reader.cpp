@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "app/output_file.h"
@@ -12,6 +13,10 @@
 
 namespace twinarm {
 namespace {
+
+// What no run writes: a file that asks for more is refused before it is given the memory.
+constexpr std::size_t kMostBlock = 256u << 20, kMostText = 64u << 20;  // [bytes]
+constexpr std::size_t kMostFrames = 1u << 24;
 
 std::uint32_t number_at(const std::string& bytes, std::size_t at) {
   std::uint32_t number = 0;
@@ -30,19 +35,24 @@ Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
     notes_.push_back("it is of an earlier run than " + part_of(file).string() +
                      ", which did not come to its end, or still goes on");
   }
-  bytes_ = read_whole_file(file_);
+  stream_ = open_file(file_);
+  std::error_code unknown;
+  size_ = std::filesystem::file_size(file_, unknown);
+  if (unknown) size_ = 0;
   const auto refuse = [&](const std::string& rule, const std::string& remedy) {
     throw InputError({{file_, 0, "", rule, remedy}});
   };
   using namespace recording_format;
-  if (bytes_.size() < kStart || bytes_.compare(0, 8, kMagic, 8) != 0)
-    refuse(bytes_.empty()
+  std::string start(std::min(size_, kStart), '\0');
+  stream_.read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start.size() < kStart || start.compare(0, 8, kMagic, 8) != 0)
+    refuse(start.empty()
                ? "it is empty: the run that was to write it did not begin, or the disk was full"
-           : std::string(kMagic, 8).starts_with(bytes_.substr(0, 8))
+           : std::string(kMagic, 8).starts_with(start.substr(0, 8))
                ? "it is cut short within its first bytes"
                : "it is no recording",
            "give a file that `twinarm simulate --record FILE` wrote");
-  if (const std::uint32_t version = number_at(bytes_, 8); version != kVersion)
+  if (const std::uint32_t version = number_at(start, 8); version != kVersion)
     refuse(
         fmt::format("its format is version {}; this program reads version {}", version, kVersion),
         version > kVersion ? "read it with the newer twinarm that wrote it" : "record it again");
@@ -59,55 +69,81 @@ Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
 void Recording::read_blocks() {
   using namespace recording_format;
   std::size_t at = kStart;
-  std::string what;
-  while (at < bytes_.size()) {
+  std::string what, block;
+  while (at < size_) {
     if (!end_.empty()) {
       notes_.push_back(fmt::format(
-          "{} bytes after the mark of its end do not belong to it: left out", bytes_.size() - at));
+          "{} bytes after the mark of its end do not belong to it: left out", size_ - at));
       return;
     }
-    const bool has_head = bytes_.size() - at >= kBefore + kAfter;
-    const std::size_t size = has_head ? number_at(bytes_, at + 1) : 0;
-    if (!has_head || size > bytes_.size() - at - kBefore - kAfter) {
+    const auto read_up_to = [&](std::size_t end) {
+      const std::size_t have = block.size();
+      block.resize(end);
+      return bool(stream_.read(block.data() + have, static_cast<std::streamsize>(end - have)));
+    };
+    block.clear();
+    const bool has_head = size_ - at >= kBefore + kAfter && read_up_to(kBefore);
+    const std::size_t size = has_head ? number_at(block, 1) : 0;
+    if (!has_head || size > size_ - at - kBefore - kAfter) {
       what = "is cut short";
       break;
     }
-    if (checksum(bytes_.data() + at, kBefore + size) != number_at(bytes_, at + kBefore + size)) {
+    if (size > kMostBlock) {
+      what = "has a block of more than 256 MiB";
+      break;
+    }
+    if (!read_up_to(kBefore + size + kAfter) ||
+        checksum(block.data(), kBefore + size) != number_at(block, kBefore + size)) {
       what = "is damaged (its checksum differs)";
       break;
     }
-    take(bytes_[at], at + kBefore, size);
+    take(block[0], at + kBefore, std::string_view(block).substr(kBefore, size));
     at += kBefore + size + kAfter;
   }
   if (what.empty() && end_.empty()) what = "ends without the mark of its end";
   if (what.empty() || places_.empty()) return;
   notes_.push_back(fmt::format("the file {} at byte {} of {}; kept: {} frames, up to t = {} s",
-                               what, at, bytes_.size(), places_.size(),
+                               what, at, size_, places_.size(),
                                short_number_text(places_.back().t)));
 }
 
-void Recording::take(char kind, std::size_t begin, std::size_t size) {
+void Recording::take(char kind, std::size_t begin, std::string_view payload) {
   using namespace recording_format;
   if (kind == kHeader) {
-    Memory memory(bytes_.substr(begin, size));
+    if (has_header_) throw std::runtime_error("there is a second header");
+    Memory memory{std::string(payload)};
     visit(memory, header_);
     has_header_ = true;
   } else if (kind == kName) {
-    names_.push_back(bytes_.substr(begin, size));
+    take_text(payload, names_);
   } else if (kind == kMomentumName) {
-    momentum_names_.push_back(bytes_.substr(begin, size));
+    take_text(payload, momentum_names_);
   } else if (kind == kAlarm) {
-    alarms_.push_back(bytes_.substr(begin, size));
+    take_text(payload, alarms_);
   } else if (kind == kEnd) {
-    end_ = bytes_.substr(begin, size);
+    end_ = payload;
   } else if (kind == kFrame) {
-    Memory memory(bytes_.substr(begin, 16));
-    long step = 0;
-    double t = 0;
-    memory.visit(step);
-    memory.visit(t);
-    places_.push_back({begin, size, t});
+    take_frame(begin, payload);
   }
+}
+
+void Recording::take_text(std::string_view text, std::vector<std::string>& texts) {
+  text_ += text.size() + sizeof(std::string);
+  if (text_ > kMostText) throw std::runtime_error("there are more than 64 MiB of names");
+  texts.emplace_back(text);
+}
+
+void Recording::take_frame(std::size_t begin, std::string_view payload) {
+  Memory memory{std::string(payload.substr(0, 16))};
+  long step = 0;
+  double t = 0;
+  memory.visit(step);
+  memory.visit(t);
+  if (places_.size() == kMostFrames)
+    throw std::runtime_error("there are more than 16 million frames");
+  if (!(t >= (places_.empty() ? -HUGE_VAL : places_.back().t)))
+    throw std::runtime_error("the time of a frame lies before that of the last");
+  places_.push_back({begin, payload.size(), t});
 }
 
 // A right checksum says that the bytes are as they were written, not that they make sense.
@@ -115,7 +151,12 @@ RecordedFrame Recording::frame(std::size_t n) const {
   RecordedFrame frame;
   bool fits = true;
   try {
-    Memory memory(bytes_.substr(places_[n].begin, places_[n].size));
+    std::string bytes(places_[n].size, '\0');
+    stream_.clear();
+    stream_.seekg(static_cast<std::streamoff>(places_[n].begin));
+    if (!stream_.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+      throw std::runtime_error("the file has become shorter");
+    Memory memory(std::move(bytes));
     visit(memory, frame);
     fits = memory.at_end();
   } catch (const std::runtime_error&) {

@@ -1,8 +1,11 @@
-// Reads a recording: as much of it as is whole.
+// Reads a recording: as much of it as is whole. The file is gone through once, block by block; a
+// frame is read again when it is asked for, so that memory does not grow with the file.
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/record/recording.h"
@@ -34,9 +37,14 @@ class Recording {
     double t;
   };
   void read_blocks();
-  void take(char kind, std::size_t begin, std::size_t size);
+  void take(char kind, std::size_t begin, std::string_view payload);
+  void take_text(std::string_view text, std::vector<std::string>& texts);
+  void take_frame(std::size_t begin, std::string_view payload);
 
-  std::string file_, bytes_, end_;
+  std::string file_, end_;
+  mutable std::ifstream stream_;
+  std::size_t size_ = 0;  // of the file
+  std::size_t text_ = 0;  // bytes of names and alarms
   RecordingHeader header_;
   bool has_header_ = false;
   std::vector<std::string> names_, momentum_names_, alarms_, notes_;

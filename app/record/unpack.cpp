@@ -15,8 +15,14 @@ int line_of_change(std::size_t change) {
 
 }  // namespace
 
+UnpackedRun::Folder::Folder() : path(make_temporary_folder("twinarm-replay")) {}
+
+UnpackedRun::Folder::~Folder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path, ignored);
+}
+
 UnpackedRun::UnpackedRun(const RecordingHeader& header) : header_(header) {
-  folder_ = make_temporary_folder("twinarm-replay");
   for (const RecordedFile& file : header.files) {
     const std::filesystem::path copy = copy_of(file.path);
     std::error_code ignored;
@@ -25,14 +31,13 @@ UnpackedRun::UnpackedRun(const RecordingHeader& header) : header_(header) {
   }
 }
 
-UnpackedRun::~UnpackedRun() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
-
-// Below the folder as it lay below the root, so that files find one another as they did.
+// Below the folder as it lay below the root, so that files find one another as they did. Of an
+// absolute path nothing is left that leads upwards.
 std::filesystem::path UnpackedRun::copy_of(const std::filesystem::path& original) const {
-  return folder_ / original.lexically_normal().relative_path();
+  if (!original.is_absolute())
+    throw InputError({{original.string(), 0, "a file in the recording", "its path is not absolute",
+                       "the recording is damaged, or not made by twinarm: record it again"}});
+  return folder_.path / original.lexically_normal().relative_path();
 }
 
 // A text of the scene that names one of the files: it may have lain below assets/.
@@ -79,7 +84,7 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
 
 InputError UnpackedRun::as_typed(const InputError& error,
                                  const std::vector<Change>& changes) const {
-  const std::string folder = folder_.string();
+  const std::string folder = folder_.path.string();
   const auto by_original = [&](std::string& text) {
     for (std::size_t at; (at = text.find(folder)) != std::string::npos;)
       text.erase(at, folder.size());

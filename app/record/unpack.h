@@ -27,8 +27,8 @@ void apply(const Change& change, int line, TomlValue& scene, FaultList& faults);
 // The recording's files in a temporary folder, which goes with it.
 class UnpackedRun {
  public:
+  // Throws InputError where a file cannot be written, or would not lie in the folder.
   explicit UnpackedRun(const RecordingHeader& header);
-  ~UnpackedRun();
   UnpackedRun(const UnpackedRun&) = delete;
   UnpackedRun& operator=(const UnpackedRun&) = delete;
 
@@ -41,8 +41,13 @@ class UnpackedRun {
  private:
   std::filesystem::path copy_of(const std::filesystem::path& original) const;
   void lead_to_copies(TomlValue& value) const;
+  struct Folder {  // made, and removed with all that is in it
+    Folder();
+    ~Folder();
+    std::filesystem::path path;
+  };
   const RecordingHeader& header_;
-  std::filesystem::path folder_;
+  Folder folder_;
 };
 
 }  // namespace twinarm

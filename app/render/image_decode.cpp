@@ -68,6 +68,10 @@ Image decode_image(const std::string& name, std::string_view bytes) {
 }
 
 Image read_image(const std::filesystem::path& file) {
+  std::error_code error;
+  constexpr std::uintmax_t kMostPictureBytes = 64u << 20;
+  if (std::filesystem::file_size(file, error) > kMostPictureBytes && !error)
+    refuse(file.string(), "has more than 64 MiB");
   std::ifstream in(file, std::ios::binary);
   std::ostringstream bytes;
   bytes << in.rdbuf();

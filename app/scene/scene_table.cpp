@@ -127,6 +127,11 @@ std::vector<const TomlValue*> SceneTable::tables(const std::string& key) {
   const TomlValue* value = find(key);
   std::vector<const TomlValue*> found;
   if (!value) return found;
+  constexpr std::size_t kMostTables = 10000;  // each is compared with all others by name
+  if (value->items.size() > kMostTables) {
+    fault(key, "has " + std::to_string(value->items.size()) + " tables", "give at most 10000");
+    return found;
+  }
   for (const TomlValue& item : value->items)
     if (item.kind == TomlValue::Kind::table) found.push_back(&item);
   if (value->kind != TomlValue::Kind::list || found.size() != value->items.size())
@@ -152,7 +157,7 @@ void SceneTable::missing(const std::string& key, std::string remedy) {
 
 void SceneTable::done() {
   for (const TomlValue& member : table_.members)
-    if (std::find(asked_.begin(), asked_.end(), member.key) == asked_.end())
+    if (!faults_.is_full() && std::find(asked_.begin(), asked_.end(), member.key) == asked_.end())
       fault(member.key, "this key is not known here", name_remedy(member.key, asked_, "keys"));
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "collision/import/number_text.h"
+#include "collision/import/toml_file.h"
 #include "solver/fault.h"
 
 namespace twinarm {
@@ -71,11 +72,9 @@ std::string describe(const TomlValue& value) {
 }
 
 TomlValue read_toml(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored))
-    throw InputError({{file.string(), 0, "", "the file does not exist", "check the path"}});
+  const std::string text = read_toml_text(file);
   try {
-    return value_of(toml::parse_file(file.string()));
+    return value_of(toml::parse(text, file.string()));
   } catch (const toml::parse_error& error) {
     throw InputError(
         {{file.string(), static_cast<int>(error.source().begin.line), "",

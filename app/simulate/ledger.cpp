@@ -139,12 +139,12 @@ void Ledger::add_implicit(double h, const State<double>& end) {
 
 void Ledger::visit_memory(Memory& memory) {
   for (State<double>* x : {&start_, &now_}) {
-    memory.visit(x->q);
-    memory.visit(x->qd);
+    memory.visit_fixed(x->q);
+    memory.visit_fixed(x->qd);
     memory.visit(x->t);
   }
   for (LedgerRow& row : integrals_) memory.visit(row.work);
-  memory.visit(implicit_);
+  memory.visit_fixed(implicit_);
   // Found again: a fork's springs pull with another power.
   if (memory.reads()) power_now_ = powers(now_, Side::after);
 }

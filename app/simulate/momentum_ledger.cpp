@@ -54,10 +54,10 @@ void MomentumLedger::visit_memory(Memory& memory) {
     for (Exchange& sum : *sums) sum.visit_memory(memory);
   separation_.visit_memory(memory);
   limit_separation_.visit_memory(memory);
-  memory.visit(mimics_);
+  memory.visit_fixed(mimics_);
   for (State<double>* x : {&start_, &now_}) {
-    memory.visit(x->q);
-    memory.visit(x->qd);
+    memory.visit_fixed(x->q);
+    memory.visit_fixed(x->qd);
     memory.visit(x->t);
   }
 }

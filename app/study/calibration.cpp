@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/output_file.h"
+#include "app/study/whole_number.h"
 #include "solver/fault.h"
 #include "solver/whole_file.h"
 
@@ -47,23 +48,23 @@ Calibration read_calibration(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream) throw fail("the calibration cannot be opened");
   try {
-    const ordered_json root = ordered_json::parse(stream);
+    const nlohmann::json root = nlohmann::json::parse(stream);
     Calibration calibration;
     calibration.optimiser = root.at("optimiser");
-    calibration.seed = root.at("seed");
-    for (const ordered_json& item : root.at("entries")) {
+    calibration.seed = whole<unsigned>(root.at("seed"));
+    for (const nlohmann::json& item : root.at("entries")) {
       CalibrationEntry entry;
       entry.name = item.at("name");
       entry.rate = item.at("rate_hz");
-      for (const ordered_json& p : item.at("parameters"))
+      for (const nlohmann::json& p : item.at("parameters"))
         entry.parameters.push_back({p.at("name"), p.at("low"), p.at("high"), p.at("value")});
       entry.objective = item.at("objective");
-      entry.evaluations = item.at("evaluations");
+      entry.evaluations = whole<long>(item.at("evaluations"));
       entry.numbers = item.at("numbers").get<std::map<std::string, double>>();
       calibration.entries[entry.name] = entry;
     }
     return calibration;
-  } catch (const ordered_json::exception& error) {
+  } catch (const nlohmann::json::exception& error) {
     throw fail(fmt::format("it is not a calibration: {}", error.what()));
   }
 }

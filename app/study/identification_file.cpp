@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/study/identify.h"
+#include "app/study/whole_number.h"
 #include "solver/fault.h"
 #include "solver/whole_file.h"
 
@@ -53,29 +54,29 @@ std::vector<Identification> read_identifications(const std::filesystem::path& fi
   if (!stream) throw fail("the identification cannot be opened");
   try {
     std::vector<Identification> all;
-    const ordered_json root = ordered_json::parse(stream);
-    for (const ordered_json& item : root.at("entries")) {
+    const nlohmann::json root = nlohmann::json::parse(stream);
+    for (const nlohmann::json& item : root.at("entries")) {
       Identification& found = all.emplace_back();
       found.row = item.at("row");
       found.law = item.at("law");
       found.fit.name = fmt::format("{}/{}", found.row, found.law);
       found.fit.rate = item.at("rate_hz");
       found.fit.objective = item.at("misfit");
-      found.fit.evaluations = item.at("evaluations");
+      found.fit.evaluations = whole<long>(item.at("evaluations"));
       found.fit.numbers = item.at("numbers").get<std::map<std::string, double>>();
       found.singular_values = item.at("singular_values").get<std::vector<double>>();
       found.directions = item.at("directions").get<std::vector<std::vector<double>>>();
-      for (const ordered_json& p : item.at("parameters"))
+      for (const nlohmann::json& p : item.at("parameters"))
         found.fit.parameters.push_back({p.at("name"), p.at("low"), p.at("high"), p.at("value")});
-      for (const ordered_json& p : item.at("profiles")) {
+      for (const nlohmann::json& p : item.at("profiles")) {
         Profile& profile = found.profiles.emplace_back();
         profile.parameter = p.at("parameter");
-        for (const ordered_json& point : p.at("points"))
+        for (const nlohmann::json& point : p.at("points"))
           profile.points.push_back({point.at(0), point.at(1), {point.at(2), point.at(3)}});
       }
     }
     return all;
-  } catch (const ordered_json::exception& error) {
+  } catch (const nlohmann::json::exception& error) {
     throw fail(fmt::format("it is not an identification: {}", error.what()));
   }
 }

@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include "collision/import/toml_file.h"
 #include "solver/fault.h"
 
 namespace twinarm {
@@ -19,9 +20,10 @@ Predictions read_predictions(const std::filesystem::path& assets) {
   const std::filesystem::path file = assets / "study" / "predictions.toml";
   Predictions predictions;
   try {
-    const toml::table root = toml::parse_file(file.string());
+    const toml::table root = toml::parse(read_toml_text(file), file.string());
     if (const auto* rows = root["row"].as_array())
       for (const auto& entry : *rows) {
+        if (!entry.is_table()) continue;
         const toml::table& table = *entry.as_table();
         PredictedRow row{table["robot"].value_or(std::string()),
                          table["law"].value_or(std::string()), table["rate"].value_or(0.0),
@@ -31,6 +33,7 @@ Predictions read_predictions(const std::filesystem::path& assets) {
       }
     if (const auto* modes = root["modes"].as_array())
       for (const auto& entry : *modes) {
+        if (!entry.is_table()) continue;
         const toml::table& table = *entry.as_table();
         PredictedModes mode{table["robot"].value_or(std::string()), {}};
         for (const char* law : {"world", "joint", "linear"})

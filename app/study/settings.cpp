@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include "collision/import/toml_file.h"
 #include "solver/fault.h"
 
 namespace twinarm {
@@ -16,6 +17,11 @@ class Reader {
     const auto value = root_.at_path(path).value<double>();
     if (!value) miss(path, "a number");
     return value.value_or(0.0);
+  }
+  unsigned whole(const std::string& path) {
+    const auto value = root_.at_path(path).value<unsigned>();
+    if (!value) miss(path, "a whole number of at least 0");
+    return value.value_or(0);
   }
   std::string text(const std::string& path) {
     const auto value = root_.at_path(path).value<std::string>();
@@ -65,9 +71,10 @@ class Reader {
 
 StudySettings read_settings(const std::filesystem::path& assets) {
   const std::filesystem::path file = assets / "study" / "settings.toml";
+  const std::string text = read_toml_text(file);
   toml::table root;
   try {
-    root = toml::parse_file(file.string());
+    root = toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
     throw InputError({{file.string(), static_cast<int>(error.source().begin.line), "",
                        std::string(error.description()), "mend the file, or give --assets"}});
@@ -96,7 +103,7 @@ StudySettings read_settings(const std::filesystem::path& assets) {
   s.held_physics_hz = read.number("protocol.held_physics_hz");
   s.implicit_frequency_hz = read.number("protocol.implicit_frequency_hz");
   s.implicit_damping_ratio = read.number("protocol.implicit_damping_ratio");
-  s.seed = static_cast<unsigned>(read.number("operator.seed"));
+  s.seed = read.whole("operator.seed");
   s.operator_duration = read.number("operator.duration");
   s.obstacle.size = read.vector("obstacle.size");
   s.obstacle.position = read.vector("obstacle.position");

@@ -5,6 +5,7 @@
 
 #include "collision/import/recipe_toml.h"
 #include "collision/import/robot_check.h"
+#include "collision/import/toml_file.h"
 
 namespace twinarm {
 namespace {
@@ -133,11 +134,9 @@ void check_paper(const toml::table* paper, const RecipeFile& recipe, TomlSource&
 }
 
 toml::table parse(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored))
-    throw InputError({{file.string(), 0, "", "the file does not exist", "check the path"}});
+  const std::string text = read_toml_text(file);
   try {
-    return toml::parse_file(file.string());
+    return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
     throw InputError(
         {{file.string(), static_cast<int>(error.source().begin.line), "",

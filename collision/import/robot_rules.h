@@ -13,12 +13,12 @@ struct RuleBook {
   RobotCheck found;
 
   void fault(int line, std::string where, std::string rule, std::string remedy) {
-    found.faults.push_back(
-        {robot.file.string(), line, std::move(where), std::move(rule), std::move(remedy)});
+    add_fault(found.faults,
+              {robot.file.string(), line, std::move(where), std::move(rule), std::move(remedy)});
   }
   void warn(int line, std::string where, std::string rule, std::string remedy) {
-    found.warnings.push_back(
-        {robot.file.string(), line, std::move(where), std::move(rule), std::move(remedy)});
+    add_fault(found.warnings,
+              {robot.file.string(), line, std::move(where), std::move(rule), std::move(remedy)});
   }
 };
 

@@ -86,13 +86,13 @@ LinkDescription read_link(const XMLElement& element, const UrdfMaterials& materi
 
 // The <robot> element; throws where there is none to go on with.
 const XMLElement& open_robot(tinyxml2::XMLDocument& document, UrdfSource& source) {
-  constexpr std::uintmax_t kMaxBytes = 64u << 20;
+  constexpr std::uintmax_t kMaxBytes = 16u << 20;
   std::error_code ignored;
   const XMLElement* robot = nullptr;
   if (!std::filesystem::is_regular_file(source.file(), ignored)) {
     source.fault(0, "", "the file does not exist", "check the path");
   } else if (std::filesystem::file_size(source.file(), ignored) > kMaxBytes) {
-    source.fault(0, "", "the file has more than 64 MiB",
+    source.fault(0, "", "the file has more than 16 MiB",
                  "give a URDF file; meshes stand in theirs");
   } else if (document.LoadFile(source.file().c_str()) != tinyxml2::XML_SUCCESS) {
     // Where an end tag is missing, the line is that of the element's beginning.

@@ -53,20 +53,21 @@ UrdfSource::UrdfSource(const std::filesystem::path& file, const UrdfOptions& opt
 
 void UrdfSource::fault(int line, std::string where, std::string rule, std::string remedy) {
   if (soft_) ++softened_;
-  (soft_ ? warnings_ : faults_)
-      .push_back({file_.string(), line, std::move(where), std::move(rule), std::move(remedy)});
+  add_fault(soft_ ? warnings_ : faults_,
+            {file_.string(), line, std::move(where), std::move(rule), std::move(remedy)});
 }
 
 void UrdfSource::fault(std::vector<Fault> faults) {
-  faults_.insert(faults_.end(), faults.begin(), faults.end());
+  for (Fault& fault : faults) add_fault(faults_, std::move(fault));
 }
 
 void UrdfSource::warn(int line, std::string where, std::string rule, std::string remedy) {
-  warnings_.push_back({file_.string(), line, std::move(where), std::move(rule), std::move(remedy)});
+  add_fault(warnings_,
+            {file_.string(), line, std::move(where), std::move(rule), std::move(remedy)});
 }
 
 void UrdfSource::warn(std::vector<Fault> warnings) {
-  warnings_.insert(warnings_.end(), warnings.begin(), warnings.end());
+  for (Fault& warning : warnings) add_fault(warnings_, std::move(warning));
 }
 
 void UrdfSource::warn_once(const std::string& kind, int line, std::string where, std::string rule,

@@ -9,13 +9,15 @@
 #include <vector>
 
 #include "coupling/recorded_trace.h"
+#include "coupling/text_lines.h"
 #include "solver/fault.h"
 #include "solver/whole_file.h"
 
 namespace twinarm {
 namespace {
 
-constexpr std::size_t kLogColumns = 15;  // t, h, six angles, six rates, button
+constexpr std::size_t kMostLogSteps = std::size_t{1} << 22;  // an hour at 1 kHz
+constexpr std::size_t kLogColumns = 15;                      // t, h, six angles, six rates, button
 
 // All numbers of the line; empty where it is torn or holds something else.
 std::vector<double> log_numbers(const std::string& line) {
@@ -67,20 +69,27 @@ void write_hand_log(const LiveHand& hand, const std::filesystem::path& file) {
 }
 
 bool is_hand_log(const std::filesystem::path& file) {
+  const std::string header = hand_log_header();
+  std::string start(header.size(), '\0');
   std::ifstream stream(file);
-  std::string line;
-  return std::getline(stream, line) && line + "\n" == hand_log_header();
+  return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == header;
 }
 
 std::unique_ptr<LiveHand> read_hand_log(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::string line;
-  if (!std::getline(stream, line) || line + "\n" != hand_log_header())
+  if (!is_hand_log(file))
     throw InputError({{file.string(), 1, "header", "it is not that of a hand's log",
                        "give a file that `twinarm hand --log` wrote"}});
+  std::ifstream stream(file);
+  std::string line;
+  next_line(stream, line, file.string(), 1);
   std::vector<HandStep> steps;
   FaultList faults;
-  for (int number = 2; std::getline(stream, line); ++number) {
+  for (int number = 2; next_line(stream, line, file.string(), number); ++number) {
+    if (steps.size() == kMostLogSteps) {
+      faults.add({file.string(), number, "", "the log has more than 4 million steps",
+                  "remove the lines from here on"});
+      break;
+    }
     const bool torn = stream.eof();  // without its end of line
     const std::vector<double> values = log_numbers(line);
     if (torn) break;

@@ -72,7 +72,8 @@ LIBRARIES = {
 TESTS_OF_LIBRARY = {"tests/scene/": "app/scene/", "tests/hand/": "app/hand/",
                     "tests/lab/": "app/", "tests/live/": "app/live/", "tests/inspect/": "app/inspect/",
                     "tests/live/": ("app/live/", "app/hand/", "app/scene/"), "tests/inspect/": "app/inspect/",
-                    "tests/render/": "app/render/", "tests/show/": ("app/show/", "app/render/")}
+                    "tests/render/": "app/render/", "tests/show/": ("app/show/", "app/render/"),
+                    "tests/fuzz/": "app/"}
 
 # The rooms of the lab (app/lab/README.md), and what of the program each may include besides itself.
 LAB = {
@@ -89,6 +90,7 @@ LAB = {
 # Headers that show an outside library. Each is of use inside its own folder only.
 INNER_HEADERS = {"app/python/arrays.h", "app/python/bind.h", "app/python/fast_arguments.h",
                  "app/lab/server/connection.h", "collision/import/recipe_toml.h", "app/render/gl_table.h",
+                 "app/study/whole_number.h",
                  "app/render/gl_objects.h", "app/render/scene_pass.h"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)

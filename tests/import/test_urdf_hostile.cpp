@@ -65,13 +65,13 @@ TEST_CASE("a value of a megabyte is refused, and is not repeated in full") {
   CHECK(to_string(faults[0]).size() < 1000);
 }
 
-TEST_CASE("a file of more than 64 MiB is refused before it is read") {
+TEST_CASE("a file of more than 16 MiB is refused before it is read") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("big.urdf", kGoodArm);
-  fs::resize_file(file, (64u << 20) + 1);  // a hole: takes no room on the disk
+  fs::resize_file(file, (16u << 20) + 1);  // a hole: takes no room on the disk
   const auto faults = faults_of([&] { read_urdf(file); });
   REQUIRE(faults.size() == 1);
-  CHECK(faults[0].rule.find("64 MiB") != std::string::npos);
+  CHECK(faults[0].rule.find("16 MiB") != std::string::npos);
 }
 
 // The oracle is the sanitizers' and the fault's form: whatever a mutation does, it is told or read.

@@ -1,0 +1,12 @@
+// What comes home from the child process that reads a mesh, which may have been broken.
+#include "collision/model_packing.h"
+#include "tests/fuzz/fuzz_input.h"
+
+namespace twinarm::fuzz {
+
+void packed_model(Bytes bytes) {
+  if (const auto model = unpack_model(bytes))
+    require(pack(*model) == bytes, "a packed model is not what was unpacked");
+}
+
+}  // namespace twinarm::fuzz
