@@ -183,6 +183,8 @@ bool LabSession::take_step() {
     went_on = run_->step();
   }
   if (!went_on) return false;
+  lanes_.follow(*run_);
+  for (const std::string& words : lanes_.take_words()) note("warning", words);
   const LabInput& input = run_->input();
   if (!input.hand && !input.pull) return true;
   const std::lock_guard lock(mutex_);
@@ -224,7 +226,9 @@ void LabSession::remember() {
 // Names of new rows are looked at by whoever saves.
 LabFrame LabSession::frame_of_run() {
   const std::lock_guard lock(mutex_);
-  return run_->frame(names_);
+  LabFrame frame = run_->frame(names_);
+  lanes_.add_to(frame, names_);
+  return frame;
 }
 
 void LabSession::tell() {
@@ -248,6 +252,11 @@ void LabSession::tell() {
       status_.last = history_.newest()->recorded.t;
       now.frame = status_.at ? history_.frame(history_.at(*status_.at)) : history_.newest();
     }
+    status_.lane_ends.clear();
+    if (now.frame)
+      for (const LaneFrame& lane : now.frame->lanes)
+        status_.lane_ends.push_back(lane.stopped ? std::optional(lane.frame->recorded.t)
+                                                 : std::nullopt);
     if (now.frame && !before_.empty() && now.frame->recorded.t <= before_.newest()->recorded.t)
       now.before = before_.frame(before_.at(now.frame->recorded.t));
     now.status = std::make_shared<const LabStatus>(status_);
@@ -286,6 +295,10 @@ void LabSession::die() {
   end.body = found->body;
   if (!found->suspects.empty()) end.spring = found->suspects.front().name;
   end.remedies = remedies_of(run_->prepared(), *found);
+  std::erase_if(end.remedies, [this](const Remedy& remedy) {
+    return std::any_of(remedy.changes.begin(), remedy.changes.end(),
+                       [this](const std::string& text) { return is_of_lanes(parse_change(text)); });
+  });
   status_.dead = std::move(end);
 }
 

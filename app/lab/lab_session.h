@@ -23,6 +23,7 @@
 #include "app/lab/pace.h"
 #include "app/lab/run/history.h"
 #include "app/lab/run/lab_run.h"
+#include "app/lab/run/lanes.h"
 #include "app/lab/workshop.h"
 
 namespace twinarm {
@@ -72,6 +73,7 @@ class LabSession {
   void publish();
   void remember();
   LabFrame frame_of_run();
+  bool is_of_lanes(const Change& change) const;
   void tell();
   bool take_notes();
   // What it is told: session_commands.cpp.
@@ -108,6 +110,7 @@ class LabSession {
   std::shared_ptr<const Built> scene_;
   LabHand hand_;
   std::unique_ptr<LabRun> run_;
+  LabLanes lanes_;
   LabNames names_;
   LabStatus status_;
   std::vector<Change> wanted_;  // changes that stand, and those that are being built
