@@ -99,6 +99,7 @@ int run_hand(const HandOptions& options);  // 3 where the robot left all bounds
 
 struct LabOptions {
   std::filesystem::path scene;  // empty: the first of the gallery
+  std::string lanes;            // "integrator=semi-implicit,rk4"; empty: as the gallery says
   std::string listen = "127.0.0.1";
   int port = 0;        // 0: any that is free
   int remember = 256;  // of a run [MB]

@@ -22,7 +22,7 @@ namespace twinarm {
 namespace {
 
 // Of what was asked for; else the gallery's first.
-Order first_order(const LabOptions& options, const std::vector<GalleryScene>& gallery) {
+Order scene_asked_for(const LabOptions& options, const std::vector<GalleryScene>& gallery) {
   Order order;
   if (options.scene.empty()) return order_to_open(gallery.front());
   std::error_code ignored;
@@ -34,6 +34,12 @@ Order first_order(const LabOptions& options, const std::vector<GalleryScene>& ga
   order.name = options.scene.stem().string();
   order.words.title = order.name;
   order.words.file = options.scene.filename().string();
+  return order;
+}
+
+Order first_order(const LabOptions& options, const std::vector<GalleryScene>& gallery) {
+  Order order = scene_asked_for(options, gallery);
+  if (!options.lanes.empty()) order.lanes = parse_lanes(options.lanes);
   return order;
 }
 

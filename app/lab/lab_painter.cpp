@@ -102,14 +102,21 @@ void LabPainter::do_jobs() {
 // The scene of this instant, with plans of the painter's own.
 void LabPainter::take_scene(const LabNow& now) {
   if (now.change_number == change_number_) return;
-  const std::shared_ptr<const SimulatePlan> plan(now.scene->view, &now.scene->view->prepared);
+  const auto plan_of = [](const std::shared_ptr<LabScene::Plan>& plan) {
+    return std::shared_ptr<const SimulatePlan>(plan, &plan->prepared);
+  };
+  const std::shared_ptr<const SimulatePlan> plan = plan_of(now.scene->view);
+  const LaneSet& lanes = now.scene->order.lanes;
+  std::vector<std::shared_ptr<const SimulatePlan>> lane_plans;
+  for (const auto& lane : now.scene->lane_views) lane_plans.push_back(plan_of(lane));
   const std::lock_guard drawing(view_mutex_);
   if (now.scene_number != scene_number_) {
     view_ = std::make_unique<LabView>(static_cast<std::uint32_t>(now.scene_number), plan,
-                                      now.scene->header, now.scene->order.words);
+                                      now.scene->header, now.scene->order.words,
+                                      ViewLanes{lanes, std::move(lane_plans)});
     last_frame_.reset();
   } else {
-    view_->change(plan);
+    view_->change(plan, std::move(lane_plans));
   }
   if (now.scene_number != scene_number_)
     unchanged_ = now.scene->order.changes.empty() ? knobs_of(*plan)
@@ -117,6 +124,7 @@ void LabPainter::take_scene(const LabNow& now) {
   glass_.reset();
   knobs_ = knobs_of(*plan);
   know_starts(unchanged_, knobs_);
+  std::erase_if(knobs_, [&](const Knob& knob) { return knob.path == lanes.path; });
   last_knobs_ = {};
   scene_number_ = now.scene_number;
   change_number_ = now.change_number;

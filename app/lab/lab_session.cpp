@@ -177,6 +177,8 @@ bool LabSession::take_step() {
     went_on = run_->step();
   }
   if (!went_on) return false;
+  lanes_.follow(*run_);
+  for (const std::string& words : lanes_.take_words()) note("warning", words);
   const LabInput& input = run_->input();
   if (!input.hand && !input.pull) return true;
   const std::lock_guard lock(mutex_);
@@ -221,7 +223,9 @@ void LabSession::remember() {
 // Names of new rows are looked at by whoever saves.
 LabFrame LabSession::frame_of_run() {
   const std::lock_guard lock(mutex_);
-  return run_->frame(names_);
+  LabFrame frame = run_->frame(names_);
+  lanes_.add_to(frame, names_);
+  return frame;
 }
 
 std::vector<std::shared_ptr<const LabFrame>> LabSession::history(double from) const {

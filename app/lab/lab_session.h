@@ -23,6 +23,7 @@
 #include "app/lab/pace.h"
 #include "app/lab/run/history.h"
 #include "app/lab/run/lab_run.h"
+#include "app/lab/run/lanes.h"
 #include "app/lab/workshop.h"
 
 namespace twinarm {
@@ -74,6 +75,7 @@ class LabSession {
   void publish();
   void remember();
   LabFrame frame_of_run();
+  bool is_of_lanes(const Change& change) const;
   // What it tells: session_status.cpp.
   LabHandStatus status_of_hand() const;
   void tell(bool says_status);
@@ -113,6 +115,7 @@ class LabSession {
   std::shared_ptr<const Built> scene_;
   LabHand hand_;
   std::unique_ptr<LabRun> run_;
+  LabLanes lanes_;
   LabNames names_;
   LabStatus status_;
   std::vector<Change> wanted_;  // changes that stand, and those that are being built

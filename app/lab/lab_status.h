@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/lab/knobs/remedies.h"
+#include "app/lab/run/lane_set.h"
 #include "app/record/unpack.h"
 
 namespace twinarm {
@@ -45,6 +46,8 @@ struct LabStatus {
   long scene = 0;               // counts scenes: of frames, meshes, channels
   std::string scene_name;       // of the gallery, or the file's
   std::vector<Change> changes;  // to the scene's file
+  LaneSet lanes;
+  std::vector<std::optional<double>> lane_ends;  // from the second on: where one stopped [s]
   bool playing = true;
   double speed = 1;
   double time = 0, first = 0, last = 0;  // now; what is remembered [s]

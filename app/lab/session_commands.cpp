@@ -9,16 +9,6 @@
 namespace twinarm {
 namespace {
 
-// In the place of one to the same path.
-void put(std::vector<Change>& changes, const Change& change) {
-  const auto is_same = [&](const Change& other) { return other.path == change.path; };
-  const auto found = std::find_if(changes.begin(), changes.end(), is_same);
-  if (found == changes.end())
-    changes.push_back(change);
-  else
-    found->value = change.value;
-}
-
 // They come many times a second, and the next frame shows them.
 bool is_movement(LabCommand::Do what) {
   using Do = LabCommand::Do;
@@ -155,11 +145,21 @@ void LabSession::choose_hand(const std::string& source, const std::string& spec)
 // From now on, or from an instant that is remembered.
 void LabSession::change(const std::vector<std::string>& texts, std::optional<double> at) {
   std::vector<Change> changes = wanted_;
-  for (const std::string& text : texts) put(changes, parse_change(text));
+  for (const std::string& text : texts) {
+    const Change change = parse_change(text);
+    if (is_of_lanes(change))
+      throw InputError({{"command", 0, text, "it is what the lanes differ by",
+                         "turn another knob, or open the scene without lanes"}});
+    put(changes, change);
+  }
   wanted_ = std::move(changes);
   if (!at) return order(Order::What::change, 0);
   status_.playing = false;
   order(Order::What::branch, *at);
+}
+
+bool LabSession::is_of_lanes(const Change& change) const {
+  return !status_.lanes.empty() && change.path == status_.lanes.path;
 }
 
 void LabSession::preset(const std::string& name) {
@@ -192,6 +192,7 @@ void LabSession::order(Order::What what, double at) {
   order.name = scene_->order.name;
   order.words = scene_->order.words;
   order.changes = wanted_;
+  order.lanes = scene_->order.lanes;
   order.at = at;
   workshop_->order(std::move(order));
 }
@@ -224,6 +225,7 @@ void LabSession::adopt(Built built) {
   if (goes_on && !(from = start_of(order)))
     return note("error", "that instant is not remembered any more");
   auto run = std::make_unique<LabRun>(std::move(built.run), order.changes, hand_, from.get());
+  LabLanes lanes(order.lanes, std::move(built.lanes), order.changes, from.get(), names_);
   if (from) run->keep_books(*from, names_);
   for (const std::string& warning : run->warnings())
     if (!goes_on) note("warning", warning);
@@ -237,8 +239,10 @@ void LabSession::adopt(Built built) {
   {
     const std::lock_guard lock(mutex_);
     wanted_ = status_.changes = order.changes;
+    status_.lanes = order.lanes;
     scene_ = std::make_shared<const Built>(std::move(built));
     run_ = std::move(run);
+    lanes_ = std::move(lanes);
     history_.begin_segment(order.changes);
   }
   ++change_number_;

@@ -1,4 +1,6 @@
 // What the session tells of itself: the newest instant, its status, notes, why it ended.
+#include <algorithm>
+
 #include "app/lab/knobs/remedies.h"
 #include "app/lab/lab_session.h"
 
@@ -53,6 +55,11 @@ void LabSession::tell(bool says_status) {
       status_.last = history_.newest()->recorded.t;
       now.frame = status_.at ? history_.frame(history_.at(*status_.at)) : history_.newest();
     }
+    status_.lane_ends.clear();
+    if (now.frame)
+      for (const LaneFrame& lane : now.frame->lanes)
+        status_.lane_ends.push_back(lane.stopped ? std::optional(lane.frame->recorded.t)
+                                                 : std::nullopt);
     if (now.frame && !before_.empty() && now.frame->recorded.t <= before_.newest()->recorded.t)
       now.before = before_.frame(before_.at(now.frame->recorded.t));
     now.status = says_status ? std::make_shared<const LabStatus>(status_) : now_.status;
@@ -91,6 +98,10 @@ void LabSession::die() {
   end.body = found->body;
   if (!found->suspects.empty()) end.spring = found->suspects.front().name;
   end.remedies = remedies_of(run_->prepared(), *found);
+  std::erase_if(end.remedies, [this](const Remedy& remedy) {
+    return std::any_of(remedy.changes.begin(), remedy.changes.end(),
+                       [this](const std::string& text) { return is_of_lanes(parse_change(text)); });
+  });
   status_.dead = std::move(end);
 }
 

@@ -70,6 +70,23 @@ const std::string& recorded_hand() {
   return file;
 }
 
+void write_lanes(JsonWriter& json, const LabStatus& status) {
+  json.key("lanes");
+  if (status.lanes.empty()) return json.null();
+  json.begin_object();
+  json.key("path").text(status.lanes.path);
+  json.key("values").texts(status.lanes.values);
+  json.key("stopped").begin_array();
+  json.null();  // the first, of which `dead` tells
+  for (const std::optional<double>& end : status.lane_ends)
+    if (end)
+      json.number(*end);
+    else
+      json.null();
+  json.end_array();
+  json.end_object();
+}
+
 void write_hand(JsonWriter& json, const LabHandStatus& hand) {
   json.key("hand").begin_object();
   json.key("source").text(hand.source);
@@ -123,6 +140,7 @@ std::string state_message(const LabStatus& status, const Audience::View& audienc
   json.key("name").text(status.scene_name);
   json.key("building").text(status.building);
   write_changes(json, status.changes);
+  write_lanes(json, status);
   write_audience(json, audience);
   write_time(json, status);
   write_hand(json, status.hand);

@@ -31,16 +31,24 @@ Order order_to_open(const GalleryScene& scene) {
   order.words.title = scene.title;
   order.words.file = scene.file.filename().string();
   order.words.look.assign(scene.look.begin(), scene.look.end());
+  order.lanes = scene.lanes;
   return order;
 }
 
 Built build(Order order) {
   Built built;
+  if (!order.lanes.empty()) put(order.changes, order.lanes.change(0));
   built.scene = order.what == Order::What::open ? open_scene(order.file) : order.scene;
   built.header = built.scene->header(order.changes, {});
   built.run = built.scene->plan(order.changes);
   built.view = built.scene->plan(order.changes);
   built.knobs = built.scene->plan(order.changes);
+  for (std::size_t lane = 1; lane < order.lanes.values.size(); ++lane) {
+    std::vector<Change> changes = order.changes;
+    put(changes, order.lanes.change(lane));
+    built.lanes.push_back(built.scene->plan(changes));
+    built.lane_views.push_back(built.scene->plan(changes));
+  }
   built.order = std::move(order);
   return built;
 }

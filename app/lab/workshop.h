@@ -13,6 +13,7 @@
 
 #include "app/lab/knobs/gallery.h"
 #include "app/lab/run/lab_scene.h"
+#include "app/lab/run/lane_set.h"
 #include "app/lab/stream/lab_view.h"
 
 namespace twinarm {
@@ -26,19 +27,22 @@ struct Order {
   SceneWords words;                       // open
   std::shared_ptr<const LabScene> scene;  // of all others
   std::vector<Change> changes;            // all that are to stand then
+  LaneSet lanes;                          // empty: the run alone
   double at = 0;                          // branch [s]
   std::string hand;                       // open: who moves the robot then; empty: as it is
   // Called when it is built, with nothing, or with all faults, line by line.
   std::function<void(const std::string& faults)> done;
 };
 
-// A scene with its changes: each thread has a plan of its own.
+// A scene with its changes, those of its first lane among them: each thread has a plan of its own.
 struct Built {
   Order order;
   std::shared_ptr<const LabScene> scene;
   RecordingHeader header;
   std::unique_ptr<LabScene::Plan> run;
   std::shared_ptr<LabScene::Plan> view, knobs;
+  std::vector<std::unique_ptr<LabScene::Plan>> lanes;  // of the run, from the second lane on
+  std::vector<std::shared_ptr<LabScene::Plan>> lane_views;
 };
 
 class Workshop {

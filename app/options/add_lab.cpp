@@ -19,6 +19,10 @@ void add_lab(CLI::App& app, CommandLine& line) {
   add_input_option(*lab, "scene", options->scene,
                    "a scene, a URDF or a recording; left out: the first of the gallery");
   lab->get_option("scene")->required(false);
+  lab->add_option("--lanes", options->lanes,
+                  "runs of the scene side by side, one for each value: PATH=VALUE,VALUE.., as "
+                  "integrator=semi-implicit,rk4 or coupling.stiffness=500,2000")
+      ->type_name("PATH=VALUES");
   lab->add_option("--port", options->port, "of the server; left out: any that is free")
       ->check(CLI::Range(0, 65535));
   lab->add_option("--listen", options->listen,

@@ -61,6 +61,13 @@ struct ShownGrip {
   Vector3 force_W = Vector3::Zero();                        // on the body [N]
 };
 
+// Another run of the same bodies, that is shown beside this one.
+struct ShownLane {
+  std::string name;
+  Vector3 offset_W = Vector3::Zero(), above_W = Vector3::Zero();  // of its bodies; of its name
+  std::vector<Pose> X_WL, before;  // by body, as if it stood where this one does
+};
+
 struct Moment {
   State<double> x;
   Kinematics k;
@@ -70,6 +77,7 @@ struct Moment {
   std::vector<ShownHand> hands;  // by twin that a hand moves
   std::optional<ShownGrip> grip;
   std::vector<Pose> before;                        // of another run at this time, by body; or none
+  std::vector<ShownLane> lanes;                    // the first: this one, without places; or none
   double kinetic = 0, potential = 0, elastic = 0;  // [J]
   explicit Moment(const Model<double>& model) : x(model), k(model) {}
 };

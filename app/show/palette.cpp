@@ -22,6 +22,15 @@ constexpr std::array<Color, 7> kLines{Color{0.00f, 0.45f, 0.70f, 1.0f},   // blu
                                       Color{0.90f, 0.62f, 0.00f, 1.0f},   // orange
                                       Color{0.34f, 0.71f, 0.91f, 1.0f}};  // sky blue
 
+// --c0 to --c6 of app/web/src/style.css.
+constexpr std::array<Color, 7> kLanes{Color{0.00f, 0.45f, 0.70f, 1.0f},   // blue
+                                      Color{0.84f, 0.37f, 0.00f, 1.0f},   // vermilion
+                                      Color{0.00f, 0.56f, 0.42f, 1.0f},   // bluish green
+                                      Color{0.72f, 0.34f, 0.56f, 1.0f},   // reddish purple
+                                      Color{0.79f, 0.54f, 0.00f, 1.0f},   // orange
+                                      Color{0.23f, 0.61f, 0.85f, 1.0f},   // sky blue
+                                      Color{0.48f, 0.42f, 0.00f, 1.0f}};  // olive
+
 constexpr std::array<Color, 5> kRamp{
     Color{0.27f, 0.00f, 0.33f, 1.0f}, Color{0.23f, 0.32f, 0.55f, 1.0f},
     Color{0.13f, 0.57f, 0.55f, 1.0f}, Color{0.37f, 0.79f, 0.38f, 1.0f},
@@ -35,6 +44,10 @@ float mix(float a, float b, float t) {
 
 Color body(std::size_t i) {
   return kHues[i % kHues.size()];
+}
+
+Color lane(std::size_t i) {
+  return kLanes[i % kLanes.size()];
 }
 
 Color curve(std::size_t i) {

@@ -13,6 +13,7 @@ namespace twinarm::palette {
 
 Color body(std::size_t i);  // of free bodies, in turn
 inline constexpr std::size_t kBodyColors = 7;
+Color lane(std::size_t i);   // of runs side by side: as their curves are on a light page
 Color curve(std::size_t i);  // the same hues at full strength, for lines
 
 inline const Color kObstacle{0.60f, 0.58f, 0.55f, 1.0f};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/show/lanes.h"
 #include "app/show/overlays.h"
 #include "app/show/palette.h"
 #include "solver/turn.h"
@@ -43,9 +44,11 @@ void draw_bodies(Stage& stage, const Moment& moment) {
   for (const CastPart& part : stage.cast.parts) {
     const OfBody mark(stage.list, part.body);
     const std::size_t before = stage.list.instances.size();
-    add_mesh_instance(stage.list, part.mesh, moment.k.X_WL[part.body] * part.X_LM, part.color,
-                      part.scale);
-    if (stage.list.instances.size() > before) stage.list.instances.back().texture = part.texture;
+    const bool has_lanes = !moment.lanes.empty();
+    add_mesh_instance(stage.list, part.mesh, moment.k.X_WL[part.body] * part.X_LM,
+                      has_lanes ? lane_color(part, 0) : part.color, part.scale);
+    if (stage.list.instances.size() > before && !has_lanes)
+      stage.list.instances.back().texture = part.texture;
   }
   const double thin = 0.004 * stage.extent.radius();
   for (const CastTie& tie : stage.cast.ties)
@@ -188,6 +191,7 @@ std::vector<Drawn> draw(Stage& stage, const Moment& moment,
   list.clear_frame();
   draw_planes(stage, moment);
   draw_bodies(stage, moment);
+  draw_lanes(stage, moment);
   std::vector<Drawn> drawn{{}};
   for (const auto* known : {&all_overlays(), &live_overlays()})
     for (const Overlay& overlay : *known) {

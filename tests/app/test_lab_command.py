@@ -4,6 +4,7 @@
     test_lab_command.py PROGRAM
 """
 import json
+import math
 import pathlib
 import signal
 import subprocess
@@ -59,7 +60,7 @@ class Running:
     """The program with a scene, and its page's address."""
 
     def __init__(self, scene, *words):
-        self.process = subprocess.Popen([PROGRAM, "lab", str(scene), "--json", "--no-browser", *words],
+        self.process = subprocess.Popen([PROGRAM, "lab", str(scene), *words, "--json", "--no-browser"],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.url = json.loads(self.process.stdout.readline())["url"]
 
@@ -292,6 +293,97 @@ class LabTest(unittest.TestCase):
             self.assertGreater((end.time - start.time) / (time.monotonic() - begin), 0.8)
 
 
+class LabLanes(unittest.TestCase):
+    """Runs side by side."""
+
+    def start(self, scene, *words):
+        running = Running(scene, *words)
+        self.addCleanup(lambda: self.assertEqual(running.end(), (0, "")))
+        self.lab = Lab(running.url)
+        self.live = self.lab.live()
+        self.addCleanup(self.live.close)
+        self.names = [c["name"] for c in self.live.wait_for("scene")["channels"]]
+
+    def state(self, condition=lambda state: True):
+        return self.live.wait_for("state", condition)
+
+    def stand_at(self, steps):
+        self.live.do("play", on=False)
+        taken = self.live.wait_for("frame", lambda f: f.stands).step
+        self.live.do("step", steps=steps - taken)
+        return self.live.wait_for("frame", lambda f: f.step == steps, timeout=60)
+
+    def test_six_integrators_part_as_the_gallery_says(self):
+        self.start("six_integrators")
+        lanes = self.state(lambda s: s["lanes"])["lanes"]
+        self.stand_at(700)
+        history = self.lab.history()
+        self.assertAlmostEqual(history.time[-1], 14, delta=1e-9)
+
+        def of(lane, quantity):
+            return history.channel(self.names.index(f"lane/{quantity}/{lane}"))
+        gain = {lane: [e - of(lane, "total_energy")[0] for e in of(lane, "total_energy")]
+                for lane in lanes["values"]}
+        for lane, energies in gain.items():  # what was made is what the ledger says was made
+            for made, told in zip(energies, of(lane, "numerical")):
+                self.assertAlmostEqual(made, told, delta=1e-9)
+        late = [i for i, t in enumerate(history.time) if t > 10]
+        self.assertGreater(min(gain["euler"][i] for i in late), 4.905)  # to the height of the hinge
+        self.assertGreater(max(of("euler", "q/hinge")), math.pi)
+        self.assertLess(max(gain["implicit-euler"][i] for i in late), -4.905 / 2)
+        # Of first order in the step: h/2 times the weight's power, g sin q qd, up and down.
+        start = math.radians(60)
+        most = max(0.01 * 9.81 * math.sin(q) * math.sqrt(2 * 9.81 * (math.cos(q) - 0.5))
+                   for q in (start * i / 1000 for i in range(1000)))
+        for found in (max(gain["semi-implicit"]), -min(gain["semi-implicit"])):
+            self.assertAlmostEqual(found, most, delta=0.05 * most)
+        for lane, most in (("verlet", 0.005), ("implicit-midpoint", 0.001), ("rk4", 0.0001)):
+            self.assertLess(max(map(abs, gain[lane])), most)
+            self.assertAlmostEqual(max(of(lane, "q/hinge")[i] for i in late), start, delta=0.01)
+
+    def test_one_explodes_and_is_said_to_and_comes_back_with_a_branch(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)
+            (path / "rod.urdf").write_text(PENDULUM)
+            (path / "rod.toml").write_text(SCENE)
+            self.start(path / "rod.toml", "--lanes", "coupling[0].stiffness=200,1e8,3000")
+        self.assertNotIn("coupling[0].stiffness", [k["path"] for k in self.state()["knobs"]])
+        stopped = self.state(lambda s: s["lanes"]["stopped"][1])["lanes"]["stopped"]
+        self.assertIsNone(stopped[2])
+        frame = self.live.wait_for("frame", lambda f: f.time > stopped[1] + 0.3)
+        self.assertFalse(frame.is_dead)
+        self.assertTrue([t for t in frame.label_texts() if t.startswith("1e8: stopped at")])
+        state = self.state()
+        self.assertTrue(state["playing"])
+        self.assertIn("1e8 stopped at", " ".join(n["text"] for n in state["notes"]))
+        self.live.do("set", changes=["coupling[0].stiffness=7"])
+        self.state(lambda s: "lanes differ" in " ".join(n["text"] for n in s["notes"]))
+        # With damping it holds, if it begins before it exploded; looked back at, it goes.
+        self.live.do("look", at=0.0)
+        self.state(lambda s: s["at"] == 0 and s["lanes"]["stopped"] == [None] * 3)
+        self.live.do("branch", at=0.0, changes=["coupling[0].treatment=implicit"])
+        self.state(lambda s: s["branch"] and s["time"] > 0.5)
+        self.assertEqual(self.state()["lanes"]["stopped"], [None] * 3)
+        self.live.do("reset")
+        state = self.state(lambda s: not s["branch"])
+        self.assertEqual(state["lanes"]["values"], ["200", "1e8", "3000"])
+        # Another scene has none.
+        self.live.do("scene", name="gyroscope")
+        self.state(lambda s: s["name"] == "gyroscope" and s["lanes"] is None)
+
+    def test_what_is_saved_is_the_first(self):
+        self.start("pendulum", "--lanes", "integrator=rk4,euler")
+        last = self.stand_at(100)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "first.twinrec"
+            file.write_bytes(self.lab.get("/save").body)
+            told = json.loads(program("export", file, "--json"))
+        values = dict(zip([c["name"] for c in told["columns"]], told["frames"][-1]["values"]))
+        self.assertEqual(values["q/hinge"], last.channels[self.names.index("lane/q/hinge/rk4")])
+        self.assertNotEqual(values["q/hinge"], last.channels[self.names.index("lane/q/hinge/euler")])
+        self.assertIn('integrator = "rk4"', self.lab.get("/scene").body.decode())
+
+
 class LabEnds(unittest.TestCase):
     def test_it_ends_with_0_when_it_is_told_and_leaves_nothing(self):
         scene = ROOT / "assets/scenes/cradle.toml"
@@ -318,6 +410,9 @@ class LabEnds(unittest.TestCase):
 
     def test_bad_words_are_told(self):
         self.assertIn("does not exist", program("lab", "nowhere.toml", "--json", code=2))
+        for lanes, said in (("integrator", "missing"), ("integrator=rk4", "2 to 7"),
+                            ("integrator=rk4,rk5", "rk5"), ("colour=red,blue", "colour")):
+            self.assertIn(said, program("lab", "pendulum", "--lanes", lanes, "--json", code=2))
         self.assertIn("--port", program("lab", "--port", "70000", "--json", code=2))
         self.assertIn("--listen", program("lab", "--listen", "300.1.1.1", "--json", code=2))
 

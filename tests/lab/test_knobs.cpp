@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "tests/import/helpers.h"
 #include "tests/lab/knob_scenes.h"
 
 using namespace twinarm;
@@ -264,6 +265,26 @@ TEST_CASE("presets: each has a scene, and moves its robot as it says") {
     CHECK(find_preset(preset.name) == &preset);
   }
   CHECK(find_preset("E5") == nullptr);
+}
+
+TEST_CASE("gallery: the lanes of an entry are read, and what is wrong with them is told") {
+  const LaneSet lanes = find_scene(read_gallery(), "six_integrators")->lanes;
+  CHECK(lanes.path == "integrator");
+  CHECK(lanes.values.size() == 6);
+  CHECK(lanes.apart.has_value());
+  const auto entry = [](const std::string& told) {
+    return temporary_scene("lanes",
+                           "[[scene]]\nname = \"a\"\nfile = \"no.toml\"\ntitle = \"t\"\n"
+                           "look = [\"one\", \"two\", \"three\"]\nlanes = " +
+                               told);
+  };
+  for (const char* told : {"{ path = \"step\", values = [0.1] }", "{ values = [0.1, 0.2] }",
+                           "{ path = \"step\", values = [0.1, 0.1] }", "3"}) {
+    CAPTURE(told);
+    const auto faults = faults_of([&] { read_gallery(entry(told)); });
+    REQUIRE(faults.size() == 2);  // the file is not there either
+    CHECK(faults[1].where.find("lanes") != std::string::npos);
+  }
 }
 
 TEST_CASE("gallery: every scene has a picture, and faults are told together") {

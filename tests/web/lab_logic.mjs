@@ -357,3 +357,26 @@ test('plots show what moves and acts, in colours that stay', () => {
   assert.equal(new Set(later.map((curve) => curve.color)).size, 3);
   assert.deepEqual(named('angles').curves.map((curve) => curve.style), ['line', 'dashed']);
 });
+
+test('lanes have a plot for each quantity, with a curve each in the lane’s own colour', () => {
+  const values = ['rk4', 'a/b'];
+  const quantities = [['q/hinge', 'rad'], ['total_energy', 'J'], ['numerical', 'J']];
+  const lanes = values.flatMap((of) =>
+    quantities.map(([what, unit]) => ({ name: `lane/${what}/${of}`, unit, kind: 'lane', of })),
+  );
+  const own = { name: 'q/hinge', unit: 'rad', kind: 'coordinate', of: 'hinge' };
+  const record = new RunRecord({ scene: 7, channels: [own, ...lanes], ledger: [] });
+  for (const time of [0, 1]) {
+    const channels = Float64Array.from({ length: 7 }, (_, i) => time * (i + 1));
+    record.addFrame({ scene: 7, time, number: time, lookedBack: false, channels, works: new Float64Array() });
+  }
+  const all = new LiveSpecs(record).all(1e-3);
+  assert.deepEqual(all.slice(0, 3).map(({ unit }) => unit), ['rad', 'J', 'J']);
+  assert.equal(all[0].title, 'Angle: hinge');
+  for (const spec of all.slice(0, 3)) {
+    assert.deepEqual(spec.curves.map(({ name }) => name), values);
+    assert.deepEqual(spec.curves.map(({ color }) => color), [0, 1]);
+  }
+  assert.deepEqual(all[1].curves.map(({ column }) => column), [2, 5]);
+  assert.equal(all.find(({ id }) => id === 'angles'), undefined); // they stand there already
+});

@@ -1,5 +1,7 @@
 #include "app/lab/knobs/gallery.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/find_assets.h"
@@ -8,7 +10,24 @@
 namespace twinarm {
 namespace {
 
-GalleryScene read_entry(SceneTable& table, const std::filesystem::path& folder) {
+// lanes = { path = "integrator", values = ["verlet", "rk4"], apart = [0, 0.5, 0] }
+LaneSet read_lanes(SceneTable& entry, const TomlValue& told, const std::string& file,
+                   FaultList& faults) {
+  SceneTable table(told, entry.where() + ", lanes", file, faults);
+  LaneSet lanes;
+  lanes.path = table.text("path").value_or("");
+  lanes.apart = table.vector("apart");
+  if (const TomlValue* values = table.find("values"))
+    for (const TomlValue& value : values->items)
+      lanes.values.push_back(value.kind == TomlValue::Kind::number ? fmt::format("{}", value.number)
+                                                                   : value.text);
+  table.done();
+  if (const auto fault = fault_of(lanes)) entry.fault("lanes", fault->rule, fault->remedy);
+  return lanes;
+}
+
+GalleryScene read_entry(SceneTable& table, const std::filesystem::path& folder,
+                        const std::string& file, FaultList& faults) {
   GalleryScene scene;
   for (const char* key : {"name", "file", "title", "look"})
     table.missing(key, "give name, file, title and three lines of look");
@@ -30,6 +49,8 @@ GalleryScene read_entry(SceneTable& table, const std::filesystem::path& folder) 
     table.fault("look", "is not three lines of text", "give what to look for, in three lines");
   else
     for (std::size_t i = 0; i < scene.look.size(); ++i) scene.look[i] = look->items[i].text;
+  if (const TomlValue* lanes = table.table("lanes"))
+    scene.lanes = read_lanes(table, *lanes, file, faults);
   table.done();
   return scene;
 }
@@ -44,7 +65,7 @@ std::vector<GalleryScene> read_gallery(const std::filesystem::path& file) {
   std::vector<GalleryScene> gallery;
   for (const TomlValue* entry : top.tables("scene")) {
     SceneTable table(*entry, "scene", name, faults);
-    gallery.push_back(read_entry(table, file.parent_path()));
+    gallery.push_back(read_entry(table, file.parent_path(), name, faults));
     if (find_scene(gallery, gallery.back().name) != &gallery.back())
       table.fault("name", "the name is taken already", "give each scene its own name");
   }

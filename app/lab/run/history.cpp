@@ -24,9 +24,14 @@ bool is_earlier_step(const LabInput& input, long step) {
 
 std::size_t bytes_of(const LabFrame& frame) {
   const RecordedFrame& r = frame.recorded;
-  return sizeof(LabFrame) + bytes_in(r.values) + bytes_in(r.pulls) + bytes_in(r.contacts) +
-         bytes_in(r.rows) + bytes_in(r.works) + bytes_in(r.momentum_rows) + bytes_in(r.momenta) +
-         r.memory.size() + (frame.hand ? bytes_in(frame.hand->q_K) : 0);
+  std::size_t bytes = sizeof(LabFrame) + bytes_in(r.values) + bytes_in(r.pulls) +
+                      bytes_in(r.contacts) + bytes_in(r.rows) + bytes_in(r.works) +
+                      bytes_in(r.momentum_rows) + bytes_in(r.momenta) + r.memory.size() +
+                      (frame.hand ? bytes_in(frame.hand->q_K) : 0) + bytes_in(frame.lanes);
+  for (const LaneFrame& lane : frame.lanes)
+    if (!lane.stopped)
+      bytes += bytes_of(*lane.frame);  // else one for all, which is next to nothing
+  return bytes;
 }
 
 LabHistory::Frame LabHistory::add(LabFrame frame) {

@@ -16,7 +16,7 @@
 
 namespace twinarm {
 
-std::size_t bytes_of(const LabFrame& frame);
+std::size_t bytes_of(const LabFrame& frame);  // with its lanes
 
 class LabHistory {
  public:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,13 @@ struct LabHandFrame {
   int mode = 0;  // HandWatch::Mode
 };
 
+// Of a run beside this one (lanes.h). Stopped: where it stopped, and at that time.
+struct LabFrame;
+struct LaneFrame {
+  std::shared_ptr<const LabFrame> frame;
+  bool stopped = false;
+};
+
 struct LabFrame {
   RecordedFrame recorded;
   std::optional<LabHandFrame> hand;
@@ -42,6 +50,7 @@ struct LabFrame {
   // Of the thread, since the frame before: processor time per step, mean and largest [s]; run time
   // over the wall time that was asked for (1: it keeps up).
   double step_time = 0, longest_step = 0, pace = 1;
+  std::vector<LaneFrame> lanes;  // of the runs beside this one, from the second lane on
 };
 
 }  // namespace twinarm

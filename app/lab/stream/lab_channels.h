@@ -2,6 +2,7 @@
 // and the clock do.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "app/lab/run/lab_frame.h"
@@ -16,6 +17,11 @@ class LabChannels {
               const std::vector<SceneCoupling>& led);
   // Pairs that touch come up as they do, behind all others. True: one did.
   bool add_pairs(const LabFrame& frame);
+  // The caller's own, who fills it in; its place.
+  std::size_t add(const std::string& name, const std::string& unit, const std::string& kind,
+                  const std::string& of) {
+    return channels_.add(name, unit, kind, of);
+  }
   const std::vector<RunChannel>& all() const { return channels_.all(); }
   void values(const LabFrame& frame, const Moment& moment, SceneCouplings* couplings,
               std::vector<double>& values) const;

@@ -29,16 +29,20 @@ std::string unchanging(const std::string& text) {
 
 struct LabView::Impl {
   Impl(std::uint32_t number, std::shared_ptr<const SimulatePlan> of, const RecordingHeader& header,
-       SceneWords said)
+       SceneWords said, ViewLanes beside)
       : plan(std::move(of)),
         words(std::move(said)),
         moments(*plan),
         stage(plan->input.scene ? make_stage(*plan->input.scene)
                                 : make_stage(plan->input.robot.robot, plan->input.robot.model)),
-        channels(plan->input, header, moments.pulls()) {
+        channels(plan->input, header, moments.pulls()),
+        lanes(std::move(beside), plan->input, channels) {
     columns.scene = number;
     legends.resize(layer_names().size());
-    set_live_view(stage, plan->input.robot, moments.at_start(), moments.follows_device());
+    const Moment start = moments.at_start();
+    look_around(stage, plan->input.robot, start);
+    lanes.place(stage.instants.front(), stage.extent);
+    set_live_view(stage, start, moments.follows_device());
     store.take(stage.list);
   }
 
@@ -52,6 +56,7 @@ struct LabView::Impl {
   LabMoments moments;
   Stage stage;
   LabChannels channels;
+  LaneViews lanes;
   MeshStore store;
   std::vector<std::string> rows;
   std::vector<std::vector<LegendLine>> legends;  // by layer
@@ -101,6 +106,7 @@ void LabView::Impl::draw_layers(const Moment& moment, const std::vector<std::str
 void LabView::Impl::take_values(const LabFrame& frame, const Moment& moment) {
   if (channels.add_pairs(frame)) ++revision;
   channels.values(frame, moment, moments.couplings(), columns.channels);
+  lanes.values(frame, moment, rows, columns.channels);
   columns.works = works_by_row(frame.recorded, rows.size());
 }
 
@@ -118,13 +124,16 @@ void LabView::Impl::take_places(const Moment& moment) {
 }
 
 LabView::LabView(std::uint32_t number, std::shared_ptr<const SimulatePlan> plan,
-                 const RecordingHeader& header, SceneWords words)
-    : impl_(std::make_unique<Impl>(number, std::move(plan), header, std::move(words))) {}
+                 const RecordingHeader& header, SceneWords words, ViewLanes lanes)
+    : impl_(std::make_unique<Impl>(number, std::move(plan), header, std::move(words),
+                                   std::move(lanes))) {}
 
 LabView::~LabView() = default;
 
-void LabView::change(std::shared_ptr<const SimulatePlan> plan) {
+void LabView::change(std::shared_ptr<const SimulatePlan> plan,
+                     std::vector<std::shared_ptr<const SimulatePlan>> lanes) {
   impl_->moments.change(*plan);
+  impl_->lanes.change(std::move(lanes));
   const SceneModel* scene = plan->input.scene.get();
   impl_->stage.scene = scene;
   impl_->stage.model = scene ? &scene->model : &plan->input.robot.model;
@@ -159,6 +168,8 @@ std::string LabView::frame(const LabFrame& now, const LabFrame* before,
                            const std::vector<std::string>& layers, const FrameFacts& facts) {
   Moment moment = impl_->moments.of(now);
   if (before) moment.before = impl_->moments.places(*before);
+  impl_->lanes.look(now);
+  impl_->lanes.show(before, moment);
   FrameColumns& columns = impl_->columns;
   const bool is_whole = is_finite(moment.x);
   if (is_whole && !facts.stopped) grow_scales(impl_->stage, moment);
@@ -190,6 +201,7 @@ std::string LabView::history(const std::vector<const LabFrame*>& frames) {
   all.channel_count = static_cast<std::uint32_t>(impl_->channels.all().size());
   all.row_count = static_cast<std::uint32_t>(impl_->rows.size());
   for (const LabFrame* frame : frames) {
+    impl_->lanes.look(*frame);
     impl_->take_values(*frame, impl_->moments.of(*frame));
     all.time.push_back(frame->recorded.t);
     all.channels.insert(all.channels.end(), columns.channels.begin(), columns.channels.end());

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "app/lab/run/lab_frame.h"
+#include "app/lab/stream/lane_views.h"
 #include "app/simulate/simulate_input.h"
 
 namespace twinarm {
@@ -47,11 +48,12 @@ class LabView {
   // (header_of()). Of the plan only what no run changes is read. Throws InputError: a mesh of a
   // body that cannot be read.
   LabView(std::uint32_t number, std::shared_ptr<const SimulatePlan> plan,
-          const RecordingHeader& header, SceneWords words);
+          const RecordingHeader& header, SceneWords words, ViewLanes lanes = {});
   ~LabView();
 
-  // The same bodies and couplings with other numbers. Throws InputError.
-  void change(std::shared_ptr<const SimulatePlan> plan);
+  // The same bodies, couplings and lanes with other numbers. Throws InputError.
+  void change(std::shared_ptr<const SimulatePlan> plan,
+              std::vector<std::shared_ptr<const SimulatePlan>> lanes = {});
   // Names of the ledger's rows, by the numbers that frames have for them; as many as there are yet.
   void name_rows(const std::vector<std::string>& rows);
 

@@ -108,13 +108,16 @@ void set_first_scales(Stage& stage, const Moment& start) {
 
 }  // namespace
 
-void set_live_view(Stage& stage, const RobotInput& robots, const Moment& start, bool has_hand) {
+void look_around(Stage& stage, const RobotInput& robots, const Moment& start) {
   look_at(stage, start);
-  stage.has_hand = true;  // one may come
-  stage.frames_device = has_hand;
   settle(stage);
   stage.farthest = 1e300;
   add_reach(stage, robots, start);
+}
+
+void set_live_view(Stage& stage, const Moment& start, bool has_hand) {
+  stage.has_hand = true;  // one may come
+  stage.frames_device = has_hand;
   set_view(stage, {}, kAspect);
   stage.trace.span = kTrail;
   set_first_scales(stage, start);

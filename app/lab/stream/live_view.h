@@ -6,11 +6,13 @@
 
 namespace twinarm {
 
-// In view: what is at the start, and where the joints of robots can bring them: at 64 points of the
-// space of their joints (Halton's sequence; within limits, a turn where there are none). Of a robot
-// that stands on the ground what would be below counts as on it. Then camera, ground, first scales
-// and the place of the hand device, which is in view too where `has_hand`.
-void set_live_view(Stage& stage, const RobotInput& robots, const Moment& start, bool has_hand);
+// Of interest: what is at the start, and where the joints of robots can bring them: at 64 points of
+// the space of their joints (Halton's sequence; within limits, a turn where there are none). Of a
+// robot that stands on the ground what would be below counts as on it.
+void look_around(Stage& stage, const RobotInput& robots, const Moment& start);
+// Of what is of interest: camera, ground, first scales and the place of the hand device, which is
+// in view too where `has_hand`.
+void set_live_view(Stage& stage, const Moment& start, bool has_hand);
 
 // What shows in a moment; each scale grows by one round step (1, 2, 5) at most. True: one did.
 bool grow_scales(Stage& stage, const Moment& moment);

@@ -11,6 +11,22 @@ bool is_apart(const Pose& a, const Pose& b, double length) {
   return (a.p - b.p).norm() > 1e-4 * length || (a.R - b.R).norm() > 1e-4;
 }
 
+bool add_before(Stage& stage, const std::vector<Pose>& before, const std::vector<Pose>& now,
+                const Vector3& offset_W) {
+  bool any = false;
+  for (const CastPart& part : stage.cast.parts) {
+    if (part.body == 0 || part.body >= before.size()) continue;
+    const Pose& X_WL = before[part.body];
+    if (!is_apart(X_WL, now[part.body], stage.scales.length)) continue;
+    const OfBody mark(stage.list, part.body);
+    Pose X_WM = X_WL * part.X_LM;
+    X_WM.p += offset_W;
+    add_mesh_instance(stage.list, part.mesh, X_WM, palette::kBefore, part.scale);
+    any = true;
+  }
+  return any;
+}
+
 }  // namespace
 
 void show_twins(Stage& stage, const Moment& moment) {
@@ -30,15 +46,9 @@ void show_twins(Stage& stage, const Moment& moment) {
 }
 
 void show_before(Stage& stage, const Moment& moment) {
-  bool any = false;
-  for (const CastPart& part : stage.cast.parts) {
-    if (part.body == 0 || part.body >= moment.before.size()) continue;
-    const Pose& X_WL = moment.before[part.body];
-    if (!is_apart(X_WL, moment.k.X_WL[part.body], stage.scales.length)) continue;
-    const OfBody mark(stage.list, part.body);
-    add_mesh_instance(stage.list, part.mesh, X_WL * part.X_LM, palette::kBefore, part.scale);
-    any = true;
-  }
+  bool any = add_before(stage, moment.before, moment.k.X_WL, Vector3::Zero());
+  for (const ShownLane& lane : moment.lanes)
+    if (add_before(stage, lane.before, lane.X_WL, lane.offset_W)) any = true;
   if (any) stage.list.legend.push_back({palette::kBeforeSwatch, "the run that was left"});
 }
 

@@ -22,6 +22,10 @@ export interface LiveSpec {
 }
 
 export const DEVICE_LIMIT = 3.3; // [N], the Omni's nominal largest force
+const LANE_TITLES = new Map([
+  ['total_energy', 'Total energy'],
+  ['numerical', 'Energy error: made by the method'],
+]);
 const MOST = 7; // curves that the eye can tell apart
 
 interface Numbered extends SceneChannel {
@@ -43,6 +47,7 @@ export class LiveSpecs {
     const acting = (kind: string) =>
       this.of(kind).filter(({ column }) => this.size(column) > 0);
     return [
+      ...this.lanes(),
       ...this.coordinates('rad'),
       ...this.error(),
       ...this.ledger(),
@@ -112,6 +117,21 @@ export class LiveSpecs {
     });
   }
 
+  // Each quantity with a curve a lane, in the lane's colour of the view.
+  private lanes(): LiveSpec[] {
+    const all = this.of('lane');
+    const names = [...new Set(all.map(({ of }) => of))];
+    const quantity = ({ name, of }: Numbered) => name.slice('lane/'.length, -of.length - 1);
+    return [...new Set(all.map(quantity))].map((what) => {
+      const own = all.filter((channel) => quantity(channel) === what);
+      const curves = own.map(({ column, of }) => curve(column, of, names.indexOf(of)));
+      const [{ unit }] = own;
+      const joint = `${unit === 'm' ? 'Position' : 'Angle'}: ${what.slice(what.indexOf('/') + 1)}`;
+      const title = LANE_TITLES.get(what) ?? joint;
+      return { id: `lane-${what.replaceAll('/', '-')}`, title, unit, curves, omitted: 0 };
+    });
+  }
+
   // The dynamic robot as a line, the kinematic one in the same colour, dashed.
   private coordinates(unit: 'rad' | 'm'): LiveSpec[] {
     const targets = new Map(this.of('target').map((channel) => [channel.of, channel.column]));
@@ -120,6 +140,7 @@ export class LiveSpecs {
         channel.unit === unit && (targets.has(channel.of) || this.span(channel.column) > 1e-9),
     );
     const led = all.filter((channel) => targets.has(channel.of)).slice(0, MOST);
+    if (led.length === 0 && this.of('lane').length > 0) return []; // stand there for every lane
     const shown = led.length > 0 ? led : this.largest(all, (column) => this.span(column));
     const colors = this.paint(shown);
     const curves = shown.flatMap(({ column, of }, i) => {

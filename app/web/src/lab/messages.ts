@@ -13,7 +13,7 @@ export interface SceneLayer {
 export interface SceneChannel {
   name: string; // "q/arm1"
   unit: string; // SI
-  kind: Channel['kind'] | 'pull' | 'hand' | 'time';
+  kind: Channel['kind'] | 'pull' | 'hand' | 'time' | 'lane';
   of: string;
 }
 
