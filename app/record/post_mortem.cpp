@@ -119,7 +119,7 @@ std::string beyond_limit(const Suspect& s) {
 }
 
 // The limits are about the start: what has moved since may be beyond one that was near then.
-bool is_near(const Suspect& s) {
+bool is_near_its_limit(const Suspect& s) {
   return s.step > 0.5 * s.largest_step;
 }
 std::string near_limit(const Suspect& s, double h) {
@@ -157,7 +157,7 @@ void say_suspects(PostMortem& found, double h, const std::optional<PassedRadius>
     found.words.push_back("behind it: " + beyond_limit(s));
     found.words.push_back(s.remedy);
   }
-  if (!any && !found.suspects.empty() && is_near(found.suspects.front()))
+  if (!any && !found.suspects.empty() && is_near_its_limit(found.suspects.front()))
     found.words.push_back(near_limit(found.suspects.front(), h));
   else if (!any)
     found.words.emplace_back(
@@ -177,7 +177,7 @@ std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared) {
   if (!suspects.empty() && suspects.front().step > suspects.front().largest_step)
     return words + "; behind it: " + beyond_limit(suspects.front()) + "; " +
            suspects.front().remedy;
-  if (!suspects.empty() && is_near(suspects.front()))
+  if (!suspects.empty() && is_near_its_limit(suspects.front()))
     return words + "; " + near_limit(suspects.front(), h);
   return words + (prepared.run.is_adaptive()
                       ? "; give a smaller --tolerance"

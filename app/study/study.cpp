@@ -12,6 +12,7 @@
 #include "app/study/calibrate.h"
 #include "app/study/figures.h"
 #include "app/study/findings.h"
+#include "app/study/gnuplot.h"
 #include "app/study/output_csv.h"
 #include "app/study/output_json.h"
 #include "app/study/pictures.h"
