@@ -134,6 +134,7 @@ class Curious(Client):
     """Asks over HTTP, wants other layers, looks into bodies."""
     next = 0.0
     asks = None
+    paths = ("/scene", "/frame.png?width=320&height=180", "/save", "/nothing/here")
     layers = ("bodies", "ghost", "couplings", "contacts", "frames", "inertia", "momentum", "trails", "labels")
 
     def tick(self, now):
@@ -143,8 +144,7 @@ class Curious(Client):
         pick = self.soak.random
         self.live.do("layers", names=pick.sample(self.layers, pick.randint(1, len(self.layers))))
         self.live.do("glass", on=pick.random() < 0.5, body=1)
-        path = pick.choice([f"/history?from={self.time - 5!r}", "/scene", "/frame.png?width=320&height=180",
-                            "/save", "/nothing/here"])
+        path = pick.choice([f"/history?from={self.time - 5!r}", *self.paths])
         self.asks = threading.Thread(target=self.ask, args=(path,), daemon=True)
         self.asks.start()
 
