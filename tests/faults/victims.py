@@ -15,7 +15,8 @@ from live_socket import Lab  # noqa: E402
 ARM = ROOT / "assets/scenes/robot_beside_obstacles.toml"
 ROD = ('<robot name="hinge"><link name="base"/><link name="arm"><inertial><mass value="1"/>'
        '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.5"/></inertial></link>'
-       '<joint name="hinge" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint></robot>')
+       '<joint name="hinge" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>'
+       '</robot>')
 HINGE = """duration = 0.5
 gravity = [0, 0, 0]
 [[robot]]
@@ -222,7 +223,7 @@ class LabUnderFire(Victim):
         try:
             lab = Lab(json.loads(process.stdout.readline())["url"])
             with lab.live() as live:
-                live.wait_for("frame")
+                live.wait_for("frame", timeout=100)
                 for n in range(10**6):
                     lab.post(f"/open?name=ball{n}.toml", (ROOT / "assets/scenes/pendulum.toml").read_text())
                     body = lab.get("/save").body
