@@ -129,6 +129,12 @@ RobotDescription read_urdf(const std::filesystem::path& file, const UrdfOptions&
   robot.name = source.text(element, "name", "robot");
   const UrdfMaterials materials = read_materials(element, source);
   for (const XMLElement* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) {
+    constexpr std::size_t kMostParts = 40000;
+    if (robot.links.size() + robot.joints.size() == kMostParts) {
+      source.fault(e->GetLineNum(), "", "there are more than 40,000 links and joints",
+                   "what does not move belongs to one link");
+      source.check();
+    }
     const std::string name = e->Name();
     if (name == "link") robot.links.push_back(read_link(*e, materials, source));
     if (name == "joint") robot.joints.push_back(read_joint(*e, source));
