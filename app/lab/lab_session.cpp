@@ -57,7 +57,12 @@ void LabSession::end() {
   }
   told_.notify_all();
   thread_.join();
-  workshop_.reset();
+  // Pages may still drop files: taken away under the lock, and waited for without it.
+  std::unique_ptr<Workshop> workshop;
+  {
+    const std::lock_guard lock(mutex_);
+    workshop = std::move(workshop_);
+  }
 }
 
 void LabSession::push(LabCommand command) {
@@ -77,7 +82,11 @@ void LabSession::note(const std::string& level, const std::string& text) {
 }
 
 void LabSession::open(Order order) {
-  workshop_->order(std::move(order));
+  {
+    const std::lock_guard lock(mutex_);
+    if (workshop_) return workshop_->order(std::move(order));
+  }
+  if (order.done) order.done("the lab is ending");
 }
 
 LabNow LabSession::now() const {
