@@ -58,7 +58,12 @@ void LabSession::end() {
   }
   told_.notify_all();
   thread_.join();
-  workshop_.reset();
+  // Pages may still drop files: taken away under the lock, and waited for without it.
+  std::unique_ptr<Workshop> workshop;
+  {
+    const std::lock_guard lock(mutex_);
+    workshop = std::move(workshop_);
+  }
 }
 
 void LabSession::push(LabCommand command) {
@@ -70,7 +75,11 @@ void LabSession::push(LabCommand command) {
 }
 
 void LabSession::open(Order order) {
-  workshop_->order(std::move(order));
+  {
+    const std::lock_guard lock(mutex_);
+    if (workshop_) return workshop_->order(std::move(order));
+  }
+  if (order.done) order.done("the lab is ending");
 }
 
 LabNow LabSession::now() const {

@@ -226,9 +226,10 @@ class LabUnderFire(Victim):
                 live.wait_for("frame", timeout=100)
                 for n in range(10**6):
                     lab.post(f"/open?name=ball{n}.toml", (ROOT / "assets/scenes/pendulum.toml").read_text())
-                    body = lab.get("/save").body
-                    (self.out / "saved.twinrec").write_bytes(body)
-                    self.saved.set()
+                    reply = lab.get("/save")
+                    if reply.status == 200:  # else it says that it is ending
+                        (self.out / "saved.twinrec").write_bytes(reply.body)
+                        self.saved.set()
         except (OSError, ValueError, http.client.HTTPException):  # the lab is gone, in an answer perhaps
             pass
 
