@@ -197,8 +197,8 @@ TEST_CASE("lab frames: while time stands one comes for each change of what is se
   REQUIRE(Painted::until([&] { return lab.frames().size() > before; }));
   lab.settle();
   CHECK(lab.frames().size() == before + 1);
-  lab.session.push(said(R"({"do": "step", "steps": 3})"));
   const std::uint64_t step = lab.frames().back().step;
+  lab.session.push(said(R"({"do": "step", "steps": 3})"));
   REQUIRE(Painted::until([&] { return lab.frames().back().step == step + 3; }));
   lab.session.push(said(R"({"do": "look", "at": 0})"));
   REQUIRE(Painted::until([&] { return (lab.frames().back().flags & 2) != 0; }));
