@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace twinarm {
 namespace {
@@ -89,6 +90,17 @@ void HandLead::go_on_from(const LabHandFrame& frame) {
   goes_on_ = true;
 }
 
+void HandLead::stand_as(const LabHandFrame& frame, double t, double h) {
+  if (!frame.leads || frame.q_K.size() != target_.q.size()) return;
+  target_.q = frame.q_K;
+  target_.qd = frame.qd_K;
+  target_.gripper_closed = frame.gripper_closed;
+  live_.set(target_, t - h, h);
+  first_.set(live_.newest());
+  leads_ = stands_ = true;
+  ask_elsewhere(t);
+}
+
 std::vector<double> HandLead::own_q(double t, double toward) const {
   const HandSample sample = own_->sample(t, toward);
   std::vector<double> q;
@@ -142,6 +154,7 @@ void HandLead::ask_elsewhere(double t) {
 std::optional<HandStep> HandLead::before_step(const State<double>& x, double t, double h) {
   if (led_.empty()) return std::nullopt;
   const LabHand::Source source = hand_.source();
+  if (std::exchange(stands_, false)) leads_ = false;
   if (!leads_ && !goes_on_ && source == LabHand::Source::scene) return std::nullopt;
   const bool begins = !leads_;
   if (begins) {
@@ -178,6 +191,7 @@ std::optional<HandStep> HandLead::before_step(const State<double>& x, double t, 
 
 void HandLead::take_again(const std::optional<HandStep>& told) {
   is_live_ = goes_on_ = false;
+  if (std::exchange(stands_, false)) leads_ = false;
   const bool led = leads_;
   if (!told || led_.empty()) {
     leads_ = false;

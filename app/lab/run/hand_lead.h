@@ -28,6 +28,8 @@ class HandLead {
   void attach(SceneCouplings& couplings) { couplings_ = &couplings; }
   // The robot stands where that frame left it.
   void go_on_from(const LabHandFrame& frame);
+  // And until the next step, for who asks: as the step of h had it that ended there, at t.
+  void stand_as(const LabHandFrame& frame, double t, double h);
 
   // For the step [t, t + h] from x: what the robot is told; nothing where the scene leads. Throws
   // InputError where the hand's mapping cannot move these joints.
@@ -65,6 +67,7 @@ class HandLead {
   std::unique_ptr<HandLoop> loop_;
   unsigned long made_for_ = 0;  // of LabHand::chosen()
   bool leads_ = false, is_live_ = false, goes_on_ = false, is_fresh_ = false;
+  bool stands_ = false;  // as a frame has it: not led by a step yet
 };
 
 }  // namespace twinarm

@@ -117,6 +117,8 @@ void LabRun::keep_books(const LabFrame& from, const LabNames& names) {
   std::vector<LedgerRow> told;
   for (std::size_t i = 0; i < from.recorded.rows.size(); ++i)
     told.push_back({names.rows[from.recorded.rows[i]], from.recorded.works[i]});
+  // The springs are as long as they were there: the books hold their energy.
+  if (from.hand) lead_->stand_as(*from.hand, from.recorded.t, step_length());
   run_->keep_books(told);
 }
 
