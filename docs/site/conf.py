@@ -25,6 +25,7 @@ project = "twinarm"
 html_title = "twinarm"
 copyright = "the authors of twinarm; BSD-3-Clause"
 language = "en"
+smartquotes = False  # an option is --json, and JSON has straight quotes
 root_doc = "index"
 extensions = ["myst_parser"]
 exclude_patterns = ["site"]
