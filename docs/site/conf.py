@@ -5,12 +5,19 @@ carries them as HTML and MathML, and no script has to run for them.
 """
 import atexit
 import json
+import os
 import pathlib
 import re
 import shutil
 import subprocess
+import sys
 
 HERE = pathlib.Path(__file__).parent
+sys.path.insert(0, str(HERE))
+sys.dont_write_bytecode = True
+import commands  # noqa: E402
+
+PROGRAM = HERE.parents[1] / "build/release/twinarm"
 KATEX = pathlib.Path("/usr/share/javascript/katex")  # Debian's libjs-katex
 NORMALIZE = pathlib.Path("/usr/share/javascript/normalize.css/normalize.css")  # that Furo stands on
 
@@ -18,6 +25,7 @@ project = "twinarm"
 html_title = "twinarm"
 copyright = "the authors of twinarm; BSD-3-Clause"
 language = "en"
+smartquotes = False  # an option is --json, and JSON has straight quotes
 root_doc = "index"
 extensions = ["myst_parser"]
 exclude_patterns = ["site"]
@@ -85,6 +93,26 @@ def name_what_is_outside(app, docname, source):
     source[0] = re.sub(r"\[([^\]]*)\]\((\.\./[^)#]*\.md)(?:#[^)]*)?\)", words, source[0])
 
 
+def set_the_commands(app, docname, source):
+    """The program's own manual, where it is built; else a line that says so."""
+    if docname != "reference_commands":
+        return
+    program = os.environ.get("TWINARM_PROGRAM", PROGRAM)
+    try:
+        made = subprocess.run([program, "help", "--man"], capture_output=True, text=True, check=True, timeout=60)
+        text = commands.markdown_of(made.stdout)
+    except (OSError, subprocess.SubprocessError):
+        text = "**Not here: the program was not built when this site was made.** `scripts/build`, then `scripts/site`."
+        print(f"scripts/site: {program} is not built: the site is made without the list of commands", file=sys.stderr)
+    source[0] = source[0].replace("<!-- commands -->", text)
+
+
+def link_the_headers(app, docname, source):
+    """To the pages that Doxygen makes of the headers, where scripts/site has them made."""
+    if docname == "headers" and os.environ.get("TWINARM_HEADERS"):
+        source[0] = source[0].replace("<!-- headers -->", '<p><a href="headers/index.html">To the headers</a></p>')
+
+
 def list_the_rest(app, docname, source):
     """Pages that index.md does not name go into a last list, so that none is lost."""
     if docname == root_doc:
@@ -116,5 +144,7 @@ def bring_styles(app, error):
 def setup(app):
     app.connect("build-finished", bring_styles)
     app.connect("source-read", name_what_is_outside)
+    app.connect("source-read", set_the_commands)
+    app.connect("source-read", link_the_headers)
     app.connect("source-read", list_the_rest)
     app.add_html_math_renderer("katex", (visit_inline, None), (visit_block, None))
