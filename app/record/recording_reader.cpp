@@ -45,13 +45,12 @@ Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
   using namespace recording_format;
   std::string start(std::min(size_, kStart), '\0');
   stream_.read(start.data(), static_cast<std::streamsize>(start.size()));
-  if (start.size() < kStart || start.compare(0, 8, kMagic, 8) != 0)
-    refuse(start.empty()
-               ? "it is empty: the run that was to write it did not begin, or the disk was full"
-           : std::string(kMagic, 8).starts_with(start.substr(0, 8))
-               ? "it is cut short within its first bytes"
-               : "it is no recording",
-           "give a file that `twinarm simulate --record FILE` wrote");
+  if (start.empty())
+    refuse("it is empty: the run that was to write it did not begin, or the disk was full",
+           "record it again");
+  if (!std::string(kMagic, 8).starts_with(start.substr(0, 8)))
+    refuse("it is no recording", "give a file that `twinarm simulate --record FILE` wrote");
+  if (start.size() < kStart) refuse("it is cut short within its first bytes", "record it again");
   if (const std::uint32_t version = number_at(start, 8); version != kVersion)
     refuse(
         fmt::format("its format is version {}; this program reads version {}", version, kVersion),
