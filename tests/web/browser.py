@@ -137,6 +137,11 @@ class Browser:
             raise RuntimeError(json.dumps(result["exceptionDetails"])[:800])
         return result["result"].get("value")
 
+    def heap(self):
+        """Bytes that its scripts use, without garbage."""
+        self.call("HeapProfiler.collectGarbage")
+        return self.call("Runtime.getHeapUsage")["usedSize"]
+
     def wait_for(self, expression):
         deadline = time.monotonic() + self.timeout
         while not self.evaluate(expression):

@@ -18,7 +18,7 @@ from browser import Browser
 from lab_case import ROOT, STATE, Program, page_is_there
 from test_lab_page import ROD
 
-HEAP = 150e6  # bytes that a page may have grown by, after its garbage is collected
+HEAP = 12e6  # bytes that a page may have grown by, after its garbage is collected
 REFUSED = ("422", "status of 4")  # the browser's own words for a file that the lab refuses
 
 
@@ -167,12 +167,6 @@ class Stranger:
         self.send(do="speed", factor=self.chance.choice((0.01, 0.1, 0.5, 1, 1, 1, 2, 10)))
 
 
-def heap(page):
-    """Bytes that scripts use, without garbage."""
-    page.call("HeapProfiler.collectGarbage")
-    return page.call("Runtime.getHeapUsage")["usedSize"]
-
-
 def visit(program, seconds, seed, say):
     """What was wrong, in words; empty: nothing."""
     faults = []
@@ -182,18 +176,18 @@ def visit(program, seconds, seed, say):
         page.open(lab.url)
         page.evaluate("window.sameStranger = true")
         stranger = Stranger(page, random.Random(seed), say)
-        first, most = heap(page), 0
+        first, most = page.heap(), 0
         begin = told = time.monotonic()
         while time.monotonic() - begin < seconds:
             stranger.one()
             if time.monotonic() - told > 20:
                 told = time.monotonic()
-                now = heap(page)
+                now = page.heap()
                 most = max(most, now)
                 say(f"{told - begin:4.0f} s of {seconds:.0f}: {sum(stranger.done.values())} acts, "
                     f"heap {now / 1e6:.0f} MB, frames {page.evaluate('twinarm.page.link.received')}")
         faults += still_there(page, stranger)
-        last = heap(page)
+        last = page.heap()
         most = max(most, last)
         if most - first > HEAP:
             faults.append(f"the page's memory grew from {first / 1e6:.0f} to {most / 1e6:.0f} MB")

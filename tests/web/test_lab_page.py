@@ -191,6 +191,21 @@ class LabPage(LabCase):
         self.assertGreater(both, 10)
         self.assertGreater(len(lab.get("/share").body), 100_000)
 
+    def test_the_page_forgets_the_plots_of_scenes_that_were_left(self):
+        self.click("Plots")
+        names = ("pendulum", "gyroscope")
+
+        def go_round(times):
+            for name in times * names:
+                self.value(f"twinarm.page.send({json.dumps({'do': 'scene', 'name': name})})")
+                self.until(f"{STATE}.name === {name!r} && twinarm.page.frame?.scene === twinarm.page.scene.scene")
+                self.until("document.querySelectorAll('.live-plots canvas').length > 2")
+                self.page.frames(12)
+            return self.page.heap()
+
+        first = go_round(2)
+        self.assertLess(go_round(5) - first, 1.5e6)  # charts that are kept: 0.3 MB for each scene
+
     def test_all_text_stands_out_from_what_is_behind_it(self):
         for dark in (False, True):
             self.value(f"twinarm.page.theme.set({json.dumps(dark)})")

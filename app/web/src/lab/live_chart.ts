@@ -84,6 +84,12 @@ export class LiveChart {
     this.made = '';
   }
 
+  // uPlot knows all charts whose pointers go together until they are told to end.
+  end(): void {
+    this.chart?.destroy();
+    this.chart = null;
+  }
+
   // `at`: what is looked at, if not the newest; `isBlown`: the run has ended in huge numbers.
   draw(window: Window, at: number | null, isBlown: boolean): void {
     const width = this.canvas.clientWidth;

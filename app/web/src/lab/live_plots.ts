@@ -174,11 +174,12 @@ export class LivePlots implements Panel, ChartUser {
     if (signature === this.signature) return;
     this.signature = signature;
     const kept = new Map(this.charts.map((chart) => [JSON.stringify(chart.spec), chart]));
-    const isKept = (chart: LiveChart) => chart.record === record;
+    const before = this.charts;
     this.charts = all.map((spec) => {
       const old = kept.get(JSON.stringify(spec));
-      return old && isKept(old) ? old : this.chart(spec, record);
+      return old?.record === record ? old : this.chart(spec, record);
     });
+    for (const chart of before) if (!this.charts.includes(chart)) this.end(chart);
     this.list.replaceChildren(...this.charts.map((chart) => chart.root));
     this.refresh();
   }
@@ -187,6 +188,11 @@ export class LivePlots implements Panel, ChartUser {
     const made = new LiveChart(spec, record, this);
     this.watch.observe(made.root);
     return made;
+  }
+
+  private end(chart: LiveChart): void {
+    this.watch.unobserve(chart.root);
+    chart.end();
   }
 
   private fillPick(scene: SceneMessage): void {
@@ -198,6 +204,7 @@ export class LivePlots implements Panel, ChartUser {
   }
 
   private choose(value: string): void {
+    if (this.single) this.end(this.single);
     const spec = value === '' ? null : (this.specs?.single(Number(value)) ?? null);
     this.single = spec && this.record ? this.chart(spec, this.record) : null;
     this.picked.replaceChildren(...(this.single ? [this.single.root] : []));
