@@ -104,24 +104,11 @@ int best_edge(const Polytope& core, int top, const Vector3& n) {
   return best;
 }
 
-int highest_vertex(const ConvexHull& hull, const Vector3& n) {
-  int best = 0;
-  double height = -1e300;
-  for (std::size_t v = 0; v < hull.vertices.size(); ++v) {
-    const double h = hull.vertices[v].dot(n);
-    if (h > height) {
-      height = h;
-      best = static_cast<int>(v);
-    }
-  }
-  return best;
-}
-
 void polytope_feature(const Placed& body, const Vector3& n_W, Feature& f) {
   const Polytope& core = body.solid.core;
   const ConvexHull& hull = core.hull;
   const Vector3 n = body.X_WG.R.transpose() * n_W;
-  const int top = highest_vertex(hull, n);
+  const int top = core.farthest(n);
   const double tolerance = 1e-9 * (1e-3 + hull.vertices[top].norm());
   const int face = best_face(body, n, hull.vertices[top].dot(n), tolerance);
   const int count = static_cast<int>(hull.faces.size());

@@ -22,11 +22,11 @@ bool is_finite(const Pose& X) {
 
 // The box of a body, grown by its margin: two boxes overlap if the bodies can be that near.
 Aabb bounding_box(const Placed& body, double margin) {
-  constexpr std::size_t kFew = 8;  // vertices, of which the least box is as cheap as any other
+  constexpr std::size_t kFew = 7;  // vertices, of which the least box is as cheap as any other
   Aabb box;
   const Polytope& core = body.solid.core;
   if (body.solid.surface || (core.exists && core.hull.vertices.size() > kFew)) {
-    // Around the box in the body's own axes: wider, but it does not ask every vertex.
+    // Around the box in the body's own axes: wider, but of a box; it does not ask every vertex.
     const Vector3 centre = body.X_WG * body.solid.centre;
     const Vector3 half = body.X_WG.R.cwiseAbs() * body.solid.half;
     box = {centre - half, centre + half};
@@ -144,8 +144,8 @@ void CollisionWorld::find_pairs(std::span<const Pose> X_WG, std::span<const doub
     const Placed half_space{solids_[ground], X_WG[ground]};
     for (std::size_t i = 0; i < bounded_.size(); ++i) {
       const int body = bounded_[i];
-      if (!may_collide(ground, body) || !is_finite(X_WG[body])) continue;
       if (half_space_distance(half_space, boxes_[i]) > margins[ground]) continue;
+      if (!may_collide(ground, body) || !is_finite(X_WG[body])) continue;
       const Placed other{solids_[body], X_WG[body]};
       if (half_space_distance(half_space, other) < margins[ground] + margins[body]) {
         pairs_.emplace_back(std::min(ground, body), std::max(ground, body));

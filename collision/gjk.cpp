@@ -84,14 +84,7 @@ Vector3 core_support(const Solid& solid, const Vector3& direction) {
   if (!solid.core.exists || std::holds_alternative<Box>(solid.shape)) {
     return support(solid.shape, direction);
   }
-  const std::vector<Vector3>& points = solid.core.hull.vertices;
-  std::size_t best = 0;
-  double height = points[0].dot(direction);
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const double h = points[i].dot(direction);
-    if (h > height) best = i, height = h;
-  }
-  return points[best];
+  return solid.core.hull.vertices[solid.core.farthest(direction)];
 }
 
 // The corner of D that lies farthest along `direction`, all in the frame of A.

@@ -43,8 +43,8 @@ Aabb box_in(const Placed& mesh, const Placed& body, double margin) {
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 e = Vector3::Unit(axis), d = X_MB.R.transpose() * e;
-    box.high[axis] = (X_MB * support(body.solid.shape, d))[axis] + margin;
-    box.low[axis] = (X_MB * support(body.solid.shape, -d))[axis] - margin;
+    box.high[axis] = (X_MB * body.solid.support(d))[axis] + margin;
+    box.low[axis] = (X_MB * body.solid.support(-d))[axis] - margin;
   }
   return box;
 }

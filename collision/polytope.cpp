@@ -41,6 +41,8 @@ Polytope with_edges(ConvexHull hull) {
   }
   polytope.slabs = slabs_of(hull);
   polytope.hull = std::move(hull);
+  constexpr std::size_t few = 64;  // are as soon asked one by one
+  if (polytope.hull.vertices.size() > few) polytope.table = VertexTable(polytope.hull.vertices);
   return polytope;
 }
 
@@ -74,6 +76,17 @@ struct Make {
 };
 
 }  // namespace
+
+int Polytope::farthest(const Vector3& d) const {
+  if (!table.empty()) return static_cast<int>(table.farthest(d));
+  int best = 0;
+  double height = hull.vertices[0].dot(d);
+  for (std::size_t i = 1; i < hull.vertices.size(); ++i) {
+    const double h = hull.vertices[i].dot(d);
+    if (h > height) best = static_cast<int>(i), height = h;
+  }
+  return best;
+}
 
 Polytope make_polytope(const Shape& shape) {
   return std::visit(Make{}, shape);

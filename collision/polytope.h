@@ -7,6 +7,7 @@
 
 #include "collision/convex_hull.h"
 #include "collision/shape.h"
+#include "collision/vertex_table.h"
 
 namespace twinarm {
 
@@ -25,6 +26,10 @@ struct Polytope {
   std::vector<Slab> slabs;
   double radius = 0;   // [m]
   bool exists = true;  // false for curved shapes and half-spaces
+  VertexTable table;   // of the hull's vertices, where they are more than a few
+
+  // The vertex that is farthest along d, in the body's frame.
+  int farthest(const Vector3& d) const;
 };
 
 Polytope make_polytope(const Shape& shape);

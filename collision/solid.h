@@ -22,11 +22,17 @@ struct Solid {
     if (!core.exists && !surface) return;
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3 e = Vector3::Unit(axis);
-      const double low = support(s, -e)[axis], high = support(s, e)[axis];
+      const double low = twinarm::support(s, -e)[axis], high = twinarm::support(s, e)[axis];
       centre[axis] = (low + high) / 2;
       half[axis] = (high - low) / 2;
     }
   }
+  // Farthest point along d, in the frame of the shape.
+  Vector3 support(const Vector3& d) const {
+    if (std::holds_alternative<ConvexHull>(shape)) return core.hull.vertices[core.farthest(d)];
+    return twinarm::support(shape, d);
+  }
+
   Shape shape;
   Polytope core;
   Patches patches;
@@ -42,7 +48,7 @@ struct Placed {
 
   // Farthest point along n_W, in W.
   Vector3 support_W(const Vector3& n_W) const {
-    return X_WG * support(solid.shape, X_WG.R.transpose() * n_W);
+    return X_WG * solid.support(X_WG.R.transpose() * n_W);
   }
 };
 

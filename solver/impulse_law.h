@@ -32,6 +32,8 @@ using Mat = std::array<double, 9>;  // row by row
 enum class Shift { held, followed };
 void respond(const ImpulseConstraint& c, const LawMemory& memory, Shift shift, const Vec& u, Vec& p,
              Mat& D);
+// Shift held: p(u) alone.
+Vec answer(const ImpulseConstraint& c, const LawMemory& memory, const Vec& u);
 
 // Where p(u) of a disc is at its edge, the direction of p there; 0 within.
 Vec along_edge(const ImpulseConstraint& c, const LawMemory& memory, const Vec& u);

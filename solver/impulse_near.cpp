@@ -42,14 +42,17 @@ double ImpulseSolver::take_one_step(ImpulseProblem& problem, const Island& islan
   return settle(problem, island);
 }
 
-// False, and nothing done, where the guess says nothing.
-bool ImpulseSolver::start_near(ImpulseProblem& problem, const Island& island,
-                               ImpulseReport& report) {
+// Whether the guess says anything.
+bool ImpulseSolver::is_warm(const ImpulseProblem& problem, const Island& island) {
   const std::vector<ImpulseConstraint>& all = problem.constraints();
-  const bool is_warm =
-      std::any_of(island.constraints.begin(), island.constraints.end(),
-                  [&](int i) { return all[i].law == ImpulseLaw::coulomb && all[i].p[0] > 0; });
-  if (!is_warm) return false;
+  return std::any_of(island.constraints.begin(), island.constraints.end(),
+                     [&](int i) { return all[i].law == ImpulseLaw::coulomb && all[i].p[0] > 0; });
+}
+
+// Returns what is left of the laws.
+double ImpulseSolver::start_near(ImpulseProblem& problem, const Island& island,
+                                 ImpulseReport& report) {
+  const std::vector<ImpulseConstraint>& all = problem.constraints();
   rho_ratio_ = near_rho;
   double residual = std::numeric_limits<double>::infinity();
   int steps = 0, in_vain = 0;
@@ -65,7 +68,7 @@ bool ImpulseSolver::start_near(ImpulseProblem& problem, const Island& island,
   }
   report.rounds = std::max(report.rounds, steps);
   report.newton = std::max(report.newton, steps);
-  return true;
+  return residual;
 }
 
 // From a solution to one whose digits are all right, as long as that comes nearer: with a rho that

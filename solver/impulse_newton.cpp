@@ -251,11 +251,9 @@ double ImpulseSolver::step_length(const ImpulseProblem& problem, const Island& i
   const auto slope = [&](double s) {
     double sum = slope0 + s * curvature;
     for (const int i : island.constraints) {
-      Vec u = u_[i], p;
-      Mat D;
+      Vec u = u_[i];
       for (int r = 0; r < 3; ++r) u[r] += s * du_[i][r];
-      respond(problem.constraints()[i], memory_[i], Shift::held, u, p, D);
-      sum -= dot(p, du_[i]);
+      sum -= dot(answer(problem.constraints()[i], memory_[i], u), du_[i]);
     }
     return sum;
   };

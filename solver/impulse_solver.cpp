@@ -59,8 +59,7 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
       open = !(residual <= good_guess);  // where bodies share contacts it can lose what was there
     }
     if (open) {
-      solve_island(problem, islands_[i], report);
-      residual = settle(problem, islands_[i]);
+      residual = solve_island(problem, islands_[i], report);
       // Who takes no guess for good but below the aim (event_step.h) needs the aim.
       const double enough = good_guess < tolerance ? tolerance : accepted;
       if (islands_[i].constraints.size() <= few || !(residual <= enough))
@@ -129,17 +128,16 @@ double ImpulseSolver::relax(ImpulseProblem& problem, const Island& island) {
 }
 
 // From what is near the guess; else the rounds from the guess; where that does not do soon, from
-// the middle. The best of all is kept.
-void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
-                                 ImpulseReport& report) {
+// the middle. The best of all is kept, and what it leaves of the laws returned.
+double ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
+                                   ImpulseReport& report) {
   ++report.solved;
   order(problem, island);
   lay_out(problem, island);
   double best = std::numeric_limits<double>::infinity();
   best_p_.resize(problem.constraints().size()), round_p_.resize(best_p_.size());
   guess_p_.resize(best_p_.size());
-  const auto judge = [&] {
-    const double residual = settle(problem, island);
+  const auto judge = [&](double residual) {
     if (residual < best) {
       best = residual;
       for (const int i : island.constraints) best_p_[i] = problem.constraints()[i].p;
@@ -149,25 +147,23 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
   const auto go_on = [&](int most, bool yields, double rho) {
     rho_ratio_ = rho;
     run_rounds(problem, island, most, yields, report);
-    judge();
+    judge(settle(problem, island));
   };
-  if (island.constraints.size() <= few && start_near(problem, island, report)) {
-    judge();
-    if (best <= accepted) return;
+  if (island.constraints.size() <= few && is_warm(problem, island)) {
+    judge(start_near(problem, island, report));
+    if (best <= accepted) return best;
     for (const int i : island.constraints) problem.constraints()[i].p = guess_p_[i];
     settle(problem, island);
   }
   go_on(island.constraints.size() <= few ? quick_newton_few : quick_newton, false, first_rho);
+  if (best <= accepted) return best;
   const auto finish = [&](bool yields) {
-    judge();
+    judge(settle(problem, island));
     if (best <= accepted) return;
-    settle(problem, island);
     go_on(most_newton, yields, first_rho);
   };
-  if (best > accepted) {
-    report.interior = std::max(report.interior, approach_centrally(problem, island));
-    finish(false);
-  }
+  report.interior = std::max(report.interior, approach_centrally(problem, island));
+  finish(false);
   // A body between two surfaces may slide, or jam with impulses that have no bound; from the middle
   // of what is possible one comes to the jam, even where a hair of a gap makes it no solution.
   for (const double rho : {first_rho, large_rho}) {
@@ -193,11 +189,9 @@ void ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
   // nothing falls through.
   const auto most_descents =
       static_cast<int>(std::clamp<std::size_t>(30000 / island.constraints.size(), 300, 5000));
-  for (int k = 0; k < most_descents && best > accepted; ++k) {
-    relax(problem, island);
-    judge();
-  }
+  for (int k = 0; k < most_descents && best > accepted; ++k) judge(relax(problem, island));
   for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
+  return settle(problem, island);
 }
 
 // From p and u of the constraints, v and rho_ratio_. Rounds that go astray are taken back to the

@@ -63,10 +63,11 @@ class ImpulseSolver {
   void find_islands(const ImpulseProblem& problem);
   double relax(ImpulseProblem& problem, const Island& island);
   double settle(ImpulseProblem& problem, const Island& island);
-  void solve_island(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
+  double solve_island(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
   void run_rounds(ImpulseProblem& problem, const Island& island, int most, bool yields,
                   ImpulseReport& report);
-  bool start_near(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
+  static bool is_warm(const ImpulseProblem& problem, const Island& island);
+  double start_near(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
   double take_one_step(ImpulseProblem& problem, const Island& island, double residual);
   double polish(ImpulseProblem& problem, const Island& island, double residual);
   void order(const ImpulseProblem& problem, const Island& island);

@@ -17,7 +17,10 @@ struct Pose {
   Matrix3 R = Matrix3::Identity();  // R_AB: turns coordinates in B into coordinates in A
   Vector3 p = Vector3::Zero();      // p_AoBo_A: origin of B, from the origin of A, in A [m]
 
-  Vector3 operator*(const Vector3& p_BC) const { return R * p_BC + p; }
+  // R p_BC + p by columns: Eigen's product of a matrix is a call that the compiler does not inline.
+  Vector3 operator*(const Vector3& p_BC) const {
+    return R.col(0) * p_BC.x() + R.col(1) * p_BC.y() + R.col(2) * p_BC.z() + p;
+  }
   Pose operator*(const Pose& X_BC) const { return {R * X_BC.R, R * X_BC.p + p}; }
   Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
 };
