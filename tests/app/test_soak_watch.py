@@ -5,14 +5,18 @@
 """
 import contextlib
 import io
+import os
 import pathlib
 import random
+import signal
 import sys
+import time
 import unittest
+import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests"))
-from soak_watch import Checks, Growth, IdleLoop  # noqa: E402
+from soak_watch import MOST_BEHIND, TICK, Checks, Growth, IdleLoop  # noqa: E402
 
 
 class SoakWatch(unittest.TestCase):
@@ -46,6 +50,33 @@ class SoakWatch(unittest.TestCase):
         while idle.done.value < 200:
             pass
         self.assertLess(idle.pace(), 0.6)
+        idle.end()
+        self.assertFalse(idle.process.is_alive())
+
+    def test_a_pace_is_that_since_the_mark(self):
+        idle = IdleLoop(0)
+        while idle.done.value < 20:
+            pass
+        idle.end()
+        with unittest.mock.patch("soak_watch.time.monotonic") as clock:
+            clock.return_value = 500
+            idle.mark()
+            idle.done.value += 2000
+            clock.return_value = 504
+            self.assertAlmostEqual(idle.pace(), 0.5)
+
+    def test_a_loop_that_was_held_up_does_not_make_up_for_all_of_it(self):
+        idle = IdleLoop(0)
+        while idle.done.value < 20:
+            pass
+        os.kill(idle.process.pid, signal.SIGSTOP)
+        time.sleep(1)
+        idle.mark()
+        os.kill(idle.process.pid, signal.SIGCONT)
+        while idle.done.value - idle.ticks < 1500:
+            pass
+        gone = time.monotonic() - idle.start
+        self.assertLess((idle.done.value - idle.ticks) * TICK, gone + MOST_BEHIND + 2 * TICK)
         idle.end()
 
 

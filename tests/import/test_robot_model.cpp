@@ -7,6 +7,7 @@
 
 #include "collision/import/robot_check.h"
 #include "collision/import/urdf.h"
+#include "solver/dynamics.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {
@@ -147,6 +148,57 @@ TEST_CASE("a moving link without mass needs mass outward of it, an added one wil
   options = {};
   options.armature = false;
   CHECK(faults_of([&] { build_model(robot, options); }).size() == 1);
+}
+
+// Two hinges on one line with nothing between them: only the builder sees it, and it knows no
+// lines.
+TEST_CASE("what the solver's builder refuses is told with the file and line of the joint") {
+  RobotDescription robot;
+  robot.file = "/arm.urdf";
+  robot.root = "base";
+  robot.links = {frame("base"), frame("hub"), heavy("arm")};
+  robot.joints = {joint("j1", Type::continuous, "base", "hub"),
+                  joint("j2", Type::continuous, "hub", "arm")};
+  const auto faults = faults_of([&] { build_model(robot); });
+  INFO(listing(faults));
+  CHECK(tells(faults, 7, "/arm.urdf:7: joint 'j1': what it moves has no inertia"));
+  robot.joints[1].origin.xyz = {0, 0.1, 0};
+  CHECK_NOTHROW(build_model(robot));
+}
+
+TEST_CASE("a scaled mass scales the inertia with it, and leaves the centre where it is") {
+  ModelOptions options;
+  options.mass_scale["l2"] = 3;
+  RobotDescription thrice = all_types();
+  thrice.links[2].mass *= 3;
+  thrice.links[2].inertia *= 3;
+  const Model<double> scaled = build_model(all_types(), options), model = build_model(thrice);
+  const State<double> x(model);
+  Workspace<double> one(scaled), other(model);
+  crba(scaled, x, one);
+  crba(model, x, other);
+  CHECK(one.M == other.M);
+  Workspace<double> before(model);
+  crba(build_model(all_types()), x, before);
+  CHECK(one.M != before.M);
+}
+
+TEST_CASE("numbers of a description that are not finite are refused, whoever made it") {
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    RobotDescription robot = all_types();
+    robot.links[1].mass = bad;
+    robot.links[2].com.x() = bad;
+    robot.links[3].inertia(1, 2) = bad;
+    robot.joints[1].mimic = {"j3", bad, 0};
+    robot.joints[3].mimic = {"j3", 1, bad};
+    const auto faults = check_robot(robot).faults;
+    INFO(listing(faults));
+    CHECK(faults.size() == 5);
+    for (const Fault& fault : faults) {
+      CHECK(fault.rule.find("finite") != std::string::npos);
+      CHECK(fault.remedy.find("give finite numbers") == 0);
+    }
+  }
 }
 
 TEST_CASE("a robot without any mass cannot float") {

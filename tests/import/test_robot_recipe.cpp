@@ -3,6 +3,7 @@
 
 #include "collision/import/mesh_geometry.h"
 #include "collision/import/stl_writer.h"
+#include "collision/import/toml_file.h"
 #include "collision/import/urdf.h"
 #include "tests/import/helpers.h"
 
@@ -86,6 +87,13 @@ TEST_CASE("an origin in [paper] is in its unit, others are in metres") {
   CHECK(read_recipe(folder.recipe(text)).robot.joints[0].origin.xyz == Vector3(1, 2, 3));
 }
 
+TEST_CASE("a joint of a recipe may be turned by roll, pitch and yaw") {
+  const CubeFolder folder;
+  const std::string text = replaced(kCube, "damping", "rpy = [0.1, -0.2, 0.3]\ndamping");
+  CHECK(read_recipe(folder.recipe(text)).robot.joints[0].origin.rpy == Vector3(0.1, -0.2, 0.3));
+  CHECK(read_recipe(folder.recipe(kCube)).robot.joints[0].origin.rpy == Vector3(0, 0, 0));
+}
+
 TEST_CASE("the files that a recipe makes read back as the robot that it says") {
   const CubeFolder folder;
   const fs::path recipe = folder.recipe(kCube);
@@ -127,6 +135,14 @@ struct SpoiltRecipe {
 
 const SpoiltRecipe kSpoiltRecipes[] = {
     {"name = \"cube\"", "name = \"a/b\"", 1, "name of a file"},
+    {"name = \"cube\"", "name = 3", 1, "'name' must be a text that is not empty; give name = "},
+    {"name = \"foot\"", "", 12, "'name' is missing"},
+    {"[paper]\nunit = 0.5\nhinge = [1, 2, 3]", "paper = 3", 3,
+     "'paper' must be a table; write [paper]"},
+    {"[[joint]]", "[joint]", 24, "'joint' must be a list of tables; write [[joint]]"},
+    {"parts = [\"lower\", \"upper\"]", "parts = \"lower\"", 23, "'parts' must be a list of names"},
+    {"parts = [\"lower\", \"upper\"]", "parts = [\"lower\", 3]", 23,
+     "'parts' must be a list of names; give parts = "},
     {"mesh_scale = 0.001", "mesh_scale = -1", 2, "'mesh_scale' must be positive"},
     {"mesh_scale = 0.001", "mesh_scale = 0.001\nmesh_scal = 1", 3, "'mesh_scal' is not known"},
     {"hinge = [1, 2, 3]", "hinges = [1, 2, 3]", 5, "'hinges' is no joint"},
@@ -140,6 +156,9 @@ const SpoiltRecipe kSpoiltRecipes[] = {
     {"mesh = \"upper\"", "mesh = \"lower\"", 19, "has this part already"},
     {"material = \"light\"", "material = \"gold\"", 19, "material 'gold' does not exist"},
     {"parts = [\"lower\", \"upper\"]", "parts = [\"side\"]", 22, "'side' is no part of this link"},
+    {"parts = [\"lower\", \"upper\"]",
+     "parts = [\"lower\"]\n  [[link.collision]]\n  name = \"body_1\"\n  parts = [\"upper\"]", 24,
+     "another collision has this name; give each its own `name`"},
     {"type = \"revolute\"", "type = \"ball\"", 26, "is not supported; types: fixed"},
     {"type = \"revolute\"", "type = \"screw\"", 24, "'pitch'"},
     {"parent = \"foot\"", "parent = \"nobody\"", 27, "'nobody' does not exist"},
@@ -184,6 +203,24 @@ TEST_CASE("an open mesh is refused at the line of its part, and nothing is writt
   INFO(listing(faults));
   CHECK(tells(faults, 19, "not closed"));
   CHECK(!fs::exists(folder.path() / "cube.urdf"));
+}
+
+// Within texts brackets do not count, and their lines do.
+TEST_CASE("a recipe that is nested too deep, or too long, is refused before it is parsed") {
+  const CubeFolder folder;
+  const std::string before =
+      std::string(kCube) + "note = \"\"\"\n" + std::string(300, '[') + "\n\"\"\"\n";
+  const auto deep = [](std::size_t depth) {
+    return "deep = " + std::string(depth, '[') + std::string(depth, ']') + "\n";
+  };
+  CHECK(faults_of([&] { read_toml_text(folder.recipe(before + deep(200))); }).empty());
+  const auto faults = faults_of([&] { read_recipe(folder.recipe(before + deep(201))); });
+  INFO(listing(faults));
+  CHECK(faults.size() == 1);
+  CHECK(tells(faults, 35, "nested more than 200 deep; no key here has such a place"));
+  const fs::path file = folder.recipe(kCube);
+  fs::resize_file(file, (4u << 20) + 1);  // a hole: takes no room on the disk
+  CHECK(tells(faults_of([&] { read_recipe(file); }), 0, "more than 4 MiB"));
 }
 
 TEST_CASE("a missing recipe is a fault with its name") {

@@ -154,6 +154,12 @@ TEST_CASE("a mesh may be stretched and mirrored, and stays oriented outward") {
     }
     CHECK(six_volumes == doctest::Approx(std::abs(scale.prod())).epsilon(1e-14));
   }
+  const std::string flat = "<mesh filename=\"a.obj\" scale=\"1 0 1\"/>";
+  const auto faults = faults_of([&] {
+    read_urdf(folder.write("arm.urdf", replaced(kGoodArm, "<box size=\"0.4 0.1 0.1\"/>", flat)));
+  });
+  CHECK(faults.size() == 1);
+  CHECK(tells(faults, 10, "'1 0 1', which flattens the mesh; give three numbers that are not 0"));
 }
 
 // Sets an environment variable for as long as it lives.

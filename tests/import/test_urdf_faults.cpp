@@ -133,6 +133,7 @@ TEST_CASE("malformed XML is told with the line where the reader gave up") {
   CHECK(faults_in("no xml at all").size() == 1);
   CHECK(tells(faults_in("<sdf/>"), 1, "must be <robot>"));
   CHECK(tells(faults_in("<robot name=\"r\"/>"), 0, "no link"));
+  CHECK(tells(faults_in("<!-- nothing but words -->"), 0, "no <robot> element; give a URDF file"));
 }
 
 TEST_CASE("a missing file, or a folder in its place, is a fault with its name") {

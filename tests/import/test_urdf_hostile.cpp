@@ -74,6 +74,16 @@ TEST_CASE("a file of more than 16 MiB is refused before it is read") {
   CHECK(faults[0].rule.find("16 MiB") != std::string::npos);
 }
 
+TEST_CASE("a robot of more than forty thousand links and joints is refused at the first too many") {
+  const TemporaryFolder folder;
+  std::string text = "<robot name=\"crowd\">\n";
+  for (int n = 0; n < 40001; ++n) text += "<link name=\"l" + std::to_string(n) + "\"/>\n";
+  const auto faults = faults_of([&] { read_urdf(folder.write("crowd.urdf", text + "</robot>")); });
+  INFO(listing(faults));
+  CHECK(faults.size() == 1);
+  CHECK(tells(faults, 40002, "more than 40,000 links and joints; what does not move belongs to"));
+}
+
 // The oracle is the sanitizers' and the fault's form: whatever a mutation does, it is told or read.
 TEST_CASE("a file with bytes exchanged, taken out or doubled is read or refused") {
   const TemporaryFolder folder;

@@ -1,6 +1,7 @@
 // What is read although it is suspicious, or has no effect here: a warning, with its line.
 #include <string>
 
+#include "collision/import/mesh_geometry.h"
 #include "collision/import/urdf.h"
 #include "tests/import/helpers.h"
 
@@ -47,6 +48,13 @@ const Odd kOddLines[] = {
      "'red'"},
     {"</geometry>", "</geometry><material name=\"b\"><texture filename=\"x\"/></material>", 10,
      "texture file 'x' does not exist"},
+    {"</geometry>",
+     "</geometry><material name=\"b\"><color rgba=\"1 0 0 1\"/><texture/></material>", 10,
+     "its <texture> has no 'filename'; give filename="},
+    {"</robot>",
+     "<material name=\"m\"><color rgba=\"1 0 0 1\"/></material>"
+     "<material name=\"m\"><color rgba=\"0 1 0 1\"/></material></robot>",
+     20, "material 'm': it is defined twice; the first counts"},
     {"ixx=\"0.01\" ixy=\"0\" ixz=\"0\" iyy=\"0.02\" iyz=\"0\" izz=\"0.025\"",
      "ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"", 7,
      "link 'arm1': its inertia is zero: a point mass of 2 kg"},
@@ -178,6 +186,8 @@ TEST_CASE("dynamics does without the meshes: they are one warning, and stay in t
   CHECK(mesh.file.empty());
   CHECK(mesh.name == "no.stl");
   CHECK(mesh.scale == Vector3(1, 2, 3));
+  const auto faults = faults_of([&] { load_mesh(mesh); });
+  CHECK(tells(faults, 0, "mesh 'no.stl': its file was not found; put it where the robot's file"));
 }
 
 TEST_CASE("dynamics does without shapes that cannot be read: each is a warning and is left out") {
