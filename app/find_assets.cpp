@@ -1,10 +1,22 @@
 #include "app/find_assets.h"
 
+#include <dlfcn.h>
+
 #include <vector>
 
 #include "solver/fault.h"
 
 namespace twinarm {
+namespace {
+
+// Of the Python module, whose program is Python's. Of the program itself: what it was called.
+std::filesystem::path library_of_this_code() {
+  Dl_info found;
+  const bool is_known = dladdr(reinterpret_cast<const void*>(&find_assets), &found) != 0;
+  return is_known && found.dli_fname ? found.dli_fname : "";
+}
+
+}  // namespace
 
 std::filesystem::path find_assets(const std::filesystem::path& given) {
   namespace fs = std::filesystem;
@@ -16,6 +28,11 @@ std::filesystem::path find_assets(const std::filesystem::path& given) {
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
     places.push_back(program.parent_path() / "../../assets");      // build/PRESET/twinarm
     places.push_back(program.parent_path() / "../share/twinarm");  // bin/twinarm, installed
+    if (const fs::path library = library_of_this_code(); library.extension() == ".so") {
+      places.push_back(library.parent_path() / "../../../assets");  // build/PRESET/python
+      places.push_back(library.parent_path() /
+                       "../../../share/twinarm");  // lib/python3.11/dist-packages
+    }
     places.push_back(fs::current_path(error) / "assets");
   }
   for (const fs::path& place : places)

@@ -5,10 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string_view>
 
 #include "app/interrupt.h"
 #include "app/nearest_name.h"
+#include "app/options/option_words.h"
 #include "app/options/options.h"
 #include "app/program.h"
 #include "app/streams.h"
@@ -47,6 +49,19 @@ int tell_internal(const std::exception& error, bool as_json) {
   return kInternal;
 }
 
+// --help and --version: what is printed goes the way of all output, and is checked as such.
+int tell_help(const CLI::App& app, const CLI::ParseError& asked, bool as_json) {
+  std::ostringstream text;
+  app.exit(asked, text);
+  std::fputs(text.str().c_str(), stdout);
+  try {
+    check_stdout();
+    return kDone;
+  } catch (const InputError& full) {
+    return tell(full, as_json);
+  }
+}
+
 // The first word, where it is meant to be a command and is none.
 void check_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
@@ -72,6 +87,7 @@ void check_values(int argc, char** argv) {
 int run_program(int argc, char** argv) {
   fill_closed_streams();
   CLI::App app{"twinarm: a glass-box multibody laboratory\n\nExample:  twinarm study"};
+  app.formatter(help_formatter());
   app.require_subcommand(1);
   app.set_version_flag("--version", "twinarm " TWINARM_VERSION, "Print the version and exit");
   CommandLine line{{argv, argv + argc}, {}};
@@ -85,7 +101,7 @@ int run_program(int argc, char** argv) {
   } catch (const InputError& error) {
     return tell(error, as_json);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    if (error.get_exit_code() == 0) return tell_help(app, error, as_json);
     return tell(InputError({{"", 0, "command line", error.what(), "see twinarm --help"}}), as_json);
   }
 

@@ -28,21 +28,20 @@ LabSession::LabSession(Built scene, const std::vector<GalleryScene>& gallery,
     : gallery_(gallery), history_(most_bytes), before_(most_bytes) {
   adopt(std::move(scene));
   publish();  // from now on there is something to be seen
-  workshop_ =
-      std::make_unique<Workshop>(Workshop::Out{[this](Built built) {
-                                                 {
-                                                   const std::lock_guard lock(mutex_);
-                                                   built_.push_back(std::move(built));
-                                                 }
-                                                 told_.notify_all();
-                                               },
-                                               [this](const Order& order, const std::string& why) {
-                                                 note("error", why);
-                                                 const std::lock_guard lock(mutex_);
-                                                 has_failed_ =
-                                                     has_failed_ || order.what != Order::What::open;
-                                                 told_.notify_all();
-                                               }});
+  workshop_ = std::make_unique<Workshop>(
+      Workshop::Out{[this](Built built) {
+                      {
+                        const std::lock_guard lock(mutex_);
+                        built_.push_back(std::move(built));
+                      }
+                      told_.notify_all();
+                    },
+                    [this](const Order& order) {
+                      const std::lock_guard lock(mutex_);
+                      if (!order.asked.empty()) failed_ = order.asked.back().number;
+                      told_.notify_all();
+                    },
+                    [this](const std::string& why) { note("error", why); }});
   thread_ = std::thread([this] { work(); });
 }
 
@@ -135,7 +134,7 @@ void LabSession::work() {
 void LabSession::rest() {
   std::unique_lock lock(mutex_);
   const auto is_told = [this] {
-    return stop_ || has_failed_ || !commands_.empty() || !built_.empty() || !new_notes_.empty();
+    return stop_ || failed_ || !commands_.empty() || !built_.empty() || !new_notes_.empty();
   };
   if (steps_left_ > 0) return;
   if (status_.playing)

@@ -90,7 +90,9 @@ class LabSession {
   void change(const std::vector<std::string>& texts, std::optional<double> at);
   void preset(const std::string& name);
   void open_from_gallery(const std::string& name);
+  void ask(Asked asked);
   void order(Order::What what, double at);
+  void done_with(long number);
   void adopt(Built built);
   LabHistory::Frame start_of(const Order& order);
   void forget();
@@ -102,8 +104,8 @@ class LabSession {
   mutable std::condition_variable changed_, told_;
   std::deque<LabCommand> commands_;
   std::deque<Built> built_;
-  std::vector<LabNote> new_notes_;
-  bool has_failed_ = false;  // an order
+  std::deque<LabNote> new_notes_;
+  std::optional<long> failed_;  // what was asked for up to this number
   LabNow now_;
   LabHistory history_, before_;  // before_: of the branch that was left, from where it was left
   std::uint64_t wakes_ = 0;
@@ -118,7 +120,8 @@ class LabSession {
   LabLanes lanes_;
   LabNames names_;
   LabStatus status_;
-  std::vector<Change> wanted_;  // changes that stand, and those that are being built
+  std::deque<Asked> asked_;  // and not yet built or refused
+  long asked_count_ = 0;
   long change_number_ = 0, notes_ = 0;
   double changed_at_ = 0;             // time of the run [s]
   long steps_left_ = 0;               // of single steps

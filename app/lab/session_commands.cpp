@@ -21,19 +21,19 @@ bool is_movement(LabCommand::Do what) {
 void LabSession::take_commands() {
   std::deque<LabCommand> commands;
   std::deque<Built> built;
-  bool has_failed = false;
+  std::optional<long> failed;
   {
     const std::lock_guard lock(mutex_);
     commands.swap(commands_);
     built.swap(built_);
-    std::swap(has_failed, has_failed_);
+    std::swap(failed, failed_);
   }
   for (const LabCommand& command : commands) try {
       act(command);
     } catch (const InputError& error) {
       for (const Fault& fault : error.faults()) note("error", to_string(fault));
     }
-  if (has_failed) wanted_ = status_.changes;  // as it was
+  if (failed) done_with(*failed);
   for (Built& one : built) {
     const auto done = one.order.done;
     try {
@@ -81,7 +81,7 @@ void LabSession::act(const LabCommand& command) {
     case Do::reset:
       return order(Order::What::reset, 0);
     case Do::restore:
-      wanted_.clear();
+      ask({0, true, {}});
       return order(Order::What::change, 0);
     default:
       return act_on_hand(command);
@@ -144,15 +144,15 @@ void LabSession::choose_hand(const std::string& source, const std::string& spec)
 
 // From now on, or from an instant that is remembered.
 void LabSession::change(const std::vector<std::string>& texts, std::optional<double> at) {
-  std::vector<Change> changes = wanted_;
+  Asked asked;
   for (const std::string& text : texts) {
     const Change change = parse_change(text);
     if (is_of_lanes(change))
       throw InputError({{"command", 0, text, "it is what the lanes differ by",
                          "turn another knob, or open the scene without lanes"}});
-    put(changes, change);
+    asked.changes.push_back(change);
   }
-  wanted_ = std::move(changes);
+  ask(std::move(asked));
   if (!at) return order(Order::What::change, 0);
   status_.playing = false;
   order(Order::What::branch, *at);
@@ -185,13 +185,23 @@ void LabSession::open_from_gallery(const std::string& name) {
   workshop_->order(order_to_open(*scene));
 }
 
+void LabSession::ask(Asked asked) {
+  asked.number = ++asked_count_;
+  asked_.push_back(std::move(asked));
+}
+
+void LabSession::done_with(long number) {
+  while (!asked_.empty() && asked_.front().number <= number) asked_.pop_front();
+}
+
 void LabSession::order(Order::What what, double at) {
   Order order;
   order.what = what;
   order.scene = scene_->scene;
   order.name = scene_->order.name;
   order.words = scene_->order.words;
-  order.changes = wanted_;
+  order.changes = status_.changes;
+  order.asked.assign(asked_.begin(), asked_.end());
   order.lanes = scene_->order.lanes;
   order.at = at;
   workshop_->order(std::move(order));
@@ -219,6 +229,7 @@ LabHistory::Frame LabSession::start_of(const Order& order) {
 // Between two steps: the run goes on as it was ordered.
 void LabSession::adopt(Built built) {
   const Order order = built.order;
+  if (!order.asked.empty()) done_with(order.asked.back().number);
   const bool goes_on = order.what == Order::What::change || order.what == Order::What::branch;
   if (goes_on && built.scene != scene_->scene) return;  // meanwhile another one was opened
   LabHistory::Frame from;
@@ -232,13 +243,14 @@ void LabSession::adopt(Built built) {
   if (!run->begun_anew().empty()) note("note", run->begun_anew());
   if (!goes_on) forget();
   if (order.what == Order::What::open) {
+    asked_.clear();
     ++status_.scene;
     status_.scene_name = order.name;
     if (!order.hand.empty()) choose_hand(order.hand, "");
   }
   {
     const std::lock_guard lock(mutex_);
-    wanted_ = status_.changes = order.changes;
+    status_.changes = order.changes;
     status_.lanes = order.lanes;
     scene_ = std::make_shared<const Built>(std::move(built));
     run_ = std::move(run);

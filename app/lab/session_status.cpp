@@ -14,7 +14,8 @@ constexpr std::size_t kMostNotes = 20;
 void LabSession::note(const std::string& level, const std::string& text) {
   {
     const std::lock_guard lock(mutex_);
-    if (new_notes_.size() < kMostNotes) new_notes_.push_back({0, level, text});
+    if (new_notes_.size() == kMostNotes) new_notes_.pop_front();  // the last are told, as of all
+    new_notes_.push_back({0, level, text});
   }
   told_.notify_all();
 }

@@ -2,6 +2,8 @@
 
 #include <pthread.h>
 
+#include <algorithm>
+
 #include "app/record/recording_reader.h"
 #include "solver/fault.h"
 
@@ -22,6 +24,11 @@ std::string words_of(const InputError& error) {
   return words;
 }
 
+void put_asked(std::vector<Change>& changes, const Asked& asked) {
+  if (asked.begins_anew) changes.clear();
+  for (const Change& change : asked.changes) put(changes, change);
+}
+
 }  // namespace
 
 Order order_to_open(const GalleryScene& scene) {
@@ -37,6 +44,7 @@ Order order_to_open(const GalleryScene& scene) {
 
 Built build(Order order) {
   Built built;
+  for (const Asked& asked : order.asked) put_asked(order.changes, asked);
   if (!order.lanes.empty()) put(order.changes, order.lanes.change(0));
   built.scene = order.what == Order::What::open ? open_scene(order.file) : order.scene;
   built.header = built.scene->header(order.changes, {});
@@ -72,6 +80,36 @@ void Workshop::order(Order order) {
   wake_.notify_all();
 }
 
+// It was tried already, with an order before this one.
+void Workshop::leave_out_refused(Order& order) const {
+  std::erase_if(order.asked, [this](const Asked& asked) {
+    return std::find(refused_.begin(), refused_.end(), asked.number) != refused_.end();
+  });
+}
+
+// What was asked for while others waited: what is wrong must not take the others with it. Nothing
+// where no part of it holds.
+std::optional<Built> Workshop::build_one_by_one(const Order& order) {
+  std::optional<Built> built;
+  Order good = order;
+  good.asked.clear();
+  for (const Asked& asked : order.asked) {
+    Order with = good;
+    with.asked.push_back(asked);
+    try {
+      built = build(with);
+      good = std::move(with);
+    } catch (const InputError& error) {
+      refused_.push_back(asked.number);
+      if (&asked == &order.asked.back() && order.what == Order::What::branch && built)
+        built->order.what = Order::What::change;  // the branch was for what is refused
+      out_.refused(words_of(error));
+    }
+  }
+  if (built) built->order.asked = order.asked;  // all of it is done with
+  return built;
+}
+
 void Workshop::work() {
   pthread_setname_np(pthread_self(), "lab workshop");
   for (;;) {
@@ -83,15 +121,22 @@ void Workshop::work() {
       order = std::move(*next_);
       next_.reset();
     }
-    const Order asked = order;
+    leave_out_refused(order);
     try {
-      out_.built(build(std::move(order)));
-    } catch (const InputError& error) {
-      if (asked.done) asked.done(words_of(error));
-      out_.failed(asked, words_of(error));
+      try {
+        out_.built(build(order));
+      } catch (const InputError& error) {
+        if (order.asked.size() < 2) throw;
+        auto built = build_one_by_one(order);
+        built ? out_.built(std::move(*built)) : out_.failed(order);
+      }
     } catch (const std::exception& error) {
-      if (asked.done) asked.done(error.what());
-      out_.failed(asked, error.what());
+      const auto* faults = dynamic_cast<const InputError*>(&error);
+      const std::string why = faults ? words_of(*faults) : error.what();
+      for (const Asked& asked : order.asked) refused_.push_back(asked.number);
+      if (order.done) order.done(why);
+      out_.refused(why);
+      out_.failed(order);
     }
   }
 }

@@ -18,6 +18,13 @@
 
 namespace twinarm {
 
+// What was asked for at once, and is refused at once or not at all.
+struct Asked {
+  long number = 0;           // counts up
+  bool begins_anew = false;  // without the changes before it
+  std::vector<Change> changes;
+};
+
 // What is to be built, and what the run is to do with it.
 struct Order {
   enum class What { open, change, branch, reset };
@@ -26,7 +33,8 @@ struct Order {
   std::string name;                       // open: as the gallery has it
   SceneWords words;                       // open
   std::shared_ptr<const LabScene> scene;  // of all others
-  std::vector<Change> changes;            // all that are to stand then
+  std::vector<Change> changes;            // all that are to stand then, but
+  std::vector<Asked> asked;               // these, which nobody has tried yet, oldest first
   LaneSet lanes;                          // empty: the run alone
   double at = 0;                          // branch [s]
   std::string hand;                       // open: who moves the robot then; empty: as it is
@@ -34,7 +42,8 @@ struct Order {
   std::function<void(const std::string& faults)> done;
 };
 
-// A scene with its changes, those of its first lane among them: each thread has a plan of its own.
+// A scene with its changes, in `order.changes` also what was asked for and held, and those of its
+// first lane: each thread has a plan of its own.
 struct Built {
   Order order;
   std::shared_ptr<const LabScene> scene;
@@ -50,7 +59,9 @@ class Workshop {
   // Both are called by the workshop's thread.
   struct Out {
     std::function<void(Built)> built;
-    std::function<void(const Order&, const std::string& why)> failed;  // all faults, line by line
+    std::function<void(const Order&)> failed;  // nothing of it holds; why was told
+    std::function<void(const std::string& why)>
+        refused;  // a part, or all; its faults, line by line
   };
   explicit Workshop(Out out);
   ~Workshop();
@@ -59,8 +70,11 @@ class Workshop {
 
  private:
   void work();
+  void leave_out_refused(Order& order) const;
+  std::optional<Built> build_one_by_one(const Order& order);
 
   Out out_;
+  std::vector<long> refused_;  // numbers of what was asked for; of the workshop's thread alone
   std::mutex mutex_;
   std::condition_variable wake_;
   std::optional<Order> next_;

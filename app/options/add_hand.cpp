@@ -23,12 +23,11 @@ void add_hand(CLI::App& app, CommandLine& line) {
                    "paper (theta1, 4, 6), arm (theta1, 2, 3) or cartesian")
       ->capture_default_str();
   hand->add_option("--scale", options->scale, "of cartesian: the robot's way over the hand's (4)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   hand->add_option("--force-scale", options->force_scale, "of what is felt (1)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_more());
   hand->add_option("--duration", options->duration, "seconds; left out: until Ctrl-C");
-  hand->add_option("--step", options->step, "seconds; left out: the scene's")
-      ->check(CLI::PositiveNumber);
+  hand->add_option("--step", options->step, "seconds; left out: the scene's")->check(above_zero());
   hand->add_flag(
       "--simulated", options->simulated,
       "as fast as it goes: the same run on every machine, for a device that is simulated");

@@ -24,14 +24,14 @@ void add_lab(CLI::App& app, CommandLine& line) {
                   "integrator=semi-implicit,rk4 or coupling.stiffness=500,2000")
       ->type_name("PATH=VALUES");
   lab->add_option("--port", options->port, "of the server; left out: any that is free")
-      ->check(CLI::Range(0, 65535));
+      ->check(between(0, 65535));
   lab->add_option("--listen", options->listen,
                   "address: another than 127.0.0.1 lets others on the network in who have the "
                   "page's address with its token")
       ->capture_default_str();
   lab->add_option("--remember", options->remember,
                   "megabytes of frames: how far back one can go, some minutes at 256")
-      ->check(CLI::Range(1, 65536))
+      ->check(between(1, 65536))
       ->capture_default_str();
   lab->add_flag("--no-browser", options->no_browser, "only print the address");
   lab->add_flag("--json", options->json, "print {\"url\": \"..\"} as the first line");

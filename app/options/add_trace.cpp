@@ -16,10 +16,10 @@ void add_trace(CLI::App& app, CommandLine& line) {
                          "Example:  twinarm trace --seed 1 --rate 200 --out hand.csv");
   trace->add_option("--seed", options->seed, "of the synthetic operator")->capture_default_str();
   trace->add_option("--duration", options->duration, "seconds")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   trace->add_option("--rate", options->rate, "samples per second")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   add_file_option(*trace, "--out", options->out, "CSV file")->required();
   trace->callback([options, &line] { line.chosen = [options] { return run_trace(*options); }; });

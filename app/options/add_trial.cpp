@@ -25,10 +25,10 @@ void add_trial(CLI::App& app, CommandLine& line) {
   trial->add_option("--seed", options->seed, "draws the order of the conditions");
   trial->add_option("--subject", options->subject, "a code, not a name; left out: S1, S2, ...");
   trial->add_option("--seconds", options->seconds, "of free motion")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   trial->add_option("--most", options->most, "seconds that a pick-and-place may take")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   trial->add_flag("--feel", options->feel,
                   "let the hand feel the springs, on a device with motors (the paper does not)");

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "app/options/option_words.h"
 #include "app/options/shared_options.h"
 
 namespace twinarm {
@@ -28,10 +29,12 @@ ToldOption told(CLI::Option& option) {
     for (const std::string& name : option.get_lnames()) result.names.push_back("--" + name);
   }
   if (option.get_items_expected_max() > 0) {
-    result.value = option.get_type_name();
+    result.value = value_word(option);
     result.preset = option.get_default_str();
   }
   result.help = option.get_description();
+  if (const std::string limits = value_limits(option); !limits.empty())
+    result.help += " (" + limits + ")";
   result.is_file = is_file_option(option);
   result.is_required = option.get_required();
   return result;

@@ -12,7 +12,7 @@ namespace twinarm {
 
 struct ToldOption {
   std::vector<std::string> names;  // "-h", "--help"; of a word without dashes its name alone
-  std::string value;               // "TEXT", "INT:INT in [0 - 65535]"; empty: a flag
+  std::string value;               // "NUMBER", "PATH"; empty: a flag
   std::string preset;              // what it is if not given; may be empty
   std::string help;
   bool is_word = false, is_file = false, is_required = false;

@@ -1,5 +1,7 @@
 #include "app/options/shared_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 #include "app/dynamics/robot_input.h"
@@ -15,7 +17,7 @@ CLI::Option* refuse_empty(CLI::Option* option) {
   const auto fault = [](const std::string& name) {
     return name.empty() ? std::string("the name of a file is empty") : std::string();
   };
-  return option->check(CLI::Validator(fault, "", kFileCheck));
+  return option->type_name("PATH")->check(CLI::Validator(fault, "", kFileCheck));
 }
 
 }  // namespace
@@ -45,6 +47,16 @@ bool is_file_option(CLI::Option& option) {
   } catch (const CLI::OptionNotFound&) {
     return false;
   }
+}
+
+CLI::Validator above_zero() {
+  return CLI::PositiveNumber.description("above 0");
+}
+CLI::Validator zero_or_more() {
+  return CLI::NonNegativeNumber.description("0 or more");
+}
+CLI::Validator between(int least, int most) {
+  return CLI::Range(least, most).description(fmt::format("{} to {}", least, most));
 }
 
 void add_robot_options(CLI::App& command, RobotOptions& options, const char* model) {

@@ -7,6 +7,7 @@
 namespace CLI {
 class App;
 class Option;
+class Validator;
 }  // namespace CLI
 
 namespace twinarm {
@@ -23,6 +24,11 @@ CLI::Option* add_file_option(CLI::App& command, const char* name,
 CLI::Option* add_input_option(CLI::App& command, const char* name, std::filesystem::path& file,
                               const char* help);
 bool is_file_option(CLI::Option& option);  // made by one of these
+
+// Checks of numbers, called as the help tells them (option_words.h).
+CLI::Validator above_zero();
+CLI::Validator zero_or_more();
+CLI::Validator between(int least, int most);
 
 // The model that a command is about, which `model` describes, its state, and what to leave out.
 void add_robot_options(CLI::App& command, RobotOptions& options, const char* model);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/find_input.h"
 #include "collision/import/number_text.h"
 
 namespace twinarm::python {
@@ -39,7 +40,7 @@ std::vector<double> vector_of(const py::handle& given, std::size_t size, const s
 }
 
 std::filesystem::path path_of(const py::handle& file) {
-  return py::cast<std::string>(py::module_::import("os").attr("fspath")(file));
+  return find_input(py::cast<std::string>(py::module_::import("os").attr("fspath")(file)));
 }
 
 Array array_of(const std::vector<double>& values) {

@@ -26,7 +26,7 @@ void check_finite(const double* numbers, std::size_t count, const std::string& w
 std::vector<double> vector_of(const py::handle& given, std::size_t size, const std::string& what,
                               const std::string& why);
 
-// A file by its name, or as a path of pathlib.
+// A file by its name, or as a path of pathlib; what begins with assets/ as the program finds it.
 std::filesystem::path path_of(const py::handle& file);
 
 Array array_of(const std::vector<double>& values);

@@ -8,6 +8,7 @@
 #include "app/coupling/predicted.h"
 #include "app/python/arrays.h"
 #include "app/python/bind.h"
+#include "app/python/scene_change.h"
 #include "collision/import/number_text.h"
 #include "coupling/coupling_spec.h"
 #include "coupling/prediction_limits.h"
@@ -48,13 +49,14 @@ double positive(const char* name, double value) {
 
 py::object predict(const py::object& scene, const py::object& state,
                    const std::optional<double>& step, const std::string& integrator, double turn,
-                   double time) {
+                   double time, const py::object& set) {
   SimulateOptions options;
   options.robot.model = path_of(scene);
   if (!state.is_none()) options.robot.state = path_of(state);
   options.duration = 1;  // of a run that is not made
   options.step = step;
   options.integrator = integrator;
+  change_scene(set, options);
   const PredictTask task{positive("turn", turn), positive("time", time), {}, {}};
   SimulatePlan prepared = prepare_simulation(options);
   if (!prepared.input.couplings || prepared.input.couplings->size() == 0)
@@ -121,14 +123,15 @@ void add_couplings(py::module_& m) {
   m.def(
       "predict_couplings", predict, py::arg("scene"), py::kw_only(), py::arg("state") = py::none(),
       py::arg("step") = py::none(), py::arg("integrator") = "", py::arg("turn") = std::numbers::pi,
-      py::arg("time") = 1.0,
+      py::arg("time") = 1.0, py::arg("set") = py::none(),
       "What theory says of a scene's couplings before it is run: what `twinarm coupling predict\n"
       "--json` prints, as a dict (docs/command_line.md): K, B, mass_matrix, modes, limits of each\n"
       "scheme, sag, and under 'scene' the largest_step [s] of the scene as it is stepped.\n\n"
       "  state       a state file in JSON\n"
       "  step        [s]; as the scene says if left out\n"
       "  integrator  one of integrators(); as the scene says if left out\n"
-      "  turn, time  a target's move whose following error is told [rad], [s]");
+      "  turn, time  a target's move whose following error is told [rad], [s]\n"
+      "  set         {path: value}, what is changed in the scene first, as simulate() has it");
 }
 
 }  // namespace twinarm::python

@@ -1,12 +1,14 @@
 // A scene, or a robot, run as `twinarm simulate` runs it.
 #include <pybind11/stl.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 
 #include "app/python/arrays.h"
 #include "app/python/bind.h"
 #include "app/python/robot.h"
+#include "app/python/scene_change.h"
 #include "app/simulate/run.h"
 #include "solver/energy.h"
 
@@ -17,6 +19,7 @@ namespace {
 struct Run {
   std::shared_ptr<Robot> robot;
   std::vector<double> t, q, qd, kinetic, potential;
+  std::map<std::string, std::vector<double>> targets;  // by coupling
   SimulateResult result;
 };
 
@@ -37,7 +40,7 @@ Run simulate(const py::object& file, const std::optional<double>& duration,
              const std::optional<double>& step, const std::string& integrator,
              const std::optional<double>& every, const py::object& state,
              const std::string& contact, const std::optional<double>& tolerance, bool friction,
-             bool armature) {
+             bool armature, const py::object& set) {
   SimulateOptions options;
   options.robot.model = path_of(file);
   if (!duration && options.robot.model.extension() != ".toml")
@@ -51,6 +54,7 @@ Run simulate(const py::object& file, const std::optional<double>& duration,
   options.contact = contact;
   options.tolerance = tolerance;
   options.every = every;
+  change_scene(set, options);
   SimulatePlan prepared = prepare_simulation(options);
   const Model<double>& model = prepared.input.robot.model;
 
@@ -62,6 +66,12 @@ Run simulate(const py::object& file, const std::optional<double>& duration,
     run.qd.insert(run.qd.end(), x.qd.begin(), x.qd.end());
     run.kinetic.push_back(kinetic_energy(model, x));
     run.potential.push_back(potential_energy(model, x));
+    SceneCouplings* couplings = prepared.input.couplings.get();
+    for (std::size_t c = 0; couplings && c < couplings->size(); ++c) {
+      const std::vector<double>& q = couplings->target(c, t).x.q;
+      std::vector<double>& rows = run.targets[couplings->spec(c).name];
+      rows.insert(rows.end(), q.begin(), q.end());
+    }
   };
   watch.tick = check_signals;
   watch.interrupted = is_signalled;
@@ -115,6 +125,16 @@ void add_scenes(py::module_& m) {
   run.def_property_readonly(
       "qd", [](const Run& r) { return by_rows(r.qd, r.t.size(), r.robot->model.nv); },
       "(N, nv) velocities [rad/s, m/s]; model.qd_of says which is which");
+  run.def_property_readonly(
+      "targets",
+      [](const Run& r) {
+        py::dict all;
+        for (const auto& [name, q] : r.targets)
+          all[py::str(name)] = by_rows(q, r.t.size(), r.robot->model.nq);
+        return all;
+      },
+      "{coupling: (N, nq)}: coordinates of its kinematic robot, laid out as q [rad, m]; joints of\n"
+      "other robots stand in it as they started");
   array("kinetic_energy", &Run::kinetic, "(N,) [J]");
   array("potential_energy", &Run::potential, "(N,) in the field of gravity [J]");
   run.def_property_readonly(
@@ -149,19 +169,22 @@ void add_scenes(py::module_& m) {
       },
       "of the files, and of the run");
 
-  m.def("simulate", simulate, py::arg("file"), py::kw_only(), py::arg("duration") = py::none(),
-        py::arg("step") = py::none(), py::arg("integrator") = "", py::arg("every") = py::none(),
-        py::arg("state") = py::none(), py::arg("contact") = "", py::arg("tolerance") = py::none(),
-        py::arg("friction") = true, py::arg("armature") = true,
-        "Runs a scene in TOML, or a robot's URDF, as `twinarm simulate` does, with the same bits:\n"
-        "contacts, couplings, constraints, limits. What is left out is as the scene says.\n\n"
-        "  duration, step  [s]\n"
-        "  integrator      one of integrators()\n"
-        "  every           a sample each so many seconds; the start and the end if left out\n"
-        "  state           a state file in JSON\n"
-        "  contact         'rigid', 'compliant' or 'event'\n"
-        "  tolerance       of dopri5, relative and absolute\n\n"
-        "Returns a Run. A run that explodes ends there, and says so in Run.stopped.");
+  m.def(
+      "simulate", simulate, py::arg("file"), py::kw_only(), py::arg("duration") = py::none(),
+      py::arg("step") = py::none(), py::arg("integrator") = "", py::arg("every") = py::none(),
+      py::arg("state") = py::none(), py::arg("contact") = "", py::arg("tolerance") = py::none(),
+      py::arg("friction") = true, py::arg("armature") = true, py::arg("set") = py::none(),
+      "Runs a scene in TOML, or a robot's URDF, as `twinarm simulate` does, with the same bits:\n"
+      "contacts, couplings, constraints, limits. What is left out is as the scene says.\n\n"
+      "  duration, step  [s]\n"
+      "  integrator      one of integrators()\n"
+      "  every           a sample each so many seconds; the start and the end if left out\n"
+      "  state           a state file in JSON\n"
+      "  contact         'rigid', 'compliant' or 'event'\n"
+      "  tolerance       of dopri5, relative and absolute\n"
+      "  set             {path: value}: what is changed in the scene first, as by `twinarm replay\n"
+      "                  --set`: {'coupling.pull.stiffness': 800, 'gravity': [0, 0, -1.62]}\n\n"
+      "Returns a Run. A run that explodes ends there, and says so in Run.stopped.");
 }
 
 }  // namespace twinarm::python

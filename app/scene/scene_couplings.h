@@ -2,11 +2,11 @@
 // by their pulls (SceneCoupling).
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "app/scene/scene_hands.h"
 #include "app/scene/scene_model.h"
 #include "coupling/coupling.h"
 #include "coupling/hand.h"
@@ -23,11 +23,6 @@ struct CouplingEnds {
   Vector3 velocity = Vector3::Zero();  // of the link
   Vector3 target_velocity = Vector3::Zero();
 };
-
-// What moves the kinematic side of a pull in place of the hand that the scene gives it, which is
-// handed over to be asked. Pulls with one kinematic robot between them are asked for once.
-using HandInPlace =
-    std::function<std::unique_ptr<HandSource>(std::size_t pull, std::unique_ptr<HandSource> own)>;
 
 class SceneCouplings {
  public:

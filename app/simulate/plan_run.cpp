@@ -73,9 +73,9 @@ RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults, Fa
     return is_positive(value);
   };
   const bool good_duration = positive("--duration", plan.duration);
-  if (options.step && positive("--step", *options.step) && good_duration &&
-      plan.duration / plan.step > kMostSteps)
-    faults.add({"", 0, "--step", "the run would have more than 1e10 steps",
+  const bool good_step = !options.step || positive("--step", *options.step);
+  if (good_step && good_duration && plan.duration / plan.step > kMostSteps)
+    faults.add({"", 0, options.step ? "--step" : "step", "the run would have more than 1e10 steps",
                 "give a longer step or a shorter duration"});
   if (options.record_every) positive("--record-every", *options.record_every);
   if (options.record_every && options.record.empty())

@@ -32,6 +32,9 @@ std::string table_2_section(const StudyResults& results);
 std::string angles_section(const StudyResults& results, const Gallery& gallery);
 std::string pictures_section(const Gallery& gallery);
 std::string findings_section(const StudyResults& results, const Gallery& gallery);
+std::string picture_caption(const std::string& name);
+
+// report_obstacle.cpp: the box in the way
 std::string obstacle_section(const StudyResults& results, const Gallery& gallery);
 
 // report_tables.cpp: what was run beside E1 to E4

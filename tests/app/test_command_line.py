@@ -147,13 +147,16 @@ class CommandLine(unittest.TestCase):
     def test_an_empty_name_of_a_file_is_refused_whichever_option_it_is_given_to(self):
         files = ("out", "trace", "assets", "state", "html", "png", "frames", "mp4", "gif", "beside",
                  "svg", "csv", "work", "merge", "record", "post-mortem")
+        tried = 0
         for command in self.commands():
             words = run(command, "--help").stdout.split()
             given = [f"--{name}" for name in files if f"--{name}" in words and
-                     words[words.index(f"--{name}") + 1] == "TEXT"]  # not a flag of that name
+                     words[words.index(f"--{name}") + 1] == "PATH"]  # not a flag of that name
+            tried += len(given)
             for option in given:
                 self.refused(run(command, option, ""), option, "the name of a file is empty")
                 self.refused(run(command, f"{option}=", "A1"), f"'{option}='")
+        self.assertGreater(tried, 20)
         for command in ("dynamics", "export", "map", "make-robot", "replay", "simulate"):
             self.refused(run(command, ""), "the name of a file is empty")
         self.refused(run("export", "a", ""), "page: the name of a file is empty")

@@ -146,7 +146,8 @@ class ReadOnly(Case):
 class Streams(Case):
     PRINTING = (["simulate", PENDULUM], ["simulate", PENDULUM, "--json"],
                 ["simulate", PENDULUM, "--csv", "--every", "0.02"], ["export", "../run.twinrec", "--csv"],
-                ["dynamics", ROBOT], ["compare", "A1", "--json"])
+                ["dynamics", ROBOT], ["compare", "A1", "--json"], ["--help"], ["--version"], ["simulate", "--help"],
+                ["help", "simulate"])
 
     def test_what_cannot_be_printed_is_told(self):
         for words in self.PRINTING:

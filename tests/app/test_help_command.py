@@ -51,6 +51,18 @@ class HelpCommand(unittest.TestCase):
             self.assertEqual(asked.stdout.split("Usage:")[0], own.stdout.split("Usage:")[0])
             self.assertEqual(options_of(asked.stdout), options_of(own.stdout))
 
+    def test_what_an_option_takes_is_told_in_words_and_not_as_a_program_has_it(self):
+        inhuman = re.compile(r"\b(?:FLOAT|U?INT|BOOLEAN|POSITIVE|NONNEGATIVE)\b| in \[")
+        pages = [run(*path, "--help").stdout for path in self.commands()] + [run("help", "--man").stdout]
+        for page in pages:
+            self.assertNotRegex(page, inhuman)
+        lab, manual = run("lab", "--help").stdout, pages[-1].replace("\\-", "-")
+        for page in (lab, manual):
+            self.assertRegex(page, r"--port(?:\\fR \\fI| )N(?:\\fR)?\s+of the server; left out: any that is free "
+                                   r"\(0 to 65535\)")
+        self.assertRegex(lab, r"--remember N +megabytes .* \(1 to 65536; if not given 256\)")
+        self.assertEqual(run("lab", "--port", "70000").returncode, 2)
+
     def test_help_of_a_command_that_is_none_ends_with_2_and_says_which_there_are(self):
         for words, told in ((["studdy"], "'study'"), (["coupling", "predcit"], "'predict'"),
                             (["study", "now"], "'now'")):

@@ -89,6 +89,7 @@ LAB = {
 
 # Headers that show an outside library. Each is of use inside its own folder only.
 INNER_HEADERS = {"app/python/arrays.h", "app/python/bind.h", "app/python/fast_arguments.h",
+                 "app/python/scene_change.h",
                  "app/lab/server/connection.h", "collision/import/recipe_toml.h", "app/render/gl_table.h",
                  "app/study/whole_number.h",
                  "app/render/gl_objects.h", "app/render/scene_pass.h"}

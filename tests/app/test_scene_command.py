@@ -431,6 +431,11 @@ class Refused(Scenes):
     def test_a_missing_duration_is_told(self):
         self.assertEqual(self.refusals(BALL), ["0: --duration: is missing"])
 
+    def test_steps_without_end_are_told_whoever_gives_the_step(self):
+        for more, options in (("", ["--step", "1e-11"]), ("step = 1e-11", [])):
+            (fault,) = self.refusals(f"{more}\n{BALL}", "--duration", "1", *options)
+            self.assertIn("more than 1e10 steps", fault)
+
     def test_an_implicit_coupling_takes_the_semi_implicit_integrators_only(self):
         text = arm("r") + coupling("stiffness = 1")
         found = self.refusals(text, "--duration", 1, "--integrator", "rk4")

@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
-"""docs/scenes.md names each key that a scene may have, and no other; docs/command_line.md each exit code.
+"""docs/scenes.md names each key that a scene may have, and no other; docs/study.md each of the study's settings;
+docs/command_line.md each exit code.
 
     test_scene_reference.py PROGRAM
 
 The program is asked: a scene whose tables have every word that may be a key is told which of them are none.
 """
+import json
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
+import tomllib
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -129,6 +132,33 @@ class Keys(unittest.TestCase):
         for shape, keys in told.items():
             with self.subTest(shape):
                 self.check(f"shape {shape}", known("[[body]]", inside=f"shape = {{ {shape} = {{ %s }} }}"), keys)
+
+
+class Settings(unittest.TestCase):
+    """The study needs all of its settings: of a file that has none it misses each."""
+
+    def missed(self):
+        with tempfile.TemporaryDirectory() as place:
+            assets = pathlib.Path(place) / "assets"
+            (assets / "study").mkdir(parents=True)
+            (assets / "robots").symlink_to(ROOT / "assets/robots")
+            (assets / "study/settings.toml").write_text("[[robot.mount]]\n")
+            ran = subprocess.run([PROGRAM, "study", "--assets", assets, "--out", pathlib.Path(place) / "out", "--json"],
+                                 capture_output=True, text=True, timeout=60)
+        self.assertEqual(ran.returncode, 2, ran.stderr)
+        return {fault["where"].replace("[0]", "[]") for fault in json.loads(ran.stdout)["errors"]
+                if fault["file"].endswith("settings.toml")}
+
+    def test_each_setting_is_in_docs_study_and_in_the_file_and_no_other(self):
+        text = re.search(r"^## Settings.*?\n(.*?)(?=^## )", (ROOT / "docs/study.md").read_text(), re.M | re.S)[1]
+        said = {key for line in text.splitlines() if line.startswith("| `") for key in spans(CELLS.split(line)[1])}
+        self.assertEqual(sorted(said), sorted(self.missed()))
+        shipped = set()
+        for table, entries in tomllib.loads((ROOT / "assets/study/settings.toml").read_text()).items():
+            for key, value in entries.items():
+                tables = isinstance(value, list) and isinstance(value[0], dict)
+                shipped |= {f"{table}.{key}[].{inner}" for inner in value[0]} if tables else {f"{table}.{key}"}
+        self.assertEqual(shipped, said)
 
 
 class ExitCodes(unittest.TestCase):

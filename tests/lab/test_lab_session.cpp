@@ -1,11 +1,18 @@
 // What is said to the lab, who may say it, and how its time goes.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <thread>
+
 #include "app/lab/audience.h"
 #include "app/lab/brought_file.h"
 #include "app/lab/lab_command.h"
+#include "app/lab/lab_session.h"
 #include "app/lab/pace.h"
 #include "solver/fault.h"
+#include "tests/lab/helpers.h"
 
 namespace twinarm {
 namespace {
@@ -17,6 +24,98 @@ std::size_t faults_in(const std::string& text) {
     return error.faults().size();
   }
   return 0;
+}
+
+Built sprung_arm() {
+  const TemporaryFolder folder;
+  Order order;
+  order.file = folder.write("sprung.toml", R"(
+step = 0.001
+duration = 1
+[[robot]]
+name = "arm"
+model = "robots/s103/s103.urdf"
+[[coupling]]
+name = "one"
+type = "torsional"
+measure = "joint"
+link = "arm1"
+stiffness = 20
+damping = 1
+target = "device"
+)");
+  return build(std::move(order));
+}
+
+std::string texts_of(const std::vector<Change>& changes) {
+  std::string all;
+  for (const Change& change : changes) all += change.path + "=" + change.value + " ";
+  return all;
+}
+
+// Whatever was told of it; waits for what is being built.
+struct ToldSession {
+  const std::vector<GalleryScene> gallery;
+  LabSession session{sprung_arm(), gallery};
+  void set(const std::string& change) {
+    session.push(parse_command(R"({"do": "set", "changes": [")" + change + "\"]}"));
+  }
+  bool comes_to(const std::string& changes) const {
+    return waits_until([&] { return texts_of(session.now().status->changes) == changes; });
+  }
+  bool has_note(const std::string& words) const {
+    return waits_until([&] {
+      const auto status = session.now().status;
+      return std::any_of(status->notes.begin(), status->notes.end(), [&](const LabNote& note) {
+        return note.text.find(words) != std::string::npos;
+      });
+    });
+  }
+  static bool waits_until(const std::function<bool()>& is_so) {
+    for (int n = 0; n < 4000 && !is_so(); ++n)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return is_so();
+  }
+};
+
+TEST_CASE(
+    "lab session: a change that is refused does not undo those that wait, nor spoil the next") {
+  ToldSession lab;
+  lab.set("coupling.one.stiffness=30");
+  lab.set("coupling.one.damping=2");
+  lab.set("coupling.one.stiffness=-7");
+  lab.set("gravity[2]=-1.62");
+  CHECK(lab.has_note("-7"));
+  CHECK(lab.comes_to("coupling.one.stiffness=30 coupling.one.damping=2 gravity[2]=-1.62 "));
+  lab.set("coupling.one.damping=3");
+  CHECK(lab.comes_to("coupling.one.stiffness=30 gravity[2]=-1.62 coupling.one.damping=3 "));
+  const auto status = lab.session.now().status;
+  CHECK(std::count_if(status->notes.begin(), status->notes.end(),
+                      [](const LabNote& note) { return note.level == "error"; }) == 1);
+}
+
+TEST_CASE("lab session: what restores the scene outlives changes before it, not those behind it") {
+  ToldSession lab;
+  lab.set("coupling.one.stiffness=30");
+  lab.session.push(parse_command(R"({"do": "restore"})"));
+  lab.set("coupling.one.damping=2");
+  CHECK(lab.comes_to("coupling.one.damping=2 "));
+}
+
+TEST_CASE("lab session: of two changes to one number the later holds, by whichever path") {
+  std::vector<Change> changes;
+  for (const char* text :
+       {"coupling.stiffness=31", "coupling.one.stiffness=32", "coupling.stiffness=33"})
+    put(changes, parse_change(text));
+  CHECK(sprung_arm().scene->text(changes).find("stiffness = 33") != std::string::npos);
+}
+
+TEST_CASE("lab session: of more notes than are kept the last are told") {
+  ToldSession lab;
+  for (int n = 1; n <= 500; ++n) lab.session.note("note", "number " + std::to_string(n) + ".");
+  CHECK(lab.has_note("number 500."));
+  CHECK(lab.has_note("number 481."));
+  CHECK(lab.session.now().status->notes.size() == 20);
 }
 
 TEST_CASE("a command is read with all that it brings") {

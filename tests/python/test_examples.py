@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """The examples of app/python/examples and of docs/python.md run, and print what they promise."""
+import importlib.machinery
+import importlib.util
 import os
 import re
 import subprocess
@@ -9,24 +11,55 @@ import unittest
 
 from notebook import ROOT, main, twinarm
 
+
 ENVIRONMENT = {**os.environ, "PYTHONPATH": os.path.dirname(twinarm.__file__)}
+EXAMPLES = ROOT / "app" / "python" / "examples"
 
 
-def printed(*command):
+def printed(*command, cwd=ROOT):
     done = subprocess.run([sys.executable, "-B", *map(str, command)], capture_output=True, text=True,
-                          cwd=ROOT, env=ENVIRONMENT, timeout=120)
+                          cwd=cwd, env=ENVIRONMENT, timeout=120)
     if done.returncode != 0:
         raise AssertionError(done.stderr)
     return done.stdout
 
 
+def runner_of_lessons():
+    """scripts/lessons as a module: it knows how a lesson is written."""
+    loader = importlib.machinery.SourceFileLoader("lessons", str(ROOT / "scripts" / "lessons"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("lessons", loader))
+    loader.exec_module(module)
+    return module
+
+
+LESSONS = runner_of_lessons()
+
+
 class Examples(unittest.TestCase):
-    def test_all_scripts_run_and_say_that_what_they_claim_holds(self):
-        scripts = sorted((ROOT / "app" / "python" / "examples").glob("*.py"))
-        self.assertEqual(len(scripts), 3)
-        for script in scripts:
-            with self.subTest(script=script.name):
-                self.assertRegex(printed(script).splitlines()[-1], "^holds: ")
+    def test_each_lesson_has_a_script_that_it_links_to(self):
+        lessons = sorted(file.parent for file in (ROOT / "docs" / "lessons").glob("*/lesson.md"))
+        self.assertGreater(len(lessons), 9)
+        scripts = {file.stem for file in EXAMPLES.glob("*.py")} - {"lesson"}
+        self.assertEqual(scripts, {lesson.name for lesson in lessons})
+        for lesson in lessons:
+            link = f"(../../../app/python/examples/{lesson.name}.py)"
+            self.assertIn(link, (lesson / "lesson.md").read_text(encoding="utf-8"))
+
+    def test_each_script_finds_the_numbers_that_its_lesson_claims(self):
+        with tempfile.TemporaryDirectory() as elsewhere:  # where no assets/ lie
+            for script in sorted(EXAMPLES.glob("[0-9]*.py")):
+                with self.subTest(script=script.name):
+                    self.compare(script, printed(script, cwd=elsewhere))
+
+    def compare(self, script, output):
+        """The lesson's checks, one by one, with the numbers that say() printed."""
+        lesson = LESSONS.Lesson(ROOT / "docs" / "lessons" / script.stem)
+        claims = [LESSONS.parts_of(line.strip()) for _, _, checks in lesson.steps
+                  for line in (checks or "").splitlines() if line.strip()]
+        found = re.findall(r"^(\S.{65,}) = (\S+)$", output, re.MULTILINE)
+        self.assertEqual(len(found), len(claims), f"numbers found and claimed:\n{output}")
+        for (what, value), (_, *claim) in zip(found, claims):
+            self.assertTrue(LESSONS.holds(float(value), *claim), f"{what.strip()}: {value}; the lesson says {claim}")
 
     def test_the_page_prints_what_it_shows(self):
         text = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")

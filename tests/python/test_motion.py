@@ -135,6 +135,42 @@ class Scenes(InFolder):
         self.assertEqual(set(told), set(twinarm.schemes()))
         self.assertEqual(twinarm.largest_omega_h("spring and damper implicit", 0.1), math.inf)
 
+    def test_what_is_set_in_a_scene_is_as_if_its_file_said_so(self):
+        of_file = self.write("written.toml", SPRING.format(root=ROOT, h=0.002, k=300.0, b=3.0).replace(
+            '"explicit"', '"implicit"') + "\n")
+        other = self.write("spring.toml", SPRING.format(root=ROOT, h=0.001, k=5.0, b=0.0))
+        change = {"step": 0.002, "coupling.hold.stiffness": 300, "coupling.damping": np.float64(3.0),
+                  "coupling.treatment": "implicit"}
+        expected, run = twinarm.simulate(of_file), twinarm.simulate(other, set=change)
+        np.testing.assert_array_equal(run.q, expected.q)
+        self.assertEqual(run.ledger, expected.ledger)
+        self.assertEqual(twinarm.predict_couplings(other, set=change), twinarm.predict_couplings(of_file))
+        level = twinarm.simulate(other, set={"gravity": [0, 0, 0], "robot.limits": False}, duration=0.1)
+        self.assertEqual(level.potential_energy[0], 0)
+
+    def test_what_cannot_be_set_is_told(self):
+        scene = self.write("spring.toml", SPRING.format(root=ROOT, h=0.001, k=5.0, b=0.0))
+        for change, kind, words in (({"coupling.pull.stiffness": 1}, twinarm.InputError, "pull: this key is not known"),
+                                    ({"coupling.hold.stifness": 1}, twinarm.InputError, "stifness"),
+                                    ({"step": float("nan")}, ValueError, "set\\['step'\\]"),
+                                    ({"gravity": [[0, 0, 0]]}, ValueError, "set\\['gravity'\\]"),
+                                    ({"step": object()}, TypeError, "set\\['step'\\]")):
+            with self.assertRaisesRegex(kind, words):
+                twinarm.simulate(scene, set=change)
+        with self.assertRaisesRegex(ValueError, "set= changes a scene"):
+            twinarm.simulate(DOUBLE_PENDULUM, duration=1, set={"step": 0.01})
+
+    def test_targets_are_where_the_program_has_them(self):
+        scene = ROOT / "docs" / "lessons" / "04_torsional_or_linear" / "arm_linear.toml"
+        told = program("simulate", scene, "--duration", 0.4, "--every", 0.1)
+        run = twinarm.simulate(scene, duration=0.4, every=0.1)
+        self.assertEqual(list(run.targets), ["pull1", "pull2"])
+        for n, sample in enumerate(told["samples"]):
+            for pull, q in run.targets.items():
+                for joint, value in sample["targets"][pull]["q"].items():
+                    np.testing.assert_array_equal(np.ravel(q[n, run.model.q_of[joint]]), np.ravel(value))
+        self.assertEqual(twinarm.simulate("assets/scenes/pendulum.toml", duration=0.1).targets, {})
+
     def test_each_type_of_coupling_is_known_to_scenes(self):
         text = (ROOT / "docs" / "scenes.md").read_text(encoding="utf-8")
         types = twinarm.coupling_types()

@@ -47,12 +47,8 @@ std::optional<LaneFault> fault_of(const LaneSet& lanes) {
 }
 
 void put(std::vector<Change>& changes, const Change& change) {
-  const auto is_same = [&](const Change& other) { return other.path == change.path; };
-  const auto found = std::find_if(changes.begin(), changes.end(), is_same);
-  if (found == changes.end())
-    changes.push_back(change);
-  else
-    found->value = change.value;
+  std::erase_if(changes, [&](const Change& other) { return other.path == change.path; });
+  changes.push_back(change);
 }
 
 }  // namespace twinarm

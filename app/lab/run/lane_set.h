@@ -32,7 +32,7 @@ struct LaneFault {
 };
 std::optional<LaneFault> fault_of(const LaneSet& lanes);
 
-// In the place of one to the same path, else behind all others.
+// Behind all others: changes are applied in their order. One to the same path goes.
 void put(std::vector<Change>& changes, const Change& change);
 
 }  // namespace twinarm

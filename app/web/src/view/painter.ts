@@ -2,6 +2,17 @@
 // A live frame is a part too: its columns, with layers in the place of frames.
 import * as THREE from 'three';
 import type { InstanceColumns, MeshData } from '../data/run';
+import { Batch } from './batch';
+import {
+  ORDER,
+  ghostMaterials,
+  glossy,
+  hiddenMaterials,
+  outlineMaterials,
+  plainly,
+  solidMaterial,
+  type SurfaceOf,
+} from './materials';
 
 // Frames a and b of one layer, and how far between the two.
 export interface Part {
@@ -19,7 +30,6 @@ const SEEN_THROUGH = 1;
 // How an entry is drawn: with a shadow, without, over what hides it, translucent, as a line around.
 const [BODY, SOLID, HIDDEN, GHOST, OUTLINE] = [0, 1, 2, 3, 4];
 const KINDS = 5;
-const ORDER = { solid: 0, outline: 1, hidden: 5, ghostDepth: 6, ghost: 7 };
 
 function geometryOf(mesh: MeshData): THREE.BufferGeometry {
   const geometry = new THREE.BufferGeometry();
@@ -58,124 +68,6 @@ interface Look {
   shininess: number;
   kind: number;
   texture: number; // as in the columns
-}
-
-// Instances of one mesh and one surface.
-class Batch {
-  readonly meshes: THREE.InstancedMesh[] = [];
-  count = 0;
-  private capacity = 0;
-
-  constructor(
-    private readonly scene: THREE.Scene,
-    private readonly geometry: THREE.BufferGeometry,
-    private readonly materials: { material: THREE.Material; order: number; shadow: boolean }[],
-  ) {}
-
-  add(matrix: THREE.Matrix4, color: THREE.Color): void {
-    if (this.count === this.capacity) this.grow();
-    matrix.toArray(this.meshes[0].instanceMatrix.array, 16 * this.count);
-    color.toArray(this.meshes[0].instanceColor!.array, 3 * this.count);
-    this.count += 1;
-  }
-
-  remove(): void {
-    for (const mesh of this.meshes) {
-      this.scene.remove(mesh);
-      mesh.dispose();
-    }
-    for (const { material } of this.materials) material.dispose();
-  }
-
-  finish(): void {
-    for (const mesh of this.meshes) {
-      mesh.count = this.count;
-      mesh.visible = this.count > 0;
-      mesh.instanceMatrix.needsUpdate = true;
-      mesh.instanceColor!.needsUpdate = true;
-    }
-  }
-
-  // All materials share matrices and colours.
-  private grow(): void {
-    const before = this.meshes[0];
-    this.capacity = Math.max(4, 2 * this.capacity);
-    const matrices = new THREE.InstancedBufferAttribute(new Float32Array(16 * this.capacity), 16);
-    const colors = new THREE.InstancedBufferAttribute(new Float32Array(3 * this.capacity), 3);
-    if (before) {
-      matrices.array.set(before.instanceMatrix.array);
-      colors.array.set(before.instanceColor!.array);
-    }
-    for (const mesh of this.meshes) {
-      this.scene.remove(mesh);
-      mesh.dispose();
-    }
-    this.meshes.length = 0;
-    for (const { material, order, shadow } of this.materials) {
-      const mesh = new THREE.InstancedMesh(this.geometry, material, this.capacity);
-      mesh.instanceMatrix = matrices;
-      mesh.instanceColor = colors;
-      mesh.frustumCulled = false;
-      mesh.castShadow = shadow;
-      mesh.receiveShadow = order === ORDER.solid;
-      mesh.renderOrder = order;
-      this.scene.add(mesh);
-      this.meshes.push(mesh);
-    }
-  }
-}
-
-// Plain: without gloss, a third of the work for a processor that draws by itself.
-type Surface = THREE.MeshStandardMaterial | THREE.MeshLambertMaterial;
-type SurfaceOf = (shininess: number) => Surface;
-const glossy: SurfaceOf = (shininess) =>
-  new THREE.MeshStandardMaterial({ roughness: 0.85 - 0.5 * shininess, metalness: 0.05 });
-const plainly: SurfaceOf = () => new THREE.MeshLambertMaterial();
-
-function solidMaterial(material: Surface, map: THREE.Texture | null, twoSided: boolean) {
-  material.map = map;
-  if (twoSided) material.side = THREE.DoubleSide;
-  return material;
-}
-
-// Depth first, then colour where nearest: a shell shows one surface and not its inside. Both are
-// pushed back a little: a ghost in the place of a body vanishes instead of flickering.
-function ghostMaterials(color: Surface, alpha: number) {
-  const pushed = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 };
-  const depth = new THREE.MeshBasicMaterial({ colorWrite: false, transparent: true, ...pushed });
-  color.setValues({ transparent: true, opacity: alpha, depthWrite: false, ...pushed });
-  return [
-    { material: depth, order: ORDER.ghostDepth, shadow: false },
-    { material: color, order: ORDER.ghost, shadow: false },
-  ];
-}
-
-// What lies behind bodies, laid over them.
-function hiddenMaterials(color: Surface, alpha: number) {
-  color.setValues({
-    transparent: true,
-    opacity: 0.45 * alpha,
-    depthFunc: THREE.GreaterDepth,
-    depthWrite: false,
-  });
-  return [{ material: color, order: ORDER.hidden, shadow: false }];
-}
-
-// The back of a hull that is wider by a few pixels at any distance: of it only the rim is seen.
-const WIDER = `
-vec3 lengths = vec3(dot(instanceMatrix[0], instanceMatrix[0]),
-  dot(instanceMatrix[1], instanceMatrix[1]), dot(instanceMatrix[2], instanceMatrix[2]));
-vec3 outward = normalize(mat3(modelViewMatrix) * (mat3(instanceMatrix) * (normal / lengths)));
-vec4 mvPosition = modelViewMatrix * instanceMatrix * vec4(transformed, 1.0);
-mvPosition.xyz += 0.0035 * -mvPosition.z * outward;
-gl_Position = projectionMatrix * mvPosition;`;
-
-function outlineMaterials() {
-  const material = new THREE.MeshBasicMaterial({ side: THREE.BackSide });
-  material.onBeforeCompile = (shader) => {
-    shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', WIDER);
-  };
-  return [{ material, order: ORDER.outline, shadow: false }];
 }
 
 export class Painter {

@@ -1,96 +1,14 @@
 // Frames of the lab as bytes, read back by the protocol's table, against the run that they are of.
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 
-#include "app/lab/run/lab_run.h"
 #include "app/lab/stream/frame_bytes.h"
-#include "app/lab/stream/lab_view.h"
-#include "app/lab/stream/mesh_store.h"
 #include "solver/kinematics.h"
-#include "tests/import/helpers.h"
-#include "tests/lab/frame_reader.h"
+#include "tests/lab/watched.h"
 
 namespace twinarm {
 namespace {
-
-const char* const kBoxes = R"(
-step = 0.001
-[[body]]
-name = "floor"
-fixed = true
-shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
-[[body]]
-name = "resting"
-shape = { box = { size = [0.4, 0.3, 0.2] } }
-mass = 2
-position = [0.5, 0, 0.1]
-[[body]]
-name = "spinning"
-shape = { box = { size = [0.1, 0.2, 0.3] } }
-mass = 1
-position = [-0.3, 0.4, 1.25]
-orientation = [0.8, 0.2, -0.4, 0.4]
-angular_velocity = [1, 2, 3]
-)";
-
-// A run of the lab, and a view of it.
-struct Watched {
-  std::unique_ptr<LabScene> scene;
-  LabHand hand;
-  std::unique_ptr<LabRun> run;
-  std::shared_ptr<const LabScene::Plan> plan;
-  std::unique_ptr<LabView> view;
-  LabNames names;
-  RecordingHeader header;
-
-  explicit Watched(const fs::path& file) {
-    SimulateOptions options;
-    options.robot.model = file;
-    scene = std::make_unique<LabScene>(options);
-    run = std::make_unique<LabRun>(*scene, std::vector<Change>{}, hand);
-    plan = scene->plan();
-    header = scene->header({}, {});
-    view = std::make_unique<LabView>(7, std::shared_ptr<const SimulatePlan>(plan, &plan->prepared),
-                                     header, SceneWords{});
-  }
-  LabFrame after(int steps) {
-    for (int i = 0; i < steps; ++i) REQUIRE(run->step());
-    LabFrame frame = run->frame(names);
-    view->name_rows(names.rows);
-    return frame;
-  }
-  std::size_t place_of(const char* list, const char* key, const std::string& name) const {
-    const auto all = texts_in(view->scene_message(), list, key);
-    const auto found = std::find(all.begin(), all.end(), name);
-    REQUIRE_MESSAGE(found != all.end(), name);
-    return static_cast<std::size_t>(found - all.begin());
-  }
-  std::size_t layer(const std::string& name) const { return place_of("layers", "name", name); }
-};
-
-Watched boxes() {
-  const TemporaryFolder folder;
-  return Watched(folder.write("boxes.toml", kBoxes));
-}
-Watched arm() {
-  return Watched(fs::path(TWINARM_SOURCE_DIR) / "assets/scenes/hand_and_obstacles.toml");
-}
-
-std::vector<std::string> all_layers(const Watched& watched) {
-  return texts_in(watched.view->scene_message(), "layers", "name");
-}
-
-Vector3 position_of(const ReadFrame& read, std::size_t i) {
-  return {read.position[3 * i], read.position[3 * i + 1], read.position[3 * i + 2]};
-}
-Matrix3 turn_of(const ReadFrame& read, std::size_t i) {
-  const auto part = [&](std::size_t c) { return read.turn[4 * i + c] / 32767.0; };
-  return Eigen::Quaterniond(part(3), part(0), part(1), part(2)).toRotationMatrix();
-}
 
 void check_place(const std::array<float, 7>& place, const Pose& X_WL) {
   CHECK((Vector3(place[0], place[1], place[2]) - X_WL.p).norm() < 1e-6);
@@ -110,7 +28,7 @@ LabFrame with_first_q(LabFrame frame, double old, double value) {
 
 TEST_CASE(
     "lab frame: the head says what the session and the run say, and the arrays fill the rest") {
-  Watched watched = boxes();
+  Watched watched = watched_boxes();
   LabFrame frame = watched.after(5);
   frame.input_stamp = 12.5;
   FrameFacts facts;
@@ -135,7 +53,7 @@ TEST_CASE(
 }
 
 TEST_CASE("lab frame: bodies stand and are turned as forward kinematics has them") {
-  Watched watched = boxes();
+  Watched watched = watched_boxes();
   const LabFrame frame = watched.after(70);
   const ReadFrame read(watched.view->frame(frame, nullptr, {}, {}));
   const Model<double>& model = watched.plan->prepared.input.robot.model;
@@ -164,7 +82,7 @@ TEST_CASE("lab frame: bodies stand and are turned as forward kinematics has them
 }
 
 TEST_CASE("lab frame: channels and works are those of the recorded frame, by name") {
-  Watched watched = boxes();
+  Watched watched = watched_boxes();
   const LabFrame frame = watched.after(40);
   const ReadFrame read(watched.view->frame(frame, nullptr, {}, {}));
   const auto at = [&](const std::string& name) {
@@ -185,7 +103,7 @@ TEST_CASE("lab frame: channels and works are those of the recorded frame, by nam
 }
 
 TEST_CASE("lab frame: layers lie one behind the other, those that nobody wants are empty") {
-  Watched watched = boxes();
+  Watched watched = watched_boxes();
   const LabFrame frame = watched.after(20);
   const std::vector<std::string> names = all_layers(watched);
   const ReadFrame all(watched.view->frame(frame, nullptr, names, {}));
@@ -214,7 +132,7 @@ TEST_CASE("lab frame: layers lie one behind the other, those that nobody wants a
 }
 
 TEST_CASE("lab frame: the kinematic robot stands where the hand has it, at the same time too") {
-  Watched watched = arm();
+  Watched watched = watched_arm();
   LabFrame frame = watched.after(3);
   REQUIRE(frame.hand);
   REQUIRE(frame.hand->q_K.size() == 3);
@@ -264,7 +182,7 @@ TEST_CASE("lab frame: the kinematic robot stands where the hand has it, at the s
 }
 
 TEST_CASE("lab frame: the run that was left stands beside this one only where it is elsewhere") {
-  Watched watched = boxes();
+  Watched watched = watched_boxes();
   const LabFrame earlier = watched.after(5), now = watched.after(100);
   const std::size_t before = watched.layer("before");
   const ReadFrame same(watched.view->frame(now, &now, {"before"}, {}));
@@ -290,7 +208,7 @@ TEST_CASE("lab frame: the run that was left stands beside this one only where it
 }
 
 TEST_CASE("lab frame: what the hand feels is an arrow from the stylus, as long as the force") {
-  Watched watched = arm();
+  Watched watched = watched_arm();
   LabFrame frame = watched.after(1);
   REQUIRE(frame.hand);
   frame.hand->leads = true;
@@ -316,7 +234,7 @@ TEST_CASE("lab frame: what the hand feels is an arrow from the stylus, as long a
 }
 
 TEST_CASE("lab frame: the mouse's spring is drawn from the body's point to the goal") {
-  Watched watched = boxes();
+  Watched watched = watched_boxes();
   LabFrame frame = watched.after(1);
   const Model<double>& model = watched.plan->prepared.input.robot.model;
   frame.pull = LabPull{model.find_body("resting"), Vector3(0.2, 0, 0), Vector3(0.9, 0, 0.5),
@@ -336,7 +254,7 @@ TEST_CASE("lab frame: a state that is nowhere makes no instance of that body, an
   constexpr double kInf = std::numeric_limits<double>::infinity();
   for (const double bad : {kNaN, kInf, -kInf, 1e300, 1e30, 1e11}) {
     CAPTURE(bad);
-    Watched watched = boxes();
+    Watched watched = watched_boxes();
     const double x = watched.run->view().simulation().state().q.at(7);  // of the second body
     const LabFrame frame = with_first_q(watched.after(0), x, bad);
     const std::string bytes = watched.view->frame(frame, nullptr, all_layers(watched), {});
@@ -350,7 +268,7 @@ TEST_CASE("lab frame: a state that is nowhere makes no instance of that body, an
 }
 
 TEST_CASE("lab frame: the arm at a state that is nowhere throws nothing either") {
-  Watched watched = arm();
+  Watched watched = watched_arm();
   LabFrame frame = watched.after(2);
   State<double> x = watched.run->view().simulation().state();
   std::string& memory = frame.recorded.memory;
@@ -361,136 +279,6 @@ TEST_CASE("lab frame: the arm at a state that is nowhere throws nothing either")
   memory.replace(at, q.size(), reinterpret_cast<const char*>(x.q.data()), q.size());
   const ReadFrame read(watched.view->frame(frame, &frame, all_layers(watched), {}));
   for (const float p : read.position) CHECK(std::isfinite(p));
-}
-
-TEST_CASE("lab view: of a scene with nothing in it there are frames too") {
-  const TemporaryFolder folder;
-  Watched watched(folder.write("empty.toml", R"(
-[[body]]
-name = "floor"
-fixed = true
-shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
-)"));
-  const LabFrame frame = watched.after(2);
-  const ReadFrame read(watched.view->frame(frame, nullptr, all_layers(watched), {}));
-  CHECK(read.first[1] == 0);
-  CHECK(read.time == doctest::Approx(0.002));
-}
-
-TEST_CASE("lab view: meshes of equal content have one name, others another; the bytes are theirs") {
-  DrawList list;
-  const auto wedge = [](float height) {
-    DrawMesh mesh;
-    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, height}};
-    mesh.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
-    mesh.triangles = {{0, 1, 2}};
-    return mesh;
-  };
-  list.register_mesh(wedge(0.5f));
-  list.register_mesh(wedge(0.25f));
-  list.register_mesh(wedge(0.5f));
-  MeshStore store;
-  CHECK(store.take(list));
-  CHECK_FALSE(store.take(list));
-  REQUIRE(store.meshes().size() == 3);
-  CHECK(store.meshes()[0] == store.meshes()[2]);
-  CHECK(store.meshes()[0] != store.meshes()[1]);
-  CHECK(store.meshes()[0].find_first_not_of("0123456789abcdef") == std::string::npos);
-  const auto bytes = store.mesh(store.meshes()[0]);
-  REQUIRE(bytes);
-  REQUIRE(bytes->size() == 16 + 3 * 12 + 3 * 12 + 3 * 4);
-  CHECK(value_at<std::uint32_t>(*bytes, 0) == 3);
-  CHECK(value_at<std::uint32_t>(*bytes, 4) == 3);
-  CHECK(value_at<std::uint32_t>(*bytes, 8) == 0);
-  CHECK(value_at<float>(*bytes, 16 + 32) == 0.5f);  // z of the last
-  CHECK(value_at<float>(*bytes, 16 + 36 + 8) == 1);
-  CHECK(value_at<std::uint32_t>(*bytes, 16 + 72 + 8) == 2);
-  CHECK_FALSE(store.mesh("no such"));
-}
-
-TEST_CASE(
-    "lab view: what comes up during a run is added behind all else, and counts the revision") {
-  const TemporaryFolder folder;
-  Watched watched(folder.write("drop.toml", replaced(kBoxes, "[0.5, 0, 0.1]", "[0.5, 0, 0.102]")));
-  const LabFrame first = watched.after(1);
-  watched.view->frame(first, nullptr, {}, {});
-  const auto before = texts_in(watched.view->scene_message(), "channels", "name");
-  const std::uint64_t revision = watched.view->revision();
-  watched.view->frame(first, nullptr, {}, {});
-  CHECK(watched.view->revision() == revision);
-  const LabFrame landed = watched.after(100);
-  watched.view->frame(landed, nullptr, {"forces"}, {});
-  CHECK(watched.view->revision() > revision);
-  auto after = texts_in(watched.view->scene_message(), "channels", "name");
-  REQUIRE(after.size() == before.size() + 1);
-  CHECK(after.back() == "contact/floor-resting");
-  after.pop_back();
-  CHECK(after == before);
-  for (const std::string& hash : texts_in(watched.view->scene_message(), "meshes", ""))
-    CHECK(watched.view->mesh(hash));
-}
-
-TEST_CASE(
-    "lab view: scales of arrows grow with the forces, by one round step a frame, never back") {
-  Watched watched = boxes();
-  LabFrame frame = watched.after(20);
-  const std::size_t forces = watched.layer("forces");
-  const auto length = [&] {  // of the arrow for the resting box
-    const ReadFrame read(watched.view->frame(frame, nullptr, {"forces"}, {}));
-    const auto [first, last] = read.layer(forces);
-    return last > first ? read.scale[3 * first + 2] + read.scale[3 * first + 5] : 0.0f;
-  };
-  const float at_rest = length();
-  CHECK(at_rest > 0);
-  const auto contacts = frame.recorded.contacts;
-  for (RecordedContact& c : frame.recorded.contacts) c.force *= 1000;
-  const float struck = length();
-  CHECK(struck < 1000 * at_rest);
-  CHECK(struck > 150 * at_rest);  // one step: a fifth of it at least, both being rounded
-  float last = struck;
-  for (int i = 0; i < 12; ++i) {
-    const float now = length();
-    CHECK(now <= last);
-    last = now;
-  }
-  CHECK(last < 2 * at_rest);
-  frame.recorded.contacts = contacts;
-  CHECK(length() < 0.01f * at_rest);  // the scale has stayed: too short, or not drawn
-}
-
-TEST_CASE("moment: a robot of whose couplings one moves the gripper too has one twin, one hand") {
-  const Watched watched = arm();
-  const SimulateInput& input = watched.plan->prepared.input;
-  const Moment moment = moment_of(*input.scene, *input.couplings, input.scene->start, {});
-  CHECK(moment.twins.size() == 1);
-  CHECK(moment.hands.size() == 1);
-}
-
-TEST_CASE("lab history: frame by frame the channels and works of the frames") {
-  Watched watched = boxes();
-  std::vector<LabFrame> frames;
-  for (int i = 0; i < 4; ++i) frames.push_back(watched.after(10));
-  std::vector<const LabFrame*> pointers;
-  for (const LabFrame& frame : frames) pointers.push_back(&frame);
-  const std::string bytes = watched.view->history(pointers);
-  CHECK(bytes.substr(0, 4) == "TWH1");
-  CHECK(value_at<std::uint32_t>(bytes, 4) == 7);
-  const std::size_t F = value_at<std::uint32_t>(bytes, 8), C = value_at<std::uint32_t>(bytes, 12),
-                    R = value_at<std::uint32_t>(bytes, 16);
-  REQUIRE(F == 4);
-  REQUIRE(bytes.size() == 24 + 8 * (F + F * C + F * R));
-  for (std::size_t f = 0; f < F; ++f) {
-    const ReadFrame read(watched.view->frame(frames[f], nullptr, {}, {}));
-    CHECK(value_at<double>(bytes, 24 + 8 * f) == frames[f].recorded.t);
-    REQUIRE(read.channels.size() == C);
-    REQUIRE(read.works.size() == R);
-    for (std::size_t c = 0; c < C; ++c) {
-      const auto value = value_at<double>(bytes, 24 + 8 * (F + f * C + c));
-      CHECK((value == read.channels[c] || (std::isnan(value) && std::isnan(read.channels[c]))));
-    }
-    for (std::size_t r = 0; r < R; ++r)
-      CHECK(value_at<double>(bytes, 24 + 8 * (F + F * C + f * R + r)) == read.works[r]);
-  }
 }
 
 }  // namespace

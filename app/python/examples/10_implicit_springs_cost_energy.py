@@ -1,0 +1,34 @@
+#!/usr/bin/env python3
+"""Implicit springs cost energy: who took the joules?  Lesson 10, from Python.
+
+A spring of 10 rad/s without a damper, stepped implicitly. Write down before you run: the amplitude that is left after
+2 s at 20 ms; and with weight, does the implicit spring sag less, more, or as the explicit one?
+"""
+import numpy as np
+import twinarm
+
+from lesson import folder_of, picture, say
+
+SCENE = folder_of(__file__) / "swing.toml"
+
+# %% Three steps; the ledger says who took it
+runs = {h: twinarm.simulate(SCENE, step=h, every=0.02) for h in (0.001, 0.01, 0.02)}
+left = {}
+for h, run in runs.items():
+    energy = run.kinetic_energy + 0.5 * 100.144 * run.q[:, 0] ** 2
+    left[h] = energy[-1] / energy[0]
+    say(f"step {h} s: taken by the treatment [J]", run.ledger["coupling/hold/implicit"])
+    say(f"step {h} s: energy left", left[h])
+
+# %% With weight and a damper, towards the level: what does not move does not feel it
+for treatment in ("explicit", "implicit"):
+    sagged = twinarm.simulate(SCENE, duration=10, set={
+        "coupling.treatment": treatment, "coupling.damping": 20, "coupling.target.q.hinge": np.pi / 2,
+        "gravity": [0, 0, -9.81]})
+    say(f"{treatment}: sags by [rad]", np.pi / 2 - sagged.q[-1, 0])
+
+# %% The trap: a damping ratio that is not the robot's
+say("damping ratio at 10 ms", -np.log(left[0.01]) / (2 * 10 * 2))
+
+# %% Picture
+picture(__file__, "t [s]", ("angle [rad]", {f"{1e3 * h:.0f} ms": (run.t, run.q[:, 0]) for h, run in runs.items()}))

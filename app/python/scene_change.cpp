@@ -1,0 +1,45 @@
+#include "app/python/scene_change.h"
+
+#include <utility>
+#include <vector>
+
+#include "app/python/arrays.h"
+#include "app/record/unpack.h"
+#include "collision/import/number_text.h"
+
+namespace twinarm::python {
+namespace {
+
+// As `twinarm replay --set PATH=VALUE` is given it.
+std::string setting_text(const std::string& path, const py::handle& value) {
+  if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
+  if (py::isinstance<py::bool_>(value)) return py::cast<bool>(value) ? "true" : "false";
+  const std::string what = "set['" + path + "']";
+  const Array numbers = numbers_of(value, what);
+  check_finite(numbers.data(), static_cast<std::size_t>(numbers.size()), what);
+  if (numbers.ndim() > 1 || numbers.size() == 0)
+    throw py::value_error(what + " must be a number, a text, a flag or a list of numbers");
+  std::string text;
+  for (py::ssize_t i = 0; i < numbers.size(); ++i)
+    text += (i > 0 ? "," : "") + number_text(numbers.data()[i]);
+  return text;
+}
+
+}  // namespace
+
+void change_scene(const py::object& set, SimulateOptions& options) {
+  if (set.is_none()) return;
+  if (options.robot.model.extension() != ".toml")
+    throw py::value_error("set= changes a scene, and '" + options.robot.model.string() +
+                          "' is none; write a scene with the robot in it");
+  std::vector<Change> changes;
+  for (const auto& [path, value] : py::cast<py::dict>(set)) {
+    const std::string name = py::cast<std::string>(path);
+    changes.push_back({name, setting_text(name, value)});
+  }
+  options.change_scene = [changes](TomlValue& scene, FaultList& faults) {
+    for (const Change& change : changes) apply(change, 0, scene, faults);
+  };
+}
+
+}  // namespace twinarm::python
