@@ -11,7 +11,9 @@ namespace twinarm {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Of no rows or columns Eigen's decompositions take entries that are not there.
 MatrixXd solve_symmetric(const MatrixXd& M, const MatrixXd& B) {
+  if (M.size() == 0 || B.size() == 0) return MatrixXd::Zero(M.rows(), B.cols());
   return M.ldlt().solve(B);
 }
 
@@ -30,6 +32,7 @@ MatrixXd Cholesky::inverse() const {
 }
 
 VectorXd solve_pivoted(const MatrixXd& A, const VectorXd& b) {
+  if (A.size() == 0) return VectorXd::Zero(A.cols());
   return A.fullPivLu().solve(b);
 }
 

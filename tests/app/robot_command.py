@@ -52,7 +52,7 @@ class RobotCommand(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="twinarm-robot-"))
         self.addCleanup(shutil.rmtree, self.folder)
 
-    def run_it(self, urdf, *options, state=None, timeout=60):
+    def run_it(self, urdf, *options, state=None, timeout=300):
         """`urdf` is XML or a path below the project, `state` an object, JSON text or a path."""
         if urdf.startswith("<"):
             (self.folder / "test.urdf").write_text(urdf)
