@@ -35,8 +35,9 @@ LoopClosure closed_at(Random& random, const Model<double>& model, const State<do
   if (type == LoopType::distance) loop.X_LbC.p += random.vector(0.4);
   loop.length = (k.X_WL[a] * loop.X_LaC.p - k.X_WL[b] * loop.X_LbC.p).norm();
   loop.ratio = random.uniform(-2, 2);
-  const double leader = x.q[model.iq[b]];
-  loop.offset = x.q[model.iq[a]] - (type == LoopType::gear ? loop.ratio * leader : 0);
+  // A fixed last joint has no coordinate; check_loops() refuses it.
+  const auto q = [&](std::size_t i) { return model.iq[i] < x.q.size() ? x.q[model.iq[i]] : 0.0; };
+  loop.offset = q(a) - (type == LoopType::gear ? loop.ratio * q(b) : 0);
   return loop;
 }
 

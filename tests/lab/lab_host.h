@@ -12,6 +12,7 @@
 
 #include "app/lab/server/lab_server.h"
 #include "tests/lab/raw_client.h"
+#include "tests/sanitized.h"
 
 inline twinarm::Bytes bytes_of(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
@@ -32,7 +33,7 @@ inline double resident_memory() {
     if (line.rfind("VmRSS:", 0) == 0) return std::stod(line.substr(6)) / 1024;
   return 0;
 }
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef TWINARM_SANITIZED
 constexpr bool kMemoryTells = false;  // sanitizers keep what is freed
 #else
 constexpr bool kMemoryTells = true;

@@ -20,6 +20,9 @@ sys.path.insert(0, sys.argv.pop(1))
 PROGRAM = sys.argv.pop(1)
 import twinarm  # noqa: E402
 
+# Where the module is watched by a sanitizer, Python has loaded its runtime first; the program has its own.
+PRELOADED = {name: os.environ.pop(name) for name in ["LD_PRELOAD"] if name in os.environ}
+
 
 def states(model, count, seed=1):
     """q, qd and a third vector by velocity, in rows; quaternions of unit length."""

@@ -9,10 +9,9 @@ import sys
 import tempfile
 import unittest
 
-from notebook import ROOT, main, twinarm
+from notebook import PRELOADED, ROOT, main, twinarm
 
-
-ENVIRONMENT = {**os.environ, "PYTHONPATH": os.path.dirname(twinarm.__file__)}
+ENVIRONMENT = {**os.environ, **PRELOADED, "PYTHONPATH": os.path.dirname(twinarm.__file__)}
 EXAMPLES = ROOT / "app" / "python" / "examples"
 
 

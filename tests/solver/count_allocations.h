@@ -4,14 +4,7 @@
 
 #include <cstddef>
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define TWINARM_ADDRESS_SANITIZER
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__)
-#define TWINARM_ADDRESS_SANITIZER
-#endif
+#include "tests/sanitized.h"
 
 namespace twinarm::testing {
 inline volatile long allocations = 0;
