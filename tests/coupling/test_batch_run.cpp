@@ -156,3 +156,43 @@ TEST_CASE("what cannot run side by side is refused, all reasons at once") {
     }
   }
 }
+
+TEST_CASE("each reason against running side by side is told alone, with what to do") {
+  Random random(86);
+  const CellBench bench(tree_for_lanes(random, Axes::in_line), kBatchLaws[1], Treatment::implicit,
+                        false);
+  const Model<double>& model = bench.model;
+  const std::string fixed = model.joint_name[5], follower = model.joint_name[2];
+  REQUIRE(model.joint[5] == JointType::fixed);
+  REQUIRE(batch_faults(bench.setup).empty());
+  const auto only = [&](const char* where, const char* rule, const auto& spoil) {
+    CAPTURE(rule);
+    BatchSetup setup = bench.setup;
+    Model<double> own = model;
+    spoil(setup, own);
+    setup.model = &own;
+    const std::vector<Fault> faults = batch_faults(setup);
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].where == where);
+    CHECK(faults[0].rule.find(rule) != std::string::npos);
+    CHECK_FALSE(faults[0].remedy.empty());
+  };
+  only(("joint '" + follower + "'").c_str(), "follow others", [](BatchSetup&, Model<double>& own) {
+    own.mimics.push_back({own.iv[2], own.iv[1], own.iq[2], own.iq[1], 1, 0});
+  });
+  only("targets", "no kinematic robot", [](BatchSetup& setup, Model<double>&) {
+    setup.targets.clear();
+    setup.springs.clear();
+  });
+  only(("joint '" + fixed + "'").c_str(), "cannot move",
+       [&](BatchSetup& setup, Model<double>&) { setup.targets[0].joints.gripper = fixed; });
+  only("spring 0", "does not move", [](BatchSetup& setup, Model<double>&) {
+    setup.springs[0].body = 5;  // fixed to a link that moves
+  });
+  only("measured", "no coordinate",
+       [](BatchSetup& setup, Model<double>& own) { setup.measured.push_back(own.nq); });
+  for (const double none : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    only("bound", "is ", [&](BatchSetup& setup, Model<double>&) { setup.bound = none; });
+    only("duration", "is ", [&](BatchSetup& setup, Model<double>&) { setup.duration = none; });
+  }
+}

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/dynamics.h"
+#include "solver/fault.h"
 #include "solver/simulation.h"
 #include "tests/solver/random_tree.h"
 
@@ -62,4 +64,100 @@ TEST_CASE("a source that is refused does not act") {
   simulation.step(0.1);
   untouched.step(0.1);
   CHECK(simulation.state().qd[0] == untouched.state().qd[0]);
+}
+
+// Fields of the passes stay finite: nothing turns, and there is no gravity along it.
+TEST_CASE("a coordinate that overflows is reported with its joint") {
+  ModelBuilder builder;
+  builder.add_body("block", 0, "slide", JointType::prismatic, {}, Vector3::UnitX(),
+                   {1, Vector3::Zero(), Matrix3::Identity()});
+  const Model<double> model = builder.build();
+  State<double> x(model);
+  x.q[0] = x.qd[0] = 1e308;
+  Simulation simulation(model, x);
+  const StepReport report = simulation.step(1);
+  CHECK_FALSE(report.finite);
+  CHECK(report.bad_body == 1);
+  CHECK(std::string(report.bad_field ? report.bad_field : "none") == "q");
+}
+
+TEST_CASE("a tolerance that is not positive, or no number, is refused") {
+  const Model<double> model = chain(1);
+  Simulation simulation(model, State<double>(model));
+  for (const double bad : {0.0, -1e-6, HUGE_VAL, std::numeric_limits<double>::quiet_NaN()})
+    CHECK_THROWS_WITH(simulation.set_tolerance(bad), "a tolerance is a positive number");
+  CHECK_NOTHROW(simulation.set_tolerance(1e-6));
+}
+
+namespace {
+
+// Constrains nothing, and knows neither events nor steps that are taken back.
+struct Plain final : ConstraintSource {
+  void add(const ConstraintFrame&, ImpulseProblem&) noexcept override {}
+  void take(const ConstraintFrame&, const ImpulseProblem&, std::size_t) noexcept override {}
+};
+
+}  // namespace
+
+TEST_CASE("a source of constraints is refused where it cannot do what is asked of it") {
+  const Model<double> model = chain(2);
+  Plain plain;
+  Simulation simulation(model, State<double>(model));
+  simulation.set_integrator(Integrator::rk4);
+  CHECK_THROWS_AS(simulation.add(plain), std::invalid_argument);
+  simulation.set_integrator(Integrator::semi_implicit);
+  Simulation located = simulation;
+  simulation.add(plain);
+  CHECK_THROWS_AS(simulation.set_integrator(Integrator::rk4), std::invalid_argument);
+  CHECK_THROWS_AS(simulation.locate_events(), std::invalid_argument);
+  CHECK_THROWS_AS(simulation.side_step(1e-3), std::invalid_argument);
+  Memory memory;
+  CHECK_THROWS_AS(simulation.visit_memory(memory), std::invalid_argument);
+  located.locate_events();
+  CHECK_THROWS_AS(located.add(plain), std::invalid_argument);
+}
+
+TEST_CASE("a law that would open a loop is refused, and the run goes on by the one before") {
+  ModelBuilder builder;
+  builder.add_body("hand", 0, "held", JointType::prescribed, {}, Vector3::UnitZ(),
+                   {1, Vector3::Zero(), Matrix3::Identity()});
+  builder.add_body("block", 0, "rail", JointType::prismatic, {}, Vector3::UnitZ(),
+                   {1, Vector3::Zero(), Matrix3::Identity()});
+  const Model<double> model = builder.build();
+  const auto rising_from = [](double height) {
+    return [height](double t) {
+      PrescribedMotion motion;
+      motion.X_JL.p = {0, 0, height + t};
+      motion.velocity = Vector3::UnitZ();
+      return motion;
+    };
+  };
+  LoopClosure rod{"rod", LoopType::distance, 1, 2};
+  rod.X_LaC.p = {0, 0, 0.3};
+  rod.length = 0.3;
+  Simulation simulation(model, State<double>(model));
+  simulation.prescribe(1, rising_from(0));
+  simulation.set_loops({rod});
+  CHECK_THROWS_AS(simulation.prescribe(1, rising_from(0.5)), InputError);
+  for (int n = 0; n < 10; ++n) CHECK(simulation.step(1e-2).ok());
+  CHECK((simulation.kinematics().X_WL[1].p - Vector3(0, 0, 0.1)).norm() < 1e-12);
+}
+
+TEST_CASE("what acts at another state is shown by a copy, and the run is left as it is") {
+  const Model<double> model = chain(3);
+  Random random(63);
+  const State<double> start = random_state(random, model), elsewhere = random_state(random, model);
+  Simulation simulation(model, start);
+  Workspace<double> w(model);
+  aba(model, elsewhere, Forces<double>(model), w);
+  bool seen = false;
+  simulation.evaluate_at(elsewhere, [&](const Simulation& there) {
+    seen = true;
+    CHECK(there.state().q == elsewhere.q);
+    CHECK(there.state().qd == elsewhere.qd);
+    CHECK(there.workspace().qdd == w.qdd);
+  });
+  CHECK(seen);
+  CHECK(simulation.state().q == start.q);
+  CHECK(simulation.state().qd == start.qd);
 }
