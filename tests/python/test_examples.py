@@ -14,7 +14,7 @@ ENVIRONMENT = {**os.environ, **PRELOADED, "PYTHONPATH": os.path.dirname(twinarm.
 
 def printed(*command):
     done = subprocess.run([sys.executable, "-B", *map(str, command)], capture_output=True, text=True,
-                          cwd=ROOT, env=ENVIRONMENT, timeout=120)
+                          cwd=ROOT, env=ENVIRONMENT, timeout=600)
     if done.returncode != 0:
         raise AssertionError(done.stderr)
     return done.stdout
