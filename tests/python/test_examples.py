@@ -17,7 +17,7 @@ EXAMPLES = ROOT / "app" / "python" / "examples"
 
 def printed(*command, cwd=ROOT):
     done = subprocess.run([sys.executable, "-B", *map(str, command)], capture_output=True, text=True,
-                          cwd=cwd, env=ENVIRONMENT, timeout=120)
+                          cwd=cwd, env=ENVIRONMENT, timeout=600)
     if done.returncode != 0:
         raise AssertionError(done.stderr)
     return done.stdout
