@@ -268,7 +268,8 @@ class Faults(MapCommand):
         y = ("--y", "coupling.damping:0:1:2")
         for axis, words in (("coupling.stiffness:-5:10:4", "must not be negative, is -5"),
                             ("step:0:1:4", "must be positive, is 0"),
-                            ("step:1e-12:0.01:4", "more than 1e8"),
+                            ("step:1e-8:0.01:4", "more than 1e8"),
+                            ("step:1e-12:0.01:4", "more than 1e10"),
                             ("step:0.1:100:4", "no whole step"),
                             ("step:0.1:0.2:1", "from 2 to 4096"),
                             ("step:0.1:0.2:2.5", "from 2 to 4096"),
