@@ -55,7 +55,7 @@ std::string texts_of(const std::vector<Change>& changes) {
 
 // Whatever was told of it; waits for what is being built.
 struct ToldSession {
-  const std::vector<GalleryScene> gallery;
+  const std::vector<GalleryScene> gallery{};
   LabSession session{sprung_arm(), gallery};
   void set(const std::string& change) {
     session.push(parse_command(R"({"do": "set", "changes": [")" + change + "\"]}"));
