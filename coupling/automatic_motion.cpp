@@ -16,7 +16,8 @@ HandSample AutomaticMotion::sample(double t, double toward) const {
   const double middle = 0.5 * (t + toward) / sweep_time_;
   const double nearest = std::round(s);
   const double inside = std::abs(s - nearest) < 1e-9 ? middle : s;
-  const int sweep = std::clamp(static_cast<int>(std::floor(inside)), 0, sweeps_ - 1);
+  // In this order also of a time that is no number, which a broken recording may tell.
+  const auto sweep = static_cast<int>(std::min(std::max(0.0, std::floor(inside)), sweeps_ - 1.0));
   const double direction = sweep % 2 == 0 ? 1.0 : -1.0;
   const double fraction = std::clamp(s - sweep, 0.0, 1.0);
   const double along = direction * (fraction - 0.5);  // -0.5 at the paper's start, 0.5 at its end
