@@ -16,8 +16,8 @@ class VertexTable {
   explicit VertexTable(std::span<const Vector3> points);
 
   bool empty() const { return points_.rows() == 0; }
-  // The number of the first point with the largest points[i] . d, to the bit; 0 where d is not
-  // finite. About 1 ns a point with SSE2.
+  // The number of the first point with the largest points[i] . d, to the bit; 0 where d is no
+  // number. Some 0.6 ns a point with SSE2.
   std::size_t farthest(const Vector3& d) const;
 
  private:
