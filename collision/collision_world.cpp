@@ -26,7 +26,7 @@ Aabb bounding_box(const Placed& body, double margin) {
   Aabb box;
   const Polytope& core = body.solid.core;
   if (body.solid.surface || (core.exists && core.hull.vertices.size() > kFew)) {
-    // Around the box in the body's own axes: wider, but of a box; it does not ask every vertex.
+    // Around the box in the body's own axes, which does not ask every vertex: wider, but of a box.
     const Vector3 centre = body.X_WG * body.solid.centre;
     const Vector3 half = body.X_WG.R.cwiseAbs() * body.solid.half;
     box = {centre - half, centre + half};

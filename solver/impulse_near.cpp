@@ -49,7 +49,7 @@ bool ImpulseSolver::is_warm(const ImpulseProblem& problem, const Island& island)
                      [&](int i) { return all[i].law == ImpulseLaw::coulomb && all[i].p[0] > 0; });
 }
 
-// Returns what is left of the laws.
+// Returns what is left of the laws; infinity where there is nothing to do.
 double ImpulseSolver::start_near(ImpulseProblem& problem, const Island& island,
                                  ImpulseReport& report) {
   const std::vector<ImpulseConstraint>& all = problem.constraints();

@@ -7,33 +7,11 @@
 #include "app/lab/allowance.h"
 #include "app/lab/lab_painter.h"
 #include "app/lab/state_message.h"
+#include "tests/lab/built_scene.h"
 #include "tests/lab/helpers.h"
 
 namespace twinarm {
 namespace {
-
-constexpr const char* kSlowlyDriven = R"(
-step = 0.001
-duration = 1
-[[robot]]
-name = "arm"
-model = "robots/s103/s103.urdf"
-[[coupling]]
-name = "one"
-type = "torsional"
-measure = "joint"
-link = "arm1"
-stiffness = 20
-damping = 1
-target = "device"
-)";
-
-Built built_from(const std::string& text) {
-  const TemporaryFolder folder;
-  Order order;
-  order.file = folder.write("painted.toml", text);
-  return build(std::move(order));
-}
 
 LabCommand said(const std::string& text) {
   return parse_command(text);

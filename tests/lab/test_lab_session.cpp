@@ -12,6 +12,7 @@
 #include "app/lab/lab_session.h"
 #include "app/lab/pace.h"
 #include "solver/fault.h"
+#include "tests/lab/built_scene.h"
 #include "tests/lab/helpers.h"
 
 namespace twinarm {
@@ -26,27 +27,6 @@ std::size_t faults_in(const std::string& text) {
   return 0;
 }
 
-Built sprung_arm() {
-  const TemporaryFolder folder;
-  Order order;
-  order.file = folder.write("sprung.toml", R"(
-step = 0.001
-duration = 1
-[[robot]]
-name = "arm"
-model = "robots/s103/s103.urdf"
-[[coupling]]
-name = "one"
-type = "torsional"
-measure = "joint"
-link = "arm1"
-stiffness = 20
-damping = 1
-target = "device"
-)");
-  return build(std::move(order));
-}
-
 std::string texts_of(const std::vector<Change>& changes) {
   std::string all;
   for (const Change& change : changes) all += change.path + "=" + change.value + " ";
@@ -56,7 +36,7 @@ std::string texts_of(const std::vector<Change>& changes) {
 // Whatever was told of it; waits for what is being built.
 struct ToldSession {
   const std::vector<GalleryScene> gallery{};
-  LabSession session{sprung_arm(), gallery};
+  LabSession session{built_from(kSlowlyDriven), gallery};
   void set(const std::string& change) {
     session.push(parse_command(R"({"do": "set", "changes": [")" + change + "\"]}"));
   }
@@ -107,7 +87,7 @@ TEST_CASE("lab session: of two changes to one number the later holds, by whichev
   for (const char* text :
        {"coupling.stiffness=31", "coupling.one.stiffness=32", "coupling.stiffness=33"})
     put(changes, parse_change(text));
-  CHECK(sprung_arm().scene->text(changes).find("stiffness = 33") != std::string::npos);
+  CHECK(built_from(kSlowlyDriven).scene->text(changes).find("stiffness = 33") != std::string::npos);
 }
 
 TEST_CASE("lab session: of more notes than are kept the last are told") {
