@@ -1,16 +1,19 @@
-// fork, two limits, and a pipe that carries the result home. See limited_child.h.
+// fork, three limits, and a pipe that carries the result home. See limited_child.h.
 #include "collision/limited_child.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <new>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -88,15 +91,29 @@ void be_silent() {
   _exit(end);  // neither destructors nor buffers of the parent's program
 }
 
-std::string receive(int pipe) {
+using Clock = std::chrono::steady_clock;
+
+// Waits for bytes, or the end of them, until `end`; false: there was neither.
+bool wait_for_bytes(int pipe, Clock::time_point end) {
+  while (true) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
+    if (left <= 0) return false;
+    pollfd ready{pipe, POLLIN, 0};
+    if (poll(&ready, 1, static_cast<int>(left)) > 0) return true;
+  }
+}
+
+// Nothing: the child has not closed its end by then.
+std::optional<std::string> receive(int pipe, Clock::time_point end) {
   std::string bytes;
   std::array<char, 1 << 16> some;
-  while (true) {
+  while (wait_for_bytes(pipe, end)) {
     const ssize_t got = read(pipe, some.data(), some.size());
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return bytes;
     bytes.append(some.data(), static_cast<std::size_t>(got));
   }
+  return std::nullopt;
 }
 
 std::string fault_of(int status, const ChildLimits& limits) {
@@ -132,15 +149,15 @@ ChildResult run_limited(const std::function<std::string()>& work, const ChildLim
     be_child(work, limits, ends[1]);
   }
   close(ends[1]);
-  ChildResult result;
-  result.bytes = receive(ends[0]);
+  const auto bytes = receive(ends[0], Clock::now() + std::chrono::seconds(limits.wall_seconds));
+  if (!bytes) kill(child, SIGKILL);
   close(ends[0]);
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) fail("waitpid");
-  result.fault = fault_of(status, limits);
-  if (!result.fault.empty()) result.bytes.clear();
-  return result;
+  if (!bytes) return {"", "does not end within " + std::to_string(limits.wall_seconds) + " s"};
+  const std::string fault = fault_of(status, limits);
+  return {fault.empty() ? *bytes : "", fault};
 }
 
 }  // namespace twinarm

@@ -9,6 +9,7 @@ namespace twinarm {
 
 struct ChildLimits {
   unsigned cpu_seconds = 20;
+  unsigned wall_seconds = 60;  // for work that waits for what never comes
   // Of address space, beside what the program has already; not under sanitizers.
   std::size_t bytes = std::size_t{1} << 30;
 };

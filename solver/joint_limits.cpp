@@ -77,19 +77,20 @@ void JointLimits::take(const ConstraintFrame& frame, const ImpulseProblem& probl
     const ImpulseConstraint& c = problem.constraints()[first++];
     Limit& limit = limits_[row.limit];
     const double u = c.u[0] - c.b[0];  // away from the limit, at the end
+    const double work = 0.5 * c.p[0] * (u + speed(row, frame.x));
     if (jumps) {
-      limit.work += 0.5 * c.p[0] * (u + speed(row, frame.x));
+      limit.work += work;
       continue;
     }
     limit.force += row.sign * c.p[0] / frame.h;
     row.after = row.gap + frame.h * u;
     if (frame.phase == Phase::step)
-      limit.work += c.p[0] * u;
+      limit.work += work;
     else
       for (std::size_t i = 0; i < held_.size(); ++i)
         if (held_[i].limit == row.limit && held_[i].sign == row.sign) {
           held_[i].opens = c.u[0] > kMoves;
-          flow_works_[i] += 0.5 * c.p[0] * (u + speed(row, frame.x));
+          flow_works_[i] += work;
         }
   }
 }

@@ -194,6 +194,16 @@ TEST_CASE("a child that crashes, throws or never ends leaves a sentence") {
   CHECK(slow.bytes.empty());
 }
 
+TEST_CASE("a child that waits for ever is ended, and leaves a sentence") {
+  const ChildResult waits = run_limited(
+      []() -> std::string {
+        while (true) pause();
+      },
+      {.wall_seconds = 1});
+  CHECK(waits.fault == "does not end within 1 s");
+  CHECK(waits.bytes.empty());
+}
+
 TEST_CASE("a packed model comes back whole; one that is cut anywhere does not") {
   ModelFile model;
   model.parts.resize(2);

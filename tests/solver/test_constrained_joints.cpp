@@ -67,6 +67,16 @@ TEST_CASE("limits: a block that falls onto one stops there, and is borne by its 
   }
 }
 
+TEST_CASE("limits: one that is struck in steps of fixed size takes all that the block had") {
+  constexpr double speed = 1.7;  // some of it is taken by the step that reaches the limit
+  Slider s(0, kFar, 0);
+  s.start(0.1, -speed);
+  for (int n = 0; n < 100; ++n) REQUIRE(s.simulation.step(1e-3).ok());
+  CHECK(std::abs(s.qd()) < 1e-9);
+  const double had = 0.5 * kMassOfBlock * speed * speed;
+  CHECK(s.limits.limits()[0].work == doctest::Approx(-had).epsilon(1e-9));
+}
+
 TEST_CASE("limits: one that is struck in a step that locates its events takes what the block had") {
   constexpr double g = 9.81, drop = 0.1;
   Slider s(0, kFar, g);
