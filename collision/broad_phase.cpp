@@ -65,6 +65,7 @@ BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
 int BroadPhase::add() {
   const auto index = static_cast<std::intptr_t>(impl_->objects.size());
   impl_->objects.emplace_back();
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): FCL keeps a pointer for us, nothing else
   impl_->objects.back().object->setUserData(reinterpret_cast<void*>(index));
   impl_->is_new = true;
   return static_cast<int>(index);

@@ -113,7 +113,8 @@ class Lab {
  private:
   ServerHandlers handlers() {
     ServerHandlers handlers;
-    handlers.http = [this](const HttpRequest& request, std::function<void(HttpReply)> answer) {
+    handlers.http = [this](const HttpRequest& request,
+                           const std::function<void(HttpReply)>& answer) {
       routes_.answer(request, answer);
     };
     handlers.opened = [this](ClientId client) {

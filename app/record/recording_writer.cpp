@@ -69,7 +69,7 @@ void RecordingWriter::write(RecordedFrame& frame) {
     flush();
 }
 
-void RecordingWriter::finish(std::string how) {
+void RecordingWriter::finish(const std::string& how) {
   block(recording_format::kEnd, how);
   flush();
   out_.close();

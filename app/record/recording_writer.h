@@ -23,7 +23,7 @@ class RecordingWriter {
   void alarm(const std::string& words);
   void write(RecordedFrame& frame);
   // The end of the run in a word, then the file's own name. Throws InputError.
-  void finish(std::string how);
+  void finish(const std::string& how);
 
  private:
   void block(char kind, const std::string& payload);

@@ -63,7 +63,7 @@ double error_when_shifted(const StudyRobot& robot, RunSpec spec, const PaperRow&
   return worst;
 }
 
-void finish_fit(CalibrationEntry& entry, const StudyRobot& robot, RunSpec spec,
+void finish_fit(CalibrationEntry& entry, const StudyRobot& robot, const RunSpec& spec,
                 const PaperRow& row) {
   const AutomaticMotion hand{HandMapping{}};
   const RunResult result = run(robot, hand, spec);

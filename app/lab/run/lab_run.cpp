@@ -38,10 +38,10 @@ State<double> state_in(const std::string& bytes) {
 
 }  // namespace
 
-LabRun::LabRun(const LabScene& scene, std::vector<Change> changes, LabHand& hand)
+LabRun::LabRun(const LabScene& scene, const std::vector<Change>& changes, LabHand& hand)
     : LabRun(scene.plan(changes), changes, hand, nullptr) {}
 
-LabRun::LabRun(const LabScene& scene, std::vector<Change> changes, LabHand& hand,
+LabRun::LabRun(const LabScene& scene, const std::vector<Change>& changes, LabHand& hand,
                const LabFrame& from)
     : LabRun(scene.plan(changes), changes, hand, &from) {}
 

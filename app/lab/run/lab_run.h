@@ -22,11 +22,12 @@ class LabRun {
  public:
   // From the scene's start. The hand must outlive it, and one run at a time is stepped with it.
   // Throws InputError with all faults; the hand is then as before.
-  LabRun(const LabScene& scene, std::vector<Change> changes, LabHand& hand);
+  LabRun(const LabScene& scene, const std::vector<Change>& changes, LabHand& hand);
   // From a frame of the same scene with the same or other changes. What the run remembers is taken
   // over where it has the same layout, and goes on with the same bits where nothing was changed;
   // else it begins anew where the frame stands, ledgers at zero: begun_anew() says why.
-  LabRun(const LabScene& scene, std::vector<Change> changes, LabHand& hand, const LabFrame& from);
+  LabRun(const LabScene& scene, const std::vector<Change>& changes, LabHand& hand,
+         const LabFrame& from);
   // The same with a plan that was made elsewhere, of these changes; `from` null: the start.
   LabRun(std::unique_ptr<LabScene::Plan> plan, std::vector<Change> changes, LabHand& hand,
          const LabFrame* from);

@@ -87,7 +87,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void serve();
   void answer(std::uint64_t turn, HttpReply reply);
   void refuse(int status, const std::string& why);
-  void write(ResponseHead head, Bytes body);
+  void write(const ResponseHead& head, Bytes body);
   void linger();
   bool has_token(std::string_view target);
   bool is_allowed();  // one message or request more, at this moment

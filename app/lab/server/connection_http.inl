@@ -171,7 +171,7 @@ void Connection::refuse(int status, const std::string& why) {
   write(head, body);
 }
 
-void Connection::write(ResponseHead head, Bytes body) {
+void Connection::write(const ResponseHead& head, Bytes body) {
   head_ = to_string(head);
   body_ = body ? std::move(body) : std::make_shared<std::string>();
   deadline_ = Clock::now() + core_.patience(0.25) +

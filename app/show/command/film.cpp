@@ -69,15 +69,11 @@ std::vector<std::string> ffmpeg_words(const std::string& program, const std::str
       "-movflags", "+faststart",
       "-f",        "mp4",
       out};
+  const std::string one_palette =  // of its own, for the whole film
+      "[0:v]split[a][b];[a]palettegen=stats_mode=diff[p];"
+      "[b][p]paletteuse=dither=bayer:bayer_scale=4";
   const std::vector<std::string> gif{
-      "-filter_complex",  // one palette of its own for the whole film
-      "[0:v]split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=bayer:bayer_scale="
-      "4",
-      "-loop",
-      "0",
-      "-f",
-      "gif",
-      out};
+      "-filter_complex", one_palette, "-loop", "0", "-f", "gif", out};
   const auto& more = format.kind == FilmKind::mp4 ? mp4 : gif;
   words.insert(words.end(), more.begin(), more.end());
   return words;
