@@ -131,9 +131,9 @@ class LabTest(unittest.TestCase):
     def test_what_pages_see_is_what_is_recorded_and_the_recording_replays_bit_for_bit(self):
         names = [c["name"] for c in self.live.wait_for("scene")["channels"]]
         seen = {}
-        for kind, message in self.live.messages(2.0):
-            if kind == "frame":
-                seen[message.step] = dict(zip(names, message.channels))
+        while len(seen) < 90:
+            frame = self.live.wait_for("frame")
+            seen[frame.step] = dict(zip(names, frame.channels))
         file = self.saved("run.twinrec")
         self.assertIn("same bits", program("replay", file))
         recorded = self.by_step(file)
@@ -398,6 +398,7 @@ class LabEnds(unittest.TestCase):
         scene = ROOT / "assets/scenes/hand_and_obstacles.toml"
         for listen, is_refused in (("0.0.0.0", True), ("127.0.0.1", False)):
             running = Running(scene, "--listen", listen)
+            self.addCleanup(running.process.kill)
             with Lab(running.url).live() as live:
                 for spec in ("virtual:trace:/etc/passwd", "gamepad:/dev/nowhere"):
                     known = len(live.wait_for("state")["notes"])

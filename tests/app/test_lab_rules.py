@@ -55,7 +55,7 @@ class LabRules(unittest.TestCase):
         self.assertFalse(state["playing"])
         self.assertTrue(state["dead"])
         self.assertAlmostEqual(state["time"], time_of_death, delta=0.002)
-        self.live.do("speed", factor=0.02)  # it lives for three steps again: so long that a state tells of it
+        self.live.do("speed", factor=0.001)  # it lives for three steps again: so long that a state tells of it
         self.live.do("reset")
         state = self.state(lambda s: not s["dead"])
         self.assertTrue(state["playing"])

@@ -171,7 +171,7 @@ class LiveSocket:
             elif select.select([self.socket], [], [], left)[0]:
                 self.waiting.extend(self.pump())
 
-    def wait_for(self, kind, condition=lambda message: True, timeout=10.0):
+    def wait_for(self, kind, condition=lambda message: True, timeout=60.0):
         """The next message of a kind for which a condition holds; TimeoutError if none comes."""
         last = None
         for got, message in self.messages(timeout):

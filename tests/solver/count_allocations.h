@@ -7,11 +7,11 @@
 #include "tests/sanitized.h"
 
 namespace twinarm::testing {
-inline volatile long allocations = 0;
+inline thread_local volatile long allocations = 0;  // of this thread
 }
 
-#ifdef TWINARM_ADDRESS_SANITIZER
-// g++ ships the function but not its header.
+#ifdef TWINARM_SANITIZED
+// Their malloc must stay in its place. g++ ships the function but not its header.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*malloc_hook)(const volatile void*,
                                                                              std::size_t),
                                                          void (*free_hook)(const volatile void*));
