@@ -168,6 +168,15 @@ class Streams(Case):
             self.assertEqual(recorded_blocks(data)[-1][2], len(data), closed)
             file.unlink()
 
+    def test_what_is_said_never_goes_into_a_file_that_is_open(self):
+        """An alarm, said while the run is recorded, that has nowhere to go."""
+        words = [PROGRAM, "simulate", str(SCENES / "tracking_map.toml"), "--step", "0.01", "--record", "run.twinrec"]
+        self.assertIn("alarm", self.run_it(words).stderr)
+        heard = (self.folder / "run.twinrec").read_bytes()
+        for closed in ("2>&-", "<&- 2>&-"):
+            self.run_it(["sh", "-c", " ".join(f"'{w}'" for w in words) + " " + closed])
+            self.assertTrue((self.folder / "run.twinrec").read_bytes() == heard, closed)
+
     def test_nobody_needs_to_read_what_is_said_on_stderr(self):
         for stderr in ("2>&-", "2>/dev/full"):
             done = self.run_it(["sh", "-c", f"'{PROGRAM}' render '{PENDULUM}' --frames film --to 0.1 --size 64x48 "
