@@ -19,7 +19,6 @@ constexpr int most_looks = 4;
 ConstrainedStep::ConstrainedStep(const Model<double>& model)
     : model_(&model),
       trees_(model),
-      damping_(model.nv),
       coulomb_(model.nv),
       constraint_(model.nv),
       shift_(model.nv),
@@ -83,11 +82,10 @@ void ConstrainedStep::hand_out(const ConstraintFrame& frame) {
 void ConstrainedStep::accelerate(Mechanism& m, double h) {
   m.forces.clear();
   for (ForceSource* source : m.sources) source->add_forces(m.x, m.k, m.forces);
-  for (std::size_t dof = 0; dof < model_->nv; ++dof) {
-    damping_[dof] = friction_on_ ? -model_->damping[dof] * m.x.qd[dof] : 0;
-    if (damping_[dof] == 0 && model_->damping[dof] == 0) continue;
-    m.forces.tau[dof] += damping_[dof];
-    if (friction_on_) m.forces.armature[dof] += h * model_->damping[dof];
+  for (std::size_t dof = 0; friction_on_ && dof < model_->nv; ++dof) {
+    if (model_->damping[dof] == 0) continue;
+    m.forces.tau[dof] -= model_->damping[dof] * m.x.qd[dof];
+    m.forces.armature[dof] += h * model_->damping[dof];
   }
   aba(*model_, m.x, m.forces, m.w);
   if (!m.has_loops()) return;
@@ -165,9 +163,6 @@ bool ConstrainedStep::looks_farther(Mechanism& m, double h) {
 void ConstrainedStep::resolve_step(Mechanism& m, double h) {
   if (!solve_step(m, h, Phase::step)) return;
   aba(*model_, m.x, m.forces, m.w);
-  if (friction_on_)
-    for (std::size_t dof = 0; dof < model_->nv; ++dof)
-      damping_[dof] -= h * model_->damping[dof] * m.w.qdd[dof];
 }
 
 void ConstrainedStep::add_joint_friction(const Mechanism&, double h) {

@@ -71,8 +71,7 @@ class ConstrainedStep {
   const ModelTrees& trees() const { return trees_; }
 
   const ConstraintReport& report() const { return report_; }
-  const std::vector<double>& damping_torque() const { return damping_; }  // of the last step
-  const std::vector<double>& coulomb_torque() const { return coulomb_; }
+  const std::vector<double>& coulomb_torque() const { return coulomb_; }  // of the last step
   // Generalised force of all constraints, by velocity [N m, N]; without impacts.
   const std::vector<double>& constraint_force() const { return constraint_; }
   // After the impacts of the last step, before its second phase.
@@ -112,7 +111,7 @@ class ConstrainedStep {
   bool with_gamma_ = false;
   std::vector<char> flies_, plastic_;  // by tree
   std::vector<double> before_;         // by velocity: those at the start of the second phase
-  std::vector<double> damping_, coulomb_, constraint_, shift_;
+  std::vector<double> coulomb_, constraint_, shift_;
   std::vector<Vec3<double>> turning_;  // by body: couples of constrained_rotation.cpp, body axes
   std::vector<double> friction_guess_, mimic_guess_, loop_guess_, sum_, acceleration_, velocity_,
       elastic_, elastic_p_;

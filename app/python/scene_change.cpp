@@ -10,11 +10,15 @@
 namespace twinarm::python {
 namespace {
 
+std::string name_of(const std::string& path) {
+  return "set['" + path + "']";
+}
+
 // As `twinarm replay --set PATH=VALUE` is given it.
 std::string setting_text(const std::string& path, const py::handle& value) {
   if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
   if (py::isinstance<py::bool_>(value)) return py::cast<bool>(value) ? "true" : "false";
-  const std::string what = "set['" + path + "']";
+  const std::string what = name_of(path);
   const Array numbers = numbers_of(value, what);
   check_finite(numbers.data(), static_cast<std::size_t>(numbers.size()), what);
   if (numbers.ndim() > 1 || numbers.size() == 0)
@@ -38,7 +42,14 @@ void change_scene(const py::object& set, SimulateOptions& options) {
     changes.push_back({name, setting_text(name, value)});
   }
   options.change_scene = [changes](TomlValue& scene, FaultList& faults) {
-    for (const Change& change : changes) apply(change, 0, scene, faults);
+    for (const Change& change : changes) {
+      FaultList of_change;  // by the option of the command line
+      apply(change, 0, scene, of_change);
+      for (Fault fault : of_change.faults()) {
+        fault.where = name_of(change.path);
+        faults.add(std::move(fault));
+      }
+    }
   };
 }
 

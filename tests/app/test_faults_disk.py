@@ -107,6 +107,19 @@ class FullDisk(Case):
         self.assertEqual(len(json.loads(read.stdout)["frames"]), kinds.count("F"))
         self.assertIn("run.part", read.stderr)
 
+    def test_a_recording_whose_name_was_taken_meanwhile_is_told_and_kept(self):
+        """By a folder, while the run waits for somebody to read its table."""
+        program = subprocess.Popen([PROGRAM, "simulate", str(SCENES / "box_stack.toml"), "--duration", "0.5", "--csv",
+                                    "--every", "0.001", "--record", "run.twinrec"], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True, cwd=self.folder)
+        program.stdout.readline()
+        (self.folder / "run.twinrec").mkdir()
+        _, told = program.communicate(timeout=60)
+        self.told_well("recording", subprocess.CompletedProcess([], program.returncode, "", told))
+        self.assertIn("run.twinrec", told)
+        data = (self.folder / "run.twinrec.part").read_bytes()
+        self.assertEqual(recorded_blocks(data)[-1][2], len(data))
+
 
 class ReadOnly(Case):
     def as_nobody(self):
@@ -118,7 +131,7 @@ class ReadOnly(Case):
             self.skipTest(f"root may write anywhere, and user {NOBODY} cannot run {PROGRAM}")
         return {"user": NOBODY, "group": NOBODY, "extra_groups": []}
 
-    def test_where_the_folder_is_read_only_each_command_says_so_and_leaves_nothing(self):
+    def test_where_the_folder_is_read_only_each_command_says_so_before_its_work_and_leaves_nothing(self):
         who = self.start_as_nobody()
         self.folder.chmod(0o555)
         self.addCleanup(self.folder.chmod, 0o755)
@@ -128,6 +141,19 @@ class ReadOnly(Case):
             with self.subTest(name):
                 self.told_well(name, self.run_it([PROGRAM, *words], **who))
                 self.assertEqual(list(self.folder.iterdir()), [])
+                self.assertEqual(list(self.base.glob("work.*")), [])  # a map would begin with it
+
+    def test_a_read_only_folder_is_told_at_once_with_the_other_faults(self):
+        who = self.start_as_nobody()
+        self.folder.chmod(0o555)
+        self.addCleanup(self.folder.chmod, 0o755)
+        for words in (["render", PENDULUM, "--png", "p.png", "--quality", "best"],
+                      ["render", PENDULUM, "--mp4", "p.mp4", "--quality", "best"],
+                      ["inspect", ROBOT, "--html", "robot.html", "--at", 0]):
+            done = self.run_it([PROGRAM, *words], **who)
+            self.told_well(words[0], done)
+            self.assertIn(f"{words[3]}: the file cannot be written", done.stderr)
+            self.assertIn(words[4], done.stderr)
 
     def start_as_nobody(self):
         try:
@@ -167,6 +193,15 @@ class Streams(Case):
             data = file.read_bytes()
             self.assertEqual(recorded_blocks(data)[-1][2], len(data), closed)
             file.unlink()
+
+    def test_what_is_said_never_goes_into_a_file_that_is_open(self):
+        """An alarm, said while the run is recorded, that has nowhere to go."""
+        words = [PROGRAM, "simulate", str(SCENES / "tracking_map.toml"), "--step", "0.01", "--record", "run.twinrec"]
+        self.assertIn("alarm", self.run_it(words).stderr)
+        heard = (self.folder / "run.twinrec").read_bytes()
+        for closed in ("2>&-", "<&- 2>&-"):
+            self.run_it(["sh", "-c", " ".join(f"'{w}'" for w in words) + " " + closed])
+            self.assertTrue((self.folder / "run.twinrec").read_bytes() == heard, closed)
 
     def test_nobody_needs_to_read_what_is_said_on_stderr(self):
         for stderr in ("2>&-", "2>/dev/full"):

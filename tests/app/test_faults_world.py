@@ -84,10 +84,11 @@ class Strange(Case):
         folder.mkdir()
         scene = folder / "Pendel Ä.toml"
         shutil.copytree(ROOT / "assets/robots/teaching", self.base / "robots/teaching")
-        scene.write_text(re.sub(r'"(\.\./)?robots/', f'"{self.base}/robots/', PENDULUM.read_text()))
+        text = re.sub(r'"(\.\./)?robots/', f'"{self.base}/robots/', PENDULUM.read_text())
+        scene.write_text(text.replace('name = "pendulum"', 'name = "Foucault\'s"'))
         self.succeeds("simulate", scene, "--record", "Lauf ü.twinrec", "--duration", 0.2, folder=folder)
         for words, file in ((["export", "Lauf ü.twinrec", "Seite ö.html"], "Seite ö.html"),
-                            (["replay", "Lauf ü.twinrec", "--from", 0, "--set", "gravity=0,0,-1", "--plot",
+                            (["replay", "Lauf ü.twinrec", "--from", 0, "--set", "robot.Foucault's.q.hinge=1", "--plot",
                               "Gabel 'é'.svg"], "Gabel 'é'.svg"),
                             (["render", scene, "--png", "Bild ß.png", *SMALL], "Bild ß.png"),
                             (["render", scene, "--mp4", "Film ß.mp4", "--to", 0.1, *SMALL], "Film ß.mp4"),
@@ -209,19 +210,23 @@ class Pages(Case):
 class Ends(Case):
     """What scripts/kill_test meets by chance, on purpose."""
 
-    def struck(self, words, blow, seconds):
+    def struck(self, words, blow, part=None):
+        """After two seconds, or as soon as there is that file."""
         process = subprocess.Popen([PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    text=True, cwd=self.folder, start_new_session=True)
-        time.sleep(seconds)
+        time.sleep(0 if part else 2)
+        while part and not (self.folder / part).exists():
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
         os.killpg(process.pid, blow)
         out, told = process.communicate(timeout=300)
         return process.returncode, out, told
 
     def test_a_terminal_that_is_closed_ends_it_as_ctrl_c_does(self):
-        for kind in ("--mp4", "--gif"):
+        for file, part in (("film.mp4", "film.mp4.part"), ("film.gif", None)):  # a GIF's comes at its end
             if not shutil.which("ffmpeg"):
                 self.skipTest("ffmpeg is not installed")
-            code, _, _ = self.struck(["render", LONG, kind, f"film.{kind[2:]}", "--fps", 1000], signal.SIGHUP, 2)
+            code, _, _ = self.struck(["render", LONG, "--" + file[-3:], file, "--fps", 1000], signal.SIGHUP, part)
             self.assertEqual(code, 130)
             self.assertEqual(list(self.folder.iterdir()), [])
 
@@ -239,7 +244,7 @@ class Ends(Case):
         check_whole(self.folder / "run.twinrec")
 
     def test_ctrl_c_ends_a_run_under_a_hand_and_its_recording_is_made_all_the_same(self):
-        code, out, told = self.struck(["hand", HAND, "--record", "--json", "--out", "."], signal.SIGINT, 2)
+        code, out, told = self.struck(["hand", HAND, "--record", "--json", "--out", "."], signal.SIGINT)
         self.assertEqual(code, 0, told)
         self.assertTrue(json.loads(out)["same_bits"])
         check_whole(self.folder / "run.twinrec")

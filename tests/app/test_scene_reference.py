@@ -142,11 +142,11 @@ class Settings(unittest.TestCase):
             assets = pathlib.Path(place) / "assets"
             (assets / "study").mkdir(parents=True)
             (assets / "robots").symlink_to(ROOT / "assets/robots")
-            (assets / "study/settings.toml").write_text("[[robot.mount]]\n")
+            (assets / "study/settings.toml").write_text("[[robot.mount]]\n" * 2)
             ran = subprocess.run([PROGRAM, "study", "--assets", assets, "--out", pathlib.Path(place) / "out", "--json"],
                                  capture_output=True, text=True, timeout=60)
         self.assertEqual(ran.returncode, 2, ran.stderr)
-        return {fault["where"].replace("[0]", "[]") for fault in json.loads(ran.stdout)["errors"]
+        return {re.sub(r"\[\d\]", "[]", fault["where"]) for fault in json.loads(ran.stdout)["errors"]
                 if fault["file"].endswith("settings.toml")}
 
     def test_each_setting_is_in_docs_study_and_in_the_file_and_no_other(self):

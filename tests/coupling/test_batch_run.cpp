@@ -195,4 +195,7 @@ TEST_CASE("each reason against running side by side is told alone, with what to 
     only("bound", "is ", [&](BatchSetup& setup, Model<double>&) { setup.bound = none; });
     only("duration", "is ", [&](BatchSetup& setup, Model<double>&) { setup.duration = none; });
   }
+  only("duration", "is inf", [](BatchSetup& setup, Model<double>&) {
+    setup.duration = std::numeric_limits<double>::infinity();
+  });
 }

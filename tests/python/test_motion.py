@@ -152,6 +152,7 @@ class Scenes(InFolder):
         scene = self.write("spring.toml", SPRING.format(root=ROOT, h=0.001, k=5.0, b=0.0))
         for change, kind, words in (({"coupling.pull.stiffness": 1}, twinarm.InputError, "pull: this key is not known"),
                                     ({"coupling.hold.stifness": 1}, twinarm.InputError, "stifness"),
+                                    ({"no.such": 1}, twinarm.InputError, "^set\\['no.such'\\]: "),
                                     ({"step": float("nan")}, ValueError, "set\\['step'\\]"),
                                     ({"gravity": [[0, 0, 0]]}, ValueError, "set\\['gravity'\\]"),
                                     ({"step": object()}, TypeError, "set\\['step'\\]")):

@@ -88,6 +88,23 @@ TEST_CASE("limits: one that is struck in a step that locates its events takes wh
 }
 
 TEST_CASE(
+    "limits: one that holds a block lets its gap go by exp(-100 t), and does the work that takes") {
+  constexpr double g = 9.81, h = 1e-3;
+  for (const double start : {EventSource::kClosed, -10 * EventSource::kClosed}) {
+    CAPTURE(start);
+    Slider s(0, kFar, g);
+    s.simulation.locate_events();
+    s.start(start, 0);
+    for (int n = 1; n <= 100; ++n) {
+      REQUIRE(s.simulation.step(h).ok());
+      CHECK(std::abs(s.q() - start * std::exp(-100 * n * h)) < 1e-5 * std::abs(start));
+      const double gained = kMassOfBlock * (g * (s.q() - start) + 0.5 * s.qd() * s.qd());
+      CHECK(std::abs(s.limits.limits()[0].work - gained) < 1e-5 * std::abs(gained));
+    }
+  }
+}
+
+TEST_CASE(
     "limits: what starts beyond one is pushed back without speed, a fifth of the rest a step") {
   constexpr double g = 9.81, beyond = 1e-3;
   Slider s(0, kFar, g);

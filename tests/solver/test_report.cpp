@@ -143,13 +143,32 @@ TEST_CASE("a law that would open a loop is refused, and the run goes on by the o
   CHECK((simulation.kinematics().X_WL[1].p - Vector3(0, 0, 0.1)).norm() < 1e-12);
 }
 
+namespace {
+
+// Pushes with every moment that was begun; they can be taken back.
+struct Counting final : ForceSource, Rewindable {
+  double begun = 0, kept = 0;
+  void begin_step(const Kinematics&, double, double) noexcept override { ++begun; }
+  void add_forces(const State<double>&, const Kinematics&, Forces<double>& f) noexcept override {
+    f.tau[0] += begun;
+  }
+  void keep() override { kept = begun; }
+  void go_back() noexcept override { begun = kept; }
+};
+
+}  // namespace
+
 TEST_CASE("what acts at another state is shown by a copy, and the run is left as it is") {
   const Model<double> model = chain(3);
   Random random(63);
   const State<double> start = random_state(random, model), elsewhere = random_state(random, model);
+  Counting source;
   Simulation simulation(model, start);
+  simulation.add(source);
   Workspace<double> w(model);
-  aba(model, elsewhere, Forces<double>(model), w);
+  Forces<double> pushed(model);
+  pushed.tau[0] = 1;
+  aba(model, elsewhere, pushed, w);
   bool seen = false;
   simulation.evaluate_at(elsewhere, [&](const Simulation& there) {
     seen = true;
@@ -158,6 +177,7 @@ TEST_CASE("what acts at another state is shown by a copy, and the run is left as
     CHECK(there.workspace().qdd == w.qdd);
   });
   CHECK(seen);
+  CHECK(source.begun == 0);
   CHECK(simulation.state().q == start.q);
   CHECK(simulation.state().qd == start.qd);
 }
