@@ -235,8 +235,8 @@ void LabSession::adopt(Built built) {
   LabHistory::Frame from;
   if (goes_on && !(from = start_of(order)))
     return note("error", "that instant is not remembered any more");
-  auto run = std::make_unique<LabRun>(std::move(built.run), order.changes, hand_, from.get());
-  LabLanes lanes(order.lanes, std::move(built.lanes), order.changes, from.get(), names_);
+  auto run = std::make_unique<LabRun>(std::move(built.run), hand_, from.get());
+  LabLanes lanes(order.lanes, std::move(built.lanes), from.get(), names_);
   if (from) run->keep_books(*from, names_);
   for (const std::string& warning : run->warnings())
     if (!goes_on) note("warning", warning);

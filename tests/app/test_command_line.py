@@ -226,63 +226,6 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(sorted(error["line"] for error in errors), [mass + 1, axis + 1])
         self.assertFalse(any("out/" in name for name in self.written()))
 
-    def test_settings_with_faults_are_refused_with_all_of_them(self):
-        assets = self.copy_of_assets()
-        settings = assets / "study" / "settings.toml"
-        text = settings.read_text()
-        for key in ("rate_hz", "contact_stiffness"):
-            self.assertIn(f"\n{key} = ", text)
-            text = text.replace(f"\n{key} = ", f"\nno_{key} = ")
-        settings.write_text(text)
-        self.refused(self.study("--assets", assets), "settings.toml", "rate_hz",
-                     "contact_stiffness")
-
-    def test_settings_that_nothing_reads_are_told_with_their_lines_and_the_nearest_key(self):
-        assets = self.copy_of_assets()
-        settings = assets / "study" / "settings.toml"
-        lines = []
-        wanted = {}  # by where: line, nearest key
-        for line in settings.read_text().splitlines():
-            lines.append(line)
-            for after, where, nearest in (("friction = ", "obstacle.fricton", "friction"),
-                                          ('link = "arm2"', "robot.mount[1].pont", "point"),
-                                          ("[operator]", "operator.sead", "seed")):
-                if line.startswith(after):
-                    lines.append(where.split(".")[-1] + " = 1")
-                    wanted[where] = (len(lines), nearest)
-        lines.append("[protocoll]")
-        wanted["protocoll"] = (len(lines), "protocol")
-        settings.write_text("\n".join([*lines, "rates_hz = [60]"]) + "\n")
-        result = self.study("--json", "--assets", assets)
-        self.refused(result, "settings.toml", "not known")
-        errors = {error["where"]: error for error in json.loads(result.stdout)["errors"]}
-        self.assertEqual({where: error["line"] for where, error in errors.items()},
-                         {where: line for where, (line, _) in wanted.items()})
-        for where, (_, nearest) in wanted.items():
-            self.assertIn(f"did you mean '{nearest}'?", errors[where]["remedy"])
-
-    def test_lists_of_settings_of_the_wrong_kind_or_length_are_refused(self):
-        assets = self.copy_of_assets()
-        settings = assets / "study" / "settings.toml"
-        text = settings.read_text()
-        second = text[text.rindex("[[robot.mount]]"):text.index("# Joint 3")]
-        for before, after in (("\nrates_hz = [30, 60,", '\nrates_hz = [30, "60",'),
-                              ("\nsweep_times = [0.87,", "\nsweep_times = [nan,"),
-                              (', "joint3"]', "]"), (second, ""), ("\nfriction = 0.3", "\nfriction = inf"),
-                              ("[0.90, 0.16, 0.42]", "[0.90, 0.16]")):
-            self.assertEqual(text.count(before), 1, before)
-            text = text.replace(before, after)
-        settings.write_text(text)
-        result = self.study("--json", "--assets", assets)
-        self.refused(result, "settings.toml")
-        errors = {error["where"]: error["rule"] for error in json.loads(result.stdout)["errors"]}
-        self.assertEqual(errors, {"protocol.rates_hz": "must be a list of finite numbers",
-                                  "protocol.sweep_times": "must be a list of finite numbers",
-                                  "robot.turned": "must be a list of 3 texts",
-                                  "robot.mount": "must be 2 tables [[robot.mount]]",
-                                  "obstacle.friction": "must be a finite number",
-                                  "obstacle.size": "must be three finite numbers"})
-
     # Traces
 
     def test_a_trace_is_written_whole_the_same_for_the_same_seed_and_another_for_another(self):

@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -113,6 +114,9 @@ class FullDisk(Case):
                                     "--every", "0.001", "--record", "run.twinrec"], stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True, cwd=self.folder)
         program.stdout.readline()
+        while not (self.folder / "run.twinrec.part").exists():
+            self.assertIsNone(program.poll())
+            time.sleep(0.01)
         (self.folder / "run.twinrec").mkdir()
         _, told = program.communicate(timeout=60)
         self.told_well("recording", subprocess.CompletedProcess([], program.returncode, "", told))

@@ -208,8 +208,8 @@ TEST_CASE("an open mesh is refused at the line of its part, and nothing is writt
 // Within texts brackets do not count, and their lines do.
 TEST_CASE("a recipe that is nested too deep, or too long, is refused before it is parsed") {
   const CubeFolder folder;
-  const std::string before =
-      std::string(kCube) + "note = \"\"\"\n" + std::string(300, '[') + "\n\"\"\"\n";
+  const std::string before = std::string(kCube) + "note = \"\"\"\n" + std::string(300, '[') +
+                             "\n\"\"\"\n" + "said = \"a \\\" " + std::string(300, '[') + "\"\n";
   const auto deep = [](std::size_t depth) {
     return "deep = " + std::string(depth, '[') + std::string(depth, ']') + "\n";
   };
@@ -217,7 +217,7 @@ TEST_CASE("a recipe that is nested too deep, or too long, is refused before it i
   const auto faults = faults_of([&] { read_recipe(folder.recipe(before + deep(201))); });
   INFO(listing(faults));
   CHECK(faults.size() == 1);
-  CHECK(tells(faults, 35, "nested more than 200 deep; no key here has such a place"));
+  CHECK(tells(faults, 36, "nested more than 200 deep; no key here has such a place"));
   const fs::path file = folder.recipe(kCube);
   fs::resize_file(file, (4u << 20) + 1);  // a hole: takes no room on the disk
   CHECK(tells(faults_of([&] { read_recipe(file); }), 0, "more than 4 MiB"));

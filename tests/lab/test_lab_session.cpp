@@ -170,6 +170,9 @@ TEST_CASE("the first who comes has the hand, and others get it in turn") {
   audience.take(13);
   audience.take(12);
   audience.take(13);
+  audience.opened(14);
+  audience.take(14);
+  audience.closed(14);  // who asks and goes asks no more
   CHECK(audience.view().asked == std::vector<ClientId>{13, 12});
   CHECK_FALSE(audience.give(12, 12));  // who has none gives none
   CHECK_FALSE(audience.give(11, 99));

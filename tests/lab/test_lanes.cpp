@@ -54,8 +54,8 @@ struct SideBySide {
     std::vector<std::unique_ptr<LabScene::Plan>> plans;
     for (std::size_t lane = 1; lane < set.values.size(); ++lane)
       plans.push_back(scene.plan(changes_of(lane)));
-    run = std::make_unique<LabRun>(scene.plan(changes_of(0)), changes_of(0), hand, from);
-    others = LabLanes(set, std::move(plans), changes_of(0), from, names);
+    run = std::make_unique<LabRun>(scene.plan(changes_of(0)), hand, from);
+    others = LabLanes(set, std::move(plans), from, names);
     if (from) run->keep_books(*from, names);
     history.begin_segment(changes_of(0));
     history.add(frame());
@@ -140,6 +140,23 @@ TEST_CASE("lanes: of other steps each keeps to the run's clock within half a ste
   }
   for (std::size_t lane = 1; lane < 3; ++lane)
     check_same(s.lane(lane), alone(s, lane, s.lane(lane).recorded.step));
+}
+
+// A hand that goes at its fastest from 0.7 rad on: in a step that begins at t it is at
+// 0.7 + kFastest (t + h), h the run's. A lane whose last step began later has gone on with it.
+TEST_CASE("lanes: of shorter steps they see a hand that moves where it is in each of them") {
+  const LabScene scene = lab_scene(kRod);
+  constexpr double h = 0.004, begin = 0.7;
+  SideBySide s(scene, {"step", {"0.004", "0.002", "0.001"}, {}});
+  s.hand.choose(LabHand::Source::joints);
+  s.hand.joint(0, 100, 0);
+  s.step(16);
+  for (std::size_t lane = 0; lane < 3; ++lane) {
+    const LabFrame& own = lane == 0 ? *s.history.newest() : s.lane(lane);
+    const double last_began = 16 * h - h / std::pow(2, lane);
+    CHECK(own.hand->q_K[0] ==
+          doctest::Approx(begin + LabHand::kFastest * (last_began + h)).epsilon(1e-12));
+  }
 }
 
 // Two lanes of the same value must be the same run, whoever moves it.

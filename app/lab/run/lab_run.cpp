@@ -39,15 +39,14 @@ State<double> state_in(const std::string& bytes) {
 }  // namespace
 
 LabRun::LabRun(const LabScene& scene, const std::vector<Change>& changes, LabHand& hand)
-    : LabRun(scene.plan(changes), changes, hand, nullptr) {}
+    : LabRun(scene.plan(changes), hand, nullptr) {}
 
 LabRun::LabRun(const LabScene& scene, const std::vector<Change>& changes, LabHand& hand,
                const LabFrame& from)
-    : LabRun(scene.plan(changes), changes, hand, &from) {}
+    : LabRun(scene.plan(changes), hand, &from) {}
 
-LabRun::LabRun(std::unique_ptr<LabScene::Plan> plan_of_changes, std::vector<Change> changes,
-               LabHand& hand, const LabFrame* from)
-    : changes_(std::move(changes)), hand_(hand), plan_(std::move(plan_of_changes)) {
+LabRun::LabRun(std::unique_ptr<LabScene::Plan> plan_of_changes, LabHand& hand, const LabFrame* from)
+    : hand_(hand), plan_(std::move(plan_of_changes)) {
   SimulateInput& input = plan_->prepared.input;
   const RunPlan& plan = plan_->prepared.run;
   lead_ = std::make_unique<HandLead>(input.scene.get(), hand_, plan.step);

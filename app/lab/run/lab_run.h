@@ -28,9 +28,8 @@ class LabRun {
   // else it begins anew where the frame stands, ledgers at zero: begun_anew() says why.
   LabRun(const LabScene& scene, const std::vector<Change>& changes, LabHand& hand,
          const LabFrame& from);
-  // The same with a plan that was made elsewhere, of these changes; `from` null: the start.
-  LabRun(std::unique_ptr<LabScene::Plan> plan, std::vector<Change> changes, LabHand& hand,
-         const LabFrame* from);
+  // The same with a plan that was made elsewhere; `from` null: the start.
+  LabRun(std::unique_ptr<LabScene::Plan> plan, LabHand& hand, const LabFrame* from);
   ~LabRun();
 
   // One step, moved by the hand as it is now. False: the run goes on no more, see post_mortem().
@@ -55,7 +54,6 @@ class LabRun {
 
   const SimulatePlan& prepared() const { return plan_->prepared; }
   SteppedRun& view() { return *run_; }
-  const std::vector<Change>& changes() const { return changes_; }
   const std::string& begun_anew() const { return begun_anew_; }  // empty: it was not
   const std::vector<std::string>& warnings() const { return warnings_; }
   // Of the led kinematic robot: joints that a hand drives (bodies that they carry), and where they
@@ -82,7 +80,6 @@ class LabRun {
   bool take();
   PostMortem stopped_by_energy() const;
 
-  std::vector<Change> changes_;
   LabHand& hand_;
   std::unique_ptr<LabScene::Plan> plan_;
   RunWatch watch_;

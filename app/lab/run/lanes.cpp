@@ -21,8 +21,7 @@ HandStep told_at(double t, double h, HandStep told) {
 }  // namespace
 
 LabLanes::LabLanes(const LaneSet& set, std::vector<std::unique_ptr<LabScene::Plan>> plans,
-                   const std::vector<Change>& changes, const LabFrame* from,
-                   const LabNames& names) {
+                   const LabFrame* from, const LabNames& names) {
   for (std::size_t i = 0; i < plans.size(); ++i) {
     Lane lane;
     lane.name = set.values[i + 1];
@@ -31,11 +30,8 @@ LabLanes::LabLanes(const LaneSet& set, std::vector<std::unique_ptr<LabScene::Pla
       lane.last = start.frame;
       lane.stopped = true;
     } else {
-      std::vector<Change> own = changes;
-      put(own, set.change(i + 1));
       lane.nobody = std::make_unique<LabHand>();
-      lane.run = std::make_unique<LabRun>(std::move(plans[i]), std::move(own), *lane.nobody,
-                                          start.frame.get());
+      lane.run = std::make_unique<LabRun>(std::move(plans[i]), *lane.nobody, start.frame.get());
       if (from) lane.run->keep_books(*start.frame, names);
     }
     lanes_.push_back(std::move(lane));

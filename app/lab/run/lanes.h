@@ -18,10 +18,9 @@ namespace twinarm {
 class LabLanes {
  public:
   LabLanes() = default;  // none
-  // Plans by lane, from the second on, each of `changes` with its own value; `from` null: the
-  // start. Throws InputError.
+  // Plans by lane, from the second on; `from` null: the start. Throws InputError.
   LabLanes(const LaneSet& set, std::vector<std::unique_ptr<LabScene::Plan>> plans,
-           const std::vector<Change>& changes, const LabFrame* from, const LabNames& names);
+           const LabFrame* from, const LabNames& names);
 
   // After each step of the run: all up to its time, by what came from outside in that step.
   void follow(const LabRun& run);
