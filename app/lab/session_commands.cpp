@@ -38,6 +38,7 @@ void LabSession::take_commands() {
     const auto done = one.order.done;
     try {
       adopt(std::move(one));
+      publish();  // its start is seen and remembered, however soon steps follow
       if (done) done("");
     } catch (const InputError& error) {
       std::string words;

@@ -98,6 +98,18 @@ TEST_CASE("lab session: of more notes than are kept the last are told") {
   CHECK(lab.session.now().status->notes.size() == 20);
 }
 
+TEST_CASE("lab session: what is remembered of a run begins at its start, however many steps wait") {
+  ToldSession lab;
+  const long before = lab.session.now().change_number;
+  lab.session.push(parse_command(R"({"do": "step", "steps": 100000})"));
+  lab.session.push(parse_command(R"({"do": "reset"})"));
+  REQUIRE(ToldSession::waits_until([&] { return lab.session.now().change_number > before; }));
+  CHECK(lab.session.now().frame);
+  CHECK(ToldSession::waits_until([&] { return lab.session.now().status->time > 0.1; }));
+  REQUIRE_FALSE(lab.session.history(0).empty());
+  CHECK(lab.session.history(0).front()->recorded.t == 0);
+}
+
 TEST_CASE("a command is read with all that it brings") {
   const LabCommand pull = parse_command(
       R"({"do": "pull", "body": 3, "point": [0.5, -1, 2], "goal": [1, 2, 3.25], "stamp": 12.5})");
