@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/record/recording_reader.h"
 #include "solver/fault.h"
@@ -73,11 +74,14 @@ Workshop::~Workshop() {
 }
 
 void Workshop::order(Order order) {
+  std::optional<Order> left;
   {
     const std::lock_guard lock(mutex_);
-    next_ = std::move(order);
+    left = std::exchange(next_, std::move(order));
   }
   wake_.notify_all();
+  if (left && left->done)
+    left->done("something else was asked for before this was begun; try again");
 }
 
 // It was tried already, with an order before this one.

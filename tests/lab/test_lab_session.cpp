@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <thread>
@@ -108,6 +109,23 @@ TEST_CASE("lab session: what is remembered of a run begins at its start, however
   CHECK(ToldSession::waits_until([&] { return lab.session.now().status->time > 0.1; }));
   REQUIRE_FALSE(lab.session.history(0).empty());
   CHECK(lab.session.history(0).front()->recorded.t == 0);
+}
+
+TEST_CASE("lab session: whoever opens a file is answered, also where others do at the same time") {
+  std::atomic<int> answered = 0;
+  {
+    ToldSession lab;
+    for (int n = 0; n < 20; ++n) {
+      Order order;
+      order.file =
+          std::filesystem::path(TWINARM_SOURCE_DIR) / "assets/scenes/hand_and_obstacles.toml";
+      order.name = "hand_and_obstacles";
+      order.done = [&](const std::string&) { ++answered; };
+      lab.session.open(std::move(order));
+    }
+    CHECK(ToldSession::waits_until([&] { return answered == 20; }));
+  }
+  CHECK(answered == 20);
 }
 
 TEST_CASE("a command is read with all that it brings") {
