@@ -55,7 +55,7 @@ class CommandLine(unittest.TestCase):
     def test_a_study_gives_its_json_its_report_and_the_numbers_that_it_must_reach(self):
         out = self.folder / "new" / "study"
         trace = ASSETS / "traces" / "synthetic_seed1.csv"
-        result = run("study", "--out", out, "--trace", trace, "--json", timeout=300)
+        result = run("study", "--out", out, "--trace", trace, "--json", timeout=3000)
         self.assertEqual(result.returncode, 0, result.stderr)
         study = json.loads(result.stdout)
         published = {"E3": (16.6, 23.5, 8.6, 5.2), "E4": (3.4, 6.0, 0.3, 0.6)}
