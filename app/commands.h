@@ -9,7 +9,11 @@
 
 #include "app/dynamics/robot_input.h"
 #include "app/find_assets.h"
+#include "app/inspect/command/inspect_options.h"
+#include "app/map/map_options.h"
+#include "app/show/command/render_options.h"
 #include "app/simulate/simulate_options.h"
+#include "app/zwidth/zwidth_options.h"
 
 namespace twinarm {
 
@@ -40,18 +44,6 @@ struct DynamicsOptions {
 };
 int run_dynamics(const DynamicsOptions& options);
 
-struct InspectOptions {
-  std::filesystem::path html;        // a page; empty: text on stdout
-  std::vector<std::string> command;  // as it was typed
-  RobotOptions robot;
-  std::vector<std::string> passes, bodies;  // none: all
-  std::string axes = "world";               // of the wrenches: world, link, or a body's name
-  std::string about = "origin";             // origin, com, a body's name, or x,y,z in the world
-  std::vector<std::string> forces;          // by name; none: all
-  std::optional<double> step;               // of a scene [s]; left out: the scene's
-  std::optional<double> at;                 // of a recording [s]; left out: its end
-  bool json = false;
-};
 int run_inspect(const InspectOptions& options);  // 1 where a check falls short
 
 struct ModesOptions {
@@ -135,47 +127,10 @@ struct ReplayOptions {
 };
 int run_replay(const ReplayOptions& options);  // 1 where a bit differs from the recording
 
-struct RenderOptions {
-  RobotOptions robot;                           // its model: a recording, a scene or a URDF
-  std::filesystem::path png, frames, mp4, gif;  // exactly one is given
-  std::optional<double> at, from, to;           // [s]
-  std::string size = "1280x720", camera = "auto", show = "ghost,couplings";
-  std::string plot = "none", quality = "normal", background = "studio", gl = "osmesa";
-  std::filesystem::path beside;  // a second recording; empty: none
-  double slow = 1;               // times slower than life
-  std::optional<double> fps;     // left out: 30, of a GIF 25
-  bool json = false;
-};
 int run_render(const RenderOptions& options);
 
-struct MapOptions {
-  std::filesystem::path scene;
-  std::string x, y;                      // PATH:FROM:TO:N[:log]
-  std::string measure = "stable", of;    // `of`: a coupling's name; empty: the first
-  std::optional<double> duration, step;  // [s]; left out: as the scene says
-  std::string integrator;
-  std::filesystem::path svg, png, csv;  // empty: none
-  std::filesystem::path work;           // where finished blocks are kept; empty: below out/map
-  int tiles = 0, tile = -1;             // one part of many
-  std::vector<std::filesystem::path> merge;
-  std::string cell;              // "IX,IY", opened
-  std::filesystem::path record;  // its recording
-  unsigned threads = 0;          // 0: all processors
-  bool alone = false;            // each cell by itself, as `simulate` runs it
-  bool force = false, json = false;
-};
 int run_map(const MapOptions& options);
 
-struct ZwidthOptions {
-  double mass = 0.045, damping = 0.1;           // of the device [kg], [N s/m]
-  double friction = 0.26, resolution = 5.5e-5;  // [N], [m]
-  double rate = 1000;                           // [Hz]
-  int delay = 0;                                // [ticks]
-  double wall_damping = 1;                      // [N s/m]
-  unsigned seed = 1;
-  std::filesystem::path svg, png;  // empty: none
-  bool csv = false, json = false;
-};
 int run_zwidth(const ZwidthOptions& options);
 
 struct CompareOptions {

@@ -14,6 +14,7 @@
 #include "app/options/options.h"
 #include "app/program.h"
 #include "app/streams.h"
+#include "app/version.h"
 #include "solver/fault.h"
 
 namespace twinarm {
@@ -89,7 +90,8 @@ int run_program(int argc, char** argv) {
   CLI::App app{"twinarm: a glass-box multibody laboratory\n\nExample:  twinarm study"};
   app.formatter(help_formatter());
   app.require_subcommand(1);
-  app.set_version_flag("--version", "twinarm " TWINARM_VERSION, "Print the version and exit");
+  app.set_version_flag("--version", std::string("twinarm ") + kVersion,
+                       "Print the version and exit");
   CommandLine line{{argv, argv + argc}, {}};
   for (const auto add : kAddCommands) add(app, line);
   const bool as_json =

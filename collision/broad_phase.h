@@ -6,13 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "solver/pose.h"
+#include "collision/aabb.h"
 
 namespace twinarm {
-
-struct Aabb {  // in W [m]
-  Vector3 low, high;
-};
 
 class BroadPhase {
  public:

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "collision/broad_phase.h"
+#include "collision/aabb.h"
 #include "collision/clip.h"
 #include "collision/solid.h"
 

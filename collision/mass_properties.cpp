@@ -20,7 +20,6 @@
 #include <numbers>
 #include <string>
 
-#include "collision/mesh_file.h"
 #include "solver/fault.h"
 
 namespace twinarm {

@@ -13,4 +13,8 @@ struct TriangleMesh {
   std::vector<std::array<int, 3>> triangles;  // counter-clockwise seen from outside
 };
 
+// Each directed edge occurs once and its reverse occurs once: the surface has no border, and all
+// triangles agree on which side is outside. O(n log n).
+bool is_closed(const TriangleMesh& mesh);
+
 }  // namespace twinarm

@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "collision/mesh_file.h"
-
 namespace twinarm {
 namespace {
 

@@ -12,8 +12,4 @@ namespace twinarm {
 // Throws InputError where read_model() (model_file.h) does, or where nothing has three corners.
 TriangleMesh load_mesh(const std::filesystem::path& file, double scale);
 
-// Each directed edge occurs once and its reverse occurs once: the surface has no border, and all
-// triangles agree on which side is outside. O(n log n).
-bool is_closed(const TriangleMesh& mesh);
-
 }  // namespace twinarm

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "collision/broad_phase.h"
+#include "collision/aabb.h"
 #include "collision/shape.h"
 #include "collision/solid.h"
 

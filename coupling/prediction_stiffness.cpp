@@ -3,22 +3,15 @@
 #include <array>
 #include <cmath>
 
+#include "solver/configuration.h"
 #include "solver/dense_algebra.h"
 #include "solver/dynamics.h"
-#include "solver/integrator.h"
 
 namespace twinarm {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-MatrixXd mass_matrix(const Model<double>& model, const State<double>& x) {
-  Workspace<double> w(model);
-  crba(model, x, w);
-  const auto n = static_cast<Index>(model.nv);
-  return Eigen::Map<const MatrixXd>(w.M.data(), n, n);  // symmetric
-}
 
 // Inverse dynamics at qdd = 0 gives bias - J^T f_ext: twice, for its difference.
 VectorXd generalised_force(const Model<double>& model, const State<double>& x,

@@ -10,12 +10,10 @@
 #include <functional>
 
 #include "solver/kinematics.h"
+#include "solver/mass_matrix.h"
 #include "solver/workspace.h"
 
 namespace twinarm {
-
-// The mass matrix at a pose.
-Eigen::MatrixXd mass_matrix(const Model<double>& model, const State<double>& x);
 
 // The generalised force of what pushes, by velocities of the model; O(n).
 Eigen::VectorXd generalised_force(const Model<double>& model, const State<double>& x,

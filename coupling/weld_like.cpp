@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "coupling/prediction.h"
 #include "coupling/pull.h"
 #include "solver/dense_algebra.h"
 #include "solver/fault.h"
+#include "solver/mass_matrix.h"
 #include "solver/spring.h"
 
 namespace twinarm {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/configuration.h"
 #include "solver/dynamics.h"
 #include "solver/integrator_explicit.h"
 

@@ -13,21 +13,11 @@
 
 #include "solver/batch.h"
 #include "solver/dual.h"
+#include "solver/pass_table.h"
 #include "solver/trace.h"
-#include "solver/workspace.h"
 
 namespace twinarm {
 
-template <class S>
-struct Passes {
-  void (*aba)(const Model<S>&, const State<S>&, const Forces<S>&, Workspace<S>&);
-  void (*rnea)(const Model<S>&, const State<S>&, const std::vector<S>&,
-               const std::vector<Force<S>>&, Workspace<S>&);
-  void (*crba)(const Model<S>&, const State<S>&, Workspace<S>&);
-  void (*minv_times)(const Model<S>&, const std::vector<S>&, const std::vector<Force<S>>&,
-                     Workspace<S>&);
-  void (*kinematics)(const Model<S>&, const State<S>&, Workspace<S>&);
-};
 enum class Isa { generic, v3, v4 };  // x86-64, and its levels 3 (AVX2, FMA) and 4 (AVX-512)
 const char* name_of(Isa isa);
 Isa best_isa();  // of this processor and build, capped by TWINARM_ISA

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/integrator.h"
+#include "solver/configuration.h"
 #include "solver/integrator_events.h"
 
 namespace twinarm {

@@ -1,17 +1,14 @@
-// The integrators' names, and the integration of coordinates on the joints' groups.
+// The integrators: names, orders, formulas.
 //
 // A step of size h goes from (q, v) to (q', v'); a(q, v) is the acceleration that ABA gives, and
-// q exp(theta) is the mechanism moved by theta, one number per velocity, joint by joint on the
-// joint's group (a sum for angles and lengths, a product of rotations for spherical and free
-// joints). Runge-Kutta methods work in theta (Munthe-Kaas 1998).
+// q exp(theta) the configuration moved by theta (solver/configuration.h). Runge-Kutta methods work
+// in theta (Munthe-Kaas 1998).
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
-#include <vector>
-
-#include "solver/model.h"
 
 namespace twinarm {
 
@@ -58,17 +55,5 @@ constexpr const char* integrator_name(Integrator integrator) {
   return facts_of(integrator).name;
 }
 std::optional<Integrator> find_integrator(std::string_view name);
-
-// q_out = q exp(shift), joint by joint; shift has one number per velocity. q_out may be q.
-void integrate_coordinates(const Model<double>& model, const std::vector<double>& q,
-                           const std::vector<double>& shift, std::vector<double>& q_out);
-
-// d theta/dt for q(t) = q(0) exp(theta(t)) and velocity qd, joint by joint.
-void shift_rate(const Model<double>& model, const std::vector<double>& theta,
-                const std::vector<double>& qd, std::vector<double>& rate);
-
-// |q| by velocity, to which a relative tolerance refers: 0 for the three of a rotation.
-void coordinate_sizes(const Model<double>& model, const std::vector<double>& q,
-                      std::vector<double>& size);
 
 }  // namespace twinarm

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/configuration.h"
+
 namespace twinarm {
 namespace {
 

@@ -1,5 +1,7 @@
 #include "solver/integrator_explicit.h"
 
+#include "solver/configuration.h"
+
 namespace twinarm {
 namespace {
 

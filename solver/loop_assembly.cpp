@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/configuration.h"
 #include "solver/dynamics.h"
-#include "solver/integrator.h"
 #include "solver/loop_faults.h"
 #include "solver/loop_forces.h"
 #include "solver/mimic.h"

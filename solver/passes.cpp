@@ -1,10 +1,12 @@
 // The passes for one scalar (TWINARM_SCALAR) at one level of the instruction set (TWINARM_ISA).
 // Compiled once for each pair that solver/CMakeLists.txt lists.
 #include "solver/aba.h"
+#include "solver/batch.h"
 #include "solver/crba.h"
-#include "solver/dynamics.h"
+#include "solver/dual.h"
 #include "solver/kinematics_pass.h"
 #include "solver/minv.h"
+#include "solver/pass_table.h"
 #include "solver/rnea.h"
 
 namespace twinarm::TWINARM_ISA {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "solver/integrator.h"
+#include "solver/configuration.h"
 
 namespace twinarm {
 

@@ -14,7 +14,7 @@
 #include "app/lab/knobs/gallery.h"
 #include "app/lab/run/lab_scene.h"
 #include "app/lab/run/lane_set.h"
-#include "app/lab/stream/lab_view.h"
+#include "app/lab/scene_words.h"
 
 namespace twinarm {
 

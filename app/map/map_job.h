@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "app/commands.h"
 #include "app/map/cell_measure.h"
 #include "app/map/map_axis.h"
+#include "app/map/map_options.h"
 #include "app/scene/toml_tree.h"
 #include "app/simulate/simulate_input.h"
 

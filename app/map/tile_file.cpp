@@ -6,6 +6,7 @@
 
 #include "app/output_file.h"
 #include "app/record/recording.h"
+#include "app/version.h"
 #include "solver/memory.h"
 
 namespace twinarm {
@@ -54,8 +55,7 @@ MapBlocks blocks_of(const MapJob& job) {
 
 TileFile empty_tile_file(const MapJob& job) {
   TileFile file;
-  file.head = {std::string("program ") + TWINARM_VERSION,
-               "scene " + job.run.robot.model.generic_string()};
+  file.head = {std::string("program ") + kVersion, "scene " + job.run.robot.model.generic_string()};
   file.head.insert(file.head.end(), job.identity.begin(), job.identity.end());
   return file;
 }

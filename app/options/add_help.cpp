@@ -7,6 +7,7 @@
 #include "app/nearest_name.h"
 #include "app/options/manual.h"
 #include "app/options/options.h"
+#include "app/version.h"
 #include "solver/fault.h"
 
 namespace twinarm {
@@ -29,7 +30,7 @@ CLI::App* find_command(CLI::App& parent, const std::string& name) {
 
 int tell_help(CLI::App& program, const HelpOptions& asked) {
   if (asked.man) {
-    fmt::print("{}", man_page(program, TWINARM_VERSION));
+    fmt::print("{}", man_page(program, kVersion));
   } else if (asked.completion) {
     fmt::print("{}", shell_completion(program));
   } else {

@@ -1,9 +1,9 @@
-// PATH=VALUE put into a scene's tree.
+#include "app/scene/change_scene.h"
+
 #include <algorithm>
 #include <array>
 
 #include "app/nearest_name.h"
-#include "app/record/unpack.h"
 #include "app/scene/coupling_keys.h"
 #include "collision/import/number_text.h"
 

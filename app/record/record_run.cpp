@@ -5,6 +5,7 @@
 
 #include "app/dynamics/robot_table.h"
 #include "app/output_file.h"
+#include "app/version.h"
 #include "solver/energy.h"
 
 namespace twinarm {
@@ -129,7 +130,7 @@ void add_contacts_of(const SceneContacts* all, RecordedFrame& frame) {
 RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& prepared,
                           std::vector<std::string> command) {
   RecordingHeader header;
-  header.program = TWINARM_VERSION;
+  header.program = kVersion;
   header.command = std::move(command);
   header.options = options;
   header.options.change_scene = nullptr;

@@ -7,22 +7,10 @@
 #include <vector>
 
 #include "app/record/recording_reader.h"
+#include "app/scene/change_scene.h"
 #include "app/simulate/simulate_input.h"
 
 namespace twinarm {
-
-// "coupling[0].stiffness=800", "coupling.stiffness=800" (all), "coupling.NAME.stiffness=800",
-// "robot.q.joint1=0.5", "gravity=0,0,-1.62", "gravity[2]=-1.62".
-struct Change {
-  std::string path, value;
-};
-// Throws InputError for what has no '='.
-Change parse_change(const std::string& text);
-// To a scene's tree; adds a fault where the path leads nowhere. Tables and keys below the top that
-// are missing are made: the reader knows whether there are such. With another `type` a coupling
-// loses the keys that the new one has not (app/scene/coupling_keys.h). `line`: what it writes
-// stands there.
-void apply(const Change& change, int line, TomlValue& scene, FaultList& faults);
 
 // The recording's files in a temporary folder, which goes with it.
 class UnpackedRun {

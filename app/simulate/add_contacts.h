@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/scene/scene_model.h"
-#include "app/simulate/ledger.h"
+#include "app/simulate/ledger_row.h"
 #include "collision/contact_constraints.h"
 #include "solver/fault.h"
 #include "solver/joint_limits.h"

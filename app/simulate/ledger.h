@@ -23,15 +23,11 @@
 #include "app/dynamics/robot_input.h"
 #include "app/scene/scene_couplings.h"
 #include "app/simulate/given_forces.h"
+#include "app/simulate/ledger_row.h"
 #include "solver/integrator.h"
 #include "solver/memory.h"
 
 namespace twinarm {
-
-struct LedgerRow {
-  std::string name;
-  double work = 0;  // [J]
-};
 
 class Ledger {
  public:

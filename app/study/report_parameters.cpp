@@ -5,10 +5,7 @@
 #include <algorithm>
 
 #include "app/study/report_sections.h"
-
-#ifndef TWINARM_VERSION
-#define TWINARM_VERSION "0.1.0"
-#endif
+#include "app/version.h"
 
 namespace twinarm {
 namespace {
@@ -72,7 +69,7 @@ std::string versions() {
 #else
   const std::string compiler = fmt::format("g++ {}", __VERSION__);
 #endif
-  return fmt::format("twinarm {}, {}, Eigen {}.{}.{}, fmt {}.{}.{}", TWINARM_VERSION, compiler,
+  return fmt::format("twinarm {}, {}, Eigen {}.{}.{}, fmt {}.{}.{}", kVersion, compiler,
                      EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
                      FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
 }

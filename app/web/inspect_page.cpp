@@ -1,5 +1,6 @@
 #include "app/web/inspect_page.h"
 
+#include "app/version.h"
 #include "app/web/page_facts.h"
 #include "app/web/page_form.h"
 #include "app/web/page_layers.h"
@@ -32,7 +33,7 @@ std::string inspect_page(const SimulateInput& input, const State<double>& x,
   json.key("title").text(words.title);
   json.key("state").text(words.state);
   json.key("command").text(command_line(words.command));
-  json.key("version").text(TWINARM_VERSION);
+  json.key("version").text(kVersion);
   json.key("inspection").text(inspection);
   layers.write(json, bytes);
   write_view(json, stage);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/commands.h"
+#include "app/zwidth/zwidth_options.h"
 #include "coupling/device/sampled_wall.h"
 
 namespace twinarm {

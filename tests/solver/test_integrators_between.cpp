@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "solver/configuration.h"
 #include "solver/simulation.h"
 #include "tests/solver/random_tree.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "benchmarks/analytic/loop_cases.h"
-#include "solver/integrator.h"
+#include "solver/configuration.h"
 #include "solver/loop_factors.h"
 #include "solver/loop_faults.h"
 #include "tests/solver/count_allocations.h"

@@ -1,7 +1,7 @@
 // What `twinarm inspect` is asked to show, out of its options.
 #pragma once
 
-#include "app/commands.h"
+#include "app/inspect/command/inspect_options.h"
 #include "app/inspect/command/inspect_output.h"
 #include "solver/fault.h"
 

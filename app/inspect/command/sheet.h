@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/inspect/shown.h"
-
 namespace twinarm {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 // Five digits, four where there is an exponent; what is below 1e-13 of `scale` is 0.
 std::string short_number(double value, double scale = 1);

@@ -22,18 +22,13 @@
 #include <vector>
 
 #include "app/lab/run/lab_frame.h"
+#include "app/lab/scene_words.h"
 #include "app/lab/stream/lane_views.h"
 #include "app/simulate/simulate_input.h"
 
 namespace twinarm {
 
 class DrawList;
-
-// What the scene's message says besides.
-struct SceneWords {
-  std::string title, file;        // title empty: the file's name in words
-  std::vector<std::string> look;  // what to look for
-};
 
 // What the session knows of a frame that the frame does not say.
 struct FrameFacts {

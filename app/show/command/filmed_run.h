@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "app/commands.h"
 #include "app/progress.h"
 #include "app/record/recording_reader.h"
 #include "app/record/shown_instant.h"
 #include "app/record/unpack.h"
+#include "app/show/command/render_options.h"
 #include "app/simulate/simulate_input.h"
 
 namespace twinarm {
