@@ -1,4 +1,5 @@
 #include "app/compare/compare.h"
+#include "benchmarks/analytic/registry/analytic_cases.h"
 
 #include <algorithm>
 #include <chrono>

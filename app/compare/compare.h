@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/analytic/analytic_case.h"
-#include "benchmarks/analytic/run_trajectory.h"
-#include "solver/fault.h"
+#include "benchmarks/analytic/registry/analytic_cases.h"
+#include "benchmarks/analytic/support/run_trajectory.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 

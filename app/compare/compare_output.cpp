@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "app/compare/compare.h"
-#include "app/text_table.h"
+#include "app/data/text_table.h"
 
 namespace twinarm {
 namespace {

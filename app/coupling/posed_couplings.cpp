@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/dynamics.h"
+#include "solver/dynamics/dynamics.h"
 
 namespace twinarm {
 

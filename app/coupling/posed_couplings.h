@@ -2,14 +2,14 @@
 // the kinematic side held still.
 #pragma once
 
-#include "app/coupling/predicted.h"
+#include "app/coupling/prediction.h"
 
 namespace twinarm {
 
 class PosedCouplings {
  public:
   explicit PosedCouplings(const SimulateInput& input);
-  // By rows (app/coupling/predicted.h).
+  // By rows (app/coupling/prediction.h).
   Eigen::MatrixXd M() const { return by_rows(all_M_); }
   Eigen::MatrixXd joint_damping() const;
   Eigen::VectorXd gravity() const;  // what holds the robots up: G of M qdd + C + G = tau

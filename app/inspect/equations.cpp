@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/inspect/shown.h"
+#include "app/inspect/displayed_quantities.h"
 
 namespace twinarm {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "solver/dynamics.h"
+#include "solver/dynamics/dynamics.h"
 
 namespace twinarm {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "solver/kinematics.h"
-#include "solver/loop_closure.h"
-#include "solver/trace.h"
-#include "solver/workspace.h"
+#include "solver/dynamics/kinematics.h"
+#include "solver/loops/loop_closure.h"
+#include "solver/model/trace.h"
+#include "solver/model/workspace.h"
 
 namespace twinarm {
 

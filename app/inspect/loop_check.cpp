@@ -4,14 +4,14 @@
 // looked at: g is made of poses alone, along a curve with the velocity and the acceleration of the
 // motion, and differenced twice,
 //   g'' = (g(s) - 2 g(0) + g(-s)) / s^2 + series in s^2,
-// with Richardson's extrapolation to order 8. g as in solver/loop_closure.h, by the pose of C_b in
-// C_a; of a distance half of its square over it, which has the same g'' where g = g' = 0 and no
-// root. Errors are parts of the largest of: accelerations of both ends, gravity, and what pushes
+// with Richardson's extrapolation to order 8. g as in solver/loops/loop_closure.h, by the pose of
+// C_b in C_a; of a distance half of its square over it, which has the same g'' where g = g' = 0 and
+// no root. Errors are parts of the largest of: accelerations of both ends, gravity, and what pushes
 // over the mass that it pushes, for g'' is what they leave. Cost O(n) a loop.
 #include <algorithm>
 #include <cmath>
 
-#include "app/inspect/checks.h"
+#include "app/inspect/cross_checks.h"
 #include "app/inspect/motion_curve.h"
 
 namespace twinarm {

@@ -3,11 +3,11 @@
 #include <array>
 #include <cmath>
 
-#include "app/inspect/balance.h"
-#include "app/inspect/checks.h"
+#include "app/inspect/cross_checks.h"
+#include "app/inspect/force_balance.h"
 #include "app/inspect/motion_curve.h"
-#include "solver/convert.h"
-#include "solver/dynamics.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/model/convert_model.h"
 
 namespace twinarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/dynamics.h"
+#include "solver/dynamics/dynamics.h"
 
 namespace twinarm {
 

@@ -4,9 +4,9 @@
 #include <tuple>
 #include <utility>
 
-#include "app/inspect/checks.h"
-#include "app/inspect/second_way.h"
-#include "solver/dense_algebra.h"
+#include "app/inspect/crba_rnea_reference.h"
+#include "app/inspect/cross_checks.h"
+#include "solver/linear_algebra/dense_algebra.h"
 
 namespace twinarm {
 namespace {

@@ -5,10 +5,10 @@
 #include <map>
 #include <utility>
 
-#include "app/scene/scene_names.h"
-#include "coupling/automatic_motion.h"
-#include "coupling/batch_run.h"
-#include "coupling/device/hand_log.h"
+#include "app/scene/read/scene_names.h"
+#include "coupling/batch/batch_run.h"
+#include "coupling/device/device_log.h"
+#include "coupling/target/automatic_motion.h"
 
 namespace twinarm {
 namespace {

@@ -1,5 +1,5 @@
-// Cells of a map side by side in the lanes of the processor (coupling/batch_run.h): a fast way for
-// scenes that it can do. The numbers are those of run_cell() to rounding.
+// Cells of a map side by side in the lanes of the processor (coupling/batch/batch_run.h): a fast
+// way for scenes that it can do. The numbers are those of run_cell() to rounding.
 //
 // It takes one robot on its base with couplings alone: nothing that touches, no constraints, no
 // Coulomb friction, no held forces; integrator `semi-implicit`; axes that are the step, or the

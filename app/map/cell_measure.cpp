@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/simulate/run_end.h"
-#include "solver/energy.h"
+#include "app/run/run_end.h"
+#include "solver/dynamics/energy.h"
 
 namespace twinarm {
 namespace {

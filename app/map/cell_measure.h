@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "app/simulate/run.h"
+#include "app/run/run.h"
 
 namespace twinarm {
 

@@ -1,6 +1,6 @@
 #include "app/map/cell_run.h"
 
-#include "app/interrupt.h"
+#include "app/support/interrupt.h"
 
 namespace twinarm {
 

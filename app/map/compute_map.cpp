@@ -10,11 +10,11 @@
 #include <mutex>
 #include <thread>
 
-#include "app/interrupt.h"
 #include "app/map/cell_batch.h"
 #include "app/map/cell_run.h"
-#include "app/progress.h"
-#include "solver/whole_file.h"
+#include "app/support/interrupt.h"
+#include "app/support/progress.h"
+#include "solver/support/atomic_file.h"
 
 namespace twinarm {
 namespace {

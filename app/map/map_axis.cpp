@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "collision/import/number_text.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

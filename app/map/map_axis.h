@@ -4,12 +4,12 @@
 #include <optional>
 #include <string>
 
-#include "solver/fault.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 
 struct MapAxis {
-  std::string path;  // of the number in the scene file (app/map/scene_path.h)
+  std::string path;  // of the number in the scene file (app/scene/read/parameter_path.h)
   double from = 0, to = 0;
   int count = 0;  // cells, both ends included
   bool log = false;

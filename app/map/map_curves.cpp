@@ -6,8 +6,8 @@
 #include <functional>
 #include <optional>
 
-#include "coupling/prediction.h"
-#include "solver/dense_algebra.h"
+#include "coupling/analysis/prediction.h"
+#include "solver/linear_algebra/dense_algebra.h"
 
 namespace twinarm {
 namespace {

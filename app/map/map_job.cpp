@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "app/map/cell_batch.h"
-#include "app/map/scene_path.h"
-#include "app/nearest_name.h"
 #include "app/record/record_run.h"
-#include "collision/import/number_text.h"
+#include "app/scene/read/parameter_path.h"
+#include "app/support/nearest_name.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

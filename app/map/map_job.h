@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "app/data/toml_tree.h"
 #include "app/map/cell_measure.h"
 #include "app/map/map_axis.h"
 #include "app/map/map_options.h"
-#include "app/scene/toml_tree.h"
-#include "app/simulate/simulate_input.h"
+#include "app/run/simulate_input.h"
 
 namespace twinarm {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/json_writer.h"
-#include "collision/import/number_text.h"
+#include "app/data/json_writer.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

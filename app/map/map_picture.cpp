@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "app/map/map_output.h"
-#include "app/study/gnuplot.h"
-#include "collision/import/number_text.h"
+#include "app/plot/gnuplot.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "app/interrupt.h"
+#include "app/data/toml_text.h"
 #include "app/record/record_run.h"
-#include "app/scene/toml_text.h"
-#include "collision/import/number_text.h"
-#include "solver/whole_file.h"
+#include "app/support/interrupt.h"
+#include "solver/support/atomic_file.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

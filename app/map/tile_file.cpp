@@ -4,10 +4,10 @@
 
 #include <cstring>
 
-#include "app/output_file.h"
 #include "app/record/recording.h"
-#include "app/version.h"
-#include "solver/memory.h"
+#include "app/support/output_file.h"
+#include "app/support/version.h"
+#include "solver/support/state_archive.h"
 
 namespace twinarm {
 namespace {
@@ -55,7 +55,7 @@ MapBlocks blocks_of(const MapJob& job) {
 
 TileFile empty_tile_file(const MapJob& job) {
   TileFile file;
-  file.head = {std::string("program ") + kVersion, "scene " + job.run.robot.model.generic_string()};
+  file.head = {std::string("program ") + kProgramVersion, "scene " + job.run.robot.model.generic_string()};
   file.head.insert(file.head.end(), job.identity.begin(), job.identity.end());
   return file;
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/find_input.h"
-#include "collision/import/number_text.h"
+#include "app/support/find_input.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm::python {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "solver/kinematics.h"
-#include "solver/spatial.h"
+#include "solver/dynamics/kinematics.h"
+#include "solver/spatial/spatial.h"
 
 namespace twinarm::python {
 

@@ -5,13 +5,13 @@
 #include <numbers>
 #include <optional>
 
-#include "app/coupling/predicted.h"
+#include "app/coupling/prediction.h"
 #include "app/python/arrays.h"
 #include "app/python/bind.h"
 #include "app/python/scene_change.h"
-#include "collision/import/number_text.h"
-#include "coupling/coupling_spec.h"
-#include "coupling/prediction_limits.h"
+#include "coupling/analysis/stability_limits.h"
+#include "coupling/laws/coupling_spec.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm::python {
 namespace {

@@ -1,8 +1,8 @@
 // The Python module `twinarm`: docs/python.md. What it takes and gives is said in twinarm.pyi.
 #include "app/python/bind.h"
-#include "app/version.h"
-#include "solver/dynamics.h"
-#include "solver/fault.h"
+#include "app/support/version.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/support/diagnostics.h"
 
 namespace py = pybind11;
 
@@ -18,7 +18,7 @@ PYBIND11_MODULE(twinarm, m) {
       "    import numpy as np, twinarm\n"
       "    puma = twinarm.load('assets/robots/puma560/puma560.urdf')\n"
       "    twinarm.aba(puma, np.zeros(6), np.zeros(6), np.zeros(6))";
-  m.attr("__version__") = kVersion;
+  m.attr("__version__") = kProgramVersion;
   m.attr("instruction_set") = name_of(best_isa());
   py::register_exception<InputError>(m, "InputError", PyExc_ValueError).doc() =
       "A file or an option is wrong. The text tells all faults, one per line: where, which rule,\n"

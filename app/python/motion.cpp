@@ -2,10 +2,10 @@
 #include "app/python/arrays.h"
 #include "app/python/bind.h"
 #include "app/python/robot.h"
-#include "solver/dynamics.h"
-#include "solver/forward_dynamics.h"
-#include "solver/mimic.h"
-#include "solver/world.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/world_kinematics.h"
+#include "solver/loops/constrained_dynamics.h"
+#include "solver/model/mimic.h"
 
 namespace twinarm::python {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "app/python/bind.h"
 #include "app/python/fast_arguments.h"
-#include "solver/dynamics.h"
+#include "solver/dynamics/dynamics.h"
 
 namespace twinarm::python {
 namespace {

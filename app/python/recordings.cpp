@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <memory>
 
-#include "app/nearest_name.h"
 #include "app/python/arrays.h"
 #include "app/python/bind.h"
 #include "app/record/recording_reader.h"
+#include "app/support/nearest_name.h"
 
 namespace twinarm::python {
 namespace {

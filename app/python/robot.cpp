@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "app/nearest_name.h"
-#include "collision/import/number_text.h"
+#include "app/support/nearest_name.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm::python {
 

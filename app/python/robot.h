@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/dynamics/robot_input.h"
-#include "solver/workspace.h"
+#include "app/robot/robot_input.h"
+#include "solver/model/workspace.h"
 
 namespace twinarm::python {
 

@@ -9,7 +9,7 @@
 #include "app/python/arrays.h"
 #include "app/python/bind.h"
 #include "app/python/robot.h"
-#include "app/simulate/simulate_input.h"
+#include "app/run/simulate_input.h"
 
 namespace twinarm::python {
 namespace {

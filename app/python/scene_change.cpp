@@ -5,7 +5,7 @@
 
 #include "app/python/arrays.h"
 #include "app/record/unpack.h"
-#include "collision/import/number_text.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm::python {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "app/simulate/simulate_options.h"
+#include "app/run/simulate_options.h"
 
 namespace twinarm::python {
 

@@ -9,8 +9,8 @@
 #include "app/python/bind.h"
 #include "app/python/robot.h"
 #include "app/python/scene_change.h"
-#include "app/simulate/run.h"
-#include "solver/energy.h"
+#include "app/run/run.h"
+#include "solver/dynamics/energy.h"
 
 namespace twinarm::python {
 namespace {

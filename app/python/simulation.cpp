@@ -3,13 +3,13 @@
 #include <cmath>
 #include <memory>
 
-#include "app/nearest_name.h"
 #include "app/python/arrays.h"
 #include "app/python/bind.h"
 #include "app/python/robot.h"
-#include "collision/import/number_text.h"
-#include "solver/energy.h"
-#include "solver/simulation.h"
+#include "app/support/nearest_name.h"
+#include "solver/dynamics/energy.h"
+#include "solver/stepping/simulation.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm::python {
 namespace {

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/nearest_name.h"
 #include "app/python/arrays.h"
 #include "app/python/bind.h"
 #include "app/python/robot.h"
-#include "solver/quantity.h"
+#include "app/support/nearest_name.h"
+#include "solver/model/field_description.h"
 
 namespace twinarm::python {
 namespace {

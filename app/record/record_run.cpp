@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <variant>
 
-#include "app/dynamics/robot_table.h"
-#include "app/output_file.h"
-#include "app/version.h"
-#include "solver/energy.h"
+#include "app/robot/robot_table.h"
+#include "app/support/output_file.h"
+#include "app/support/version.h"
+#include "solver/dynamics/energy.h"
 
 namespace twinarm {
 namespace {
@@ -130,7 +130,7 @@ void add_contacts_of(const SceneContacts* all, RecordedFrame& frame) {
 RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& prepared,
                           std::vector<std::string> command) {
   RecordingHeader header;
-  header.program = kVersion;
+  header.program = kProgramVersion;
   header.command = std::move(command);
   header.options = options;
   header.options.change_scene = nullptr;

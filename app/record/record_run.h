@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/record/recording_writer.h"
-#include "app/simulate/run.h"
-#include "app/simulate/simulate_input.h"
+#include "app/run/run.h"
+#include "app/run/simulate_input.h"
 
 namespace twinarm {
 

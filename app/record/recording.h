@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/simulate/simulate_options.h"
-#include "solver/memory.h"
+#include "app/run/simulate_options.h"
+#include "solver/support/state_archive.h"
 
 namespace twinarm {
 
@@ -56,7 +56,7 @@ struct RecordedFrame {
 
 std::uint64_t hash_of(const std::string& bytes);  // FNV-1a, 64 bits
 
-// Both ways, as solver/memory.h.
+// Both ways, as solver/support/state_archive.h.
 void visit(Memory& memory, RecordingHeader& header);
 void visit(Memory& memory, RecordedFrame& frame);
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "app/output_file.h"
 #include "app/record/recording_writer.h"
-#include "collision/import/number_text.h"
-#include "solver/fault.h"
+#include "app/support/output_file.h"
+#include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

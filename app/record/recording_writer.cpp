@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "app/output_file.h"
-#include "solver/fault.h"
+#include "app/support/output_file.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

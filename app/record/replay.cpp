@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/interrupt.h"
 #include "app/record/record_run.h"
+#include "app/support/interrupt.h"
 
 namespace twinarm {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "app/output_file.h"
-#include "solver/whole_file.h"
+#include "app/support/output_file.h"
+#include "solver/support/atomic_file.h"
 
 namespace twinarm {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/record/recording_reader.h"
-#include "app/scene/change_scene.h"
-#include "app/simulate/simulate_input.h"
+#include "app/run/simulate_input.h"
+#include "app/scene/read/change_scene.h"
 
 namespace twinarm {
 

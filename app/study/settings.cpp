@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "app/nearest_name.h"
-#include "collision/import/toml_file.h"
-#include "solver/fault.h"
+#include "app/support/nearest_name.h"
+#include "collision/import/toml/toml_file.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

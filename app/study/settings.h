@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "collision/import/robot_description.h"
-#include "coupling/kinematic_robot.h"
-#include "coupling/tracking.h"
-#include "solver/model.h"
+#include "collision/import/robot/robot_description.h"
+#include "coupling/analysis/tracking_run.h"
+#include "coupling/target/target_robot.h"
+#include "solver/model/model.h"
 
 namespace twinarm {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numbers>
 
-#include "collision/import/robot_model.h"
-#include "coupling/prediction.h"
-#include "solver/fault.h"
+#include "collision/import/robot/robot_model.h"
+#include "coupling/analysis/prediction.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "app/study/settings.h"
-#include "collision/import/robot_description.h"
-#include "collision/import/robot_model.h"
-#include "coupling/joint_stops.h"
-#include "coupling/tracking.h"
+#include "collision/import/robot/robot_description.h"
+#include "collision/import/robot/robot_model.h"
+#include "coupling/analysis/tracking_run.h"
+#include "coupling/laws/joint_stops.h"
 
 namespace twinarm {
 

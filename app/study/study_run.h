@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "app/study/study_robot.h"
-#include "coupling/automatic_motion.h"
-#include "coupling/prediction.h"
-#include "coupling/tracking.h"
+#include "coupling/analysis/prediction.h"
+#include "coupling/analysis/tracking_run.h"
+#include "coupling/target/automatic_motion.h"
 
 namespace twinarm {
 

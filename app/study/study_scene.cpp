@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "coupling/device/live_hand.h"
-#include "coupling/kinematic_robot.h"
+#include "coupling/device/device_motion.h"
+#include "coupling/target/target_robot.h"
 
 namespace twinarm {
 namespace {

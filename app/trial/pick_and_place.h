@@ -6,7 +6,7 @@
 // the robot goes where the hand wants it.
 #pragma once
 
-#include "solver/pose.h"
+#include "solver/spatial/pose.h"
 
 namespace twinarm {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/pose.h"
+#include "solver/spatial/pose.h"
 
 namespace twinarm {
 

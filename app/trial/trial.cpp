@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/live/live_log.h"
-#include "app/scene/read_scene.h"
+#include "app/scene/read/read_scene.h"
+#include "app/servo/output/servo_log.h"
 #include "app/trial/top_view.h"
-#include "solver/kinematics.h"
+#include "solver/dynamics/kinematics.h"
 
 namespace twinarm {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/live/servo_loop.h"
-#include "app/scene/scene_model.h"
+#include "app/scene/model/scene_model.h"
+#include "app/servo/servo_loop.h"
 #include "app/trial/pick_and_place.h"
 
 namespace twinarm {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <sstream>
 
-#include "app/json_writer.h"
-#include "app/output_file.h"
-#include "app/text_table.h"
-#include "solver/fault.h"
-#include "solver/whole_file.h"
+#include "app/data/json_writer.h"
+#include "app/data/text_table.h"
+#include "app/support/output_file.h"
+#include "solver/support/atomic_file.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "app/zwidth/zwidth.h"
-#include "coupling/device/hand_force.h"
-#include "coupling/prediction_contact.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
-#include "solver/spring.h"
+#include "coupling/analysis/static_deflection.h"
+#include "coupling/device/force_feedback.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/forces/spring.h"
+#include "solver/stepping/simulation.h"
 
 namespace twinarm {
 namespace {

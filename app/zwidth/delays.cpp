@@ -11,11 +11,11 @@
 #include <random>
 
 #include "app/zwidth/zwidth.h"
-#include "coupling/device/hand_force.h"
+#include "coupling/device/force_feedback.h"
 #include "coupling/device/omni.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
-#include "solver/spring.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/forces/spring.h"
+#include "solver/stepping/simulation.h"
 
 namespace twinarm {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/json_writer.h"
-#include "app/text_table.h"
+#include "app/data/json_writer.h"
+#include "app/data/text_table.h"
 #include "app/zwidth/zwidth.h"
-#include "collision/import/number_text.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/study/gnuplot.h"
+#include "app/plot/gnuplot.h"
 #include "app/zwidth/zwidth.h"
 
 namespace twinarm {

@@ -13,8 +13,8 @@
 #include <stdexcept>
 
 #include "benchmarks/speed/mujoco_model.h"
-#include "coupling/gains.h"
-#include "coupling/prediction.h"
+#include "coupling/analysis/gain_conversion.h"
+#include "coupling/analysis/prediction.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "benchmarks/peers/peer_cases.h"
-#include "solver/worse.h"
+#include "solver/linear_algebra/nan_max.h"
 
 namespace twinarm::peers {
 namespace {

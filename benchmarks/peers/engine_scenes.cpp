@@ -5,13 +5,13 @@
 // And the planar chain by which Erez, Tassa and Todorov (ICRA 2015) judge the smooth part of
 // engines: without gravity its energy and its angular momentum about the fixed hinge stay. Their
 // numbers are of rates that were drawn and are not published: the rates here are ours.
-#include "benchmarks/analytic/engine_tasks.h"
+#include "benchmarks/analytic/registry/engine_tasks.h"
 
 #include <cmath>
 #include <memory>
 
 #include "benchmarks/peers/peer_cases.h"
-#include "solver/worse.h"
+#include "solver/linear_algebra/nan_max.h"
 
 namespace twinarm::peers {
 namespace {

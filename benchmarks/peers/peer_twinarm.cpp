@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "benchmarks/peers/peer.h"
-#include "collision/contact_constraints.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
+#include "collision/contact/contact_constraints.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/stepping/simulation.h"
 
 namespace twinarm::peers {
 namespace {

@@ -10,11 +10,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "benchmarks/analytic/analytic_case.h"
+#include "benchmarks/analytic/registry/analytic_cases.h"
 #include "benchmarks/peers/peer_cases.h"
 #include "benchmarks/speed/eigen.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/stepping/simulation.h"
 
 namespace twinarm::peers {
 namespace {

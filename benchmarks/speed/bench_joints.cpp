@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "benchmarks/speed/timing.h"
-#include "solver/convert.h"
-#include "solver/dynamics.h"
-#include "solver/model_builder.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/model/convert_model.h"
 
 namespace twinarm::speed {
 namespace {

@@ -12,9 +12,9 @@
 
 #include "benchmarks/speed/map_runs.h"
 #include "benchmarks/speed/timing.h"
-#include "coupling/batch_lump.h"
-#include "solver/convert.h"
-#include "solver/dynamics.h"
+#include "coupling/batch/merge_fixed_joints.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/model/convert_model.h"
 
 namespace twinarm::speed {
 namespace {

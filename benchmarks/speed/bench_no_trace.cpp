@@ -14,7 +14,7 @@
 #include "benchmarks/speed/models.h"
 #include "benchmarks/speed/no_trace_passes.h"
 #include "benchmarks/speed/timing.h"
-#include "solver/model_builder.h"
+#include "solver/dynamics/model_builder.h"
 
 namespace twinarm::speed {
 namespace {

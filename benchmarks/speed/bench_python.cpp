@@ -9,10 +9,10 @@
 #include <iostream>
 #include <map>
 
-#include "collision/import/robot_model.h"
-#include "collision/import/urdf.h"
-#include "solver/dynamics.h"
-#include "solver/fault.h"
+#include "collision/import/robot/robot_model.h"
+#include "collision/import/urdf/urdf.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm::speed {
 namespace {

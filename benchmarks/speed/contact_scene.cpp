@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "benchmarks/speed/eigen.h"
-#include "collision/collision_world.h"
+#include "collision/detection/collision_world.h"
 
 namespace twinarm::speed {
 

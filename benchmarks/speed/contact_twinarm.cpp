@@ -3,9 +3,9 @@
 
 #include "benchmarks/speed/contact_engine.h"
 #include "benchmarks/speed/eigen.h"
-#include "collision/contact_constraints.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
+#include "collision/contact/contact_constraints.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/stepping/simulation.h"
 
 namespace twinarm::speed {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "benchmarks/speed/eigen.h"
 #include "benchmarks/speed/engine.h"
-#include "solver/turn.h"
+#include "solver/spatial/rotation_to_axis.h"
 
 namespace twinarm::speed {
 namespace {

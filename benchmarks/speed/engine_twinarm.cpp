@@ -5,9 +5,9 @@
 
 #include "benchmarks/speed/eigen.h"
 #include "benchmarks/speed/engine.h"
-#include "solver/convert.h"
-#include "solver/dynamics.h"
-#include "solver/model_builder.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/model/convert_model.h"
 
 namespace twinarm::speed {
 namespace {

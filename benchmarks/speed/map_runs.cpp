@@ -6,7 +6,7 @@
 #include <memory>
 #include <thread>
 
-#include "solver/model_builder.h"
+#include "solver/dynamics/model_builder.h"
 
 namespace twinarm::speed {
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "coupling/automatic_motion.h"
-#include "coupling/batch_run.h"
+#include "coupling/batch/batch_run.h"
+#include "coupling/target/automatic_motion.h"
 
 namespace twinarm::speed {
 

@@ -1,8 +1,8 @@
-// Compiled twice: with solver/aba.h (TWINARM_ISA = hooked), and with a copy of it that CMake
+// Compiled twice: with solver/passes/aba.h (TWINARM_ISA = hooked), and with a copy of it that CMake
 // writes, the line of the hook taken out (TWINARM_ISA = bare).
 #include "benchmarks/speed/no_trace_passes.h"
 
-#include "solver/aba.h"
+#include "solver/passes/aba.h"
 
 namespace twinarm::speed {
 namespace {

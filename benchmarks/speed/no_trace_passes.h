@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solver/workspace.h"
+#include "solver/model/workspace.h"
 
 namespace twinarm::speed {
 
@@ -15,7 +15,7 @@ struct NoTracePasses {
   void (*step)(const Model<double>&, const State<double>& x, const Forces<double>&,
                Workspace<double>&, double h, State<double>& next, std::vector<double>& shift);
 };
-NoTracePasses hooked_passes();  // solver/aba.h, with NoTrace
+NoTracePasses hooked_passes();  // solver/passes/aba.h, with NoTrace
 NoTracePasses bare_passes();    // the same without the line of the hook
 
 }  // namespace twinarm::speed

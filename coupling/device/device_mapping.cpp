@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/device/point_inverse.h"
-#include "solver/fault.h"
+#include "coupling/device/inverse_kinematics.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

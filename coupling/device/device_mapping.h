@@ -19,9 +19,9 @@
 #include <string>
 #include <vector>
 
-#include "coupling/device/hand_device.h"
-#include "solver/kinematics.h"
-#include "solver/model.h"
+#include "coupling/device/input_device.h"
+#include "solver/dynamics/kinematics.h"
+#include "solver/model/model.h"
 
 namespace twinarm {
 

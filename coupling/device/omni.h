@@ -9,7 +9,7 @@
 #include <array>
 #include <optional>
 
-#include "solver/pose.h"
+#include "solver/spatial/pose.h"
 
 namespace twinarm {
 

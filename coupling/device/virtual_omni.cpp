@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "solver/fault.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

@@ -26,8 +26,8 @@
 #include <memory>
 #include <vector>
 
-#include "coupling/device/hand_device.h"
-#include "coupling/hand.h"
+#include "coupling/device/input_device.h"
+#include "coupling/target/operator_motion.h"
 
 namespace twinarm {
 

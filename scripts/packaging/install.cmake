@@ -8,16 +8,22 @@ set(MADE ${CMAKE_BINARY_DIR}/packaging)
 
 # The libraries. Includes are written from the root of the project, and likewise by users.
 set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/twinarm)
-set(libraries twinarm_solver twinarm_collision twinarm_import twinarm_coupling)
+# Every folder is a library; twinarm::solver, twinarm::collision and twinarm::coupling are all of each.
+get_property(layers GLOBAL PROPERTY TWINARM_LAYERS)
+set(libraries twinarm_solver twinarm_collision twinarm_coupling)
+foreach(layer IN LISTS layers)
+  if(layer MATCHES "^((solver|collision|coupling)/[^:]*):")
+    string(REPLACE / _ library twinarm_${CMAKE_MATCH_1})
+    list(APPEND libraries ${library})
+  endif()
+endforeach()
 foreach(library IN LISTS libraries)
   string(REPLACE twinarm_ "" name ${library})
   set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
 endforeach()
-target_include_directories(twinarm_solver
+target_include_directories(twinarm_solver_spatial
   INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/twinarm>)
-target_compile_features(twinarm_solver INTERFACE $<INSTALL_INTERFACE:cxx_std_20>)
-# twinarm::collision is shapes and robots from files: two archives.
-target_link_libraries(twinarm_collision INTERFACE $<INSTALL_INTERFACE:twinarm::import>)
+target_compile_features(twinarm_solver_spatial INTERFACE $<INSTALL_INTERFACE:cxx_std_20>)
 install(TARGETS ${libraries} EXPORT twinarm
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(EXPORT twinarm NAMESPACE twinarm:: FILE twinarm-targets.cmake

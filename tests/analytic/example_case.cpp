@@ -4,8 +4,8 @@
 // A case of the list would stand in benchmarks/analytic/ as it stands here, down to its last line.
 #include <cmath>
 
-#include "benchmarks/analytic/smooth_cases.h"
-#include "benchmarks/analytic/smooth_parts.h"
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm::smooth_cases {
 namespace {
@@ -51,7 +51,8 @@ std::vector<AnalyticCase> hanging_mass() {
 // In benchmarks/ the file ends here; the tests that loop over the list do the rest.
 #include <doctest/doctest.h>
 
-#include "benchmarks/analytic/run_trajectory.h"
+#include "benchmarks/analytic/registry/analytic_cases.h"
+#include "benchmarks/analytic/support/run_trajectory.h"
 
 TEST_CASE("the example of a case: it keeps its tolerance and energy, its mistake does not") {
   using namespace twinarm;

@@ -4,9 +4,9 @@
 #include <set>
 #include <string>
 
-#include "benchmarks/analytic/analytic_case.h"
-#include "benchmarks/analytic/case_sources.h"
-#include "benchmarks/analytic/case_statements.h"
+#include "benchmarks/analytic/registry/analytic_cases.h"
+#include "benchmarks/analytic/registry/case_sources.h"
+#include "benchmarks/analytic/registry/case_statements.h"
 
 using namespace twinarm;
 

@@ -1,11 +1,11 @@
-// Every case of the list (benchmarks/analytic/analytic_case.h) against its reference.
+// Every case of the list (benchmarks/analytic/support/analytic_case.h) against its reference.
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <set>
 #include <string>
 
-#include "benchmarks/analytic/analytic_case.h"
+#include "benchmarks/analytic/registry/analytic_cases.h"
 
 using namespace twinarm;
 

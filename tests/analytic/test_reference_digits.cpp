@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "benchmarks/analytic/analytic_case.h"
+#include "benchmarks/analytic/registry/analytic_cases.h"
 
 using namespace twinarm;
 

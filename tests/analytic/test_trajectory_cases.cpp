@@ -1,4 +1,4 @@
-// The known motions of the list (benchmarks/analytic/trajectory_case.h): all at once.
+// The known motions of the list (benchmarks/analytic/support/trajectory_case.h): all at once.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "benchmarks/analytic/analytic_case.h"
-#include "benchmarks/analytic/run_trajectory.h"
+#include "benchmarks/analytic/registry/analytic_cases.h"
+#include "benchmarks/analytic/support/run_trajectory.h"
 
 using namespace twinarm;
 

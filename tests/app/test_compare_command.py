@@ -307,7 +307,7 @@ class Page(unittest.TestCase):
         looks = "".join(p.read_text() for p in root.glob("app/compare/contact_looks_*.cpp"))
         names = re.findall(r'contact_case<[^>]+>\(\s*"([^"]+)"', cases)
         self.assertGreater(len(names), 50)
-        names += re.findall(r'\{"(H1[^"]+)",', (root / "benchmarks/analytic/engine_tasks.cpp")
+        names += re.findall(r'\{"(H1[^"]+)",', (root / "benchmarks/analytic/registry/engine_tasks.cpp")
                             .read_text())
         drawn = re.findall(r'\.name = "([^"]+)"', looks)
         self.assertEqual(len(drawn), len(set(drawn)))

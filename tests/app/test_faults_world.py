@@ -136,7 +136,7 @@ class Clock(Case):
         readers = {str(path.relative_to(ROOT)) for room in ("app", "solver", "collision", "coupling")
                    for path in (ROOT / room).rglob("*")
                    if path.suffix in (".h", ".cpp", ".inl") and wall.search(path.read_text())}
-        self.assertEqual(readers, {"app/hand/vrpn_stream.cpp"})
+        self.assertEqual(readers, {"app/device/vrpn_stream.cpp"})
 
     def test_a_clock_that_jumps_by_days_is_not_noticed(self):
         faketime = next(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"), None)

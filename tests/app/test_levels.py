@@ -21,10 +21,10 @@ LEVELS = ("v3", "v4")
 def level_objects():
     """[(level, scalar, object file)]"""
     found = []
-    for folder in sorted((BUILD / "solver" / "CMakeFiles").glob("twinarm_passes_*.dir")):
+    for folder in sorted((BUILD / "solver/passes/compiled/CMakeFiles").glob("twinarm_passes_*.dir")):
         level, scalar = re.fullmatch(r"twinarm_passes_([^_]+)_(.+)\.dir", folder.name).groups()
         found += [(level, scalar, path) for path in folder.glob("*.o")]
-    for folder in sorted((BUILD / "coupling" / "CMakeFiles").glob("twinarm_batch_*.dir")):
+    for folder in sorted((BUILD / "coupling/batch/kernel/CMakeFiles").glob("twinarm_batch_*.dir")):
         level = folder.stem.rpartition("_")[2]
         found += [(level, "runs side by side", path) for path in folder.glob("*.o")]
     return found
@@ -64,7 +64,7 @@ class Levels(unittest.TestCase):
                 self.assertEqual(strays, [])
 
     def test_no_level_but_generic_is_used_without_asking_the_processor(self):
-        """Only solver/dynamics.cpp and coupling/batch_run.cpp, which ask, refer to the levels."""
+        """Only solver/dynamics/dynamics.cpp and coupling/batch/batch_run.cpp, which ask, refer to the levels."""
         paths = [path for room in ("solver", "coupling")
                  for path in (BUILD / room / "CMakeFiles" / f"twinarm_{room}.dir").glob("*.o")]
         for path in sorted(paths):

@@ -7,6 +7,7 @@ the compiler makes of the same text without the hook.
 import json
 import pathlib
 import re
+import shutil
 import shlex
 import subprocess
 import sys
@@ -22,7 +23,7 @@ def command():
     """As the passes in double precision are compiled for plain x86-64."""
     for entry in json.loads((pathlib.Path(BUILD) / "compile_commands.json").read_text()):
         words = shlex.split(entry["command"])
-        if (entry["file"].endswith("solver/passes.cpp") and "-DTWINARM_ISA=generic" in words
+        if (entry["file"].endswith("solver/passes/compiled/passes.cpp") and "-DTWINARM_ISA=generic" in words
                 and "-DTWINARM_SCALAR=double" in words):
             words = [w for w in words if not w.endswith("ccache")]
             return words[:words.index("-o")]
@@ -31,7 +32,7 @@ def command():
 
 def instructions(words, root):
     words = [f"-I{root}" if w == f"-I{ROOT}" else w for w in words]
-    made = subprocess.run([*words, "-S", "-o", "-", str(root / "solver/passes.cpp")],
+    made = subprocess.run([*words, "-S", "-o", "-", str(root / "solver/passes/compiled/passes.cpp")],
                           capture_output=True, text=True, check=True).stdout
     # Debuggers' labels are numbered through; files and versions are no instructions.
     made = re.sub(r"\.L(F[BE]|func_begin|func_end)\d+", ".L", made)
@@ -42,12 +43,10 @@ class NoTrace(unittest.TestCase):
     def test_the_hook_leaves_no_instruction(self):
         with tempfile.TemporaryDirectory() as folder:
             bare = pathlib.Path(folder)
-            (bare / "solver").mkdir()
-            for file in [*(ROOT / "solver").glob("*.h"), ROOT / "solver/passes.cpp"]:
-                (bare / "solver" / file.name).write_bytes(file.read_bytes())
-            text = (ROOT / "solver/aba.h").read_text(encoding="utf-8")
+            shutil.copytree(ROOT / "solver", bare / "solver")
+            text = (ROOT / "solver/passes/aba.h").read_text(encoding="utf-8")
             self.assertEqual(text.count(HOOK), 1)
-            (bare / "solver/aba.h").write_text(text.replace(HOOK, "(void)trace;"), encoding="utf-8")
+            (bare / "solver/passes/aba.h").write_text(text.replace(HOOK, "(void)trace;"), encoding="utf-8")
             with_hook, without = (instructions(command(), root) for root in (ROOT, bare))
         self.assertGreater(len(with_hook), 1000)
         self.assertTrue(with_hook == without, "aba() without a trace is not the bare pass")

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "collision/contact_constraints.h"
-#include "collision/mass_properties.h"
-#include "solver/energy.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
+#include "collision/contact/contact_constraints.h"
+#include "collision/shapes/mass_properties.h"
+#include "solver/dynamics/energy.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/stepping/simulation.h"
 
 namespace twinarm::testing {
 

@@ -1,11 +1,11 @@
-// FCL's distance of two cores (collision/gjk.h), as a second opinion.
+// FCL's distance of two cores (collision/narrow_phase/gjk.h), as a second opinion.
 #pragma once
 
 #include <memory>
 
-#include "collision/polytope.h"
-#include "collision/shape.h"
-#include "solver/pose.h"
+#include "collision/shapes/polytope.h"
+#include "collision/shapes/shape.h"
+#include "solver/spatial/pose.h"
 
 namespace twinarm::test {
 

@@ -9,10 +9,10 @@
 #include <random>
 #include <vector>
 
-#include "collision/mesh.h"
-#include "collision/shape.h"
-#include "collision/solid.h"
-#include "solver/pose.h"
+#include "collision/narrow_phase/posed_shape.h"
+#include "collision/shapes/mesh.h"
+#include "collision/shapes/shape.h"
+#include "solver/spatial/pose.h"
 
 namespace twinarm::test {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "collision/collision_world.h"
+#include "collision/detection/collision_world.h"
 
 namespace twinarm::test {
 

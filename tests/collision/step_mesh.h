@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "collision/mesh.h"
-#include "collision/shape.h"
-#include "solver/pose.h"
+#include "collision/shapes/mesh.h"
+#include "collision/shapes/shape.h"
+#include "solver/spatial/pose.h"
 
 namespace twinarm::test {
 

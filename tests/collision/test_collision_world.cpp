@@ -1,5 +1,5 @@
 // Manifolds in known places, order, filters, faults, and two bodies on a floor.
-#include "collision/collision_world.h"
+#include "collision/detection/collision_world.h"
 
 #include <doctest/doctest.h>
 
@@ -12,7 +12,7 @@
 #include <tuple>
 #include <vector>
 
-#include "solver/fault.h"
+#include "solver/support/diagnostics.h"
 #include "tests/collision/oracle.h"
 #include "tests/collision/pair_scene.h"
 

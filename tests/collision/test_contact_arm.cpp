@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "collision/contact_constraints.h"
+#include "collision/contact/contact_constraints.h"
 #include "tests/coupling/one_joint.h"
 
 using namespace twinarm;

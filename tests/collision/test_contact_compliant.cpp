@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/fault.h"
+#include "solver/support/diagnostics.h"
 #include "tests/collision/contact_scene.h"
 
 using namespace twinarm;

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "solver/dynamics.h"
-#include "solver/world.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/world_kinematics.h"
 #include "tests/collision/contact_scene.h"
 #include "tests/collision/step_mesh.h"
 #include "tests/solver/count_allocations.h"

@@ -1,5 +1,5 @@
 // The contact law on carriages whose motion is known: rest, impact, sliding, sticking.
-#include "collision/contact_force.h"
+#include "collision/contact/contact_force.h"
 
 #include <doctest/doctest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "solver/joint_limits.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/impulses/joint_limits.h"
+#include "solver/stepping/simulation.h"
 
 using namespace twinarm;
 

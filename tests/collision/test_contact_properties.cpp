@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/collision_world.h"
+#include "collision/detection/collision_world.h"
 #include "tests/collision/oracle.h"
 
 using namespace twinarm;

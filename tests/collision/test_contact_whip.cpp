@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "collision/contact_force.h"
+#include "collision/contact/contact_force.h"
 #include "tests/coupling/one_joint.h"
 
 using namespace twinarm;

@@ -1,4 +1,4 @@
-#include "collision/convex_hull.h"
+#include "collision/shapes/convex_hull.h"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <numeric>
 #include <vector>
 
-#include "collision/mesh_file.h"
-#include "solver/fault.h"
+#include "collision/mesh_files/mesh_file.h"
+#include "solver/support/diagnostics.h"
 #include "tests/collision/oracle.h"
 
 using namespace twinarm;

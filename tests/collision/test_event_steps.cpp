@@ -1,11 +1,12 @@
-// Steps that locate impacts, and the ends of sliding and rest, in time (solver/event_step.h).
+// Steps that locate impacts, and the ends of sliding and rest, in time
+// (solver/stepping/event_driven_step.h).
 #include <doctest/doctest.h>
 #include <cmath>
 
 #include <initializer_list>
 #include <stdexcept>
 
-#include "solver/joint_limits.h"
+#include "solver/impulses/joint_limits.h"
 #include "tests/collision/contact_scene.h"
 #include "tests/solver/count_allocations.h"
 

@@ -1,5 +1,5 @@
 // Distances of cores of all kinds and sizes: the bounds prove them, FCL is a second opinion.
-#include "collision/gjk.h"
+#include "collision/narrow_phase/gjk.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "collision/narrow_phase.h"
+#include "collision/narrow_phase/narrow_phase.h"
 #include "tests/collision/fcl_oracle.h"
 #include "tests/collision/oracle.h"
 

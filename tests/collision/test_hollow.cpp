@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "collision/collision_world.h"
-#include "solver/fault.h"
+#include "collision/detection/collision_world.h"
+#include "solver/support/diagnostics.h"
 #include "tests/collision/oracle.h"
 #include "tests/collision/pair_scene.h"
 

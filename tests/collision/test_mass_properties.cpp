@@ -1,5 +1,5 @@
 // Closed forms: box, tetrahedron, ball; and the laws of moving, scaling and adding.
-#include "collision/mass_properties.h"
+#include "collision/shapes/mass_properties.h"
 
 #include <doctest/doctest.h>
 
@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "collision/mesh_file.h"
-#include "solver/fault.h"
+#include "collision/mesh_files/mesh_file.h"
+#include "solver/support/diagnostics.h"
 #include "tests/collision/oracle.h"
 
 using namespace twinarm;

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "collision/collision_world.h"
-#include "collision/mesh_fault.h"
-#include "solver/fault.h"
+#include "collision/detection/collision_world.h"
+#include "collision/shapes/mesh_checks.h"
+#include "solver/support/diagnostics.h"
 #include "tests/collision/oracle.h"
 #include "tests/collision/pair_scene.h"
 #include "tests/collision/step_mesh.h"

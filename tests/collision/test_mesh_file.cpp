@@ -1,5 +1,5 @@
 // Reading meshes: what is right comes in welded, what is wrong is refused with a reason.
-#include "collision/mesh_file.h"
+#include "collision/mesh_files/mesh_file.h"
 
 #include <doctest/doctest.h>
 
@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "collision/mass_properties.h"
-#include "collision/mesh_fault.h"
-#include "solver/fault.h"
+#include "collision/shapes/mass_properties.h"
+#include "collision/shapes/mesh_checks.h"
+#include "solver/support/diagnostics.h"
 #include "tests/collision/oracle.h"
 
 using namespace twinarm;

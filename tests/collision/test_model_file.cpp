@@ -1,5 +1,5 @@
 // Models with colours and textures, in every format; and readers that crash or never end.
-#include "collision/model_file.h"
+#include "collision/mesh_files/model_file.h"
 
 #include <doctest/doctest.h>
 
@@ -12,11 +12,11 @@
 #include <fstream>
 #include <string>
 
-#include "collision/limited_child.h"
-#include "collision/mass_properties.h"
-#include "collision/mesh_file.h"
-#include "collision/model_packing.h"
-#include "solver/fault.h"
+#include "collision/mesh_files/mesh_file.h"
+#include "collision/mesh_files/model_serialization.h"
+#include "collision/mesh_files/sandboxed_process.h"
+#include "collision/shapes/mass_properties.h"
+#include "solver/support/diagnostics.h"
 
 using namespace twinarm;
 namespace fs = std::filesystem;

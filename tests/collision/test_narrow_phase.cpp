@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "collision/collision_world.h"
+#include "collision/detection/collision_world.h"
 #include "tests/collision/oracle.h"
 
 using namespace twinarm;

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "collision/collision_world.h"
-#include "collision/narrow_phase.h"
+#include "collision/detection/collision_world.h"
+#include "collision/narrow_phase/narrow_phase.h"
 #include "tests/collision/oracle.h"
 #include "tests/solver/count_allocations.h"
 

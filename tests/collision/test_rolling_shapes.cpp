@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "collision/collision_world.h"
+#include "collision/detection/collision_world.h"
 #include "tests/collision/oracle.h"
 #include "tests/collision/pair_scene.h"
 

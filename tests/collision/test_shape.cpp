@@ -1,4 +1,4 @@
-#include "collision/shape.h"
+#include "collision/shapes/shape.h"
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "collision/vertex_table.h"
+#include "collision/shapes/support_vertices.h"
 
 namespace twinarm {
 namespace {

@@ -1,5 +1,5 @@
-// The coupling and integrator that make each scheme of coupling/prediction_limits.h, and whether a
-// small motion about a target at rest grows in the real stepper.
+// The coupling and integrator that make each scheme of coupling/analysis/stability_limits.h, and
+// whether a small motion about a target at rest grows in the real stepper.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/prediction.h"
+#include "coupling/analysis/prediction.h"
 #include "tests/coupling/one_joint.h"
 
 namespace twinarm::testing {

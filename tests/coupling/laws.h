@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 
-#include "coupling/prediction.h"
-#include "solver/dynamics.h"
+#include "coupling/analysis/prediction.h"
+#include "solver/dynamics/dynamics.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/solver/random_tree.h"
 
@@ -33,7 +33,7 @@ struct Law {
   }
 };
 
-// coupling/coupling_spec.h times treatments times measures.
+// coupling/laws/coupling_spec.h times treatments times measures.
 inline std::vector<Law> all_laws() {
   using Treatments = CouplingFacts::Treatments;
   constexpr const char* kTreatments[] = {"explicit", "semi-implicit", "implicit"};

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "collision/import/robot_model.h"
-#include "collision/import/urdf.h"
+#include "collision/import/robot/robot_model.h"
+#include "collision/import/urdf/urdf.h"
 #include "coupling/device/device_mapping.h"
 #include "tests/solver/random_tree.h"
 

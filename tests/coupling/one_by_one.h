@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "coupling/batch_run.h"
-#include "coupling/tracking.h"
-#include "solver/energy.h"
+#include "coupling/analysis/tracking_run.h"
+#include "coupling/batch/batch_run.h"
+#include "solver/dynamics/energy.h"
 #include "tests/solver/random_tree.h"
 
 namespace twinarm::testing {

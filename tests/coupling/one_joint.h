@@ -4,9 +4,9 @@
 #include <cmath>
 #include <memory>
 
-#include "coupling/tracking.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
+#include "coupling/analysis/tracking_run.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/stepping/simulation.h"
 
 namespace twinarm::testing {
 

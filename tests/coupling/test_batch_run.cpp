@@ -1,5 +1,5 @@
 // Many runs side by side against the same runs one by one, and what they must not notice.
-#include "coupling/batch_run.h"
+#include "coupling/batch/batch_run.h"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/batch.h"
-#include "solver/rotation_log.h"
+#include "solver/spatial/batch.h"
+#include "solver/spatial/rotation_log.h"
 #include "tests/coupling/one_by_one.h"
 
 using namespace twinarm;

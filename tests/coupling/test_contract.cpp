@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "solver/fault.h"
+#include "solver/support/diagnostics.h"
 #include "tests/coupling/laws.h"
 
 using namespace twinarm;

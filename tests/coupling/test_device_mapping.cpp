@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "coupling/device/point_inverse.h"
-#include "solver/fault.h"
+#include "coupling/device/inverse_kinematics.h"
+#include "solver/support/diagnostics.h"
 #include "tests/coupling/mapped_robots.h"
 #include "tests/coupling/two_link.h"
 #include "tests/solver/count_allocations.h"

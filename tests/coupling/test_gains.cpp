@@ -3,11 +3,11 @@
 
 #include <numbers>
 
-#include "collision/import/robot_model.h"
-#include "collision/import/urdf.h"
-#include "coupling/gains.h"
-#include "coupling/prediction.h"
-#include "coupling/pull.h"
+#include "collision/import/robot/robot_model.h"
+#include "collision/import/urdf/urdf.h"
+#include "coupling/analysis/gain_conversion.h"
+#include "coupling/analysis/prediction.h"
+#include "coupling/laws/spring_force.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/coupling/two_link.h"
 #include "tests/solver/random_tree.h"

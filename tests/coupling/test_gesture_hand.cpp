@@ -6,9 +6,9 @@
 #include <numbers>
 #include <thread>
 
-#include "coupling/device/gesture_hand.h"
+#include "coupling/device/desktop_input.h"
 #include "coupling/device/virtual_omni.h"
-#include "coupling/scripted_hand.h"
+#include "coupling/target/scripted_motion.h"
 #include "tests/solver/count_allocations.h"
 
 using namespace twinarm;

@@ -2,10 +2,10 @@
 // allows, in the metric of M.
 #include <doctest/doctest.h>
 
-#include "collision/contact_constraints.h"
-#include "coupling/god_object.h"
-#include "solver/fault.h"
-#include "solver/joint_limits.h"
+#include "collision/contact/contact_constraints.h"
+#include "coupling/laws/god_object.h"
+#include "solver/impulses/joint_limits.h"
+#include "solver/support/diagnostics.h"
 #include "tests/coupling/laws.h"
 #include "tests/coupling/two_link.h"
 

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <numbers>
 
-#include "coupling/automatic_motion.h"
-#include "coupling/synthetic_operator.h"
+#include "coupling/target/automatic_motion.h"
+#include "coupling/target/synthetic_operator.h"
 
 using namespace twinarm;
 

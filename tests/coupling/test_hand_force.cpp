@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/device/hand_force.h"
-#include "solver/dense_algebra.h"
-#include "solver/spring.h"
+#include "coupling/device/force_feedback.h"
+#include "solver/forces/spring.h"
+#include "solver/linear_algebra/dense_algebra.h"
 #include "tests/coupling/mapped_robots.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/coupling/two_link.h"

@@ -7,10 +7,10 @@
 #include <cstring>
 #include <random>
 
-#include "coupling/device/hand_log.h"
-#include "coupling/paced_hand.h"
-#include "solver/fault.h"
-#include "solver/whole_file.h"
+#include "coupling/device/device_log.h"
+#include "coupling/target/delayed_motion.h"
+#include "solver/support/atomic_file.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

@@ -1,11 +1,11 @@
 // Spring-dampers treated semi-implicitly and implicitly, on mechanisms whose discrete motion is
-// known: docs/coupling.md, solver/spring.h.
+// known: docs/coupling.md, solver/forces/spring.h.
 #include <doctest/doctest.h>
 
 #include <numbers>
 
-#include "coupling/prediction.h"
-#include "solver/dense_algebra.h"
+#include "coupling/analysis/prediction.h"
+#include "solver/linear_algebra/dense_algebra.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/coupling/two_link.h"
 

@@ -2,10 +2,10 @@
 // (velocity products), and a point spring whose target lies far out (geometric stiffness).
 #include <doctest/doctest.h>
 
-#include "coupling/prediction.h"
-#include "coupling/target_radius.h"
-#include "solver/dense_algebra.h"
-#include "solver/energy.h"
+#include "coupling/analysis/prediction.h"
+#include "coupling/analysis/target_radius.h"
+#include "solver/dynamics/energy.h"
+#include "solver/linear_algebra/dense_algebra.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/solver/random_tree.h"
 

@@ -1,12 +1,12 @@
 // A hand seen late and played faster, against the same motion written down for that delay and
 // speed.
-#include "coupling/paced_hand.h"
+#include "coupling/target/delayed_motion.h"
 
 #include <doctest/doctest.h>
 
 #include <memory>
 
-#include "coupling/automatic_motion.h"
+#include "coupling/target/automatic_motion.h"
 #include "tests/coupling/one_by_one.h"
 
 using namespace twinarm;

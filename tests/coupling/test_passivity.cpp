@@ -5,7 +5,7 @@
 #include <deque>
 #include <numbers>
 
-#include "coupling/device/passivity.h"
+#include "coupling/device/passivity_control.h"
 #include "tests/solver/count_allocations.h"
 #include "tests/solver/random_tree.h"
 

@@ -1,9 +1,10 @@
-// The errors of the joints of a chain (coupling/prediction_chain.h): against the closed forms of
-// one degree of freedom, and against runs of the real stepper behind targets that move both joints.
+// The errors of the joints of a chain (coupling/analysis/multi_joint_tracking.h): against the
+// closed forms of one degree of freedom, and against runs of the real stepper behind targets that
+// move both joints.
 #include <doctest/doctest.h>
 
-#include "coupling/prediction.h"
-#include "solver/dense_algebra.h"
+#include "coupling/analysis/prediction.h"
+#include "solver/linear_algebra/dense_algebra.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/coupling/two_link.h"
 

@@ -1,7 +1,7 @@
 // Sag, torque at large angles and series stiffness, against where the real stepper comes to rest.
 #include <doctest/doctest.h>
 
-#include "coupling/prediction.h"
+#include "coupling/analysis/prediction.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/coupling/two_link.h"
 

@@ -1,12 +1,12 @@
-// The limits of coupling/prediction_limits.h and prediction_step.h: against the closed forms of
+// The limits of coupling/analysis/stability_limits.h and step_matrix.h: against the closed forms of
 // docs/coupling.md, and against where runs of the real stepper begin to grow, by bisection.
 #include <doctest/doctest.h>
 
 #include <optional>
 
-#include "collision/import/robot_model.h"
-#include "collision/import/urdf.h"
-#include "solver/dense_algebra.h"
+#include "collision/import/robot/robot_model.h"
+#include "collision/import/urdf/urdf.h"
+#include "solver/linear_algebra/dense_algebra.h"
 #include "tests/coupling/growth.h"
 #include "tests/coupling/two_link.h"
 #include "tests/solver/random_tree.h"

@@ -1,8 +1,8 @@
-// The step of several couplings together, each by its own law (coupling/prediction_step.h): against
-// closed forms, and against where runs of the real stepper begin to grow, by bisection.
+// The step of several couplings together, each by its own law (coupling/analysis/step_matrix.h):
+// against closed forms, and against where runs of the real stepper begin to grow, by bisection.
 #include <doctest/doctest.h>
 
-#include "coupling/god_object.h"
+#include "coupling/laws/god_object.h"
 #include "tests/coupling/growth.h"
 #include "tests/coupling/two_link.h"
 

@@ -1,9 +1,9 @@
 // K_q and B_q about a pose, with their geometric part, against second derivatives by hand.
 #include <doctest/doctest.h>
 
-#include "coupling/prediction.h"
-#include "solver/dense_algebra.h"
-#include "solver/spring.h"
+#include "coupling/analysis/prediction.h"
+#include "solver/forces/spring.h"
+#include "solver/linear_algebra/dense_algebra.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/coupling/two_link.h"
 #include "tests/solver/random_tree.h"

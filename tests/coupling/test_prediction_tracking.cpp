@@ -1,10 +1,10 @@
-// The error behind a moving target: the closed form of coupling/prediction_tracking.h against runs
-// of the real stepper, and against what is known of its peaks.
+// The error behind a moving target: the closed form of coupling/analysis/tracking_error.h against
+// runs of the real stepper, and against what is known of its peaks.
 #include <doctest/doctest.h>
 
 #include <functional>
 
-#include "coupling/prediction.h"
+#include "coupling/analysis/prediction.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/coupling/two_link.h"
 

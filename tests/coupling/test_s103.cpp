@@ -5,10 +5,10 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/import/robot_model.h"
-#include "collision/import/urdf.h"
-#include "coupling/kinematic_robot.h"
-#include "solver/fault.h"
+#include "collision/import/robot/robot_model.h"
+#include "collision/import/urdf/urdf.h"
+#include "coupling/target/target_robot.h"
+#include "solver/support/diagnostics.h"
 #include "tests/coupling/one_joint.h"
 #include "tests/solver/random_tree.h"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "coupling/device/sampled_wall.h"
-#include "solver/dense_algebra.h"
+#include "solver/linear_algebra/dense_algebra.h"
 
 using namespace twinarm;
 

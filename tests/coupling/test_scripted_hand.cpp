@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "coupling/automatic_motion.h"
-#include "coupling/device/gesture_hand.h"
+#include "coupling/device/desktop_input.h"
 #include "coupling/device/virtual_omni.h"
-#include "coupling/paced_hand.h"
-#include "coupling/recorded_trace.h"
-#include "coupling/scripted_hand.h"
-#include "coupling/synthetic_operator.h"
+#include "coupling/target/automatic_motion.h"
+#include "coupling/target/delayed_motion.h"
+#include "coupling/target/recorded_trace.h"
+#include "coupling/target/scripted_motion.h"
+#include "coupling/target/synthetic_operator.h"
 
 using namespace twinarm;
 

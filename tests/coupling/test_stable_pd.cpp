@@ -1,8 +1,8 @@
 // Stable PD as printed, against its own recurrence and the limits that follow from it.
 #include <doctest/doctest.h>
 
-#include "coupling/stable_pd.h"
-#include "solver/dense_algebra.h"
+#include "coupling/laws/stable_pd.h"
+#include "solver/linear_algebra/dense_algebra.h"
 #include "tests/coupling/one_joint.h"
 
 using namespace twinarm;

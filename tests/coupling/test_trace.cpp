@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "coupling/recorded_trace.h"
-#include "coupling/synthetic_operator.h"
-#include "solver/fault.h"
+#include "coupling/target/recorded_trace.h"
+#include "coupling/target/synthetic_operator.h"
+#include "solver/support/diagnostics.h"
 
 using namespace twinarm;
 namespace fs = std::filesystem;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "solver/fault.h"
+#include "solver/support/diagnostics.h"
 #include "tests/coupling/virtual_omni_tries.h"
 #include "tests/solver/count_allocations.h"
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "coupling/weld_like.h"
-#include "solver/energy.h"
+#include "coupling/laws/mujoco_weld.h"
+#include "solver/dynamics/energy.h"
 #include "tests/coupling/laws.h"
 
 using namespace twinarm;

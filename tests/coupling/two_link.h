@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "coupling/automatic_motion.h"
-#include "coupling/tracking.h"
-#include "solver/model_builder.h"
+#include "coupling/analysis/tracking_run.h"
+#include "coupling/target/automatic_motion.h"
+#include "solver/dynamics/model_builder.h"
 
 namespace twinarm::testing {
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "coupling/device/virtual_omni.h"
-#include "coupling/scripted_hand.h"
+#include "coupling/target/scripted_motion.h"
 
 namespace twinarm::testing {
 

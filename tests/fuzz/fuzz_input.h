@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "solver/fault.h"
+#include "solver/support/diagnostics.h"
 #include "tests/fuzz/targets.h"
 
 namespace twinarm::fuzz {

@@ -1,5 +1,5 @@
 // The picture of a texture.
-#include "app/render/image.h"
+#include "app/render/list/image.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

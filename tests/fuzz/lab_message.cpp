@@ -1,7 +1,7 @@
 // What a page says to the lab; changes go into a scene, which is read again.
-#include "app/lab/lab_command.h"
+#include "app/lab/session/lab_command.h"
 #include "app/record/unpack.h"
-#include "app/scene/read_scene.h"
+#include "app/scene/read/read_scene.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

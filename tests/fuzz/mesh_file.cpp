@@ -2,11 +2,11 @@
 // what becomes of it then.
 #include <array>
 
-#include "collision/convex_hull.h"
-#include "collision/mass_properties.h"
-#include "collision/mesh_fault.h"
-#include "collision/mesh_file.h"
-#include "collision/model_file.h"
+#include "collision/mesh_files/mesh_file.h"
+#include "collision/mesh_files/model_file.h"
+#include "collision/shapes/convex_hull.h"
+#include "collision/shapes/mass_properties.h"
+#include "collision/shapes/mesh_checks.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "collision/mass_properties.h"
-#include "collision/mesh_fault.h"
-#include "collision/mesh_file.h"
-#include "collision/narrow_phase.h"
+#include "collision/mesh_files/mesh_file.h"
+#include "collision/narrow_phase/narrow_phase.h"
+#include "collision/shapes/mass_properties.h"
+#include "collision/shapes/mesh_checks.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

@@ -1,5 +1,5 @@
 // The recipe of a robot drawn in CAD.
-#include "collision/import/recipe_file.h"
+#include "collision/import/recipe/recipe_file.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

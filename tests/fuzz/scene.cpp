@@ -1,6 +1,6 @@
 // A scene: read, built, and run for two steps. Beside it lie a robot, a mesh and a trace, which it
 // may name: arm.urdf, box.stl, hand.csv.
-#include "app/simulate/run.h"
+#include "app/run/run.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

@@ -1,5 +1,5 @@
 // A state file, given to a robot that has a joint of each kind, on the world and afloat.
-#include "app/dynamics/robot_input.h"
+#include "app/robot/robot_input.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

@@ -1,8 +1,8 @@
 // A robot's file: read, made a model of, and written; what was written is read again.
-#include "collision/import/urdf.h"
+#include "collision/import/urdf/urdf.h"
 
-#include "collision/import/robot_model.h"
-#include "collision/import/urdf_writer.h"
+#include "collision/import/robot/robot_model.h"
+#include "collision/import/urdf/urdf_writer.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/hand/vrpn_stream.h"
+#include "app/device/vrpn_stream.h"
 #include "coupling/device/omni.h"
 #include "tests/fuzz/fuzz_input.h"
 

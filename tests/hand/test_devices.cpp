@@ -4,10 +4,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/hand/devices.h"
-#include "coupling/recorded_trace.h"
-#include "coupling/synthetic_operator.h"
-#include "solver/fault.h"
+#include "app/device/devices.h"
+#include "coupling/target/recorded_trace.h"
+#include "coupling/target/synthetic_operator.h"
+#include "solver/support/diagnostics.h"
 
 using namespace twinarm;
 

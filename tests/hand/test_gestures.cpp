@@ -17,10 +17,10 @@
 #include <random>
 #include <thread>
 
-#include "app/hand/devices.h"
-#include "app/hand/gesture_device.h"
-#include "app/hand/raw_terminal.h"
-#include "solver/fault.h"
+#include "app/device/devices.h"
+#include "app/device/gesture_device.h"
+#include "app/device/raw_terminal.h"
+#include "solver/support/diagnostics.h"
 
 using namespace twinarm;
 

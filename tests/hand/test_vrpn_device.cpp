@@ -8,8 +8,8 @@
 #include <mutex>
 #include <set>
 
-#include "app/hand/vrpn_client.h"
-#include "solver/fault.h"
+#include "app/device/vrpn_client.h"
+#include "solver/support/diagnostics.h"
 #include "tests/hand/vrpn_server.h"
 
 using namespace twinarm;

@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "app/hand/vrpn_stream.h"
+#include "app/device/vrpn_stream.h"
 #include "tests/hand/vrpn_bytes.h"
 
 using namespace twinarm;

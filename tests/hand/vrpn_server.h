@@ -11,7 +11,7 @@
 #include <functional>
 #include <thread>
 
-#include "app/hand/owned_fd.h"
+#include "app/device/owned_fd.h"
 #include "tests/hand/vrpn_bytes.h"
 
 class VrpnServer;

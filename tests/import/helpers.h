@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "collision/import/robot_description.h"
-#include "solver/fault.h"
+#include "collision/import/robot/robot_description.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 

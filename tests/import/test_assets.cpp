@@ -2,9 +2,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "collision/import/robot_recipe.h"
-#include "collision/import/stl_writer.h"
-#include "collision/import/urdf.h"
+#include "collision/import/recipe/robot_recipe.h"
+#include "collision/import/recipe/stl_writer.h"
+#include "collision/import/urdf/urdf.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {

@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "collision/limited_child.h"
-#include "collision/model_file.h"
-#include "solver/fault.h"
+#include "collision/mesh_files/model_file.h"
+#include "collision/mesh_files/sandboxed_process.h"
+#include "solver/support/diagnostics.h"
 #include "tests/sanitized.h"
 
 namespace twinarm {

@@ -1,12 +1,12 @@
 // The PUMA 560, read from its URDF, against published and recomputed torques and accelerations
-// (benchmarks/analytic/puma560_values.h).
+// (benchmarks/analytic/joints/puma560_values.h).
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/analytic/puma560_values.h"
-#include "collision/import/robot_model.h"
-#include "collision/import/urdf.h"
-#include "solver/dynamics.h"
+#include "benchmarks/analytic/joints/puma560_values.h"
+#include "collision/import/robot/robot_model.h"
+#include "collision/import/urdf/urdf.h"
+#include "solver/dynamics/dynamics.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {

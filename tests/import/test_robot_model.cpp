@@ -1,13 +1,13 @@
 // From the description to the solver's model.
-#include "collision/import/robot_model.h"
+#include "collision/import/robot/robot_model.h"
 
 #include <cmath>
 #include <numbers>
 #include <string>
 
-#include "collision/import/robot_check.h"
-#include "collision/import/urdf.h"
-#include "solver/dynamics.h"
+#include "collision/import/robot/robot_check.h"
+#include "collision/import/urdf/urdf.h"
+#include "solver/dynamics/dynamics.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {

@@ -1,10 +1,10 @@
 // A robot made from a recipe. The oracles are the closed forms of boxes.
-#include "collision/import/robot_recipe.h"
+#include "collision/import/recipe/robot_recipe.h"
 
-#include "collision/import/mesh_geometry.h"
-#include "collision/import/stl_writer.h"
-#include "collision/import/toml_file.h"
-#include "collision/import/urdf.h"
+#include "collision/import/recipe/stl_writer.h"
+#include "collision/import/robot/mesh_geometry.h"
+#include "collision/import/toml/toml_file.h"
+#include "collision/import/urdf/urdf.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {

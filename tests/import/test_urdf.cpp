@@ -1,13 +1,13 @@
 // What a good URDF file says arrives in the description.
-#include "collision/import/urdf.h"
+#include "collision/import/urdf/urdf.h"
 
 #include <Eigen/Geometry>
 #include <cstdlib>
 #include <numbers>
 #include <optional>
 
-#include "collision/import/mesh_geometry.h"
-#include "collision/import/robot_check.h"
+#include "collision/import/robot/mesh_geometry.h"
+#include "collision/import/robot/robot_check.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {

@@ -1,6 +1,6 @@
 // Bad URDF files: each fault is told with file and line, and all faults of a file at once.
 // The oracle is the spoilt line itself: each case spoils one known line of a good file.
-#include "collision/import/urdf.h"
+#include "collision/import/urdf/urdf.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {

@@ -2,8 +2,8 @@
 #include <random>
 #include <string>
 
-#include "collision/import/robot_check.h"
-#include "collision/import/urdf.h"
+#include "collision/import/robot/robot_check.h"
+#include "collision/import/urdf/urdf.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {

@@ -2,7 +2,7 @@
 #include <limits>
 #include <string>
 
-#include "collision/import/urdf.h"
+#include "collision/import/urdf/urdf.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {

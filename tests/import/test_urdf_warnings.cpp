@@ -1,8 +1,8 @@
 // What is read although it is suspicious, or has no effect here: a warning, with its line.
 #include <string>
 
-#include "collision/import/mesh_geometry.h"
-#include "collision/import/urdf.h"
+#include "collision/import/robot/mesh_geometry.h"
+#include "collision/import/urdf/urdf.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {

@@ -1,10 +1,10 @@
 // Writing a robot and reading it again changes nothing, to the last bit.
-#include "collision/import/urdf_writer.h"
+#include "collision/import/urdf/urdf_writer.h"
 
 #include <random>
 
-#include "collision/import/number_text.h"
-#include "collision/import/urdf.h"
+#include "collision/import/urdf/urdf.h"
+#include "solver/support/number_text.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {

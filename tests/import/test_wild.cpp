@@ -5,9 +5,9 @@
 #include <variant>
 #include <vector>
 
-#include "collision/import/robot_check.h"
-#include "collision/import/urdf.h"
-#include "collision/import/urdf_writer.h"
+#include "collision/import/robot/robot_check.h"
+#include "collision/import/urdf/urdf.h"
+#include "collision/import/urdf/urdf_writer.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {

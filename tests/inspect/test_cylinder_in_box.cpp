@@ -16,8 +16,8 @@
 
 #include <map>
 
-#include "app/inspect/shown.h"
-#include "solver/model_builder.h"
+#include "app/inspect/displayed_quantities.h"
+#include "solver/dynamics/model_builder.h"
 
 using namespace twinarm;
 

@@ -3,8 +3,8 @@
 
 #include <map>
 
+#include "app/inspect/displayed_quantities.h"
 #include "app/inspect/equations.h"
-#include "app/inspect/shown.h"
 #include "tests/solver/random_tree.h"
 
 using namespace twinarm;

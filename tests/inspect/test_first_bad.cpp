@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "solver/dynamics.h"
-#include "solver/first_bad.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/model/non_finite.h"
 #include "tests/solver/random_tree.h"
 
 using namespace twinarm;

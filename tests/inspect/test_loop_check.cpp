@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "app/inspect/checks.h"
-#include "solver/dense_algebra.h"
-#include "solver/loop_faults.h"
+#include "app/inspect/cross_checks.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/loops/loop_checks.h"
 #include "tests/solver/random_tree.h"
 
 using namespace twinarm;

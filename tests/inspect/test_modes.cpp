@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/inspect/linear_system.h"
+#include "app/modes/linear_system.h"
 #include "tests/solver/random_tree.h"
 
 using namespace twinarm;

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "app/inspect/linear_loops.h"
-#include "solver/loop_closure.h"
-#include "solver/model_builder.h"
+#include "app/modes/linear_loops.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/loops/loop_closure.h"
 
 using namespace twinarm;
 

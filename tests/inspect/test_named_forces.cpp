@@ -1,7 +1,7 @@
 // Wrenches from any viewpoint, and forces by their names.
 #include <doctest/doctest.h>
 
-#include "app/inspect/balance.h"
+#include "app/inspect/force_balance.h"
 #include "tests/solver/random_tree.h"
 
 using namespace twinarm;

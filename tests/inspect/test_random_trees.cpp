@@ -3,9 +3,9 @@
 
 #include <map>
 
-#include "app/inspect/balance.h"
-#include "app/inspect/checks.h"
-#include "app/inspect/shown.h"
+#include "app/inspect/cross_checks.h"
+#include "app/inspect/displayed_quantities.h"
+#include "app/inspect/force_balance.h"
 #include "tests/solver/random_tree.h"
 
 using namespace twinarm;

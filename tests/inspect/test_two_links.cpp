@@ -22,8 +22,8 @@
 #include <map>
 #include <numbers>
 
-#include "app/inspect/balance.h"
-#include "app/inspect/shown.h"
+#include "app/inspect/displayed_quantities.h"
+#include "app/inspect/force_balance.h"
 #include "tests/solver/random_tree.h"
 
 using namespace twinarm;

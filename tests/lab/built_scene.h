@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "app/lab/workshop.h"
+#include "app/lab/session/scene_builder_thread.h"
 #include "tests/scene/helpers.h"
 
 namespace twinarm {

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <functional>
 
-#include "app/lab/run/hand_lead.h"
 #include "app/lab/run/history.h"
+#include "app/lab/run/input_override.h"
 #include "app/lab/run/lab_run.h"
-#include "app/lab/run/mouse_pull.h"
+#include "app/lab/run/mouse_spring.h"
 #include "app/record/record_run.h"
 #include "app/record/replay.h"
 #include "coupling/device/virtual_omni.h"
-#include "solver/energy.h"
+#include "solver/dynamics/energy.h"
 #include "tests/scene/helpers.h"
 
 namespace twinarm {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/knobs/gallery.h"
-#include "app/lab/knobs/knobs.h"
-#include "app/lab/knobs/presets.h"
+#include "app/lab/parameters/gallery.h"
+#include "app/lab/parameters/parameters.h"
+#include "app/lab/parameters/presets.h"
 #include "app/record/unpack.h"
-#include "app/simulate/run.h"
+#include "app/run/run.h"
 
 namespace twinarm {
 

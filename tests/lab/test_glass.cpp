@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "app/dynamics/json_tree.h"
-#include "app/inspect/command/inspect_input.h"
-#include "app/inspect/command/inspect_output.h"
-#include "app/lab/glass/glass.h"
+#include "app/data/json_tree.h"
+#include "app/inspect/report/inspect_input.h"
+#include "app/inspect/report/inspect_output.h"
+#include "app/lab/inspector/body_inspector.h"
 #include "app/lab/run/lab_run.h"
-#include "app/simulate/run.h"
+#include "app/run/run.h"
 #include "tests/import/helpers.h"
 
 using namespace twinarm;

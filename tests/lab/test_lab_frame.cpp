@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "app/lab/stream/frame_bytes.h"
-#include "solver/kinematics.h"
+#include "solver/dynamics/kinematics.h"
 #include "tests/lab/watched.h"
 
 namespace twinarm {

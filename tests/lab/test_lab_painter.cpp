@@ -4,9 +4,9 @@
 #include <mutex>
 #include <thread>
 
-#include "app/lab/allowance.h"
-#include "app/lab/lab_painter.h"
-#include "app/lab/state_message.h"
+#include "app/lab/app/message_streamer.h"
+#include "app/lab/app/rate_limiter.h"
+#include "app/lab/app/state_message.h"
 #include "tests/lab/built_scene.h"
 #include "tests/lab/helpers.h"
 

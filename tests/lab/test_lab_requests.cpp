@@ -3,7 +3,7 @@
 #include <zlib.h>
 
 #include "app/lab/server/http_text.h"
-#include "solver/fault.h"
+#include "solver/support/diagnostics.h"
 #include "tests/lab/lab_host.h"
 
 using namespace twinarm;

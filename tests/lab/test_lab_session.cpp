@@ -7,12 +7,12 @@
 #include <functional>
 #include <thread>
 
-#include "app/lab/audience.h"
-#include "app/lab/brought_file.h"
-#include "app/lab/lab_command.h"
-#include "app/lab/lab_session.h"
-#include "app/lab/pace.h"
-#include "solver/fault.h"
+#include "app/lab/app/clients.h"
+#include "app/lab/app/uploaded_file.h"
+#include "app/lab/session/lab_command.h"
+#include "app/lab/session/lab_session.h"
+#include "app/lab/session/pace.h"
+#include "solver/support/diagnostics.h"
 #include "tests/lab/built_scene.h"
 #include "tests/lab/helpers.h"
 

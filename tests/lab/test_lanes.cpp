@@ -1,11 +1,11 @@
 // Runs side by side: each is the run that it would be alone, whatever the others do, and they are
 // remembered together.
-#include "app/lab/run/lanes.h"
+#include "app/lab/run/variants.h"
 
 #include <numbers>
 
+#include "app/film/shown_instant.h"
 #include "app/lab/stream/lab_view.h"
-#include "app/record/shown_instant.h"
 #include "tests/lab/frame_reader.h"
 #include "tests/lab/helpers.h"
 

@@ -1,7 +1,7 @@
 // Each remedy tried: the run that stopped, again, with its changes.
 #include <doctest/doctest.h>
 
-#include "app/lab/knobs/remedies.h"
+#include "app/diagnose/remedies.h"
 #include "tests/lab/knob_scenes.h"
 
 using namespace twinarm;

@@ -21,10 +21,10 @@
 #include <string_view>
 #include <vector>
 
-#include "app/hand/devices.h"
-#include "app/live/live_run.h"
-#include "app/live/servo_clock.h"
-#include "app/scene/read_scene.h"
+#include "app/device/devices.h"
+#include "app/scene/read/read_scene.h"
+#include "app/servo/servo_clock.h"
+#include "app/servo/servo_run.h"
 
 namespace twinarm {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <functional>
 
-#include "app/live/live_run.h"
-#include "app/live/servo_clock.h"
-#include "app/live/servo_loop.h"
-#include "app/live/tick_times.h"
+#include "app/servo/servo_clock.h"
+#include "app/servo/servo_loop.h"
+#include "app/servo/servo_run.h"
+#include "app/servo/tick_times.h"
 #include "tests/scene/helpers.h"
 #include "tests/solver/count_allocations.h"
 

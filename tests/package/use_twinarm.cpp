@@ -3,13 +3,13 @@
 #include <cstdio>
 #include <numbers>
 
-#include "collision/collision_world.h"
-#include "collision/import/robot_model.h"
-#include "collision/import/urdf.h"
-#include "coupling/linear.h"
-#include "solver/dynamics.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
+#include "collision/detection/collision_world.h"
+#include "collision/import/robot/robot_model.h"
+#include "collision/import/urdf/urdf.h"
+#include "coupling/laws/linear.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/stepping/simulation.h"
 
 namespace {
 

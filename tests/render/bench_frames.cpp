@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/render/painter.h"
+#include "app/render/gl/painter.h"
 
 namespace twinarm {
 namespace {

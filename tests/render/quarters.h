@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "app/render/image.h"
+#include "app/render/list/image.h"
 
 namespace twinarm {
 

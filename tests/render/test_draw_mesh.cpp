@@ -8,8 +8,8 @@
 #include <random>
 #include <utility>
 
-#include "app/render/draw_mesh.h"
-#include "app/render/mend_winding.h"
+#include "app/render/list/draw_mesh.h"
+#include "app/render/list/fix_winding.h"
 
 using namespace twinarm;
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <random>
 
-#include "app/render/painter.h"
-#include "app/render/view.h"
-#include "solver/fault.h"
+#include "app/render/gl/painter.h"
+#include "app/render/list/view.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

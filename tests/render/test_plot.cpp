@@ -1,5 +1,5 @@
 // Plots that run under pictures: ticks, ranges, and where the curve is in the pixels.
-#include "app/render/plot.h"
+#include "app/render/text/plot.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Where the painter looks up shadows on the floor, against single rays of light.
-#include "app/render/shadow_tiles.h"
+#include "app/render/gl/shadow_tiles.h"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "app/render/view.h"
+#include "app/render/list/view.h"
 
 namespace twinarm {
 namespace {

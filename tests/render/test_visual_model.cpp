@@ -1,5 +1,5 @@
 // Meshes of files as they are drawn: textures the right way up, broken pictures told.
-#include "app/render/visual_model.h"
+#include "app/render/list/visual_model.h"
 
 #include <doctest/doctest.h>
 #include <turbojpeg.h>
@@ -14,8 +14,8 @@
 #include <string>
 #include <utility>
 
-#include "app/render/painter.h"
-#include "solver/fault.h"
+#include "app/render/gl/painter.h"
+#include "solver/support/diagnostics.h"
 #include "tests/render/quarters.h"
 
 using namespace twinarm;

@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include "app/scene/read_scene.h"
-#include "app/scene/scene_model.h"
+#include "app/scene/model/scene_model.h"
+#include "app/scene/read/read_scene.h"
 #include "tests/import/helpers.h"
 
 namespace twinarm {

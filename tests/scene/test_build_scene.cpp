@@ -2,11 +2,11 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
-#include "app/scene/scene_shapes.h"
-#include "collision/import/urdf.h"
-#include "coupling/prediction.h"
-#include "solver/energy.h"
-#include "solver/simulation.h"
+#include "app/scene/model/scene_shapes.h"
+#include "collision/import/urdf/urdf.h"
+#include "coupling/analysis/prediction.h"
+#include "solver/dynamics/energy.h"
+#include "solver/stepping/simulation.h"
 #include "tests/scene/helpers.h"
 
 namespace twinarm {

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scene/scene_shapes.h"
-#include "collision/collision_world.h"
-#include "solver/dynamics.h"
-#include "solver/simulation.h"
+#include "app/scene/model/scene_shapes.h"
+#include "collision/detection/collision_world.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/stepping/simulation.h"
 #include "tests/scene/helpers.h"
 
 namespace twinarm {

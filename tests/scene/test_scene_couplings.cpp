@@ -1,10 +1,10 @@
 // Every type of coupling of a scene: built, faulty, pulled apart into what is drawn and booked.
 #include <Eigen/Geometry>
 
-#include "app/scene/scene_couplings.h"
-#include "coupling/god_object.h"
-#include "coupling/prediction.h"
-#include "solver/simulation.h"
+#include "app/scene/forces/scene_couplings.h"
+#include "coupling/analysis/prediction.h"
+#include "coupling/laws/god_object.h"
+#include "solver/stepping/simulation.h"
 #include "tests/scene/helpers.h"
 
 namespace twinarm {

@@ -1,9 +1,9 @@
 // Couplings and constraints refer to the right bodies, points and frames.
 #include <Eigen/Geometry>
 
-#include "app/scene/scene_couplings.h"
-#include "coupling/prediction.h"
-#include "solver/simulation.h"
+#include "app/scene/forces/scene_couplings.h"
+#include "coupling/analysis/prediction.h"
+#include "solver/stepping/simulation.h"
 #include "tests/scene/helpers.h"
 
 namespace twinarm {

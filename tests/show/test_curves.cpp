@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/show/curves.h"
-#include "app/show/stage.h"
+#include "app/draw/curves.h"
+#include "app/draw/scene_view.h"
 #include "tests/scene/helpers.h"
 
 namespace twinarm {

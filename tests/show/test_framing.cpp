@@ -3,9 +3,9 @@
 
 #include <random>
 
-#include "app/render/view.h"
-#include "app/show/framing.h"
-#include "app/show/stage.h"
+#include "app/draw/cameras.h"
+#include "app/draw/scene_view.h"
+#include "app/render/list/view.h"
 #include "tests/scene/helpers.h"
 
 namespace twinarm {

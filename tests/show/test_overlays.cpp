@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "app/show/overlays.h"
-#include "app/show/palette.h"
+#include "app/draw/overlays/overlays.h"
+#include "app/draw/palette.h"
 #include "tests/scene/helpers.h"
 
 namespace twinarm {

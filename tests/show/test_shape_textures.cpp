@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "app/render/painter.h"
-#include "app/show/cast.h"
-#include "collision/import/robot_model.h"
-#include "collision/import/urdf.h"
+#include "app/draw/scene_meshes.h"
+#include "app/render/gl/painter.h"
+#include "collision/import/robot/robot_model.h"
+#include "collision/import/urdf/urdf.h"
 #include "tests/render/quarters.h"
 #include "tests/scene/helpers.h"
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "solver/convert.h"
-#include "solver/dynamics.h"
-#include "solver/kinematics.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/kinematics.h"
+#include "solver/model/convert_model.h"
 #include "tests/solver/random_tree.h"
 
 #define TWINARM_SCALARS double, float, twinarm::Dual<8>, twinarm::Batch<4>, twinarm::Batch<8>

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "solver/dense_algebra.h"
+#include "solver/linear_algebra/dense_algebra.h"
 
 namespace twinarm::testing {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/impulse_solver.h"
+#include "solver/impulses/impulse_solver.h"
 #include "tests/solver/random_tree.h"
 
 namespace twinarm::testing {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/stepping/simulation.h"
 
 namespace twinarm::testing {
 

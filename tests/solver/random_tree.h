@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/model_builder.h"
+#include "solver/dynamics/model_builder.h"
 
 namespace twinarm::testing {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/world.h"
+#include "solver/dynamics/world_kinematics.h"
 #include "tests/solver/every_scalar.h"
 
 using namespace twinarm;

@@ -1,5 +1,5 @@
 // What the builder makes of its input, and what it refuses, all faults at once.
-#include "solver/model_builder.h"
+#include "solver/dynamics/model_builder.h"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/dynamics.h"
-#include "solver/kinematics.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/kinematics.h"
 
 using namespace twinarm;
 

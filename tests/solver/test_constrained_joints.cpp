@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/joint_limits.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/impulses/joint_limits.h"
+#include "solver/stepping/simulation.h"
 
 using namespace twinarm;
 

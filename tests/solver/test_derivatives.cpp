@@ -1,5 +1,5 @@
 // Derivatives of forward dynamics by dual numbers against differences of forward dynamics.
-#include "solver/derivatives.h"
+#include "solver/dynamics/derivatives.h"
 
 #include "tests/solver/every_scalar.h"
 #include "tests/solver/world_oracle.h"

@@ -4,10 +4,10 @@
 #include <numbers>
 #include <string>
 
-#include "solver/dynamics.h"
-#include "solver/forward_dynamics.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/loops/constrained_dynamics.h"
+#include "solver/stepping/simulation.h"
 #include "tests/solver/pendulum.h"
 
 using namespace twinarm;

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "benchmarks/analytic/golden_steps.h"
-#include "solver/model_builder.h"
+#include "benchmarks/analytic/joints/golden_steps.h"
+#include "solver/dynamics/model_builder.h"
 #include "tests/solver/pendulum.h"
 
 using namespace twinarm;

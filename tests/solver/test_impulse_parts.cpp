@@ -5,11 +5,11 @@
 #include <Eigen/Core>
 #include <random>
 
-#include "solver/dynamics.h"
-#include "solver/envelope_lu.h"
-#include "solver/impulse_solver.h"
-#include "solver/model_trees.h"
-#include "solver/second_order_cone.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/impulses/impulse_solver.h"
+#include "solver/impulses/kinematic_trees.h"
+#include "solver/linear_algebra/envelope_lu.h"
+#include "solver/linear_algebra/second_order_cone.h"
 #include "tests/solver/random_tree.h"
 
 using namespace twinarm;

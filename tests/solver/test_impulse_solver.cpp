@@ -1,5 +1,5 @@
 // The solver of impulses against the laws in their plain form, and against closed forms.
-#include "solver/impulse_solver.h"
+#include "solver/impulses/impulse_solver.h"
 
 #include <doctest/doctest.h>
 
@@ -28,7 +28,7 @@ ImpulseProblem point_on_plane(double mu, std::array<double, 3> v) {
 }
 
 // More contacts than velocities, friction to 5, masses 10^4 apart. All contacts can part (b >= 0),
-// so there is a solution; without impulse_path.cpp 105 of 500 are not found.
+// so there is a solution; without central_path.cpp 105 of 500 are not found.
 ImpulseProblem hard_problem(unsigned seed) {
   const int bodies = 1 + static_cast<int>(seed % 5);
   const int contacts = 2 * bodies * (1 + static_cast<int>(seed % 3));

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "solver/model_builder.h"
+#include "solver/dynamics/model_builder.h"
 #include "tests/solver/pendulum.h"
 
 using namespace twinarm;

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "solver/configuration.h"
-#include "solver/simulation.h"
+#include "solver/model/configuration.h"
+#include "solver/stepping/simulation.h"
 #include "tests/solver/random_tree.h"
 
 using namespace twinarm;

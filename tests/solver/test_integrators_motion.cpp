@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "solver/model_builder.h"
+#include "solver/dynamics/model_builder.h"
 #include "tests/solver/pendulum.h"
 
 using namespace twinarm;

@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <limits>
 
-#include "benchmarks/analytic/loop_cases.h"
-#include "solver/configuration.h"
-#include "solver/loop_factors.h"
-#include "solver/loop_faults.h"
+#include "benchmarks/analytic/loops/loop_cases.h"
+#include "solver/linear_algebra/pivoted_cholesky.h"
+#include "solver/loops/loop_checks.h"
+#include "solver/model/configuration.h"
 #include "tests/solver/count_allocations.h"
 #include "tests/solver/random_tree.h"
 

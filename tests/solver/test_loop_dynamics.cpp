@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "benchmarks/analytic/loop_cases.h"
-#include "solver/dense_algebra.h"
-#include "solver/dynamics.h"
-#include "solver/mimic.h"
-#include "solver/simulation.h"
+#include "benchmarks/analytic/loops/loop_cases.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/model/mimic.h"
+#include "solver/stepping/simulation.h"
 #include "tests/solver/eigen_vectors.h"
 #include "tests/solver/random_tree.h"
 

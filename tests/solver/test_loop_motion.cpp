@@ -7,12 +7,12 @@
 #include <numbers>
 #include <string>
 
-#include "benchmarks/analytic/loop_cases.h"
-#include "solver/dense_algebra.h"
-#include "solver/energy.h"
-#include "solver/loop_assembly.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
+#include "benchmarks/analytic/loops/loop_cases.h"
+#include "solver/dynamics/energy.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/loops/loop_assembly.h"
+#include "solver/stepping/simulation.h"
 #include "tests/solver/count_allocations.h"
 
 using namespace twinarm;

@@ -1,14 +1,14 @@
-// What a run remembers (solver/memory.h): written down and taken back it goes on with the same
-// bits.
-#include "solver/memory.h"
+// What a run remembers (solver/support/state_archive.h): written down and taken back it goes on
+// with the same bits.
+#include "solver/support/state_archive.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <deque>
 
-#include "solver/joint_limits.h"
-#include "solver/simulation.h"
+#include "solver/impulses/joint_limits.h"
+#include "solver/stepping/simulation.h"
 #include "tests/solver/random_tree.h"
 
 using namespace twinarm;

@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include "solver/dense_algebra.h"
-#include "solver/dynamics.h"
-#include "solver/energy.h"
-#include "solver/forward_dynamics.h"
-#include "solver/mimic.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/energy.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/loops/constrained_dynamics.h"
+#include "solver/model/mimic.h"
+#include "solver/stepping/simulation.h"
 #include "tests/solver/eigen_vectors.h"
 #include "tests/solver/friction_oracle.h"
 #include "tests/solver/random_tree.h"

@@ -1,7 +1,7 @@
 // No pass takes anything from the heap, in any scalar and at any level; nor do what looks at its
 // results.
-#include "solver/operational_space.h"
-#include "solver/world.h"
+#include "solver/dynamics/operational_space.h"
+#include "solver/dynamics/world_kinematics.h"
 #include "tests/solver/count_allocations.h"
 #include "tests/solver/every_scalar.h"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/dynamics.h"
-#include "solver/fault.h"
-#include "solver/simulation.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/stepping/simulation.h"
+#include "solver/support/diagnostics.h"
 #include "tests/solver/random_tree.h"
 
 using namespace twinarm;

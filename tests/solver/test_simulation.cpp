@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "solver/energy.h"
-#include "solver/model_builder.h"
-#include "solver/simulation.h"
+#include "solver/dynamics/energy.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/stepping/simulation.h"
 #include "tests/solver/count_allocations.h"
 #include "tests/solver/random_tree.h"
 

@@ -1,12 +1,12 @@
-// What constraints did in a step (step_account.h).
+// What constraints did in a step (constraint_work.h).
 #include <doctest/doctest.h>
 
 #include <string>
 
-#include "benchmarks/analytic/loop_cases.h"
-#include "solver/energy.h"
-#include "solver/joint_limits.h"
-#include "solver/simulation.h"
+#include "benchmarks/analytic/loops/loop_cases.h"
+#include "solver/dynamics/energy.h"
+#include "solver/impulses/joint_limits.h"
+#include "solver/stepping/simulation.h"
 #include "tests/solver/count_allocations.h"
 
 using namespace twinarm;

@@ -1,10 +1,10 @@
 // What an observer in the world sees, against poses and their derivatives (world_oracle.h), the
 // laws of momentum and energy, and the dense mass matrix.
-#include "solver/dense_algebra.h"
-#include "solver/world.h"
+#include "solver/dynamics/world_kinematics.h"
+#include "solver/linear_algebra/dense_algebra.h"
 
-#include "solver/energy.h"
-#include "solver/operational_space.h"
+#include "solver/dynamics/energy.h"
+#include "solver/dynamics/operational_space.h"
 #include "tests/solver/every_scalar.h"
 #include "tests/solver/world_oracle.h"
 

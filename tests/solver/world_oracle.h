@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "solver/kinematics.h"
-#include "solver/workspace.h"
+#include "solver/dynamics/kinematics.h"
+#include "solver/model/workspace.h"
 #include "tests/solver/random_tree.h"
 
 namespace twinarm::testing {

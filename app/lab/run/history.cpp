@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "app/record/recording_writer.h"
-#include "coupling/device/hand_log.h"
-#include "solver/fault.h"
+#include "coupling/device/device_log.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

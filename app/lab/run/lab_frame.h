@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/draw/snapshot.h"
 #include "app/record/recording.h"
-#include "app/show/moment.h"
 
 namespace twinarm {
 
@@ -32,7 +32,7 @@ struct LabHandFrame {
   int mode = 0;  // HandWatch::Mode
 };
 
-// Of a run beside this one (lanes.h). Stopped: where it stopped, and at that time.
+// Of a run beside this one (variants.h). Stopped: where it stopped, and at that time.
 struct LabFrame;
 struct LaneFrame {
   std::shared_ptr<const LabFrame> frame;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/device/live_hand.h"
-#include "solver/pose.h"
+#include "coupling/device/device_motion.h"
+#include "solver/spatial/pose.h"
 
 namespace twinarm {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "app/lab/run/hand_lead.h"
-#include "app/lab/run/mouse_pull.h"
-#include "app/record/post_mortem.h"
+#include "app/diagnose/post_mortem.h"
+#include "app/lab/run/input_override.h"
+#include "app/lab/run/mouse_spring.h"
 #include "app/record/record_run.h"
-#include "app/simulate/run_end.h"
-#include "solver/energy.h"
+#include "app/run/run_end.h"
+#include "solver/dynamics/energy.h"
 
 namespace twinarm {
 namespace {

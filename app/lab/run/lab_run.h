@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "app/lab/run/lab_frame.h"
-#include "app/lab/run/lab_hand.h"
 #include "app/lab/run/lab_input.h"
+#include "app/lab/run/lab_input_device.h"
 #include "app/lab/run/lab_scene.h"
-#include "app/simulate/stepped_run.h"
+#include "app/run/stepped_run.h"
 
 namespace twinarm {
 

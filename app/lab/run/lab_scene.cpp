@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "app/data/toml_text.h"
 #include "app/record/record_run.h"
-#include "app/scene/toml_text.h"
-#include "collision/import/number_text.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/record/unpack.h"
-#include "app/simulate/simulate_input.h"
+#include "app/run/simulate_input.h"
 
 namespace twinarm {
 
@@ -32,7 +32,7 @@ class LabScene {
   std::string text(const std::vector<Change>& changes = {}) const;
   bool is_scene() const;
   // Of a recording of the run with these changes. Some of the couplings, by their places in the
-  // scene, may be led by a hand's log (coupling/device/hand_log.h), which goes with it. Throws
+  // scene, may be led by a hand's log (coupling/device/device_log.h), which goes with it. Throws
   // InputError.
   struct Hand {
     std::vector<std::size_t> couplings;

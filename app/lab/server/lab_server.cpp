@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "app/lab/server/connection_live.inl"
-#include "solver/fault.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace lab_server {

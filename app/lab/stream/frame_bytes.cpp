@@ -11,7 +11,7 @@ constexpr std::uint16_t kNoBody = 65535;
 constexpr std::size_t kPlace = 7;  // numbers of a body's place
 constexpr double kFarthest = 1e9;  // [m]: a run that flies apart
 
-// Little-endian, as the machine: solver/memory.h asserts it.
+// Little-endian, as the machine: solver/support/state_archive.h asserts it.
 class Block {
  public:
   template <class T>

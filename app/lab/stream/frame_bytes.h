@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/web/draw_columns.h"
+#include "app/page/draw_columns.h"
 
 namespace twinarm {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/lab/run/lab_frame.h"
-#include "app/web/run_channels.h"
+#include "app/page/run_channels.h"
 
 namespace twinarm {
 

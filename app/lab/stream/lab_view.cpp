@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "app/draw/overlays/overlays.h"
 #include "app/lab/stream/frame_bytes.h"
-#include "app/lab/stream/lab_moment.h"
+#include "app/lab/stream/lab_snapshot.h"
 #include "app/lab/stream/live_view.h"
 #include "app/lab/stream/mesh_store.h"
 #include "app/lab/stream/scene_message.h"
-#include "app/show/overlays.h"
 
 namespace twinarm {
 namespace {

@@ -22,9 +22,9 @@
 #include <vector>
 
 #include "app/lab/run/lab_frame.h"
-#include "app/lab/scene_words.h"
-#include "app/lab/stream/lane_views.h"
-#include "app/simulate/simulate_input.h"
+#include "app/lab/session/scene_words.h"
+#include "app/lab/stream/variant_views.h"
+#include "app/run/simulate_input.h"
 
 namespace twinarm {
 

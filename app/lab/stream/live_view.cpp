@@ -6,9 +6,9 @@
 #include <numbers>
 #include <optional>
 
-#include "app/dynamics/coordinates.h"
-#include "app/show/framing.h"
-#include "solver/mimic.h"
+#include "app/draw/cameras.h"
+#include "app/robot/coordinates.h"
+#include "solver/model/mimic.h"
 
 namespace twinarm {
 namespace {

@@ -1,8 +1,8 @@
 // The stage of a run whose end nobody knows: what is in view, and scales that grow with the run.
 #pragma once
 
-#include "app/dynamics/robot_input.h"
-#include "app/show/stage.h"
+#include "app/draw/scene_view.h"
+#include "app/robot/robot_input.h"
 
 namespace twinarm {
 

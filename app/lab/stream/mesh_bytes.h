@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/render/draw_mesh.h"
+#include "app/render/list/draw_mesh.h"
 
 namespace twinarm {
 

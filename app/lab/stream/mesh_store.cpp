@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "app/lab/stream/mesh_bytes.h"
-#include "app/web/draw_columns.h"
+#include "app/page/draw_columns.h"
 
 namespace twinarm {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/render/draw_list.h"
+#include "app/render/list/draw_list.h"
 
 namespace twinarm {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/record/shown_instant.h"
-#include "app/show/overlays.h"
-#include "app/web/draw_columns.h"
+#include "app/draw/overlays/overlays.h"
+#include "app/film/shown_instant.h"
+#include "app/page/draw_columns.h"
 
 namespace twinarm {
 namespace {

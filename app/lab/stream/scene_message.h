@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "app/draw/scene_view.h"
 #include "app/lab/stream/lab_channels.h"
-#include "app/lab/stream/lab_moment.h"
+#include "app/lab/stream/lab_snapshot.h"
 #include "app/lab/stream/lab_view.h"
 #include "app/lab/stream/mesh_store.h"
-#include "app/show/stage.h"
 
 namespace twinarm {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/dynamics.h"
-#include "solver/world.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/world_kinematics.h"
 
 namespace twinarm::soak {
 

@@ -28,8 +28,8 @@
 
 #include <vector>
 
-#include "app/scene/scene_couplings.h"
-#include "solver/workspace.h"
+#include "app/scene/forces/scene_couplings.h"
+#include "solver/model/workspace.h"
 #include "tests/scene/soak/soak_shoves.h"
 
 namespace twinarm::soak {

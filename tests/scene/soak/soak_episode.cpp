@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/scene/scene_shapes.h"
-#include "collision/contact_constraints.h"
-#include "solver/energy.h"
-#include "solver/joint_limits.h"
-#include "solver/simulation.h"
+#include "app/scene/model/scene_shapes.h"
+#include "collision/contact/contact_constraints.h"
+#include "solver/dynamics/energy.h"
+#include "solver/impulses/joint_limits.h"
+#include "solver/stepping/simulation.h"
 #include "tests/scene/soak/soak_energy.h"
 
 namespace twinarm::soak {

@@ -3,7 +3,7 @@
 #include <array>
 #include <filesystem>
 
-#include "app/scene/read_scene.h"
+#include "app/scene/read/read_scene.h"
 
 namespace twinarm::soak {
 namespace {

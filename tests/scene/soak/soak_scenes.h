@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/scene_description.h"
+#include "app/scene/read/scene_description.h"
 
 namespace twinarm::soak {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solver/force_source.h"
+#include "solver/forces/force_source.h"
 #include "tests/scene/soak/soak_scenes.h"
 
 namespace twinarm::soak {

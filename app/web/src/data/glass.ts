@@ -1,4 +1,4 @@
-// What the lab's inspector tells of one body in one frame: app/lab/glass/glass.h.
+// What the lab's inspector tells of one body in one frame: app/lab/inspector/body_inspector.h.
 import type { Inspection, PassStep, Quantity, Value } from './inspection';
 
 export interface Term {

@@ -1,0 +1,198 @@
+#include "app/accounting/energy_balance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/dynamics/energy.h"
+
+namespace twinarm {
+namespace {
+
+// A velocity that is the rate of change of a coordinate.
+bool is_rate(JointType type) {
+  return type != JointType::spherical && type != JointType::free;
+}
+
+double dot(const Eigen::VectorXd& rows, const NamedJoint& joint,
+           const std::vector<double>& values) {
+  double sum = 0;
+  for (std::size_t c = 0; c < joint.nv; ++c)
+    sum += rows[static_cast<Eigen::Index>(joint.row + c)] * values[c];
+  return sum;
+}
+
+}  // namespace
+
+Ledger::Ledger(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
+               SceneCouplings* couplings, Integrator integrator, bool others_want_inner)
+    : input_(input),
+      wrenches_(wrenches),
+      couplings_(couplings),
+      k_(input.model),
+      start_(input.state.x),
+      now_(start_) {
+  find_rows(integrator, others_want_inner);
+  power_now_ = powers(start_, Side::after);
+}
+
+void Ledger::find_rows(Integrator integrator, bool others_want_inner) {
+  const Model<double>& model = input_.model;
+  const auto& joints = input_.coordinates.all();
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (!input_.state.has_tau[j]) continue;
+    actuators_.push_back({&joints[j], is_rate(joints[j].type)});
+    if (!actuators_.back().is_exact) integrals_.push_back({"actuator/" + joints[j].name});
+  }
+  for (std::size_t i = 0; i < wrenches_.size(); ++i)
+    integrals_.push_back({"wrench/" + std::to_string(i)});
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    if (model.dofs(i) == 0) continue;
+    const std::size_t iv = model.iv[i];  // the dofs of a joint are all alike
+    const Friction friction{model.joint_name[i], iv, model.dofs(i)};
+    if (model.damping[iv] != 0) damped_.push_back(friction);
+    if (model.coulomb_plus[iv] != 0 || model.coulomb_minus[iv] != 0) rubbing_.push_back(friction);
+  }
+  for (const Friction& f : damped_) integrals_.push_back({"joint/" + f.joint + "/damping"});
+  for (const Friction& f : rubbing_) integrals_.push_back({"joint/" + f.joint + "/friction"});
+  for (std::size_t c = 0; c < coupling_count(); ++c)
+    for (const char* part : {"/spring", "/damper", "/hand_on_damper"})
+      integrals_.push_back({"coupling/" + couplings_->spec(c).name + part});
+  implicit_.assign(coupling_count(), 0);
+
+  const int order = facts_of(integrator).order;
+  weights_ = {0.5, 0.5};
+  if ((integrals_.empty() && !others_want_inner) || order < 4) return;
+  nodes_ = {0.5};
+  weights_ = {1.0 / 6, 4.0 / 6, 1.0 / 6};
+  if (order == 4) return;
+  const double a = 0.5 / std::sqrt(5.0);
+  nodes_ = {0.5 - a, 0.5 + a};
+  weights_ = {1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12};
+}
+
+std::vector<double> Ledger::powers(const State<double>& x, Side side) const {
+  std::vector<double> powers;
+  for (const Actuator& actuator : actuators_)
+    if (!actuator.is_exact)
+      powers.push_back(
+          dot(input_.state.tau, *actuator.joint, from_solver(*actuator.joint, x, x.qd)));
+  if (!wrenches_.empty() || couplings_) forward_kinematics(input_.model, x, k_);
+  for (const GivenWrench& wrench : wrenches_) powers.push_back(wrench.power(k_));
+  const Model<double>& model = input_.model;
+  for (const Friction& f : damped_) {
+    double sum = 0;
+    for (std::size_t i = f.iv; i < f.iv + f.nv; ++i) sum -= model.damping[i] * x.qd[i] * x.qd[i];
+    powers.push_back(sum);
+  }
+  for (const Friction& f : rubbing_) {
+    double sum = 0;
+    for (std::size_t i = f.iv; i < f.iv + f.nv; ++i)
+      sum -= x.qd[i] > 0 ? model.coulomb_plus[i] * x.qd[i] : -model.coulomb_minus[i] * x.qd[i];
+    powers.push_back(sum);
+  }
+  for (std::size_t c = 0; c < coupling_count(); ++c) {
+    const SceneCoupling& spec = couplings_->spec(c);
+    const CouplingEnds ends = couplings_->ends(c, x, k_, side);
+    const Vector3 damped = spec.absolute_damper ? Vector3(Vector3::Zero()) : ends.target_velocity;
+    const Vector3 spring = spec.spring.k * ends.offset;
+    const Vector3 damper = spec.spring.b * (damped - ends.velocity);
+    powers.insert(powers.end(), {spring.dot(ends.target_velocity), damper.dot(ends.velocity),
+                                 damper.dot(damped)});
+  }
+  return powers;
+}
+
+std::span<const double> Ledger::inner_nodes() const {
+  return nodes_;
+}
+
+void Ledger::add_step(double h, const std::vector<State<double>>& inner, const State<double>& end) {
+  const auto add = [&](const std::vector<double>& power, double weight) {
+    for (std::size_t i = 0; i < integrals_.size(); ++i) integrals_[i].work += weight * h * power[i];
+  };
+  // Found again: of a hand that is known only up to now, the next step's velocity has come since.
+  if (couplings_) power_now_ = powers(now_, Side::after);
+  add(power_now_, weights_.front());
+  for (std::size_t s = 0; s < inner.size(); ++s)
+    add(powers(inner[s], Side::after), weights_[s + 1]);
+  power_now_ = powers(end, Side::before);
+  add(power_now_, weights_.back());
+  add_implicit(h, end);
+  now_ = end;
+}
+
+// (pull h - m* (v' - v)) . (v + v')/2, less what spring and damper have already.
+void Ledger::add_implicit(double h, const State<double>& end) {
+  for (std::size_t c = 0; c < coupling_count(); ++c) {
+    if (!couplings_->spec(c).third_row()) continue;
+    const double m_star = couplings_->m_star(c);
+    forward_kinematics(input_.model, now_, k_);
+    const CouplingEnds before = couplings_->ends(c, now_, k_);
+    forward_kinematics(input_.model, end, k_);
+    const CouplingEnds after = couplings_->ends(c, end, k_);
+    const Vector3 mean = 0.5 * (before.velocity + after.velocity);
+    implicit_[c] +=
+        (h * couplings_->pull(c) - m_star * (after.velocity - before.velocity)).dot(mean);
+  }
+}
+
+void Ledger::visit_memory(Memory& memory) {
+  for (State<double>* x : {&start_, &now_}) {
+    memory.visit_fixed(x->q);
+    memory.visit_fixed(x->qd);
+    memory.visit(x->t);
+  }
+  for (LedgerRow& row : integrals_) memory.visit(row.work);
+  memory.visit_fixed(implicit_);
+  // Found again: a fork's springs pull with another power.
+  if (memory.reads()) power_now_ = powers(now_, Side::after);
+}
+
+double Ledger::elastic_energy(std::size_t c, const State<double>& x) const {
+  forward_kinematics(input_.model, x, k_);
+  return 0.5 * couplings_->spec(c).spring.k * couplings_->ends(c, x, k_).offset.squaredNorm();
+}
+
+std::vector<LedgerRow> Ledger::hand() const {
+  std::vector<LedgerRow> rows;
+  const std::size_t first = integrals_.size() - 3 * coupling_count();
+  for (std::size_t c = 0; c < coupling_count(); ++c)
+    rows.push_back({couplings_->spec(c).name,
+                    integrals_[first + 3 * c].work + integrals_[first + 3 * c + 2].work});
+  return rows;
+}
+
+std::vector<LedgerRow> Ledger::rows() const {
+  const Model<double>& model = input_.model;
+  std::vector<LedgerRow> rows{
+      {"gravity", potential_energy(model, start_) - potential_energy(model, now_)}};
+  auto integral = integrals_.begin();
+  for (const Actuator& actuator : actuators_) {
+    if (!actuator.is_exact) {
+      rows.push_back(*integral++);
+      continue;
+    }
+    const NamedJoint& joint = *actuator.joint;
+    std::vector<double> way = coordinates_of(joint, now_);
+    for (std::size_t c = 0; c < joint.nq; ++c) way[c] -= start_.q[joint.iq + c];
+    rows.push_back({"actuator/" + joint.name, dot(input_.state.tau, joint, way)});
+  }
+  const auto couplings = integrals_.end() - static_cast<std::ptrdiff_t>(3 * coupling_count());
+  rows.insert(rows.end(), integral, couplings);
+  for (std::size_t c = 0; c < coupling_count(); ++c) {
+    const auto hand = couplings + static_cast<std::ptrdiff_t>(3 * c), damper = hand + 1;
+    const double spring = hand->work - (elastic_energy(c, now_) - elastic_energy(c, start_));
+    rows.push_back({hand->name, spring});
+    rows.push_back(*damper);
+    if (const char* third = couplings_->spec(c).third_row())
+      rows.push_back({"coupling/" + couplings_->spec(c).name + "/" + third,
+                      implicit_[c] - spring - damper->work});
+  }
+  double rest = kinetic_energy(model, now_) - kinetic_energy(model, start_);
+  for (const LedgerRow& row : rows) rest -= row.work;
+  rows.push_back({"numerical", rest});
+  return rows;
+}
+
+}  // namespace twinarm

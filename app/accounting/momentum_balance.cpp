@@ -1,0 +1,232 @@
+#include "app/accounting/momentum_balance.h"
+
+#include <algorithm>
+
+namespace twinarm {
+
+MomentumLedger::MomentumLedger(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
+                               SceneCouplings* couplings, Integrator integrator,
+                               bool locates_events, const Simulation& simulation)
+    : input_(input),
+      wrenches_(wrenches),
+      couplings_(couplings),
+      integrator_(integrator),
+      rule_(locates_events ? Rule::located
+            : simulation.constraints().any() || facts_of(integrator).implicit_force
+                ? Rule::at_start
+                : Rule::integral),
+      coupling_count_(couplings ? couplings->size() : 0),
+      loop_count_(simulation.dynamics().bilateral().loops().loops().size()),
+      moved_(bodies_that_forces_move(input.model)),
+      stabilisation_(loop_count_),
+      mimics_(input.model.mimics.size()),
+      start_(simulation.state()),
+      now_(start_),
+      k_(input.model),
+      k_end_(input.model),
+      w_(input.model) {
+  find_trees();
+  sums_.resize(tree(trees_.size()));
+}
+
+// A free joint transmits nothing, unless something is given that acts along it.
+void MomentumLedger::find_trees() {
+  const Model<double>& model = input_.model;
+  std::vector<char> acts(model.parent.size(), 0);
+  const auto& joints = input_.coordinates.all();
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    acts[joints[j].body] = input_.state.has_tau[j] ? 1 : 0;
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    if (!moved_[i] || moved_[static_cast<std::size_t>(model.parent[i])]) continue;
+    const std::size_t iv = model.iv[i];
+    const bool rubs = model.damping[iv] != 0 || model.coulomb_plus[iv] != 0;
+    if (model.joint[i] == JointType::free && !acts[i] && !rubs) continue;
+    Tree tree{model.joint_name[i], std::vector<char>(model.parent.size(), 0)};
+    tree.bodies[i] = 1;
+    for (std::size_t b = i + 1; b < tree.bodies.size(); ++b)
+      tree.bodies[b] = tree.bodies[static_cast<std::size_t>(model.parent[b])];
+    trees_.push_back(std::move(tree));
+  }
+}
+
+void MomentumLedger::visit_memory(Memory& memory) {
+  for (auto* sums : {&sums_, &stabilisation_})
+    for (Exchange& sum : *sums) sum.visit_memory(memory);
+  separation_.visit_memory(memory);
+  limit_separation_.visit_memory(memory);
+  memory.visit_fixed(mimics_);
+  for (State<double>* x : {&start_, &now_}) {
+    memory.visit_fixed(x->q);
+    memory.visit_fixed(x->qd);
+    memory.visit(x->t);
+  }
+}
+
+void MomentumLedger::add_step(double h, std::span<const double> weights,
+                              const std::vector<State<double>>& inner, const Simulation& after,
+                              bool by_limits) {
+  using Side = SceneCouplings::Side;
+  const State<double>& end = after.state();
+  if (rule_ == Rule::at_start) {
+    State<double> at = integrator_ == Integrator::semi_implicit_xv ? end : now_;
+    at.qd = now_.qd;
+    add_given(h, at);
+    add_pulls(h, at, end);
+    if (!after.constraints().any()) add_loops(h, after, now_.qd, h);
+    add_trees(h, after);
+    add_impacts(after);
+  } else if (rule_ == Rule::located) {
+    for (const State<double>* x : {static_cast<const State<double>*>(&now_), &end}) {
+      add_given(0.5 * h, *x);
+      add_couplings(0.5 * h, *x, x == &end ? Side::before : Side::after);
+    }
+  } else {
+    const auto add = [&](const State<double>& x, double weight, Side side) {
+      add_given(weight * h, x);
+      add_couplings(weight * h, x, side);
+      if (trees_.empty() && loop_count_ == 0) return;
+      after.evaluate_at(x, [&](const Simulation& at) {
+        add_loops(weight * h, at, x.qd, 0);
+        add_trees(weight * h, at);
+      });
+    };
+    add(now_, weights.front(), Side::after);
+    for (std::size_t s = 0; s < inner.size(); ++s) add(inner[s], weights[s + 1], Side::after);
+    add(end, weights.back(), Side::before);
+  }
+  const StepAccount& account = after.account();
+  if (rule_ != Rule::located)
+    for (const StepAccount::Push& push : account.pushes())
+      for (std::size_t t = 0; t < trees_.size(); ++t)
+        sums_[tree(t)] +=
+            contents(trees_[t].bodies, push.to) - contents(trees_[t].bodies, push.from);
+  for (std::size_t l = 0; l < loop_count_; ++l) {
+    sums_[loop(l)] += account.loops()[l];
+    stabilisation_[l] += account.stabilisation()[l];
+  }
+  for (std::size_t i = 0; i < mimics_.size(); ++i) mimics_[i] += account.mimics()[i];
+  (by_limits ? limit_separation_ : separation_) += account.separation();
+  now_ = end;
+}
+
+Exchange MomentumLedger::contents(const std::vector<char>& of, const State<double>& x) const {
+  return contents_of(input_.model, of, x, w_);
+}
+
+// Leaves k_ at x.
+void MomentumLedger::add_given(double part, const State<double>& x) {
+  const Model<double>& model = input_.model;
+  forward_kinematics(model, x, k_);
+  const Vector3 g = to_eigen(model.gravity);
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    if (!moved_[i]) continue;
+    const Vector3 first_moment = model.I[i].m * k_.X_WL[i].p + k_.R_WB[i] * to_eigen(model.I[i].h);
+    sums_[0].impulse += part * model.I[i].m * g;
+    sums_[0].moment += part * first_moment.cross(g);
+    if (rule_ != Rule::located) continue;
+    for (std::size_t t = 0; t < trees_.size(); ++t)  // rows() adds the change of its momentum
+      if (trees_[t].bodies[i]) {
+        sums_[tree(t)].impulse -= part * model.I[i].m * g;
+        sums_[tree(t)].moment -= part * first_moment.cross(g);
+      }
+  }
+  for (std::size_t i = 0; i < wrenches_.size(); ++i) {
+    const Wrench now = wrenches_[i].now(k_);
+    sums_[wrench(i)].add_wrench(part, now.point, now.force, now.torque);
+  }
+}
+
+namespace {
+
+// A linear coupling pulls at a point, one of the world's orientation turns; one at a joint acts
+// between two bodies.
+void add_pull(double part, const SceneCoupling& spec, const Vector3& pull, const Kinematics& k,
+              Exchange& sum) {
+  if (!spec.is_external()) return;
+  if (spec.type == CouplingDescription::Type::linear)
+    sum.add_wrench(part, k.position(spec.spring.body, spec.spring.p_L), pull, Vector3::Zero());
+  else
+    sum.add_wrench(part, Vector3::Zero(), Vector3::Zero(), pull);
+}
+
+}  // namespace
+
+// k_ is at x.
+void MomentumLedger::add_couplings(double part, const State<double>& x, SceneCouplings::Side side) {
+  for (std::size_t c = 0; c < coupling_count_; ++c) {
+    const SceneCoupling& spec = couplings_->spec(c);
+    if (spec.rate > 0 || spec.printed) {  // held from step to step
+      add_pull(part, spec, couplings_->pull(c), k_, sums_[coupling(c)]);
+      continue;
+    }
+    const CouplingEnds ends = couplings_->ends(c, x, k_, side);
+    const Vector3 damped = spec.absolute_damper ? Vector3(Vector3::Zero()) : ends.target_velocity;
+    add_pull(part, spec, spec.spring.k * ends.offset + spec.spring.b * (damped - ends.velocity), k_,
+             sums_[coupling(c)]);
+  }
+}
+
+// What the step took: the pull at its start, less m* times the change of the link's velocity.
+void MomentumLedger::add_pulls(double h, const State<double>& at, const State<double>& end) {
+  for (std::size_t c = 0; c < coupling_count_; ++c) {
+    const SceneCoupling& spec = couplings_->spec(c);
+    Vector3 impulse = h * couplings_->pull(c);
+    if (const double m_star = couplings_->m_star(c); m_star != 0) {
+      State<double> then = at;  // velocities of the end where the forces were found: J dqd
+      then.qd = end.qd;
+      forward_kinematics(input_.model, then, k_end_);
+      impulse -= m_star * (couplings_->ends(c, then, k_end_).velocity -
+                           couplings_->ends(c, at, k_).velocity);
+    }
+    add_pull(1, spec, impulse, k_, sums_[coupling(c)]);
+  }
+}
+
+// `qd` at the start; over a step of h velocities change by h qdd.
+void MomentumLedger::add_loops(double part, const Simulation& at, const std::vector<double>& qd,
+                               double h) {
+  const BilateralForces& bilateral = at.dynamics().bilateral();
+  const LoopClosures& loops = bilateral.loops();
+  if (loop_count_ == 0) return;
+  std::vector<double> lambda(loops.rows(), 0);
+  bilateral.add_lambda(1, lambda);
+  const Eigen::Map<Eigen::VectorXd> all(lambda.data(), static_cast<Eigen::Index>(lambda.size()));
+  for (std::size_t r = 0; r < loops.rows(); ++r) {
+    double speed = 0;
+    for (const std::size_t d : loops.dofs_of(r))
+      speed += loops.J()(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(d)) *
+               (qd[d] + 0.5 * h * at.workspace().qdd[d]);
+    sums_[loop(loops.loop_of(r))].work += part * lambda[r] * speed;
+  }
+  for (std::size_t l = 0; l < loop_count_; ++l) {
+    const LoopWrench wrench = loops.wrench(l, all);
+    sums_[loop(l)].add_wrench(part, loops.point(l), wrench.force, wrench.couple);
+  }
+}
+
+// k_ has the poses of what `at` evaluated last.
+void MomentumLedger::add_trees(double part, const Simulation& at) {
+  const Model<double>& model = input_.model;
+  const Workspace<double>& w = at.workspace();
+  for (std::size_t t = 0; t < trees_.size(); ++t)
+    for (std::size_t i = 1; i < model.parent.size(); ++i) {
+      if (!trees_[t].bodies[i]) continue;
+      const Force<double> f = model.I[i] * w.a[i] + crf(w.v[i], model.I[i] * w.v[i]);
+      sums_[tree(t)].add_wrench(part, k_.X_WL[i].p, k_.R_WB[i] * to_eigen(f.f),
+                                k_.R_WB[i] * to_eigen(f.n));
+    }
+}
+
+void MomentumLedger::add_impacts(const Simulation& after) {
+  if (trees_.empty() || !after.constraints().any() || after.constraints().report().impacts == 0)
+    return;
+  State<double> then = now_;
+  then.qd = after.constraints().velocities_after_impacts();
+  for (std::size_t t = 0; t < trees_.size(); ++t) {
+    const Exchange change = contents(trees_[t].bodies, then) - contents(trees_[t].bodies, now_);
+    sums_[tree(t)].impulse += change.impulse;
+    sums_[tree(t)].moment += change.moment;
+  }
+}
+
+}  // namespace twinarm

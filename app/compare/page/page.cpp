@@ -1,0 +1,151 @@
+#include "app/compare/page/page.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+
+#include "app/compare/page/formulas.h"
+#include "app/compare/page/page_style.h"
+#include "app/data/html_text.h"
+#include "app/data/page_style.h"
+#include "app/plot/gnuplot.h"
+#include "app/support/output_file.h"
+
+namespace twinarm::compare_page {
+namespace {
+
+// "free-body" as a heading: "Free body".
+std::string group_title(std::string group) {
+  for (char& c : group)
+    if (c == '-') c = ' ';
+  if (!group.empty()) group[0] = static_cast<char>(std::toupper(group[0]));
+  return escaped(group);
+}
+
+// With all digits beside those that are shown.
+std::string cell(double value, const char* format) {
+  return fmt::format("<td data-value=\"{:.17g}\">{}</td>", value,
+                     fmt::format(fmt::runtime(format), value));
+}
+std::string cell(const std::optional<double>& value, const char* format) {
+  return value ? cell(*value, format) : "<td>–</td>";
+}
+
+std::string index_row(const CompareRow& row) {
+  const AnalyticCase& c = *row.test;
+  return fmt::format(
+             "<tr data-case=\"{0}\"><td><a href=\"#{0}\">{0}</a></td><td class=text>{1}</td>",
+             escaped(c.name), typeset_words(c.reference)) +
+         cell(row.result.error, "{:.3g}") + cell(c.tolerance, "{:.3g}") + "<td>" +
+         yes_no(passes(c, row.result), "pass", "short") + "</td>" +
+         cell(row.result.order, "{:.2f}") + cell(row.result.energy_drift, "{:.1e}") +
+         cell(row.seconds, "{:.2f}") + "</tr>\n";
+}
+
+std::string group_row(const std::string& group) {
+  return fmt::format("<tr class=group><th colspan=8 scope=rowgroup>{}</th></tr>\n",
+                     group_title(group));
+}
+
+std::string index_table(const std::vector<CompareRow>& rows,
+                        const std::vector<const SkippedCase*>& skipped) {
+  std::string html =
+      "<table class=index><thead><tr><th>case</th><th class=text>what it shows [unit of error and "
+      "tolerance]</th><th>error</th><th>tolerance</th><th></th><th>order</th><th>energy drift</th>"
+      "<th>time [s]</th></tr></thead><tbody>\n";
+  std::string group;
+  for (const CompareRow& row : rows) {
+    if (group != row.test->group) html += group_row(group = row.test->group);
+    html += index_row(row);
+  }
+  if (!skipped.empty()) html += group_row("skipped");
+  for (const SkippedCase* c : skipped)
+    html += fmt::format(
+        "<tr data-skipped=\"{0}\"><td>{0}</td><td class=text>{1}: {2}</td><td>–</td><td>–</td>"
+        "<td><span class=skipped>skipped</span></td><td>–</td><td>–</td><td>–</td></tr>\n",
+        escaped(c->name), escaped(c->group), escaped(c->why));
+  return html + "</tbody></table>\n";
+}
+
+std::string sums(const std::vector<CompareRow>& rows, std::size_t skipped) {
+  const std::size_t failed = failures(rows);
+  std::string text = fmt::format("{} passed, {} fell short", rows.size() - failed, failed);
+  if (skipped > 0) text += fmt::format(", {} skipped", skipped);
+  return text;
+}
+
+constexpr const char* kHowToRead =
+    "<h2 id=reading>How to read this</h2>\n"
+    "<p><b>Numbers.</b> Error and tolerance are in the unit that the case names; a case passes "
+    "where "
+    "its error is no larger than its tolerance. Order: by which power the error falls with the "
+    "step, "
+    "where three steps agree. Energy drift: the largest change of energy over the largest kinetic "
+    "energy, where energy is kept.</p>\n"
+    "<p><b>Run and reference.</b> Lines are the run in the lane in which the case is judged; "
+    "circles "
+    "are the reference. Where events are timed, the function whose zeros they are is drawn, and a "
+    "circle lies where the reference has it pass zero.</p>\n"
+    "<p><b>Error against step.</b> All integrators, with steps that double; on logarithmic axes an "
+    "order is a slope, and stands behind the name. Colours are orders, marks are schemes. dopri5 "
+    "chooses its steps: it is drawn at their mean, for tolerances from 1e-12 to 1e-4. Implicit "
+    "schemes have the longest steps only: they take long. The dashed line is the tolerance of the "
+    "case. A slope above the order: the error is mostly one of "
+    "energy, "
+    "which rk4 has in the fifth order, or its largest terms cancel. Where an error is as large as "
+    "the motion itself, or is rounding, a slope tells nothing.</p>\n"
+    "<p><b>The code</b> of a case unfolds, and is quoted from the file that was compiled. A case "
+    "of "
+    "your own is one file: docs/adding_a_case.md. What is measured, and how: docs/cases.md.</p>\n";
+
+}  // namespace
+
+std::filesystem::path page_file(const std::filesystem::path& asked) {
+  return asked.extension() == ".html" ? asked : asked / "compare.html";
+}
+
+void check_page(const std::filesystem::path& file, FaultList& faults) {
+  const auto add_from = [&](auto&& check) {
+    try {
+      check();
+    } catch (const InputError& error) {
+      for (const Fault& fault : error.faults()) faults.add(fault);
+    }
+  };
+  add_from(
+      [&] { require_writable_folder(std::filesystem::absolute(file).parent_path(), "--html"); });
+  add_from([&] { Gnuplot{std::filesystem::path()}; });
+}
+
+std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std::string>& sections,
+                      const std::vector<const SkippedCase*>& skipped, const std::string& command,
+                      double seconds) {
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
+      "<meta name=viewport content=\"width=device-width, initial-scale=1\">\n"
+      "<title>twinarm against what is known</title>\n<style>";
+  html += std::string(kReportStyle) + kPageStyle + "</style></head><body>\n<header>";
+  html +=
+      "<h1>How far the solver is from the truth</h1>\n<p class=lead>Motions, impacts and states "
+      "whose outcome is known, by closed form or by an independent computation, run by twinarm: " +
+      sums(rows, skipped.size()) +
+      ".</p>\n</header>\n<nav aria-label=Contents><div>"
+      "<a href=\"#index\">Index</a><a href=\"#reading\">How to read this</a>";
+  std::string body, group;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (group != rows[i].test->group) {
+      group = rows[i].test->group;
+      html += fmt::format("<a href=\"#group-{}\">{}</a>", escaped(group), group_title(group));
+      body += fmt::format("<h2 id=\"group-{}\">{}</h2>\n", escaped(group), group_title(group));
+    }
+    body += sections[i];
+  }
+  html += "</div></nav>\n<main>\n<h2 id=index>Index</h2>\n<div class=scroll>" +
+          index_table(rows, skipped) + "</div>\n" + kHowToRead + body + "</main>\n";
+  return html + fmt::format(
+                    "<footer>Made by <code>{}</code> in {:.0f} s. Every number on this page was "
+                    "computed in that run.</footer>\n</body></html>\n",
+                    escaped(command), seconds);
+}
+
+}  // namespace twinarm::compare_page

@@ -1,0 +1,143 @@
+// One case of the page.
+#include <fmt/format.h>
+
+#include "app/compare/page/case_code.h"
+#include "app/compare/page/curves.h"
+#include "app/compare/page/formulas.h"
+#include "app/compare/page/page.h"
+#include "app/compare/page/plots.h"
+#include "app/compare/page/small_svg.h"
+#include "app/data/html_text.h"
+#include "benchmarks/analytic/registry/analytic_cases.h"
+
+namespace twinarm::compare_page {
+namespace {
+
+std::string figure(const std::string& drawn, const std::string& caption, const char* kind = "") {
+  const std::string svg = small_svg(drawn);
+  const std::size_t begin = svg.find("<svg");  // without the XML declaration
+  if (svg.empty() || begin == std::string::npos) return "";
+  return fmt::format("<figure{}><svg role=img{}<figcaption>{}</figcaption></figure>\n", kind,
+                     svg.substr(begin + 4), caption);
+}
+
+std::string lane_words(const Lane& lane) {
+  if (lane.integrator == Integrator::dopri5)
+    return fmt::format("dopri5, tolerance {:g}", lane.tolerance);
+  return fmt::format("{}, step {:g} s", integrator_name(lane.integrator), lane.step);
+}
+
+std::string fact(const std::string& name, const std::string& value) {
+  return fmt::format("<div><span>{}</span> <b>{}</b></div>", name, value);
+}
+
+std::string facts_of_case(const CompareRow& row, const TrajectoryCase* motion) {
+  const AnalyticCase& c = *row.test;
+  std::string html = "<div class=facts>" + fact("error", fmt::format("{:.3g}", row.result.error)) +
+                     fact("tolerance", fmt::format("{:.3g}", c.tolerance));
+  if (row.result.order) html += fact("order", fmt::format("{:.2f}", *row.result.order));
+  if (row.result.energy_drift)
+    html += fact("energy drift", fmt::format("{:.1e}", *row.result.energy_drift));
+  html += fact("time", fmt::format("{:.2f} s", row.seconds));
+  if (motion && motion->has_steps()) html += fact("judged with", lane_words(motion->lane));
+  return html + "</div>\n";
+}
+
+std::string lanes_table(const CompareRow& row) {
+  if (row.lanes.empty()) return "";
+  std::string html =
+      "<table class=readings><thead><tr><th>beside it<th>error<th>order<th>energy drift<th>time"
+      "</thead><tbody>\n";
+  for (const LaneRow& r : row.lanes)
+    html += fmt::format("<tr><td>{}<td>{:.3g}<td>{}<td>{}<td>{:.2f} s\n", lane_words(r.lane),
+                        r.result.error, r.order ? fmt::format("{:.2f}", *r.order) : "–",
+                        r.result.energy_drift ? fmt::format("{:.1e}", *r.result.energy_drift) : "–",
+                        r.result.seconds);
+  return html + "</tbody></table>\n";
+}
+
+std::string readings_table(const TrajectoryCase& c) {
+  std::string html =
+      "<table class=readings><thead><tr><th>reading<th>twinarm<th>exact<th>difference</thead>"
+      "<tbody>\n";
+  for (const Reading& r : readings_of(c)) {
+    const double off = r.seen - r.exact;
+    html += fmt::format("<tr><td>{}<td>{:.15g}<td>{:.15g}<td>{}\n", typeset_words(r.name), r.seen,
+                        r.exact + 0.0, off == 0 ? "0" : fmt::format("{:.1e}", off));
+  }
+  return html + "</tbody></table>\n";
+}
+
+std::string figures_of(const CompareRow& row, const TrajectoryCase& c) {
+  const std::string name = row.test->name;
+  const CaseCurves curves = curves_of(c, row.result.error);
+  Gnuplot gnuplot{std::filesystem::path()};
+  std::string caption = "Run (" + lane_words(c.lane) + ") and reference.";
+  if (c.events.count > 0) caption += " Known are the events: times, and what is read at them.";
+  if (curves.cut) caption += " Only the beginning is drawn.";
+  const std::string pair =
+      figure(error_figure(gnuplot, name, curves, row.test->tolerance),
+             "Error against step, with the slopes.") +
+      figure(energy_figure(gnuplot, name, curves),
+             curves.energy_kept ? "Energy over time; nothing but the scheme changes it."
+                                : "Energy over time; forces change it, or hold some of it.");
+  return figure(motion_figure(gnuplot, name, curves), caption, " class=wide") + "<div class=pair>" +
+         pair + "</div>\n";
+}
+
+std::string contact_figures(const CompareRow& row) {
+  const std::string name = row.test->name;
+  const std::optional<CaseCurves> curves = contact_curves_of(*row.test);
+  if (!curves) return "";
+  Gnuplot gnuplot{std::filesystem::path()};
+  std::string caption = curves->exact_t.empty() ? "The run." : "Run and reference.";
+  if (!curves->drawn.empty())
+    caption = fmt::format("Drawn: {}, {}.", escaped(curves->drawn),
+                          curves->exact_t.empty() ? "in several runs" : "runs and reference");
+  if (curves->cut) caption += " Only the beginning is drawn.";
+  const std::string errors = figure(error_figure(gnuplot, name, *curves, row.test->tolerance),
+                                    "Error of the case against the step. " + curves->about_errors);
+  const std::string note =
+      curves->no_errors.empty() ? "" : "<p class=note>" + curves->no_errors + "</p>\n";
+  return figure(motion_figure(gnuplot, name, *curves), caption, " class=wide") +
+         "<div class=pair>" + errors +
+         figure(
+             energy_figure(gnuplot, name, *curves),
+             "Change of energy over time, by impacts, friction and other forces, and by what the "
+             "steps lose or win.") +
+         note + "</div>\n";
+}
+
+std::string command_of(const CompareRow& row, const std::vector<Lane>& lanes) {
+  std::string command = std::string("twinarm compare ") + row.test->name;
+  const TrajectoryCase* c = row.test->trajectory.get();
+  if (c && c->takes_lanes() && lanes.empty() && c->lane.integrator != Integrator::dopri5)
+    command += fmt::format(" --integrator {},dopri5 --step {:g},{:g}",
+                           integrator_name(c->lane.integrator), c->lane.step, 2 * c->lane.step);
+  return "<pre class=command>" + escaped(command) + "</pre>\n";
+}
+
+}  // namespace
+
+std::string case_section(const CompareRow& row, const std::vector<Lane>& lanes) {
+  const AnalyticCase& c = *row.test;
+  const bool pass = passes(c, row.result);
+  std::string html =
+      fmt::format("<section class=case id=\"{0}\"><h3>{0}{1}<span class=what>{2}</span></h3>\n",
+                  escaped(c.name), yes_no(pass, "pass", "short"), typeset_words(c.reference));
+  const char* statement = statement_of(c);
+  const TrajectoryCase* motion = c.trajectory.get();
+  html +=
+      typeset_statement(statement ? statement : "") + facts_of_case(row, motion) + lanes_table(row);
+  if (motion) html += motion->has_steps() ? figures_of(row, *motion) : readings_table(*motion);
+  if (!motion) html += contact_figures(row);
+  html += command_of(row, lanes);
+  const CaseCode code = code_of(c.name);
+  if (!code.file.empty())
+    html +=
+        fmt::format("<details><summary>The code to write: {}</summary>\n<pre>{}</pre></details>\n",
+                    code.file, escaped(code.text));
+  return html + "</section>\n";
+}
+
+}  // namespace twinarm::compare_page

@@ -1,0 +1,229 @@
+#include "app/compare/page/plots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "app/plot/plot_axes.h"
+
+namespace twinarm::compare_page {
+namespace {
+
+// A page has hundreds of curves: fewer points than in a report of ten figures.
+constexpr std::size_t kStretches = 120;
+constexpr std::size_t kMostPanels = 4;
+
+struct LineLook {
+  const char* colour;
+  const char* dash;
+};
+// Alternately dark and light, so that neighbours differ in grey as well.
+constexpr LineLook kLines[] = {{"#3F6FB5", "solid"},       {palette::dvr, "solid"},
+                               {palette::linear, "solid"}, {palette::torsional, "solid"},
+                               {palette::faint, "solid"},  {"#C58AD0", "(6,4)"},
+                               {"#8DB0DD", "(6,4)"},       {palette::ink, "(6,4)"}};
+
+// One colour for an order, one point for a scheme: what matters here is who falls how steeply.
+struct SchemeLook {
+  Integrator integrator;
+  const char* colour;
+  int point;
+};
+constexpr SchemeLook kSchemes[] = {
+    {Integrator::euler, palette::dvr, 6},
+    {Integrator::semi_implicit, palette::dvr, 7},
+    {Integrator::semi_implicit_xv, palette::dvr, 5},
+    {Integrator::implicit_euler, palette::dvr, 4},
+    {Integrator::verlet, "#3F6FB5", 7},
+    {Integrator::midpoint, "#3F6FB5", 9},
+    {Integrator::heun, "#3F6FB5", 11},
+    {Integrator::implicit_midpoint, "#3F6FB5", 8},
+    {Integrator::trapezoid, "#3F6FB5", 10},
+    {Integrator::rk4, palette::torsional, 13},
+    {Integrator::dopri5, palette::linear, 5},
+};
+
+// Of a figure in the page: an id may not begin with a digit, nor hold points.
+std::string id_of(const char* kind, const std::string& name) {
+  std::string id = kind;
+  for (const char c : name)
+    id += std::isalnum(static_cast<unsigned char>(c)) ? std::string(1, c) : "_";
+  return id;
+}
+
+// "angle [rad]" has the unit "rad".
+std::string unit_of(const std::string& reading) {
+  if (reading == kEventFunction) return "any unit";
+  const std::size_t open = reading.find('['), close = reading.find(']');
+  if (open == std::string::npos || close == std::string::npos || close < open) return "";
+  std::string unit = reading.substr(open + 1, close - open - 1);
+  for (const auto& [plain, pretty] : {std::pair{"s2", "s²"}, {"m2", "m²"}}) {
+    const std::size_t at = unit.find(plain);
+    if (at != std::string::npos) unit.replace(at, 2, pretty);
+  }
+  return unit;
+}
+std::string without_unit(const std::string& reading) {
+  const std::size_t open = reading.find(" [");
+  return open == std::string::npos ? reading : reading.substr(0, open);
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double x : values)
+    if (std::isfinite(x)) most = std::max(most, std::abs(x));
+  return most;
+}
+
+// Readings that share a unit share a panel, unless one would be a straight line beside the other.
+std::vector<std::vector<std::size_t>> panels_of(const CaseCurves& curves) {
+  constexpr double kMuchLarger = 8;
+  std::vector<std::vector<std::size_t>> panels;
+  for (std::size_t i = 0; i < curves.names.size(); ++i) {
+    if (curves.seen[i].empty()) continue;
+    const auto same_unit = [&](const auto& panel) {
+      return unit_of(curves.names[panel[0]]) == unit_of(curves.names[i]);
+    };
+    const double mine = largest(curves.seen[i]);
+    const auto alike = [&](const auto& panel) {
+      const double its = largest(curves.seen[panel[0]]);
+      return same_unit(panel) && mine <= kMuchLarger * its && its <= kMuchLarger * mine;
+    };
+    auto panel = std::find_if(panels.begin(), panels.end(), alike);
+    if (panel == panels.end() && panels.size() == kMostPanels)
+      panel = std::find_if(panels.begin(), panels.end(), same_unit);
+    if (panel != panels.end())
+      panel->push_back(i);
+    else if (panels.size() < kMostPanels)
+      panels.push_back({i});
+  }
+  return panels;
+}
+
+// All lines, then all points: the legend names the points last.
+std::string panel_plots(Gnuplot& gnuplot, const CaseCurves& curves,
+                        const std::vector<std::size_t>& panel) {
+  std::string lines, points;
+  for (std::size_t k = 0; k < panel.size(); ++k) {
+    const std::size_t i = panel[k];
+    const LineLook& look = kLines[k % std::size(kLines)];
+    lines +=
+        fmt::format("{}{} with lines lw 1.8 dt {} lc '{}' title {}", lines.empty() ? "plot " : ", ",
+                    gnuplot.curve(curves.t, curves.seen[i], kStretches), look.dash, look.colour,
+                    in_quotes(without_unit(curves.names[i])));
+    const std::size_t known = std::min(curves.exact_t.size(), curves.exact[i].size());
+    if (known > 0)
+      points += fmt::format(
+          ", {} with points pt 6 ps 0.65 lw 1.3 lc '#111111' {}",
+          gnuplot.data(
+              {{curves.exact_t.begin(), curves.exact_t.begin() + std::ptrdiff_t(known)},
+               {curves.exact[i].begin(), curves.exact[i].begin() + std::ptrdiff_t(known)}}),
+          points.empty() ? "title 'exact'" : "notitle");
+  }
+  return lines + points;
+}
+
+}  // namespace
+
+std::string motion_figure(Gnuplot& gnuplot, const std::string& name, const CaseCurves& curves) {
+  const auto panels = panels_of(curves);
+  if (panels.empty() || curves.t.size() < 2) return "";
+  constexpr int kPanel = 165, kRest = 50, kEntry = 20, kAround = 14;
+  int height = kRest;
+  std::vector<int> heights;  // of panels; the legend shall fit beside
+  for (const auto& panel : panels) {
+    heights.push_back(std::max(kPanel, kEntry * static_cast<int>(panel.size() + 1) + 2 * kAround));
+    height += heights.back();
+  }
+  std::string script = "set multiplot\nset lmargin at screen 0.105\nset rmargin at screen 0.80\n";
+  const double known = curves.exact_t.empty() ? 0 : curves.exact_t.back();
+  const double end = std::max(curves.t.back(), known);
+  // A point on the border is drawn, one beyond it is not; data have seven digits.
+  script += fmt::format("set xrange [0:{:.9g}]\n", end * (1 + 1e-6)) + tics("x", 0, end, 8);
+  int above = 0;
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const double top = 1 - double(above + kAround) / height;
+    above += heights[p];
+    const double bottom = 1 - double(above - kAround) / height;
+    const std::string unit = unit_of(curves.names[panels[p][0]]);
+    script +=
+        fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n", top, bottom);
+    script += fmt::format("set ylabel {} offset 0.8,0\n",
+                          in_quotes(unit.empty() ? "[1]" : "[" + unit + "]"));
+    script += fmt::format("set key at screen 0.812,{:.4f} left top Left reverse\n", top);
+    script += p + 1 == panels.size() ? "set format x '%g'\nset xlabel 'time [s]' offset 0,0.3\n"
+                                     : "set format x ''\nunset xlabel\n";
+    std::vector<const std::vector<double>*> shown;
+    for (const std::size_t i : panels[p])
+      shown.insert(shown.end(), {&curves.seen[i], &curves.exact[i]});
+    script += range_of(shown) + panel_plots(gnuplot, curves, panels[p]) + "\n";
+  }
+  return gnuplot.svg(id_of("m", name), name + ": readings over time, run and exact", 900, height,
+                     script + "unset multiplot\n");
+}
+
+std::string error_figure(Gnuplot& gnuplot, const std::string& name, const CaseCurves& curves,
+                         double tolerance) {
+  constexpr double kWorst = 10, kBest = 1e-17;  // nothing can be read off beyond
+  double low = HUGE_VAL, high = 0, short_step = HUGE_VAL, long_step = 0;
+  std::string plots;
+  for (const SchemeLook& look : kSchemes)
+    for (const ErrorCurve& curve : curves.errors) {
+      if (curve.integrator != look.integrator) continue;
+      std::vector<double> x, y;
+      for (std::size_t i = 0; i < curve.step.size(); ++i) {
+        if (curve.error[i] > kWorst) continue;
+        x.push_back(curve.step[i]);
+        y.push_back(std::max(curve.error[i], kBest));
+        low = std::min(low, y.back()), high = std::max(high, y.back());
+        short_step = std::min(short_step, x.back()), long_step = std::max(long_step, x.back());
+      }
+      if (x.empty()) continue;
+      const std::string slope = curve.order ? fmt::format("  {:.2f}", *curve.order) : "";
+      plots += fmt::format("{}{} with linespoints lw 1.5 pt {} ps 0.6 lc '{}' title {}",
+                           plots.empty() ? "plot " : ", ", gnuplot.data({x, y}), look.point,
+                           look.colour, in_quotes(integrator_name(curve.integrator) + slope));
+    }
+  if (plots.empty()) return "";
+  if (tolerance > 0) {
+    plots += fmt::format(", {:g} with lines dt (4,4) lw 1.2 lc '{}' title 'tolerance'", tolerance,
+                         palette::ink);
+    low = std::min(low, tolerance), high = std::max(high, tolerance);
+  }
+  const std::string script =
+      "set logscale xy\nset termoption enhanced\n" + log_axis("x", short_step, long_step) +
+      log_axis("y", low, high) +
+      "set lmargin at screen 0.155\nset rmargin at screen 0.625\nset tmargin at screen 0.96\n"
+      "set bmargin at screen 0.19\nset xlabel 'step [s]' offset 0,0.3\n"
+      "set ylabel 'error' offset 0.6,0\n"
+      "set key noenhanced at screen 0.64,0.975 left top Left reverse samplen 1.6 spacing 1.12 "
+      "font ',11.5'\n";
+  return gnuplot.svg(id_of("e", name), name + ": error against step, with slopes", 510, 310,
+                     script + plots);
+}
+
+std::string energy_figure(Gnuplot& gnuplot, const std::string& name, const CaseCurves& curves) {
+  if (curves.t.size() < 2) return "";
+  std::string script =
+      "set lmargin at screen 0.175\nset rmargin at screen 0.955\nset tmargin at screen 0.90\n"
+      "set bmargin at screen 0.19\nset xlabel 'time [s]' offset 0,0.3\nunset key\n";
+  script +=
+      fmt::format("set xrange [0:{:g}]\n", curves.t.back()) + tics("x", 0, curves.t.back(), 5);
+  std::vector<const std::vector<double>*> shown;
+  for (const auto& energy : curves.energy) shown.push_back(&energy);
+  script += range_of(shown);
+  script += fmt::format("set label 1 {} at graph 0,1.045 left font ',12' textcolor '#333333'\n",
+                        in_quotes(curves.energy_label));
+  if (curves.energy_kept) script += "set format y '%.2g'\n";
+  // Runs have the colours that they have in the figure of the motion.
+  for (std::size_t i = 0; i < curves.energy.size(); ++i)
+    script += fmt::format(
+        "{}{} with lines lw 1.6 lc '{}'", i == 0 ? "plot " : ", ",
+        gnuplot.curve(curves.t, curves.energy[i], kStretches),
+        curves.energy.size() == 1 ? palette::ink : kLines[i % std::size(kLines)].colour);
+  return gnuplot.svg(id_of("n", name), name + ": energy over time", 510, 310, script);
+}
+
+}  // namespace twinarm::compare_page

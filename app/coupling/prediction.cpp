@@ -1,0 +1,297 @@
+#include "app/coupling/prediction.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/coupling/posed_couplings.h"
+#include "app/support/nearest_name.h"
+
+namespace twinarm {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+void name_rows(const Coordinates& coordinates, Predicted& found) {
+  found.rows.resize(static_cast<std::size_t>(coordinates.rows()));
+  found.is_angle.resize(found.rows.size());
+  for (const NamedJoint& joint : coordinates.all())
+    for (const JointComponent& c : joint.components()) {
+      if (c.v < 0) continue;
+      const bool is_base = coordinates.floating() && joint.body == coordinates.base().body;
+      const std::string name = is_base ? "base" : joint.name;
+      const std::size_t row = joint.row + static_cast<std::size_t>(c.v);
+      found.rows[row] = *c.label ? name + "/" + c.label : name;
+      found.is_angle[row] = c.is_angle;
+    }
+}
+
+// A force of the start of the step, its velocity a difference.
+std::optional<Scheme> scheme_as_printed(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::semi_implicit:
+    case Integrator::semi_implicit_xv:
+    case Integrator::implicit_euler:
+      return Scheme::semi_implicit_difference;
+    case Integrator::euler:
+      return Scheme::euler_difference;
+    case Integrator::dopri5:
+      return {};
+    default:
+      return Scheme::hold_difference;
+  }
+}
+
+// The scheme of the table that steps all couplings alike, where one does.
+std::optional<Scheme> scheme_of_scene(const std::vector<PredictedCoupling>& couplings,
+                                      Integrator integrator) {
+  const PredictedCoupling& first = couplings.front();
+  for (const PredictedCoupling& c : couplings)
+    if (c.treatment != first.treatment || c.printed != first.printed || c.rate > 0 ||
+        c.is_own_treatment())
+      return {};
+  if (first.printed) return scheme_as_printed(integrator);
+  if (first.treatment == Treatment::implicit) return Scheme::implicit;
+  if (first.treatment == Treatment::semi_implicit) return Scheme::implicit_damper;
+  switch (integrator) {
+    case Integrator::euler:
+      return Scheme::euler;
+    case Integrator::semi_implicit:
+    case Integrator::semi_implicit_xv:
+      return Scheme::semi_implicit;
+    case Integrator::rk4:
+      return Scheme::rk4;
+    default:
+      return {};
+  }
+}
+
+ModeErrors errors_of_mode(double omega, double zeta, const PredictTask& task) {
+  const double v = task.distance / task.time;
+  ModeErrors errors;
+  errors.start = peak_after_jump(v, omega, zeta);
+  errors.reversal = peak_after_jump(2 * v, omega, zeta);
+  for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
+    errors.smooth[i] =
+        FollowingError(kSmoothMoves[i], task.distance, task.time, omega, zeta).peak();
+  errors.absolute_lag = absolute_damper_lag(v, omega, zeta);
+  errors.weld_lag = mocap_weld_lag(v, 1 / omega);
+  return errors;
+}
+
+void add_modes(const PredictTask& task, Predicted& found) {
+  const SpringModes modes = spring_modes(found.M, found.K, found.B);
+  for (Index i = 0; i < modes.size(); ++i) {
+    PredictedMode mode;
+    mode.omega = modes.omega(i);
+    mode.zeta = modes.zeta(i);
+    mode.shape = modes.shapes.col(i);
+    Index largest = 0;
+    mode.shape.cwiseAbs().maxCoeff(&largest);
+    mode.shape /= double(mode.shape[largest]);
+    if (mode.omega > 0) mode.errors = errors_of_mode(mode.omega, mode.zeta, task);
+    if (modes.squares[i] < 0)
+      found.warnings.push_back(fmt::format(
+          "along a mode, most of it '{}', the couplings push away from their targets: the state is "
+          "beyond what they can hold (a point spring pulls back as the sine of the angle)",
+          found.rows[static_cast<std::size_t>(largest)]));
+    found.modes.push_back(std::move(mode));
+  }
+}
+
+void add_limits(const MatrixXd& joint_damping, Predicted& found) {
+  const std::optional<Scheme> own = scheme_of_scene(found.couplings, found.integrator);
+  for (const Scheme scheme : all_schemes) {
+    const auto factor = [&](Keep keep) {
+      return largest_stiffness_factor(found.M, found.K, found.B, scheme, found.step, keep);
+    };
+    found.limits.push_back({scheme, largest_stable_step(found.M, found.K, found.B, scheme),
+                            factor(Keep::damping_per_stiffness), factor(Keep::damping_ratio),
+                            own && *own == scheme});
+  }
+  std::vector<StepPart> parts;
+  for (const PredictedCoupling& c : found.couplings) parts.push_back(step_part(c, found.step));
+  // Dampers of joints are implicit in the step of the semi-implicit integrators.
+  const bool implicit = facts_of(found.integrator).implicit_force;
+  const MatrixXd none = MatrixXd::Zero(found.K.rows(), found.K.cols());
+  parts.push_back(
+      {none, none, joint_damping, implicit ? Treatment::semi_implicit : Treatment::explicit_, 0});
+  found.largest_step = largest_stable_step(found.M, parts, found.integrator);
+  if (found.integrator != Integrator::dopri5)
+    found.growth = growth_per_step(found.M, parts, found.integrator, found.step);
+}
+
+// By rows.
+VectorXd parts_of_move(const PredictTask& task, const Predicted& found) {
+  if (task.along.empty()) return VectorXd::Ones(found.M.rows());
+  VectorXd parts = VectorXd::Zero(found.M.rows());
+  FaultList faults;
+  for (const auto& [name, part] : task.along) {
+    const auto row = std::find(found.rows.begin(), found.rows.end(), name);
+    if (row == found.rows.end())
+      faults.add({"", 0, "--along", "there is no joint '" + name + "'",
+                  name_remedy(name, found.rows, "joints")});
+    else
+      parts[row - found.rows.begin()] = part;
+  }
+  faults.check();
+  return parts;
+}
+
+// Dampers of joints brake the robot's own velocity, as absolute dampers do.
+void add_errors(const PredictTask& task, const MatrixXd& friction, Predicted& found) {
+  constexpr std::size_t kMostRows = 50;
+  if (found.rows.size() > kMostRows) return;
+  MatrixXd absolute = friction, late = friction;
+  for (const PredictedCoupling& c : found.couplings) {
+    if (c.absolute_damper) absolute += c.B;
+    late += (c.absolute_damper ? c.B : MatrixXd::Zero(c.B.rows(), c.B.cols())) + c.delay * c.K;
+  }
+  VectorXd distance = parts_of_move(task, found);
+  for (std::size_t r = 0; r < found.rows.size(); ++r)
+    distance[static_cast<Index>(r)] *= found.is_angle[r] ? task.distance : task.slide();
+  const VectorXd v = distance / task.time;
+  const ChainErrors behind({found.M, found.K, found.B + friction, absolute});
+  RowErrors errors;
+  errors.distance = distance;
+  errors.start = behind.after_start(v, task.time);
+  errors.reversal = behind.after_reversal(v, task.time);
+  for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
+    errors.smooth[i] = behind.behind(kSmoothMoves[i], distance, task.time);
+  errors.lag = ChainErrors({found.M, found.K, found.B + friction, late}).lag(v);
+  found.errors = std::move(errors);
+}
+
+// Joints of a god object land on their targets.
+void land(Predicted& found) {
+  for (const PredictedCoupling& c : found.couplings)
+    for (Index j = 0; j < c.landing.rows(); ++j) {
+      if (c.landing.row(j).isZero(0)) continue;
+      found.sag[j] = 0;
+      if (!found.errors) continue;
+      RowErrors& e = *found.errors;
+      for (VectorXd* all : {&e.start, &e.reversal, &e.lag}) (*all)[j] = 0;
+      for (VectorXd& smooth : e.smooth) smooth[j] = 0;
+    }
+}
+
+std::string words_of_step(const Predicted& found) {
+  std::vector<std::string> words;
+  for (const PredictedCoupling& c : found.couplings) {
+    std::string word = c.is_own_treatment() ? facts_of(c.law, c.printed).name
+                       : c.printed          ? "as printed"
+                                            : word_of(c.treatment);
+    if (c.rate > 0) word += fmt::format(", held at {:g} Hz", c.rate);
+    if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
+  }
+  return fmt::format("{}, couplings {}", integrator_name(found.integrator), fmt::join(words, "; "));
+}
+
+void add_warnings(const SceneModel& scene, Predicted& found) {
+  const auto warn = [&](std::string text) { found.warnings.push_back(std::move(text)); };
+  constexpr double kGrows = 1e-9;
+  if (found.growth > 1 + kGrows && found.largest_step > 0)
+    warn(
+        fmt::format("the scene's step of {:g} s is beyond its limit of {:.4g} s: an error grows by "
+                    "{:.3g} in each; take a shorter --step, a smaller stiffness, or treatment = "
+                    "\"implicit\"",
+                    found.step, found.largest_step, found.growth));
+  else if (found.growth > 1 + kGrows)
+    warn(
+        fmt::format("as this scene is stepped no step is stable: an error grows by {:.6g} in each "
+                    "of {:g} s; take another --integrator, more damping, or treatment = "
+                    "\"implicit\"",
+                    found.growth, found.step));
+  for (const SceneCoupling& spec : scene.couplings)
+    if (spec.delay > 0)
+      warn(
+          fmt::format("'{}' sees its target {:g} s late: at a speed v it stands that much times v "
+                      "behind, whatever its gains",
+                      spec.name, spec.delay));
+  for (const PredictedCoupling& c : found.couplings) {
+    if (c.law == CouplingSpec::Type::god_object)
+      warn(fmt::format(
+          "'{}' is a constraint, not a spring: it has no stiffness, no frequency and no "
+          "limit of its own; in each step it lands on its target, where nothing stands "
+          "in the way",
+          c.name));
+    if (c.printed && !c.is_linear)
+      warn(
+          fmt::format("'{}': the torsional damper as printed has no linear part; it is predicted "
+                      "without one",
+                      c.name));
+    if (c.absolute_damper && c.gains.b > 0)
+      warn(
+          fmt::format("'{}' has an absolute damper: besides the errors behind a moving target it "
+                      "lags, steadily, as the column says",
+                      c.name));
+    for (const SpringArm& arm : c.arms)
+      if (c.treatment == Treatment::implicit && arm.target_radius > arm.largest_target_radius)
+        warn(
+            fmt::format("'{}', about '{}': its target lies {:.4g} m from the axis, beyond the "
+                        "{:.4g} m that an implicit point spring holds in this step",
+                        c.name, arm.joint, arm.target_radius, arm.largest_target_radius));
+  }
+  if (!scene.constraints.empty()) warn("constraints are left out: they stiffen what they hold");
+  if (scene.may_touch()) warn("contacts are left out");
+}
+
+}  // namespace
+
+const char* word_of(Treatment treatment) {
+  switch (treatment) {
+    case Treatment::explicit_:
+      return "explicit";
+    case Treatment::semi_implicit:
+      return "semi-implicit";
+    case Treatment::implicit:
+      break;
+  }
+  return "implicit";
+}
+
+Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
+  SimulateInput& input = prepared.input;
+  const SceneModel& scene = *input.scene;
+  PosedCouplings posed(input);
+  Predicted found;
+  name_rows(input.robot.coordinates, found);
+  found.warnings = input.robot.warnings;
+  found.integrator = prepared.run.integrator;
+  found.step = prepared.run.step;
+  found.M = posed.M();
+  found.K = MatrixXd::Zero(found.M.rows(), found.M.cols());
+  found.B = found.K;
+  for (std::size_t c = 0; c < input.couplings->size(); ++c) {
+    if (input.couplings->spec(c).outside) continue;  // a stop mostly does not act
+    found.couplings.push_back(posed.coupling(c, found.step));
+    PredictedCoupling& coupling = found.couplings.back();
+    if (task.wall && coupling.is_linear)
+      coupling.with_wall = series_stiffness(coupling.gains.k, *task.wall);
+    found.K += coupling.K;
+    found.B += coupling.B;
+    found.M += coupling.felt;
+  }
+  if (found.couplings.empty())
+    throw InputError({{scene.description.file.string(), 0, "scene",
+                       "its couplings are stops, which do not act between their limits",
+                       "write a [[coupling]] without 'outside' (docs/scenes.md)"}});
+  if (!found.K.allFinite() || !found.M.allFinite())
+    throw InputError(
+        {{scene.description.file.string(), 0, "",
+          "stiffness or inertia is not finite in this state", "give smaller numbers"}});
+  found.stepped = words_of_step(found);
+  add_modes(task, found);
+  const MatrixXd friction = posed.joint_damping();
+  add_limits(friction, found);
+  found.sag = chain_sag(found.K, posed.gravity());
+  add_errors(task, friction, found);
+  land(found);
+  add_warnings(scene, found);
+  return found;
+}
+
+}  // namespace twinarm

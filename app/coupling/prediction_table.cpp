@@ -1,0 +1,217 @@
+// The predictions for people: tables with units, and what each number means.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/coupling/prediction.h"
+#include "app/data/number_sheet.h"
+#include "app/data/text_table.h"
+
+namespace twinarm {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+std::string said(std::string_view text) {
+  return wrapped(text) + "\n";
+}
+
+std::string limit_cell(double value, double unit = 1) {
+  if (value == 0) return "never stable";
+  return std::isinf(value) ? "none" : cell(unit * value);
+}
+
+std::string couplings_part(const Predicted& found) {
+  TextTable table({"coupling", "kind", "treatment", "k", "b", "target off by", "w [rad/s]", "z"});
+  for (const PredictedCoupling& c : found.couplings) {
+    const char* word = c.is_own_treatment() ? "its own" : word_of(c.treatment);
+    table.add({c.name, c.kind, word, cell(c.gains.k) + (c.is_length ? " N/m" : " N m/rad"),
+               cell(c.gains.b) + (c.is_length ? " N s/m" : " N m s/rad"),
+               c.is_length ? cell(1e3 * c.offset) + " mm" : cell(kDegrees * c.offset) + " deg",
+               cell(c.alone.omega), cell(c.alone.zeta)});
+  }
+  return table.str() +
+         said(
+             "w, z: frequency and damping ratio of the fastest motion that this coupling alone "
+             "would give.");
+}
+
+std::string matrix_part(const char* title, const Eigen::MatrixXd& matrix, const Predicted& found) {
+  constexpr Index kMostRows = 9;
+  if (matrix.rows() > kMostRows) return fmt::format("{}: see --json\n", title);
+  std::vector<std::string> headings{title};
+  for (const std::string& row : found.rows) headings.push_back(row);
+  TextTable table(headings);
+  const double rounding = 1e-10 * matrix.cwiseAbs().maxCoeff();
+  for (Index i = 0; i < matrix.rows(); ++i) {
+    std::vector<std::string> line{found.rows[static_cast<std::size_t>(i)]};
+    for (Index j = 0; j < matrix.cols(); ++j)
+      line.push_back(std::abs(matrix(i, j)) < rounding ? "0" : cell(matrix(i, j)));
+    table.add(line);
+  }
+  return table.str();
+}
+
+std::string matrices_part(const Predicted& found) {
+  Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(found.K.rows(), found.K.cols());
+  for (const PredictedCoupling& c : found.couplings) zero += c.K_zero;
+  std::string text =
+      said(
+          "Joint-space stiffness K_q = -d tau/dq and damping B_q of all couplings together "
+          "[N m/rad, N m s/rad; of lengths N/m, N s/m]; off the diagonal: moving one joint pulls "
+          "another.") +
+      matrix_part("K_q", found.K, found) + matrix_part("B_q", found.B, found);
+  const double geometric = (found.K - zero).cwiseAbs().maxCoeff();
+  if (geometric > 1e-6 * found.K.cwiseAbs().maxCoeff())
+    text +=
+        said(fmt::format("Of K_q up to {} is geometric: the pulls of the springs times the "
+                         "turning of their lever arms. About zero offset it is nothing.",
+                         cell(geometric)));
+  return text;
+}
+
+std::string modes_part(const Predicted& found) {
+  std::vector<std::string> headings{"mode", "w [rad/s]", "[Hz]", "z"};
+  for (const std::string& row : found.rows) headings.push_back(row);
+  TextTable table(headings);
+  for (std::size_t i = 0; i < found.modes.size(); ++i) {
+    const PredictedMode& mode = found.modes[i];
+    std::vector<std::string> line{std::to_string(i + 1), cell(mode.omega),
+                                  cell(mode.omega / (2 * std::numbers::pi)), cell(mode.zeta)};
+    for (Index r = 0; r < mode.shape.size(); ++r)
+      line.push_back(std::abs(mode.shape[r]) < 5e-4 ? "0" : fmt::format("{:.3f}", mode.shape[r]));
+    table.add(line);
+  }
+  return said(
+             "Modes, of M^-1 K_q: frequency, damping ratio and shape of the motions in which an "
+             "error dies out; w = 0 is held by dampers alone.") +
+         table.str();
+}
+
+std::string errors_part(const Predicted& found, const PredictTask& task) {
+  TextTable table({"mode", "start", "reversal", "cubic", "quintic", "cosine", "bang-bang",
+                   "absolute lag", "weld lag"});
+  for (std::size_t i = 0; i < found.modes.size(); ++i) {
+    if (!(found.modes[i].omega > 0)) continue;
+    const ModeErrors& e = found.modes[i].errors;
+    std::vector<std::string> line{std::to_string(i + 1), cell(kDegrees * e.start),
+                                  cell(kDegrees * e.reversal)};
+    for (const double peak : e.smooth) line.push_back(cell(kDegrees * peak));
+    line.push_back(cell(kDegrees * e.absolute_lag));
+    line.push_back(cell(kDegrees * e.weld_lag));
+    table.add(line);
+  }
+  const double D = kDegrees * task.distance;
+  return said(fmt::format(
+             "Largest error [deg] behind a target that goes {:g} deg in {:g} s along a mode (or "
+             "{:g} mm in all columns, where it is a length): when it starts at constant speed, "
+             "when it turns back at that speed, and on four smooth ways. At constant speed a "
+             "relative damper leaves no error; an absolute one lags by 2 z v/w for ever, a mocap "
+             "weld of this frequency by 2 v timeconst, timeconst = 1/w.",
+             D, task.time, D)) +
+         table.str();
+}
+
+std::string joint_errors_part(const Predicted& found, const PredictTask& task) {
+  if (!found.errors) return "Largest error of each joint: too many joints\n";
+  TextTable table(
+      {"joint", "", "start", "reversal", "cubic", "quintic", "cosine", "bang-bang", "lag"});
+  const RowErrors& e = *found.errors;
+  for (std::size_t r = 0; r < found.rows.size(); ++r) {
+    const auto row = static_cast<Index>(r);
+    const double unit = found.is_angle[r] ? kDegrees : 1e3;
+    const auto word = [&](double value) { return std::isnan(value) ? "-" : cell(unit * value); };
+    std::vector<std::string> line{found.rows[r], found.is_angle[r] ? "deg" : "mm",
+                                  word(e.start[row]), word(e.reversal[row])};
+    for (const Eigen::VectorXd& smooth : e.smooth) line.push_back(word(smooth[row]));
+    line.push_back(word(e.lag[row]));
+    table.add(line);
+  }
+  return said(fmt::format(
+             "Largest error of each joint when the targets of all held joints make that move at "
+             "once ({:g} deg, of slides {:g} mm, in {:g} s{}), all modes together and with the "
+             "dampers as they are; - is not held. Lag: what stays at constant speed, of absolute "
+             "dampers, dampers of joints and delays.",
+             kDegrees * task.distance, 1e3 * task.slide(), task.time,
+             task.along.empty() ? "" : "; each its part of it")) +
+         table.str();
+}
+
+std::string limits_part(const Predicted& found) {
+  TextTable table({"stepped by", "largest step [ms]", "stiffness x, b/k kept", "x, z kept", ""});
+  for (const SchemeLimit& limit : found.limits)
+    table.add({name_of(limit.scheme), limit_cell(limit.largest_step, 1e3),
+               limit_cell(limit.by_ratio), limit_cell(limit.by_zeta),
+               limit.is_the_scenes ? "<- this scene" : ""});
+  std::string text =
+      said(fmt::format("Limits of all couplings together: the largest stable step of each scheme, "
+                       "and how many times stiffer all springs may be at {:g} ms, with b/k kept or "
+                       "with the damping ratio kept.",
+                       1e3 * found.step)) +
+      table.str();
+  return text +
+         said(fmt::format("This scene ({}): largest step {}{}. Its step of {:g} ms {}.",
+                          found.stepped, limit_cell(found.largest_step, 1e3),
+                          std::isfinite(found.largest_step) && found.largest_step > 0 ? " ms" : "",
+                          1e3 * found.step,
+                          found.integrator == Integrator::dopri5
+                              ? "is the longest that its tolerance may choose"
+                          : found.growth > 1 + 1e-9 ? "is NOT stable"
+                                                    : "is stable"));
+}
+
+std::string loads_part(const Predicted& found) {
+  TextTable sag({"joint", "sag"});
+  for (std::size_t r = 0; r < found.rows.size(); ++r) {
+    const double e = found.sag[static_cast<Index>(r)];
+    sag.add({found.rows[r], std::isnan(e)       ? "not held"
+                            : found.is_angle[r] ? cell(kDegrees * e) + " deg"
+                                                : cell(1e3 * e) + " mm"});
+  }
+  std::string text =
+      said("Sag under gravity, K_q^-1 G: how far the target stands before the joint at rest.") +
+      sag.str();
+  TextTable arms({"point spring", "about", "r [m]", "target at R_K [m]", "R_K at most [m]",
+                  "torque at most [N m]"});
+  TextTable walls({"through", "k [N/m]", "the wall feels like [N/m]"});
+  bool any_arm = false, any_wall = false;
+  for (const PredictedCoupling& c : found.couplings) {
+    for (const SpringArm& arm : c.arms) {
+      any_arm = true;
+      arms.add({c.name, arm.joint, cell(arm.radius), cell(arm.target_radius),
+                c.treatment == Treatment::implicit ? cell(arm.largest_target_radius) : "-",
+                cell(arm.largest_torque)});
+    }
+    if (!c.with_wall) continue;
+    any_wall = true;
+    walls.add({c.name, cell(c.gains.k), cell(*c.with_wall)});
+  }
+  if (any_arm)
+    text += "\n" +
+            said(
+                "A point spring turns a joint by k r R_K sin e, e the angle between its arm and "
+                "its target's: most at 90 degrees, nothing at 180, beyond that the wrong way. "
+                "Treated implicitly it is stable only while its target stays within R_K at "
+                "most (the turning of the arm is explicit).") +
+            arms.str();
+  if (any_wall)
+    text += "\n" + said("Through a coupling a wall is two springs in series.") + walls.str();
+  return text;
+}
+
+}  // namespace
+
+std::string predicted_table(const Predicted& found, const PredictTask& task) {
+  std::string text = couplings_part(found) + "\n" + matrices_part(found) + "\n" +
+                     modes_part(found) + "\n" + errors_part(found, task) + "\n" +
+                     joint_errors_part(found, task) + "\n" + limits_part(found) + "\n" +
+                     loads_part(found);
+  for (const std::string& warning : found.warnings) text += "\n" + wrapped("warning: " + warning);
+  return text;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,195 @@
+#include "app/data/json_tree.h"
+
+#include <cctype>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <unordered_set>
+#include <utility>
+
+#include "app/support/output_file.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+// Counts the lines that the parser has passed.
+struct CountingIterator {
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+  const char* at;
+  int* line;
+  reference operator*() const { return *at; }
+  CountingIterator& operator++() {
+    if (*at++ == '\n') ++*line;
+    return *this;
+  }
+  bool operator==(const CountingIterator& other) const { return at == other.at; }
+};
+
+// What the parser meets, put into a tree.
+class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
+ public:
+  TreeBuilder(const std::filesystem::path& file, const int& line)
+      : file_(file.string()), line_(line) {}
+
+  bool null() override { return add({}); }
+  bool boolean(bool value) override { return add(JsonValue::Kind::boolean, value ? 1 : 0); }
+  bool number_integer(std::int64_t value) override { return number(static_cast<double>(value)); }
+  bool number_unsigned(std::uint64_t value) override { return number(static_cast<double>(value)); }
+  bool number_float(double value, const std::string&) override { return number(value); }
+  bool string(std::string& value) override {
+    JsonValue item;
+    item.kind = JsonValue::Kind::text;
+    item.text = value;
+    return add(std::move(item));
+  }
+  bool binary(nlohmann::ordered_json::binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return open(JsonValue::Kind::object); }
+  bool start_array(std::size_t) override { return open(JsonValue::Kind::list); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(std::string& name) override {
+    value_line_ = line_;
+    if (!seen_.back().insert(name).second)
+      faults.add({file_, line_, name, "stands here twice", "leave one of them out"});
+    names_.back() = name;
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& e) override {
+    // "[json.exception.parse_error.101] parse error at line 3, column 7: syntax error ..."
+    std::string what = e.what();
+    if (const auto colon = what.find(": "); colon != std::string::npos) what.erase(0, colon + 2);
+    faults.add({file_, line_, "", "is not JSON: " + what, "mend it; python3 -m json.tool helps"});
+    return false;
+  }
+
+  JsonValue root;
+  FaultList faults;
+
+ private:
+  bool number(double value) { return add(JsonValue::Kind::number, value); }
+  bool add(JsonValue::Kind kind, double value) {
+    JsonValue item;
+    item.kind = kind;
+    item.number = value;
+    return add(std::move(item));
+  }
+  bool add(JsonValue item) {
+    if (item.line == 0) item.line = value_line_;
+    if (open_.empty()) {
+      root = std::move(item);
+      return true;
+    }
+    JsonValue& around = open_.back();
+    item.key = names_.back();
+    (around.kind == JsonValue::Kind::object ? around.members : around.items)
+        .push_back(std::move(item));
+    return true;
+  }
+  bool open(JsonValue::Kind kind) {
+    constexpr std::size_t kDeepest = 64;
+    if (open_.size() > kDeepest) {
+      faults.add({file_, line_, "", "is nested too deeply", "a state has four levels at most"});
+      return false;
+    }
+    value_line_ = line_;
+    JsonValue item;
+    item.kind = kind;
+    item.line = line_;
+    open_.push_back(std::move(item));
+    names_.emplace_back();
+    seen_.emplace_back();
+    return true;
+  }
+  bool close() {
+    JsonValue item = std::move(open_.back());
+    open_.pop_back();
+    names_.pop_back();
+    seen_.pop_back();
+    return add(std::move(item));
+  }
+
+  std::string file_;
+  const int& line_;
+  int value_line_ = 1;
+  std::vector<JsonValue> open_;                        // the brackets around here
+  std::vector<std::string> names_;                     // the key after which their next value comes
+  std::vector<std::unordered_set<std::string>> seen_;  // all their keys
+};
+
+// Programs write NaN and Infinity into JSON that has neither: null in their place, so that all of
+// them can be told at once, and other faults too.
+std::string without_nan(const std::string& text) {
+  std::string out;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') quoted = !quoted;
+    if (quoted && text[i] == '\\' && i + 1 < text.size()) {
+      out += text[i++];
+      out += text[i];
+      continue;
+    }
+    bool replaced = false;
+    for (const std::string_view word : {"-Infinity", "Infinity", "-NaN", "NaN", "-nan", "nan"}) {
+      if (quoted || replaced || text.compare(i, word.size(), word) != 0) continue;
+      out += "null";
+      i += word.size() - 1;
+      replaced = true;
+    }
+    if (!replaced) out += text[i];
+  }
+  return out;
+}
+
+}  // namespace
+
+const JsonValue* JsonValue::find(const std::string& name) const {
+  for (const JsonValue& member : members)
+    if (member.key == name) return &member;
+  return nullptr;
+}
+
+std::string describe(const JsonValue& value) {
+  switch (value.kind) {
+    case JsonValue::Kind::null:
+      return "null, or not finite";
+    case JsonValue::Kind::boolean:
+      return value.number != 0 ? "true" : "false";
+    case JsonValue::Kind::number:
+      return "a number";
+    case JsonValue::Kind::text:
+      return "the text \"" + value.text + "\"";
+    case JsonValue::Kind::list:
+      return "a list of " + std::to_string(value.items.size());
+    case JsonValue::Kind::object:
+      return "an object";
+  }
+  return "";
+}
+
+JsonValue read_json(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    throw InputError({{file.string(), 0, "", "is a folder", "name a JSON file"}});
+  constexpr std::uintmax_t kMostJsonBytes = 4u << 20;
+  if (std::filesystem::file_size(file, error) > kMostJsonBytes && !error)
+    throw InputError({{file.string(), 0, "", "has more than 4 MiB",
+                       "name a state file: a few numbers for each joint"}});
+  return parse_json(read_whole_file(file), file.string());
+}
+
+JsonValue parse_json(const std::string& json, const std::string& name) {
+  const std::string text = without_nan(json);
+  int line = 1;
+  TreeBuilder tree(name, line);
+  nlohmann::ordered_json::sax_parse(CountingIterator{text.data(), &line},
+                                    CountingIterator{text.data() + text.size(), &line}, &tree);
+  tree.faults.check();
+  return std::move(tree.root);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,60 @@
+// One table of a scene, read key by key, with a fault for each bad value.
+//
+// A faulty value is told and comes back as nothing, so that reading goes on and all faults are told
+// at once. The keys that were asked for are the keys that there are: done() tells the others.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/data/toml_tree.h"
+#include "solver/spatial/pose.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+
+class SceneTable {
+ public:
+  // All arguments must outlive it. `where` as faults name the table: "body 'ball'".
+  SceneTable(const TomlValue& table, std::string where, const std::string& file, FaultList& faults)
+      : table_(table), where_(std::move(where)), file_(file), faults_(faults) {}
+
+  const TomlValue* find(const std::string& key);  // nullptr where it is left out
+  bool has(const std::string& key) { return find(key) != nullptr; }
+  int line() const { return table_.line; }
+  const std::string& where() const { return where_; }
+  void rename(std::string where) { where_ = std::move(where); }
+
+  std::optional<double> number(const std::string& key);        // finite
+  std::optional<double> positive(const std::string& key);      // > 0
+  std::optional<double> not_negative(const std::string& key);  // >= 0
+  std::optional<std::string> text(const std::string& key);     // not empty
+  std::optional<bool> flag(const std::string& key);
+  std::optional<std::vector<double>> numbers(const std::string& key, std::size_t count);
+  std::optional<Vector3> vector(const std::string& key);
+  std::optional<Vector3> unit_vector(const std::string& key);
+  std::optional<Matrix3> orientation(const std::string& key);  // of a unit quaternion w, x, y, z
+  // Which of the names: its index.
+  std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& names);
+  // The tables of [[key]].
+  std::vector<const TomlValue*> tables(const std::string& key);
+  const TomlValue* table(const std::string& key);
+
+  // At the key where it stands, else at the table.
+  void fault(const std::string& key, std::string rule, std::string remedy);
+  void missing(const std::string& key, std::string remedy);
+  void done();
+
+ private:
+  const TomlValue* find(const std::string& key, TomlValue::Kind kind, const char* wanted);
+
+  const TomlValue& table_;
+  std::string where_;
+  const std::string& file_;
+  FaultList& faults_;
+  std::vector<std::string> asked_;
+};
+
+}  // namespace twinarm

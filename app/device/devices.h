@@ -1,0 +1,44 @@
+// All hand devices by name: what `--device` takes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupling/device/input_device.h"
+#include "coupling/device/virtual_omni.h"
+
+namespace twinarm {
+
+struct DeviceKind {
+  std::string name, argument;  // as in "vrpn" and "NAME@HOST[:PORT]"; [..] may be left out
+  std::string help;            // one line
+  bool has_motors;
+  bool stays_inside = false;  // it opens no file, device or socket
+};
+const std::vector<DeviceKind>& device_kinds();
+
+// The hands that move a virtual device, as in virtual:NAME.
+struct ScriptedHand {
+  std::string name, argument, help;
+  bool stays_inside = false;
+};
+const std::vector<ScriptedHand>& scripted_hands();
+
+// What `--device list` prints: one line for each kind, then the hands.
+std::string device_list();
+
+// "virtual", "virtual:HAND", "keyboard", "gamepad:/dev/input/js1", "vrpn:Phantom0@lab:3883"...
+// `settings` are of the virtual Omni that keyboard, gamepad and space mouse move as well. Throws
+// one InputError: names that are not known, and devices that do not answer, with what to do.
+std::unique_ptr<HandDevice> open_device(const std::string& spec,
+                                        const VirtualOmniSettings& settings = {});
+
+// Whether it opens no file, device or socket of this machine: what somebody else may ask for.
+// Throws InputError: names that are not known.
+bool stays_inside(const std::string& spec);
+
+// The hand alone: "paper", "synthetic:7", "trace:hand.csv". Throws InputError.
+std::shared_ptr<const HandSource> scripted_hand(const std::string& spec);
+
+}  // namespace twinarm

@@ -1,0 +1,92 @@
+// The thread that talks to a VRPN server. Only app/device/vrpn_*.cpp include it.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "app/device/owned_fd.h"
+#include "app/device/tcp_peer.h"
+#include "app/device/vrpn_client.h"
+#include "app/device/vrpn_stream.h"
+#include "coupling/device/triple_buffer.h"
+
+namespace twinarm {
+
+// What poll() gets.
+struct VrpnReport {
+  double arrival = 0;  // of the newest pose, steady clock [s]
+  long number = 0;     // of the newest pose; 0: none has come
+  OmniAngles theta{};
+  std::array<bool, 2> buttons{};
+};
+
+// What render() gives.
+struct VrpnForce {
+  long number = 0;              // by which a new one is known
+  Vector3 F = Vector3::Zero();  // [N], device axes
+};
+
+class VrpnDevice::Link {
+ public:
+  Link(VrpnAddress address, const OmniFigures& figures, VrpnSettings settings);
+  ~Link();
+  Newest<VrpnReport> reports{VrpnReport{}};  // written here
+  Newest<VrpnForce> forces{VrpnForce{}};     // read here
+  bool takes_forces() const { return takes_forces_; }
+  VrpnCounts counts() const;
+
+ private:
+  struct Trouble {
+    enum Kind { refused, silent, garbage, version, unknown, lost };
+    Kind kind;
+    std::string rule, remedy;
+  };
+  void run();
+  Trouble talk();
+  Trouble converse(int socket);
+  std::optional<Trouble> listen(int socket, VrpnStream& stream);
+  std::optional<Trouble> speak(int socket);
+  void greet_device(const VrpnStream& stream);
+  void take(const VrpnStream& stream);
+  void note_skipped(const VrpnStream& stream);
+  void send_force();
+  std::optional<Trouble> impatience(const VrpnStream& stream) const;
+  void decide(std::optional<Trouble> trouble);
+  void tell_trouble(const Trouble& trouble);
+  void say_once(unsigned kind, const std::string& text);
+  bool wait(double seconds) const;  // false: we are to stop
+
+  VrpnAddress address_;
+  OmniFigures figures_;
+  VrpnSettings settings_;
+  std::string name_;  // DEVICE@HOST:PORT
+  std::optional<TcpPeer> peer_;
+  OwnedFd stop_;
+  // Of the present connection.
+  VrpnSpeech speech_;
+  VrpnBytes outbox_;
+  bool described_ = false, pushing_ = false;
+  double last_pose_ = 0, last_force_ = 0;  // steady clock [s]
+  long force_number_ = 0;
+  long poses_taken_ = 0, skipped_told_ = 0, malformed_told_ = 0;
+  VrpnReport report_;
+  Vector3 stylus_ = Vector3::Zero();
+  unsigned said_ = 0;  // bit by kind
+  std::atomic<bool> takes_forces_{false};
+  std::atomic<long> connections_{0}, poses_{0}, not_finite_{0}, malformed_{0}, out_of_reach_{0},
+      broken_{0};
+  // How the first connection went, for the constructor.
+  std::mutex mutex_;
+  std::condition_variable decided_;
+  bool is_decided_ = false;
+  std::optional<Trouble> first_trouble_;
+  std::thread thread_;
+};
+
+double steady_seconds() noexcept;
+
+}  // namespace twinarm

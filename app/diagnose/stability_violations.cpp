@@ -1,0 +1,259 @@
+// Which spring or damper a step is too long for, and what would hold: each coupling by itself, as
+// the scene's integrator steps it (coupling/analysis/step_matrix.h), about the start.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "app/coupling/posed_couplings.h"
+#include "app/diagnose/post_mortem.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+// Of the largest w h that holds. Nearer to it a spring that does not die out still swings with
+// several times its energy (semi-implicit: 1 / (1 - (w h / 2)^2)), and where it swings the limit is
+// no longer that of the start.
+constexpr double kRoom = 0.5;
+
+// The largest x in (0, 1] with good(x), good for all that are smaller; 0: none above 1e-12.
+template <class Good>
+double largest_part(Good good) {
+  if (good(1.0)) return 1;
+  double low = -12, high = 0;  // powers of ten
+  if (!good(1e-12)) return 0;
+  while (high - low > 1e-6) {
+    const double middle = 0.5 * (low + high);
+    (good(std::pow(10, middle)) ? low : high) = middle;
+  }
+  return std::pow(10, low);
+}
+
+// A coupling with all its pulls, in the step that the run takes.
+struct SteppedCoupling {
+  const SceneCoupling* spec = nullptr;
+  StepPart part;
+  std::vector<StepPart> beside;  // god objects that land the same robot
+  std::string beside_names;
+  Eigen::MatrixXd M;  // with the inertia that the law adds
+  Integrator integrator = Integrator::semi_implicit;
+  double h = 0, fastest = 0;  // step [s]; of its modes [rad/s], of a damper alone [1/s]
+
+  std::vector<StepPart> parts(const StepPart& its) const {
+    std::vector<StepPart> all = beside;
+    all.push_back(its);
+    return all;
+  }
+  bool holds(const StepPart& its) const {
+    constexpr double kGrowthRounding = 1e-9;
+    return growth_per_step(M, parts(its), integrator, h) <= 1 + kGrowthRounding;
+  }
+  bool is_spring() const { return !part.K.isZero(0); }
+  bool is_weld() const { return spec->law == CouplingSpec::Type::weld_like; }
+  // With the stiffness, or where there is none the damping, times `factor`; a weld's time constant
+  // divided by it.
+  StepPart scaled(double factor) const {
+    StepPart its = part;
+    const double by = is_weld() ? factor * factor : factor;
+    its.K *= by;
+    its.K_zero *= by;
+    if (is_weld() || !is_spring()) its.B *= factor;
+    return its;
+  }
+};
+
+std::string method_of(const SteppedCoupling& c) {
+  const SceneCoupling& spec = *c.spec;
+  std::string name;
+  if (spec.law == CouplingSpec::Type::stable_pd)
+    name = "stable PD";
+  else if (spec.printed)
+    name = std::string("as printed, ") + integrator_name(c.integrator);
+  else if (spec.treatment == Treatment::semi_implicit)
+    name = name_of(Scheme::implicit_damper);
+  else if (spec.treatment == Treatment::implicit)
+    name = name_of(Scheme::implicit);
+  else if (spec.rate == 0)
+    name = std::string("explicit, ") + integrator_name(c.integrator);
+  if (spec.rate > 0) name += name.empty() ? "held force" : ", held force";
+  return name + c.beside_names;
+}
+
+// A rate, a whole number of steps, that leaves room; or none.
+std::string rate_remedy(const SteppedCoupling& c, double largest) {
+  StepPart its = c.part;
+  for (its.hold_steps = static_cast<int>(kRoom * largest / c.h); its.hold_steps > 0;
+       --its.hold_steps)
+    if (c.holds(its))
+      return fmt::format("a rate of {} Hz would hold",
+                         short_number_text(1 / (its.hold_steps * c.h)));
+  return c.holds(its) ? "no rate, a force at every step, would hold" : "";
+}
+
+std::string gain_remedy(const SteppedCoupling& c, const Suspect& s) {
+  if (!(s.largest_gain > 0)) return "";
+  const bool is_linear = c.spec->type == CouplingDescription::Type::linear;
+  const char *force = is_linear ? "N" : "N m", *per = is_linear ? "m" : "rad";
+  if (c.is_weld())
+    return fmt::format("a time constant of {} s would hold at this step",
+                       short_number_text(s.largest_gain / kRoom));
+  if (!c.is_spring())
+    return fmt::format("a damping of {} {} s/{} would hold at this step",
+                       short_number_text(kRoom * s.largest_gain), force, per);
+  const double part = kRoom * kRoom * s.largest_gain;
+  std::string turn;
+  if (c.spec->law == CouplingSpec::Type::bushing)
+    turn = fmt::format(" with a turn_stiffness of {} N m/rad",
+                       short_number_text(part / c.spec->spring.k * c.spec->spring.k_turn));
+  return fmt::format("a stiffness of {} {}/{}{} would hold at this step", short_number_text(part),
+                     force, per, turn);
+}
+
+std::string law_remedy(const SceneCoupling& spec) {
+  using Type = CouplingSpec::Type;
+  const char* how = " with the integrator semi-implicit would hold";
+  const char* implicitly = "treatment = \"implicit\"";
+  if (spec.law == Type::stable_pd)
+    return fmt::format("type = \"torsional\", measure = \"joint\", {}{}", implicitly, how);
+  if (spec.printed || spec.law == Type::matched)
+    return fmt::format("type = \"{}\", {}{}", spec.law == Type::torsional ? "torsional" : "linear",
+                       implicitly, how);
+  return fmt::format("{}{}{}", implicitly, spec.rate > 0 ? ", without a rate," : "", how);
+}
+
+std::string joined(const std::vector<std::string>& all) {
+  std::string text;
+  for (const std::string& one : all)
+    if (!one.empty()) text += (text.empty() ? "" : "; ") + one;
+  return text;
+}
+
+Suspect suspect_of(const SteppedCoupling& c) {
+  const SceneCoupling& spec = *c.spec;
+  const double steps = std::max(1, c.part.hold_steps);
+  Suspect s;
+  s.name = "coupling '" + spec.coupling + "'";
+  s.scheme = method_of(c);
+  s.step = steps * c.h;
+  s.largest_step = steps * largest_stable_step(c.M, c.parts(c.part), c.integrator);
+  s.product = c.fastest * s.step;
+  s.limit = c.fastest * s.largest_step;
+  s.gain = c.is_weld() ? "time constant" : c.is_spring() ? "stiffness" : "damping";
+  if (s.step <= s.largest_step) return s;
+  const double part = largest_part([&](double factor) { return c.holds(c.scaled(factor)); });
+  if (part > 0)
+    s.largest_gain = c.is_weld()     ? spec.reference.time_constant / part
+                     : c.is_spring() ? part * spec.spring.k
+                                     : part * spec.spring.b;
+  const bool is_held = spec.rate > 0;
+  std::string step_remedy;
+  if (is_held && s.largest_step > 0) step_remedy = rate_remedy(c, s.largest_step);
+  if (!is_held && s.largest_step > 0)
+    step_remedy =
+        fmt::format("a step of {} s would hold", short_number_text(kRoom * s.largest_step));
+  s.remedy = joined({step_remedy, gain_remedy(c, s), law_remedy(spec)});
+  return s;
+}
+
+// God objects are no suspects: alone they land whatever the step. Others have less room beside one.
+void add_couplings(const SimulatePlan& prepared, std::vector<Suspect>& suspects) {
+  SceneCouplings& couplings = *prepared.input.couplings;
+  PosedCouplings posed(prepared.input);
+  for (std::size_t c = 0; c < couplings.size(); ++c) {
+    const SceneCoupling& spec = couplings.spec(c);
+    const bool is_god = spec.law == CouplingSpec::Type::god_object;
+    if (spec.leader != c || spec.outside || is_god) continue;  // a stop mostly does not act
+    PredictedCoupling all = posed.about_zero(c);
+    SteppedCoupling stepped;
+    for (std::size_t other = 0; other < couplings.size(); ++other) {
+      const SceneCoupling& its = couplings.spec(other);
+      if (other != c && its.leader == c) {
+        const PredictedCoupling pull = posed.about_zero(other);
+        all.K += pull.K, all.K_zero += pull.K_zero, all.B += pull.B, all.felt += pull.felt;
+      }
+      if (its.law != CouplingSpec::Type::god_object || its.leader != other ||
+          its.robot != spec.robot)
+        continue;
+      stepped.beside.push_back(step_part(posed.about_zero(other), prepared.run.step));
+      stepped.beside_names += ", beside the god object '" + its.coupling + "'";
+    }
+    stepped.spec = &spec;
+    stepped.part = step_part(all, prepared.run.step);
+    stepped.M = posed.M() + all.felt;
+    stepped.integrator = prepared.run.integrator;
+    stepped.h = prepared.run.step;
+    const SpringModes modes = spring_modes(stepped.M, all.K, all.B);
+    for (Eigen::Index i = 0; i < modes.size(); ++i)
+      stepped.fastest =
+          std::max(stepped.fastest, modes.omega(i) > 0 ? modes.omega(i) : modes.damping(i, i));
+    if (stepped.fastest > 0) suspects.push_back(suspect_of(stepped));
+  }
+}
+
+// b h / I of dampers of joints, where the integrator takes them at the start of a step or a stage.
+double damping_limit(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::euler:
+    case Integrator::midpoint:
+    case Integrator::heun:
+      return 2;
+    case Integrator::rk4:
+      return 2.785293563405282;
+    default:
+      return kNever;
+  }
+}
+
+void add_dampers(const SimulatePlan& prepared, const Eigen::MatrixXd& M,
+                 std::vector<Suspect>& suspects) {
+  const Model<double>& model = prepared.input.robot.model;
+  const double limit = damping_limit(prepared.run.integrator), h = prepared.run.step;
+  if (limit == kNever) return;
+  const Eigen::MatrixXd inverse = inverse_of(M);
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    if (model.dofs(i) == 0) continue;
+    const std::size_t iv = model.iv[i];
+    const double rate =
+        model.damping[iv] * inverse(static_cast<Eigen::Index>(iv), static_cast<Eigen::Index>(iv));
+    if (!(rate > 0)) continue;
+    Suspect s;
+    s.name = "damper of joint '" + model.joint_name[i] + "'";
+    s.scheme = std::string("b/I for w; ") + integrator_name(prepared.run.integrator);
+    s.step = h;
+    s.largest_step = limit / rate;
+    s.product = rate * h;
+    s.limit = limit;
+    s.gain = "damping";
+    if (h > s.largest_step) {
+      s.largest_gain = model.damping[iv] * s.largest_step / h;
+      s.remedy = fmt::format(
+          "a step of {} s would hold; a damping of {} N m s/rad or N s/m would hold at this step; "
+          "the integrator semi-implicit takes dampers of joints implicitly",
+          short_number_text(kRoom * s.largest_step), short_number_text(kRoom * s.largest_gain));
+    }
+    suspects.push_back(std::move(s));
+  }
+}
+
+}  // namespace
+
+std::vector<Suspect> find_suspects(const SimulatePlan& prepared) {
+  std::vector<Suspect> suspects;
+  const SimulateInput& input = prepared.input;
+  const Model<double>& model = input.robot.model;
+  if (prepared.run.is_adaptive() || model.nv == 0) return suspects;
+  if (input.couplings) add_couplings(prepared, suspects);
+  add_dampers(prepared, mass_matrix(model, input.robot.state.x), suspects);
+  std::stable_sort(suspects.begin(), suspects.end(), [](const Suspect& a, const Suspect& b) {
+    return a.step * b.largest_step > b.step * a.largest_step;
+  });
+  return suspects;
+}
+
+}  // namespace twinarm

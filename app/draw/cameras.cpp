@@ -1,0 +1,188 @@
+#include "app/draw/cameras.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "app/support/nearest_name.h"
+#include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+const std::vector<std::string> kCameras{"auto", "front", "side", "top", "iso"};
+
+Vector3 towards_eye(const CameraWish& wish) {
+  const double a = wish.azimuth * kDegree, e = wish.elevation * kDegree;
+  return {std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
+}
+
+[[noreturn]] void refuse(const std::string& text, const std::string& rule,
+                         const std::string& remedy) {
+  throw InputError({{"", 0, "--camera", "'" + text + "' " + rule, remedy}});
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> words(1);
+  for (const char c : text) {
+    if (c == ',')
+      words.emplace_back();
+    else
+      words.back() += c;
+  }
+  return words;
+}
+
+CameraWish parse_orbit(const std::string& text) {
+  const std::vector<std::string> words = split(text);
+  std::vector<double> numbers;
+  for (const std::string& word : words)
+    if (const auto number = parse_number(word)) numbers.push_back(*number);
+  if (words.size() < 2 || words.size() > 3 || numbers.size() != words.size())
+    refuse(text, "is no camera",
+           name_remedy(text, kCameras, "cameras") +
+               "; or follow:BODY, or AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres");
+  if (std::abs(numbers[1]) > 90)
+    refuse(text, "looks from an elevation beyond 90 degrees", "give one from -90 to 90");
+  if (numbers.size() == 3 && !(numbers[2] > 0))
+    refuse(text, "has no positive distance", "give metres");
+  return {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 0, -1};
+}
+
+}  // namespace
+
+void Extent::add(const Vector3& p_W) {
+  if (!p_W.allFinite()) return;
+  points_.push_back(p_W);
+  low_ = low_.cwiseMin(p_W);
+  high_ = high_.cwiseMax(p_W);
+}
+
+void Extent::add(const Cast& cast, const Moment& moment) {
+  const auto add_box_of = [&](const CastPart& part, const Pose& X_WL) {
+    const Pose X_WM = X_WL * part.X_LM;
+    for (int corner = 0; corner < 8; ++corner) {
+      Vector3 p;
+      for (int c = 0; c < 3; ++c) p[c] = ((corner >> c) & 1) ? part.high_M[c] : part.low_M[c];
+      add(X_WM * p);
+    }
+  };
+  for (const CastPart& part : cast.parts) add_box_of(part, moment.k.X_WL[part.body]);
+  for (const ShownTwin& twin : moment.twins)
+    for (const CastPart& part : cast.parts)
+      if (part.robot == static_cast<int>(twin.robot)) add_box_of(part, twin.X_WL[part.body]);
+  for (const CastTie& tie : cast.ties) {
+    add(moment.k.X_WL[tie.a] * tie.p_La);
+    add(moment.k.X_WL[tie.b] * tie.p_Lb);
+  }
+}
+
+void Extent::add(const Extent& other) {
+  for (const Vector3& p : other.points()) add(p);
+}
+
+double Extent::reach(const Vector3& p_W) const {
+  double most = 0;
+  for (const Vector3& p : points_) most = std::max(most, (p - p_W).norm());
+  return most;
+}
+
+double Extent::radius() const {
+  return empty() ? 1.0 : std::max(1e-3, 0.5 * (high_ - low_).norm());
+}
+
+double farthest_of_interest(const std::vector<Extent>& instants) {
+  constexpr double kTimes = 4;
+  std::vector<double> reaches;
+  for (const Extent& extent : instants)
+    reaches.push_back(extent.empty() ? 0 : extent.reach(instants.front().center()));
+  if (reaches.empty() || instants.front().empty()) return 1e300;
+  const double first = reaches.front();
+  const auto quarter = reaches.begin() + static_cast<std::ptrdiff_t>(3 * reaches.size() / 4);
+  std::nth_element(reaches.begin(), quarter, reaches.end());
+  return kTimes * std::max(first, *quarter);
+}
+
+CameraWish parse_camera(const std::string& text, const Model<double>& model) {
+  if (text.empty() || text == "auto") return {};
+  if (text == "front") return {-90, 4, 0, -1};  // x to the right
+  if (text == "side") return {0, 4, 0, -1};     // y to the right
+  if (text == "top") return {-90, 90, 0, -1};   // x to the right, y up
+  if (text == "iso") return {-45, 35.264389682754654, 0, -1};
+  const std::string prefix = "follow:";
+  if (text.compare(0, prefix.size(), prefix) != 0) return parse_orbit(text);
+  CameraWish wish;
+  wish.follow = model.find_body(text.substr(prefix.size()));
+  if (wish.follow > 0) return wish;
+  std::vector<std::string> names(model.body_name.begin() + 1, model.body_name.end());
+  refuse(text, "follows no body of this scene",
+         name_remedy(text.substr(prefix.size()), names, "bodies"));
+}
+
+// In view coordinates (right, up, forward) a point p is seen where |p_x - e_x| <= t_x (p_z - e_z),
+// so e_x - t_x e_z >= A = max(p_x - t_x p_z) and -e_x - t_x e_z >= B = max(-p_x - t_x p_z): the
+// eye may be as near as e_z = -(A + B) / (2 t_x), at e_x = (A - B) / 2. Likewise y; the farther of
+// both counts.
+Camera make_camera(const CameraWish& wish, const Extent& extent, double aspect) {
+  Camera camera;
+  const Vector3 forward = -towards_eye(wish);
+  const bool is_steep = std::abs(forward.z()) > 0.999;
+  if (is_steep) {  // x to the right in the top view
+    const double a = wish.azimuth * kDegree;
+    camera.up = (forward.z() < 0 ? -1.0 : 1.0) * Vector3(std::cos(a), std::sin(a), 0);
+  }
+  const Vector3 right = forward.cross(camera.up).normalized(), up = right.cross(forward);
+  const double tan_y = std::tan(0.5 * camera.field_of_view) / kFrameMargin, tan_x = tan_y * aspect;
+  const auto most = [&](auto f) {
+    double found = -1e300;
+    for (const Vector3& p : extent.points()) found = std::max(found, f(p));
+    return found;
+  };
+  Vector3 target = extent.empty() ? Vector3(Vector3::Zero()) : extent.center();
+  double distance = wish.distance;
+  if (distance <= 0 && !extent.empty()) {
+    const auto side = [&](const Vector3& axis, double tangent) {
+      const double A =
+          most([&](const Vector3& p) { return axis.dot(p) - tangent * forward.dot(p); });
+      const double B =
+          most([&](const Vector3& p) { return -axis.dot(p) - tangent * forward.dot(p); });
+      return Eigen::Vector2d(0.5 * (A - B), -0.5 * (A + B) / tangent);
+    };
+    const Eigen::Vector2d x = side(right, tan_x), y = side(up, tan_y);
+    const Vector3 eye = x[0] * right + y[0] * up + std::min(x[1], y[1]) * forward;
+    distance = std::max(1e-3, forward.dot(target - eye));
+    target = eye + distance * forward;
+  }
+  if (distance <= 0) distance = 3;
+  camera.target = target;
+  camera.eye = target - distance * forward;
+  return camera;
+}
+
+double closeup(const Cast& cast, int body) {
+  double radius = 0;
+  for (const CastPart& part : cast.parts)
+    if (part.body == static_cast<std::size_t>(body))
+      radius = std::max(radius, 0.5 * (part.high_M - part.low_M).norm());
+  return 3 * radius / std::tan(0.5 * Camera{}.field_of_view);
+}
+
+Camera follow(Camera camera, const Vector3& target_W) {
+  if (!target_W.allFinite()) return camera;
+  const Vector3 shift = target_W - camera.target;
+  camera.eye += shift;
+  camera.target += shift;
+  return camera;
+}
+
+double round_down(double value) {
+  if (!(value > 0) || !std::isfinite(value)) return 1;
+  const double ten = std::pow(10.0, std::floor(std::log10(value)));
+  const double lead = value / ten;
+  return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * ten;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,127 @@
+#include "app/draw/overlays/overlays.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "app/support/nearest_name.h"
+#include "solver/spatial/rotation_to_axis.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+
+const std::vector<Overlay>& all_overlays() {
+  static const std::vector<Overlay> all{
+      {"ghost", "the kinematic twin of a robot, that couplings follow", show_twins, false},
+      {"device", "the hand device that moves the twin", show_device, false},
+      {"trails", "where bodies came from", show_trails, false},
+      {"couplings", "spring-dampers, coloured by their force", show_couplings},
+      {"contacts", "points, normals, friction cones", show_contacts, false},
+      {"forces", "of contacts, by pair of bodies, with values", show_forces},
+      {"gravity", "weights", show_gravity},
+      {"joints", "axes of joints", show_joints},
+      {"frames", "axes of links and bodies", show_frames},
+      {"com", "centres of mass", show_com},
+      {"momentum", "of the whole, linear and angular", show_momentum},
+      {"inertia", "of each body, as an ellipsoid", show_inertia},
+      {"articulated", "apparent mass of each body with what hangs on it", show_articulated},
+      {"labels", "names of bodies", show_labels},
+      {"energy", "bars of energies", show_energy}};
+  return all;
+}
+
+const std::vector<Overlay>& live_overlays() {
+  static const std::vector<Overlay> all{
+      {"felt", "the force that the hand device puts on the hand", show_felt},
+      {"pull", "the spring by which the mouse pulls at a body", show_pull},
+      {"before", "the bodies of the run that was left for this one", show_before, false}};
+  return all;
+}
+
+std::vector<std::string> parse_overlays(const std::string& text) {
+  std::vector<std::string> known, words(1), chosen;
+  for (const Overlay& overlay : all_overlays()) known.emplace_back(overlay.name);
+  for (const char c : text) {
+    if (c == ',')
+      words.emplace_back();
+    else
+      words.back() += c;
+  }
+  FaultList faults;
+  for (const std::string& word : words) {
+    if (word == "none" || word.empty()) continue;
+    if (word == "all") return known;
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      faults.add({"", 0, "--show", "there is no overlay '" + word + "'",
+                  name_remedy(word, known, "overlays")});
+    chosen.push_back(word);
+  }
+  faults.check();
+  return chosen;
+}
+
+std::vector<Drawn> draw(Stage& stage, const Moment& moment,
+                        const std::vector<std::string>& overlays) {
+  DrawList& list = stage.list;
+  draw_bodies(stage, moment);
+  std::vector<Drawn> drawn{{}};
+  for (const auto* known : {&all_overlays(), &live_overlays()})
+    for (const Overlay& overlay : *known) {
+      if (std::find(overlays.begin(), overlays.end(), overlay.name) == overlays.end()) continue;
+      const std::size_t first = list.instances.size();
+      drawn.push_back({&overlay, first, list.labels.size(), list.legend.size()});
+      overlay.add(stage, moment);
+      for (std::size_t i = first; i < list.instances.size(); ++i)
+        list.instances[i].seen_through = overlay.seen_through;
+    }
+  return drawn;
+}
+
+std::string with_unit(double value, const std::string& unit) {
+  if (value == 0) return "0 " + unit;
+  const double size = std::abs(value);
+  struct Prefix {
+    double factor;
+    const char* text;
+  };
+  constexpr std::array<Prefix, 5> kPrefixes{
+      {{1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "\u00b5"}}};
+  // Only single units take a prefix that everybody reads alike.
+  const bool plain = unit.find(' ') == std::string::npos && unit != "kg";
+  for (const Prefix& prefix : kPrefixes)
+    if (plain && size >= 0.9995 * prefix.factor)
+      return fmt::format("{:.3g} {}{}", value / prefix.factor, prefix.text, unit);
+  return fmt::format("{:.3g} {}", value, unit);
+}
+
+void add_turn_arrow(DrawList& list, const Vector3& center_W, const Vector3& axis_W, double radius,
+                    double thickness, const Color& color) {
+  if (!(axis_W.norm() > 0) || !axis_W.allFinite()) return;
+  constexpr int kPieces = 20;
+  constexpr double kTurn = 1.5 * std::numbers::pi;
+  const Matrix3 R = turn_z_to(axis_W);
+  const auto at = [&](double angle) {
+    return Vector3(center_W + radius * (std::cos(angle) * R.col(0) + std::sin(angle) * R.col(1)));
+  };
+  const double head = std::min(0.6, 6.5 * thickness / radius);  // [rad]
+  for (int i = 0; i < kPieces; ++i)
+    add_rod(list, at((kTurn - head) * i / kPieces), at((kTurn - head) * (i + 1) / kPieces),
+            thickness, color);
+  add_mesh_instance(
+      list, list.unit_mesh(UnitShape::cone),
+      {turn_z_to(at(kTurn) - at(kTurn - head)), at(kTurn - head)}, color,
+      Vector3(2.4 * thickness, 2.4 * thickness, (at(kTurn) - at(kTurn - head)).norm()));
+}
+
+std::string scale_words(const std::string& what, double metres_per, double length,
+                        const std::string& unit) {
+  if (!(metres_per > 0)) return what;
+  const double shown = round_down(0.3 * length);
+  return fmt::format("{} ({} = {})", what, with_unit(shown, "m"),
+                     with_unit(shown / metres_per, unit));
+}
+
+}  // namespace twinarm

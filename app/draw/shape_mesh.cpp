@@ -1,0 +1,142 @@
+#include "app/draw/shape_mesh.h"
+
+#include <cmath>
+#include <numbers>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "app/render/list/texture_places.h"
+#include "collision/import/robot/mesh_geometry.h"
+#include "collision/shapes/convex_hull.h"
+
+namespace twinarm {
+namespace {
+
+// A profile in the half-plane (radius, z), from the lowest point to the highest, turned about z.
+// The ends lie on the axis.
+TriangleMesh turned(const std::vector<Eigen::Vector2d>& profile) {
+  constexpr int kAround = 48;
+  TriangleMesh mesh;
+  const auto row = [](std::size_t i) { return static_cast<int>(i) * kAround; };
+  for (const Eigen::Vector2d& p : profile)
+    for (int k = 0; k < kAround; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kAround;
+      mesh.vertices.emplace_back(p.x() * std::cos(angle), p.x() * std::sin(angle), p.y());
+    }
+  for (std::size_t i = 0; i + 1 < profile.size(); ++i)
+    for (int k = 0; k < kAround; ++k) {
+      const int next = (k + 1) % kAround;
+      const int a = row(i) + k, b = row(i) + next, c = row(i + 1) + next, d = row(i + 1) + k;
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
+    }
+  return mesh;  // triangles without area, at the poles, are dropped where normals are made
+}
+
+DrawMesh capsule(double radius, double length) {
+  constexpr int kArc = 12;  // of a quarter circle
+  std::vector<Eigen::Vector2d> profile;
+  for (const double side : {-0.5, 0.5})
+    for (int i = 0; i <= kArc; ++i) {
+      const double share = static_cast<double>(i) / kArc;
+      const double latitude = 0.5 * std::numbers::pi * (side < 0 ? share - 1 : share);
+      const bool on_axis = (side < 0 && i == 0) || (side > 0 && i == kArc);
+      profile.emplace_back(on_axis ? 0 : radius * std::cos(latitude),
+                           side * length + radius * std::sin(latitude));
+    }
+  const TriangleMesh mesh = turned(profile);
+  const auto down = [&](const Vector3& p) { return 0.5 - p.z() / (length + 2 * radius); };
+  return make_draw_mesh(mesh, places_around_z(mesh, down));
+}
+
+TriangleMesh hull_of(const MeshGeometry& geometry) {
+  const ConvexHull hull = convex_hull(load_mesh(geometry).vertices);
+  return {hull.vertices, hull.triangles};
+}
+
+ShapeLook placed(const DrawList& list, MeshId mesh, const Vector3& scale = Vector3::Ones(),
+                 const Pose& X_GM = {}) {
+  ShapeLook look;
+  look.can_be_textured = !list.meshes[mesh]->uv.empty();
+  look.mesh = mesh;
+  look.scale = scale;
+  look.X_GM = X_GM;
+  return look;
+}
+
+// A tube of no thickness, seen from outside.
+ShapeLook cylinder(double radius, double length, DrawList& list) {
+  return placed(list, list.unit_mesh(UnitShape::cylinder), {radius, radius, length},
+                {Matrix3::Identity(), Vector3(0, 0, -0.5 * length)});
+}
+
+ShapeLook sphere(const Vector3& semi_axes, DrawList& list) {
+  return placed(list, list.unit_mesh(UnitShape::sphere), semi_axes);
+}
+
+ShapeLook hollow(ShapeLook look) {
+  look.is_hollow = true;
+  return look;
+}
+
+struct Look {
+  DrawList& list;
+  using Maybe = std::optional<ShapeLook>;
+  Maybe operator()(const BoxGeometry& box) const {
+    return placed(list, list.unit_mesh(UnitShape::box), box.size);
+  }
+  Maybe operator()(const SphereGeometry& s) const {
+    return sphere(Vector3::Constant(s.radius), list);
+  }
+  Maybe operator()(const EllipsoidSpec& e) const { return sphere(e.semi_axes, list); }
+  Maybe operator()(const CylinderGeometry& c) const { return cylinder(c.radius, c.length, list); }
+  Maybe operator()(const CapsuleGeometry& c) const {
+    return placed(list, list.register_mesh(capsule(c.radius, c.length)));
+  }
+  Maybe operator()(const HollowSphereSpec& s) const {
+    return hollow(sphere(Vector3::Constant(s.radius), list));
+  }
+  Maybe operator()(const HollowCylinderSpec& c) const {
+    return hollow(cylinder(c.radius, c.length, list));
+  }
+  Maybe operator()(const HalfSpaceSpec&) const { return std::nullopt; }
+  Maybe operator()(const MeshSpec& spec) const {
+    return placed(list,
+                  list.register_mesh(spec.convex ? hull_of(spec.mesh) : load_mesh(spec.mesh)));
+  }
+};
+
+std::vector<ShapeLook> parts_of(const MeshGeometry& geometry, DrawList& list, KeepPlaces keep,
+                                std::vector<std::string>& notes) {
+  VisualModel model = load_visual(file_of(geometry), geometry.scale, keep);
+  for (const std::string& note : model.notes)
+    notes.push_back("mesh '" + geometry.name + "': " + note);
+  std::vector<ShapeLook> looks;
+  for (VisualMesh& part : model.parts) {
+    looks.push_back(placed(list, list.register_mesh(std::move(part.mesh))));
+    looks.back().color = part.color;
+    if (part.texture) looks.back().texture = list.register_texture(part.texture);
+  }
+  return looks;
+}
+
+}  // namespace
+
+std::optional<ShapeLook> look_of(const ShapeSpec& shape, DrawList& list) {
+  return std::visit(Look{list}, shape);
+}
+
+std::vector<ShapeLook> looks_of(const PartGeometry& geometry, DrawList& list, KeepPlaces keep,
+                                std::vector<std::string>& notes) {
+  return std::visit(
+      [&](const auto& shape) -> std::vector<ShapeLook> {
+        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, MeshGeometry>)
+          return parts_of(shape, list, keep, notes);
+        else
+          return {*Look{list}(shape)};
+      },
+      geometry);
+}
+
+}  // namespace twinarm

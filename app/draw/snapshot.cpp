@@ -1,0 +1,136 @@
+#include "app/draw/snapshot.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "solver/dynamics/energy.h"
+
+namespace twinarm {
+namespace {
+
+bool same_motion(const SceneCoupling& a, const SceneCoupling& b) {
+  return a.robot == b.robot && a.target == b.target && a.trace == b.trace && a.rest.q == b.rest.q &&
+         a.delay == b.delay && a.speed == b.speed && a.seed == b.seed;
+}
+
+// The hand that leads both moves the gripper of one of them at most.
+bool is_one_twin(const SceneCoupling& a, const SceneCoupling& b) {
+  return same_motion(a, b) && (a.driven.gripper.empty() || b.driven.gripper.empty() ||
+                               a.driven.gripper == b.driven.gripper);
+}
+
+// One coupling for each kinematic side that is to be seen; of those with one twin the one that
+// moves its gripper too. Where one of a robot's couplings leads it somewhere, those that hold it at
+// its start have nothing to show.
+std::vector<std::size_t> leaders(const SceneModel& scene) {
+  const auto& all = scene.couplings;
+  std::vector<std::size_t> found;
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    const auto outranks = [&](const SceneCoupling& other) {
+      return other.robot == all[c].robot && other.target != CouplingTarget::Kind::start;
+    };
+    if (all[c].target == CouplingTarget::Kind::start &&
+        std::any_of(all.begin(), all.end(), outranks))
+      continue;
+    const auto same = std::find_if(found.begin(), found.end(), [&](std::size_t other) {
+      return is_one_twin(all[c], all[other]);
+    });
+    if (same == found.end())
+      found.push_back(c);
+    else if (all[*same].driven.gripper.empty())
+      *same = c;
+  }
+  return found;
+}
+
+// The axis of a joint of one degree of freedom is z of its body.
+Vector3 joint_axis(const Kinematics& k, std::size_t body) {
+  return k.R_WB[body].col(2);
+}
+
+ShownPull pull_of(const SceneModel& scene, SceneCouplings& couplings, std::size_t c,
+                  const Moment& moment, const Vector3& pull) {
+  const SceneCoupling& spec = scene.couplings[c];
+  ShownPull shown;
+  shown.name = spec.name;
+  shown.body = static_cast<std::size_t>(spec.spring.body);
+  const CouplingEnds ends = couplings.ends(c, moment.x, moment.k);
+  shown.energy = 0.5 * spec.spring.k * ends.offset.squaredNorm();
+  if (spec.type == CouplingDescription::Type::linear) {
+    shown.has_ends = true;
+    shown.p_D = moment.k.position(spec.spring.body, spec.spring.p_L);
+    shown.p_K = shown.p_D + ends.offset;
+    shown.pull_W = pull;
+    return shown;
+  }
+  shown.p_D = shown.p_K = moment.k.X_WL[shown.body].p;
+  shown.kind = kind_of_pull(scene, c);
+  shown.pull_W = pull;
+  if (spec.measure == Measure::joint) shown.pull_W = pull.x() * joint_axis(moment.k, shown.body);
+  return shown;
+}
+
+}  // namespace
+
+ShownPull::Kind kind_of_pull(const SceneModel& scene, std::size_t coupling) {
+  const SceneCoupling& spec = scene.couplings[coupling];
+  const bool along_joint =
+      spec.measure == Measure::joint &&
+      scene.model.joint[static_cast<std::size_t>(spec.spring.body)] == JointType::prismatic;
+  return spec.type == CouplingDescription::Type::linear || along_joint ? ShownPull::Kind::force
+                                                                       : ShownPull::Kind::couple;
+}
+
+std::vector<PairForce> pair_forces(const Moment& moment) {
+  struct Sum {
+    PairForce pair;
+    double weight = 0;
+  };
+  std::map<std::pair<int, int>, Sum> sums;
+  for (const ShownContact& contact : moment.contacts) {
+    Sum& sum = sums[{contact.a, contact.b}];
+    const double weight = std::max(1e-12, contact.force_W.dot(contact.n_W));
+    sum.pair.body_b = contact.body_b;
+    sum.pair.force += contact.force_W;
+    sum.pair.couple += contact.couple_W;
+    sum.pair.point += weight * contact.p_W;
+    sum.weight += weight;
+  }
+  std::vector<PairForce> all;
+  for (auto& [name, sum] : sums) {
+    sum.pair.point /= sum.weight;
+    all.push_back(sum.pair);
+  }
+  return all;
+}
+
+Moment moment_of(const Model<double>& model, const State<double>& x) {
+  Moment moment(model);
+  moment.x = x;
+  forward_kinematics(model, x, moment.k);
+  moment.kinetic = kinetic_energy(model, x);
+  moment.potential = potential_energy(model, x);
+  return moment;
+}
+
+Moment moment_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
+                 const std::vector<Vector3>& pulls) {
+  Moment moment = moment_of(scene.model, x);
+  for (std::size_t c = 0; c < couplings.size(); ++c) {
+    const Vector3 pull = c < pulls.size() ? pulls[c] : Vector3(Vector3::Zero());
+    moment.pulls.push_back(pull_of(scene, couplings, c, moment, pull));
+    moment.elastic += moment.pulls.back().energy;
+  }
+  for (const std::size_t c : leaders(scene)) {
+    const SceneCoupling& spec = scene.couplings[c];
+    moment.twins.push_back({spec.robot, couplings.target(c, x.t).k.X_WL});
+    if (spec.target == CouplingTarget::Kind::start || spec.target == CouplingTarget::Kind::state)
+      continue;
+    const HandSample hand = couplings.hand(c).sample(x.t, x.t + 1e-6);
+    moment.hands.push_back({hand.theta, hand.button});
+  }
+  return moment;
+}
+
+}  // namespace twinarm

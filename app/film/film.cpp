@@ -1,0 +1,209 @@
+#include "app/film/film.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "app/support/interrupt.h"
+#include "solver/support/diagnostics.h"
+
+extern char** environ;
+
+namespace twinarm {
+namespace {
+
+class PngFilm final : public Film {
+ public:
+  explicit PngFilm(std::filesystem::path folder) : folder_(std::move(folder)) {
+    std::error_code error;
+    std::filesystem::create_directories(folder_, error);
+    if (error)
+      throw InputError(
+          {{folder_.string(), 0, "--frames", "the folder cannot be made: " + error.message(),
+            "give a folder that can be written"}});
+  }
+  void add(const Image& image) override {
+    write_png((folder_ / fmt::format("frame_{:05}.png", count_++)).string(), image);
+  }
+  void finish() override {}
+
+ private:
+  std::filesystem::path folder_;
+  int count_ = 0;
+};
+
+std::vector<std::string> ffmpeg_words(const std::string& program, const std::string& out,
+                                      const FilmFormat& format) {
+  std::vector<std::string> words{program,
+                                 "-hide_banner",
+                                 "-loglevel",
+                                 "error",
+                                 "-y",
+                                 "-f",
+                                 "rawvideo",
+                                 "-pix_fmt",
+                                 "rgba",
+                                 "-s",
+                                 fmt::format("{}x{}", format.width, format.height),
+                                 "-r",
+                                 fmt::format("{:g}", format.rate),
+                                 "-i",
+                                 "-",
+                                 "-an"};
+  const std::vector<std::string> mp4{
+      "-vf",       "pad=ceil(iw/2)*2:ceil(ih/2)*2",  // this pixel format has no odd sizes
+      "-c:v",      "libx264",
+      "-crf",      "18",
+      "-preset",   "fast",
+      "-pix_fmt",  "yuv420p",
+      "-movflags", "+faststart",
+      "-f",        "mp4",
+      out};
+  const std::string one_palette =  // of its own, for the whole film
+      "[0:v]split[a][b];[a]palettegen=stats_mode=diff[p];"
+      "[b][p]paletteuse=dither=bayer:bayer_scale=4";
+  const std::vector<std::string> gif{
+      "-filter_complex", one_palette, "-loop", "0", "-f", "gif", out};
+  const auto& more = format.kind == FilmKind::mp4 ? mp4 : gif;
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+// A child of its own process group: Ctrl-C is ours to handle.
+class FfmpegFilm final : public Film {
+ public:
+  FfmpegFilm(std::filesystem::path file, const FilmFormat& format)
+      : file_(std::move(file)), part_(file_.string() + ".part") {
+    std::signal(SIGPIPE, SIG_IGN);  // a child that ends is told by write()
+    const std::string option = format.kind == FilmKind::mp4 ? "--mp4" : "--gif";
+    start(ffmpeg_words(find_ffmpeg(option.c_str()).string(), part_.string(), format));
+  }
+  ~FfmpegFilm() override {
+    if (child_ > 0) {  // not finished
+      close_pipe();
+      kill(child_, SIGKILL);
+      wait_for_child();
+    }
+    std::error_code ignored;
+    if (!finished_) std::filesystem::remove(part_, ignored);
+  }
+  FfmpegFilm(const FfmpegFilm&) = delete;
+  FfmpegFilm& operator=(const FfmpegFilm&) = delete;
+
+  void add(const Image& image) override {
+    std::size_t at = 0;
+    while (at < image.rgba.size()) {
+      const ssize_t wrote = write(pipe_, image.rgba.data() + at, image.rgba.size() - at);
+      if (wrote < 0 && errno == EINTR) {
+        check_interrupt();
+        continue;
+      }
+      if (wrote < 0) fail();
+      at += static_cast<std::size_t>(wrote);
+    }
+  }
+  void finish() override {
+    close_pipe();
+    if (wait_for_child() != 0) fail();
+    std::error_code error;
+    std::filesystem::rename(part_, file_, error);
+    if (error)
+      throw InputError(
+          {{file_.string(), 0, "", "cannot be written: " + error.message(), "give another place"}});
+    finished_ = true;
+  }
+
+ private:
+  void start(std::vector<std::string> words) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) fail();
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawnattr_init(&attributes);
+    posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+    sigset_t usual;
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGPIPE);
+    posix_spawnattr_setsigdefault(&attributes, &usual);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_t child = 0;
+    const int error =
+        posix_spawn(&child, words[0].c_str(), &actions, &attributes, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+    close(ends[0]);
+    pipe_ = ends[1];
+    if (error != 0) {
+      close_pipe();
+      throw InputError({{words[0], 0, "", std::string("cannot be started: ") + strerror(error),
+                         "install ffmpeg anew, or give --frames DIR"}});
+    }
+    child_ = child;
+  }
+  void close_pipe() {
+    if (pipe_ >= 0) close(pipe_);
+    pipe_ = -1;
+  }
+  int wait_for_child() {
+    int status = 0;
+    while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+    }
+    child_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  }
+  [[noreturn]] void fail() {
+    throw InputError(
+        {{file_.string(), 0, "ffmpeg", "it did not make the film; its words stand above",
+          "is the folder there and writable? --frames DIR needs no ffmpeg"}});
+  }
+
+  std::filesystem::path file_, part_;
+  pid_t child_ = 0;
+  int pipe_ = -1;
+  bool finished_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Film> png_film(const std::filesystem::path& folder) {
+  return std::make_unique<PngFilm>(folder);
+}
+
+std::unique_ptr<Film> ffmpeg_film(const std::filesystem::path& file, const FilmFormat& format) {
+  return std::make_unique<FfmpegFilm>(file, format);
+}
+
+std::filesystem::path find_ffmpeg(const char* option) {
+  const char* path = std::getenv("PATH");
+  std::string folder;
+  for (const char* c = path ? path : "";; ++c) {
+    if (*c != ':' && *c != '\0') {
+      folder += *c;
+      continue;
+    }
+    const std::filesystem::path candidate = std::filesystem::path(folder) / "ffmpeg";
+    if (!folder.empty() && access(candidate.c_str(), X_OK) == 0) return candidate;
+    folder.clear();
+    if (*c == '\0') break;
+  }
+  throw InputError({{"", 0, option, "needs the program ffmpeg, which is not on the PATH",
+                     "install it (apt-get install ffmpeg), or give --frames DIR"}});
+}
+
+}  // namespace twinarm

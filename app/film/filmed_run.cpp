@@ -1,0 +1,221 @@
+#include "app/film/filmed_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/draw/cameras.h"
+#include "app/record/record_run.h"
+#include "app/record/recorded_instant.h"
+#include "app/run/run.h"
+#include "app/support/interrupt.h"
+#include "app/support/streams.h"
+
+namespace twinarm {
+namespace {
+
+constexpr int kAround = 240;           // instants that stand for the whole run
+constexpr double kMostPictures = 1e5;  // of a film
+
+// Before the first step nothing has been computed: what is shown there is what acts in it.
+void take_forces_of_first_step(std::vector<RunInstant>& instants, const RunInstant& first) {
+  for (RunInstant& instant : instants)
+    if (instant.x.t < first.x.t) {
+      instant.pulls = first.pulls;
+      instant.contacts = first.contacts;
+    }
+}
+
+std::vector<double> picture_times(double from, double to, double interval) {
+  if ((to - from) / interval > kMostPictures)
+    throw InputError({{"", 0, "--slow", "the film would have more than 100000 pictures",
+                       "give a shorter piece by --from and --to"}});
+  std::vector<double> times;
+  const auto count = static_cast<long>(std::floor((to - from) / interval + 1e-6));
+  for (long i = 0; i <= count; ++i) times.push_back(from + static_cast<double>(i) * interval);
+  return times;
+}
+
+void check_piece(double from, double to) {
+  if (!(from >= 0 && to > from))
+    throw InputError(
+        {{"", 0, "--from", fmt::format("the film goes from {:g} s to {:g} s", from, to),
+          "give --to after --from, neither negative"}});
+}
+
+// Both ends at once, by the numbers that were given.
+void check_within(const Recording& recording, double from, double to) {
+  FaultList faults;
+  attempt(faults, [&] { return recording.at(from, "--from"); });
+  attempt(faults, [&] { return recording.at(to, "--to"); });
+  faults.check();
+}
+
+FilmedRun film_recording(const std::filesystem::path& file, const FilmTimes& times) {
+  auto recording = std::make_unique<const Recording>(file);
+  for (const std::string& note : recording->notes()) say("twinarm: {}\n", note);
+  auto files = std::make_unique<const UnpackedRun>(recording->header());
+  const auto prepared = [&] {
+    try {
+      return prepare_simulation(files->options());
+    } catch (const InputError& error) {
+      throw files->as_typed(error);
+    }
+  };
+  FilmedRun run{{}, nullptr, nullptr, prepared(), {}, {}};
+  const Model<double>& model = run.model();
+  const std::size_t size = recording->size();
+  const auto frame_at = [&](std::size_t n) { return instant_of(recording->frame(n), model); };
+
+  const double first = recording->frame(0).t, last = recording->frame(size - 1).t;
+  const auto frame_of_time = [&](double t, const char* option) {
+    return frame_at(recording->at(times.waits ? std::clamp(t, first, last) : t, option));
+  };
+  if (times.is_film) {
+    const double from = times.from.value_or(first), to = times.to.value_or(last);
+    check_piece(from, to);
+    if (!times.waits) check_within(*recording, from, to);
+    for (const double t : picture_times(from, to, times.interval)) {
+      check_interrupt();
+      run.shown.push_back(frame_of_time(std::min(t, to), "--to"));
+    }
+  } else {
+    run.shown.push_back(times.at ? frame_of_time(*times.at, "--at") : frame_at(size - 1));
+  }
+  const std::size_t stride = std::max<std::size_t>(1, size / kAround);
+  for (std::size_t n = 0; n < size; n += stride) run.around.push_back(frame_at(n));
+  if (size > 1) {
+    const RunInstant second = frame_at(1);
+    take_forces_of_first_step(run.shown, second);
+    take_forces_of_first_step(run.around, second);
+  }
+  run.recording = std::move(recording);
+  run.files = std::move(files);
+  return run;
+}
+
+// The last time that is wanted; of a scene that says no duration of its own, by its options.
+double end_of(const FilmTimes& times, const SimulatePlan& plan) {
+  if (times.is_film) return times.to.value_or(plan.run.duration);
+  return std::max(times.at.value_or(0), 0.0);
+}
+
+// The preparation speaks of the options of `twinarm simulate`.
+SimulatePlan prepare_to_film(const SimulateOptions& options, const FilmTimes& times) {
+  try {
+    return prepare_simulation(options);
+  } catch (const InputError& error) {
+    const std::string option = times.is_film ? "--to" : "--at";
+    std::vector<Fault> faults = error.faults();
+    for (Fault& fault : faults) {
+      if (fault.where != "--duration") continue;
+      fault.where = option;
+      if (!fault.remedy.empty()) fault.remedy = "give " + option + " SECONDS";
+    }
+    throw InputError(std::move(faults));
+  }
+}
+
+FilmedRun let_run(const RobotOptions& robot, const FilmTimes& times, const std::string& camera,
+                  Progress& progress) {
+  SimulateOptions options;
+  options.robot = robot;
+  if (times.is_film)
+    options.duration = times.to;
+  else
+    options.duration = times.at && *times.at > 0 ? *times.at : 1.0;
+  FilmedRun run{{}, nullptr, nullptr, prepare_to_film(options, times), {}, {}};
+  parse_camera(camera, run.model());  // told before the run, not after it
+  RunPlan& plan = run.plan.run;
+  plan.times.clear();
+  const double end = end_of(times, run.plan), start = times.from.value_or(0);
+  if (times.is_film) check_piece(start, end);
+  if (plan.is_adaptive() && times.is_film) plan.step = std::min(plan.step, times.interval);
+  plan.duration = end > 0 ? end : plan.step;  // at the start one step is taken, for its forces
+  const double around = std::max(end / kAround, 0.0), slack = 1e-6 * plan.step;
+  std::vector<double> wanted{end};
+  if (times.is_film) wanted = picture_times(start, end, times.interval);
+
+  double next_around = 0;
+  std::size_t next = 0;
+  std::optional<RunInstant> first;
+  RunWatch watch;
+  watch.look = [&](RunView& view) {
+    const double t = view.simulation().state().t;
+    const bool shows = next < wanted.size() && t >= wanted[next] - slack;
+    const bool looks = t >= next_around - slack && (end > 0 || t <= 0);
+    const bool is_first = view.step() == 1;
+    if (!shows && !looks && !is_first) return;
+    const RunInstant instant = instant_of(frame_of(view, run.plan), run.model());
+    if (is_first) first = instant;
+    for (; next < wanted.size() && t >= wanted[next] - slack; ++next) run.shown.push_back(instant);
+    if (!looks) return;
+    run.around.push_back(instant);
+    while (around > 0 && next_around <= t + slack) next_around += around;
+  };
+  watch.tick = [&](double t) {
+    check_interrupt();
+    progress.advance(t / plan.duration);
+  };
+  const SimulateResult result = run_plan(run.plan.input, plan, watch);
+  if (result.post_mortem)
+    say("twinarm: the run stopped by itself after t = {:g} s: {}\n", result.end,
+        result.post_mortem->reason);
+  if (run.shown.empty())
+    throw InputError({{"", 0, "--at", "the run stopped before that time",
+                       fmt::format("give one up to {:g} s", result.end)}});
+  if (first) {
+    take_forces_of_first_step(run.shown, *first);
+    take_forces_of_first_step(run.around, *first);
+  }
+  return run;
+}
+
+}  // namespace
+
+std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
+                                 const std::filesystem::path& right, FilmTimes times) {
+  FaultList faults;
+  for (const auto* file : {&left, &right})
+    if (!is_recording(*file))
+      faults.add({file->string(), 0, "--beside", "this is no recording",
+                  "give two that `twinarm simulate --record FILE` has written"});
+  faults.check();
+  double earliest = 1e300, first = 0, last = 0;
+  for (const auto* file : {&left, &right}) {
+    const Recording recording(*file);
+    earliest = std::min(earliest, recording.frame(0).t);
+    first = std::max(first, recording.frame(0).t);
+    last = std::max(last, recording.frame(recording.size() - 1).t);
+  }
+  for (const auto& [t, option] :
+       {std::pair{times.at, "--at"}, {times.from, "--from"}, {times.to, "--to"}})
+    if (t && !(*t >= earliest - 1e-9 && *t <= last + 1e-9))
+      faults.add({"", 0, option,
+                  fmt::format("{:g} s is in neither recording: they go from {:g} to {:g} s", *t,
+                              earliest, last),
+                  "give a time within"});
+  faults.check();
+  times.waits = true;
+  if (!times.is_film && !times.at) times.at = last;
+  if (!times.from) times.from = first;
+  if (!times.to) times.to = last;
+  std::vector<FilmedRun> runs;
+  for (const auto* file : {&left, &right}) {
+    runs.push_back(film_recording(*file, times));
+    runs.back().name = file->stem().string();
+  }
+  return runs;
+}
+
+FilmedRun film_run(const RobotOptions& options, const FilmTimes& times, const std::string& camera,
+                   Progress& progress) {
+  if (!is_recording(options.model)) return let_run(options, times, camera, progress);
+  FaultList faults;
+  check_recorded(options, faults);
+  faults.check();
+  return film_recording(options.model, times);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,153 @@
+#include "app/inspect/displayed_quantities.h"
+
+namespace twinarm {
+namespace {
+
+Matrix3 link_from_body(const Model<double>& model, std::size_t body) {
+  return to_eigen(model.turn[body]).transpose();
+}
+
+constexpr const char* kLink = "link axes, about the link's origin";
+constexpr const char* kParentToLink = "from the parent's link axes to the link's";
+constexpr const char* kJoint = "joint";
+
+// Converts whatever a field holds.
+struct Shower {
+  const Inspection& in;
+  std::size_t body;
+  LinkAxes axes;
+
+  template <class T>
+  Shown of(const Quantity& quantity, const std::vector<T>& field) const {
+    switch (quantity.by) {
+      case Quantity::By::velocity:
+        return by_velocity(quantity, field);
+      case Quantity::By::square:
+        if constexpr (std::is_same_v<T, double>) return {quantity, kJoint, axes.square(field)};
+        [[fallthrough]];
+      case Quantity::By::body:
+        break;
+    }
+    if constexpr (std::is_same_v<T, double>)
+      return {quantity, kJoint, axes.joint(field)};
+    else
+      return {quantity, std::is_same_v<T, Transform<double>> ? kParentToLink : kLink,
+              axes.show(field[body])};
+  }
+  template <class T>
+  Shown by_velocity(const Quantity& quantity, const std::vector<T>& field) const {
+    if constexpr (std::is_same_v<T, double>)
+      return {quantity, kJoint, axes.joint(field)};
+    else if constexpr (std::is_same_v<T, Motion<double>> || std::is_same_v<T, Force<double>>)
+      return {quantity, kLink, axes.columns(field)};
+    else
+      return {quantity, kLink, {}};
+  }
+};
+
+}  // namespace
+
+LinkAxes::LinkAxes(const Inspection& in, std::size_t body)
+    : in_(in),
+      body_(body),
+      iv_(in.model.iv[body]),
+      nv_(in.model.dofs(body)),
+      R_LB_(link_from_body(in.model, body)),
+      R_PB_(link_from_body(in.model, in.parent(body))) {
+  const auto nv = static_cast<Eigen::Index>(nv_);
+  T_ = Eigen::MatrixXd::Identity(nv, nv);
+  if (in.model.joint[body] == JointType::free) {
+    T_.setZero();
+    T_.topRightCorner<3, 3>() = to_eigen(quaternion_E(in.x.q.data() + in.model.iq[body] + 3));
+    T_.bottomLeftCorner<3, 3>().setIdentity();
+  }
+}
+
+Vector6 LinkAxes::show(const Motion<double>& m) const {
+  return (Vector6() << R_LB_ * to_eigen(m.w), R_LB_ * to_eigen(m.v)).finished();
+}
+Vector6 LinkAxes::show(const Force<double>& f) const {
+  return (Vector6() << R_LB_ * to_eigen(f.n), R_LB_ * to_eigen(f.f)).finished();
+}
+Matrix6 LinkAxes::show(const ArticulatedInertia<double>& a) const {
+  const auto turned = [&](const Mat3<double>& block) {
+    return Matrix3(R_LB_ * to_eigen(block) * R_LB_.transpose());
+  };
+  // Turning rounds; both triangles are to show the same digits.
+  const auto symmetric = [](const Matrix3& m) { return Matrix3(0.5 * (m + m.transpose())); };
+  Matrix6 shown;
+  shown.topLeftCorner<3, 3>() = symmetric(turned(full(a.I)));
+  shown.topRightCorner<3, 3>() = turned(a.H);
+  shown.bottomLeftCorner<3, 3>() = shown.topRightCorner<3, 3>().transpose();
+  shown.bottomRightCorner<3, 3>() = symmetric(turned(full(a.M)));
+  return shown;
+}
+Matrix6 LinkAxes::show(const Transform<double>&) const {
+  const Matrix3 E = turn_from_parent();
+  const Vector3 r = shift_from_parent();
+  const Matrix3 cross =
+      (Matrix3() << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0).finished();
+  Matrix6 X = Matrix6::Zero();
+  X.topLeftCorner<3, 3>() = X.bottomRightCorner<3, 3>() = E;
+  X.bottomLeftCorner<3, 3>() = -E * cross;
+  return X;
+}
+Matrix3 LinkAxes::turn_from_parent() const {
+  return R_LB_ * to_eigen(in_.w.Xup[body_].E) * R_PB_.transpose();
+}
+Vector3 LinkAxes::shift_from_parent() const {
+  return R_PB_ * to_eigen(in_.w.Xup[body_].r);
+}
+
+Eigen::VectorXd LinkAxes::joint(const std::vector<double>& by_velocity) const {
+  const Eigen::Map<const Eigen::VectorXd> part(by_velocity.data() + iv_,
+                                               static_cast<Eigen::Index>(nv_));
+  return T_.transpose() * part;
+}
+Eigen::MatrixXd LinkAxes::square(const std::vector<double>& D) const {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto nv = static_cast<Eigen::Index>(nv_);
+  return T_.transpose() * Eigen::Map<const RowMajor>(D.data() + in_.w.iD[body_], nv, nv) * T_;
+}
+
+ArticulatedInertia<double> own_inertia(const Inspection& in, std::size_t body) {
+  ArticulatedInertia<double> own(in.model.I[body]);
+  if (in.forces.has_impedance) own += in.forces.impedance[body];
+  return own;
+}
+Force<double> own_force(const Inspection& in, std::size_t body) {
+  return crf(in.w.v[body], in.model.I[body] * in.w.v[body]) - in.forces.f_ext[body];
+}
+
+std::vector<Shown> shown_quantities(const Inspection& in, int pass, std::size_t body) {
+  const Shower shower{in, body, LinkAxes(in, body)};
+  std::vector<Shown> all;
+  const auto take = [&](const Quantity& quantity, const auto& field) {
+    const bool is_input = pass == 1 && quantity.pass == 0;
+    if (quantity.pass != pass && !is_input) return;
+    if (quantity.by != Quantity::By::body && shower.axes.nv() == 0) return;
+    Shown shown = shower.of(quantity, field);
+    if (is_input && shown.value.isZero(0)) return;
+    all.push_back(std::move(shown));
+  };
+  in.forces.describe(take);
+  if (pass == 1) {
+    using By = Quantity::By;
+    all.push_back({{"I", 1, By::body, "inertia of the body alone, rigid", "kg m^2, kg m, kg",
+                    "of the model; (2.63)"},
+                   kLink,
+                   shower.axes.show(ArticulatedInertia<double>(in.model.I[body]))});
+    in.w.describe(take);
+    all.push_back({{"p", 1, By::body, "force that the body alone takes for no acceleration",
+                    "N m; N", "p = v x* I v - f_ext, table 7.1; (2.32)"},
+                   kLink,
+                   shower.axes.show(own_force(in, body))});
+    return all;
+  }
+  in.w.describe(take);
+  // What the base carries hands nothing on.
+  if (in.parent(body) > 0) in.trace.describe(take);
+  return all;
+}
+
+}  // namespace twinarm

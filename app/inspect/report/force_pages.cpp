@@ -1,0 +1,129 @@
+#include "app/inspect/report/force_pages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace twinarm {
+namespace {
+
+constexpr double kNoPull = 1e-13;  // of what it is compared with
+
+Vector6 six_of(const NamedWrench& wrench) {
+  return (Vector6() << wrench.force, wrench.torque).finished();
+}
+
+std::string joint_label(const Inspection& in, std::size_t body, std::size_t dof) {
+  std::string text = in.model.joint_name[body].empty() ? "base" : in.model.joint_name[body];
+  if (in.model.dofs(body) > 1) text += fmt::format("[{}]", dof - in.model.iv[body] + 1);
+  return text;
+}
+
+// What pulls along a degree of freedom, where anything does.
+void write_joint_balance(const Inspection& in, const JointBalance& joint, Sheet& sheet) {
+  double pull = 0;
+  for (const JointBalance::Torque& torque : joint.torques)
+    pull = std::max(pull, std::abs(torque.value));
+  if (pull <= kNoPull * joint.largest) return;
+  std::string text = fmt::format("      along {}", joint_label(in, joint.body, joint.dof));
+  if (in.model.dofs(joint.body) == 1)
+    text += in.model.joint[joint.body] == JointType::prismatic ? " [N]" : " [N m]";
+  for (std::size_t k = 0; k < joint.torques.size(); ++k)
+    text += fmt::format("{} {} {}", k ? "," : ":", joint.torques[k].source,
+                        short_number(joint.torques[k].value, joint.largest));
+  sheet.line(wrapped(text, 10));
+}
+
+// Whether it acts on one of the bodies that are asked for.
+bool concerns(const InspectView& view, const NamedForce& named) {
+  const auto is_shown = [&](std::size_t body) {
+    return std::find(view.bodies.begin(), view.bodies.end(), body) != view.bodies.end();
+  };
+  return std::any_of(named.ends.begin(), named.ends.end(),
+                     [&](const NamedForce::End& end) { return is_shown(end.body); }) ||
+         std::any_of(named.joints.begin(), named.joints.end(),
+                     [&](const NamedForce::OnJoint& on) { return is_shown(on.body); });
+}
+
+bool is_tie(const std::string& source) {
+  for (const char* kind : {"coupling/", "contact/", "constraint/", "wrench/"})
+    if (source.starts_with(kind)) return true;
+  return false;
+}
+
+std::string point_text(const Vector3& p) {
+  const double size = p.lpNorm<Eigen::Infinity>();
+  return fmt::format("({}, {}, {})", short_number(p.x(), size), short_number(p.y(), size),
+                     short_number(p.z(), size));
+}
+
+}  // namespace
+
+std::string viewpoint_in_words(const InspectView& view) {
+  using Axes = Viewpoint::Axes;
+  using About = Viewpoint::About;
+  const std::string axes = view.from.axes == Axes::world ? "world axes"
+                           : view.from.axes == Axes::own ? "axes of its link"
+                                                         : "axes of " + view.axes;
+  const std::string about = view.from.about == About::own_origin ? "its link's origin"
+                            : view.from.about == About::own_com  ? "its centre of mass"
+                            : view.from.about == About::body     ? "the origin of " + view.about
+                                                                 : "(" + view.about + ") m";
+  return axes + ", about " + about;
+}
+
+std::vector<NamedForce> forces_in_view(const Inspection& in, const InspectView& view) {
+  std::vector<NamedForce> all = named_forces(in, view.from);
+  if (view.forces_alone)
+    std::erase_if(all, [&](const NamedForce& named) {
+      return std::find(view.forces.begin(), view.forces.end(), named.source) == view.forces.end();
+    });
+  return all;
+}
+
+void write_balances(const Inspection& in, const InspectView& view, Sheet& sheet) {
+  sheet.title("WRENCHES ON EACH BODY: force [N] | torque [N m]", viewpoint_in_words(view));
+  const std::vector<JointBalance> joints = joint_balances(in);
+  for (const std::size_t body : view.bodies) {
+    const BodyBalance balance = balance_of(in, body, view.from);
+    sheet.line("\n" + in.model.body_name[body]);
+    const Vector6 size = Vector6::Constant(balance.largest);
+    for (const NamedWrench& wrench : balance.wrenches)
+      sheet.row(wrench.source, six_of(wrench), size);
+    sheet.line(fmt::format("      they sum to zero, but for {:.1e} of the largest, {}",
+                           balance.residual, short_number(balance.largest)));
+    for (const JointBalance& joint : joints)
+      if (joint.body == body) write_joint_balance(in, joint, sheet);
+  }
+}
+
+void write_named_forces(const Inspection& in, const InspectView& view, Sheet& sheet) {
+  std::vector<NamedForce> all = forces_in_view(in, view);
+  if (!view.forces_alone)
+    std::erase_if(all, [&](const NamedForce& named) {
+      return !is_tie(named.source) || !concerns(view, named);
+    });
+  if (all.empty()) return;
+  sheet.title("FORCES BY NAME, on bodies that move: force [N] | torque [N m]",
+              viewpoint_in_words(view));
+  for (const NamedForce& named : all) {
+    std::string head = "\n" + named.source;
+    if (named.point) head += " at " + point_text(*named.point);
+    if (named.parts)
+      head += fmt::format(": normal {} N, friction {} N", short_number(named.parts->normal),
+                          short_number(named.parts->friction, named.parts->normal));
+    sheet.line(head);
+    for (const NamedForce::End& end : named.ends)
+      sheet.row("on " + in.model.body_name[end.body], six_of(end.wrench),
+                Vector6::Constant(six_of(end.wrench).lpNorm<Eigen::Infinity>()));
+    for (const NamedForce::OnJoint& on : named.joints)
+      sheet.line(fmt::format("      along {}: {} {}", joint_label(in, on.body, on.dof),
+                             short_number(on.value),
+                             in.model.dofs(on.body) > 1                        ? ""
+                             : in.model.joint[on.body] == JointType::prismatic ? "N"
+                                                                               : "N m"));
+  }
+}
+
+}  // namespace twinarm

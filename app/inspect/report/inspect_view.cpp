@@ -1,0 +1,113 @@
+#include "app/inspect/report/inspect_view.h"
+
+#include <algorithm>
+
+#include "app/support/nearest_name.h"
+
+namespace twinarm {
+namespace {
+
+std::vector<std::string> names_of_bodies(const Model<double>& model) {
+  return {model.body_name.begin() + 1, model.body_name.end()};
+}
+
+// The body's index; 0, told, where there is none.
+std::size_t index_of_body(const std::string& option, const std::string& name,
+                          const std::string& others, const Model<double>& model,
+                          FaultList& faults) {
+  const std::vector<std::string> names = names_of_bodies(model);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin()) + 1;
+  faults.add({"", 0, option, "there is no body '" + name + "'",
+              others + name_remedy(name, names, "bodies")});
+  return 0;
+}
+
+// Also all points of a contact, "contact/A-B/1", by the contact's name.
+bool is_called(const std::string& name, const std::string& wanted) {
+  const std::string rest = name.substr(std::min(wanted.size(), name.size()));
+  const bool is_point = rest.size() > 1 && rest[0] == '/' &&
+                        rest.find_first_not_of("0123456789", 1) == std::string::npos;
+  return name == wanted || (is_point && name.starts_with(wanted));
+}
+
+void read_axes(const std::string& text, const Model<double>& model, InspectView& view,
+               FaultList& faults) {
+  view.axes = text;
+  if (text == "world") return;
+  view.from.axes = text == "link" ? Viewpoint::Axes::own : Viewpoint::Axes::body;
+  if (text != "link")
+    view.from.axes_of =
+        index_of_body("--axes", text, "give world, link or a body; ", model, faults);
+}
+
+void read_about(const std::string& text, const Model<double>& model, InspectView& view,
+                FaultList& faults) {
+  using About = Viewpoint::About;
+  view.about = text;
+  if (text == "origin") return;
+  if (text == "com") {
+    view.from.about = About::own_com;
+  } else if (text.find(',') != std::string::npos) {
+    view.from.about = About::point;
+    FaultList of_numbers;
+    const std::vector<double> numbers = parse_list("--about", text, of_numbers);
+    if (numbers.size() == 3)
+      view.from.point = Vector3(numbers[0], numbers[1], numbers[2]);
+    else
+      faults.add({"", 0, "--about", "'" + text + "' is no point",
+                  "give three numbers x,y,z [m], of the world"});
+  } else {
+    view.from.about = About::body;
+    view.from.about_body =
+        index_of_body("--about", text, "give origin, com, x,y,z or a body; ", model, faults);
+  }
+}
+
+}  // namespace
+
+void read_passes(const InspectOptions& options, InspectView& view, FaultList& faults) {
+  static const std::vector<std::string> names{"1", "2", "3"};
+  if (!options.passes.empty()) view.passes.clear();
+  for (const std::string& pass : options.passes) {
+    const auto found = std::find(names.begin(), names.end(), pass);
+    if (found == names.end())
+      faults.add({"", 0, "--pass", "there is no pass '" + pass + "'",
+                  "give 1 (velocities), 2 (inertias and forces) or 3 (accelerations)"});
+    else
+      view.passes.push_back(static_cast<int>(found - names.begin()) + 1);
+  }
+  std::sort(view.passes.begin(), view.passes.end());
+  view.passes.erase(std::unique(view.passes.begin(), view.passes.end()), view.passes.end());
+}
+
+void read_bodies(const InspectOptions& options, const Model<double>& model, InspectView& view,
+                 FaultList& faults) {
+  std::vector<char> wanted(model.parent.size(), options.bodies.empty());
+  for (const std::string& body : options.bodies)
+    wanted[index_of_body("--body", body, "", model, faults)] = 1;
+  for (std::size_t i = 1; i < wanted.size(); ++i)
+    if (wanted[i]) view.bodies.push_back(i);
+  read_axes(options.axes, model, view, faults);
+  read_about(options.about, model, view, faults);
+}
+
+void read_forces(const InspectOptions& options, const std::vector<Actor>& actors, InspectView& view,
+                 FaultList& faults) {
+  std::vector<std::string> names;
+  for (const Actor& actor : actors) names.push_back(actor.source);
+  view.forces_alone = !options.forces.empty();
+  for (const std::string& wanted : options.forces) {
+    bool found = false;
+    for (const std::string& name : names)
+      if (is_called(name, wanted) || is_called(name.substr(name.find('/') + 1), wanted)) {
+        view.forces.push_back(name);
+        found = true;
+      }
+    if (!found)
+      faults.add({"", 0, "--force", "nothing called '" + wanted + "' acts in this state",
+                  names.empty() ? "gravity alone does" : name_remedy(wanted, names, "forces")});
+  }
+}
+
+}  // namespace twinarm

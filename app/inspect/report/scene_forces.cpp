@@ -1,0 +1,262 @@
+// One step of a scene, and by whose name each of its forces acts.
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "app/inspect/report/inspect_input.h"
+#include "app/robot/dynamics.h"
+#include "app/scene/forces/add_contacts.h"
+#include "app/scene/forces/given_forces.h"
+#include "solver/linear_algebra/dense_algebra.h"
+
+namespace twinarm {
+namespace {
+
+using Index = Eigen::Index;
+
+Index index(std::size_t i) {
+  return static_cast<Index>(i);
+}
+
+}  // namespace
+
+class SceneInspector::FirstStep {
+ public:
+  FirstStep(SimulateInput& input, double h, const std::vector<NamedSource>& others)
+      : input_(input),
+        model_(input.robot.model),
+        h_(h),
+        others_(others),
+        given_(input.robot.state),
+        sim_(model_, input.robot.state.x),
+        torques_(model_, input.robot.coordinates, input.robot.state.tau),
+        k_(model_) {
+    forward_kinematics(model_, input.robot.state.x, k_);
+    for (const Wrench& wrench : input.robot.state.wrenches) wrenches_.emplace_back(wrench, k_);
+    sim_.add(torques_);
+    for (GivenWrench& wrench : wrenches_) sim_.add(wrench);
+    for (std::size_t c = 0; c < input.couplings->size(); ++c)
+      if (ForceSource* source = input.couplings->source(c)) sim_.add(*source);
+    for (const NamedSource& other : others_) sim_.add(*other.source);
+    for (const SceneMotion& motion : input.scene->motions) sim_.prescribe(motion.body, motion.law);
+    sim_.set_integrator(Integrator::semi_implicit);
+    sim_.constrain_accelerations();
+    contacts_.emplace(*input.scene, sim_);
+  }
+
+  Inspected look(Memory* memory) {
+    if (memory) {
+      sim_.visit_memory(*memory);
+      input_.robot.state = given_;
+      stand_at(input_.robot, sim_.state());
+    }
+    actors_.clear();
+    return take();
+  }
+
+ private:
+  Inspected take() {
+    Inspected inspected;
+    inspected.warnings = input_.robot.warnings;
+    x_ = sim_.state();
+    const StepReport report = sim_.step(h_);
+    inspected.qdd_of_step = sim_.workspace().qdd;
+    if (sim_.constraints().any() && sim_.constraints().report().impacts > 0) {
+      for (std::size_t dof = 0; dof < model_.nv; ++dof)
+        x_.qd[dof] = sim_.state().qd[dof] - h_ * inspected.qdd_of_step[dof];
+      inspected.warnings.emplace_back(
+          "the step begins with an impact: velocities and forces are those after it");
+    }
+    if (!report.ok())
+      inspected.warnings.emplace_back("the equation of the step was not solved to rounding");
+    forward_kinematics(model_, x_, k_);
+    inspected.x = x_;
+    actors_ = given_actors(input_.robot);
+    add_couplings();
+    add_others();
+    add_damping();
+    const bool constrained = sim_.constraints().any();
+    add_by_joint(
+        model_,
+        constrained ? sim_.constraints().coulomb_torque() : sim_.dynamics().coulomb_torque(),
+        "joint/", "/friction", actors_);
+    find_rest(constrained);
+    add_contacts();
+    add_limits();
+    add_bilateral();
+    inspected.actors = std::move(actors_);
+    inspected.loops = sim_.dynamics().bilateral().loops().loops();
+    return inspected;
+  }
+
+  void add_couplings() {
+    for (std::size_t c = 0; c < input_.couplings->size(); ++c) {
+      ForceSource* source = input_.couplings->source(c);
+      if (!source) continue;  // a further pull of the one before
+      Forces<double> added(model_);
+      source->add_forces(x_, k_, added);
+      const SceneCoupling& spec = input_.couplings->spec(c);
+      actors_.push_back(actor_of("coupling/" + spec.coupling, added));
+      if (spec.type == CouplingDescription::Type::linear)
+        actors_.back().point_W = k_.position(spec.spring.body, spec.spring.p_L);
+    }
+  }
+  void add_others() {
+    for (const NamedSource& other : others_) {
+      Forces<double> added(model_);
+      other.source->add_forces(x_, k_, added);
+      Actor actor = actor_of(other.name, added);
+      if (actor.bodies.empty() && actor.joints.empty()) continue;
+      actors_.push_back(std::move(actor));
+      if (other.at) actors_.back().point_W = k_.position(other.at->first, other.at->second);
+    }
+  }
+  // At the end of the step: h b as armature.
+  void add_damping() {
+    for (std::size_t i = 1; i < model_.parent.size(); ++i) {
+      Actor actor{"joint/" + model_.joint_name[i] + "/damping", {}, {}};
+      for (std::size_t dof = model_.iv[i]; dof < model_.iv[i] + model_.dofs(i); ++dof)
+        if (const double b = model_.damping[dof]; b != 0)
+          actor.joints.push_back({dof, -b * x_.qd[dof], h_ * b});
+      if (!actor.joints.empty()) actors_.push_back(std::move(actor));
+    }
+  }
+  // The generalised force of all constraints; each that is read out is taken off.
+  void find_rest(bool constrained) {
+    rest_ = Eigen::VectorXd::Zero(index(model_.nv));
+    for (std::size_t dof = 0; dof < model_.nv; ++dof)
+      rest_[index(dof)] =
+          constrained ? sim_.constraints().constraint_force()[dof]
+                      : sim_.dynamics().mimic_force()[dof] + sim_.dynamics().loop_force()[dof];
+  }
+
+  void push(Actor& actor, int body, const Vector3& p_W, const Vector3& force,
+            const Vector3& torque) {
+    if (body <= 0) return;
+    Wrench wrench;
+    wrench.body = static_cast<std::size_t>(body);
+    wrench.point = p_W;
+    wrench.force = force;
+    wrench.torque = torque;
+    actor.bodies.push_back({wrench.body, in_body_axes(wrench, k_), {}});
+    for_each_dof_below(model_, k_, body,
+                       [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
+                         rest_[index(dof)] -= w.dot(torque + (p_W - o).cross(force)) + v.dot(force);
+                       });
+  }
+
+  bool moves(int body) const {
+    for (int b = body; b > 0; b = model_.parent[static_cast<std::size_t>(b)])
+      if (model_.dofs(static_cast<std::size_t>(b)) > 0) return true;
+    return false;
+  }
+  void add_contacts() {
+    const ContactConstraints* all = contacts_->contacts();
+    if (!all) return;
+    std::map<std::pair<int, int>, int> count, number;
+    const auto presses = [](const ContactPoint& p) {
+      return !p.force_W.isZero(0) || !p.couple_W.isZero(0);
+    };
+    for (const ContactPoint& p : all->points())
+      if (presses(p)) ++count[{p.contact.a, p.contact.b}];
+    for (const ContactPoint& p : all->points()) {
+      if (!presses(p)) continue;
+      const std::pair pair(p.contact.a, p.contact.b);
+      const ContactGeometry &a = all->geometry(pair.first), &b = all->geometry(pair.second);
+      std::string name = "contact/" + a.name + "-" + b.name;
+      if (count[pair] > 1) name += "/" + std::to_string(++number[pair]);
+      Actor actor{std::move(name), {}, {}};
+      // A gap that closes within the step closes on the side that can move.
+      const Vector3 half = 0.5 * std::max(0.0, -p.contact.depth) * p.contact.n_W;
+      const Vector3 on_b = p.contact.p_WC + (moves(a.body) ? Vector3::Zero() : half);
+      const Vector3 on_a = p.contact.p_WC - (moves(b.body) ? Vector3::Zero() : half);
+      actor.point_W = p.contact.p_WC;
+      actor.normal_W = p.contact.n_W;
+      push(actor, b.body, on_b, p.force_W, p.couple_W);
+      push(actor, a.body, on_a, -p.force_W, -p.couple_W);
+      actors_.push_back(std::move(actor));
+    }
+  }
+  void add_limits() {
+    if (!contacts_->limits()) return;
+    for (const JointLimits::Limit& limit : contacts_->limits()->limits()) {
+      if (limit.force == 0) continue;
+      const auto body = static_cast<std::size_t>(limit.body);
+      actors_.push_back(
+          {"joint/" + model_.joint_name[body] + "/limit", {}, {{model_.iv[body], limit.force, 0}}});
+      rest_[index(model_.iv[body])] -= limit.force;
+    }
+  }
+
+  // What is left are loops and mimics: A^T lambda = rest, the shortest lambda.
+  void add_bilateral() {
+    LoopClosures loops(model_, sim_.dynamics().bilateral().loops().loops());
+    const std::size_t mimics = model_.mimics.size();
+    if (!loops.any() && mimics == 0) return;
+    if (loops.any()) loops.evaluate(x_, k_);
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(index(loops.rows() + mimics), index(model_.nv));
+    if (loops.any()) A.topRows(index(loops.rows())) = loops.J();
+    for (std::size_t m = 0; m < mimics; ++m) {
+      const Mimic& mimic = model_.mimics[m];
+      A(index(loops.rows() + m), index(mimic.follower)) += 1;
+      A(index(loops.rows() + m), index(mimic.leader)) -= mimic.ratio;
+    }
+    const Eigen::VectorXd lambda = shortest_solution(A.transpose(), rest_, 1e-9);
+    const Eigen::VectorXd of_loops = lambda.head(index(loops.rows()));
+    for (std::size_t l = 0; l < loops.loops().size(); ++l) add_loop(loops, l, of_loops);
+    std::vector<double> tau(model_.nv);
+    for (std::size_t m = 0; m < mimics; ++m) {
+      tau[model_.mimics[m].follower] += lambda[index(loops.rows() + m)];
+      tau[model_.mimics[m].leader] -= model_.mimics[m].ratio * lambda[index(loops.rows() + m)];
+    }
+    add_by_joint(model_, tau, "joint/", "/mimic", actors_);
+  }
+  void add_loop(const LoopClosures& loops, std::size_t l, const Eigen::VectorXd& lambda) {
+    const LoopClosure& loop = loops.loops()[l];
+    Actor actor{"constraint/" + loop.name, {}, {}};
+    if (loop.type == LoopType::gear || loop.type == LoopType::locked) {
+      const std::size_t row = loops.first_row(l);
+      for (const std::size_t dof : loops.dofs_of(row))
+        actor.joints.push_back({dof, loops.J()(index(row), index(dof)) * lambda[index(row)], 0});
+    } else {
+      const LoopWrench on_a = loops.wrench(l, lambda);
+      const auto a = static_cast<std::size_t>(loop.body_a),
+                 b = static_cast<std::size_t>(loop.body_b);
+      const Vector3 C_b = k_.X_WL[b] * loop.X_LbC.p;
+      const Vector3 C_a = loop.type == LoopType::distance ? k_.X_WL[a] * loop.X_LaC.p : C_b;
+      actor.point_W = C_b;
+      push(actor, loop.body_a, C_a, on_a.force, on_a.couple);
+      push(actor, loop.body_b, C_b, -on_a.force, -on_a.couple);
+    }
+    actors_.push_back(std::move(actor));
+  }
+
+  SimulateInput& input_;
+  const Model<double>& model_;
+  double h_;
+  std::vector<NamedSource> others_;
+  const GivenState given_;  // as it was at the start of the run
+  Simulation sim_;
+  GivenTorques torques_;
+  std::vector<GivenWrench> wrenches_;
+  std::optional<SceneContacts> contacts_;
+  State<double> x_;  // when the forces act
+  Kinematics k_;
+  std::vector<Actor> actors_;
+  Eigen::VectorXd rest_;
+};
+
+SceneInspector::SceneInspector(SimulateInput& input, double h,
+                               const std::vector<NamedSource>& others)
+    : step_(std::make_unique<FirstStep>(input, h, others)) {}
+SceneInspector::~SceneInspector() = default;
+Inspected SceneInspector::look(Memory* memory) {
+  return step_->look(memory);
+}
+
+Inspected inspect_scene(SimulateInput& input, double h, Memory* memory) {
+  return SceneInspector(input, h).look(memory);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,49 @@
+// What the lab answers over HTTP (docs/lab_protocol.md).
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/lab/app/message_streamer.h"
+#include "app/lab/app/task_queue.h"
+#include "app/lab/server/lab_server.h"
+#include "app/lab/session/lab_session.h"
+
+namespace twinarm {
+
+class LabRoutes {
+ public:
+  // All must outlive it. `page`: empty where the program was built without its pages; `missing`
+  // says why then.
+  LabRoutes(LabSession& session, LabPainter& painter, const std::vector<GalleryScene>& gallery,
+            std::string page, std::string missing);
+  ~LabRoutes();  // what pages have brought goes with it
+  LabRoutes(const LabRoutes&) = delete;
+  LabRoutes& operator=(const LabRoutes&) = delete;
+
+  void end();  // nothing is answered any more
+  // By the server's thread. What takes long is answered later: by the painter's thread what only it
+  // knows, by one of their own what would hold it up.
+  using Answer = std::function<void(HttpReply)>;
+  void answer(const HttpRequest& request, const Answer& answer);
+
+ private:
+  void answer_picture(const std::string& name, const Answer& answer) const;
+  void ask_painter(const HttpRequest& request, const Answer& answer);
+  void ask_errands(const HttpRequest& request, const Answer& answer);
+  HttpReply picture(const HttpRequest& request) const;
+  void answer_open(const HttpRequest& request, const Answer& answer);
+  HttpReply run_errand(const HttpRequest& request) const;
+
+  LabSession& session_;
+  LabPainter& painter_;
+  const std::vector<GalleryScene>& gallery_;
+  Bytes page_;
+  std::string missing_;
+  std::filesystem::path folder_;  // of files that pages have brought
+  Errands errands_;
+};
+
+}  // namespace twinarm

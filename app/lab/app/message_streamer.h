@@ -1,0 +1,107 @@
+// Makes the messages: scene, state, frames, glass. A thread of its own; at most 60 frames a second
+// for one or two pages, 30 for more. Whatever takes long and is asked for over HTTP is done here
+// too, one thing after the other.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "app/lab/app/clients.h"
+#include "app/lab/app/rate_limiter.h"
+#include "app/lab/inspector/body_inspector.h"
+#include "app/lab/parameters/gallery.h"
+#include "app/lab/parameters/parameters.h"
+#include "app/lab/server/lab_server.h"
+#include "app/lab/session/lab_session.h"
+#include "app/lab/stream/lab_view.h"
+#include "app/render/list/draw_list.h"
+
+namespace twinarm {
+
+class LabPainter {
+ public:
+  // Where messages go: to one client. From the painter's thread.
+  enum Channel { scene_channel, state_channel, frame_channel, glass_channel };
+  using Post = std::function<void(ClientId, Channel, Bytes, bool is_binary)>;
+
+  // All must outlive it.
+  LabPainter(LabSession& session, Audience& audience, const std::vector<GalleryScene>& gallery,
+             Post post);
+  ~LabPainter() { end(); }
+  void begin();
+  void end();
+
+  // From any thread: to be done by the painter's, which alone may touch its view.
+  void ask(std::function<void(LabPainter&)> job);
+  void welcome(ClientId client);          // it is to be told everything
+  void look_again() { session_.wake(); }  // something about clients has changed
+
+  // A copy of what was drawn last, for whoever paints it elsewhere. From any thread.
+  DrawList drawn();
+
+  // Of the painter's thread.
+  LabView& view() { return *view_; }
+  std::string history(double from);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void work();
+  void do_jobs();
+  void take_scene(const LabNow& now);
+  void tell_scene();
+  void tell_state(const LabNow& now);
+  double tell_frame(const LabNow& now, double per_second);
+  void tell_glass(const LabNow& now);
+  void look_at_knobs(const LabNow& now);
+  void to_all(Channel channel, const std::string& message, bool is_binary);
+  bool is_due(Clock::time_point& last, double interval) const;
+
+  LabSession& session_;
+  Audience& audience_;
+  const std::vector<GalleryScene>& gallery_;
+  Post post_;
+
+  std::mutex view_mutex_;  // of what view_ has drawn
+  std::mutex mutex_;       // of the next three
+  std::deque<std::function<void(LabPainter&)>> jobs_;
+  std::vector<ClientId> newcomers_;
+  bool stop_ = false;
+
+  std::unique_ptr<LabView> view_;
+  struct GlassTold {
+    long scene = 0;
+    std::uint64_t number = 0;  // LabNow's
+    long body = 0;
+    bool stands = false;
+    bool operator==(const GlassTold&) const = default;
+  };
+  std::optional<Glass> glass_;
+  std::map<ClientId, GlassTold> told_glass_;
+  std::vector<Knob> knobs_, unchanged_;  // now; of the scene as it was opened
+  long scene_number_ = -1, change_number_ = -1;
+  std::uint64_t revision_ = 0;  // of the view's scene message that was told
+  std::uint32_t frame_ = 0;
+  std::string state_;  // that was told last
+  // What the last frame was made of.
+  struct FrameTold {
+    std::shared_ptr<const LabFrame> frame, before;
+    std::vector<std::string> layers;
+    bool stands = false, looked_back = false, stopped = false;
+    bool operator==(const FrameTold&) const = default;
+  };
+  FrameTold told_frame_;
+  Allowance frames_;
+  Bytes last_frame_;
+  Clock::time_point last_glass_{}, last_knobs_{};
+  std::thread thread_;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,66 @@
+#include "app/lab/app/uploaded_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+
+namespace twinarm {
+namespace {
+
+constexpr std::array kOpened{".toml", ".urdf", ".twinrec"};
+constexpr std::array kKept{".stl", ".obj", ".ply", ".dae", ".gltf", ".glb",
+                           ".mtl", ".bin", ".png", ".jpg", ".jpeg"};
+
+// Of the first element; empty: there is none.
+std::string root_of(const std::string& xml) {
+  for (std::size_t at = 0; (at = xml.find('<', at)) != xml.npos;) {
+    const char next = at + 1 < xml.size() ? xml[at + 1] : ' ';
+    if (next != '?' && next != '!') {
+      const std::size_t end = std::min(xml.find_first_of(" \t\r\n/>", at + 1), xml.size());
+      return xml.substr(at + 1, end - at - 1);
+    }
+    const bool is_comment = xml.compare(at, 4, "<!--") == 0;
+    at = xml.find(is_comment ? "-->" : ">", at);
+    if (at == xml.npos) break;
+  }
+  return "";
+}
+
+std::string why_no_robot(const std::string& root) {
+  if (root == "mujoco") return "this is MuJoCo's MJCF, not a URDF; convert it to URDF first";
+  if (root == "sdf") return "this is SDFormat, not a URDF; convert it to URDF first";
+  if (root.empty()) return "this is no XML; a robot is a URDF, whose first element is <robot>";
+  return "its first element is <" + root.substr(0, 40) + ">, that of a URDF is <robot>";
+}
+
+}  // namespace
+
+BroughtFile brought_file(const std::string& name, const std::string& bytes) {
+  std::filesystem::path path = name;
+  std::string end = path.extension().string();
+  std::transform(end.begin(), end.end(), end.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  BroughtFile file{name, false, ""};
+  const auto is_one_of = [&](const auto& all) {
+    return std::find(all.begin(), all.end(), end) != all.end();
+  };
+  if (end == ".xml" || end == ".xacro") {
+    const std::string root = root_of(bytes);
+    if (root != "robot") {
+      file.fault = why_no_robot(root);
+      return file;
+    }
+    end = ".urdf";  // the importer refuses what xacro has not yet replaced
+  }
+  file.opens = is_one_of(kOpened);
+  if (file.opens)
+    file.path = path.replace_extension(end).string();
+  else if (!is_one_of(kKept))
+    file.fault =
+        "the lab opens a robot (.urdf, .xml), a scene (.toml) and a recording (.twinrec), with "
+        "meshes (.stl .obj .ply .dae .gltf .glb) and textures (.png .jpg) beside it";
+  return file;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,276 @@
+#include "app/lab/inspector/body_inspector.h"
+
+#include <algorithm>
+#include <exception>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "app/inspect/equations.h"
+#include "app/inspect/report/inspect_input.h"
+#include "app/inspect/report/inspect_output.h"
+#include "app/lab/run/input_override.h"
+#include "app/robot/dynamics.h"
+#include "app/run/run.h"
+#include "coupling/device/device_motion.h"
+#include "solver/forces/spring.h"
+#include "solver/support/checkpointable.h"
+
+namespace twinarm {
+namespace {
+
+// The newest hand of a frame, for all pulls that it leads.
+struct FrameHand {
+  std::optional<LiveHand> live;  // nothing: the scene's own hands lead
+
+  void take(const LabFrame& frame, double h) {
+    live.reset();
+    if (!frame.hand || !frame.hand->leads) return;
+    const LabHandFrame& hand = *frame.hand;
+    HandTarget target{hand.q_K, hand.qd_K, hand.gripper_closed};
+    target.qd.resize(target.q.size());
+    for (std::size_t j = 0; j < target.q.size(); ++j) target.q[j] += h * target.qd[j];
+    live.emplace(1);
+    live->set(target, frame.recorded.t, h);
+  }
+};
+
+class Led final : public HandSource {
+ public:
+  Led(const FrameHand& hand, std::unique_ptr<HandSource> own) : hand_(hand), own_(std::move(own)) {}
+  HandSample sample(double t, double toward) const override {
+    return hand_.live ? hand_.live->sample(t, toward) : own_->sample(t, toward);
+  }
+  double duration() const override { return own_->duration(); }
+  std::string description() const override { return own_->description(); }
+
+ private:
+  const FrameHand& hand_;
+  std::unique_ptr<HandSource> own_;
+};
+
+// Those pulls that the run's hand would lead (input_override.h).
+HandInPlace in_place_of(HandLead& lead, const FrameHand& hand) {
+  return [&hand, leads = lead.in_place()](std::size_t pull, std::unique_ptr<HandSource> own) {
+    const HandSource* before = own.get();
+    std::unique_ptr<HandSource> made = leads(pull, std::move(own));
+    return made.get() == before ? std::move(made) : std::make_unique<Led>(hand, std::move(made));
+  };
+}
+
+// The mouse's spring, with the force of the step that led to the frame.
+class HeldPull final : public ForceSource, public Rewindable {
+ public:
+  void hold(const std::optional<LabPull>& pull) { pull_ = pull; }
+  void add_forces(const State<double>&, const Kinematics& k,
+                  Forces<double>& forces) noexcept override {
+    if (!pull_ || pull_->body <= 0) return;
+    add_point_force(k, pull_->body, k.position(pull_->body, pull_->p_L), pull_->force_W, forces);
+  }
+
+ private:
+  std::optional<LabPull> pull_;
+};
+
+bool acts_on(const Actor& actor, const Model<double>& model, std::size_t body) {
+  const auto is_its = [&](const Actor::OnJoint& on) {
+    return on.dof >= model.iv[body] && on.dof < model.iv[body] + model.dofs(body);
+  };
+  return std::any_of(actor.bodies.begin(), actor.bodies.end(),
+                     [&](const Actor::OnBody& on) { return on.body == body; }) ||
+         std::any_of(actor.joints.begin(), actor.joints.end(), is_its);
+}
+
+// Of six columns, what a joint of several velocities has of each; else as it lies.
+void write_terms(JsonWriter& json, const Eigen::MatrixXd& value, bool by_columns) {
+  if (value.cols() == 1)
+    json.number_or_list({value.data(), value.data() + value.size()});
+  else
+    json.matrix(by_columns ? Eigen::MatrixXd(value.transpose()) : value);
+}
+
+void write_equations(JsonWriter& json, const Inspection& in, std::size_t body) {
+  json.begin_array();
+  for (const int pass : {1, 2, 3})
+    for (const Equation& equation : equations_of(in, pass, body)) {
+      json.begin_object();
+      json.key("pass").count(pass);
+      json.key("name").text(equation.name);
+      json.key("text").text(equation.text);
+      json.key("terms").begin_array();
+      for (const EquationTerm& term : equation.terms) {
+        json.begin_object();
+        json.key("symbol").text(term.symbol);
+        json.key("words").text(term.words);
+        json.key("of").text(in.model.body_name[term.of]);
+        write_terms(json.key("value"), term.value, equation.by_columns);
+        json.end_object();
+      }
+      json.end_array();
+      write_terms(json.key("value"), equation.value, equation.by_columns);
+      json.key("residual").number(equation.residual);
+      json.end_object();
+    }
+  json.end_array();
+}
+
+using Names = std::initializer_list<std::string_view>;
+
+std::vector<Shown> some_of(const Inspection& in, int pass, std::size_t body, Names names) {
+  std::vector<Shown> all = shown_quantities(in, pass, body);
+  std::erase_if(all, [&](const Shown& shown) {
+    return std::find(names.begin(), names.end(), shown.quantity.name) == names.end();
+  });
+  return all;
+}
+
+// What the equations of a body take from another one.
+void write_neighbour(JsonWriter& json, const Inspection& in, std::size_t body, const char* is,
+                     Names names) {
+  std::vector<Shown> taken;
+  for (const int pass : {1, 2, 3})
+    for (Shown& shown : some_of(in, pass, body, names)) taken.push_back(std::move(shown));
+  json.begin_object();
+  json.key("body").text(in.model.body_name[body]);
+  json.key("is").text(is);
+  write_quantities(json.key("quantities"), taken);
+  json.end_object();
+}
+
+void write_neighbours(JsonWriter& json, const Inspection& in, std::size_t body) {
+  json.begin_array();
+  if (in.parent(body) > 0) write_neighbour(json, in, in.parent(body), "parent", {"v", "a"});
+  for (const std::size_t child : in.children(body))
+    write_neighbour(json, in, child, "child", {"Xup", "Ia", "pa"});
+  json.end_array();
+}
+
+// The whole call in its order: what a glance at each step tells.
+void write_call(JsonWriter& json, const Inspection& in) {
+  json.begin_array();
+  const auto step = [&](int pass, std::size_t body, Names names) {
+    json.begin_object();
+    json.key("pass").count(pass);
+    json.key("body").text(in.model.body_name[body]);
+    write_quantities(json.key("quantities"), some_of(in, pass, body, names));
+    json.end_object();
+  };
+  for (std::size_t i = 1; i < in.body_count(); ++i) step(1, i, {"v"});
+  for (std::size_t i = in.body_count(); i-- > 1;) step(2, i, {"D", "u"});
+  for (std::size_t i = 1; i < in.body_count(); ++i) step(3, i, {"qdd", "a"});
+  json.end_array();
+}
+
+}  // namespace
+
+struct Glass::Impl {
+  SimulatePlan plan;
+  GivenState given;  // of the start
+  LabHand nobody;    // asked for nothing
+  std::optional<HandLead> lead;
+  FrameHand hand;
+  HeldPull pull;
+  std::optional<SceneInspector> scene;
+
+  explicit Impl(SimulatePlan of) : plan(std::move(of)), given(plan.input.robot.state) {
+    SimulateInput& input = plan.input;
+    input.robot.warnings.clear();  // of the scene: told when it was opened
+    if (!input.scene) return;
+    const double h = plan.run.step;
+    lead.emplace(input.scene.get(), nobody, h);
+    input.couplings =
+        std::make_unique<SceneCouplings>(*input.scene, h, nullptr, in_place_of(*lead, hand));
+    scene.emplace(input, h, std::vector<NamedSource>{{"mouse", &pull}});
+  }
+
+  Inspected look(const LabFrame& frame) {
+    Memory memory = simulation_memory(frame.recorded.memory);
+    if (scene) {
+      hand.take(frame, plan.run.step);
+      plan.input.couplings->forget_hands();
+      pull.hold(frame.pull);
+      return scene->look(&memory);
+    }
+    RobotInput& robot = plan.input.robot;
+    State<double> x(robot.model);
+    memory.visit(x.q);
+    memory.visit(x.qd);
+    memory.visit(x.t);
+    if (x.q.size() != robot.model.nq || x.qd.size() != robot.model.nv)
+      throw std::runtime_error("the state is not one of this robot");
+    robot.state = given;
+    stand_at(robot, x);
+    return inspect_robot(robot);
+  }
+
+  static InspectView view_of(const Inspection& in, const LabFrame& frame, std::size_t body,
+                             const std::vector<std::string>& ledger) {
+    InspectView view;
+    view.bodies = {body};
+    view.forces_alone = true;
+    for (const Actor& actor : in.actors)
+      if (acts_on(actor, in.model, body)) view.forces.push_back(actor.source);
+    const RecordedFrame& recorded = frame.recorded;
+    for (std::size_t i = 0; i < std::min(recorded.rows.size(), recorded.works.size()); ++i)
+      if (recorded.rows[i] < ledger.size())
+        view.ledger.push_back({ledger[recorded.rows[i]], recorded.works[i]});
+    return view;
+  }
+
+  void write(JsonWriter& json, const LabFrame& frame, const GlassQuestion& question) {
+    const Model<double>& model = plan.input.robot.model;
+    if (model.parent.size() < 2) throw std::runtime_error("nothing moves here");
+    const std::size_t body =
+        question.body > 0 && question.body < model.parent.size() ? question.body : 1;
+    Inspected found = look(frame);
+    const Inspection in(model, found.x, std::move(found.actors), std::move(found.loops));
+    static const std::vector<std::string> no_names;
+    InspectView view = view_of(in, frame, body, question.ledger ? *question.ledger : no_names);
+    view.warnings = std::move(found.warnings);
+    warn_of_bad_numbers(in, view.warnings);
+    std::vector<Check> checks;
+    if (question.stands) {
+      checks = run_checks(in);
+      if (scene) checks.push_back(step_check(in, found.qdd_of_step));
+    }
+    json.key("body").count(static_cast<long>(body));
+    json.key("name").text(model.body_name[body]);
+    write_inspection(json, in, view, checks);
+    write_equations(json.key("equations"), in, body);
+    write_neighbours(json.key("neighbours"), in, body);
+    if (question.stands) write_call(json.key("rows"), in);
+  }
+};
+
+Glass::Glass(SimulatePlan plan) : impl_(std::make_unique<Impl>(std::move(plan))) {}
+Glass::~Glass() = default;
+Glass::Glass(Glass&&) noexcept = default;
+Glass& Glass::operator=(Glass&&) noexcept = default;
+
+std::string Glass::message(const LabFrame& frame, const GlassQuestion& question) {
+  const auto begin = [&](JsonWriter& json) {
+    json.begin_object();
+    json.key("kind").text("glass");
+    json.key("scene").count(static_cast<long>(question.scene));
+    json.key("t").number(frame.recorded.t);
+    json.key("step").count(frame.recorded.step);
+    json.key("stands");
+    json.boolean(question.stands);
+  };
+  try {
+    JsonWriter json;
+    begin(json);
+    impl_->write(json, frame, question);
+    json.end_object();
+    return json.str();
+  } catch (const std::exception& error) {
+    JsonWriter json;
+    begin(json);
+    json.key("warnings").texts({std::string("this frame cannot be looked into: ") + error.what()});
+    json.end_object();
+    return json.str();
+  }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,101 @@
+#include "app/lab/parameters/gallery.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/data/table_reader.h"
+#include "app/support/find_assets.h"
+
+namespace twinarm {
+namespace {
+
+// lanes = { path = "integrator", values = ["verlet", "rk4"], apart = [0, 0.5, 0] }
+LaneSet read_lanes(SceneTable& entry, const TomlValue& told, const std::string& file,
+                   FaultList& faults) {
+  SceneTable table(told, entry.where() + ", lanes", file, faults);
+  LaneSet lanes;
+  lanes.path = table.text("path").value_or("");
+  lanes.apart = table.vector("apart");
+  if (const TomlValue* values = table.find("values"))
+    for (const TomlValue& value : values->items)
+      lanes.values.push_back(value.kind == TomlValue::Kind::number ? fmt::format("{}", value.number)
+                                                                   : value.text);
+  table.done();
+  if (const auto fault = fault_of(lanes)) entry.fault("lanes", fault->rule, fault->remedy);
+  return lanes;
+}
+
+GalleryScene read_entry(SceneTable& table, const std::filesystem::path& folder,
+                        const std::string& file, FaultList& faults) {
+  GalleryScene scene;
+  for (const char* key : {"name", "file", "title", "look"})
+    table.missing(key, "give name, file, title and three lines of look");
+  scene.name = table.text("name").value_or("");
+  scene.title = table.text("title").value_or("");
+  scene.file = (folder.parent_path() / table.text("file").value_or("")).lexically_normal();
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(scene.file, ignored))
+    table.fault("file", "the file '" + scene.file.string() + "' does not exist",
+                "name a scene of the folder above");
+  scene.picture = folder / (scene.name + ".png");
+  if (!std::filesystem::is_regular_file(scene.picture, ignored)) scene.picture.clear();
+  const TomlValue* look = table.find("look");
+  const bool fits = look && look->items.size() == scene.look.size() &&
+                    std::all_of(look->items.begin(), look->items.end(), [](const TomlValue& line) {
+                      return line.kind == TomlValue::Kind::text && !line.text.empty();
+                    });
+  if (!fits)
+    table.fault("look", "is not three lines of text", "give what to look for, in three lines");
+  else
+    for (std::size_t i = 0; i < scene.look.size(); ++i) scene.look[i] = look->items[i].text;
+  if (const TomlValue* lanes = table.table("lanes"))
+    scene.lanes = read_lanes(table, *lanes, file, faults);
+  table.done();
+  return scene;
+}
+
+}  // namespace
+
+std::vector<GalleryScene> read_gallery(const std::filesystem::path& file) {
+  const TomlValue root = read_toml(file);
+  const std::string name = file.string();
+  FaultList faults;
+  SceneTable top(root, "gallery", name, faults);
+  std::vector<GalleryScene> gallery;
+  for (const TomlValue* entry : top.tables("scene")) {
+    SceneTable table(*entry, "scene", name, faults);
+    gallery.push_back(read_entry(table, file.parent_path(), name, faults));
+    if (find_scene(gallery, gallery.back().name) != &gallery.back())
+      table.fault("name", "the name is taken already", "give each scene its own name");
+  }
+  top.done();
+  if (gallery.empty()) top.fault("scene", "there is no scene", "write [[scene]]");
+  faults.check();
+  return gallery;
+}
+
+std::vector<GalleryScene> read_gallery() {
+  return read_gallery(std::filesystem::absolute(find_assets()) / "scenes" / "gallery" /
+                      "gallery.toml");
+}
+
+const GalleryScene* find_scene(const std::vector<GalleryScene>& gallery, const std::string& name) {
+  const auto found = std::find_if(gallery.begin(), gallery.end(),
+                                  [&](const GalleryScene& scene) { return scene.name == name; });
+  return found == gallery.end() ? nullptr : &*found;
+}
+
+void write_gallery(const std::vector<GalleryScene>& gallery, JsonWriter& json) {
+  json.begin_array();
+  for (const GalleryScene& scene : gallery) {
+    json.begin_object();
+    json.key("name").text(scene.name);
+    json.key("title").text(scene.title);
+    json.key("look").texts({scene.look.begin(), scene.look.end()});
+    json.end_object();
+  }
+  json.end_array();
+}
+
+}  // namespace twinarm

@@ -1,0 +1,188 @@
+#include "app/lab/parameters/parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/lab/parameters/parameter_makers.h"
+#include "app/scene/forces/add_contacts.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace knob_makers {
+
+Knob slider(std::string path, std::string label, double value, std::string unit, Knob::Form form,
+            double low, double high, std::string meaning) {
+  Knob knob;
+  knob.path = std::move(path);
+  knob.label = std::move(label);
+  knob.number = value;
+  knob.unit = std::move(unit);
+  knob.form = form;
+  knob.low = low;
+  knob.high = high;
+  knob.meaning = std::move(meaning);
+  return knob;
+}
+
+Knob choice(std::string path, std::string label, std::string value,
+            std::vector<std::string> choices, std::string meaning) {
+  Knob knob;
+  knob.path = std::move(path);
+  knob.label = std::move(label);
+  knob.text = std::move(value);
+  knob.form = Knob::Form::choice;
+  knob.choices = std::move(choices);
+  knob.meaning = std::move(meaning);
+  return knob;
+}
+
+}  // namespace knob_makers
+
+namespace {
+
+using namespace knob_makers;
+
+Knob step_knob(const SimulatePlan& plan) {
+  const double step = plan.run.step;
+  const char* meaning =
+      "Time from one step to the next. What a spring does within a step is not seen: too long a "
+      "step, and it gains energy from nothing.";
+  std::vector<std::string> steps;
+  if (plan.input.scene) steps = steps_for_rates(plan.input.scene->description, step);
+  Knob knob = steps.empty()
+                  ? slider("step", "step h", step, "s", Knob::Form::log, 1e-5, 0.02, meaning)
+                  : choice("step", "step h", number_text(step), steps, meaning);
+  knob.unit = "s";
+  knob.group = "time";
+  return knob;
+}
+
+// Those that carry what the scene has: contacts, and treatments that see the end of the step.
+std::vector<std::string> integrators_for(const SceneModel* scene, Integrator now) {
+  const bool touches = scene && scene->may_touch();
+  const bool implicit =
+      scene && std::any_of(scene->couplings.begin(), scene->couplings.end(),
+                           [](const SceneCoupling& c) { return c.needs_semi_implicit(); });
+  std::vector<std::string> names;
+  for (const IntegratorFacts& facts : all_integrators) {
+    const bool fits = (!touches || facts.integrator == Integrator::semi_implicit) &&
+                      (!implicit || facts.implicit_force) &&
+                      facts.integrator != Integrator::dopri5;  // its step is a tolerance
+    if (fits || facts.integrator == now) names.emplace_back(facts.name);
+  }
+  return names;
+}
+
+Knob integrator_knob(const SimulatePlan& plan) {
+  Knob knob =
+      choice("integrator", "integrator", integrator_name(plan.run.integrator),
+             integrators_for(plan.input.scene.get(), plan.run.integrator),
+             "How a step goes from forces to the next state. Those that are not offered do not go "
+             "with contacts or with implicit couplings.");
+  knob.group = "time";
+  knob.restarts = true;
+  return knob;
+}
+
+Knob gravity_knob(const Vector3& gravity) {
+  Knob knob = slider("gravity[2]", "gravity, up", gravity.z(), "m/s²", Knob::Form::linear, -25, 25,
+                     "Downward is negative: Earth -9.81, Moon -1.62, free flight 0.");
+  knob.group = "world";
+  return knob;
+}
+
+Knob contact_knob(const SceneDescription& scene) {
+  std::vector<std::string> names{"rigid", "compliant"};
+  if (scene.contact == ContactMode::event) names.push_back("event");
+  Knob knob = choice("contact", "contact law",
+                     kContactModes[static_cast<std::size_t>(scene.contact)], names,
+                     "rigid: nothing goes into anything, impulses are solved for; compliant: a "
+                     "stiff spring with damping at each point.");
+  knob.group = "world";
+  knob.restarts = true;
+  return knob;
+}
+
+const char* word_of(KnobLimit::State state) {
+  return state == KnobLimit::State::ok ? "ok" : state == KnobLimit::State::near ? "near" : "beyond";
+}
+
+const char* word_of(Knob::Form form) {
+  constexpr const char* kWords[] = {"log", "linear", "choice", "number"};
+  return kWords[static_cast<std::size_t>(form)];
+}
+
+void write_value(const std::optional<double>& value, JsonWriter& json) {
+  if (value)
+    json.number(*value);
+  else
+    json.null();
+}
+
+}  // namespace
+
+std::string Knob::value() const {
+  if (form == Form::choice) return text;
+  return number ? number_text(*number) : "";
+}
+
+std::string Knob::change() const {
+  const std::string now = value();
+  return now.empty() ? "" : path + "=" + now;
+}
+
+void know_starts(const std::vector<Knob>& unchanged, std::vector<Knob>& knobs) {
+  for (Knob& knob : knobs)
+    for (const Knob& before : unchanged)
+      if (before.path == knob.path) knob.start = before.value();
+}
+
+std::vector<Knob> knobs_of(const SimulatePlan& plan) {
+  std::vector<Knob> knobs{step_knob(plan), integrator_knob(plan)};
+  const SceneModel* scene = plan.input.scene.get();
+  if (!scene) return knobs;
+  knobs.push_back(gravity_knob(scene->description.gravity));
+  if (scene->may_touch()) knobs.push_back(contact_knob(scene->description));
+  add_couplings(scene->description, plan.run, knobs);
+  add_masses(scene->description, knobs);
+  if (scene->may_touch()) add_surfaces(*scene, knobs);
+  return knobs;
+}
+
+void write_knobs(const std::vector<Knob>& knobs, JsonWriter& json) {
+  json.begin_array();
+  for (const Knob& knob : knobs) {
+    json.begin_object();
+    json.key("path").text(knob.path);
+    json.key("label").text(knob.label);
+    json.key("group").text(knob.group);
+    json.key("value");
+    if (knob.form == Knob::Form::choice)
+      json.text(knob.text);
+    else
+      write_value(knob.number, json);
+    if (knob.start) json.key("start").text(*knob.start);
+    json.key("unit").text(knob.unit);
+    json.key("form").text(word_of(knob.form));
+    json.key("low").number(knob.low);
+    json.key("high").number(knob.high);
+    json.key("choices").texts(knob.choices);
+    json.key("meaning").text(knob.meaning);
+    if (knob.limit) {
+      json.key("limit").begin_object();
+      json.key("value");
+      write_value(knob.limit->value, json);
+      json.key("words").text(knob.limit->words);
+      json.key("state").text(word_of(knob.limit->state));
+      json.end_object();
+    }
+    if (!knob.lag.empty()) json.key("lag").text(knob.lag);
+    json.key("restarts").boolean(knob.restarts);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+}  // namespace twinarm

@@ -1,0 +1,127 @@
+// The knobs of surfaces and masses. Where there are many bodies, one knob for all that agree.
+#include <algorithm>
+
+#include "app/lab/parameters/parameter_makers.h"
+
+namespace twinarm::knob_makers {
+namespace {
+
+constexpr std::size_t kManyBodies = 8;
+
+// What a surface has, and how it is turned.
+struct SurfaceKey {
+  const char *key, *label, *unit;
+  double Surface::*value;
+  Knob::Form form;
+  double low, high;
+  const char* meaning;
+};
+
+const SurfaceKey kFriction{
+    "friction",         "friction", "", &Surface::friction,
+    Knob::Form::linear, 0,          2,  "Coulomb's: a pair takes the geometric mean of its two."};
+const SurfaceKey kRestitution{"restitution",
+                              "restitution",
+                              "",
+                              &Surface::restitution,
+                              Knob::Form::linear,
+                              0,
+                              1,
+                              "Speed after an impact over speed before: a pair takes the product."};
+const SurfaceKey kStiffness{"stiffness",
+                            "contact stiffness",
+                            "N/m",
+                            &Surface::stiffness,
+                            Knob::Form::log,
+                            1e3,
+                            1e9,
+                            "Of each contact point; two surfaces are springs in series."};
+
+Knob knob_of(const SurfaceKey& key, std::string path, double value, std::string group) {
+  Knob knob =
+      slider(std::move(path), key.label, value, key.unit, key.form, key.low, key.high, key.meaning);
+  knob.group = std::move(group);
+  return knob;
+}
+
+class Surfaces {
+ public:
+  Surfaces(const SceneModel& model, std::vector<Knob>& knobs)
+      : scene_(model.description), knobs_(knobs) {}
+
+  void add(const SurfaceKey& key) {
+    const auto value = [&](const auto& owner) { return owner.surface.*key.value; };
+    for (std::size_t i = 0; i < scene_.robots.size(); ++i)
+      if (scene_.robots[i].collide)
+        knobs_.push_back(knob_of(key, item("robot", i, key.key), value(scene_.robots[i]),
+                                 scene_.robots[i].name));
+    const auto& bodies = scene_.bodies;
+    const bool agree = std::all_of(bodies.begin(), bodies.end(), [&](const BodyDescription& b) {
+      return value(b) == value(bodies[0]);
+    });
+    if (bodies.size() > 1 && agree)
+      knobs_.push_back(
+          knob_of(key, std::string("body.") + key.key, value(bodies[0]), "all bodies"));
+    else if (bodies.size() <= kManyBodies)
+      for (std::size_t i = 0; i < bodies.size(); ++i)
+        knobs_.push_back(knob_of(key, item("body", i, key.key), value(bodies[i]), bodies[i].name));
+  }
+
+  void add_pairs() {
+    for (std::size_t i = 0; i < scene_.pairs.size(); ++i) {
+      const PairDescription& pair = scene_.pairs[i];
+      const std::string group = pair.a + " on " + pair.b;
+      if (pair.friction)
+        knobs_.push_back(knob_of(kFriction, item("pair", i, "friction"), *pair.friction, group));
+      if (pair.restitution)
+        knobs_.push_back(
+            knob_of(kRestitution, item("pair", i, "restitution"), *pair.restitution, group));
+    }
+  }
+
+ private:
+  const SceneDescription& scene_;
+  std::vector<Knob>& knobs_;
+};
+
+}  // namespace
+
+void add_surfaces(const SceneModel& model, std::vector<Knob>& knobs) {
+  Surfaces surfaces(model, knobs);
+  surfaces.add(kFriction);
+  surfaces.add(kRestitution);
+  if (model.description.contact == ContactMode::compliant) surfaces.add(kStiffness);
+  surfaces.add_pairs();
+}
+
+void add_masses(const SceneDescription& scene, std::vector<Knob>& knobs) {
+  const auto put = [&](std::string path, std::string label, double value, const char* unit,
+                       double low, double high, const std::string& group, const char* meaning) {
+    knobs.push_back(slider(std::move(path), std::move(label), value, unit, Knob::Form::log, low,
+                           high, meaning));
+    knobs.back().group = group;
+  };
+  for (std::size_t i = 0; i < scene.robots.size(); ++i) {
+    const RobotInScene& robot = scene.robots[i];
+    const std::string own = "robot[" + std::to_string(i) + "].";
+    for (std::size_t p = 0; p < robot.payloads.size(); ++p)
+      put(own + item("payload", p, "mass"), "added mass on " + robot.payloads[p].link,
+          robot.payloads[p].mass, "kg", 1e-3, 10, robot.name,
+          "A particle on the link: it makes what the coupling feels heavier, and slower.");
+    for (const auto& [link, factor] : robot.mass_scale)
+      if (link.find_first_of(".[") == std::string::npos)
+        put(own + "mass_scale." + link, "mass of " + link, factor, "times", 0.05, 20, robot.name,
+            "Mass and inertia of the link, times this.");
+  }
+  std::size_t free = 0;
+  for (const BodyDescription& body : scene.bodies) free += body.is_free() && body.mass;
+  if (free > kManyBodies) return;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const BodyDescription& body = scene.bodies[i];
+    if (body.is_free() && body.mass && !body.inertia)
+      put(item("body", i, "mass"), "mass", *body.mass, "kg", 1e-2, 100, body.name,
+          "Of the uniform solid: its inertia grows with it.");
+  }
+}
+
+}  // namespace twinarm::knob_makers

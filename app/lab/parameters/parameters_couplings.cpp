@@ -1,0 +1,237 @@
+// The knobs of couplings: type, treatment, gains, rate, and how their target is seen.
+#include <algorithm>
+#include <cmath>
+
+#include "app/lab/parameters/parameter_makers.h"
+#include "app/scene/read/scene_names.h"
+#include "coupling/laws/coupling_spec.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm::knob_makers {
+namespace {
+
+using CouplingKind = CouplingSpec::Type;
+
+const char* treatment_word(Treatment treatment) {
+  constexpr const char* kWords[] = {"explicit", "semi-implicit", "implicit"};
+  return kWords[static_cast<std::size_t>(treatment)];
+}
+
+// A joint of one degree of freedom of its own carries the link: what acts at joints needs that.
+const JointDescription* own_joint(const SceneDescription& scene, const CouplingDescription& c) {
+  for (const RobotInScene& robot : scene.robots) {
+    if (robot.name != c.robot) continue;
+    for (const JointDescription& joint : robot.description.joints)
+      if (joint.child == c.link && joint.dofs() == 1 && !joint.mimic) return &joint;
+  }
+  return nullptr;
+}
+
+bool is_slide(const SceneDescription& scene, const CouplingDescription& c) {
+  const JointDescription* joint = own_joint(scene, c);
+  return c.measure == Measure::joint && joint && joint->type == JointDescription::Type::prismatic;
+}
+
+// From a point one may go to an orientation; back only where the file names the point.
+std::vector<std::string> types_for(const SceneDescription& scene, const CouplingDescription& c,
+                                   bool implicit_fits) {
+  const CouplingFacts& now = facts_of(c.law, c.printed);
+  std::vector<std::string> names;
+  for (const CouplingFacts& facts : all_couplings) {
+    const bool is_now = facts.type == c.law && facts.printed == c.printed;
+    const bool sees_end =
+        facts.treatments == CouplingFacts::Treatments::own || facts.type == CouplingKind::weld_like;
+    const bool fits = facts.type != CouplingKind::god_object && (now.at_point || !facts.at_point) &&
+                      (facts.type != CouplingKind::stable_pd || own_joint(scene, c)) &&
+                      (implicit_fits || !sees_end);
+    if (is_now || fits) names.emplace_back(facts.name);
+  }
+  return names;
+}
+
+class CouplingKnobs {
+ public:
+  CouplingKnobs(const SceneDescription& scene, const RunPlan& run, std::size_t index,
+                std::vector<Knob>& knobs)
+      : scene_(scene),
+        run_(run),
+        c_(scene.couplings[index]),
+        facts_(facts_of(c_.law, c_.printed)),
+        index_(index),
+        knobs_(knobs),
+        implicit_fits_(twinarm::facts_of(run.integrator).implicit_force &&
+                       scene.contact != ContactMode::event) {}
+
+  void add() {
+    const bool turns = c_.type == CouplingDescription::Type::torsional;
+    const bool is_length = !turns || is_slide(scene_, c_);
+    const bool is_weld = c_.law == CouplingKind::weld_like;
+    const bool has_gains = !is_weld && c_.law != CouplingKind::god_object;
+    if (!c_.outside && c_.law != CouplingKind::god_object) add_type();
+    add_treatment();
+    if (has_gains) {
+      gain("stiffness", "stiffness k", c_.stiffness, is_length ? "N/m" : "N m/rad",
+           is_length ? 1 : 0.01, is_length ? 1e7 : 1e6,
+           "Pull per distance between the robot and its twin: stiffer follows closer, and swings "
+           "faster.");
+      gain("damping", "damping b", c_.damping, is_length ? "N s/m" : "N m s/rad",
+           is_length ? 0.01 : 1e-4, is_length ? 1e5 : 1e4,
+           "Pull per difference of their velocities: it calms the swinging.");
+    }
+    if (c_.law == CouplingKind::bushing) {
+      gain("turn_stiffness", "turn stiffness", c_.turn_stiffness, "N m/rad", 0.01, 1e5,
+           "Couple per angle between the two links.");
+      gain("turn_damping", "turn damping", c_.turn_damping, "N m s/rad", 1e-4, 1e4,
+           "Couple per difference of their rates of turn.");
+    }
+    if (is_weld) add_weld();
+    add_time();
+  }
+
+ private:
+  Knob& put(Knob knob) {
+    knob.group = c_.name;
+    knobs_.push_back(std::move(knob));
+    return knobs_.back();
+  }
+  std::string path(const char* key) const { return item("coupling", index_, key); }
+  Knob& gain(const char* key, const char* label, double value, const char* unit, double low,
+             double high, const char* meaning) {
+    return put(slider(path(key), label, value, unit, Knob::Form::log, low, high, meaning));
+  }
+
+  void add_type() {
+    const auto types = types_for(scene_, c_, implicit_fits_);
+    if (types.size() > 1)
+      put(choice(path("type"), "type", facts_.name, types,
+                 "What is pulled together, and by which equations."))
+          .restarts = true;
+    if (c_.law == CouplingKind::torsional && !c_.printed && own_joint(scene_, c_))
+      put(choice(path("measure"), "measures", c_.measure == Measure::world ? "world" : "joint",
+                 {"world", "joint"},
+                 "The link's orientation in the world, or the angle of its own joint."))
+          .restarts = true;
+  }
+
+  void add_treatment() {
+    if (c_.outside || c_.rate > 0 || facts_.treatments != CouplingFacts::Treatments::all) return;
+    if (!implicit_fits_) return;
+    put(choice(path("treatment"), "treatment", treatment_word(c_.treatment),
+               {"explicit", "semi-implicit", "implicit"},
+               "explicit: the force of the start of the step; semi-implicit: the damper sees its "
+               "end; implicit: the spring too, and any stiffness holds."))
+        .restarts = true;
+  }
+
+  void add_weld() {
+    gain("time_constant", "time constant", c_.reference.time_constant, "s", 1e-3, 1,
+         "The weld follows as a swing of this time does.");
+    gain("damping_ratio", "damping ratio", c_.reference.damping_ratio, "", 0.05, 10,
+         "1: it comes back without swinging past.");
+    put(slider(path("impedance"), "impedance", c_.reference.impedance, "", Knob::Form::linear, 0.05,
+               0.999, "How firm the weld is: towards 1 as a rigid one."));
+  }
+
+  void add_time() {
+    // A held force sees the start of a step only, so it is offered to what is explicit.
+    const bool is_explicit = c_.treatment == Treatment::explicit_ || c_.printed;
+    if (facts_.can_hold && is_explicit && !run_.is_adaptive()) {
+      Knob knob = choice(path("rate"), "update rate", c_.rate > 0 ? number_text(c_.rate) : "",
+                         rates_for_step(c_.rate, run_.step),
+                         "The force is computed so often, and held between. Empty: at every step.");
+      knob.unit = "Hz";
+      knob.restarts = true;
+      put(std::move(knob));
+    }
+    if (!c_.printed && facts_.treatments != CouplingFacts::Treatments::own &&
+        c_.law != CouplingKind::weld_like && !c_.outside)
+      put(choice(path("damper"), "damper", c_.absolute_damper ? "absolute" : "relative",
+                 {"relative", "absolute"},
+                 "Against the twin's velocity, or against the link's own: that one brakes, and "
+                 "lags."));
+    const bool plays = c_.target.kind == CouplingTarget::Kind::paper ||
+                       c_.target.kind == CouplingTarget::Kind::trace ||
+                       c_.target.kind == CouplingTarget::Kind::synthetic;
+    if (plays)
+      gain("speed", "speed of the motion", c_.speed, "", 0.1, 10,
+           "How many times faster the twin's motion is played.")
+          .restarts = true;
+  }
+
+  const SceneDescription& scene_;
+  const RunPlan& run_;
+  const CouplingDescription& c_;
+  const CouplingFacts& facts_;
+  std::size_t index_;
+  std::vector<Knob>& knobs_;
+  bool implicit_fits_;
+};
+
+// One slider for all where they agree.
+void add_common(const SceneDescription& scene, std::vector<Knob>& knobs) {
+  const auto& all = scene.couplings;
+  if (all.size() < 2) return;
+  const auto agree = [&](auto value) {
+    return std::all_of(all.begin(), all.end(), [&](const CouplingDescription& c) {
+      return c.law == all[0].law && c.printed == all[0].printed && c.measure == all[0].measure &&
+             is_slide(scene, c) == is_slide(scene, all[0]) && !c.outside && c.rate == all[0].rate &&
+             value(c) == value(all[0]);
+    });
+  };
+  for (const char* key : {"stiffness", "damping"}) {
+    const bool is_k = std::string(key) == "stiffness";
+    const auto one = std::find_if(knobs.begin(), knobs.end(), [&](const Knob& knob) {
+      return knob.path == item("coupling", 0, key);
+    });
+    if (one == knobs.end() ||
+        !agree([&](const CouplingDescription& c) { return is_k ? c.stiffness : c.damping; }))
+      continue;
+    Knob knob = *one;
+    knob.path = std::string("coupling.") + key;
+    knob.group = "all couplings";
+    knobs.push_back(std::move(knob));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> steps_for_rates(const SceneDescription& scene, double step) {
+  std::vector<double> rates;
+  for (const CouplingDescription& c : scene.couplings)
+    if (c.rate > 0) rates.push_back(c.rate);
+  if (rates.empty()) return {};
+  const double most = *std::max_element(rates.begin(), rates.end());
+  const auto fits = [&](double h) {
+    return std::all_of(rates.begin(), rates.end(), [&](double rate) {
+      const double steps = 1 / (rate * h);
+      return std::round(steps) >= 1 && std::abs(steps - std::round(steps)) < 1e-9 * steps;
+    });
+  };
+  std::vector<std::string> texts{number_text(step)};
+  for (const int part : {1, 2, 4, 5, 10, 20, 50, 100}) {
+    const double h = 1 / (most * part);
+    if (h >= 1e-5 && std::abs(h - step) > 1e-9 * step && fits(h)) texts.push_back(number_text(h));
+  }
+  return texts;
+}
+
+std::vector<std::string> rates_for_step(double rate, double step) {
+  std::vector<std::string> texts;
+  if (rate > 0) texts.push_back(number_text(rate));
+  for (const int steps : {1, 2, 4, 5, 10, 20, 50, 100}) {
+    const double other = 1 / (steps * step);
+    if (!(std::abs(other - rate) < 1e-9 * rate)) texts.push_back(number_text(other));
+  }
+  return texts;
+}
+
+void add_couplings(const SceneDescription& scene, const RunPlan& run, std::vector<Knob>& knobs) {
+  std::vector<Knob> own;
+  for (std::size_t i = 0; i < scene.couplings.size(); ++i) CouplingKnobs(scene, run, i, own).add();
+  std::vector<Knob> common = own;
+  add_common(scene, common);
+  knobs.insert(knobs.end(), common.begin() + static_cast<std::ptrdiff_t>(own.size()), common.end());
+  knobs.insert(knobs.end(), own.begin(), own.end());
+}
+
+}  // namespace twinarm::knob_makers

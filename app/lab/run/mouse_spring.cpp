@@ -1,0 +1,103 @@
+#include "app/lab/run/mouse_spring.h"
+
+#include <algorithm>
+
+#include "coupling/analysis/joint_space_stiffness.h"
+#include "solver/forces/spring.h"
+#include "solver/linear_algebra/dense_algebra.h"
+
+namespace twinarm {
+
+MousePull::MousePull(const Model<double>& model, const RunPlan& plan)
+    : model_(model),
+      is_implicit_(facts_of(plan.integrator).implicit_force && !plan.locates_events),
+      drifts_first_(plan.integrator == Integrator::semi_implicit_xv),
+      k_(model) {
+  given_.reserve(model.parent.size());
+}
+
+std::optional<PullInput> MousePull::grab(const State<double>& x, int body, const Vector3& p_L,
+                                         const Vector3& goal_W) const {
+  if (body <= 0 || body >= model_.body_count() || !p_L.allFinite() || !goal_W.allFinite())
+    return std::nullopt;
+  Kinematics k(model_);
+  forward_kinematics(model_, x, k);
+  const Eigen::Matrix3Xd J = point_jacobian(model_, k, body, k.position(body, p_L));
+  const Matrix3 felt = J * inverse_of(mass_matrix(model_, x)) * J.transpose();
+  const Eigen::VectorXd axes = symmetric_eigenvalues(felt);
+  const double largest = axes.maxCoeff();
+  if (!(largest > 1e-12)) return std::nullopt;
+  const auto rank = static_cast<double>((axes.array() > 1e-9 * largest).count());
+  const double m = rank / felt.trace(), stiffness = m * kOmega * kOmega;
+  return PullInput{body, p_L, goal_W, stiffness, 2 * m * kOmega, stiffness * kLongestStretch};
+}
+
+MousePull::Reading MousePull::read(const Kinematics& k) const {
+  const Vector3 p = k.position(pull_->body, pull_->p_L), v = k.velocity(pull_->body, p);
+  const Vector3 spring = pull_->k * (pull_->goal_W - p);
+  const double size = spring.norm(), h = is_implicit_ ? h_ : 0;
+  if (size > pull_->most)  // a force of one size, and the damper
+    return {Vector3(pull_->most / size * spring - pull_->b * v), h * pull_->b};
+  return {Vector3(spring - (h * pull_->k + pull_->b) * v), h * pull_->b + h * h * pull_->k};
+}
+
+void MousePull::add_forces(const State<double>&, const Kinematics& k,
+                           Forces<double>& forces) noexcept {
+  if (!pull_) return;
+  reading_ = read(k);
+  const Vector3 p = k.position(pull_->body, pull_->p_L);
+  if (reading_.m_star > 0) add_particle(k, pull_->body, p, reading_.m_star, forces);
+  add_point_force(k, pull_->body, p, reading_.force, forces);
+}
+
+void MousePull::book(double h, std::span<const double> weights, const State<double>& start,
+                     const std::vector<State<double>>& inner, const State<double>& end) {
+  shown_.setZero();
+  if (!pull_) return;
+  const auto on_it = [&](const Given& part) { return part.body == pull_->body; };
+  auto place = std::find_if(given_.begin(), given_.end(), on_it);
+  if (place == given_.end()) place = given_.insert(given_.end(), {pull_->body, {}});
+  const Vector3 before = place->exchange.impulse;
+  if (is_implicit_) {
+    book_step(h, start, end, place->exchange);
+  } else {
+    book_part(weights.front() * h, start, place->exchange);
+    for (std::size_t s = 0; s < inner.size(); ++s)
+      book_part(weights[s + 1] * h, inner[s], place->exchange);
+    book_part(weights.back() * h, end, place->exchange);
+  }
+  shown_ = (place->exchange.impulse - before) / h;
+}
+
+// h F - m* (v' - v), v by the Jacobian of the place where F was found; its work is over the mean of
+// both velocities.
+void MousePull::book_step(double h, const State<double>& start, const State<double>& end,
+                          Exchange& sum) {
+  State<double> at = drifts_first_ ? end : start;
+  at.qd = start.qd;
+  forward_kinematics(model_, at, k_);
+  const Vector3 p = k_.position(pull_->body, pull_->p_L), v = k_.velocity(pull_->body, p);
+  at.qd = end.qd;
+  forward_kinematics(model_, at, k_);
+  const Vector3 v_end = k_.velocity(pull_->body, p);
+  const Vector3 impulse = h * reading_.force - reading_.m_star * (v_end - v);
+  sum.add_wrench(1, p, impulse, Vector3::Zero());
+  sum.work += impulse.dot(0.5 * (v + v_end));
+}
+
+void MousePull::book_part(double part, const State<double>& x, Exchange& sum) {
+  forward_kinematics(model_, x, k_);
+  const Vector3 p = k_.position(pull_->body, pull_->p_L), force = read(k_).force;
+  sum.add_wrench(part, p, force, Vector3::Zero());
+  sum.work += part * force.dot(k_.velocity(pull_->body, p));
+}
+
+void MousePull::visit_books(Memory& memory) {
+  memory.resize(given_, sizeof(Exchange));
+  for (Given& part : given_) {
+    memory.visit(part.body);
+    part.exchange.visit_memory(memory);
+  }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,63 @@
+// What a page says to the lab: one JSON object each (docs/lab_protocol.md).
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/spatial/pose.h"
+
+namespace twinarm {
+
+struct LabCommand {
+  enum class Do {
+    // of each client by itself, whoever has the hand
+    layers,
+    glass,
+    take,
+    give,
+    look,
+    // of whoever has it
+    play,
+    step,
+    speed,
+    set,
+    branch,
+    preset,
+    scene,
+    reset,
+    restore,
+    hand,
+    tip,
+    joint,
+    turn,
+    axes,
+    button,
+    pull,
+    drop
+  };
+  Do what = Do::drop;
+  bool on = false;                 // play, glass, button (down)
+  long count = 0;                  // step: steps; joint, button: index; pull, glass: body; give: to
+  double value = 1;                // speed: factor; joint: value [rad, m]
+  std::optional<double> at;        // look, branch [s]; look: none is the newest
+  std::vector<std::string> names;  // layers; set, branch: changes
+  std::string name;                // preset, scene; hand: source
+  std::string spec;                // hand: of --device
+  Vector3 point = Vector3::Zero();  // pull: of the body, link axes [m]; turn: yaw, pitch, roll
+  Vector3 goal = Vector3::Zero();   // tip, pull: world [m]
+  std::array<double, 6> rates{};    // axes
+  double stamp = 0;                 // of the sender
+  std::chrono::steady_clock::time_point came{};
+};
+
+// Throws InputError with all faults: no JSON, no such command, a key that is missing or of another
+// kind, a number that is not finite.
+LabCommand parse_command(const std::string& text);
+
+// Whether only the holder of the hand may say it.
+bool needs_hand(LabCommand::Do what);
+
+}  // namespace twinarm

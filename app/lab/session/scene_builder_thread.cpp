@@ -1,0 +1,148 @@
+#include "app/lab/session/scene_builder_thread.h"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "app/record/recording_reader.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+std::shared_ptr<const LabScene> open_scene(const std::filesystem::path& file) {
+  if (file.extension() == ".twinrec")
+    return std::make_shared<const LabScene>(Recording(file).header());
+  SimulateOptions options;
+  options.robot.model = file;
+  return std::make_shared<const LabScene>(options);
+}
+
+std::string words_of(const InputError& error) {
+  std::string words;
+  for (const Fault& fault : error.faults()) words += (words.empty() ? "" : "\n") + to_string(fault);
+  return words;
+}
+
+void put_asked(std::vector<Change>& changes, const Asked& asked) {
+  if (asked.begins_anew) changes.clear();
+  for (const Change& change : asked.changes) put(changes, change);
+}
+
+}  // namespace
+
+Order order_to_open(const GalleryScene& scene) {
+  Order order;
+  order.file = scene.file;
+  order.name = scene.name;
+  order.words.title = scene.title;
+  order.words.file = scene.file.filename().string();
+  order.words.look.assign(scene.look.begin(), scene.look.end());
+  order.lanes = scene.lanes;
+  return order;
+}
+
+Built build(Order order) {
+  Built built;
+  for (const Asked& asked : order.asked) put_asked(order.changes, asked);
+  if (!order.lanes.empty()) put(order.changes, order.lanes.change(0));
+  built.scene = order.what == Order::What::open ? open_scene(order.file) : order.scene;
+  built.header = built.scene->header(order.changes, {});
+  built.run = built.scene->plan(order.changes);
+  built.view = built.scene->plan(order.changes);
+  built.knobs = built.scene->plan(order.changes);
+  for (std::size_t lane = 1; lane < order.lanes.values.size(); ++lane) {
+    std::vector<Change> changes = order.changes;
+    put(changes, order.lanes.change(lane));
+    built.lanes.push_back(built.scene->plan(changes));
+    built.lane_views.push_back(built.scene->plan(changes));
+  }
+  built.order = std::move(order);
+  return built;
+}
+
+Workshop::Workshop(Out out) : out_(std::move(out)), thread_([this] { work(); }) {}
+
+Workshop::~Workshop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void Workshop::order(Order order) {
+  std::optional<Order> left;
+  {
+    const std::lock_guard lock(mutex_);
+    left = std::exchange(next_, std::move(order));
+  }
+  wake_.notify_all();
+  if (left && left->done)
+    left->done("something else was asked for before this was begun; try again");
+}
+
+// It was tried already, with an order before this one.
+void Workshop::leave_out_refused(Order& order) const {
+  std::erase_if(order.asked, [this](const Asked& asked) {
+    return std::find(refused_.begin(), refused_.end(), asked.number) != refused_.end();
+  });
+}
+
+// What was asked for while others waited: what is wrong must not take the others with it. Nothing
+// where no part of it holds.
+std::optional<Built> Workshop::build_one_by_one(const Order& order) {
+  std::optional<Built> built;
+  Order good = order;
+  good.asked.clear();
+  for (const Asked& asked : order.asked) {
+    Order with = good;
+    with.asked.push_back(asked);
+    try {
+      built = build(with);
+      good = std::move(with);
+    } catch (const InputError& error) {
+      refused_.push_back(asked.number);
+      if (&asked == &order.asked.back() && order.what == Order::What::branch && built)
+        built->order.what = Order::What::change;  // the branch was for what is refused
+      out_.refused(words_of(error));
+    }
+  }
+  if (built) built->order.asked = order.asked;  // all of it is done with
+  return built;
+}
+
+void Workshop::work() {
+  pthread_setname_np(pthread_self(), "lab workshop");
+  for (;;) {
+    Order order;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [this] { return stop_ || next_; });
+      if (stop_) return;
+      order = std::move(*next_);
+      next_.reset();
+    }
+    leave_out_refused(order);
+    try {
+      try {
+        out_.built(build(order));
+      } catch (const InputError& error) {
+        if (order.asked.size() < 2) throw;
+        auto built = build_one_by_one(order);
+        built ? out_.built(std::move(*built)) : out_.failed(order);
+      }
+    } catch (const std::exception& error) {
+      const auto* faults = dynamic_cast<const InputError*>(&error);
+      const std::string why = faults ? words_of(*faults) : error.what();
+      for (const Asked& asked : order.asked) refused_.push_back(asked.number);
+      if (order.done) order.done(why);
+      out_.refused(why);
+      out_.failed(order);
+    }
+  }
+}
+
+}  // namespace twinarm

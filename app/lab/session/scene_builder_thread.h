@@ -1,0 +1,89 @@
+// Where scenes are read and built: a thread of its own, so that neither the run nor the pictures
+// stand still meanwhile. Of orders that wait, only the newest is done.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/lab/parameters/gallery.h"
+#include "app/lab/run/lab_scene.h"
+#include "app/lab/run/variant_set.h"
+#include "app/lab/session/scene_words.h"
+
+namespace twinarm {
+
+// What was asked for at once, and is refused at once or not at all.
+struct Asked {
+  long number = 0;           // counts up
+  bool begins_anew = false;  // without the changes before it
+  std::vector<Change> changes;
+};
+
+// What is to be built, and what the run is to do with it.
+struct Order {
+  enum class What { open, change, branch, reset };
+  What what = What::open;
+  std::filesystem::path file;             // open: a scene, a robot, a recording
+  std::string name;                       // open: as the gallery has it
+  SceneWords words;                       // open
+  std::shared_ptr<const LabScene> scene;  // of all others
+  std::vector<Change> changes;            // all that are to stand then, but
+  std::vector<Asked> asked;               // these, which nobody has tried yet, oldest first
+  LaneSet lanes;                          // empty: the run alone
+  double at = 0;                          // branch [s]
+  std::string hand;                       // open: who moves the robot then; empty: as it is
+  // Called when it is built, with nothing, or with all faults, line by line.
+  std::function<void(const std::string& faults)> done;
+};
+
+// A scene with its changes, in `order.changes` also what was asked for and held, and those of its
+// first lane: each thread has a plan of its own.
+struct Built {
+  Order order;
+  std::shared_ptr<const LabScene> scene;
+  RecordingHeader header;
+  std::unique_ptr<LabScene::Plan> run;
+  std::shared_ptr<LabScene::Plan> view, knobs;
+  std::vector<std::unique_ptr<LabScene::Plan>> lanes;  // of the run, from the second lane on
+  std::vector<std::shared_ptr<LabScene::Plan>> lane_views;
+};
+
+class Workshop {
+ public:
+  // Both are called by the workshop's thread.
+  struct Out {
+    std::function<void(Built)> built;
+    std::function<void(const Order&)> failed;  // nothing of it holds; why was told
+    std::function<void(const std::string& why)>
+        refused;  // a part, or all; its faults, line by line
+  };
+  explicit Workshop(Out out);
+  ~Workshop();
+  // From any thread. Takes the place of one that has not been begun.
+  void order(Order order);
+
+ private:
+  void work();
+  void leave_out_refused(Order& order) const;
+  std::optional<Built> build_one_by_one(const Order& order);
+
+  Out out_;
+  std::vector<long> refused_;  // numbers of what was asked for; of the workshop's thread alone
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::optional<Order> next_;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+Order order_to_open(const GalleryScene& scene);
+// In the caller's thread. Throws InputError.
+Built build(Order order);
+
+}  // namespace twinarm

@@ -1,0 +1,112 @@
+#include "app/lab/stream/lab_snapshot.h"
+
+#include <algorithm>
+
+#include "app/film/shown_instant.h"
+#include "app/lab/run/input_override.h"
+
+namespace twinarm {
+namespace {
+
+// A hand that stood there all around that time.
+HandStep stand_at(const LabHandFrame& hand, double t) {
+  LiveHand told(1);
+  told.set({hand.q_K, std::vector<double>(hand.q_K.size(), 0.0), hand.gripper_closed}, t - 2, 4);
+  return told.newest();
+}
+
+bool is_at_zero(const LabHandFrame& hand) {
+  return std::all_of(hand.theta.begin(), hand.theta.end(), [](double angle) { return angle == 0; });
+}
+
+}  // namespace
+
+// The scene's couplings, with a lead in place as in the run; but nobody steps it.
+struct LabMoments::Led {
+  Led(const SceneModel& of, double h)
+      : scene(of), lead(&scene, nobody, h), couplings(scene, h, nullptr, lead.in_place()) {
+    lead.attach(couplings);
+  }
+  SceneModel scene;
+  LabHand nobody;
+  HandLead lead;
+  SceneCouplings couplings;
+};
+
+LabMoments::LabMoments(const SimulatePlan& plan) {
+  change(plan);
+}
+
+LabMoments::~LabMoments() = default;
+
+void LabMoments::change(const SimulatePlan& plan) {
+  const SceneModel* scene = plan.input.scene.get();
+  led_ = scene ? std::make_unique<Led>(*scene, plan.run.step) : nullptr;
+  plan_ = &plan;
+}
+
+SceneCouplings* LabMoments::couplings() {
+  return led_ ? &led_->couplings : nullptr;
+}
+
+const std::vector<SceneCoupling>& LabMoments::pulls() const {
+  static const std::vector<SceneCoupling> none;
+  return led_ ? led_->scene.couplings : none;
+}
+
+std::vector<int> LabMoments::driven() const {
+  return led_ ? led_->lead.driven() : std::vector<int>{};
+}
+
+std::optional<std::pair<int, Vector3>> LabMoments::tip() const {
+  return led_ ? led_->lead.tip() : std::nullopt;
+}
+
+bool LabMoments::follows_device() const {
+  return std::any_of(pulls().begin(), pulls().end(), [](const SceneCoupling& c) {
+    return c.target == CouplingTarget::Kind::device;
+  });
+}
+
+void LabMoments::tell(const LabFrame& frame) {
+  if (!led_) return;
+  led_->lead.take_again(std::nullopt);
+  const double t = frame.recorded.t;
+  if (frame.hand && frame.hand->leads) led_->lead.take_again(stand_at(*frame.hand, t));
+  // A kinematic robot does not look again at an instant that it has seen; but the hand may have
+  // been elsewhere, in another branch.
+  if (t == last_time_)
+    for (std::size_t c = 0; c < led_->couplings.size(); ++c) led_->couplings.target(c, t + 1);
+  last_time_ = t;
+}
+
+Moment LabMoments::at_start() {
+  last_time_ = plan_->input.robot.state.x.t;
+  return moment_of(plan_->input, couplings(), {plan_->input.robot.state.x, {}, {}});
+}
+
+Moment LabMoments::of(const LabFrame& frame) {
+  tell(frame);
+  const Model<double>& model = plan_->input.robot.model;
+  Moment moment = moment_of(plan_->input, couplings(), instant_of(frame.recorded, model));
+  if (const auto& hand = frame.hand; hand && hand->leads) {
+    moment.hands.clear();
+    // Without a device all of its angles are zero.
+    if (!is_at_zero(*hand)) moment.hands = {{hand->theta, hand->gripper_closed, hand->force_W}};
+  }
+  if (frame.pull && frame.pull->body > 0 && frame.pull->body < model.body_count()) {
+    const LabPull& pull = *frame.pull;
+    moment.grip = {static_cast<std::size_t>(pull.body), moment.k.position(pull.body, pull.p_L),
+                   pull.goal_W, pull.force_W};
+  }
+  return moment;
+}
+
+std::vector<Pose> LabMoments::places(const LabFrame& frame) const {
+  const Model<double>& model = plan_->input.robot.model;
+  Kinematics k(model);
+  forward_kinematics(model, instant_of(frame.recorded, model).x, k);
+  return k.X_WL;
+}
+
+}  // namespace twinarm

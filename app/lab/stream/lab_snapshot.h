@@ -1,0 +1,43 @@
+// A lab's frame as what there is to be seen of it. The kinematic robot stands where the frame says
+// that the hand had it; where no hand leads, where the scene's own targets have it at that time.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "app/lab/run/lab_frame.h"
+#include "app/run/simulate_input.h"
+
+namespace twinarm {
+
+class LabMoments {
+ public:
+  // The plan must outlive it, up to a change. Throws InputError: a trace that cannot be read.
+  explicit LabMoments(const SimulatePlan& plan);
+  ~LabMoments();
+  void change(const SimulatePlan& plan);
+
+  Moment at_start();
+  Moment of(const LabFrame& frame);
+  std::vector<Pose> places(const LabFrame& frame) const;  // of bodies alone
+
+  // As the last moment left them; null for a robot alone.
+  SceneCouplings* couplings();
+  // As a hand can lead them: as in the run (app/lab/run/input_override.h).
+  const std::vector<SceneCoupling>& pulls() const;
+  std::vector<int> driven() const;  // joints that a hand can drive: the bodies that they carry
+  std::optional<std::pair<int, Vector3>> tip() const;  // that it leads, on a body in link axes
+  bool follows_device() const;                         // whether the scene says so of a coupling
+
+ private:
+  struct Led;
+  void tell(const LabFrame& frame);
+
+  const SimulatePlan* plan_ = nullptr;
+  std::unique_ptr<Led> led_;  // null for a robot alone
+  double last_time_ = 0;      // that the kinematic robots have seen
+};
+
+}  // namespace twinarm

@@ -1,5 +1,0 @@
-#include "app/program.h"
-
-int main(int argc, char** argv) {
-  return twinarm::run_program(argc, argv);
-}

@@ -1,0 +1,203 @@
+#include "app/modes/linear_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/dynamics/derivatives.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/model/mimic.h"
+
+namespace twinarm {
+namespace {
+
+using Index = Eigen::Index;
+
+Index index(std::size_t i) {
+  return static_cast<Index>(i);
+}
+
+// The forces at x moved along one direction: their rate, by (f_ext; tau) of all bodies and dofs.
+class ForceRates {
+ public:
+  ForceRates(const Model<double>& model, const State<double>& x, const PushAt& push)
+      : model_(model), x_(x), push_(push), k_(model) {}
+
+  Forces<double> along(std::size_t dof, bool of_velocity) {
+    constexpr int kLevels = 3;
+    std::array<Forces<double>, kLevels> rate{difference(dof, of_velocity, 4e-2),
+                                             difference(dof, of_velocity, 2e-2),
+                                             difference(dof, of_velocity, 1e-2)};
+    double factor = 4;
+    for (int last = kLevels - 1; last > 0; --last, factor *= 4)
+      for (int k = 0; k < last; ++k) {
+        const double c = 1 / (factor - 1);
+        combine(rate[static_cast<std::size_t>(k) + 1], 1 + c, rate[static_cast<std::size_t>(k)],
+                -c);
+      }
+    return rate[0];
+  }
+
+ private:
+  // b = by_a a + by_b b
+  void combine(const Forces<double>& a, double by_a, Forces<double>& b, double by_b) const {
+    for (std::size_t i = 0; i < model_.nv; ++i) b.tau[i] = by_a * a.tau[i] + by_b * b.tau[i];
+    for (std::size_t i = 0; i < a.f_ext.size(); ++i)
+      b.f_ext[i] = by_a * a.f_ext[i] + by_b * b.f_ext[i];
+  }
+  Forces<double> at(std::size_t dof, bool of_velocity, double s) {
+    State<double> x = x_;
+    if (of_velocity) {
+      x.qd[dof] += s;
+    } else {
+      std::vector<double> shift(model_.nv);
+      shift[dof] = s;
+      for (std::size_t i = 1; i < model_.parent.size(); ++i)
+        visit_joint(model_, i, [&](auto joint) {
+          double* q = x.q.data() + model_.iq[i];
+          joint.integrate(q, shift.data() + model_.iv[i], q);
+        });
+    }
+    forward_kinematics(model_, x, k_);
+    Forces<double> forces(model_);
+    push_(x, k_, forces);
+    return forces;
+  }
+  Forces<double> difference(std::size_t dof, bool of_velocity, double s) {
+    Forces<double> after = at(dof, of_velocity, s);
+    combine(at(dof, of_velocity, -s), -0.5 / s, after, 0.5 / s);
+    return after;
+  }
+
+  const Model<double>& model_;
+  const State<double>& x_;
+  const PushAt& push_;
+  Kinematics k_;
+};
+
+// dq' = dqd - w x dq of joints that turn freely.
+void add_turning(const Model<double>& model, const State<double>& x, Eigen::MatrixXd& W) {
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    if (model.joint[i] != JointType::spherical && model.joint[i] != JointType::free) continue;
+    const double* w = x.qd.data() + model.iv[i];
+    const Index at = index(model.iv[i]);
+    W.block<3, 3>(at, at) << 0, w[2], -w[1], -w[2], 0, w[0], w[1], -w[0], 0;
+  }
+}
+
+}  // namespace
+
+LinearSystem linearise(const Model<double>& model, const State<double>& x, const PushAt& push,
+                       std::size_t dof_count) {
+  const Index nv = index(model.nv);
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  Forces<double> forces(model);
+  push(x, k, forces);
+  const ForwardDynamicsDerivatives passes = forward_dynamics_derivatives(model, x, forces);
+  Eigen::MatrixXd by_q = passes.dq, by_qd = passes.dqd, W = Eigen::MatrixXd::Zero(nv, nv);
+  add_turning(model, x, W);
+
+  Workspace<double> w(model);
+  aba(model, x, forces, w);
+  ForceRates rates(model, x, push);
+  for (std::size_t dof = 0; dof < model.nv; ++dof)
+    for (const bool of_velocity : {false, true}) {
+      const Forces<double> rate = rates.along(dof, of_velocity);
+      minv_times(model, rate.tau, rate.f_ext, w);
+      (of_velocity ? by_qd : by_q).col(index(dof)) +=
+          Eigen::Map<const Eigen::VectorXd>(w.y.data(), nv);
+    }
+
+  // Without followers: y of qd = G y, with M_y = G^T M G.
+  crba(model, x, w);
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::MatrixXd M = Eigen::Map<const RowMajor>(w.M.data(), nv, nv);
+  const Eigen::MatrixXd all_G = mimic_projection(model);
+  LinearSystem system;
+  for (const std::size_t dof : independent_dofs(model))
+    if (dof < dof_count) system.dofs.push_back(dof);
+  const Index n = index(system.dofs.size());
+  const Eigen::MatrixXd G = all_G.leftCols(n);
+  const Eigen::MatrixXd M_y = G.transpose() * M * G;
+  system.A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  system.B = Eigen::MatrixXd::Zero(2 * n, n);
+  if (n == 0) return system;
+  for (Index r = 0; r < n; ++r)
+    for (Index c = 0; c < n; ++c)
+      system.A(r, c) = W(index(system.dofs[static_cast<std::size_t>(r)]),
+                         index(system.dofs[static_cast<std::size_t>(c)]));
+  system.A.topRightCorner(n, n).setIdentity();
+  system.A.bottomLeftCorner(n, n) = solve_symmetric(M_y, G.transpose() * M * by_q * G);
+  system.A.bottomRightCorner(n, n) = solve_symmetric(M_y, G.transpose() * M * by_qd * G);
+  system.B.bottomRows(n) = solve_symmetric(M_y, Eigen::MatrixXd::Identity(n, n));
+  return system;
+}
+
+double Mode::damping_ratio() const {
+  return eigenvalue == 0.0 ? 0 : -eigenvalue.real() / std::abs(eigenvalue);
+}
+
+namespace {
+
+// Time in units in which the entries of A are of one size.
+double unit_of_time(const Eigen::MatrixXd& A) {
+  const Index n = A.rows() / 2;
+  const double stiff = A.bottomLeftCorner(n, n).lpNorm<Eigen::Infinity>();
+  const double damp = std::max(A.bottomRightCorner(n, n).lpNorm<Eigen::Infinity>(),
+                               A.topLeftCorner(n, n).lpNorm<Eigen::Infinity>());
+  const double rate = std::max(std::sqrt(stiff), damp);
+  return rate > 0 ? 1 / rate : 1;
+}
+
+Mode mode_of(std::complex<double> eigenvalue, const Eigen::VectorXcd& vector) {
+  constexpr double kNothing = 1e-6;
+  const Index n = vector.size() / 2;
+  Eigen::VectorXcd shape = vector.head(n);
+  if (shape.lpNorm<Eigen::Infinity>() < kNothing * vector.lpNorm<Eigen::Infinity>())
+    shape = vector.tail(n);  // a drift: at q anything, at qd the direction
+  Index largest = 0;
+  shape.cwiseAbs().maxCoeff(&largest);
+  if (shape.size() > 0 && std::abs(shape[largest]) > 0)
+    shape /= std::complex<double>(shape[largest]);
+  return {eigenvalue, shape};
+}
+
+}  // namespace
+
+// The null space Z of A is taken out first: a drift (two zeros, one vector) would else be found
+// with half of the digits. With Q beside it, A = (0 Z^T A Q; 0 Q^T A Q).
+std::vector<Mode> modes_of(const Eigen::MatrixXd& given) {
+  constexpr double kNull = 1e-11, kZero = 1e-9;
+  std::vector<Mode> modes;
+  const Index n = given.rows() / 2;
+  if (n == 0) return modes;
+  const double T = unit_of_time(given);
+  Eigen::MatrixXd A = given;
+  A.topLeftCorner(n, n) *= T;
+  A.bottomRightCorner(n, n) *= T;
+  A.bottomLeftCorner(n, n) *= T * T;
+
+  const SingularValues sigma = singular_values(A);
+  const Index rank = (sigma.values.array() > kNull * sigma.values[0]).count();
+  const Eigen::MatrixXd Q = sigma.V.leftCols(rank), Z = sigma.V.rightCols(2 * n - rank);
+  for (Index z = 0; z < Z.cols(); ++z)
+    modes.push_back(mode_of(0, Z.col(z).cast<std::complex<double>>()));
+
+  const Eigen::MatrixXd rest = Q.transpose() * A * Q, into = Z.transpose() * A * Q;
+  const Eigensystem motion = eigensystem_of(rest);
+  for (Index k = 0; k < rank; ++k) {
+    std::complex<double> lambda = motion.values[k];
+    if (lambda.imag() < 0) continue;
+    if (std::abs(lambda) < kZero) lambda = 0;
+    const Eigen::VectorXcd y = motion.vectors.col(k);
+    Eigen::VectorXcd x = Q.cast<std::complex<double>>() * y;
+    if (lambda != 0.0 && Z.cols() > 0)
+      x += Z.cast<std::complex<double>>() * (into.cast<std::complex<double>>() * y) / lambda;
+    modes.push_back(mode_of(lambda / T, x));
+  }
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const Mode& a, const Mode& b) { return a.frequency() < b.frequency(); });
+  return modes;
+}
+
+}  // namespace twinarm

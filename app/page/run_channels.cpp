@@ -1,0 +1,113 @@
+#include "app/page/run_channels.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "app/robot/robot_table.h"
+
+namespace twinarm {
+namespace {
+
+// "links/arm1/x": what kind of quantity it is, and of what.
+std::pair<std::string, std::string> kind_and_owner(const std::string& column) {
+  const std::size_t slash = column.find('/');
+  if (slash == std::string::npos) return {"energy", column.substr(0, column.find("_energy"))};
+  const std::string head = column.substr(0, slash), rest = column.substr(slash + 1);
+  if (head == "q") return {"coordinate", rest};
+  if (head == "qd") return {"rate", rest};
+  return {"position", rest.substr(0, rest.rfind('/'))};
+}
+
+const char* unit_of_pull(const SimulateInput& input, std::size_t c) {
+  const bool is_couple = input.scene && c < input.scene->couplings.size() &&
+                         kind_of_pull(*input.scene, c) == ShownPull::Kind::couple;
+  return is_couple ? "N m" : "N";
+}
+
+}  // namespace
+
+RunChannels::RunChannels(const SimulateInput& input, const RecordingHeader& header)
+    : geometries_(header.geometries),
+      columns_(header.columns.size()),
+      pulls_(header.couplings.size()) {
+  for (const RecordedColumn& column : header.columns) {
+    const auto [kind, of] = kind_and_owner(column.name);
+    add(column.name, column.unit, kind, of);
+  }
+  elastic_ = all_.size();
+  if (pulls_ > 0) add("elastic_energy", "J", "energy", "springs");
+  first_pull_ = all_.size();
+  for (std::size_t c = 0; c < pulls_; ++c)
+    add("coupling/" + header.couplings[c], unit_of_pull(input, c), "coupling", header.couplings[c]);
+}
+
+std::size_t RunChannels::add(const std::string& name, const std::string& unit,
+                             const std::string& kind, const std::string& of) {
+  all_.push_back({name, unit, kind, of});
+  return all_.size() - 1;
+}
+
+std::string RunChannels::name_of_geometry(int id) const {
+  const auto i = static_cast<std::size_t>(id);
+  return i < geometries_.size() ? geometries_[i] : std::to_string(id);
+}
+
+std::size_t RunChannels::place_of(const std::string& name) const {
+  const auto is_it = [&](const RunChannel& channel) { return channel.name == name; };
+  return static_cast<std::size_t>(std::find_if(all_.begin(), all_.end(), is_it) - all_.begin());
+}
+
+bool RunChannels::add_pair(int a, int b) {
+  if (!pairs_.try_emplace({a, b}, all_.size()).second) return false;
+  const std::string pair = name_of_geometry(a) + "-" + name_of_geometry(b);
+  add("contact/" + pair, "N", "contact", pair);
+  return true;
+}
+
+// Each joint once; of the recorded columns the one of the same name.
+void RunChannels::add_led_joints(const Coordinates& coordinates,
+                                 const std::vector<SceneCoupling>& couplings) {
+  for (std::size_t c = 0; c < couplings.size(); ++c) {
+    for (const std::string& turned : couplings[c].driven.turned) {
+      const NamedJoint* joint = coordinates.find(turned);
+      if (!joint || joint->components().size() != 1) continue;
+      const std::string of = component_name(coordinates, *joint, joint->components().front());
+      const std::size_t column = place_of("q/" + of);
+      if (column == all_.size() || place_of("target/" + of) < all_.size()) continue;
+      const std::string unit = all_[column].unit;
+      const std::size_t target = add("target/" + of, unit, "target", of);
+      led_.push_back({c, column, target, add("error/" + of, unit, "error", of), *joint});
+    }
+  }
+}
+
+void RunChannels::values(const RecordedFrame& frame, const Moment& moment,
+                         SceneCouplings* couplings, std::vector<double>& values) const {
+  values.assign(all_.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < std::min(frame.values.size(), columns_); ++i)
+    values[i] = frame.values[i];
+  if (pulls_ > 0) values[elastic_] = moment.elastic;
+  for (std::size_t c = 0; c < pulls_; ++c)
+    values[first_pull_ + c] = c < frame.pulls.size() ? frame.pulls[c].norm() : 0;
+  std::map<std::size_t, Vector3> forces;
+  for (const auto& [pair, place] : pairs_) forces[place] = Vector3::Zero();
+  for (const RecordedContact& c : frame.contacts)
+    if (const auto pair = pairs_.find({c.a, c.b}); pair != pairs_.end())
+      forces[pair->second] += c.force;
+  for (const auto& [place, force] : forces) values[place] = force.norm();
+  if (!couplings) return;
+  for (const Led& led : led_) {
+    const KvrSample& kvr = couplings->target(led.coupling, frame.t);
+    values[led.target] = coordinates_of(led.joint, kvr.x).front();
+    values[led.error] = values[led.column] - values[led.target];
+  }
+}
+
+std::vector<double> works_by_row(const RecordedFrame& frame, std::size_t rows) {
+  std::vector<double> works(rows, 0);
+  for (std::size_t i = 0; i < std::min(frame.rows.size(), frame.works.size()); ++i)
+    if (frame.rows[i] < rows) works[frame.rows[i]] = frame.works[i];
+  return works;
+}
+
+}  // namespace twinarm

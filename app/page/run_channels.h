@@ -1,0 +1,58 @@
+// What the plots of pages show of a frame: its quantities, by name. The same for the page of a
+// recorded run (page_channels.h) and for a run that goes on (app/lab/stream).
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/draw/snapshot.h"
+#include "app/record/recording.h"
+#include "app/run/simulate_input.h"
+
+namespace twinarm {
+
+struct RunChannel {
+  std::string name, unit, kind, of;  // as in src/data/run.ts
+};
+
+class RunChannels {
+ public:
+  // Coordinates, rates, positions, energies and couplings, in the order of the recording's header.
+  // Of both arguments parts are copied.
+  RunChannels(const SimulateInput& input, const RecordingHeader& header);
+  // Two geometries that touch. True: it was not there yet.
+  bool add_pair(int a, int b);
+  // Joints that a hand turns: where it has them, and the recorded value less that.
+  void add_led_joints(const Coordinates& coordinates, const std::vector<SceneCoupling>& couplings);
+  // One of the caller's own, which fills it in; its place.
+  std::size_t add(const std::string& name, const std::string& unit, const std::string& kind,
+                  const std::string& of);
+
+  const std::vector<RunChannel>& all() const { return all_; }
+  // By channel; NaN for those that are not known in this frame. `couplings`: those of the moment;
+  // null for a robot alone.
+  void values(const RecordedFrame& frame, const Moment& moment, SceneCouplings* couplings,
+              std::vector<double>& values) const;
+
+ private:
+  struct Led {
+    std::size_t coupling, column, target, error;  // of all_: where they stand
+    NamedJoint joint;
+  };
+  std::string name_of_geometry(int id) const;
+  std::size_t place_of(const std::string& name) const;
+
+  std::vector<RunChannel> all_;
+  std::vector<std::string> geometries_;
+  std::size_t columns_ = 0, pulls_ = 0, elastic_ = 0, first_pull_ = 0;
+  std::map<std::pair<int, int>, std::size_t> pairs_;  // places by geometries
+  std::vector<Led> led_;
+};
+
+// By the numbers of rows in the frame; of those that it does not have, zero. Numbers beyond `rows`
+// are left out.
+std::vector<double> works_by_row(const RecordedFrame& frame, std::size_t rows);
+
+}  // namespace twinarm

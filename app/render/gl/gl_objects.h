@@ -1,0 +1,132 @@
+// What the painter keeps inside OpenGL: programs, meshes, and the surfaces that it draws on.
+//
+// All of them need their context current, and vanish with it; only meshes are freed one by one,
+// because scenes come and go while a painter stays.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "app/render/gl/gl_table.h"
+#include "app/render/list/draw_mesh.h"
+#include "app/render/list/image.h"
+
+namespace twinarm {
+
+// Every uniform of every shader: here, and in kUniformNames of gl_objects.cpp in the same order.
+enum class Uniform : std::size_t {
+  world_from_mesh,
+  normal_from_mesh,
+  clip_from_world,
+  world_from_clip,
+  key_from_world,
+  sky_from_world,
+  normal_offset,
+  eye,
+  key_direction,
+  sky_direction,
+  color,
+  picture,
+  shininess,
+  key_shadow,
+  sky_shadow,
+  texel,
+  shadow_reach,
+  per_height,
+  background_bottom,
+  background_top,
+  background_ground,
+  ground,
+  grid,
+  per_grid,
+  count
+};
+
+// A linked program with its uniform locations looked up once. Setting a uniform that a shader
+// variant does not have does nothing, as OpenGL defines for location -1.
+class Program {
+ public:
+  Program(const GlTable& gl, const std::string& vertex, const std::string& fragment);
+  void use() const { gl_.UseProgram(id_); }
+  void set(Uniform u, int x) const { gl_.Uniform1i(at(u), x); }
+  void set(Uniform u, float x) const { gl_.Uniform1f(at(u), x); }
+  void set(Uniform u, float x, float y) const { gl_.Uniform2f(at(u), x, y); }
+  void set(Uniform u, const Eigen::Vector3f& v) const { gl_.Uniform3f(at(u), v.x(), v.y(), v.z()); }
+  void set(Uniform u, const Eigen::Vector4f& v) const {
+    gl_.Uniform4f(at(u), v.x(), v.y(), v.z(), v.w());
+  }
+  void set(Uniform u, const Eigen::Matrix3f& m) const {
+    gl_.UniformMatrix3fv(at(u), 1, GL_FALSE, m.data());
+  }
+  void set(Uniform u, const Eigen::Matrix4f& m) const {
+    gl_.UniformMatrix4fv(at(u), 1, GL_FALSE, m.data());
+  }
+
+ private:
+  GLint at(Uniform u) const { return location_[static_cast<std::size_t>(u)]; }
+
+  const GlTable& gl_;
+  GLuint id_ = 0;
+  std::array<GLint, static_cast<std::size_t>(Uniform::count)> location_{};
+};
+
+// A DrawMesh in vertex buffers: attribute 0 position, 1 normal, 2 place in a texture.
+class GpuMesh {
+ public:
+  GpuMesh(const GlTable& gl, const DrawMesh& mesh);
+  ~GpuMesh();
+  GpuMesh(const GpuMesh&) = delete;
+  GpuMesh& operator=(const GpuMesh&) = delete;
+  void draw() const;
+
+ private:
+  const GlTable& gl_;
+  GLuint array_ = 0;
+  std::array<GLuint, 4> buffers_{};  // positions, normals, indices, uv
+  GLsizei index_count_ = 0;
+};
+
+// An image as an sRGB texture with mipmaps, repeated beyond its edges.
+class GpuTexture {
+ public:
+  GpuTexture(const GlTable& gl, const Image& image);
+  ~GpuTexture();
+  GpuTexture(const GpuTexture&) = delete;
+  GpuTexture& operator=(const GpuTexture&) = delete;
+  GLuint id() const { return id_; }
+
+ private:
+  const GlTable& gl_;
+  GLuint id_ = 0;
+};
+
+// A square depth texture seen from a light. `compares`: the sampler does, over 2 x 2 texels; else
+// it gives the nearest depth. What is drawn may take a smaller square of it, from the corner of its
+// coordinates. 16 bits: a step is a hundredth of the offset that keeps surfaces out of their own
+// shadow.
+struct ShadowMap {
+  ShadowMap(const GlTable& gl, int side_px, bool compares);
+  int side_px;
+  GLuint texture = 0, framebuffer = 0;
+};
+
+// The colour and depth surface of the picture: sRGB bytes, 4 samples per pixel or one. Their colour
+// is whatever was there, until it is drawn over. Depth is float: integers cost a conversion for
+// each sample.
+class Canvas {
+ public:
+  Canvas(const GlTable& gl, int width, int height, bool multisampled);
+  void begin() const;             // binds it, sets the viewport, clears the depth
+  void read(std::uint8_t* rgba);  // resolves and reads 4 * width * height bytes, BOTTOM row first
+
+ private:
+  GLuint make_framebuffer(int samples, bool with_depth) const;
+
+  const GlTable& gl_;
+  int width_, height_;
+  GLuint draw_ = 0, resolved_ = 0;  // the same where there is one sample
+};
+
+}  // namespace twinarm

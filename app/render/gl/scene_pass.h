@@ -1,0 +1,118 @@
+// ScenePass: one picture of the bodies, floor and background under one sample of the light.
+//
+// The order of a pass: shadow map(s) of the solids; solids; floor; background where nothing else
+// is; what is seen through bodies, faintly; ghosts, depth first. Up to the background shaders write
+// sRGB themselves; the last two are blended, in linear light, and the canvas encodes. Needs the
+// context current in every call.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "app/render/gl/gl_objects.h"
+#include "app/render/gl/shaders.h"
+#include "app/render/gl/shadow_tiles.h"
+#include "app/render/list/draw_list.h"
+#include "app/render/list/view.h"
+
+namespace twinarm {
+
+struct LightSample {
+  Vector3 key_W;                                       // towards the key light, unit length
+  Vector3 sky_W = Vector3::UnitZ();                    // towards the piece of sky, unit length
+  Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();  // of the picture under the pixel grid
+};
+
+class ScenePass {
+ public:
+  // `multisampled`: 4 samples a pixel. The table must outlive the pass.
+  ScenePass(const GlTable& gl, int width, int height, const ShaderVariant& variant,
+            bool multisampled);
+
+  // Takes in the meshes and matrices of a list that must stay as it is until the last draw().
+  void prepare(const DrawList& list);
+  void draw(const LightSample& sample);
+  void read(std::uint8_t* rgba) { canvas_.read(rgba); }  // bottom row first
+
+  const Eigen::Matrix4d& clip_from_world() const { return clip_from_world_; }
+
+ private:
+  struct CachedMesh {
+    CachedMesh(const GlTable& gl, std::shared_ptr<const DrawMesh> mesh)
+        : source(std::move(mesh)), gpu(gl, *source), box(bounding_box(*source)) {}
+    std::shared_ptr<const DrawMesh> source;  // keeps the address, which is the key, from reuse
+    GpuMesh gpu;
+    Eigen::AlignedBox3d box;  // in the mesh's frame
+  };
+  struct CachedTexture {
+    CachedTexture(const GlTable& gl, std::shared_ptr<const Image> image)
+        : source(std::move(image)), gpu(gl, *source) {}
+    std::shared_ptr<const Image> source;  // likewise
+    GpuTexture gpu;
+  };
+  struct Item {
+    const GpuMesh* mesh;
+    const GpuTexture* texture;  // or none
+    bool two_sided;
+    Eigen::Matrix4f world_from_mesh;
+    Eigen::Matrix3f normal_from_mesh;
+    Eigen::Vector4f color;  // linear
+    float shininess;
+    bool ghost, seen_through;
+  };
+
+  struct Backdrop {
+    Program floor, lit_floor, background;
+  };
+
+  void add_item(const DrawList& list, const Instance& instance);
+  Eigen::Matrix4f light_clip_from_world(const Vector3& towards_light_W) const;
+  Eigen::Matrix4f shadow_from_world(const ShadowMap& map, const Vector3& towards_light_W) const;
+  int used_side(const ShadowMap& map) const;
+  double normal_offset() const;
+  void draw_shadow(const ShadowMap& map, const Vector3& towards_light_W);
+  void set_frame(const Program& program, const LightSample& sample) const;
+  void draw_items(const Program& program, bool ghosts, bool textured = false) const;
+  void cull(bool two_sided) const;
+  void draw_solids(const LightSample& sample) const;
+  void draw_floor(const LightSample& sample) const;
+  void set_floor(const Program& program, const LightSample& sample) const;
+  std::vector<FloorTiles> shadow_tiles(const LightSample& sample) const;
+  void draw_background(const LightSample& sample) const;
+  void draw_blended(const LightSample& sample) const;
+  void draw_hidden(const LightSample& sample) const;
+  void draw_ghosts(const LightSample& sample) const;
+  void set_backdrop(const Program& program) const;
+  const Backdrop& backdrop() const { return *backdrops_[has_horizon() ? 1 : 0]; }
+  bool has_horizon() const { return list_->background.kind == Background::Kind::landscape; }
+  Eigen::Matrix4d shifted_clip(const LightSample& sample) const;
+  const CachedMesh& upload(const std::shared_ptr<const DrawMesh>& mesh);
+  const GpuTexture& upload(const std::shared_ptr<const Image>& image);
+  void forget_unused();
+
+  const GlTable& gl_;
+  int width_, height_;
+  Canvas canvas_;
+  ShadowMap key_map_;
+  std::optional<ShadowMap> sky_map_;
+  ShaderVariant variant_;
+  Program solid_, textured_, ghost_, depth_;
+  std::array<std::optional<Backdrop>, 2> backdrops_;  // room, landscape: made where first needed
+  GLuint no_vertices_ = 0;  // vertex array for shaders that make their own vertices
+  std::unordered_map<const DrawMesh*, CachedMesh> cache_;
+  std::unordered_map<const Image*, CachedTexture> textures_;
+
+  // The frame at hand.
+  const DrawList* list_ = nullptr;
+  std::vector<Item> items_;
+  std::vector<CasterBox> casters_;
+  SceneBounds bounds_;
+  double floor_radius_ = 1;
+  Eigen::Matrix4d clip_from_world_ = Eigen::Matrix4d::Identity();
+};
+
+}  // namespace twinarm

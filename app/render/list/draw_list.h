@@ -1,0 +1,162 @@
+// DrawList: what is to be seen, once, for every painter (OSMesa here, three.js in the browser).
+//
+// World frame W: z up, right-handed, metres, radians. Colours: sRGB in 0..1; alpha below 1: ghost.
+// Pixels: from the top left, y down, of a picture of 1280 x 720; painters scale them with theirs.
+//
+// A list is made once and kept: meshes stay registered, while clear_frame() drops what is placed
+// with them. Meshes are shared and never change, so a copy of a list is cheap and a painter may
+// recognise a mesh by its address.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/render/list/draw_mesh.h"
+#include "app/render/list/image.h"
+#include "collision/shapes/mesh.h"
+#include "solver/spatial/pose.h"
+
+namespace twinarm {
+
+struct Color {
+  float r = 0, g = 0, b = 0, a = 1;
+};
+
+using MeshId = std::size_t;     // index into DrawList::meshes
+using TextureId = std::size_t;  // index into DrawList::textures
+
+// A mesh at a place: p_W = X_WM * (scale * p_M), componentwise.
+struct Instance {
+  MeshId mesh = 0;
+  Pose X_WM;
+  Vector3 scale = Vector3::Ones();  // positive
+  Color color{0.7f, 0.7f, 0.7f, 1.0f};
+  float shininess = 0.35f;           // 0 = chalk, 1 = polished
+  bool seen_through = false;         // faintly to be seen where it is behind or inside of bodies
+  std::optional<TextureId> texture;  // times the colour, where the mesh has uv; not on ghosts
+  int body = -1;  // that it is, or speaks of, for who points at it; -1: of none. Not painted
+};
+
+enum class Align { left, center, right };
+
+// A line of text (UTF-8), never hidden by bodies.
+struct Label {
+  enum class Anchor { world, screen };
+  std::string text;
+  Anchor anchor = Anchor::world;
+  Vector3 p_W = Vector3::Zero();  // the point that it names, where anchored in the world
+  // World: from that point's pixel to the text; a thin line joins them where it is long enough.
+  // Screen: from the top left corner of the picture, or from the bottom or right where negative.
+  Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();
+  double size_px = 15;
+  Color color{0.10f, 0.12f, 0.15f, 1.0f};
+  Align align = Align::left;
+};
+
+// One entry of the legend, at the bottom left of the picture.
+struct LegendLine {
+  Color color;  // of the swatch
+  std::string text;
+};
+
+// A filled box on the picture, under all letters: bars and panels.
+struct ScreenBox {
+  // The left upper corner, as the offset of a label on the screen; then the size to the right and
+  // down.
+  Eigen::Vector2d corner_px = Eigen::Vector2d::Zero(), size_px = Eigen::Vector2d::Zero();
+  Color color;
+};
+
+struct Camera {
+  Vector3 eye = Vector3(1.6, -2.0, 1.2);
+  Vector3 target = Vector3::Zero();
+  Vector3 up = Vector3::UnitZ();
+  double field_of_view = 0.55;  // vertical [rad]
+};
+
+// The floor z = height with a metric grid that fades with the distance.
+struct Ground {
+  bool visible = true;
+  double height = 0;        // [m]
+  double cell = 0.1;        // between thin lines [m]
+  int cells_per_major = 5;  // a stronger line every so many
+  bool show_scale = true;   // says in the picture what the lines measure
+};
+
+// A room without corners, whose colour runs from the bottom to the top of the picture and whose
+// floor melts into it; or a landscape, whose ground a haze takes into the colour of the horizon.
+struct Background {
+  enum class Kind { room, landscape };
+  Kind kind = Kind::room;
+  Color bottom{0.87f, 0.875f, 0.88f, 1.0f};  // of a landscape the horizon
+  Color top{0.56f, 0.595f, 0.635f, 1.0f};    // the zenith
+  Color ground{0.62f, 0.63f, 0.63f, 1.0f};   // where fully lit; of a landscape only
+};
+Background studio_background();
+Background sky_background();
+Background white_background();  // paper
+
+class DrawList {
+ public:
+  std::vector<std::shared_ptr<const DrawMesh>> meshes;  // append only, by the functions below
+  std::vector<std::shared_ptr<const Image>> textures;   // likewise; their alpha is not looked at
+  std::vector<Instance> instances;
+  std::vector<Label> labels;
+  std::string title;
+  std::vector<LegendLine> legend;
+  std::vector<ScreenBox> bars;
+  Camera camera;
+  Vector3 light_W = Vector3(-0.45, -0.62, 1.0);  // from the scene towards the light, any length
+  Ground ground;
+  Background background;
+
+  MeshId register_mesh(const TriangleMesh& mesh) { return register_mesh(make_draw_mesh(mesh)); }
+  MeshId register_mesh(DrawMesh mesh);
+  TextureId register_texture(std::shared_ptr<const Image> texture);
+  MeshId unit_mesh(UnitShape shape);  // registers it at its first use
+  MeshId unit_spring(double aspect);  // likewise, for the nearest of a few aspects
+  void clear_frame();                 // instances, labels, bars, title, legend
+
+ private:
+  std::map<UnitShape, MeshId> units_;
+  std::map<int, MeshId> springs_;  // by the step of their aspect
+};
+
+// All instances that are placed while it lives are of that body.
+class OfBody {
+ public:
+  OfBody(DrawList& list, std::size_t body)
+      : list_(list), first_(list.instances.size()), body_(static_cast<int>(body)) {}
+  ~OfBody() {
+    for (std::size_t i = first_; i < list_.instances.size(); ++i) list_.instances[i].body = body_;
+  }
+  OfBody(const OfBody&) = delete;
+  OfBody& operator=(const OfBody&) = delete;
+
+ private:
+  DrawList& list_;
+  std::size_t first_;
+  int body_;
+};
+
+// Places overlays. What has no extent (a force of zero) or is not finite is left out.
+void add_mesh_instance(DrawList& list, MeshId mesh, const Pose& X_WM, const Color& color,
+                       const Vector3& scale = Vector3::Ones(), float shininess = 0.35f);
+void add_box(DrawList& list, const Pose& X_WM, const Vector3& size, const Color& color);
+void add_sphere(DrawList& list, const Vector3& p_W, double radius, const Color& color);
+void add_rod(DrawList& list, const Vector3& from_W, const Vector3& to_W, double radius,
+             const Color& color);
+void add_spring(DrawList& list, const Vector3& from_W, const Vector3& to_W, double radius,
+                const Color& color);
+// `radius` is the shaft's; the head is 2.4 times as wide and ends at `to_W`.
+void add_arrow(DrawList& list, const Vector3& from_W, const Vector3& to_W, double radius,
+               const Color& color);
+void add_label(DrawList& list, const Vector3& p_W, const std::string& text,
+               const Eigen::Vector2d& offset_px = Eigen::Vector2d(10, -10), double size_px = 15);
+
+}  // namespace twinarm

@@ -1,0 +1,163 @@
+// Vertex normals by crease angle.
+#include "app/render/list/draw_mesh.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace twinarm {
+namespace {
+
+using Triangle = std::array<int, 3>;
+
+// For each vertex the smallest index of a vertex at exactly the same place.
+std::vector<int> weld(const std::vector<Vector3>& vertices) {
+  std::vector<int> order(vertices.size()), first(vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto at = [&](int i) -> const Vector3& { return vertices[static_cast<std::size_t>(i)]; };
+  std::sort(order.begin(), order.end(), [&](int i, int j) {
+    const Vector3 &a = at(i), &b = at(j);
+    if (a.x() != b.x()) return a.x() < b.x();
+    if (a.y() != b.y()) return a.y() < b.y();
+    if (a.z() != b.z()) return a.z() < b.z();
+    return i < j;
+  });
+  int representative = -1;
+  for (const int i : order) {
+    if (representative < 0 || at(i) != at(representative)) representative = i;
+    first[static_cast<std::size_t>(i)] = representative;
+  }
+  return first;
+}
+
+struct Facet {
+  std::size_t triangle;          // of the mesh
+  Triangle vertex;               // welded indices
+  Vector3 normal;                // unit length
+  std::array<double, 3> weight;  // at each corner: angle times twice the area
+};
+
+double angle_between(const Vector3& a, const Vector3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+std::vector<Facet> make_facets(const TriangleMesh& mesh) {
+  const std::vector<int> first = weld(mesh.vertices);
+  std::vector<Facet> facets;
+  facets.reserve(mesh.triangles.size());
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    std::array<Vector3, 3> p;
+    Facet facet;
+    facet.triangle = f;
+    for (std::size_t k = 0; k < 3; ++k) {
+      assert(t[k] >= 0 && static_cast<std::size_t>(t[k]) < mesh.vertices.size());
+      facet.vertex[k] = first[static_cast<std::size_t>(t[k])];
+      p[k] = mesh.vertices[static_cast<std::size_t>(t[k])];
+    }
+    facet.normal = (p[1] - p[0]).cross(p[2] - p[0]);
+    const double twice_area = facet.normal.norm();
+    if (!(twice_area > 0) || !std::isfinite(twice_area)) continue;
+    facet.normal /= twice_area;
+    for (std::size_t k = 0; k < 3; ++k) {
+      facet.weight[k] = twice_area * angle_between(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
+    }
+    facets.push_back(facet);
+  }
+  return facets;
+}
+
+struct Corner {
+  std::size_t facet, corner;
+};
+
+std::vector<std::vector<Corner>> corners_by_vertex(const std::vector<Facet>& facets,
+                                                   std::size_t vertex_count) {
+  std::vector<std::vector<Corner>> around(vertex_count);
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      around[static_cast<std::size_t>(facets[f].vertex[k])].push_back({f, k});
+    }
+  }
+  return around;
+}
+
+// Where more facets than this meet in one vertex (the middle of a finely cut disc, or a file that
+// means harm) each keeps its own normal: the mean would cost the square of their number.
+constexpr std::size_t kMostAround = 512;
+
+// The mean of the facets around a vertex that lie within the crease angle of the corner's own.
+Vector3 normal_at(const Corner& corner, const std::vector<Corner>& around,
+                  const std::vector<Facet>& facets) {
+  static const double crease_cosine = std::cos(kCreaseAngle);
+  const Facet& facet = facets[corner.facet];
+  if (around.size() > kMostAround) return facet.normal;
+  Vector3 sum = Vector3::Zero();
+  for (const Corner& other : around) {
+    const Facet& neighbour = facets[other.facet];
+    if (neighbour.normal.dot(facet.normal) >= crease_cosine)
+      sum += neighbour.weight[other.corner] * neighbour.normal;
+  }
+  const double length = sum.norm();  // 0 where all angles are too small for a double
+  return length > 0 ? Vector3(sum / length) : facet.normal;
+}
+
+std::array<float, 3> to_float(const Vector3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+void set_bounds(DrawMesh& mesh, const std::vector<Vector3>& vertices) {
+  if (vertices.empty()) return;
+  Vector3 low = vertices.front(), high = vertices.front();
+  for (const Vector3& p : vertices) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  mesh.bound_center = 0.5 * (low + high);
+  for (const Vector3& p : vertices) {
+    mesh.bound_radius = std::max(mesh.bound_radius, (p - mesh.bound_center).norm());
+  }
+}
+
+}  // namespace
+
+Eigen::AlignedBox3d bounding_box(const DrawMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const auto& p : mesh.positions) box.extend(Vector3(p[0], p[1], p[2]));
+  return box;
+}
+
+DrawMesh make_draw_mesh(const TriangleMesh& mesh, const std::vector<CornerUv>& uv) {
+  assert(uv.empty() || uv.size() == mesh.triangles.size());
+  const std::vector<Facet> facets = make_facets(mesh);
+  const auto around = corners_by_vertex(facets, mesh.vertices.size());
+
+  DrawMesh result;
+  result.triangles.resize(facets.size());
+  for (std::size_t v = 0; v < around.size(); ++v) {
+    const std::size_t begin = result.positions.size();  // of the vertices made from this one
+    for (const Corner& corner : around[v]) {
+      const std::array<float, 3> normal = to_float(normal_at(corner, around[v], facets));
+      const std::array<float, 2> place =
+          uv.empty() ? std::array<float, 2>{} : uv[facets[corner.facet].triangle][corner.corner];
+      // Corners that came to the same normal, and place in the texture, share one vertex.
+      const std::size_t known = result.positions.size();
+      std::size_t index = known - begin > kMostAround ? known - kMostAround : begin;
+      while (index < result.normals.size() &&
+             (result.normals[index] != normal || (!uv.empty() && result.uv[index] != place)))
+        ++index;
+      if (index == result.normals.size()) {
+        result.positions.push_back(to_float(mesh.vertices[v]));
+        result.normals.push_back(normal);
+        if (!uv.empty()) result.uv.push_back(place);
+      }
+      result.triangles[corner.facet][corner.corner] = static_cast<std::uint32_t>(index);
+    }
+  }
+  set_bounds(result, mesh.vertices);
+  return result;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,102 @@
+// PNG encoding. Compression level 3, quick: at 1280x720 level 6 takes four times as long as
+// level 1.
+#include "app/render/list/image.h"
+
+#include <png.h>
+#include <unistd.h>
+
+#include <csetjmp>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "solver/support/atomic_file.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+constexpr int kCompressionLevel = 3;
+
+[[noreturn]] void fail(const std::string& file, const std::string& rule,
+                       const std::string& remedy) {
+  throw InputError({Fault{file, 0, "picture", rule, remedy}});
+}
+
+void check(const Image& image) {
+  const bool sized = image.width > 0 && image.height > 0;
+  const std::size_t bytes = sized ? std::size_t{4} * static_cast<std::size_t>(image.width) *
+                                        static_cast<std::size_t>(image.height)
+                                  : 0;
+  if (!sized || image.rgba.size() != bytes) {
+    fail("",
+         "has " + std::to_string(image.rgba.size()) + " bytes for " + std::to_string(image.width) +
+             " x " + std::to_string(image.height) + " pixels",
+         "give 4 bytes for each pixel and at least one pixel");
+  }
+}
+
+bool is_opaque(const Image& image) {
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+    if (image.rgba[i] != 255) return false;
+  }
+  return true;
+}
+
+// libpng reports by longjmp unless it is given functions that do not return; an exception through
+// its C frames is not allowed, so the message is kept here and the jump is taken.
+struct PngWriter {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  std::string bytes;
+
+  PngWriter() {
+    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    if (png != nullptr) info = png_create_info_struct(png);
+  }
+  ~PngWriter() { png_destroy_write_struct(&png, &info); }
+  PngWriter(const PngWriter&) = delete;
+  PngWriter& operator=(const PngWriter&) = delete;
+};
+
+void append(png_structp png, png_bytep data, png_size_t size) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
+}
+
+void flush(png_structp) {}
+
+// Nothing with a destructor may be made between setjmp and the last call into libpng.
+bool encode(PngWriter& writer, const Image& image, bool opaque) {
+  if (writer.png == nullptr || writer.info == nullptr) return false;
+  if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
+  png_set_write_fn(writer.png, &writer.bytes, append, flush);
+  png_set_compression_level(writer.png, kCompressionLevel);
+  png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width),
+               static_cast<png_uint_32>(image.height), 8,
+               opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB_gAMA_and_cHRM(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_write_info(writer.png, writer.info);
+  if (opaque) png_set_filler(writer.png, 0, PNG_FILLER_AFTER);  // drops the fourth byte
+  for (int y = 0; y < image.height; ++y) png_write_row(writer.png, image.pixel(0, y));
+  png_write_end(writer.png, writer.info);
+  return true;
+}
+
+}  // namespace
+
+std::string encode_png(const Image& image) {
+  check(image);
+  PngWriter writer;
+  if (!encode(writer, image, is_opaque(image))) {
+    fail("", "libpng could not encode it", "use a smaller picture or free memory");
+  }
+  return std::move(writer.bytes);
+}
+
+void write_png(const std::string& path, const Image& image) {
+  write_whole_file(path, encode_png(image));
+}
+
+}  // namespace twinarm

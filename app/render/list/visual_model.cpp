@@ -1,0 +1,108 @@
+// Each part is welded for its windings and normals; its places in the texture stay by corner.
+#include "app/render/list/visual_model.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "app/render/list/fix_winding.h"
+#include "collision/mesh_files/model_file.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+struct Surface {
+  TriangleMesh mesh;
+  std::vector<CornerUv> uv;
+};
+
+// Vertices with equal coordinates are one; triangles that lose a corner by it go.
+Surface weld(const ModelPart& part, const Vector3& scale, KeepPlaces keep) {
+  Surface surface;
+  const bool has_uv = !part.uv.empty() && (part.texture >= 0 || keep == KeepPlaces::always);
+  std::map<std::tuple<float, float, float>, int> index;
+  std::vector<int> welded;
+  for (const auto& [x, y, z] : part.positions) {
+    const int next = static_cast<int>(surface.mesh.vertices.size());
+    const auto [place, is_new] = index.try_emplace({x + 0.0f, y + 0.0f, z + 0.0f}, next);
+    if (is_new) surface.mesh.vertices.push_back(scale.cwiseProduct(Vector3(x, y, z)));
+    welded.push_back(place->second);
+  }
+  for (const auto& triangle : part.triangles) {
+    std::array<int, 3> t;
+    CornerUv uv{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto v = static_cast<std::size_t>(triangle[k]);
+      t[k] = welded[v];
+      if (has_uv) uv[k] = part.uv[v];
+    }
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    surface.mesh.triangles.push_back(t);
+    if (has_uv) surface.uv.push_back(uv);
+  }
+  return surface;
+}
+
+void turn(CornerUv& uv) {
+  std::swap(uv[1], uv[2]);
+}
+
+VisualMesh visual_of(const ModelPart& part, const Vector3& scale, KeepPlaces keep,
+                     std::size_t& turned) {
+  Surface surface = weld(part, scale, keep);
+  if (scale.prod() < 0) {  // a mirror shows every triangle from behind
+    for (auto& t : surface.mesh.triangles) std::swap(t[1], t[2]);
+    for (CornerUv& uv : surface.uv) turn(uv);
+  }
+  const MendedWinding mended = mend_winding(surface.mesh);
+  for (std::size_t i = 0; i < surface.uv.size(); ++i)
+    if (mended.turned[i]) turn(surface.uv[i]);
+  turned += static_cast<std::size_t>(std::count(mended.turned.begin(), mended.turned.end(), true));
+  VisualMesh visual;
+  visual.mesh = make_draw_mesh(surface.mesh, surface.uv);
+  visual.mesh.two_sided = !mended.is_closed;
+  if (part.has_color != 0)
+    visual.color = Color{part.color[0], part.color[1], part.color[2], part.color[3]};
+  return visual;
+}
+
+std::vector<std::shared_ptr<const Image>> pictures_of(const ModelFile& model,
+                                                      std::vector<std::string>& notes) {
+  std::vector<std::shared_ptr<const Image>> pictures;
+  for (const ModelTexture& texture : model.textures) {
+    pictures.emplace_back();
+    try {
+      pictures.back() = std::make_shared<const Image>(decode_image(texture.name, texture.bytes));
+    } catch (const InputError& error) {
+      notes.push_back("texture '" + texture.name + "' " + error.faults().at(0).rule);
+    }
+  }
+  return pictures;
+}
+
+}  // namespace
+
+VisualModel load_visual(const std::filesystem::path& file, const Vector3& scale, KeepPlaces keep) {
+  const ModelFile model = read_model(file);
+  VisualModel visual;
+  visual.notes = model.notes;
+  const auto pictures = pictures_of(model, visual.notes);
+  std::size_t turned = 0;
+  for (const ModelPart& part : model.parts) {
+    visual.parts.push_back(visual_of(part, scale, keep, turned));
+    if (part.texture >= 0)
+      visual.parts.back().texture = pictures[static_cast<std::size_t>(part.texture)];
+    if (visual.parts.back().mesh.triangles.empty()) visual.parts.pop_back();
+  }
+  if (visual.parts.empty())
+    throw InputError({{file.string(), 0, "mesh", "there is no triangle with an area in it",
+                       "export the mesh again"}});
+  if (turned > 0)
+    visual.notes.push_back(std::to_string(turned) +
+                           " triangles looked inwards and were turned about");
+  return visual;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,190 @@
+// Glyphs by FreeType: outlines are filled by it, halos are its strokes of the same outlines.
+#include "app/render/text/lettering.h"
+
+#include <ft2build.h>
+#include FT_FREETYPE_H
+#include FT_GLYPH_H
+#include FT_STROKER_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+constexpr std::array<const char*, 2> kFontFiles = {
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"};
+constexpr double kHaloShare = 0.05;  // width of the halo beyond 1 px, of the size of the letters
+constexpr float kHaloCover = 0.72f;
+constexpr char32_t kReplacement = 0xFFFD;
+
+// UTF-8 to code points (RFC 3629, except that overlong forms are let through: nothing is decided by
+// the text, it is only drawn).
+std::vector<char32_t> code_points(const std::string& text) {
+  std::vector<char32_t> points;
+  std::size_t i = 0;
+  while (i < text.size()) {
+    const auto first = static_cast<unsigned char>(text[i++]);
+    const int more = first < 0x80 ? 0 : first >> 5 == 0x6 ? 1 : first >> 4 == 0xE ? 2 : 3;
+    if (first >= 0x80 && (first < 0xC0 || first >= 0xF8)) {
+      points.push_back(kReplacement);
+      continue;
+    }
+    char32_t point = more == 0 ? first : first & (0x3Fu >> more);
+    int read = 0;
+    for (; read < more && i < text.size(); ++read, ++i) {
+      const auto next = static_cast<unsigned char>(text[i]);
+      if (next >> 6 != 0x2) break;
+      point = (point << 6) | (next & 0x3Fu);
+    }
+    points.push_back(read == more ? point : kReplacement);
+  }
+  return points;
+}
+
+FT_F26Dot6 to_26_6(double px) {
+  return static_cast<FT_F26Dot6>(std::lround(64 * px));
+}
+
+// Light letters get a dark halo and dark ones a light halo.
+Color halo_of(const Color& c) {
+  const float luminance = 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+  return luminance < 0.55f ? Color{0.97f, 0.98f, 0.99f, c.a} : Color{0.06f, 0.07f, 0.09f, c.a};
+}
+
+void blend_bitmap(Image& image, FT_BitmapGlyph glyph, int x, int y, const Color& color,
+                  float strength) {
+  const FT_Bitmap& bitmap = glyph->bitmap;
+  for (unsigned row = 0; row < bitmap.rows; ++row) {
+    const unsigned char* line = bitmap.buffer + static_cast<int>(row) * bitmap.pitch;
+    for (unsigned column = 0; column < bitmap.width; ++column) {
+      if (line[column] == 0) continue;
+      blend(image, x + glyph->left + static_cast<int>(column),
+            y - glyph->top + static_cast<int>(row), color,
+            strength * static_cast<float>(line[column]) / 255.0f);
+    }
+  }
+}
+
+}  // namespace
+
+void blend(Image& image, int x, int y, const Color& color, float cover) {
+  if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
+  std::uint8_t* pixel = image.pixel(x, y);
+  const float a = std::clamp(cover * color.a, 0.0f, 1.0f);
+  const std::array<float, 3> over = {color.r, color.g, color.b};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float mixed = (1 - a) * static_cast<float>(pixel[k]) + a * 255.0f * over[k];
+    pixel[k] = static_cast<std::uint8_t>(std::clamp(mixed + 0.5f, 0.0f, 255.0f));
+  }
+}
+
+class Lettering::Impl {
+ public:
+  Impl() {
+    if (FT_Init_FreeType(&library_) != 0) fail("FreeType", "does not start", "free memory");
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      if (FT_New_Face(library_, kFontFiles[i], 0, &faces_[i]) != 0) {
+        FT_Done_FreeType(library_);
+        fail(kFontFiles[i], "font cannot be read", "install fonts-dejavu-core");
+      }
+    }
+    if (FT_Stroker_New(library_, &stroker_) != 0) {
+      FT_Done_FreeType(library_);
+      fail("FreeType", "makes no stroker", "free memory");
+    }
+  }
+  ~Impl() {
+    FT_Stroker_Done(stroker_);
+    FT_Done_FreeType(library_);  // with its faces
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  double width(const std::string& text, double size_px, Weight weight) {
+    FT_Face face = sized_face(size_px, weight);
+    double x = 0;
+    for (const char32_t point : code_points(text)) {
+      if (load(face, point)) x += advance(face);
+    }
+    return x;
+  }
+
+  void draw(Image& image, const std::string& text, const Eigen::Vector2d& start_px, double size_px,
+            const Color& color, Weight weight) {
+    FT_Face face = sized_face(size_px, weight);
+    FT_Stroker_Set(stroker_, to_26_6(1 + kHaloShare * size_px), FT_STROKER_LINECAP_ROUND,
+                   FT_STROKER_LINEJOIN_ROUND, 0);
+    // All halos before all letters: the halo of one letter must not eat its neighbour.
+    for (const bool halo : {true, false}) {
+      double x = start_px.x();
+      for (const char32_t point : code_points(text)) {
+        if (!load(face, point)) continue;
+        draw_glyph(image, face, {x, start_px.y()}, halo ? halo_of(color) : color, halo);
+        x += advance(face);
+      }
+    }
+  }
+
+ private:
+  [[noreturn]] static void fail(const std::string& file, const std::string& rule,
+                                const std::string& remedy) {
+    throw InputError({Fault{file, 0, "lettering", rule, remedy}});
+  }
+
+  FT_Face sized_face(double size_px, Weight weight) {
+    FT_Face face = faces_[weight == Weight::bold ? 1 : 0];
+    FT_Set_Char_Size(face, 0, to_26_6(std::clamp(size_px, 4.0, 400.0)), 72, 72);
+    return face;
+  }
+
+  // Letters are aligned to the rows of pixels only, so their spacing stays as designed.
+  static bool load(FT_Face face, char32_t point) {
+    return FT_Load_Char(face, static_cast<FT_ULong>(point),
+                        FT_LOAD_NO_BITMAP | FT_LOAD_TARGET_LIGHT) == 0;
+  }
+  static double advance(FT_Face face) {
+    return static_cast<double>(face->glyph->linearHoriAdvance) / 65536.0;
+  }
+
+  void draw_glyph(Image& image, FT_Face face, const Eigen::Vector2d& at_px, const Color& color,
+                  bool halo) {
+    FT_Glyph glyph = nullptr;
+    if (FT_Get_Glyph(face->glyph, &glyph) != 0) return;
+    if (halo) FT_Glyph_Stroke(&glyph, stroker_, 1);
+    // Whole pixels by moving the bitmap, the remainder of x by moving the outline.
+    const double column = std::floor(at_px.x()), row = std::round(at_px.y());
+    FT_Vector remainder{to_26_6(at_px.x() - column), 0};
+    if (FT_Glyph_To_Bitmap(&glyph, FT_RENDER_MODE_NORMAL, &remainder, 1) == 0) {
+      blend_bitmap(image, reinterpret_cast<FT_BitmapGlyph>(glyph), static_cast<int>(column),
+                   static_cast<int>(row), color, halo ? kHaloCover : 1.0f);
+    }
+    FT_Done_Glyph(glyph);
+  }
+
+  FT_Library library_ = nullptr;
+  FT_Stroker stroker_ = nullptr;
+  std::array<FT_Face, kFontFiles.size()> faces_{};
+};
+
+Lettering::Lettering() : impl_(std::make_unique<Impl>()) {}
+Lettering::~Lettering() = default;
+Lettering::Lettering(Lettering&&) noexcept = default;
+Lettering& Lettering::operator=(Lettering&&) noexcept = default;
+
+double Lettering::width(const std::string& text, double size_px, Weight weight) {
+  return impl_->width(text, size_px, weight);
+}
+
+void Lettering::draw(Image& image, const std::string& text, const Eigen::Vector2d& start_px,
+                     double size_px, const Color& color, Weight weight) {
+  if (start_px.allFinite()) impl_->draw(image, text, start_px, size_px, color, weight);
+}
+
+}  // namespace twinarm

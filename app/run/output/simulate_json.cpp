@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include "app/robot/robot_json.h"
+#include "app/run/output/simulate_output.h"
+#include "solver/dynamics/energy.h"
+
+namespace twinarm {
+namespace {
+
+class JsonOutput : public RunOutput {
+ public:
+  JsonOutput(const SimulateInput& simulated, const RunPlan& plan)
+      : input_(simulated.robot), simulated_(simulated), k_(input_.model) {
+    json_.begin_object();
+    json_.key("joints").texts(input_.coordinates.names());
+    json_.key("integrator").text(integrator_name(plan.integrator));
+    if (plan.is_adaptive()) {
+      plan.step_is_given ? json_.key("step").number(plan.step) : json_.key("step").null();
+      json_.key("tolerance").number(plan.tolerance);
+    } else {
+      json_.key("step").number(plan.step);
+    }
+    json_.key("samples").begin_array();
+  }
+
+  void sample(double t, const State<double>& x) override {
+    const Coordinates& coordinates = input_.coordinates;
+    forward_kinematics(input_.model, x, k_);
+    json_.begin_object();
+    json_.key("t").number(t);
+    write_coordinates(json_.key("q"), coordinates, x);
+    write_velocities(json_.key("qd"), coordinates, x);
+    if (coordinates.floating()) write_base(json_.key("base"), coordinates, x);
+    write_links(json_.key("links"), input_.model, k_);
+    if (simulated_.couplings) write_targets(t);
+    json_.key("kinetic_energy").number(kinetic_energy(input_.model, x));
+    json_.key("potential_energy").number(potential_energy(input_.model, x));
+    json_.end_object();
+  }
+
+  void end(const SimulateResult& result) override {
+    json_.end_array();
+    json_.key("contacts").count(result.contacts);
+    json_.key("ledger").begin_object();
+    for (const LedgerRow& row : result.ledger) json_.key(row.name).number(row.work);
+    json_.end_object();
+    json_.key("momentum").begin_object();
+    for (const MomentumRow& row : result.momentum) {
+      json_.key(row.name).begin_object();
+      json_.key("linear").vector(row.linear);
+      json_.key("angular").vector(row.angular);
+      json_.end_object();
+    }
+    json_.end_object();
+    if (simulated_.couplings) {
+      json_.key("hand").begin_object();
+      for (const LedgerRow& row : result.hand) json_.key(row.name).number(row.work);
+      json_.end_object();
+    }
+    json_.key("steps").count(result.steps);
+    if (result.alarm) {
+      json_.key("alarm").begin_object();
+      json_.key("row").text(result.alarm->row);
+      json_.key("time").number(result.alarm->t);
+      json_.key("since").number(result.alarm->since);
+      json_.key("work").number(result.alarm->work);
+      json_.key("words").text(result.alarm_words);
+      json_.end_object();
+    }
+    if (result.post_mortem) write(*result.post_mortem);
+    std::vector<std::string> warnings = input_.warnings;
+    warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+    json_.key("warnings").texts(warnings);
+    json_.end_object();
+    fmt::print("{}\n", json_.str());
+  }
+
+ private:
+  // The kinematic side of each coupling: joints of its robot, and the end of the spring.
+  void write_targets(double t) {
+    json_.key("targets").begin_object();
+    for (std::size_t c = 0; c < simulated_.couplings->size(); ++c) {
+      const SceneCoupling& spec = simulated_.couplings->spec(c);
+      const KvrSample& kvr = simulated_.couplings->target(c, t);
+      const auto body = static_cast<std::size_t>(spec.spring.body);
+      json_.key(spec.name).begin_object();
+      write_joints("q", spec, [&](const NamedJoint& j) { return coordinates_of(j, kvr.x); });
+      write_joints("qd", spec,
+                   [&](const NamedJoint& j) { return from_solver(j, kvr.x, kvr.x.qd); });
+      const Vector3 p = kvr.k.position(spec.spring.body, spec.spring.p_L);
+      json_.key("position").vector(p);
+      json_.key("orientation").vector(quaternion_of(kvr.k.X_WL[body].R));
+      json_.key("linear_velocity").vector(kvr.k.velocity(spec.spring.body, p));
+      json_.key("angular_velocity").vector(kvr.k.w_WL[body]);
+      json_.end_object();
+    }
+    json_.end_object();
+  }
+  template <class Values>
+  void write_joints(const char* key, const SceneCoupling& spec, Values values) {
+    const auto [first, last] = simulated_.scene->bodies_of_robot(spec.robot);
+    json_.key(key).begin_object();
+    for (std::size_t j = input_.coordinates.first_joint(); j < input_.coordinates.all().size();
+         ++j) {
+      const NamedJoint& joint = input_.coordinates.all()[j];
+      const auto body = static_cast<int>(joint.body);
+      if (body >= first && body <= last) json_.key(joint.name).number_or_list(values(joint));
+    }
+    json_.end_object();
+  }
+
+  void write(const PostMortem& found) {
+    json_.key("post_mortem").begin_object();
+    json_.key("time").number(found.time);
+    json_.key("step").count(found.step);
+    json_.key("body").text(found.body);
+    json_.key("joint").text(found.joint);
+    json_.key("field").text(found.field);
+    json_.key("fastest_joint").text(found.fastest_joint);
+    json_.key("reason").text(found.reason);
+    json_.key("pass").count(found.pass);
+    json_.key("kinetic_energy").number(found.kinetic_energy);
+    if (found.by_energy) json_.key("energy_bound").number(found.energy_bound);
+    json_.key("ledger_row").text(found.row);
+    json_.key("ledger_growth").number(found.row_growth);
+    json_.key("suspects").begin_array();
+    for (const Suspect& suspect : found.suspects) write(suspect);
+    json_.end_array();
+    json_.key("recording").text(found.recording);
+    json_.key("words").texts(found.words);
+    json_.end_object();
+  }
+
+  void write(const Suspect& suspect) {
+    json_.begin_object();
+    json_.key("name").text(suspect.name);
+    json_.key("scheme").text(suspect.scheme);
+    json_.key("w_h").number(suspect.product);
+    json_.key("limit").number(suspect.limit);
+    json_.key("step").number(suspect.step);
+    json_.key("largest_step").number(suspect.largest_step);
+    json_.key("gain").text(suspect.gain);
+    json_.key("largest_gain").number(suspect.largest_gain);
+    json_.end_object();
+  }
+
+  const RobotInput& input_;
+  const SimulateInput& simulated_;
+  Kinematics k_;
+  JsonWriter json_;
+};
+
+}  // namespace
+
+std::unique_ptr<RunOutput> json_output(const SimulateInput& input, const RunPlan& plan) {
+  return std::make_unique<JsonOutput>(input, plan);
+}
+
+}  // namespace twinarm

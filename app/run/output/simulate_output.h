@@ -1,0 +1,25 @@
+// What `twinarm simulate` prints: one JSON object, CSV row by row, or a table for people.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/run/run.h"
+#include "app/run/simulate_options.h"
+
+namespace twinarm {
+
+class RunOutput {
+ public:
+  virtual ~RunOutput() = default;
+  virtual void sample(double t, const State<double>& x) = 0;
+  virtual void end(const SimulateResult& result) = 0;
+};
+
+// They print to stdout: JSON and the table at the end, CSV as the rows come. The arguments must
+// outlive them.
+std::unique_ptr<RunOutput> json_output(const SimulateInput& input, const RunPlan& plan);
+std::unique_ptr<RunOutput> csv_output(const SimulateInput& input);
+std::unique_ptr<RunOutput> table_output(const SimulateInput& input, const RunPlan& plan);
+
+}  // namespace twinarm

@@ -1,0 +1,104 @@
+// A run of `twinarm simulate`: steps on a grid, samples at any time, the ledger.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/accounting/energy_alarm.h"
+#include "app/accounting/energy_balance.h"
+#include "app/accounting/momentum_balance.h"
+#include "app/run/simulate_input.h"
+#include "app/run/simulate_options.h"
+#include "app/scene/forces/add_contacts.h"
+#include "solver/stepping/simulation.h"
+
+namespace twinarm {
+
+// A run between two steps, as a recording sees it.
+class RunView {
+ public:
+  virtual ~RunView() = default;
+  virtual long step() const = 0;  // that was taken last; 0 at the start
+  virtual const Simulation& simulation() const = 0;
+  virtual const SceneContacts* contacts() const = 0;      // null for a URDF
+  virtual std::vector<LedgerRow> ledger() const = 0;      // `numerical` last
+  virtual std::vector<LedgerRow> hand() const = 0;        // work of the kinematic sides so far
+  virtual std::vector<MomentumRow> momentum() const = 0;  // likewise
+  virtual std::string memory() = 0;                       // all that the run goes on from
+};
+
+// A step of an earlier run to begin at, and the last one to take.
+struct RunStart {
+  std::string memory;
+  long last_step = std::numeric_limits<long>::max();
+  // Without memory: anew, in the state of the input, counted from so many steps and that time.
+  bool anew = false;
+  long step = 0;
+  double time = 0;  // [s]
+};
+
+// A spring or damper against the limit that the method sets to it, by linear theory.
+struct Suspect {
+  std::string name, scheme;
+  double step = 0, largest_step = 0;  // of a held force: between two evaluations [s]
+  double product = 0, limit = 0;      // w h, and the largest that holds
+  std::string gain, remedy;           // which one; of what is beyond its limit, what would hold
+  double largest_gain = 0;  // that holds at this step (of a time constant the least); 0: none, or
+                            // not asked for
+};
+
+// Why a run stopped by itself.
+struct PostMortem {
+  double time = 0;  // of the last good state [s]
+  long step = 0;    // the number of the bad one, from 1
+  // The first bad quantity in the order of the passes, and the body in whose row it stands.
+  std::string body, joint, field, reason;
+  int pass = 0;  // of the field; 0: an input of the passes, or coordinates and velocities
+  bool by_energy = false;
+  double kinetic_energy = 0, energy_bound = 0;  // [J]; of the last good state
+  // What app/diagnose/post_mortem.h adds.
+  std::vector<std::string> words;
+  std::vector<Suspect> suspects;
+  std::string recording;      // of the last steps
+  std::string row;            // of the ledger: it grew most in them
+  double row_growth = 0;      // [J]
+  std::string fastest_joint;  // in the last good state: mostly the one that ran away
+};
+
+struct SimulateResult {
+  long steps = 0;
+  double end = 0;  // [s]; where the run stopped by itself: the last good time
+  std::vector<LedgerRow> ledger;
+  std::vector<MomentumRow> momentum;
+  std::vector<LedgerRow> hand;  // of the kinematic sides of couplings; outside the sum
+  std::vector<std::string> warnings;
+  int contacts = 0;  // points that press, at the last step
+  std::optional<PostMortem> post_mortem;
+  std::optional<Alarm> alarm;
+  std::string alarm_words;  // by whoever watched
+  std::string checkpoint;   // where a run stopped: the memory of some 1,000 to 2,000 steps before
+};
+
+struct RunWatch {
+  std::function<void(const std::string&)> warn;  // of the start, before the run; also in the result
+  std::function<void(double t, const State<double>&)> sample;  // times of the plan, in their order
+  std::function<void(RunView&)> look;                          // at the start and after each step
+  std::function<std::string(const Alarm&)> alarm;              // says it; once at most
+  std::function<void(double t)> tick;                          // after each step; may throw
+  // Asked within long steps; true ends the step, and tick() follows, which is to throw.
+  bool (*interrupted)() = nullptr;
+};
+
+// Of RunView::memory() the part that Simulation::visit_memory reads.
+Memory simulation_memory(const std::string& memory);
+
+// Samples between two points of the grid are reached by a side step from the earlier one; the run
+// is the same, whatever is sampled.
+// `start`: goes on from there, with the same bits. Throws InputError where it is of another scene.
+SimulateResult run_plan(const SimulateInput& input, const RunPlan& plan, const RunWatch& watch,
+                        const RunStart* start = nullptr);
+
+}  // namespace twinarm

@@ -1,0 +1,138 @@
+#include "app/run/simulate_input.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/data/json_tree.h"
+#include "app/scene/forces/add_contacts.h"
+#include "app/scene/read/read_scene.h"
+#include "app/scene/read/scene_names.h"
+#include "app/support/nearest_name.h"
+
+namespace twinarm {
+namespace {
+
+RunDefaults defaults_of(const SceneDescription& scene) {
+  return {scene.duration, scene.step, scene.integrator.value_or(Integrator::semi_implicit),
+          scene.contact == ContactMode::event};
+}
+
+void refuse_robot_options(const RobotOptions& options, FaultList& faults) {
+  if (options.floating)
+    faults.add({"", 0, "--floating", "the scene says which of its robots float",
+                "write base = \"floating\" in [[robot]]"});
+  if (options.strict)
+    faults.add({"", 0, "--strict", "is for a robot's URDF alone", "leave it out"});
+}
+
+// What the command line says in place of the scene; null where that could not be read.
+void choose_contact(const std::string& name, SceneDescription* scene, FaultList& faults) {
+  if (name.empty()) return;
+  const auto found = std::find(kContactModes.begin(), kContactModes.end(), name);
+  if (found == kContactModes.end())
+    faults.add({"", 0, "--contact", "'" + name + "' is not known",
+                name_remedy(name, kContactModes, "possible")});
+  else if (scene)
+    scene->contact = static_cast<ContactMode>(found - kContactModes.begin());
+}
+
+void check_treatments(const SceneModel& scene, const RunPlan& plan, FaultList& faults) {
+  for (const SceneCoupling& coupling : scene.couplings) {
+    if (!coupling.leads()) continue;
+    const auto fault = [&](std::string rule, std::string remedy) {
+      faults.add({scene.description.file.string(), coupling.line,
+                  "coupling '" + coupling.coupling + "'", std::move(rule), std::move(remedy)});
+    };
+    if (coupling.needs_semi_implicit() && !facts_of(plan.integrator).implicit_force)
+      fault(std::string("its treatment goes with the semi-implicit integrators only, not with ") +
+                integrator_name(plan.integrator),
+            std::string(facts_of(coupling.law, coupling.printed).treatments ==
+                                    CouplingFacts::Treatments::all &&
+                                coupling.law != CouplingSpec::Type::weld_like
+                            ? "give treatment = \"explicit\", or "
+                            : "give ") +
+                "--integrator semi-implicit");
+    if (coupling.rate > 0 && plan.is_adaptive())
+      fault("a held force goes with steps of one size", "leave 'rate' out, or change --integrator");
+  }
+}
+
+// All joints of all robots, named as in the scene.
+RobotDescription all_robots(const SceneDescription& scene) {
+  RobotDescription all;
+  all.name = scene.file.stem().string();
+  all.file = scene.file;
+  for (std::size_t r = 0; r < scene.robots.size(); ++r)
+    for (JointDescription joint : scene.robots[r].description.joints) {
+      joint.name = name_in_scene(scene, r, joint.name);
+      if (joint.mimic) joint.mimic->joint = name_in_scene(scene, r, joint.mimic->joint);
+      all.joints.push_back(std::move(joint));
+    }
+  return all;
+}
+
+SimulateInput scene_input(const SceneDescription& description, const SimulateOptions& options,
+                          const RunPlan& plan, FaultList& faults) {
+  const RobotOptions& given = options.robot;
+  ModelOptions model_options;
+  model_options.friction = given.friction;
+  model_options.armature = given.armature;
+  auto scene = attempt(faults, [&] {
+    return std::make_unique<SceneModel>(build_scene(description, model_options));
+  });
+  if (!scene) faults.check();
+  const SceneModel& made = **scene;
+  check_treatments(made, plan, faults);
+  check_contacts(made, plan.integrator, faults);
+
+  const bool floating = description.robots.size() == 1 && description.robots[0].floating;
+  const Coordinates coordinates(made.model, floating, made.robot_bodies);
+  const RobotDescription robots = all_robots(description);
+  GivenState state = default_state(made.model, coordinates);
+  state.x = made.start;
+  if (!given.state.empty())
+    if (const auto json = attempt(faults, [&] { return read_json(given.state); }))
+      state = read_state(*json, given.state, robots, made.model, coordinates, state, faults);
+  auto couplings =
+      attempt(faults, [&] { return std::make_unique<SceneCouplings>(made, plan.step); });
+  faults.check();
+  std::vector<std::string> warnings = made.description.warnings;
+  if (!options.has_hand &&
+      std::any_of(made.couplings.begin(), made.couplings.end(),
+                  [](const SceneCoupling& c) { return c.target == CouplingTarget::Kind::device; }))
+    warnings.push_back(
+        "no hand device moves the targets of couplings here: they stand still; `twinarm hand` runs "
+        "the scene with one");
+  warnings.insert(warnings.end(), state.warnings.begin(), state.warnings.end());
+  return {{robots, made.model, coordinates, std::move(state), std::move(warnings)},
+          std::move(*scene),
+          std::move(*couplings)};
+}
+
+}  // namespace
+
+SimulatePlan prepare_simulation(const SimulateOptions& options) {
+  FaultList faults;
+  if (options.robot.model.extension() != ".toml" && !options.scene) {
+    const RunPlan plan = plan_run(options, {}, faults);
+    if (!options.contact.empty())
+      faults.add({"", 0, "--contact", "a robot alone touches nothing", "give a scene"});
+    return {{read_robot_input(options.robot, faults), nullptr, nullptr}, plan};
+  }
+  refuse_robot_options(options.robot, faults);
+  auto description = attempt(faults, [&] {
+    TomlValue tree = options.scene ? *options.scene : read_toml(options.robot.model);
+    if (options.change_scene) options.change_scene(tree, faults);
+    return read_scene(tree, options.robot.model);
+  });
+  choose_contact(options.contact, description ? &*description : nullptr, faults);
+  const RunPlan plan =
+      plan_run(options, description ? defaults_of(*description) : RunDefaults{1.0}, faults);
+  if (!options.robot.gravity.empty())
+    if (const auto gravity = parse_gravity(options.robot.gravity, faults); gravity && description)
+      description->gravity = *gravity;
+  if (!description) faults.check();
+  return {scene_input(*description, options, plan, faults), plan};
+}
+
+}  // namespace twinarm

@@ -1,0 +1,64 @@
+// What `twinarm simulate` is told, and the run that this asks for.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/data/toml_tree.h"
+#include "app/robot/robot_input.h"
+#include "solver/integration/integrator.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+
+struct SimulateOptions {
+  RobotOptions robot;
+  // Left out: as the scene says, else 0.001 s and semi-implicit; there is no other duration.
+  std::optional<double> duration, step;  // [s]
+  std::string integrator;           // by its name in solver/integration/integrator.h; may be empty
+  std::string contact;              // "rigid" ..; may be empty
+  std::optional<double> tolerance;  // of dopri5, relative and absolute
+  std::optional<double> every;      // a sample each so many seconds
+  std::string at;                   // samples at these times, "t1,t2,.."
+  bool json = false, csv = false;
+  std::filesystem::path record;        // a recording; empty: none is written
+  std::optional<double> record_every;  // [s]; left out: each step
+  std::optional<double> energy_bound;  // of kinetic energy [J]; left out: kGrowth times the start's
+  std::vector<std::string> command;    // as it was typed
+  std::filesystem::path post_mortem;   // of a run that stops; empty: beside others in out/
+  // What a fork changes in a scene before it is read; may be empty.
+  std::function<void(TomlValue&, FaultList&)> change_scene;
+  std::optional<TomlValue> scene;  // in place of the file that robot.model names
+  bool has_hand = false;           // one is at hand for couplings that follow a device
+};
+
+struct RunDefaults {
+  std::optional<double> duration;
+  double step = 0.001;
+  Integrator integrator = Integrator::semi_implicit;
+  bool locates_events = false;
+};
+
+struct RunPlan {
+  Integrator integrator = Integrator::semi_implicit;
+  double duration = 0;
+  double step = 0;  // of dopri5 the longest substep
+  bool step_is_given = false;
+  double tolerance = 1e-9;
+  bool locates_events = false;  // in each step
+  std::vector<double> times;    // of samples, ascending
+  // A run stops where its kinetic energy passes this. Negative: kGrowth times the largest of 1 J,
+  // its kinetic energy at the start, and its weight over 1 m.
+  double energy_bound = -1;  // [J]
+  static constexpr double kGrowth = 1e12;
+  bool is_adaptive() const { return integrator == Integrator::dopri5; }
+};
+
+// Adds all faults of the options to the list.
+RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults, FaultList& faults);
+
+}  // namespace twinarm

@@ -1,0 +1,305 @@
+#include "app/run/stepped_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "app/run/run_end.h"
+#include "app/run/time_grid.h"
+#include "solver/dynamics/energy.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace {
+
+// Bodies that stand deeper in one another at the start are told of [m].
+constexpr double kDeepStart = 1e-4;
+
+// Between two checkpoints, from the earlier of which a post-mortem is computed again.
+constexpr long kCheckpoint = 1000;
+constexpr long kEnergyEvery = 8;  // steps: the check costs a pass
+
+void visit_head(Memory& memory, long& steps, double& end, long& unsolved, long& unlocated) {
+  memory.visit(steps);
+  memory.visit(end);
+  memory.visit(unsolved);
+  memory.visit(unlocated);
+}
+
+// A new one stands before the last, `numerical`.
+LedgerRow& row_named(const std::string& name, std::vector<LedgerRow>& rows) {
+  const auto is_it = [&](const LedgerRow& row) { return row.name == name; };
+  const auto found = std::find_if(rows.begin(), rows.end(), is_it);
+  if (found != rows.end()) return *found;
+  return *rows.insert(rows.empty() ? rows.end() : rows.end() - 1, {name, 0});
+}
+
+}  // namespace
+
+Memory simulation_memory(const std::string& memory) {
+  Memory all(memory);
+  long steps = 0, unsolved = 0, unlocated = 0;
+  double end = 0;
+  visit_head(all, steps, end, unsolved, unlocated);
+  return all;
+}
+
+SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, const RunWatch& watch,
+                       const RunStart* from, OutsideForce* outside)
+    : input_(simulated.robot),
+      plan_(plan),
+      watch_(watch),
+      outside_(outside),
+      sim_(input_.model, input_.state.x),
+      torques_(input_.model, input_.coordinates, input_.state.tau),
+      limits_(input_, simulated.scene && limits_act(*simulated.scene, plan.integrator),
+              result_.warnings) {
+  add_forces(simulated);
+  sim_.set_integrator(plan.integrator);
+  sim_.set_interrupted(watch.interrupted);
+  if (simulated.scene) {
+    contacts_.emplace(*simulated.scene, sim_);
+    if (contacts_->deepest_at_start() > kDeepStart)
+      warn_of_deep_start(simulated.scene->description.contact);
+  }
+  if (plan.is_adaptive()) sim_.set_tolerance(plan.tolerance);
+  sim_.keep_account();
+  momentum_.emplace(input_, wrenches_, simulated.couplings.get(), plan.integrator,
+                    plan.locates_events, sim_);
+  ledger_.emplace(input_, wrenches_, simulated.couplings.get(),
+                  plan.locates_events ? Integrator::dopri5 : plan.integrator,
+                  momentum_->wants_inner());
+  bound_ = plan.energy_bound > 0 ? plan.energy_bound
+                                 : default_energy_bound(input_.model, input_.state.x);
+  alarm_.emplace(weight_of(input_.model));
+  if (from) go_on_from(*from);
+  earlier_ = later_ = memory();
+}
+
+void SteppedRun::add_forces(const SimulateInput& simulated) {
+  Kinematics start(input_.model);
+  forward_kinematics(input_.model, input_.state.x, start);
+  for (const Wrench& wrench : input_.state.wrenches) wrenches_.emplace_back(wrench, start);
+  sim_.add(torques_);
+  for (GivenWrench& wrench : wrenches_) sim_.add(wrench);
+  if (simulated.scene) {
+    for (std::size_t c = 0; c < simulated.couplings->size(); ++c)
+      if (ForceSource* source = simulated.couplings->source(c)) sim_.add(*source);
+    for (const SceneMotion& motion : simulated.scene->motions)
+      sim_.prescribe(motion.body, motion.law);
+  }
+  if (outside_) sim_.add(*outside_);
+}
+
+void SteppedRun::begin() {
+  limits_.look(sim_.state().t, sim_.state());
+  if (watch_.look) watch_.look(*this);
+}
+
+std::vector<LedgerRow> SteppedRun::ledger() const {
+  std::vector<LedgerRow> all = ledger_->rows();
+  const auto add = [&](const std::vector<LedgerRow>& rows) {
+    // Before the last row, `numerical`, which is what is left.
+    for (const LedgerRow& row : rows) all.back().work -= row.work;
+    all.insert(all.end() - 1, rows.begin(), rows.end());
+  };
+  if (contacts_) add(contacts_->rows());
+  add(momentum_->energy_rows(sim_, contacts()));
+  if (outside_ && outside_->has_acted()) add({{outside_->name(), outside_->total().work}});
+  for (const LedgerRow& row : carried_) row_named(row.name, all).work += row.work;
+  return all;
+}
+
+void SteppedRun::keep_books(const std::vector<LedgerRow>& told) {
+  carried_.clear();
+  std::vector<LedgerRow> carried = told;
+  for (const LedgerRow& row : ledger()) row_named(row.name, carried).work -= row.work;
+  carried_ = std::move(carried);
+}
+
+std::string SteppedRun::memory() {
+  Memory memory;
+  visit_memory(memory);
+  return memory.bytes();
+}
+
+SimulateResult SteppedRun::finish() {
+  if (!result_.post_mortem && result_.steps < last_step_)  // what is left is the end
+    for (; next_ < plan_.times.size(); ++next_) watch_.sample(plan_.times[next_], sim_.state());
+  warn_of_steps();
+  result_.ledger = ledger();
+  result_.momentum = momentum();
+  if (contacts_) result_.contacts = contacts_->contact_count();
+  if (result_.post_mortem) result_.checkpoint = std::move(earlier_);
+  result_.hand = ledger_->hand();
+  return std::move(result_);
+}
+
+void SteppedRun::warn_of_deep_start(ContactMode mode) {
+  result_.warnings.push_back(
+      fmt::format("{} stand {} m deep in one another at the start, deeper than any others: {}",
+                  contacts_->deepest_pair(), short_number_text(contacts_->deepest_at_start()),
+                  mode == ContactMode::compliant
+                      ? "their springs throw them apart; place them apart, or give --contact rigid"
+                      : "what overlaps is moved apart, no faster than 0.5 m/s"));
+  if (watch_.warn) watch_.warn(result_.warnings.back());
+}
+
+void SteppedRun::warn_of_steps() {
+  if (unsolved_ > 0)
+    result_.warnings.push_back(
+        fmt::format("in {} of {} steps the equation of the step was not solved to rounding",
+                    unsolved_, result_.steps));
+  if (unlocated_ > 0)
+    result_.warnings.push_back(fmt::format(
+        "in {} of {} steps there were too many events to locate them all (bound: {} laws solved): "
+        "what was left of these steps was taken as one step of fixed size, of first order; give "
+        "--contact rigid, or a shorter --step",
+        unlocated_, result_.steps, EventStep::kMostLaws));
+}
+
+void SteppedRun::visit_memory(Memory& memory) {
+  visit_head(memory, result_.steps, result_.end, unsolved_, unlocated_);
+  sim_.visit_memory(memory);
+  ledger_->visit_memory(memory);
+  momentum_->visit_memory(memory);
+  if (outside_ && (memory.reads() ? !memory.at_end() : outside_->has_acted()))
+    outside_->visit_books(memory);
+}
+
+void SteppedRun::take_back(const std::string& bytes) {
+  Memory memory(bytes);
+  try {
+    visit_memory(memory);
+    if (!memory.at_end()) throw std::runtime_error("it holds more than this scene remembers");
+  } catch (const std::runtime_error& error) {
+    throw InputError({{"", 0, "restart", error.what(),
+                       "change nothing that alters joints, contacts, couplings or integrator"}});
+  }
+}
+
+void SteppedRun::go_on_from(const RunStart& start) {
+  result_.steps = start.step;
+  result_.end = start.time;
+  if (!start.anew) take_back(start.memory);
+  last_step_ = start.last_step;
+  on_grid_ = TimeGrid(plan_.step, plan_.duration).holds(result_.steps, result_.end);
+  const double now = result_.end;
+  while (next_ < plan_.times.size() && plan_.times[next_] < now) ++next_;
+}
+
+bool SteppedRun::advance() {
+  if (result_.post_mortem || result_.steps >= last_step_) return false;
+  const TimeGrid grid(plan_.step, plan_.duration);
+  const bool counts = !plan_.is_adaptive() && on_grid_;
+  if (counts ? result_.steps >= grid.steps() : !(result_.end < plan_.duration)) return false;
+  if (plan_.is_adaptive())
+    return one_step(result_.end, std::min(plan_.step, plan_.duration - result_.end));
+  const double t = counts ? grid.time(result_.steps) : result_.end;
+  return one_step(t, grid.length(t));
+}
+
+double SteppedRun::time_after(double t, double h) const {
+  if (!plan_.is_adaptive() && on_grid_)
+    return TimeGrid(plan_.step, plan_.duration).time(result_.steps);
+  return plan_.duration - t - h <= kSameTime * h ? plan_.duration : t + h;
+}
+
+bool SteppedRun::one_step(double t, double h_most) {
+  before_.reset();
+  const bool has_sample_within =
+      next_ < plan_.times.size() && plan_.times[next_] < t + h_most * (1 - kSameTime);
+  if (has_sample_within || !ledger_->inner_nodes().empty()) before_.emplace(sim_);
+  const StepReport report = plan_.is_adaptive() ? sim_.substep(h_most) : sim_.step(h_most);
+  if (report.interrupted) return stop_for_interrupt(t);
+  ++result_.steps;
+  const bool by_limits = contacts_ && contacts_->only_limits_were_passed();
+  if (!report.finite || !report.reached) {
+    // Of the samples of this step only those at its start are good.
+    for (; has_sample_within && next_ < plan_.times.size() &&
+           plan_.times[next_] - t <= kSameTime * h_most;
+         ++next_)
+      watch_.sample(plan_.times[next_], before_->state());
+    result_.post_mortem = examine_end(report, sim_, ledger_->now(), t, result_.steps);
+    return false;
+  }
+  const double t_next = time_after(t, report.h);
+  if (has_sample_within) sample_up_to(t_next - kSameTime * report.h, t, *before_);
+  book(report, t, by_limits);
+  result_.end = t_next;
+  limits_.look(t_next, sim_.state());
+  if (watch_.look) watch_.look(*this);
+  if (watch_.tick) watch_.tick(t_next);
+  if (result_.steps % kCheckpoint == 0) {
+    earlier_ = std::move(later_);
+    later_ = memory();
+  }
+  if (watch_.alarm && result_.steps % LedgerAlarm::kWindow == 0) look_at_ledger();
+  return result_.steps % kEnergyEvery != 0 || stays_bounded(report);
+}
+
+// Into all ledgers what the step from t did.
+void SteppedRun::book(const StepReport& report, double t, bool by_limits) {
+  unsolved_ += report.converged ? 0 : 1;
+  unlocated_ += report.located ? 0 : 1;
+  inner_.clear();
+  for (const double part : ledger_->inner_nodes())
+    inner_.push_back(step_aside(*before_, part * report.h, t));
+  if (outside_) outside_->book(report.h, ledger_->weights(), ledger_->now(), inner_, sim_.state());
+  ledger_->add_step(report.h, inner_, sim_.state());
+  momentum_->add_step(report.h, ledger_->weights(), inner_, sim_, by_limits);
+}
+
+void SteppedRun::look_at_ledger() {
+  const double kinetic = kinetic_energy(input_.model, sim_.state());
+  auto found = alarm_->look(result_.end, kinetic, ledger());
+  if (!found) return;
+  result_.alarm_words = watch_.alarm(*found);
+  result_.alarm = std::move(found);
+}
+
+bool SteppedRun::stays_bounded(const StepReport& report) {
+  const double energy = kinetic_energy(input_.model, sim_.state());
+  if (energy <= bound_) return true;
+  PostMortem found = examine_end(report, sim_, sim_.state(), result_.end, result_.steps);
+  found.by_energy = true;
+  found.energy_bound = bound_;
+  found.field = "qd";
+  found.reason = fmt::format("the kinetic energy, {} J, has passed its bound of {} J",
+                             short_number_text(energy), short_number_text(bound_));
+  result_.post_mortem = std::move(found);
+  return false;
+}
+
+void SteppedRun::sample_up_to(double t_end, double t, const Simulation& from) {
+  for (; next_ < plan_.times.size() && plan_.times[next_] < t_end; ++next_) {
+    const double at = plan_.times[next_];
+    const bool same = at - t <= kSameTime * (t_end - t);
+    watch_.sample(at, same ? from.state() : step_aside(from, at - t, t));
+  }
+}
+
+State<double> SteppedRun::step_aside(const Simulation& from, double h, double t) {
+  StepReport report;
+  State<double> x = from.side_step(h, &report);
+  if (report.interrupted) stop_for_interrupt(t);
+  return x;
+}
+
+bool SteppedRun::stop_for_interrupt(double t) const {
+  if (watch_.tick) watch_.tick(t);  // throws
+  return false;
+}
+
+SimulateResult run_plan(const SimulateInput& input, const RunPlan& plan, const RunWatch& watch,
+                        const RunStart* from) {
+  SteppedRun run(input, plan, watch, from);
+  run.begin();
+  while (run.advance()) {
+  }
+  return run.finish();
+}
+
+}  // namespace twinarm

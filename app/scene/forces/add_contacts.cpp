@@ -1,0 +1,154 @@
+#include "app/scene/forces/add_contacts.h"
+
+#include <algorithm>
+
+#include "app/scene/model/scene_shapes.h"
+#include "app/scene/read/scene_names.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace {
+
+LoopClosure closure_of(const SceneConstraint& c) {
+  using Type = SceneConstraint::Type;
+  const LoopType type = c.type == Type::weld       ? LoopType::weld
+                        : c.type == Type::ball     ? LoopType::ball
+                        : c.type == Type::hinge    ? LoopType::hinge
+                        : c.type == Type::distance ? LoopType::distance
+                                                   : LoopType::gear;
+  return {c.name, type, c.a, c.b, c.X_AC, c.X_BC, c.length, c.ratio, c.offset};
+}
+
+bool has_limits(const SceneModel& scene) {
+  for (const auto& robot : scene.description.robots)
+    for (const JointDescription& joint : robot.description.joints)
+      if (joint.is_limited()) return true;
+  return false;
+}
+
+}  // namespace
+
+bool limits_act(const SceneModel& scene, Integrator integrator) {
+  return integrator == Integrator::semi_implicit && has_limits(scene);
+}
+
+bool locates_events(const SceneModel& scene) {
+  return scene.description.contact == ContactMode::event;
+}
+
+void check_contacts(const SceneModel& scene, Integrator integrator, FaultList& faults) {
+  const std::string file = scene.description.file.string();
+  if (scene.description.contact == ContactMode::event)
+    for (const SceneCoupling& coupling : scene.couplings)
+      if (coupling.leads() && coupling.needs_semi_implicit())
+        faults.add({file, coupling.line, "coupling '" + coupling.coupling + "'",
+                    "its treatment does not go with contact = \"event\"",
+                    "give treatment = \"explicit\", or contact = \"rigid\""});
+  if (scene.may_touch() && integrator != Integrator::semi_implicit)
+    faults.add({file, 0, "integrator",
+                std::string("contacts go with the semi-implicit integrator, not with ") +
+                    integrator_name(integrator),
+                "give --integrator semi-implicit, or keep the bodies apart with groups"});
+}
+
+SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : scene_(scene) {
+  std::vector<LoopClosure> loops;
+  for (const SceneConstraint& constraint : scene.constraints)
+    loops.push_back(closure_of(constraint));
+  if (!loops.empty()) simulation.set_loops(std::move(loops));
+  if (scene.may_touch()) {
+    contacts_.emplace(scene.model, scene.description.contact == ContactMode::compliant
+                                       ? ContactResponse::compliant
+                                       : ContactResponse::rigid);
+    add_geometries();
+    add_rules();
+    look_at_start(simulation);
+    simulation.add(*contacts_);
+  }
+  if (limits_act(scene, simulation.integrator())) {
+    limits_.emplace(scene.model);
+    add_limits();
+    simulation.add(*limits_);
+  }
+  if (!locates_events(scene)) return;
+  if (deepest_at_start_ > ContactConstraints::kSlop)
+    throw InputError({{scene.description.file.string(), 0, "contact",
+                       deepest_pair_ + " stand " + short_number_text(deepest_at_start_) +
+                           " m deep in one another at the start",
+                       "move them apart, or let contact = \"rigid\" do it"}});
+  simulation.locate_events();
+}
+
+void SceneContacts::add_geometries() {
+  // Pairs that never touch must be known before a geometry comes in that could not touch another.
+  for (const SceneGeometry& g : scene_.geometries) {
+    ContactSurface surface;
+    surface.friction = g.friction;
+    surface.restitution = g.restitution;
+    surface.torsional = g.torsional_friction;
+    surface.rolling = g.rolling_friction;
+    surface.stiffness = g.stiffness;
+    surface.dissipation = g.dissipation;
+    contacts_->add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
+  }
+  for (const auto& [a, b] : scene_.apart) contacts_->never(a, b);
+}
+
+void SceneContacts::add_rules() {
+  for (const PairRule& rule : scene_.pairs)
+    for (const int a : rule.a)
+      for (const int b : rule.b) {
+        const Surface pair = scene_.surface_of_pair(a, b);
+        contacts_->set_pair(a, b,
+                            {pair.friction, pair.restitution, {pair.stiffness, pair.dissipation}});
+      }
+}
+
+void SceneContacts::add_limits() {
+  for (std::size_t r = 0; r < scene_.description.robots.size(); ++r)
+    for (const JointDescription& joint : scene_.description.robots[r].description.joints) {
+      const int body = scene_.model.find_joint(name_in_scene(scene_.description, r, joint.name));
+      if (joint.is_limited() && body > 0) limits_->add(body, joint.lower, joint.upper);
+    }
+}
+
+void SceneContacts::look_at_start(const Simulation& simulation) {
+  contacts_->begin_step(simulation.kinematics(), simulation.state(), 0);
+  for (const ContactPoint& point : contacts_->points()) {
+    const Contact& contact = point.contact;
+    if (contact.depth <= deepest_at_start_) continue;
+    deepest_at_start_ = contact.depth;
+    deepest_pair_ = "'" + contacts_->geometry(contact.a).name + "' and '" +
+                    contacts_->geometry(contact.b).name + "'";
+  }
+}
+
+std::vector<LedgerRow> SceneContacts::rows() const {
+  std::vector<LedgerRow> rows;
+  const auto add = [&](const std::string& name, double work) {
+    if (work != 0) rows.push_back({name, work});
+  };
+  if (limits_)
+    for (const JointLimits::Limit& limit : limits_->limits()) {
+      const auto body = static_cast<std::size_t>(limit.body);
+      add("joint/" + scene_.model.joint_name[body] + "/limit", limit.work);
+    }
+  if (!contacts_) return rows;
+  for (const ContactWork& pair : contacts_->work()) {
+    const std::string name =
+        "contact/" + contacts_->geometry(pair.a).name + "-" + contacts_->geometry(pair.b).name;
+    add(name + "/normal", pair.normal);
+    add(name + "/friction", pair.friction);
+    add(name + "/impact", pair.impact);
+  }
+  return rows;
+}
+
+int SceneContacts::contact_count() const {
+  if (!contacts_) return 0;
+  return static_cast<int>(
+      std::count_if(contacts_->points().begin(), contacts_->points().end(),
+                    [](const ContactPoint& point) { return !point.force_W.isZero(0); }));
+}
+
+}  // namespace twinarm

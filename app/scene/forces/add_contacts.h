@@ -1,0 +1,57 @@
+// Contacts, loop closures and joint limits of a scene: into the simulation, and their work.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/forces/energy_row.h"
+#include "app/scene/model/scene_model.h"
+#include "collision/contact/contact_constraints.h"
+#include "solver/impulses/joint_limits.h"
+#include "solver/stepping/simulation.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+
+// What this program cannot compute of the scene, with that integrator.
+void check_contacts(const SceneModel& scene, Integrator integrator, FaultList& faults);
+
+// Position limits go with the semi-implicit integrator alone; with others a run warns of them.
+bool limits_act(const SceneModel& scene, Integrator integrator);
+
+// contact = "event": steps locate their events in time, and are adaptive between them.
+bool locates_events(const SceneModel& scene);
+
+class SceneContacts {
+ public:
+  // Both must outlive it. Throws InputError for loops that are open at the start.
+  SceneContacts(const SceneModel& scene, Simulation& simulation);
+  // `contact/A-B/normal|friction|impact` and `joint/NAME/limit`: what did any work.
+  std::vector<LedgerRow> rows() const;
+  int contact_count() const;  // points that press, at the last step
+  double deepest_at_start() const { return deepest_at_start_; }  // [m]
+  const std::string& deepest_pair() const { return deepest_pair_; }
+  // Of the last step; null where nothing may touch, and where no joint is limited.
+  const ContactConstraints* contacts() const { return contacts_ ? &*contacts_ : nullptr; }
+  const JointLimits* limits() const { return limits_ ? &*limits_ : nullptr; }
+  // In the step that was taken last, a side step included: whether joints beyond their limits were
+  // moved back, and no bodies apart, which would be one equation.
+  bool only_limits_were_passed() const {
+    return limits_ && limits_->wants_separation() && !(contacts_ && contacts_->wants_separation());
+  }
+
+ private:
+  void add_geometries();
+  void add_rules();
+  void add_limits();
+  void look_at_start(const Simulation& simulation);
+
+  const SceneModel& scene_;
+  std::optional<ContactConstraints> contacts_;
+  std::optional<JointLimits> limits_;
+  double deepest_at_start_ = 0;
+  std::string deepest_pair_;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,249 @@
+#include "app/scene/forces/scene_couplings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/scene/forces/scene_inputs.h"
+#include "coupling/laws/joint_stops.h"
+#include "solver/forces/spring.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace {
+
+// A coupling whose memory can be put aside. The kinematic robot is a function of time alone, and
+// needs none of that.
+class Kept final : public ForceSource, public Rewindable {
+ public:
+  explicit Kept(std::unique_ptr<Coupling> coupling) : coupling_(std::move(coupling)) {}
+  void begin_step(const Kinematics& k, double t, double h) noexcept override {
+    coupling_->begin_step(k, t, h);
+  }
+  void add_forces(const State<double>& x, const Kinematics& k,
+                  Forces<double>& forces) noexcept override {
+    coupling_->add_forces(x, k, forces);
+  }
+  bool needs_semi_implicit() const override { return coupling_->needs_semi_implicit(); }
+  void keep() override {
+    Memory memory;
+    coupling_->visit_memory(memory);
+    kept_ = memory.bytes();
+  }
+  void go_back() noexcept override {
+    Memory memory(kept_);
+    coupling_->visit_memory(memory);
+  }
+  void visit_memory(Memory& memory) override { coupling_->visit_memory(memory); }
+  const Coupling& coupling() const { return *coupling_; }
+
+ private:
+  std::unique_ptr<Coupling> coupling_;
+  std::string kept_;
+};
+
+// Steps between two evaluations of a force that is held; 0: none is held.
+int hold_steps(const SceneModel& scene, const SceneCoupling& coupling, double h,
+               FaultList& faults) {
+  if (coupling.rate == 0) return 0;
+  const double steps = 1 / (coupling.rate * h), whole = std::round(steps);
+  if (whole >= 1 && std::abs(steps - whole) <= 1e-6 * whole) return static_cast<int>(whole);
+  faults.add({scene.description.file.string(), coupling.line,
+              "coupling '" + coupling.coupling + "'",
+              "between two evaluations at " + short_number_text(coupling.rate) + " Hz lie " +
+                  short_number_text(steps) + " steps of " + short_number_text(h) + " s",
+              "choose rate and step so that it is a whole number"});
+  return 1;
+}
+
+// The matched law measures J_K (q_K - q_D): its rates are J_K qd_K and J_K qd_D.
+CouplingEnds matched_ends(const Model<double>& model, const Spring& spring, const KvrSample& kvr,
+                          const State<double>& x) {
+  CouplingEnds ends;
+  const Eigen::Matrix3Xd J =
+      point_jacobian(model, kvr.k, spring.body, kvr.k.position(spring.body, spring.p_L));
+  for (int body = spring.body; body > 0; body = model.parent[static_cast<std::size_t>(body)]) {
+    const auto i = static_cast<std::size_t>(body);
+    if (model.dofs(i) != 1) continue;
+    const Vector3 column = J.col(static_cast<Eigen::Index>(model.iv[i]));
+    ends.offset += column * (kvr.x.q[model.iq[i]] - x.q[model.iq[i]]);
+    ends.velocity += column * x.qd[model.iv[i]];
+    ends.target_velocity += column * kvr.x.qd[model.iv[i]];
+  }
+  return ends;
+}
+
+JointStops::Stop stop_of(const SceneCoupling& spec) {
+  return {spec.spring.body, spec.outside->first, spec.outside->second, spec.spring.k,
+          spec.spring.b};
+}
+
+// Couplings that are led alike have one kinematic robot between them: its pose is the dear part.
+bool led_alike(const SceneCoupling& a, const SceneCoupling& b) {
+  return a.target == b.target && a.trace == b.trace && a.seed == b.seed &&
+         a.duration == b.duration && a.delay == b.delay && a.speed == b.speed &&
+         a.driven == b.driven && a.absolute_damper == b.absolute_damper && a.rest.q == b.rest.q;
+}
+
+}  // namespace
+
+// What leads couplings.
+struct SceneCouplings::Twin {
+  Twin(const SceneModel& scene, std::size_t pull, const HandSource* device,
+       const HandInPlace& in_place, FaultList& faults)
+      : Twin(scene, scene.couplings[pull], make_hand(scene, pull, device, in_place, faults)) {}
+  Twin(const SceneModel& scene, const SceneCoupling& spec, std::unique_ptr<HandSource> its)
+      : hand(std::move(its)),
+        kvr(scene.model, *hand, {}, spec.driven,
+            spec.absolute_damper ? KvrRates::none : KvrRates::from_hand),
+        shown(scene.model, *hand, {}, spec.driven) {
+    kvr.stand_at(spec.rest);
+    shown.stand_at(spec.rest);
+  }
+
+  std::unique_ptr<HandSource> hand;
+  KinematicRobot kvr, shown;
+};
+
+// A coupling at work.
+struct SceneCouplings::Tie {
+  Tie(const SceneModel& scene, const SceneCoupling& spec, double h, std::shared_ptr<Twin> leader,
+      FaultList& faults)
+      : twin(std::move(leader)) {
+    law.name = spec.coupling;
+    law.type = spec.law;
+    law.printed = spec.printed;
+    law.measure = spec.measure;
+    law.treatment = spec.treatment;
+    law.hold_steps = hold_steps(scene, spec, h, faults);
+    law.options.hold_steps = std::max(1, law.hold_steps);
+    law.reference = spec.reference;
+    law.springs = spec.springs;
+    if (spec.outside) {
+      source = std::make_unique<Kept>(std::make_unique<JointStops>(
+          spec.coupling, scene.model, twin->kvr, std::vector<JointStops::Stop>{stop_of(spec)}));
+      return;
+    }
+    try {
+      source = std::make_unique<Kept>(make_coupling(law, scene.model, twin->kvr));
+    } catch (const InputError& error) {
+      for (Fault fault : error.faults()) {
+        fault.file = scene.description.file.string();
+        fault.line = spec.line;
+        faults.add(fault);
+      }
+    }
+  }
+
+  std::shared_ptr<Twin> twin;
+  CouplingSpec law;
+  std::unique_ptr<Kept> source;
+};
+
+SceneCouplings::SceneCouplings(const SceneModel& scene, double h, const HandSource* device,
+                               const HandInPlace& in_place)
+    : scene_(scene) {
+  FaultList faults;
+  const auto twin_of = [&](std::size_t c) {
+    for (std::size_t before = 0; before < c; ++before)
+      if (led_alike(scene.couplings[before], scene.couplings[c])) return ties_[before]->twin;
+    return std::make_shared<Twin>(scene, c, device, in_place, faults);
+  };
+  for (std::size_t c = 0; c < scene.couplings.size(); ++c)
+    if (scene.couplings[c].leader == c)
+      ties_.push_back(std::make_shared<Tie>(scene, scene.couplings[c], h, twin_of(c), faults));
+    else
+      ties_.push_back(ties_.back());
+  faults.check();
+}
+
+SceneCouplings::~SceneCouplings() = default;
+
+ForceSource* SceneCouplings::source(std::size_t c) {
+  return spec(c).leader == c ? ties_[c]->source.get() : nullptr;
+}
+
+void SceneCouplings::forget_hands() {
+  for (const std::shared_ptr<Tie>& tie : ties_) {
+    tie->twin->kvr.forget();
+    tie->twin->shown.forget();
+  }
+}
+const HandSource& SceneCouplings::hand(std::size_t c) const {
+  return *ties_[c]->twin->hand;
+}
+
+const Coupling& SceneCouplings::coupling(std::size_t c) const {
+  return ties_[c]->source->coupling();
+}
+
+const KvrSample& SceneCouplings::target(std::size_t c, double t, Side side) {
+  KinematicRobot& shown = ties_[c]->twin->shown;
+  shown.begin_step(t, side == Side::after ? 1e-6 : -1e-6);  // within the motion that is meant
+  return shown.start();
+}
+
+CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const Kinematics& k,
+                                  Side side) {
+  const SceneCoupling& spec = scene_.couplings[c];
+  const KvrSample& kvr = target(c, x.t, side);
+  const auto i = static_cast<std::size_t>(spec.spring.body);
+  CouplingEnds ends;
+  if (spec.law == CouplingSpec::Type::matched) {
+    ends = matched_ends(scene_.model, spec.spring, kvr, x);
+  } else if (spec.type == CouplingDescription::Type::linear) {
+    const Vector3 p_D = k.position(spec.spring.body, spec.spring.p_L);
+    const Vector3 p_K = kvr.k.position(spec.spring.body, spec.spring.p_L);
+    ends = {p_K - p_D, k.velocity(spec.spring.body, p_D), kvr.k.velocity(spec.spring.body, p_K)};
+  } else if (spec.measure == Measure::world) {
+    ends = {rotation_vector(kvr.k.X_WL[i].R * k.X_WL[i].R.transpose()), k.w_WL[i], kvr.k.w_WL[i]};
+  } else {
+    const std::size_t iq = scene_.model.iq[i], iv = scene_.model.iv[i];
+    ends.offset.x() = kvr.x.q[iq] - x.q[iq];
+    ends.velocity.x() = x.qd[iv];
+    ends.target_velocity.x() = kvr.x.qd[iv];
+    if (spec.outside) {  // a stop stands still; between the stops nothing is stretched or damped
+      ends.offset.x() = stop_of(spec).way_back(x.q[iq]);
+      ends.target_velocity.x() = ends.offset.x() == 0 ? x.qd[iv] : 0;
+    }
+  }
+  return ends;
+}
+
+Vector3 SceneCouplings::pull(std::size_t c) const {
+  const SceneCoupling& spec = scene_.couplings[c];
+  const SpringReading& reading = coupling(c).readings()[spec.reading(c)];
+  const bool at_joint =
+      spec.type == CouplingDescription::Type::torsional && spec.measure == Measure::joint;
+  return at_joint ? Vector3(reading.size, 0, 0) : reading.pull;
+}
+
+const CouplingSpec& SceneCouplings::law(std::size_t c) const {
+  return ties_[c]->law;
+}
+
+const KinematicRobot& SceneCouplings::kvr(std::size_t c) const {
+  return ties_[c]->twin->kvr;
+}
+
+double SceneCouplings::m_star(std::size_t c) const {
+  return coupling(c).readings()[scene_.couplings[c].reading(c)].m_star;
+}
+
+void SceneCouplings::hold_still(std::size_t c, const State<double>& x, const Kinematics& k,
+                                Forces<double>& forces) {
+  const SceneCoupling& given = spec(c);
+  const CouplingEnds at = ends(c, x, k);
+  // Between the limits of a stop its damper moves along.
+  const Vector3 along = given.outside ? at.target_velocity : Vector3(Vector3::Zero());
+  const Vector3 pull = given.spring.k * at.offset - given.spring.b * (at.velocity - along);
+  const int body = given.spring.body;
+  if (given.type == CouplingDescription::Type::linear)
+    add_point_force(k, body, k.position(body, given.spring.p_L), pull, forces);
+  else if (given.measure == Measure::world)
+    add_couple(k, body, pull, forces);
+  else
+    forces.tau[scene_.model.iv[static_cast<std::size_t>(body)]] += pull.x();
+}
+
+}  // namespace twinarm

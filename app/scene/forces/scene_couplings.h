@@ -1,0 +1,72 @@
+// The couplings of a scene at work: each with a hand, a kinematic robot and its springs. Numbered
+// by their pulls (SceneCoupling).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/scene/forces/scene_inputs.h"
+#include "app/scene/model/scene_model.h"
+#include "coupling/laws/coupling.h"
+#include "coupling/target/operator_motion.h"
+#include "coupling/target/target_robot.h"
+#include "solver/stepping/simulation.h"
+#include "solver/support/checkpointable.h"
+
+namespace twinarm {
+
+// A spring-damper as it stands in one state. Linear: the points of the link in both robots.
+// Torsional: rotation vectors in the world; at a joint its coordinate, in the first component.
+struct CouplingEnds {
+  Vector3 offset = Vector3::Zero();    // of the target, from the link [m, rad]
+  Vector3 velocity = Vector3::Zero();  // of the link
+  Vector3 target_velocity = Vector3::Zero();
+};
+
+class SceneCouplings {
+ public:
+  // For steps of h [s]. The scene must outlive it, and so must the hand of a device: what couplings
+  // with target = "device" follow; nullptr where none is connected, and they stand still. Throws
+  // InputError with all faults: a trace that cannot be read, a rate that is no part of the steps.
+  SceneCouplings(const SceneModel& scene, double h, const HandSource* device = nullptr,
+                 const HandInPlace& in_place = {});
+  SceneCouplings(const SceneCouplings&) = delete;
+  SceneCouplings& operator=(const SceneCouplings&) = delete;
+  ~SceneCouplings();
+
+  std::size_t size() const { return ties_.size(); }
+  // For Simulation::add; Rewindable. nullptr where an earlier pull has it already.
+  ForceSource* source(std::size_t c);
+  const Coupling& coupling(std::size_t c) const;   // its readings are of the last evaluation
+  const CouplingSpec& law(std::size_t c) const;    // what it was made of
+  const KinematicRobot& kvr(std::size_t c) const;  // as the last step saw it
+  // The kinematic side at a time, with the velocity of the motion after or before it: they differ
+  // at a corner. Not that of the source: asking does not change the run. Valid until the next call.
+  enum class Side { after, before };
+  const KvrSample& target(std::size_t c, double t, Side side = Side::after);
+  // The DVR at x and its kinematics k, at the time x.t.
+  CouplingEnds ends(std::size_t c, const State<double>& x, const Kinematics& k,
+                    Side side = Side::after);
+  // Spring and damper at x against a kinematic side that stands still: a smooth push, for the
+  // linear theory about a state.
+  void hold_still(std::size_t c, const State<double>& x, const Kinematics& k,
+                  Forces<double>& forces);
+  // The pull of the last evaluation, in the same components.
+  Vector3 pull(std::size_t c) const;
+  // The weightless inertia that the treatment added in the last step (docs/coupling.md).
+  double m_star(std::size_t c) const;
+  const SceneCoupling& spec(std::size_t c) const { return scene_.couplings[c]; }
+  // What moves the kinematic side; of a target that stands still a hand at rest.
+  const HandSource& hand(std::size_t c) const;
+  // Hands lead otherwise now, also at times that were looked at.
+  void forget_hands();
+
+ private:
+  struct Twin;
+  struct Tie;
+  const SceneModel& scene_;
+  std::vector<std::shared_ptr<Tie>> ties_;  // by pull
+};
+
+}  // namespace twinarm

@@ -1,0 +1,122 @@
+// Couplings, from names to bodies of the model, and into their pulls.
+#include "app/robot/coordinates.h"
+#include "app/scene/model/scene_builder.h"
+#include "coupling/laws/god_object.h"
+#include "coupling/laws/mujoco_weld.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+using Law = CouplingSpec::Type;
+using Pull = CouplingDescription::Type;
+
+std::size_t robot_named(const SceneDescription& scene, const std::string& name) {
+  std::size_t r = 0;
+  while (scene.robots[r].name != name) ++r;  // the reader has seen it
+  return r;
+}
+
+// All but the pulls.
+SceneCoupling without_pulls(const SceneModel& scene, const CouplingDescription& given) {
+  SceneCoupling made;
+  made.name = made.coupling = given.name;
+  made.line = given.line;
+  made.leader = scene.couplings.size();
+  made.law = given.law;
+  made.printed = given.printed;
+  made.type = given.type;
+  made.measure = given.measure;
+  made.reference = given.reference;
+  made.treatment = given.treatment;
+  made.outside = given.outside;
+  made.absolute_damper = given.absolute_damper;
+  made.rate = given.rate;
+  made.robot = robot_named(scene.description, given.robot);
+  made.target = given.target.kind;
+  made.delay = given.delay;
+  made.speed = given.speed;
+  made.rest = scene.start;
+  made.rest.qd.assign(scene.model.nv, 0);
+  set_coordinates(scene, made.robot, given.target.q, made.rest);
+  if (given.target.is_hand()) made.driven.turned = turned_joints(scene, made.robot);
+  if (!given.target.gripper.empty())
+    made.driven.gripper = name_in_scene(scene.description, made.robot, given.target.gripper);
+  made.driven.gripper_open = given.target.open;
+  made.driven.gripper_closed = given.target.closed;
+  made.trace = given.target.trace;
+  made.seed = given.target.seed;
+  made.duration = given.target.duration;
+  return made;
+}
+
+void add_pull(SceneModel& scene, SceneCoupling made, const std::string& part, Pull type,
+              const Spring& spring) {
+  if (scene.couplings.size() != made.leader) made.springs.clear();
+  if (!part.empty()) made.name += "/" + part;
+  made.type = type;
+  made.spring = spring;
+  made.spring.name = made.name;
+  scene.couplings.push_back(std::move(made));
+}
+
+void add_six_dimensions(SceneModel& scene, SceneCoupling made, const Spring& spring) {
+  made.springs = {spring};
+  add_pull(scene, made, "force", Pull::linear, spring);
+  Spring turn = spring;
+  turn.k = spring.k_turn, turn.b = spring.b_turn;
+  add_pull(scene, made, "couple", Pull::torsional, turn);
+}
+
+void add_god_object(SceneModel& scene, SceneCoupling made, FaultList& faults) {
+  const auto [first, last] = scene.bodies_of_robot(made.robot);
+  made.springs = god_object_joints(scene.model, first, last);
+  made.measure = Measure::joint;
+  for (const Spring& joint : made.springs)
+    add_pull(scene, made, scene.model.joint_name[static_cast<std::size_t>(joint.body)],
+             Pull::torsional, joint);
+  if (made.springs.empty())
+    faults.add({scene.description.file.string(), made.line, "coupling '" + made.name + "'",
+                "its robot has no joint to drive", "name a robot that can move"});
+}
+
+}  // namespace
+
+std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot) {
+  std::vector<std::string> names;
+  const Coordinates coordinates(scene.model, false);
+  const std::string prefix = name_in_scene(scene.description, robot, "");
+  for (const JointDescription& joint : scene.description.robots[robot].description.joints)
+    if (joint.dofs() == 1 && !joint.mimic && names.size() < 3) names.push_back(prefix + joint.name);
+  return names;
+}
+
+void build_couplings(SceneModel& scene) {
+  FaultList faults;
+  for (const CouplingDescription& given : scene.description.couplings) {
+    SceneCoupling made = without_pulls(scene, given);
+    if (given.law == Law::god_object) {
+      add_god_object(scene, std::move(made), faults);
+      continue;
+    }
+    const int body = body_of(scene, {-1, static_cast<int>(made.robot), given.link});
+    if (given.law == Law::weld_like) {
+      add_six_dimensions(
+          scene, std::move(made),
+          weld_spring(given.name, scene.model, scene.start, body, given.point, given.reference));
+      continue;
+    }
+    const Spring spring{given.name,        body,          given.point,
+                        given.stiffness,   given.damping, given.turn_stiffness,
+                        given.turn_damping};
+    if (given.law == Law::bushing) {
+      add_six_dimensions(scene, std::move(made), spring);
+      continue;
+    }
+    made.springs = {spring};
+    add_pull(scene, std::move(made), "", given.type, spring);
+  }
+  faults.check();
+}
+
+}  // namespace twinarm

@@ -1,0 +1,263 @@
+// Robots and bodies into one model, and the state at the start.
+#include <algorithm>
+#include <cmath>
+
+#include "app/robot/coordinates.h"
+#include "app/scene/model/scene_builder.h"
+#include "app/scene/model/scene_shapes.h"
+#include "collision/import/robot/mesh_geometry.h"
+#include "collision/import/robot/robot_model.h"
+#include "collision/shapes/mesh_checks.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/model/mimic.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace {
+
+std::string prefix_of(const SceneDescription& scene, std::size_t robot) {
+  return name_in_scene(scene, robot, "");
+}
+
+// The solid's inertia is in proportion to its mass.
+BodyInertia inertia_of(const BodyDescription& body) {
+  const bool is_given = body.inertia && body.com && body.mass;
+  MassProperties solid;
+  if (!is_given) solid = solid_properties(body.shape, body.density.value_or(1));
+  const double mass = body.mass.value_or(solid.mass);
+  return {mass, body.com.value_or(solid.com),
+          body.inertia ? *body.inertia : Matrix3(solid.inertia * (mass / solid.mass))};
+}
+
+// A wider mesh is mostly one in millimetres [m].
+constexpr double kWideMesh = 10;
+
+// Looks at a mesh before anything touches it. Of a convex one the hull counts, and the surface may
+// be what it likes.
+void check_mesh(const BodyDescription& body, SceneDescription& scene) {
+  const MeshSpec* spec = std::get_if<MeshSpec>(&body.shape);
+  if (!spec) return;
+  TriangleMesh mesh = load_mesh(spec->mesh);
+  Vector3 low = mesh.vertices[0], high = low;
+  for (const Vector3& v : mesh.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  const double width = (high - low).maxCoeff();
+  if (width > kWideMesh)
+    scene.warnings.push_back(scene.file.string() + ":" + std::to_string(body.line) + ": body '" +
+                             body.name + "': its mesh is " + short_number_text(width) +
+                             " m wide; if the file is in millimetres, give scale = 0.001");
+  if (spec->convex) {
+    collision_shape(body.shape);  // throws where there is no volume
+    return;
+  }
+  const std::string fault = mesh_fault(MeshShape{std::move(mesh)});
+  if (!fault.empty())
+    throw InputError({{"", 0, "", "mesh '" + spec->mesh.name + "': " + fault,
+                       "mend the mesh, or give convex = true: its hull"}});
+}
+
+// X(t): the origin moves evenly along a line, the axes turn evenly about a fixed direction.
+MotionLaw steady(const Pose& X_WB, const BodyMotion& motion) {
+  const double rate = motion.angular.norm();
+  const Vector3 axis = rate > 0 ? Vector3(motion.angular / rate) : Vector3(Vector3::UnitZ());
+  return [=](double t) {
+    PrescribedMotion now;
+    now.X_JL.p = X_WB.p + t * motion.linear;
+    now.X_JL.R = Eigen::AngleAxisd(rate * t, axis).toRotationMatrix() * X_WB.R;
+    now.velocity = motion.linear;
+    now.angular_velocity = motion.angular;
+    return now;
+  };
+}
+
+class SceneBuilder {
+ public:
+  SceneBuilder(const SceneDescription& description, const ModelOptions& options)
+      : options_(options) {
+    scene_.description = description;
+  }
+
+  SceneModel build() {
+    builder_.set_gravity(description().gravity);
+    add_robots();
+    add_bodies();
+    faults_.check();
+    build_model();
+    scene_.start = State<double>(scene_.model);
+    place_robots();
+    place_bodies();
+    apply_mimics(scene_.model, scene_.start);
+    build_couplings(scene_);
+    build_constraints(scene_);
+    build_geometries(scene_);
+    return std::move(scene_);
+  }
+
+ private:
+  const SceneDescription& description() const { return scene_.description; }
+
+  template <class F>
+  void attempt(int line, const std::string& where, F f) {
+    try {
+      f();
+    } catch (const InputError& error) {
+      for (Fault fault : error.faults()) {
+        if (fault.file.empty()) {
+          fault.file = description().file.string();
+          fault.line = line;
+          fault.where = where;
+        }
+        faults_.add(fault);
+      }
+    }
+  }
+
+  void add_robots() {
+    for (std::size_t r = 0; r < description().robots.size(); ++r) {
+      const RobotInScene& robot = description().robots[r];
+      ModelOptions options = options_;
+      options.floating = robot.floating;
+      options.mass_scale = robot.mass_scale;
+      options.added_masses = robot.payloads;
+      attempt(robot.line, "robot '" + robot.name + "'", [&] {
+        add_robot(builder_, robot.description, options, prefix_of(description(), r), robot.X_WR);
+      });
+      scene_.robot_bodies += static_cast<int>(robot.description.links.size());
+    }
+  }
+
+  void add_bodies() {
+    for (const BodyDescription& body : description().bodies) {
+      bool sound = false;
+      attempt(body.line, "body '" + body.name + "'", [&] {
+        check_mesh(body, scene_.description);
+        sound = true;
+      });
+      if (body.fixed || !sound) continue;
+      BodyInertia inertia;  // of a body whose motion is given nothing asks for it
+      if (body.is_free())
+        attempt(body.line, "body '" + body.name + "'", [&] { inertia = inertia_of(body); });
+      builder_.add_body(body.name, 0, free_joint_name(body.name),
+                        body.motion ? JointType::prescribed : JointType::free, {}, Vector3::UnitZ(),
+                        inertia);
+    }
+  }
+
+  // The body's own, unless a joint of the robots has it.
+  std::string free_joint_name(std::string name) const {
+    while (find_joint(description(), name)) name += "_";
+    return name;
+  }
+
+  // The builder knows the names of the model only; the line is the robot's.
+  void build_model() {
+    try {
+      scene_.model = builder_.build();
+    } catch (const InputError& error) {
+      std::vector<Fault> faults = error.faults();
+      for (Fault& fault : faults) {
+        fault.file = description().file.string();
+        for (std::size_t r = 0; r < description().robots.size(); ++r)
+          if (fault.where.find("'" + prefix_of(description(), r)) != std::string::npos)
+            fault.line = description().robots[r].line;
+        for (const BodyDescription& body : description().bodies)
+          if (fault.where == "link '" + body.name + "'") fault.line = body.line;
+      }
+      throw InputError(faults);
+    }
+  }
+
+  void place_robots() {
+    for (std::size_t r = 0; r < description().robots.size(); ++r) {
+      const RobotInScene& robot = description().robots[r];
+      set_coordinates(scene_, r, robot.q, scene_.start);
+      set_velocities(scene_, r, robot.qd, scene_.start);
+      if (robot.floating)
+        place(scene_.model.find_body(prefix_of(description(), r) + robot.description.root),
+              robot.X_WR, robot.linear_velocity, robot.angular_velocity);
+    }
+  }
+
+  void place_bodies() {
+    for (const BodyDescription& body : description().bodies) {
+      if (body.fixed) continue;
+      const int index = scene_.model.find_body(body.name);
+      if (body.is_free()) {
+        place(index, body.X_WB, body.linear_velocity, body.angular_velocity);
+        continue;
+      }
+      scene_.motions.push_back({index, steady(body.X_WB, *body.motion)});
+      double* q = scene_.start.q.data() + scene_.model.iq[static_cast<std::size_t>(index)];
+      store_motion(scene_.motions.back().law(0), q);
+    }
+  }
+
+  // A free joint: solver/model/joint.h has its angular velocity in the body's axes.
+  void place(int body, const Pose& X_WB, const Vector3& v_W, const Vector3& w_W) {
+    const auto i = static_cast<std::size_t>(body);
+    double* q = scene_.start.q.data() + scene_.model.iq[i];
+    double* qd = scene_.start.qd.data() + scene_.model.iv[i];
+    const Eigen::Quaterniond turn(X_WB.R);
+    const Vector3 w_B = X_WB.R.transpose() * w_W;
+    q[3] = turn.w();
+    for (int c = 0; c < 3; ++c) {
+      q[c] = X_WB.p[c];
+      q[4 + c] = turn.vec()[c];
+      qd[c] = w_B[c];
+      qd[3 + c] = v_W[c];
+    }
+  }
+
+  ModelOptions options_;
+  SceneModel scene_;
+  ModelBuilder builder_;
+  FaultList faults_;
+};
+
+const NamedJoint& joint_in_model(const SceneModel& scene, const Coordinates& coordinates,
+                                 std::size_t robot, const std::string& name) {
+  return *coordinates.find(prefix_of(scene.description, robot) + name);  // the reader has seen it
+}
+
+}  // namespace
+
+void set_coordinates(const SceneModel& scene, std::size_t robot, const JointValueMap& q,
+                     State<double>& x) {
+  const Coordinates coordinates(scene.model, false);
+  for (const auto& [name, given] : q) {
+    const NamedJoint& joint = joint_in_model(scene, coordinates, robot, name);
+    std::copy(given.values.begin(), given.values.end(), x.q.data() + joint.iq);
+  }
+}
+
+void set_velocities(const SceneModel& scene, std::size_t robot, const JointValueMap& qd,
+                    State<double>& x) {
+  const Coordinates coordinates(scene.model, false);
+  for (const auto& [name, given] : qd)
+    to_solver(joint_in_model(scene, coordinates, robot, name), x, given.values.data(), x.qd);
+}
+
+int body_of(const SceneModel& scene, const SceneReference& reference) {
+  const SceneDescription& description = scene.description;
+  if (reference.robot >= 0) {
+    const auto robot = static_cast<std::size_t>(reference.robot);
+    return scene.model.find_body(prefix_of(description, robot) + reference.link);
+  }
+  if (reference.is_world()) return 0;
+  const BodyDescription& body = description.bodies[static_cast<std::size_t>(reference.body)];
+  return body.fixed ? 0 : scene.model.find_body(body.name);
+}
+
+std::pair<int, int> SceneModel::bodies_of_robot(std::size_t robot) const {
+  const auto links = [&](std::size_t r) {
+    return static_cast<int>(description.robots[r].description.links.size());
+  };
+  int first = 1;
+  for (std::size_t r = 0; r < robot; ++r) first += links(r);
+  return {first, first + links(robot) - 1};
+}
+
+SceneModel build_scene(const SceneDescription& description, const ModelOptions& options) {
+  return SceneBuilder(description, options).build();
+}
+
+}  // namespace twinarm

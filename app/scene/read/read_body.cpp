@@ -1,0 +1,108 @@
+#include "app/scene/read/scene_reader.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace {
+
+// What has no inside has no inertia of its own either.
+const char* why_not_free(const ShapeSpec& shape) {
+  if (std::holds_alternative<HalfSpaceSpec>(shape)) return "a half-space has no end";
+  if (std::holds_alternative<HollowSphereSpec>(shape) ||
+      std::holds_alternative<HollowCylinderSpec>(shape))
+    return "a hollow shape is the world around something";
+  const MeshSpec* mesh = std::get_if<MeshSpec>(&shape);
+  return mesh && !mesh->convex ? "contacts of a moving mesh need convex = true" : nullptr;
+}
+
+std::optional<Matrix3> read_inertia(SceneTable& table, SceneDescription& scene) {
+  const auto given = table.numbers("inertia", 6);
+  if (!given) return std::nullopt;
+  const double xx = (*given)[0], yy = (*given)[1], zz = (*given)[2];
+  const double xy = (*given)[3], xz = (*given)[4], yz = (*given)[5];
+  const Matrix3 I = (Matrix3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
+  const Vector3 principal = symmetric_eigenvalues(I);  // ascending
+  if (!(principal[0] > 0))
+    table.fault(
+        "inertia",
+        "its principal moments must be positive, the least is " + short_number_text(principal[0]),
+        "give [xx, yy, zz, xy, xz, yz] in kg m^2, about the centre of mass");
+  else if (principal[0] + principal[1] < principal[2] * (1 - 1e-9))
+    scene.warnings.push_back(scene.file.string() + ": " + table.where() +
+                             ", inertia: no body has this one: of its principal moments the "
+                             "largest is more than the sum of the others");
+  return I;
+}
+
+void read_mass(SceneTable& table, BodyDescription& body, SceneDescription& scene) {
+  body.mass = table.positive("mass");
+  body.density = table.positive("density");
+  body.com = table.vector("com");
+  body.inertia = read_inertia(table, scene);
+  if (table.has("com") && !table.has("inertia"))
+    table.fault("com", "goes with 'inertia' alone: the inertia of the shape is about its centre",
+                "give inertia = [xx, yy, zz, xy, xz, yz] about this point");
+  if (table.has("mass") && table.has("density"))
+    table.fault("density", "the body has a mass already", "leave one of them out");
+  if (body.is_free() && !table.has("mass") && !table.has("density"))
+    table.fault("", "a free body needs a mass", "give mass or density, or fixed = true, or motion");
+}
+
+void read_motion(SceneReader& reader, SceneTable& table, BodyDescription& body) {
+  body.fixed = table.flag("fixed").value_or(false);
+  if (const TomlValue* motion = table.table("motion")) {
+    SceneTable velocities = reader.open(*motion, table.where() + ", motion");
+    body.motion = BodyMotion{velocities.vector("linear").value_or(Vector3::Zero()),
+                             velocities.vector("angular").value_or(Vector3::Zero())};
+    velocities.done();
+    if (body.fixed)
+      table.fault("motion", "a fixed body does not move", "leave 'fixed' or 'motion' out");
+  }
+  for (const auto& [key, velocity] : {std::pair{"linear_velocity", &body.linear_velocity},
+                                      std::pair{"angular_velocity", &body.angular_velocity}}) {
+    *velocity = table.vector(key).value_or(Vector3::Zero());
+    if (!body.is_free() && !velocity->isZero(0))
+      table.fault(key, "is of a free body, and this one is not",
+                  "leave it out, or give motion = { linear, angular }");
+  }
+}
+
+// What is only to be looked at.
+void read_looks(SceneReader& reader, SceneTable& table, BodyDescription& body) {
+  body.color = table.vector("color");
+  if (body.color && !(body.color->minCoeff() >= 0 && body.color->maxCoeff() <= 1))
+    table.fault("color", "red, green and blue must lie from 0 to 1", "");
+  if (const auto name = table.text("texture"))
+    body.texture = reader.find_file(table, "texture", *name).value_or("");
+  if (!body.texture.empty() && std::holds_alternative<HalfSpaceSpec>(body.shape))
+    table.fault("texture", "a half-space has none", "leave it out");
+}
+
+}  // namespace
+
+void SceneReader::read_body(const TomlValue& value) {
+  SceneTable table = open(value, "body");
+  BodyDescription body;
+  body.line = table.line();
+  body.name = read_name(table, "body");
+  read_motion(*this, table, body);
+  if (const auto shape = read_shape(table)) {
+    body.shape = *shape;
+    if (const char* why = why_not_free(*shape); why && body.is_free())
+      table.fault("shape", std::string(why) + ": it cannot be a free body",
+                  "give fixed = true or motion = { ... }");
+  }
+  read_mass(table, body, scene);
+  body.X_WB = read_pose(table);
+  body.surface = read_surface(table);
+  read_looks(*this, table, body);
+  if (const auto group = table.number("group")) {
+    body.group = static_cast<int>(*group);
+    if (!(*group >= 0 && *group <= 31 && *group == body.group))
+      table.fault("group", "must be a whole number from 0 to 31, is " + number_text(*group), "");
+  }
+  table.done();
+  scene.bodies.push_back(std::move(body));
+}
+
+}  // namespace twinarm

@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/scene/read/scene_reader.h"
+#include "app/support/nearest_name.h"
+#include "collision/import/urdf/urdf.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace {
+
+// The first of the four numbers of a quaternion among a joint's coordinates; -1: it has none.
+int first_of_quaternion(JointDescription::Type type) {
+  return type == JointDescription::Type::spherical  ? 0
+         : type == JointDescription::Type::floating ? 3
+                                                    : -1;
+}
+
+std::size_t coordinate_count(const JointDescription& joint) {
+  return static_cast<std::size_t>(joint.dofs()) + (first_of_quaternion(joint.type) < 0 ? 0 : 1);
+}
+
+std::vector<std::string> moving_joints(const RobotDescription& robot) {
+  std::vector<std::string> names;
+  for (const JointDescription& joint : robot.joints)
+    if (joint.dofs() > 0 && !joint.mimic) names.push_back(joint.name);
+  return names;
+}
+
+// Length 1 to the digits that were typed; false where it is not.
+bool normalise(double* q) {
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  if (!(std::abs(length - 1) <= 1e-6)) return false;
+  for (int c = 0; c < 4; ++c) q[c] /= length;
+  return true;
+}
+
+// Masses of links by factors, and particles on links.
+void read_masses(SceneReader& reader, SceneTable& table, RobotInScene& robot) {
+  std::vector<std::string> links;
+  for (const LinkDescription& link : robot.description.links) links.push_back(link.name);
+  const auto check_link = [&](SceneTable& where, const std::string& key, const std::string& name) {
+    if (std::find(links.begin(), links.end(), name) == links.end())
+      where.fault(key, "there is no link '" + name + "'", name_remedy(name, links, "links"));
+  };
+  if (const TomlValue* scales = table.table("mass_scale")) {
+    SceneTable factors = reader.open(*scales, table.where() + ", mass_scale");
+    for (const TomlValue& value : scales->members) {
+      check_link(factors, value.key, value.key);
+      if (const auto factor = factors.positive(value.key)) robot.mass_scale[value.key] = *factor;
+    }
+  }
+  for (const TomlValue* value : table.tables("payload")) {
+    SceneTable payload = reader.open(*value, table.where() + ", payload");
+    payload.missing("link", "name the link that carries it");
+    payload.missing("mass", "give it in kg");
+    PointMass mass{payload.text("link").value_or(""),
+                   payload.vector("point").value_or(Vector3::Zero()),
+                   payload.not_negative("mass").value_or(0)};
+    if (!mass.link.empty()) check_link(payload, "link", mass.link);
+    payload.done();
+    robot.payloads.push_back(std::move(mass));
+  }
+}
+
+void drop_limits(RobotDescription& robot) {
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  for (JointDescription& joint : robot.joints) {
+    joint.lower = -kNowhere;
+    joint.upper = kNowhere;
+  }
+}
+
+}  // namespace
+
+JointValueMap SceneReader::read_joints(SceneTable& table, const char* key,
+                                       const RobotDescription& robot, bool velocities) {
+  JointValueMap found;
+  const TomlValue* list = table.table(key);
+  if (!list) return found;
+  SceneTable joints = open(*list, table.where() + ", " + key);
+  for (const TomlValue& value : list->members) {
+    const std::string& name = value.key;
+    const auto joint = std::find_if(robot.joints.begin(), robot.joints.end(),
+                                    [&](const JointDescription& j) { return j.name == name; });
+    if (joint == robot.joints.end()) {
+      joints.fault(name, "there is no such joint",
+                   name_remedy(name, moving_joints(robot), "joints"));
+    } else if (joint->mimic || joint->dofs() == 0) {
+      joints.fault(name,
+                   joint->mimic ? "it follows joint '" + joint->mimic->joint + "'"
+                                : "it is fixed, and has no coordinate",
+                   "leave it out");
+    } else {
+      const std::size_t count =
+          velocities ? static_cast<std::size_t>(joint->dofs()) : coordinate_count(*joint);
+      std::optional<std::vector<double>> numbers;
+      if (count > 1)
+        numbers = joints.numbers(name, count);
+      else if (const auto number = joints.number(name))
+        numbers = {*number};
+      if (!numbers) continue;
+      const int first = velocities ? -1 : first_of_quaternion(joint->type);
+      if (first >= 0 && !normalise(numbers->data() + first))
+        joints.fault(name, "a quaternion (w, x, y, z) has length 1", "divide it by its length");
+      found[name] = {*numbers, value.line};
+    }
+  }
+  return found;
+}
+
+void SceneReader::read_robot(const TomlValue& value) {
+  SceneTable table = open(value, "robot");
+  RobotInScene robot;
+  robot.line = table.line();
+  robot.name = read_name(table, "robot");
+  robot.collide = table.flag("collide").value_or(true);
+  robot.surface = read_surface(table);
+  robot.X_WR = read_pose(table);
+  if (const auto base = table.choice("base", {"fixed", "floating"})) robot.floating = *base == 1;
+  for (const auto& [key, velocity] : {std::pair{"linear_velocity", &robot.linear_velocity},
+                                      std::pair{"angular_velocity", &robot.angular_velocity}}) {
+    *velocity = table.vector(key).value_or(Vector3::Zero());
+    if (!robot.floating && !velocity->isZero(0))
+      table.fault(key, "the robot stands on the world", "give base = \"floating\"");
+  }
+
+  table.missing("model", "give model = \"robots/.../robot.urdf\"");
+  bool readable = false;
+  if (const auto model = table.text("model"))
+    if (const auto urdf = find_file(table, "model", *model)) {
+      UrdfOptions options;
+      if (!robot.collide) options.geometry = UrdfOptions::Geometry::optional;
+      try {
+        robot.description = read_urdf(*urdf, options);
+        readable = true;
+        for (const Fault& warning : robot.description.warnings)
+          scene.warnings.push_back(to_string(warning));
+      } catch (const InputError& error) {
+        faults.add(error.faults());
+      }
+    }
+  const bool limits = table.flag("limits").value_or(true);
+  if (readable) {
+    if (!limits) drop_limits(robot.description);
+    read_masses(*this, table, robot);
+    robot.q = read_joints(table, "q", robot.description, false);
+    robot.qd = read_joints(table, "qd", robot.description, true);
+    lock_joints(table, robot);
+  } else {
+    for (const char* key : {"q", "qd", "lock", "mass_scale", "payload"}) table.find(key);
+  }
+  table.done();
+  scene.robots.push_back(std::move(robot));
+}
+
+}  // namespace twinarm

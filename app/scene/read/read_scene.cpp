@@ -1,0 +1,155 @@
+#include "app/scene/read/read_scene.h"
+
+#include <algorithm>
+
+#include "app/scene/read/scene_names.h"
+#include "app/scene/read/scene_reader.h"
+#include "app/support/find_assets.h"
+#include "app/support/nearest_name.h"
+
+namespace twinarm {
+namespace {
+
+// In the order of the lines of the scene; those of other files after them, as they were found.
+std::vector<Fault> in_order(std::vector<Fault> faults, const std::string& file) {
+  std::stable_sort(faults.begin(), faults.end(), [&](const Fault& a, const Fault& b) {
+    if ((a.file == file) != (b.file == file)) return a.file == file;
+    return a.file == file && a.line < b.line;
+  });
+  return faults;
+}
+
+}  // namespace
+
+SceneDescription read_scene(const std::filesystem::path& file) {
+  return read_scene(read_toml(file), file);
+}
+
+SceneDescription read_scene(const TomlValue& root, const std::filesystem::path& file) {
+  SceneReader reader;
+  reader.path = file;
+  reader.file = file.string();
+  reader.scene.file = file;
+  reader.read(root);
+  try {
+    reader.faults.check();
+  } catch (const InputError& error) {
+    throw InputError(in_order(error.faults(), reader.file));
+  }
+  return std::move(reader.scene);
+}
+
+void SceneReader::read(const TomlValue& root) {
+  SceneTable table = open(root, "scene");
+  scene.gravity = table.vector("gravity").value_or(scene.gravity);
+  scene.step = table.positive("step").value_or(scene.step);
+  scene.duration = table.positive("duration");
+  if (const auto law = table.choice("contact", kContactModes))
+    scene.contact = static_cast<ContactMode>(*law);
+  std::vector<std::string> integrators;
+  for (const IntegratorFacts& facts : all_integrators) integrators.emplace_back(facts.name);
+  if (const auto chosen = table.choice("integrator", integrators))
+    scene.integrator = all_integrators[*chosen].integrator;
+
+  // Robots and bodies first: the others name them.
+  for (const TomlValue* robot : table.tables("robot")) read_robot(*robot);
+  for (const TomlValue* body : table.tables("body")) read_body(*body);
+  for (const TomlValue* pair : table.tables("pair")) read_pair(*pair);
+  std::size_t index = 0;
+  for (const TomlValue* coupling : table.tables("coupling")) read_coupling(*coupling, index++);
+  index = 0;
+  for (const TomlValue* joint : table.tables("constraint")) read_constraint(*joint, index++);
+  table.text("note");
+  table.done();
+}
+
+std::string SceneReader::read_name(SceneTable& table, const char* kind) {
+  table.missing("name", "give name = \"...\"");
+  const std::string name = table.text("name").value_or("");
+  if (name.empty()) return name;
+  table.rename(std::string(kind) + " '" + name + "'");
+  if (name.find('/') != std::string::npos)
+    table.fault("name", "must not contain '/': that parts a robot from its link",
+                "choose another name");
+  if (name == "world") table.fault("name", "'world' is the world itself", "choose another name");
+  const auto is_same = [&](const auto& item) { return item.name == name; };
+  if (std::any_of(scene.robots.begin(), scene.robots.end(), is_same) ||
+      std::any_of(scene.bodies.begin(), scene.bodies.end(), is_same))
+    table.fault("name", "the name is taken already", "give each robot and body its own name");
+  // One robot's links keep their names in what is printed, beside those of the bodies.
+  else if (std::string(kind) == "body" && scene.robots.size() == 1 &&
+           find_link(scene.robots[0].description, name))
+    table.fault("name", "a link of robot '" + scene.robots[0].name + "' has this name",
+                "choose another name");
+  return name;
+}
+
+Surface SceneReader::read_surface(SceneTable& table) {
+  Surface surface;
+  surface.friction = table.not_negative("friction").value_or(surface.friction);
+  if (const auto e = table.not_negative("restitution")) {
+    if (*e > 1)
+      table.fault("restitution", "must be at most 1: an impact creates no energy",
+                  "give a number from 0 to 1");
+    surface.restitution = *e;
+  }
+  surface.torsional_friction = table.not_negative("torsional_friction").value_or(0);
+  surface.rolling_friction = table.not_negative("rolling_friction").value_or(0);
+  surface.stiffness = table.positive("stiffness").value_or(surface.stiffness);
+  surface.dissipation = table.not_negative("dissipation").value_or(surface.dissipation);
+  return surface;
+}
+
+Pose SceneReader::read_pose(SceneTable& table) {
+  Pose pose;
+  pose.p = table.vector("position").value_or(pose.p);
+  pose.R = table.orientation("orientation").value_or(pose.R);
+  return pose;
+}
+
+void SceneReader::read_pair(const TomlValue& value) {
+  SceneTable table = open(value, "pair");
+  PairDescription pair;
+  pair.line = table.line();
+  const auto read_end = [&](const char* key) {
+    table.missing(key, "name a body, a robot, or robot/link");
+    const std::string name = table.text(key).value_or("");
+    if (!name.empty() && (name == "world" || !find_reference(scene, name)))
+      table.fault(
+          key,
+          name == "world" ? "the world has no surface" : "there is no body or robot '" + name + "'",
+          name_remedy(name, reference_names(scene), "names"));
+    return name;
+  };
+  pair.a = read_end("a");
+  pair.b = read_end("b");
+  pair.friction = table.not_negative("friction");
+  pair.restitution = table.not_negative("restitution");
+  if (pair.restitution.value_or(0) > 1)
+    table.fault("restitution", "must be at most 1: an impact creates no energy",
+                "give a number from 0 to 1");
+  pair.stiffness = table.positive("stiffness");
+  pair.dissipation = table.not_negative("dissipation");
+  pair.collide = table.flag("collide");
+  table.done();
+  scene.pairs.push_back(std::move(pair));
+}
+
+std::optional<std::filesystem::path> SceneReader::find_file(SceneTable& table,
+                                                            const std::string& key,
+                                                            const std::string& name) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  std::vector<fs::path> places{path.parent_path() / name};  // of an absolute name: the name
+  try {
+    places.push_back(find_assets() / name);
+  } catch (const InputError&) {  // without assets there is one place less
+  }
+  for (const fs::path& place : places)
+    if (fs::is_regular_file(place, ignored)) return fs::absolute(place).lexically_normal();
+  table.fault(key, "the file '" + name + "' does not exist",
+              "give it absolute, relative to the scene, or below assets/");
+  return std::nullopt;
+}
+
+}  // namespace twinarm

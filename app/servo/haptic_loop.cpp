@@ -1,0 +1,69 @@
+#include "app/servo/haptic_loop.h"
+
+namespace twinarm {
+
+std::vector<int> turned_bodies(const SceneModel& scene, const DrivenJoints& joints) {
+  std::vector<int> bodies;
+  for (const std::string& name : joints.turned) bodies.push_back(scene.model.find_joint(name));
+  return bodies;
+}
+
+std::pair<int, Vector3> led_point(const SceneModel& scene, const std::vector<std::size_t>& led) {
+  const std::vector<int> turned = turned_bodies(scene, scene.couplings[led.front()].driven);
+  std::pair<int, Vector3> point{turned.back(), Vector3::Zero()};
+  for (const std::size_t c : led)
+    if (scene.couplings[c].type == CouplingDescription::Type::linear)
+      point = {scene.couplings[c].spring.body, scene.couplings[c].spring.p_L};
+  return point;
+}
+
+HandLoop::HandLoop(const SceneModel& scene, const SceneCouplings& couplings,
+                   const std::vector<std::size_t>& led, HandDevice& device,
+                   const HandLoopOptions& options)
+    : model_(scene.model),
+      couplings_(couplings),
+      device_(device),
+      leader_(led.front()),
+      turned_(turned_bodies(scene, scene.couplings[leader_].driven)),
+      reaction_(scene.model, turned_) {
+  const auto [body, p_L] = led_point(scene, led);
+  const State<double>& rest = scene.couplings[leader_].rest;
+  const MappedRobot robot{&scene.model, rest, turned_, {}, {}, body, p_L};
+  mapping_ = make_mapping(options.mapping, device.figures(), robot);
+  force_ = std::make_unique<HandForce>(options.force, device.figures(), *mapping_);
+  for (const std::size_t c : led)
+    if (scene.couplings[c].leads() && !scene.couplings[c].outside)
+      reaction_.add(couplings.law(c), couplings.coupling(c));
+  for (const int joint : turned_) {
+    target_.q.push_back(rest.q[scene.model.iq[static_cast<std::size_t>(joint)]]);
+    target_.qd.push_back(0);
+    q_D_.push_back(target_.q.back());
+  }
+}
+
+void HandLoop::begin(const std::vector<double>& q, double now) noexcept {
+  std::copy(q.begin(), q.end(), target_.q.begin());
+  mapping_->begin(device_.poll(now), target_.q);
+}
+
+const HandTarget& HandLoop::before_step(const State<double>& x, double now, double h) noexcept {
+  state_ = device_.poll(now);
+  for (std::size_t j = 0; j < turned_.size(); ++j)
+    q_D_[j] = x.q[model_.iq[static_cast<std::size_t>(turned_[j])]];
+  watch_.tick(state_, *mapping_, q_D_, h, target_);
+  return target_;
+}
+
+const DeviceForce& HandLoop::after_step(const Simulation& simulation, double h,
+                                        bool finite) noexcept {
+  felt_ = {};
+  if (finite) {
+    const std::vector<double>& tau = reaction_.after_step(
+        couplings_.kvr(leader_).end(), simulation.state(), simulation.kinematics(), h);
+    if (watch_.mode() == HandWatch::Mode::live) felt_ = force_->tick(state_, tau, h);
+  }
+  device_.render(felt_);
+  return felt_;
+}
+
+}  // namespace twinarm

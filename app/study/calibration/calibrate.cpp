@@ -1,0 +1,242 @@
+#include "app/study/calibration/calibrate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <mutex>
+#include <numbers>
+
+#include "app/support/interrupt.h"
+
+namespace twinarm {
+namespace {
+
+constexpr unsigned kSeed = 1;
+constexpr int kFitEvaluations = 4000, kTrialEvaluations = 700;
+// The folded law is sensitive to its gains: what half a percent does to a fit is recorded.
+constexpr double kShift = 1.005;
+// A spring must pull back: below this a pure damper would be the "most stable" movement [Hz].
+constexpr double kLeastFrequency = 1;
+
+using Objective = std::function<double(const CalibrationEntry&)>;
+struct Job {
+  CalibrationEntry entry;
+  Method method = Method::multistart;
+  int evaluations = 0;
+  Objective objective;
+  std::function<void(CalibrationEntry&)> finish;  // writes the entry's numbers
+};
+
+// Bounds of one k and one b: from a natural frequency of kLeastFrequency up to what a semi-implicit
+// step can carry at all, at the start pose.
+std::vector<Parameter> bounds(const StudyRobot& robot, const RunSpec& spec, double ratio) {
+  RunResult unit;
+  unit.spec = spec;
+  unit.spec.gains = {1, 0, ratio, 0};
+  predict(robot, unit);
+  const double h = spec.step(), slow = unit.frequency[0], fast = unit.frequency[1];
+  const double k_low = std::pow(2 * std::numbers::pi * kLeastFrequency / slow, 2);
+  const double k_high = 4 / std::pow(h * fast, 2), b_high = 2 / (h * fast * fast);
+  return {{"k", std::min(k_low, 0.1 * k_high), k_high, 0}, {"b", 1e-4 * b_high, b_high, 0}};
+}
+
+void keep(CalibrationEntry& entry, const RunResult& result) {
+  entry.numbers["max1_deg"] = result.max_deg[0];
+  entry.numbers["max2_deg"] = result.max_deg[1];
+  entry.numbers["mean1_deg"] = result.mean_deg[0];
+  entry.numbers["mean2_deg"] = result.mean_deg[1];
+}
+
+// Worst error when one gain of all springs moves up or down by kShift.
+double error_when_shifted(const StudyRobot& robot, RunSpec spec, const PaperRow& row) {
+  const AutomaticMotion hand{HandMapping{}};
+  const Gains g = spec.gains;
+  double worst = 0;
+  for (double factor : {kShift, 1 / kShift}) {
+    spec.gains = {g.k1 * factor, g.b1, g.k2 * factor, g.b2};
+    worst = std::max(worst, worst_relative_error(run(robot, hand, spec), row));
+    spec.gains = {g.k1, g.b1 * factor, g.k2, g.b2 * factor};
+    worst = std::max(worst, worst_relative_error(run(robot, hand, spec), row));
+  }
+  return worst;
+}
+
+void finish_fit(CalibrationEntry& entry, const StudyRobot& robot, const RunSpec& spec,
+                const PaperRow& row) {
+  const AutomaticMotion hand{HandMapping{}};
+  const RunResult result = run(robot, hand, spec);
+  keep(entry, result);
+  entry.numbers["worst_error"] = worst_relative_error(result, row);
+  entry.numbers["worst_error_shifted"] = error_when_shifted(robot, spec, row);
+}
+
+Job e3_job(const StudyInputs& inputs, const std::string& law, double rate) {
+  Job job;
+  job.entry.name = fmt::format("E3/{:g}/{}", rate, law);
+  job.entry.rate = rate;
+  job.entry.parameters = {{"k", 10, 3000, 0}, {"b", 0.02, 50, 0}, {"arm2_mass_scale", 0.2, 4, 0}};
+  job.method = Method::rugged;
+  job.evaluations = kFitEvaluations;
+  const PaperRow row = paper_table().at("E3");
+  const auto at = [&inputs, law, rate](const CalibrationEntry& entry) {
+    RunSpec spec = e3_spec(law, rate);
+    spec.gains = entry.gains();
+    return std::pair{StudyRobot::s103(inputs.settings, inputs.s103, entry.value("arm2_mass_scale")),
+                     spec};
+  };
+  job.objective = [at, row](const CalibrationEntry& entry) {
+    const auto [robot, spec] = at(entry);
+    return worst_relative_error(run(robot, AutomaticMotion(HandMapping{}), spec), row);
+  };
+  job.finish = [at, row](CalibrationEntry& entry) {
+    const auto [robot, spec] = at(entry);
+    finish_fit(entry, robot, spec, row);
+  };
+  return job;
+}
+
+Job e4_job(const StudyInputs& inputs, double rate, double arm2_mass_scale) {
+  Job job;
+  job.entry.name = fmt::format("E4/{:g}", rate);
+  job.entry.rate = rate;
+  job.entry.parameters = {
+      {"k1", 10, 1e6, 0}, {"b1", 0.1, 1e4, 0}, {"k2", 10, 1e6, 0}, {"b2", 0.1, 1e4, 0}};
+  job.entry.numbers["arm2_mass_scale"] = arm2_mass_scale;
+  job.evaluations = kFitEvaluations;
+  const PaperRow row = paper_table().at("E4");
+  const auto robot =
+      std::make_shared<StudyRobot>(StudyRobot::s103(inputs.settings, inputs.s103, arm2_mass_scale));
+  const auto at = [rate](const CalibrationEntry& entry) {
+    RunSpec spec = e4_spec(rate);
+    spec.gains = entry.gains();
+    return spec;
+  };
+  job.objective = [=](const CalibrationEntry& entry) {
+    const AutomaticMotion hand{HandMapping{}};
+    return worst_relative_error(run(*robot, hand, at(entry)), row);
+  };
+  job.finish = [=](CalibrationEntry& entry) { finish_fit(entry, *robot, at(entry), row); };
+  return job;
+}
+
+// The most stable movement: least objective of the protocol, one k and b.
+Job trial_job(const std::string& name, const RunSpec& spec, const StudyRobot& robot,
+              const std::vector<double>& sweep_times) {
+  Job job;
+  job.entry.name = name;
+  job.entry.rate = spec.rate;
+  const bool uneven = name.find("ratio") != std::string::npos;
+  if (uneven) job.entry.numbers["ratio"] = 0.2;  // k2/k1 and b2/b1
+  job.entry.parameters = bounds(robot, spec, uneven ? 0.2 : 1.0);
+  const bool folds = spec.coupling.printed && spec.coupling.type == CouplingSpec::Type::torsional &&
+                     spec.coupling.options.damper != Damper::vector_;
+  if (folds) job.method = Method::rugged;
+  job.evaluations = folds ? 2 * kTrialEvaluations : kTrialEvaluations;
+  const auto shared = std::make_shared<StudyRobot>(robot);
+  const auto errors = [=](const CalibrationEntry& entry) {
+    RunSpec at = spec;
+    at.gains = entry.gains();
+    return run_protocol(*shared, at, sweep_times);
+  };
+  job.objective = [=](const CalibrationEntry& entry) { return errors(entry).objective; };
+  job.finish = [=](CalibrationEntry& entry) {
+    const ProtocolErrors e = errors(entry);
+    entry.numbers["max1_deg"] = e.max_deg[0];
+    entry.numbers["max2_deg"] = e.max_deg[1];
+    entry.numbers["mean1_deg"] = e.mean_deg[0];
+    entry.numbers["mean2_deg"] = e.mean_deg[1];
+  };
+  return job;
+}
+
+// Two workers; every job seeds its own search, so the order does not matter.
+void run_jobs(std::vector<Job>& jobs, Calibration& calibration, Progress& progress) {
+  std::mutex mutex;
+  std::size_t next = 0, done = 0;
+  const auto work = [&] {
+    for (;;) {
+      std::size_t mine = 0;
+      {
+        const std::scoped_lock lock(mutex);
+        if (next == jobs.size()) return;
+        mine = next++;
+      }
+      minimise(jobs[mine].entry, jobs[mine].method, kSeed, jobs[mine].evaluations,
+               jobs[mine].objective);
+      jobs[mine].finish(jobs[mine].entry);
+      const std::scoped_lock lock(mutex);
+      calibration.entries[jobs[mine].entry.name] = jobs[mine].entry;
+      progress.advance(static_cast<double>(++done) / static_cast<double>(jobs.size()));
+    }
+  };
+  auto second = std::async(std::launch::async, work);
+  work();
+  second.get();
+  jobs.clear();
+}
+
+// The law as printed and the one rate for E3 and E4 with the least of the larger of both errors.
+CalibrationEntry choose(const Calibration& calibration, const std::vector<double>& rates) {
+  CalibrationEntry chosen;
+  chosen.name = "chosen";
+  chosen.objective = HUGE_VAL;
+  for (double rate : rates) {
+    const CalibrationEntry& e3 = calibration.entry(fmt::format("E3/{:g}/world-", rate));
+    const CalibrationEntry& e4 = calibration.entry(fmt::format("E4/{:g}", rate));
+    const double worst = std::max(e3.objective, e4.objective);
+    if (worst >= chosen.objective) continue;
+    chosen.objective = worst;
+    chosen.rate = rate;
+    chosen.numbers["arm2_mass_scale"] = e3.value("arm2_mass_scale");
+  }
+  return chosen;
+}
+
+}  // namespace
+
+Calibration calibrate(const StudyInputs& inputs, Progress& progress) {
+  const StudySettings& s = inputs.settings;
+  Calibration calibration;
+  calibration.optimiser = optimiser_name();
+  calibration.seed = kSeed;
+  std::vector<Job> jobs;
+
+  progress.stage("calibration: the printed torsional law on E3", 0.45);
+  for (auto rate = s.search_rates_hz.rbegin(); rate != s.search_rates_hz.rend(); ++rate)
+    for (const std::string& law : e3_laws()) jobs.push_back(e3_job(inputs, law, *rate));
+  run_jobs(jobs, calibration, progress);
+
+  progress.stage("calibration: the printed linear law on E4", 0.25);
+  for (auto rate = s.search_rates_hz.rbegin(); rate != s.search_rates_hz.rend(); ++rate)
+    jobs.push_back(
+        e4_job(inputs, *rate,
+               calibration.entry(fmt::format("E3/{:g}/world-", *rate)).value("arm2_mass_scale")));
+  run_jobs(jobs, calibration, progress);
+  calibration.entries["chosen"] = choose(calibration, s.search_rates_hz);
+
+  progress.stage("calibration: gains by trial", 0.15);
+  const StudyRobot s103 =
+      StudyRobot::s103(s, inputs.s103, calibration.entry("chosen").numbers.at("arm2_mass_scale"));
+  for (auto rate = s.rates_hz.rbegin(); rate != s.rates_hz.rend(); ++rate)
+    for (const std::string& law : trial_laws())
+      jobs.push_back(trial_job(fmt::format("trial/{}/{:g}", law, *rate), trial_spec(law, *rate),
+                               s103, s.sweep_times));
+  run_jobs(jobs, calibration, progress);
+
+  progress.stage("calibration: two-link robots of the findings", 0.15);
+  for (const char* robot : {"findings_set0", "findings_10_14"}) {
+    for (auto rate = s.rates_hz.rbegin(); rate != s.rates_hz.rend(); ++rate)
+      for (const char* law : {"world", "linear", "world-ratio"})
+        jobs.push_back(trial_job(fmt::format("row/{}/{}/{:g}", robot, law, *rate),
+                                 row_spec(law, *rate), inputs.findings.at(robot), s.sweep_times));
+    for (const char* law : {"unsigned", "older", "euler"})
+      jobs.push_back(trial_job(fmt::format("row/{}/{}/60", robot, law), row_spec(law, 60),
+                               inputs.findings.at(robot), s.sweep_times));
+  }
+  run_jobs(jobs, calibration, progress);
+  return calibration;
+}
+
+}  // namespace twinarm

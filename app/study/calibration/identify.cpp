@@ -1,0 +1,258 @@
+#include "app/study/calibration/identify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <future>
+#include <mutex>
+
+#include "app/support/interrupt.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+constexpr unsigned kIdentifySeed = 1;
+constexpr int kFirstEvaluations = 3000, kRefitEvaluations = 100, kRounds = 3;
+// Held values of a profile, as factors of the best one: walked outwards, each from its neighbour.
+constexpr std::array<double, 5> kFactors{1.1, 1.3, 2, 4, 10};
+
+// Of welds of the points that linear springs hold, at the start pose.
+Gains weld_gains(const StudyRobot& robot, const CouplingSpec& weld) {
+  std::vector<Spring> springs = robot.springs(0, 0, 0, 0);
+  for (Spring& spring : springs)
+    spring = weld_spring(spring.name, robot.dvr_model(weld.type), robot.start_state(), spring.body,
+                         spring.p_L, weld.reference);
+  return {springs[0].k, springs[0].b, springs[1].k, springs[1].b};
+}
+
+// One row, one law, one rate: parameters to the four numbers and back.
+class Question {
+ public:
+  Question(const StudyInputs& inputs, const FamilyLaw& law, std::string row, double rate)
+      : inputs_(inputs), law_(law), row_(std::move(row)), rate_(rate) {}
+
+  Identification answer() const;
+
+ private:
+  std::vector<Parameter> parameters() const;
+  RunResult run_with(const CalibrationEntry& entry, double sweep) const;
+  double misfit(const CalibrationEntry& entry) const {
+    return table_misfit(run_with(entry, 1), paper_table().at(row_));
+  }
+  Eigen::MatrixXd sensitivity(const CalibrationEntry& entry) const;
+  ProfilePoint refit(CalibrationEntry& entry, std::size_t held) const;
+  // `better`: the best fit that was met on the way.
+  Profile profile(const CalibrationEntry& best, std::size_t held, CalibrationEntry& better) const;
+
+  const StudyInputs& inputs_;
+  const FamilyLaw& law_;
+  std::string row_;
+  double rate_;
+};
+
+std::vector<Parameter> Question::parameters() const {
+  if (law_.coupling.type == CouplingSpec::Type::weld_like)
+    return {{"time_constant", 1e-3, 1, 0},
+            {"damping_ratio", 0.01, 10, 0},
+            {"arm2_mass_scale", 0.2, 4, 0}};
+  const bool points = facts_of(law_.coupling.type, law_.coupling.printed).at_point;
+  const double k_low = points ? 100 : 3, k_high = points ? 1e7 : 3e5;  // [N/m], [N m/rad]
+  const double b_low = points ? 0.1 : 3e-3, b_high = points ? 3e4 : 1e3;
+  return {{"k1", k_low, k_high, 0},
+          {"b1", b_low, b_high, 0},
+          {"k2", k_low, k_high, 0},
+          {"b2", b_low, b_high, 0},
+          {"arm2_mass_scale", 0.2, 4, 0}};
+}
+
+RunResult Question::run_with(const CalibrationEntry& entry, double sweep) const {
+  const StudyRobot robot =
+      StudyRobot::s103(inputs_.settings, inputs_.s103, entry.value("arm2_mass_scale"));
+  RunSpec spec;
+  spec.name = row_;
+  spec.coupling = law_.coupling;
+  spec.rate = rate_;
+  if (!law_.coupling.printed) spec.kvr_rates = KvrRates::backward_difference;
+  if (law_.coupling.type == CouplingSpec::Type::weld_like) {
+    spec.coupling.reference.time_constant = entry.value("time_constant");
+    spec.coupling.reference.damping_ratio = entry.value("damping_ratio");
+    spec.gains = weld_gains(robot, spec.coupling);
+  } else {
+    spec.gains = entry.gains();
+  }
+  return run(robot, AutomaticMotion(HandMapping{}, sweep), spec);
+}
+
+// d x_i / d log theta_j by central differences, in half digits; columns of parameters that stand at
+// a bound are as true as the others: a bound is only where the search ends.
+Eigen::MatrixXd Question::sensitivity(const CalibrationEntry& entry) const {
+  constexpr double step = 1e-3;
+  Eigen::MatrixXd S(4, static_cast<Eigen::Index>(entry.parameters.size()));
+  const auto numbers = [&](std::size_t j, double factor) {
+    CalibrationEntry moved = entry;
+    moved.parameters[j].value *= factor;
+    const RunResult r = run_with(moved, 1);
+    return Eigen::Vector4d(r.max_deg[0], r.max_deg[1], r.mean_deg[0], r.mean_deg[1]);
+  };
+  for (std::size_t j = 0; j < entry.parameters.size(); ++j)
+    S.col(static_cast<Eigen::Index>(j)) =
+        (numbers(j, std::exp(step)) - numbers(j, std::exp(-step))) / (2 * step * kHalfDigit);
+  return S;
+}
+
+// Fits all parameters but one again, from where they stand.
+ProfilePoint Question::refit(CalibrationEntry& entry, std::size_t held) const {
+  const Parameter fixed = entry.parameters[held];
+  CalibrationEntry free = entry;
+  free.parameters.erase(free.parameters.begin() + static_cast<std::ptrdiff_t>(held));
+  const auto whole = [&](const CalibrationEntry& some) {
+    CalibrationEntry all = entry;
+    all.parameters = some.parameters;
+    all.parameters.insert(all.parameters.begin() + static_cast<std::ptrdiff_t>(held), fixed);
+    return all;
+  };
+  minimise(free, Method::local, kIdentifySeed, kRefitEvaluations,
+           [&](const CalibrationEntry& some) { return misfit(whole(some)); });
+  entry = whole(free);
+  entry.objective = free.objective;
+  return {fixed.value, free.objective, run_with(entry, kOtherSweep).max_deg};
+}
+
+Profile Question::profile(const CalibrationEntry& best, std::size_t held,
+                          CalibrationEntry& better) const {
+  Profile profile;
+  const Parameter& p = best.parameters[held];
+  profile.parameter = p.name;
+  profile.points.push_back({p.value, best.objective, run_with(best, kOtherSweep).max_deg});
+  for (const bool up : {false, true}) {
+    CalibrationEntry walker = best;
+    for (const double factor : kFactors) {
+      check_interrupt();
+      const double value = up ? p.value * factor : p.value / factor;
+      if (value < p.low || value > p.high) break;
+      walker.parameters[held].value = value;
+      profile.points.push_back(refit(walker, held));
+      if (walker.objective < better.objective) better = walker;
+    }
+  }
+  std::sort(profile.points.begin(), profile.points.end(),
+            [](const ProfilePoint& a, const ProfilePoint& b) { return a.value < b.value; });
+  return profile;
+}
+
+Identification Question::answer() const {
+  Identification found;
+  found.row = row_;
+  found.law = law_.name;
+  found.fit.name = fmt::format("{}/{}/{:g}", row_, law_.name, rate_);
+  found.fit.rate = rate_;
+  found.fit.parameters = parameters();
+  const bool folds = law_.coupling.printed && law_.coupling.type == CouplingSpec::Type::torsional;
+  minimise(found.fit, folds ? Method::rugged : Method::multistart, kIdentifySeed, kFirstEvaluations,
+           [this](const CalibrationEntry& entry) { return misfit(entry); });
+  // A profile that meets a better fit than the best begins the search anew from there.
+  for (int round = 0; round < kRounds; ++round) {
+    CalibrationEntry better = found.fit;
+    found.profiles.clear();
+    for (std::size_t j = 0; j < found.fit.parameters.size(); ++j)
+      found.profiles.push_back(profile(found.fit, j, better));
+    if (better.objective > 0.95 * found.fit.objective || round + 1 == kRounds) break;
+    minimise(better, Method::local, kIdentifySeed, kFirstEvaluations / 4,
+             [this](const CalibrationEntry& entry) { return misfit(entry); });
+    better.evaluations += found.fit.evaluations;
+    found.fit = better;
+  }
+  const RunResult best = run_with(found.fit, 1);
+  found.fit.numbers = {{"max1_deg", best.max_deg[0]},
+                       {"max2_deg", best.max_deg[1]},
+                       {"mean1_deg", best.mean_deg[0]},
+                       {"mean2_deg", best.mean_deg[1]}};
+  // Rows and columns of zeros make it square: the directions that they add move nothing, and of
+  // five parameters four numbers leave one such direction for certain.
+  const auto count = static_cast<Eigen::Index>(found.fit.parameters.size());
+  const Eigen::MatrixXd S = sensitivity(found.fit);
+  const Eigen::Index size = std::max<Eigen::Index>(S.rows(), count);
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(size, size);
+  square.topLeftCorner(S.rows(), count) = S;
+  const SingularValues values = singular_values(square);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    found.singular_values.push_back(i < S.rows() ? values.values(i) : 0);
+    const Eigen::VectorXd v = values.V.col(i).head(count);
+    found.directions.emplace_back(v.begin(), v.end());
+  }
+  return found;
+}
+
+}  // namespace
+
+Identification ask(const StudyInputs& inputs, const std::string& question) {
+  const std::size_t first = question.find('/'), last = question.rfind('/');
+  FaultList faults;
+  const auto fault = [&](std::string rule, std::string remedy) {
+    faults.add({"", 0, "--ask", std::move(rule), std::move(remedy)});
+  };
+  if (first == std::string::npos || first == last) {
+    fault("'" + question + "' is not ROW/LAW/RATE", "give one as E4/linear/60");
+    faults.check();
+  }
+  const std::string row = question.substr(0, first),
+                    law = question.substr(first + 1, last - first - 1);
+  char* end = nullptr;
+  const double rate = std::strtod(question.c_str() + last + 1, &end);
+  std::string laws;
+  bool is_known = false;
+  for (const FamilyLaw& known : family_laws()) {
+    laws += (laws.empty() ? "" : ", ") + known.name;
+    is_known = is_known || known.name == law;
+  }
+  if (row != "E3" && row != "E4") fault("there is no row '" + row + "'", "give E3 or E4");
+  if (!is_known) fault("there is no law '" + law + "'", "give one of " + laws);
+  if (!(rate >= 10 && rate <= 1e5) || *end != 0)
+    fault("'" + question.substr(last + 1) + "' is no rate", "give one of 10 to 100000 Hz");
+  faults.check();
+  return Question(inputs, family_law(law), row, rate).answer();
+}
+
+std::vector<Identification> identify(const StudyInputs& inputs, Progress& progress) {
+  struct Asked {
+    std::string row;
+    const FamilyLaw* law;
+    double rate;
+  };
+  std::vector<Asked> asked;  // the long ones first
+  std::vector<double> rates = inputs.settings.identification_rates_hz;
+  std::sort(rates.rbegin(), rates.rend());
+  for (const double rate : rates)
+    for (const char* row : {"E3", "E4"})
+      for (const FamilyLaw& law : family_laws()) asked.push_back({row, &law, rate});
+  std::vector<Identification> found(asked.size());
+  double all = 0, done = 0;  // in steps of the simulation
+  for (const Asked& a : asked) all += a.rate;
+  progress.stage("what Table 2 leaves open", 1);
+  std::mutex mutex;
+  std::size_t next = 0;
+  const auto work = [&] {
+    for (;;) {
+      std::size_t mine = 0;
+      {
+        const std::scoped_lock lock(mutex);
+        if (next == asked.size()) return;
+        mine = next++;
+      }
+      const Asked& a = asked[mine];
+      found[mine] = Question(inputs, *a.law, a.row, a.rate).answer();
+      const std::scoped_lock lock(mutex);
+      progress.advance((done += a.rate) / all);
+    }
+  };
+  auto second = std::async(std::launch::async, work);
+  work();
+  second.get();
+  return found;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,151 @@
+// Modes of equal gains against their prediction, gains of one coupling in the other, and gains that
+// make torsional equal to linear.
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "app/study/findings/findings.h"
+#include "app/study/findings/findings_detail.h"
+#include "app/study/findings/variants.h"
+#include "solver/dynamics/model_builder.h"
+
+namespace twinarm {
+namespace {
+
+// Ratio of the squared natural frequencies of equal gains at q2 = 0.
+double mode_ratio(const StudyRobot& robot, const std::string& law) {
+  const Model<double>& model = robot.kvr_model();
+  const State<double> x(model);
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  const AutomaticMotion hand{HandMapping{}};
+  KinematicRobot kvr(model, hand, HandMapping{}, robot.joints());
+  CouplingSpec spec;
+  spec.type = law == "linear" ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
+  spec.measure = law == "joint" ? Measure::joint : Measure::world;
+  spec.springs = robot.springs(1, 1, 1, 1);
+  const Eigen::VectorXd squares =
+      squared_frequencies(mass_matrix(model, x), make_coupling(spec, model, kvr)->joint_space(k).K);
+  return squares(squares.size() - 1) / squares(0);
+}
+
+void add_modes(const StudyInputs& inputs, const Predictions& predictions,
+               std::vector<Finding>& findings) {
+  for (const PredictedModes& modes : predictions.modes)
+    for (const auto& [law, ratio] : modes.ratio) {
+      const double measured = mode_ratio(inputs.findings.at(modes.robot), law);
+      findings.push_back(
+          {"equal gains",
+           fmt::format("{}, {}: equal gains on both links spread the squared natural "
+                       "frequencies by {:g} (predicted)",
+                       modes.robot, law, ratio),
+           fmt::format("{:.2f}", measured), is_near(measured, ratio, 0.02)});
+    }
+}
+
+// Springs at point masses, each as stiff as its mass: K = (k/m) M, one frequency for all modes.
+void add_proportional_springs(std::vector<Finding>& findings) {
+  const double l1 = 0.25, l2 = 0.35, m1 = 5, m2 = 3;
+  ModelBuilder builder;
+  const auto point = [](double m, double l) { return BodyInertia{m, {l, 0, 0}, Matrix3::Zero()}; };
+  builder.add_body("arm1", 0, "joint1", JointType::revolute, {}, Vector3::UnitZ(), point(m1, l1));
+  builder.add_body("arm2", 1, "joint2", JointType::revolute, {Matrix3::Identity(), {l1, 0, 0}},
+                   Vector3::UnitZ(), point(m2, l2));
+  const Model<double> model = builder.build();
+  double worst = 0;
+  for (double q2 : {-2.0, -0.7, 0.0, 0.4, 1.9}) {
+    State<double> x(model);
+    x.q[1] = q2;
+    Kinematics k(model);
+    forward_kinematics(model, x, k);
+    Eigen::Matrix2d K = Eigen::Matrix2d::Zero();
+    for (const auto& [body, l, m] : {std::tuple{1, l1, m1}, {2, l2, m2}}) {
+      const auto J = point_jacobian(model, k, body, k.position(body, {l, 0, 0}));
+      K += m * J.transpose() * J;
+    }
+    const Eigen::MatrixXd M = mass_matrix(model, x);
+    worst = std::max(worst, (K - M).norm() / M.norm());
+  }
+  findings.push_back(
+      {"equal gains",
+       "linear springs at point masses, stiff in proportion to them, give K = (k/m) M "
+       "at every pose: one frequency for all modes",
+       fmt::format("largest deviation {:.1e}", worst), worst < 1e-12});
+}
+
+void add_exchanged_gains(const StudyInputs& inputs, std::vector<Finding>& findings) {
+  for (const char* name : {"findings_set0", "findings_10_14"}) {
+    const StudyRobot& robot = inputs.findings.at(name);
+    const RunResult torsional = run_automatic(robot, row_spec("world", 1000), 22000, 400, 1000);
+    const RunResult linear = run_automatic(robot, row_spec("linear", 1000), 1200, 40, 1000);
+    findings.push_back(
+        {"equal gains",
+         fmt::format(
+             "{}: the numbers of a good linear coupling (22000, 400) as torsional gains "
+             "diverge at 1 kHz; those of a good torsional one (1200, 40) as linear gains are "
+             "far too soft",
+             robot_words(name)),
+         fmt::format("torsional {}; linear {} deg", torsional.stable ? "stable" : "diverges",
+                     words(linear.max_deg)),
+         !torsional.stable && linear.max_deg[1] > 10});
+  }
+}
+
+}  // namespace
+
+void add_equal_gains(const StudyInputs& inputs, const Predictions& predictions,
+                     std::vector<Finding>& findings) {
+  add_modes(inputs, predictions, findings);
+  add_proportional_springs(findings);
+  add_exchanged_gains(inputs, findings);
+}
+
+void add_matched_gains(const StudyResults& results, std::vector<Finding>& findings) {
+  const auto get = [&](const std::string& name) { return find_run(results.variants, name); };
+  for (double rate : {60.0, 1000.0}) {
+    const RunResult* linear = get(fmt::format("matched/linear/{:g}", rate));
+    const RunResult* full = get(fmt::format("matched/torsional/{:g}", rate));
+    if (!linear || !full) continue;
+    findings.push_back(
+        {"matched gains",
+         fmt::format(
+             "S-103, {:g} Hz: a torsional coupling with the full K_q, B_q of the linear one "
+             "follows as well as it (within a tenth of a degree or 10 %)",
+             rate),
+         fmt::format("linear {} deg, torsional {} deg", words(linear->max_deg),
+                     words(full->max_deg)),
+         std::abs(linear->max_deg[0] - full->max_deg[0]) <
+                 std::max(0.1, 0.1 * linear->max_deg[0]) &&
+             std::abs(linear->max_deg[1] - full->max_deg[1]) <
+                 std::max(0.1, 0.1 * linear->max_deg[1])});
+  }
+  const RunResult* equal = get("trial/signed-torsional/60");
+  const RunResult* ratio = get("trial/signed-torsional-ratio/60");
+  if (equal && ratio)
+    findings.push_back(
+        {"matched gains",
+         "S-103, 60 Hz: k2 = 0.2 k1 instead of equal gains changes the torsional "
+         "coupling's largest error",
+         fmt::format("equal {} deg, ratio {} deg", words(equal->max_deg), words(ratio->max_deg)),
+         std::max(ratio->max_deg[0], ratio->max_deg[1]) <
+             std::max(equal->max_deg[0], equal->max_deg[1])});
+  for (const char* law : {"torsional-world", "linear"}) {
+    const RunResult* implicit = get(fmt::format("implicit/{}/1000", law));
+    const RunResult* slow = get(fmt::format("implicit/{}/60", law));
+    const RunResult* explicit_60 = get(fmt::format("explicit/{}/60", law));
+    if (!implicit || !slow || !explicit_60) continue;
+    findings.push_back(
+        {"implicit",
+         fmt::format("S-103, {}, implicit at 1 kHz: both joints stay below 1.5 deg; at "
+                     "60 Hz the same gains stay stable implicitly and diverge "
+                     "explicitly",
+                     law),
+         fmt::format("1 kHz {} deg; 60 Hz implicit {} deg, explicit {}", words(implicit->max_deg),
+                     words(slow->max_deg), explicit_60->stable ? "stable" : "diverges"),
+         implicit->max_deg[0] < 1.5 && implicit->max_deg[1] < 1.5 && slow->stable &&
+             !explicit_60->stable});
+  }
+}
+
+}  // namespace twinarm

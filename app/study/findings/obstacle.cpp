@@ -1,0 +1,159 @@
+#include "app/study/findings/obstacle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/study/findings/variants.h"
+#include "collision/contact/contact_force.h"
+#include "collision/import/robot/mesh_geometry.h"
+#include "collision/shapes/convex_hull.h"
+
+namespace twinarm {
+namespace {
+
+// Every collision hull of the links outward of the base, and the box.
+void add_geometry(const StudyInputs& inputs, const Model<double>& model, ContactForce& contact) {
+  for (const LinkDescription& link : inputs.s103.links) {
+    const int body = model.find_body(link.name);
+    if (link.name == inputs.s103.root) continue;
+    for (const CollisionPart& part : link.collisions) {
+      const auto* mesh = std::get_if<MeshGeometry>(&part.geometry);
+      if (!mesh) continue;
+      contact.add(body, part.X_LG(), link.name + "/" + part.name,
+                  convex_hull(load_mesh(*mesh).vertices));
+    }
+  }
+  const ObstacleScene scene = obstacle_scene(inputs.settings);
+  contact.add(0, scene.X_WB, "obstacle", Box{scene.size});
+}
+
+// How far the KVR's copy of a touching point lies beyond the face that stops the DVR's.
+double beyond_face(const ContactReading& reading, const Kinematics& k_D, const Kinematics& k_K) {
+  const auto i = static_cast<std::size_t>(reading.body);
+  const Vector3 p_L = k_D.X_WL[i].inverse() * reading.p_W;
+  return -(k_K.X_WL[i] * p_L - reading.p_W).dot(reading.normal_W);
+}
+
+// The spring and joint whose target radius comes nearest to its limit.
+void watch_target_radius(const Coupling& coupling, const Model<double>& model,
+                         const State<double>& x, const Kinematics& k, double h, ObstacleRun& result,
+                         double& nearest) {
+  const Eigen::MatrixXd M = mass_matrix(model, x);
+  for (std::size_t s = 0; s < coupling.springs().size(); ++s) {
+    const Spring& spring = coupling.springs()[s];
+    const SpringReading& reading = coupling.readings()[s];
+    for (int body = spring.body; body > 1; body = model.parent[static_cast<std::size_t>(body)]) {
+      const auto i = static_cast<std::size_t>(body);
+      const auto dof = static_cast<Eigen::Index>(model.iv[i]);
+      const Vector3 o = k.X_WL[i].p;
+      const double r = (reading.p_D - o).head<2>().norm();
+      const double R_K = (reading.p_K - o).head<2>().norm();
+      const double limit = largest_target_radius(M(dof, dof), r, spring.k, spring.b, h);
+      result.target_radius_ratio = std::max(result.target_radius_ratio, R_K / r);
+      if (R_K / limit <= nearest) continue;
+      nearest = R_K / limit;
+      result.target_radius_limit = limit / r;
+    }
+  }
+}
+
+// The longest stretch of time with a contact force.
+void find_contact_interval(ObstacleRun& run) {
+  double begin = -1, longest = 0;
+  for (std::size_t n = 0; n < run.t.size(); ++n) {
+    const bool touching = run.contact_force[n] > 0;
+    if (touching && begin < 0) begin = run.t[n];
+    if (touching && run.t[n] - begin > longest) {
+      longest = run.t[n] - begin;
+      run.contact_begin = begin;
+      run.contact_end = run.t[n];
+    }
+    if (!touching) begin = -1;
+  }
+}
+
+}  // namespace
+
+ObstacleScene obstacle_scene(const StudySettings& settings) {
+  return {{Matrix3::Identity(), settings.obstacle.position}, settings.obstacle.size};
+}
+
+ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
+                         CouplingSpec::Type type,
+                         const std::function<void(TrackingSystem&)>& at_picture) {
+  const StudySettings::Obstacle& o = inputs.settings.obstacle;
+  const Model<double>& model = robot.dvr_model(type);
+  const bool linear = type == CouplingSpec::Type::linear;
+  ObstacleRun result;
+  result.name = linear ? "linear" : "torsional";
+  result.treatment = "implicit";
+  result.pull_unit = linear ? "N" : "N m";
+
+  CouplingSpec spec;
+  spec.name = result.name;
+  spec.type = type;
+  spec.treatment = Treatment::implicit;
+  result.gains =
+      gains_from_frequency(robot, spec, o.coupling_frequency_hz, o.coupling_damping_ratio);
+  spec.springs = robot.springs(result.gains.k1, result.gains.b1, result.gains.k2, result.gains.b2);
+
+  const AutomaticMotion hand{HandMapping{}};
+  TrackingSetup setup;
+  setup.kvr_model = &robot.kvr_model();
+  setup.dvr_model = &model;
+  setup.hand = &hand;
+  setup.joints = robot.joints();
+  setup.couplings = {spec};
+  for (const CouplingSpec& held : robot.auxiliary()) setup.couplings.push_back(held);
+  setup.h = 1 / o.rate_hz;
+  TrackingSystem system(setup);
+  JointStops stops("stops", model, system.kvr(), robot.stops());
+  system.simulation().add(stops);
+  ContactForce contact(model, {o.contact_stiffness, o.contact_dissipation, o.friction, 1e-3});
+  add_geometry(inputs, model, contact);
+  system.simulation().add(contact);
+
+  // The ends of the sweeps are where the KVR is farthest beyond: the picture is taken at the first.
+  const double picture_time = 0.95;
+  double nearest = 0;
+  const TrackingSeries series = system.run([&](double t) {
+    const Kinematics& k = system.simulation().kinematics();
+    double force = 0, beyond = 0, pull = 0;
+    for (const ContactReading& reading : contact.readings()) {
+      if (reading.normal_force <= 0) continue;
+      force += reading.normal_force;
+      beyond = std::max(beyond, beyond_face(reading, k, system.kvr().at(t).k));
+    }
+    for (const SpringReading& reading : system.coupling(0).readings())
+      pull = std::max(pull, reading.size);
+    result.pull.push_back(pull);
+    result.contact_force.push_back(force);
+    result.beyond.push_back(beyond);
+    result.penetration.push_back(contact.deepest(k));
+    if (linear && t > 0)
+      watch_target_radius(system.coupling(0), model, system.simulation().state(), k, setup.h,
+                          result, nearest);
+    if (result.picture_time == 0 && t >= picture_time) {
+      result.picture_time = t;
+      if (at_picture) at_picture(system);
+    }
+  });
+  result.t = series.t;
+  for (std::size_t n = 0; n < series.t.size(); ++n) {
+    result.q_K_deg.push_back({series.q_K[0][n] / kDegree, series.q_K[1][n] / kDegree});
+    result.q_D_deg.push_back({series.q_D[0][n] / kDegree, series.q_D[1][n] / kDegree});
+  }
+  const auto largest = [](const std::vector<double>& v) {
+    return v.empty() ? 0.0 : *std::max_element(v.begin(), v.end());
+  };
+  result.largest_penetration = largest(result.penetration);
+  result.largest_beyond = largest(result.beyond);
+  result.largest_pull = largest(result.pull);
+  result.largest_force = largest(result.contact_force);
+  find_contact_interval(result);
+  return result;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,198 @@
+#include "app/study/findings/variants.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/support/interrupt.h"
+#include "coupling/target/synthetic_operator.h"
+
+namespace twinarm {
+namespace {
+
+// A list of runs on the automatic motion, made and predicted one by one.
+class Runner {
+ public:
+  Runner(const StudyRobot& robot, Progress& progress, std::size_t expected)
+      : robot_(robot), progress_(progress), expected_(expected) {}
+  void operator()(const std::string& name, const std::string& title, RunSpec spec) {
+    check_interrupt();
+    spec.name = name;
+    spec.title = title;
+    results_.push_back(run(robot_, hand_, spec));
+    predict(robot_, results_.back());
+    progress_.advance(static_cast<double>(results_.size()) / static_cast<double>(expected_));
+  }
+  std::vector<RunResult> take() { return std::move(results_); }
+
+ private:
+  const StudyRobot& robot_;
+  Progress& progress_;
+  std::size_t expected_;
+  AutomaticMotion hand_{HandMapping{}};
+  std::vector<RunResult> results_;
+};
+
+RunSpec with_gains(RunSpec spec, const Gains& gains) {
+  spec.gains = gains;
+  return spec;
+}
+
+RunSpec consistent(CouplingSpec::Type type, Measure measure, Treatment treatment, double rate) {
+  RunSpec spec;
+  spec.coupling.type = type;
+  spec.coupling.measure = measure;
+  spec.coupling.treatment = treatment;
+  spec.rate = rate;
+  return spec;
+}
+
+void add_trials(const StudySettings& s, const Calibration& calibration, Runner& add) {
+  for (const std::string& law : trial_laws())
+    for (double rate : s.rates_hz) {
+      const Gains gains = calibration.entry(fmt::format("trial/{}/{:g}", law, rate)).gains();
+      add(fmt::format("trial/{}/{:g}", law, rate), law + ", best by trial",
+          with_gains(trial_spec(law, rate), gains));
+    }
+}
+
+// The linear coupling of the trial, in consistent form, and the torsional one with its full K_q.
+void add_matched(const StudySettings& s, const Calibration& calibration, Runner& add) {
+  for (double rate : s.rates_hz) {
+    const Gains gains = calibration.entry(fmt::format("trial/printed-linear/{:g}", rate)).gains();
+    for (const auto& [name, type] : {std::pair{"linear", CouplingSpec::Type::linear},
+                                     {"torsional", CouplingSpec::Type::matched}}) {
+      RunSpec spec = consistent(type, Measure::joint, Treatment::explicit_, rate);
+      spec.kvr_rates = KvrRates::backward_difference;
+      add(fmt::format("matched/{}/{:g}", name, rate), "the same K_q and B_q",
+          with_gains(spec, gains));
+    }
+  }
+}
+
+void add_implicit(const StudySettings& s, const StudyRobot& robot, Runner& add) {
+  struct Law {
+    const char* name;
+    CouplingSpec::Type type;
+    Measure measure;
+  };
+  const Law laws[] = {{"torsional-world", CouplingSpec::Type::torsional, Measure::world},
+                      {"torsional-joint", CouplingSpec::Type::torsional, Measure::joint},
+                      {"linear", CouplingSpec::Type::linear, Measure::world}};
+  for (const Law& law : laws)
+    for (double rate : {60.0, 1000.0})
+      for (Treatment treatment :
+           {Treatment::explicit_, Treatment::semi_implicit, Treatment::implicit}) {
+        RunSpec spec = consistent(law.type, law.measure, treatment, rate);
+        spec.gains = gains_from_frequency(robot, spec.coupling, s.implicit_frequency_hz,
+                                          s.implicit_damping_ratio);
+        add(fmt::format("{}/{}/{:g}", treatment_name(spec.coupling), law.name, rate),
+            fmt::format("{:g} Hz springs", s.implicit_frequency_hz), spec);
+      }
+}
+
+// The force of the rate held between, physics at about 1 kHz.
+void add_held(const StudySettings& s, const Calibration& calibration, Runner& add) {
+  for (const std::string& law : trial_laws())
+    for (double rate : s.rates_hz) {
+      if (rate >= s.held_physics_hz) continue;
+      RunSpec spec = trial_spec(law, rate);
+      spec.gains = calibration.entry(fmt::format("trial/{}/{:g}", law, rate)).gains();
+      spec.held_substeps = static_cast<int>(std::lround(s.held_physics_hz / rate));
+      add(fmt::format("held/{}/{:g}-held", law, rate), "force held, physics near 1 kHz", spec);
+    }
+}
+
+// One change at a time to the signed coupling at 60 Hz, with its own best gains.
+void add_ablations(const Calibration& calibration, Runner& add) {
+  constexpr double rate = 60;
+  const Gains gains = calibration.entry("trial/signed-torsional/60").gains();
+  const RunSpec base = with_gains(trial_spec("signed-torsional", rate), gains);
+  add("ablation/signed", "signed damper, backward differences", base);
+  RunSpec spec = base;
+  spec.coupling.options.damper = Damper::folded;
+  add("ablation/folded", "unsigned angle, folded, as printed", spec);
+  spec.coupling.options.damping_sign = 1;
+  add("ablation/folded-along", "the same, damping couple along the KVR's motion", spec);
+  spec = base;
+  spec.coupling.options.damper = Damper::unsigned_;
+  add("ablation/unsigned", "unsigned speed, not folded", spec);
+  spec = base;
+  spec.coupling.options.difference = Difference::per_frame;
+  add("ablation/per-frame", "angle per frame, not divided by h", spec);
+  spec = base;
+  spec.coupling.options.difference = Difference::older;
+  add("ablation/older", "difference one frame older", spec);
+  spec = consistent(CouplingSpec::Type::torsional, Measure::world, Treatment::explicit_, rate);
+  add("ablation/true-velocities", "current velocities of both robots", with_gains(spec, gains));
+  add("ablation/ratio-0.2", "k2 = 0.2 k1, with its own best gains",
+      with_gains(trial_spec("signed-torsional-ratio", rate),
+                 calibration.entry("trial/signed-torsional-ratio/60").gains()));
+}
+
+}  // namespace
+
+std::vector<RunSpec> reproduction_specs(const Calibration& calibration) {
+  const double rate = calibration.entry("chosen").rate;
+  const Gains e3 = calibration.entry(fmt::format("E3/{:g}/world-", rate)).gains();
+  const Gains e4 = calibration.entry(fmt::format("E4/{:g}", rate)).gains();
+  std::vector<RunSpec> specs;
+  for (const char* name : {"E1", "E2", "E3", "E4"}) {
+    const bool torsional = name[1] == '1' || name[1] == '3', by_user = name[1] < '3';
+    RunSpec spec =
+        torsional ? with_gains(e3_spec("world-", rate), e3) : with_gains(e4_spec(rate), e4);
+    spec.name = name;
+    spec.title = fmt::format("{}, {}", torsional ? "torsional" : "linear",
+                             by_user ? "by user" : "automatic");
+    specs.push_back(spec);
+  }
+  return specs;
+}
+
+std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibration& calibration,
+                                        const HandSource& hand) {
+  const AutomaticMotion automatic{HandMapping{}};
+  std::vector<RunResult> results;
+  for (RunSpec& spec : reproduction_specs(calibration)) {
+    const bool by_user = spec.name < "E3";
+    if (by_user && dynamic_cast<const SyntheticOperator*>(&hand)) spec.title += " (synthetic hand)";
+    results.push_back(run(robot, by_user ? hand : automatic, spec));
+    predict(robot, results.back());
+  }
+  return results;
+}
+
+std::vector<RunResult> run_variants(const StudyInputs& inputs, const StudyRobot& robot,
+                                    const Calibration& calibration, Progress& progress) {
+  const std::size_t rates = inputs.settings.rates_hz.size();
+  Runner add(robot, progress, trial_laws().size() * (2 * rates - 1) + 2 * rates + 18 + 8);
+  add_trials(inputs.settings, calibration, add);
+  add_matched(inputs.settings, calibration, add);
+  add_implicit(inputs.settings, robot, add);
+  add_held(inputs.settings, calibration, add);
+  add_ablations(calibration, add);
+  return add.take();
+}
+
+Gains gains_from_frequency(const StudyRobot& robot, const CouplingSpec& coupling,
+                           double frequency_hz, double damping_ratio) {
+  const Eigen::Matrix2d M = robot.start_inertia(coupling.type);
+  const double w = 2 * std::numbers::pi * frequency_hz;
+  double I1 = M(0, 0), I2 = M(1, 1);
+  if (coupling.type != CouplingSpec::Type::torsional) {
+    const std::vector<Spring> springs = robot.springs(1, 1, 1, 1);
+    I1 /= springs[0].p_L.head<2>().squaredNorm();
+    I2 /= springs[1].p_L.head<2>().squaredNorm();
+  }
+  const double b = 2 * damping_ratio * w;
+  return {w * w * I1, b * I1, w * w * I2, b * I2};
+}
+
+const RunResult* find_run(const std::vector<RunResult>& runs, const std::string& name) {
+  for (const RunResult& result : runs)
+    if (result.spec.name == name) return &result;
+  return nullptr;
+}
+
+}  // namespace twinarm

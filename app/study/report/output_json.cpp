@@ -1,0 +1,157 @@
+#include "app/study/report/output_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace twinarm {
+namespace {
+
+using nlohmann::ordered_json;
+
+// nlohmann writes doubles with the fewest digits that read back the same, and null for what is not
+// finite.
+ordered_json by_joint(const std::array<double, 2>& values) {
+  return {{"joint1", values[0]}, {"joint2", values[1]}};
+}
+
+ordered_json gains_json(const Gains& gains) {
+  return {{"k1", gains.k1}, {"b1", gains.b1}, {"k2", gains.k2}, {"b2", gains.b2}};
+}
+
+ordered_json run_json(const RunResult& run) {
+  const RunSpec& spec = run.spec;
+  return {{"title", spec.title},
+          {"coupling", coupling_words(spec.coupling)},
+          {"treatment", treatment_name(spec.coupling)},
+          {"rate", spec.rate},
+          {"step", spec.step()},
+          {"gains", gains_json(spec.gains)},
+          {"max_deg", by_joint(run.max_deg)},
+          {"mean_deg", by_joint(run.mean_deg)},
+          {"stable", run.stable},
+          {"prediction",
+           {{"frequency", run.frequency},
+            {"step_limit", run.step_limit},
+            {"peak_deg", by_joint(run.peak_deg)},
+            {"max_deg", by_joint(run.motion_max_deg)},
+            {"mean_deg", by_joint(run.motion_mean_deg)}}}};
+}
+
+ordered_json reproduction_json(const RunResult& run) {
+  ordered_json json = run_json(run);
+  const auto row = paper_table().find(run.spec.name);
+  if (row != paper_table().end()) {
+    json["paper"] = {{"max_deg", by_joint(row->second.max_deg)},
+                     {"mean_deg", by_joint(row->second.mean_deg)}};
+    json["worst_relative_error"] = worst_relative_error(run, row->second);
+  }
+  json["calibrated"] = run.spec.name == "E3" || run.spec.name == "E4";
+  return json;
+}
+
+ordered_json variant_json(const RunResult& run) {
+  ordered_json json = {{"name", run.spec.name}};
+  json.update(run_json(run));
+  return json;
+}
+
+ordered_json obstacle_json(const ObstacleRun& run) {
+  return {{"name", run.name},
+          {"treatment", run.treatment},
+          {"gains", gains_json(run.gains)},
+          {"largest_penetration", run.largest_penetration},
+          {"largest_beyond", run.largest_beyond},
+          {"largest_pull", run.largest_pull},
+          {"pull_unit", run.pull_unit},
+          {"largest_contact_force", run.largest_force},
+          {"target_radius_ratio", run.target_radius_ratio},
+          {"target_radius_limit", run.target_radius_limit},
+          {"contact_begin", run.contact_begin},
+          {"contact_end", run.contact_end}};
+}
+
+ordered_json search_json(const StudyResults& results) {
+  ordered_json rows = ordered_json::array();
+  for (const SearchRow& row : results.search) {
+    ordered_json json = {{"rate", row.rate}, {"e3", ordered_json::object()}, {"e4", nullptr}};
+    for (const auto& [law, entry] : row.e3)
+      if (entry) json["e3"][law] = entry->objective;
+    if (row.e4) json["e4"] = row.e4->objective;
+    rows.push_back(json);
+  }
+  return rows;
+}
+
+// What a row leaves open of a law's parameters (docs/study.md).
+ordered_json identification_json(const Identification& found) {
+  ordered_json json = {{"row", found.row},
+                       {"law", found.law},
+                       {"rate", found.fit.rate},
+                       {"misfit", found.fit.objective},
+                       {"numbers", found.fit.numbers},
+                       {"singular_values", found.singular_values},
+                       {"parameters", ordered_json::array()}};
+  for (std::size_t j = 0; j < found.profiles.size(); ++j) {
+    const Identification::Interval in = found.interval(found.profiles[j]);
+    json["parameters"].push_back({{"name", found.profiles[j].parameter},
+                                  {"value", found.fit.parameters[j].value},
+                                  {"low", in.low},
+                                  {"high", in.high},
+                                  {"open", {in.open_low, in.open_high}}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string study_json(const StudyResults& results, const std::string& report_path) {
+  ordered_json root;
+  root["runs"] = ordered_json::object();
+  for (const RunResult& run : results.reproduction)
+    root["runs"][run.spec.name] = reproduction_json(run);
+  root["variants"] = ordered_json::array();
+  for (const RunResult& run : results.variants) root["variants"].push_back(variant_json(run));
+  root["findings"] = ordered_json::array();
+  for (const Finding& finding : results.findings)
+    root["findings"].push_back({{"section", finding.section},
+                                {"claim", finding.claim},
+                                {"measured", finding.measured},
+                                {"holds", finding.holds}});
+  root["obstacle"] = ordered_json::array();
+  for (const ObstacleRun& run : results.obstacle) root["obstacle"].push_back(obstacle_json(run));
+  root["recordings"] = ordered_json::array();
+  for (const StudyRecording& run : results.recordings)
+    root["recordings"].push_back({{"name", run.name},
+                                  {"scene", run.scene.string()},
+                                  {"recording", run.recording.string()},
+                                  {"page", run.page.string()},
+                                  {"apart_deg", run.apart_deg}});
+  root["search"] = search_json(results);
+  root["left_open"] = ordered_json::array();
+  for (const Identification& found : results.identifications)
+    root["left_open"].push_back(identification_json(found));
+  root["answer"] = results.answer;
+  root["optimiser"] = results.calibration.optimiser;
+  root["calibration_seed"] = results.calibration.seed;
+  root["arm2_mass_scale"] = results.arm2_mass_scale;
+  root["hand"] = results.hand_description;
+  root["command"] = results.command;
+  root["seconds"] = results.seconds;
+  root["report"] = report_path;
+  return root.dump(1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+std::string answer_json(const Identification& found) {
+  ordered_json json = identification_json(found);
+  json["evaluations"] = found.fit.evaluations;
+  json["allowance"] = found.allowance();
+  json["directions"] = found.directions;
+  for (std::size_t j = 0; j < found.profiles.size(); ++j) {
+    ordered_json& points = json["parameters"][j]["profile"];
+    for (const ProfilePoint& p : found.profiles[j].points)
+      points.push_back(
+          {{"value", p.value}, {"misfit", p.misfit}, {"other_max_deg", p.other_max_deg}});
+  }
+  return json.dump(1);
+}
+
+}  // namespace twinarm

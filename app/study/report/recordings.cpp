@@ -1,0 +1,144 @@
+#include "app/study/report/recordings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/page/replay_page.h"
+#include "app/record/record_run.h"
+#include "app/run/run.h"
+#include "app/support/interrupt.h"
+#include "app/web/web_bundle.h"
+#include "solver/support/atomic_file.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace {
+
+constexpr double kObstacleEvery = 0.004;  // [s] between two recorded steps: four of them
+
+// Angles of the study, by joint and step [deg].
+struct StudyAngles {
+  std::vector<std::string> joints;
+  std::vector<std::vector<double>> deg;
+};
+
+// What is recorded, and the largest difference of an angle from the study's [deg].
+double record(const std::filesystem::path& scene, const std::filesystem::path& file, double every,
+              const StudyAngles& angles) {
+  SimulateOptions options;
+  options.robot.model = scene;
+  options.record = file;
+  if (every > 0) options.record_every = every;
+  SimulatePlan prepared = prepare_simulation(options);
+  prepared.run.times.clear();
+  std::vector<std::string> command{"twinarm", "simulate", scene.string(), "--record",
+                                   file.string()};
+  if (every > 0) command.insert(command.end(), {"--record-every", number_text(every)});
+  RunRecorder recorder(file, header_of(options, prepared, command), prepared, every);
+  const Model<double>& model = prepared.input.robot.model;
+  double largest = 0;
+  RunWatch watch;
+  watch.look = [&](RunView& run) {
+    recorder.look(run);
+    const auto step = static_cast<std::size_t>(run.step());
+    for (std::size_t j = 0; j < angles.joints.size(); ++j) {
+      if (step >= angles.deg[j].size()) continue;
+      const auto body = static_cast<std::size_t>(model.find_joint(angles.joints[j]));
+      const double q = run.simulation().state().q[model.iq[body]];
+      largest = std::max(largest, std::abs(q / kDegree - angles.deg[j][step]));
+    }
+  };
+  watch.interrupted = is_interrupted;
+  watch.tick = [](double) { check_interrupt(); };
+  try {
+    const SimulateResult result = run_plan(prepared.input, prepared.run, watch);
+    recorder.finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
+  } catch (const Interrupted&) {  // a study that has not come to its end has no use for half a run
+    std::error_code ignored;
+    std::filesystem::remove(part_of(file), ignored);
+    throw;
+  }
+  return largest;
+}
+
+StudyAngles angles_of(const StudyRobot& robot, const RunResult& run) {
+  StudyAngles angles;
+  for (std::size_t j = 0; j < run.series.q_D.size(); ++j) {
+    angles.joints.push_back(robot.joints().turned[j]);
+    angles.deg.emplace_back();
+    for (const double q : run.series.q_D[j]) angles.deg[j].push_back(q / kDegree);
+  }
+  return angles;
+}
+
+StudyAngles angles_of(const StudyRobot& robot, const ObstacleRun& run) {
+  StudyAngles angles{{robot.joints().turned[0], robot.joints().turned[1]}, {{}, {}}};
+  for (const std::array<double, 2>& q : run.q_D_deg)
+    for (std::size_t j = 0; j < 2; ++j) angles.deg[j].push_back(q[j]);
+  return angles;
+}
+
+RunSpec spec_of(const ObstacleRun& run, double rate) {
+  const bool linear = run.name == "linear";
+  RunSpec spec;
+  spec.name = "obstacle_" + run.name;
+  spec.title = run.name + ", automatic, a box in the way";
+  spec.coupling.type = linear ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
+  spec.coupling.treatment = Treatment::implicit;
+  spec.gains = run.gains;
+  spec.rate = rate;
+  return spec;
+}
+
+class Recorder {
+ public:
+  explicit Recorder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  void operator()(const StudyScene& scene, const StudyAngles& angles, double every) {
+    StudyRecording made;
+    made.name = scene.spec.name;
+    made.title = scene.spec.title;
+    made.scene = folder_ / (made.name + ".toml");
+    made.recording = folder_ / (made.name + ".twinrec");
+    write_whole_file(made.scene, scene_text(scene));
+    made.apart_deg = record(made.scene, made.recording, every, angles);
+    if (!web_bundle().replay.empty()) {
+      made.page = folder_ / (made.name + ".html");
+      write_whole_file(made.page, replay_page(made.recording).html);
+    }
+    all_.push_back(std::move(made));
+  }
+  std::vector<StudyRecording> take() { return std::move(all_); }
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<StudyRecording> all_;
+};
+
+}  // namespace
+
+std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const StudyRobot& robot,
+                                             const SceneHand& hand, const StudyResults& results,
+                                             const std::filesystem::path& folder,
+                                             Progress& progress) {
+  Recorder add(folder);
+  StudyScene scene{&inputs.settings, &robot, {}, {}, false};
+  const double count = static_cast<double>(results.reproduction.size() + results.obstacle.size());
+  double done = 0;
+  for (const RunResult& run : results.reproduction) {
+    scene.spec = run.spec;
+    scene.hand = run.spec.name < "E3" ? hand : automatic_hand();
+    add(scene, angles_of(robot, run), 0);
+    progress.advance(++done / count);
+  }
+  scene.with_obstacle = true;
+  scene.hand = automatic_hand();
+  for (const ObstacleRun& run : results.obstacle) {
+    scene.spec = spec_of(run, inputs.settings.obstacle.rate_hz);
+    add(scene, angles_of(robot, run), kObstacleEvery);
+    progress.advance(++done / count);
+  }
+  return add.take();
+}
+
+}  // namespace twinarm

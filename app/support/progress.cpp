@@ -1,0 +1,61 @@
+#include "app/support/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/support/streams.h"
+
+namespace twinarm {
+
+Progress::Progress(bool quiet)
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(std::chrono::steady_clock::now()),
+      drawn_(start_) {}
+
+Progress::~Progress() {
+  finish();
+}
+
+void Progress::stage(const std::string& name, double weight) {
+  done_ += weight_;
+  weight_ = weight;
+  fraction_ = 0;
+  name_ = name;
+  if (quiet_) return;
+  if (terminal_)
+    draw();
+  else
+    say("{}\n", name_);
+}
+
+void Progress::advance(double fraction_of_stage) {
+  fraction_ = std::clamp(fraction_of_stage, 0.0, 1.0);
+  if (!quiet_ && terminal_ &&
+      std::chrono::steady_clock::now() - drawn_ > std::chrono::milliseconds(100))
+    draw();
+}
+
+void Progress::finish() {
+  if (!quiet_ && terminal_ && !name_.empty()) say("\r\033[K");
+  std::fflush(stderr);
+  name_.clear();
+}
+
+void Progress::draw() {
+  drawn_ = std::chrono::steady_clock::now();
+  const double done = std::clamp(done_ + weight_ * fraction_, 0.0, 1.0);
+  const double elapsed = std::chrono::duration<double>(drawn_ - start_).count();
+  constexpr int width = 28;
+  const int full = static_cast<int>(done * width);
+  std::string left = "";
+  if (done > 0.03) left = fmt::format("  {:.0f} s left", elapsed * (1 - done) / done);
+  say("\r\033[K[{}{}] {:3.0f} %  {}{}", std::string(full, '#'), std::string(width - full, '.'),
+      100 * done, name_, left);
+  std::fflush(stderr);
+}
+
+}  // namespace twinarm

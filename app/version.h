@@ -1,8 +1,0 @@
-// The version of the program, as CMakeLists.txt has it.
-#pragma once
-
-namespace twinarm {
-
-extern const char* const kVersion;
-
-}  // namespace twinarm

@@ -1,0 +1,97 @@
+// Stacks at rest (E11): ten boxes, and one that is a hundred times heavier on top of a light one.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "benchmarks/analytic/contact/contact_cases.h"
+#include "benchmarks/analytic/support/contact_scene.h"
+
+namespace twinarm::contact_cases {
+namespace {
+
+constexpr double kEdge = 0.2;
+
+struct Standing {
+  double force = 0;               // largest error under a box [relative]
+  double sideways = 0, sunk = 0;  // how far a box ever was from its place [m]
+};
+// Cubes of these masses from below, each up to 1 cm off the middle, for a time. Forces count once
+// each box has got its own, from the tenth step on.
+// Gravity may lean, and the boxes may be smaller than their places.
+struct Stack {
+  std::vector<double> masses{};
+  double duration = 0;
+  Vector3 gravity{0, 0, -kGravity};
+  double size = 1;
+};
+Standing stand(const Stack& stack) {
+  const auto& [masses, duration, gravity, size] = stack;
+  ContactScene scene(gravity);
+  scene.add_floor(surface(0.5));
+  const int count = static_cast<int>(masses.size());
+  std::vector<double> load(masses.size());  // on the lower face
+  double above = 0;
+  for (std::size_t i = masses.size(); i-- > 0;) load[i] = (above += masses[i]) * kGravity;
+  std::vector<Vector3> places;
+  for (int i = 0; i < count; ++i) {
+    places.emplace_back(0.01 * std::sin(3 * i), 0.01 * std::cos(2 * i), (i + 0.5) * kEdge);
+    scene.add({Box{Vector3::Constant(size * kEdge)}, surface(0.5),
+               masses[static_cast<std::size_t>(i)], places.back()});
+  }
+  scene.start();
+  Standing result;
+  for (long n = 0; n < std::lround(duration / kStep); ++n) {
+    scene.step(kStep);
+    std::vector<double> below(masses.size(), 0);
+    for (const ContactPoint& point : scene.contacts().points()) {
+      const int a = scene.contacts().geometry(point.contact.a).body;
+      const int b = scene.contacts().geometry(point.contact.b).body;
+      below[static_cast<std::size_t>(std::max(a, b) - 1)] += std::abs(point.force_W.z());
+    }
+    for (int i = 0; i < count; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const Vector3 moved = scene.p(i + 1) - places[k];
+      result.sideways = std::max(result.sideways, std::hypot(moved.x(), moved.y()));
+      result.sunk = std::max(result.sunk, std::abs(moved.z()));
+      if (n >= 10) result.force = std::max(result.force, relative(below[k], load[k]));
+    }
+  }
+  return scene.ok() ? result : Standing{NAN, NAN, NAN};
+}
+const std::vector<double> kTen(10, 1.0);
+Standing ten_boxes() {  // 10 s, run once, and anew for who looks on
+  if (contact_recorder) return stand({kTen, 10});
+  static const Standing result = stand({kTen, 10});
+  return result;
+}
+
+CaseResult forces(double off) {  // gravity
+  if (off == 1) return {ten_boxes().force};
+  return {stand({kTen, 0.1, {0, 0, -kGravity * off}}).force};
+}
+CaseResult sideways(double off) {  // its mistake: gravity leans more than the friction holds
+  if (off == 1) return {ten_boxes().sideways};
+  return {stand({kTen, 0.1, kGravity * Vector3(off - 1, 0, -1)}).sideways};
+}
+CaseResult sinking(double off) {  // edges
+  if (off == 1) return {ten_boxes().sunk};
+  return {stand({kTen, 0.1, {0, 0, -kGravity}, off}).sunk};
+}
+CaseResult heavy_on_light(double off) {  // gravity
+  return {stand({{1, 100}, 2, {0, 0, -kGravity * off}}).force};
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> stacks() {
+  return {
+      contact_case<forces, 1>("E11-forces",
+                              "ten boxes: force under box i is (n - i + 1) m g [relative]", 1e-6),
+      contact_case<sideways, 600>("E11-drift", "ten boxes: how far they slide in 10 s [m]", 1e-5),
+      contact_case<sinking, -1>("E11-sinking", "ten boxes: how far they sink in 10 s [m]", 1e-4),
+      contact_case<heavy_on_light, 1>("E11-heavy",
+                                      "a box of 100 kg on one of 1 kg: forces [relative]", 1e-6),
+  };
+}
+
+}  // namespace twinarm::contact_cases

@@ -1,0 +1,245 @@
+// F4: a spring-damper k, b holds a hinge of inertia I to a target at rest, in steps of h; alpha =
+// k h^2 / I, beta = b h / I. Where the real stepper begins to grow, by bisection, against the
+// limits of each scheme (the roots of its characteristic polynomial; docs/coupling.md, section 4):
+//   euler                     alpha < beta < 2 + alpha / 2
+//   semi-implicit             alpha < 4 - 2 beta, with the current velocity or a difference
+//   euler, difference         alpha < beta (1 - beta)
+//   semi-implicit, older one  alpha < 1 - beta
+//   force held for a step     alpha < 2 beta, beta < 2
+//   the same, difference      alpha < 2 beta (2 - beta) / (2 + beta)
+//   implicit damper           alpha < 4 + 2 beta
+// and the implicit treatment and implicit integrators, which have none.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "benchmarks/analytic/coupling/coupling_cases.h"
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "coupling/analysis/prediction.h"
+#include "coupling/analysis/tracking_run.h"
+#include "solver/dynamics/model_builder.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+constexpr double kHinge = 0.7, kFrame = 0.01, kLittle = 1e-9;
+constexpr int kHeldSteps = 20;  // steps of the integrator in one held step
+
+// The target: a hand that stands still.
+class StillHand final : public HandSource {
+ public:
+  HandSample sample(double, double) const override {
+    HandSample hand;
+    for (std::size_t j = 0; j < 3; ++j) HandMapping().set_robot_angle(hand, j, 0, 0);
+    return hand;
+  }
+  double duration() const override { return 1; }
+  std::string description() const override { return "still"; }
+};
+
+// What makes a scheme.
+struct Stepping {
+  CouplingSpec spec{};
+  Integrator integrator = Integrator::semi_implicit;
+  int substeps = 1;
+};
+Stepping stepping_of(Scheme scheme) {
+  Stepping s;
+  s.spec.options.damper = Damper::vector_;
+  const auto is = [&](auto... one) { return ((scheme == one) || ...); };
+  if (is(Scheme::euler, Scheme::euler_difference)) s.integrator = Integrator::euler;
+  s.spec.printed = is(Scheme::euler_difference, Scheme::semi_implicit_difference,
+                      Scheme::semi_implicit_older, Scheme::hold_difference);
+  if (is(Scheme::semi_implicit_older)) s.spec.options.difference = Difference::older;
+  if (is(Scheme::hold, Scheme::hold_difference)) {
+    s.integrator = Integrator::rk4;
+    s.substeps = s.spec.hold_steps = s.spec.options.hold_steps = kHeldSteps;
+  }
+  if (is(Scheme::implicit_damper)) s.spec.treatment = Treatment::semi_implicit;
+  if (is(Scheme::implicit)) s.spec.treatment = Treatment::implicit;
+  return s;
+}
+
+Model<double> lone_hinge(double inertia) {
+  ModelBuilder builder;
+  builder.set_gravity(Vector3::Zero());
+  builder.add_body("link", 0, "joint1", JointType::revolute, {}, Vector3::UnitZ(),
+                   {1, Vector3::Zero(), inertia * Matrix3::Identity()});
+  return builder.build();
+}
+
+// A setting, for the hinge as it should be; the one that is stepped may have another inertia.
+struct Setting {
+  double alpha, beta;
+};
+
+// Whether a small motion grows: its size in the last quarter of the steps against the second.
+bool grows(Stepping stepping, const Setting& at, double inertia) {
+  stepping.spec.springs = {{"spring", 1, Vector3::Zero(), at.alpha * kHinge / (kFrame * kFrame),
+                            at.beta * kHinge / kFrame}};
+  const Model<double> model = lone_hinge(inertia);
+  const StillHand hand;
+  KinematicRobot kvr(model, hand, HandMapping(), {{"joint1"}, "", 0, 0});
+  const std::unique_ptr<Coupling> coupling = make_coupling(stepping.spec, model, kvr);
+  State<double> start(model);
+  start.q[0] = kLittle;
+  Simulation simulation(model, start);
+  simulation.set_integrator(stepping.integrator);
+  simulation.add(*coupling);
+  const int steps = stepping.substeps > 1 ? 800 : 4000;
+  double early = 0, late = 0;
+  for (int n = 0; n < steps; ++n) {
+    for (int m = 0; m < stepping.substeps; ++m) simulation.step(kFrame / stepping.substeps);
+    const double size = std::abs(simulation.state().q[0]);
+    if (!(size < 1e6 * kLittle)) return true;
+    if (size < 1e-6 * kLittle && n > steps / 4) return false;
+    if (n >= steps / 4 && n < steps / 2) early = std::max(early, size);
+    if (n >= 3 * steps / 4) late = std::max(late, size);
+  }
+  return late > 1.01 * early;  // undamped motion, seen once a step, seems to by less
+}
+
+// A setting on the limit, and what is turned to pass it.
+struct Edge {
+  Setting at;
+  double Setting::*turned = &Setting::alpha;
+};
+std::vector<Edge> edges_of(Scheme scheme) {
+  std::vector<Edge> all;
+  const auto add = [&](std::initializer_list<double> betas, auto alpha) {
+    for (const double beta : betas) all.push_back({{alpha(beta), beta}});
+  };
+  switch (scheme) {
+    case Scheme::euler:
+      add({0.2, 0.8, 1.5}, [](double b) { return b; });
+      all.push_back({{1, 2.5}, &Setting::beta});
+      break;
+    case Scheme::semi_implicit:
+    case Scheme::semi_implicit_difference:
+      add({0.15, 0.8, 1.5}, [](double b) { return 4 - 2 * b; });
+      break;
+    case Scheme::euler_difference:
+      add({0.2, 0.5, 0.8}, [](double b) { return b * (1 - b); });
+      break;
+    case Scheme::semi_implicit_older:
+      add({0.15, 0.5, 0.8}, [](double b) { return 1 - b; });
+      break;
+    case Scheme::hold:
+      add({0.2, 0.8, 1.5}, [](double b) { return 2 * b; });
+      all.push_back({{1, 2}, &Setting::beta});
+      break;
+    case Scheme::hold_difference:
+      add({0.2, 0.8, 1.5}, [](double b) { return 2 * b * (2 - b) / (2 + b); });
+      break;
+    case Scheme::implicit_damper:
+      add({0.15, 0.8, 3}, [](double b) { return 4 + 2 * b; });
+      break;
+    case Scheme::rk4:  // an integrator's own, with groups of cases for it
+    case Scheme::implicit:
+      break;
+  }
+  return all;
+}
+
+// By how much the stepper's edge is off, to 1e-4 of itself; not a number where there is none within
+// a tenth of it.
+double missed(const Stepping& stepping, const Edge& edge, double inertia) {
+  const auto stable = [&](double part) {
+    Setting at = edge.at;
+    at.*edge.turned *= part;
+    return !grows(stepping, at, inertia);
+  };
+  double inside = 0.9, outside = 1.1;
+  if (!stable(inside) || stable(outside)) return std::numeric_limits<double>::quiet_NaN();
+  while (std::abs(outside - inside) > 1e-4) {
+    const double middle = (inside + outside) / 2;
+    (stable(middle) ? inside : outside) = middle;
+  }
+  return std::abs(inside - 1);
+}
+
+template <Scheme scheme>
+CaseResult edges_missed(double inertia) {
+  CaseResult result;
+  for (const Edge& edge : edges_of(scheme))
+    result.error = worse(result.error, missed(stepping_of(scheme), edge, inertia));
+  return result;
+}
+// Its mistake: a hinge of 1.5 % less inertia.
+template <Scheme scheme>
+AnalyticCase edge_case(const char* name, const char* reference) {
+  return {name,
+          "couplings",
+          reference,
+          0.01,
+          [] { return edges_missed<scheme>(kHinge); },
+          {},
+          [] { return edges_missed<scheme>(0.985 * kHinge); }};
+}
+
+// How many settings grow.
+CaseResult unstable(const Stepping& stepping, double most_alpha) {
+  CaseResult result;
+  for (const double alpha : {1e-2, 1.0, 1e2, 1e6, 1e10})
+    for (const double beta : {0.0, 0.1, 1e2, 1e6})
+      if (alpha <= most_alpha) result.error += grows(stepping, {alpha, beta}, kHinge) ? 1 : 0;
+  return result;
+}
+Stepping by_integrator(Integrator integrator) {
+  Stepping s = stepping_of(Scheme::semi_implicit);
+  s.integrator = integrator;
+  return s;
+}
+// Its mistake: steps that are semi-implicit.
+template <Integrator integrator>
+AnalyticCase integrator_case(const char* name, const char* reference) {
+  return {name,
+          "couplings",
+          reference,
+          0,
+          [] { return unstable(by_integrator(integrator), 1e6); },
+          {},
+          [] { return unstable(by_integrator(Integrator::semi_implicit), 1e6); }};
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> coupling_stability() {
+  return {
+      edge_case<Scheme::euler>("F4-euler",
+                               "explicit Euler: stable for alpha < beta < 2 + alpha/2 [relative]"),
+      edge_case<Scheme::semi_implicit>("F4-semi",
+                                       "semi-implicit: stable for alpha < 4 - 2 beta [relative]"),
+      edge_case<Scheme::semi_implicit_difference>(
+          "F4-semi-difference", "the same, velocity by backward difference [relative]"),
+      edge_case<Scheme::euler_difference>(
+          "F4-euler-difference",
+          "explicit Euler, backward difference: alpha < beta (1 - beta) [relative]"),
+      edge_case<Scheme::semi_implicit_older>(
+          "F4-semi-older",
+          "semi-implicit, difference one frame older: alpha < 1 - beta [relative]"),
+      edge_case<Scheme::hold>("F4-hold",
+                              "force held for a step: alpha < 2 beta, beta < 2 [relative]"),
+      edge_case<Scheme::hold_difference>(
+          "F4-hold-difference",
+          "the same by backward difference: alpha < 2 beta (2 - beta)/(2 + beta) [relative]"),
+      edge_case<Scheme::implicit_damper>("F4-implicit-damper",
+                                         "implicit damper: alpha < 4 + 2 beta [relative]"),
+      {"F4-implicit",
+       "couplings",
+       "implicit treatment: stable for alpha to 1e10, beta to 1e6 [settings that grow]",
+       0,
+       [] { return unstable(stepping_of(Scheme::implicit), 1e10); },
+       {},
+       [] { return unstable(stepping_of(Scheme::implicit_damper), 1e10); }},
+      integrator_case<Integrator::implicit_euler>(
+          "F4-implicit-euler",
+          "implicit Euler: stable for alpha, beta to 1e6 [settings that grow]"),
+      integrator_case<Integrator::implicit_midpoint>(
+          "F4-implicit-midpoint", "implicit midpoint: the same [settings that grow]"),
+      integrator_case<Integrator::trapezoid>("F4-trapezoid",
+                                             "trapezoidal rule: the same [settings that grow]"),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

@@ -1,0 +1,178 @@
+// A2, A3, a free body with I = diag(1, 2, 3) kg m^2, without torques: Euler's equations by Jacobi's
+// elliptic functions (Landau, Lifshitz, Mechanics, section 37). With 2T = w.I w and H = |I w|,
+//   H^2 > 2T I2:  w = (A1 cn, A2 sn, A3 dn)(n t + u0),      H^2 < 2T I2:  w = (A1 dn, A2 sn, A3
+//   cn).
+// Attitude: H keeps its direction; the axis a of dn, e1 or e3, goes round it at
+//   psi' = H (2T - h_a^2 / I_a) / (H^2 - h_a^2),   h = I w,
+// and by the integral of that (of the third kind) and h itself the attitude is known.
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
+#include "benchmarks/analytic/support/special_functions.h"
+#include "solver/dynamics/derivatives.h"
+#include "solver/dynamics/energy.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+using Real = long double;
+
+constexpr Real I[] = {1, 2, 3};
+
+// u0 is 0 for a start on the plane w2 = 0, and the quarter period for one on w_cn = 0.
+struct Motion {
+  Real H2, T2, A[3], n, m, u0 = 0;  // |H|^2, 2T, amplitudes, rate of u, parameter
+  bool round_e3;                    // dn belongs to e3
+
+  Motion(Real w1, Real w2, Real w3) {
+    const Real w[] = {w1, w2, w3};
+    H2 = T2 = 0;
+    for (int k = 0; k < 3; ++k) H2 += I[k] * I[k] * w[k] * w[k], T2 += I[k] * w[k] * w[k];
+    round_e3 = H2 > T2 * I[1];
+    const Real from_1 = H2 - T2 * I[0], from_3 = T2 * I[2] - H2;
+    A[0] = std::sqrt(from_3 / (I[0] * (I[2] - I[0])));
+    A[1] = std::sqrt(round_e3 ? from_3 / (I[1] * (I[2] - I[1])) : from_1 / (I[1] * (I[1] - I[0])));
+    A[2] = std::sqrt(from_1 / (I[2] * (I[2] - I[0])));
+    const Real slow = round_e3 ? (I[1] - I[0]) * from_3 : (I[2] - I[1]) * from_1;
+    const Real fast = round_e3 ? (I[2] - I[1]) * from_1 : (I[1] - I[0]) * from_3;
+    n = std::sqrt(fast / (I[0] * I[1] * I[2]));
+    m = slow / fast;
+    if (w2 != 0) u0 = special::quarter_period(m);
+  }
+  Vector3 rate(Real t) const {
+    const special::Jacobi j = special::jacobi(n * t + u0, m);
+    const Real w1 = round_e3 ? A[0] * j.cn : A[0] * j.dn;
+    const Real w3 = round_e3 ? A[2] * j.dn : A[2] * j.cn;
+    return {static_cast<double>(w1), static_cast<double>(A[1] * j.sn), static_cast<double>(w3)};
+  }
+  // Axes fixed to H and to the axis of dn, in body axes.
+  Matrix3 axes(Real t) const {
+    const Vector3 w = rate(t);
+    const Vector3 z = Vector3(double(I[0]) * w[0], double(I[1]) * w[1], double(I[2]) * w[2]) /
+                      static_cast<double>(std::sqrt(H2));
+    const Vector3 a = round_e3 ? Vector3::UnitZ() : Vector3::UnitX();
+    const Vector3 x = (a - a.dot(z) * z).normalized();
+    return (Matrix3() << x, z.cross(x), z).finished();
+  }
+  Eigen::Quaterniond attitude(Real t) const {
+    const Real moment = round_e3 ? I[2] : I[0], amplitude = round_e3 ? A[2] : A[0];
+    const auto precession = [&](Real s) {
+      const Real h = moment * amplitude * special::jacobi(n * s + u0, m).dn;
+      return std::sqrt(H2) * (T2 - h * h / moment) / (H2 - h * h);
+    };
+    const auto psi = static_cast<double>(special::integral(precession, 0, t));
+    const Matrix3 turn = Eigen::AngleAxisd(psi, Vector3::UnitZ()).toRotationMatrix();
+    return Eigen::Quaterniond(Matrix3(axes(0) * turn * axes(t).transpose()));
+  }
+  CaseReadings readings(Real t) const { return attitude_and_rate(attitude(t), rate(t)); }
+};
+
+CaseScene spinning(double w1, double w2, double w3) {
+  return start_at(free_body(1, {double(I[0]), double(I[1]), double(I[2])}), {0, 0, 0, 1, 0, 0, 0},
+                  {w1, w2, w3, 0, 0, 0});
+}
+
+TrajectoryCase tumbling() {
+  static const Motion motion(1, 0, 1);
+  return {.statement =
+              "A free body with moments of inertia 1, 2 and 3 kg m<sup>2</sup> starts with "
+              "(1, 0, 1) rad/s. Its rate in body axes: <p>&omega; = (cn t, sn t, dn t), "
+              "parameter m = 1/3; the attitude by an integral of the third kind</p>",
+          .scene = [] { return spinning(1, 0, 1); },
+          .times = {1, 2, 5, 10},
+          .readings = {"qw", "qx", "qy", "qz", "w1 [rad/s]", "w2 [rad/s]", "w3 [rad/s]"},
+          .observe = observe_attitude_and_rate,
+          .reference = [](double t) { return motion.readings(t); },
+          .measure = attitude_and_rate_error,
+          .mutant = more_inertia};
+}
+
+TrajectoryCase tumbling_invariants() {
+  TrajectoryCase c = tumbling();
+  c.statement = "The same body: what stays is <p>|H| = |I &omega;|, 2T = &omega; I &omega;</p>";
+  c.readings = {"|H| [N m s]", "kinetic energy [J]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    const Inertia<double>& inertia = model.I[1];
+    const Vector3 h(inertia.I.xx * x.qd[0], inertia.I.yy * x.qd[1], inertia.I.zz * x.qd[2]);
+    return CaseReadings{h.norm(), kinetic_energy(model, x)};
+  };
+  c.reference = [](double) { return CaseReadings{std::sqrt(10.0), 2}; };
+  c.lane = dopri5_lane(1e-13);
+  c.measure = largest_difference;
+  return c;
+}
+
+TrajectoryCase flip() {
+  static const Motion motion(1e-3L, 1, 0);
+  TrajectoryCase c = tumbling();
+  c.statement =
+      "The same body spins about its intermediate axis, (0.001, 1, 0) rad/s: the spin turns over "
+      "every 28.73 s (Dzhanibekov). <p>&omega; = (A<sub>1</sub> dn u, sn u, A<sub>3</sub> cn u), "
+      "u = n t + K, n = 0.57735, m = 0.999999</p>";
+  c.scene = [] { return spinning(1e-3, 1, 0); };
+  c.times = {5, 10, 15, 20, 30};
+  c.reference = [](double t) { return motion.readings(t); };
+  return c;
+}
+
+// w2 is zero at odd multiples of K / n.
+TrajectoryCase flip_time() {
+  static const Motion motion(1e-3L, 1, 0);
+  TrajectoryCase c = flip();
+  c.times = {};
+  c.readings = {};
+  c.observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
+  c.reference = [](double k) {
+    return CaseReadings{static_cast<double>((2 * k - 1) * motion.u0 / motion.n)};
+  };
+  c.measure = largest_difference;
+  c.events = {[](const Model<double>&, const State<double>& x) { return x.qd[1]; }, 2, 60};
+  return c;
+}
+
+// Near a steady spin w2 the other two rates grow as exp(n t): n^2 = (I3 - I2) (I2 - I1) / (I1 I3).
+TrajectoryCase flip_growth() {
+  TrajectoryCase c = flip();
+  c.statement =
+      "Near the spin (0, 1, 0) rad/s the other rates grow as <p>exp(n t), n<sup>2</sup> = "
+      "(I<sub>3</sub> &minus; I<sub>2</sub>)(I<sub>2</sub> &minus; "
+      "I<sub>1</sub>)/(I<sub>1</sub>I<sub>3</sub>) = 1/3</p>";
+  c.scene = [] { return spinning(0, 1, 0); };
+  c.times = {0};
+  c.readings = {"growth rate [1/s]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    const Eigen::MatrixXd d = forward_dynamics_derivatives(model, x, Forces<double>(model)).dqd;
+    return CaseReadings{std::sqrt(d(0, 2) * d(2, 0))};
+  };
+  c.reference = [](double) { return CaseReadings{1 / std::sqrt(3.0)}; };
+  c.measure = relative_to_largest;
+  return c;
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> asymmetric_body() {
+  const char* group = "free-body";
+  return {
+      trajectory_case("A2", group,
+                      "asymmetric body: attitude [rad], rate [rad/s], 10 s; elliptic functions",
+                      1e-8, tumbling()),
+      trajectory_case("A2-invariants", group,
+                      "the same: |H| [N m s], kinetic energy [J]; dopri5, tolerance 1e-13", 1e-12,
+                      tumbling_invariants()),
+      trajectory_case("A3", group,
+                      "spin about the intermediate axis: attitude [rad], rate [rad/s], 30 s", 1e-8,
+                      flip()),
+      trajectory_case(
+          "A3-flip", group,
+          "the same: w2 is zero at 14.365712218740667 s, and 28.731424437481333 s later", 1e-6,
+          flip_time()),
+      trajectory_case("A3-growth", group, "rate of growth about that spin: 1/sqrt(3) [relative]",
+                      1e-12, flip_growth()),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

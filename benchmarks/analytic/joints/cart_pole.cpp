@@ -1,0 +1,168 @@
+// C6, C10: a cart of mass M on a level line, held by a spring k or not, and a pole of mass m with
+// its centre l from the hinge, J about the hinge, th from hanging (Lagrange):
+//   (M + m) x'' + m l cos th th'' - m l sin th th'^2 + k x = 0,
+//   m l cos th x'' + J th'' + m g l sin th = 0.
+// About th = 0 and pi, k = 0:  w^2 = +- m g l / (J - m^2 l^2 / (M + m)).
+#include <cmath>
+#include <numbers>
+
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/chain_parts.h"
+#include "solver/dynamics/kinematics.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+
+struct CartPole {
+  double cart = 1, pole = 0.3, com = 0.5;
+  double inertia = 0.3 / 12;  // about the centre of mass
+  double spring = 0, gravity = kGravity;
+
+  double about_hinge() const { return inertia + pole * com * com; }
+  CaseScene scene(double angle) const {
+    ModelBuilder builder;
+    builder.set_gravity({0, 0, -gravity});
+    builder.add_body("cart", 0, "slide", JointType::prismatic, {}, Vector3::UnitX(),
+                     {cart, Vector3::Zero(), Matrix3::Identity()});
+    builder.add_body("pole", 1, "hinge", JointType::revolute, {}, -Vector3::UnitY(),
+                     {pole, {0, 0, -com}, Vector3(inertia, inertia, 0).asDiagonal()});
+    CaseScene all = start_at(builder.build(), {0, angle}, {0, 0});
+    if (spring > 0) {
+      const double k = spring;
+      all.sources = {std::make_shared<JointEffort>([k](double, double x) { return -k * x; })};
+      all.stored = [k](const State<double>& x) { return k * x.q[0] * x.q[0] / 2; };
+    }
+    return all;
+  }
+  std::function<CaseReadings(double)> motion(double angle) const {
+    const long double both = static_cast<long double>(cart) + pole;
+    const long double ml = static_cast<long double>(pole) * com, k = spring, g = gravity;
+    const long double J = ml * com + inertia;
+    return solution_of(
+        [=](long double, const special::Numbers& x, special::Numbers& dx) {
+          const long double c = std::cos(x[1]), s = std::sin(x[1]);
+          const special::Two a =
+              special::solve_two(both, ml * c, J, {ml * s * x[3] * x[3] - k * x[0], -ml * g * s});
+          dx = {x[2], x[3], a.first, a.second};
+        },
+        {0, angle, 0, 0});
+  }
+  // Of swings below, and of the growth above [rad/s].
+  double frequency() const {
+    const double ml = pole * com;
+    return std::sqrt(ml * gravity / (about_hinge() - ml * ml / (cart + pole)));
+  }
+};
+
+const CartPole kPlain{};
+const CartPole kPoint{1, 0.3, 0.5, 0, 0, kGravity};
+// Chrono's: its centre at half of 1 m, on a spring, its gravity 10 m/s^2.
+const CartPole kChrono{1, 1, 0.5, 1, 10, 10};
+
+TrajectoryCase cart_pole_motion() {
+  return {.statement =
+              "A pole, 0.3 kg, 1 m, on a free cart of 1 kg is let go 2 rad from hanging: <p>(M + "
+              "m) x'' + m l cos &theta; &theta;'' = m l sin &theta; &theta;'<sup>2</sup>, m l cos "
+              "&theta; x'' + J &theta;'' = &minus;m g l sin &theta;</p>",
+          .scene = [] { return kPlain.scene(2); },
+          .times = {1, 2, 5},
+          .readings = {"x [m]", "angle [rad]", "speed [m/s]", "rate [rad/s]"},
+          .observe = joint_state(),
+          .reference = kPlain.motion(2)};
+}
+// No force acts along x, so the centre of mass stays where it was.
+TrajectoryCase cart_pole_centre() {
+  TrajectoryCase c = cart_pole_motion();
+  c.statement =
+      "The same: the common centre of mass does not move along the line. <p>(M x + m (x + l sin "
+      "&theta;))/(M + m) = const</p>";
+  c.times = {0.5, 1, 1.5, 2, 3, 4, 5};
+  c.readings = {"x of the centre [m]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    Kinematics k(model);
+    forward_kinematics(model, x, k);
+    const double cart = model.I[1].m, pole = model.I[2].m;
+    const double at = k.position(2, {0, 0, -kPlain.com}).x();
+    return CaseReadings{(cart * x.q[0] + pole * at) / (cart + pole)};
+  };
+  c.reference = [](double) {
+    return CaseReadings{kPlain.pole * kPlain.com * std::sin(2.0) / (kPlain.cart + kPlain.pole)};
+  };
+  c.lane = dopri5_lane(1e-13);
+  // A push on the cart.
+  c.mutant = [](CaseScene& scene) {
+    scene.sources = {std::make_shared<JointEffort>([](double, double) { return 1e-9; })};
+  };
+  return c;
+}
+
+// Swings below, growth above; of a rod, and of a point mass at its middle.
+TrajectoryCase cart_pole_frequencies() {
+  return {.statement =
+              "A pole on a free cart swings below, and falls from above, at <p>w<sup>2</sup> = "
+              "m g l/(J &minus; m<sup>2</sup>l<sup>2</sup>/(M + m))</p>",
+          .scene = [] { return kPlain.scene(0); },
+          .times = {0},
+          .readings = {"swinging [rad/s]", "falling [rad/s]", "point mass [rad/s]"},
+          .observe =
+              [](const Model<double>& model, const State<double>& x) {
+                State<double> above = x;
+                above.q[1] = std::numbers::pi;
+                CaseScene point = kPoint.scene(0);
+                point.model.gravity = model.gravity;
+                return CaseReadings{
+                    std::sqrt(squared_frequencies_of(model, x).back()),
+                    std::sqrt(-squared_frequencies_of(model, above).front()),
+                    std::sqrt(squared_frequencies_of(point.model, point.start).back())};
+              },
+          .reference =
+              [](double) {
+                return CaseReadings{kPlain.frequency(), kPlain.frequency(), kPoint.frequency()};
+              },
+          .measure = relative_each};
+}
+
+TrajectoryCase chrono_slider() {
+  return {.statement =
+              "A pendulum of 1 m, 1 kg, 1 kg m<sup>2</sup> on a cart of 1 kg with a spring of 10 "
+              "N/m is let go level, g = 10 m/s<sup>2</sup>: a unit test of Project Chrono, "
+              "utest_CH_slider_pend. <p>(M + m) x'' + m l (cos &theta; &theta;'' &minus; sin "
+              "&theta; &theta;'<sup>2</sup>) + k x = 0, m l cos &theta; x'' + J &theta;'' + m g l "
+              "sin &theta; = 0</p>",
+          .scene = [] { return kChrono.scene(std::numbers::pi / 2); },
+          .times = {1, 2, 5},
+          .readings = {"x [m]", "angle from level [rad]", "speed [m/s]", "rate [rad/s]"},
+          .observe =
+              [](const Model<double>&, const State<double>& x) {
+                return CaseReadings{x.q[0], x.q[1] - std::numbers::pi / 2, x.qd[0], x.qd[1]};
+              },
+          .reference =
+              [](double t) {
+                CaseReadings x = kChrono.motion(std::numbers::pi / 2)(t);
+                x[1] -= std::numbers::pi / 2;
+                return x;
+              }};
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> cart_pole() {
+  const char* group = "chains";
+  return {
+      trajectory_case("C6", group, "cart-pole from 2 rad: place [m], angle [rad], rates, 5 s", 1e-8,
+                      cart_pole_motion()),
+      trajectory_case("C6-centre", group, "the same: x of the centre of mass, 5 s [m]", 1e-12,
+                      cart_pole_centre()),
+      trajectory_case(
+          "C6-frequencies", group,
+          "the same: 4.2183982411491488 rad/s twice, 5.0503465227645518 of a point [relative]",
+          1e-12, cart_pole_frequencies()),
+      trajectory_case("C10-slider", group,
+                      "Chrono's pendulum on a sprung slider: place, angle, rates, 5 s", 1e-8,
+                      chrono_slider()),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

@@ -1,0 +1,216 @@
+// C8, C9: two hinges that are not parallel (Lagrange).
+// C8, Furuta's pendulum, arm q1 about the vertical, pendulum q2 about the arm, 0 hanging:
+//   (J0 + m L^2 + Jp sin^2 q2) q1'' + m L l cos q2 q2'' = -2 Jp s c q1' q2' + m L l s q2'^2,
+//   m L l cos q2 q1'' + Jp q2'' = Jp s c q1'^2 - m g l s,  Jp = J + m l^2.
+// C9, Kane's "babyboot" (Kane, Levinson, Dynamics, 1985): a rod swings about a level axis, a plate
+// turns about the rod:
+//   (I0 + Bx cos^2 qB + By sin^2 qB) qA'' = 2 (Bx - By) s c qA' qB' - (mA LA + mB LB) g sin qA,
+//   Bz qB'' = -(Bx - By) s c qA'^2,  I0 = Ax + mA LA^2 + mB LB^2. Chaotic.
+#include <cmath>
+#include <numbers>
+
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/chain_parts.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+
+// ---- C8 ----
+
+constexpr double kArm = 0.02, kReach = 0.3, kBob = 0.2, kBobCom = 0.15, kBobInertia = 0.0015;
+constexpr double kPivot = kBobInertia + kBob * kBobCom * kBobCom;  // Jp
+constexpr double kMixed = kBob * kReach * kBobCom;                 // m L l
+constexpr double kTurned = kArm + kBob * kReach * kReach;          // J0 + m L^2
+constexpr double kWhirl = 12;                                      // [rad/s]
+
+// The hinge of the pendulum lies on x of the arm; at q2 > 0 it leans towards y.
+CaseScene furuta(double tilt, double arm_rate, double rate) {
+  ModelBuilder builder;
+  builder.add_body("arm", 0, "shaft", JointType::revolute, {}, Vector3::UnitZ(),
+                   {1, Vector3::Zero(), Vector3(0, 0, kArm).asDiagonal()});
+  builder.add_body("pendulum", 1, "hinge", JointType::revolute,
+                   {Matrix3::Identity(), {kReach, 0, 0}}, Vector3::UnitX(),
+                   {kBob, {0, 0, -kBobCom}, Vector3(kBobInertia, kBobInertia, 0).asDiagonal()});
+  return start_at(builder.build(), {0, tilt}, {arm_rate, rate});
+}
+special::Rates furuta_rates() {
+  return [](long double, const special::Numbers& x, special::Numbers& dx) {
+    constexpr long double J = kBobInertia + static_cast<long double>(kBob) * kBobCom * kBobCom;
+    constexpr long double m = static_cast<long double>(kBob) * kReach * kBobCom;
+    constexpr long double about = kArm + static_cast<long double>(kBob) * kReach * kReach;
+    const long double s = std::sin(x[1]), c = std::cos(x[1]);
+    const special::Two a = special::solve_two(
+        about + J * s * s, m * c, J,
+        {-2 * J * s * c * x[2] * x[3] + m * s * x[3] * x[3],
+         J * s * c * x[2] * x[2] - static_cast<long double>(kBob) * 9.81L * kBobCom * s});
+    dx = {x[2], x[3], a.first, a.second};
+  };
+}
+
+TrajectoryCase furuta_motion() {
+  return {.statement =
+              "Furuta's pendulum, on an arm that turns freely, is let go 2 rad from hanging: <p>"
+              "(J<sub>0</sub> + m L<sup>2</sup> + J sin<sup>2</sup>q<sub>2</sub>) q<sub>1</sub>'' "
+              "+ m L l cos q<sub>2</sub> q<sub>2</sub>'' = &minus;J sin 2q<sub>2</sub> "
+              "q<sub>1</sub>'q<sub>2</sub>' + m L l sin q<sub>2</sub> q<sub>2</sub>'<sup>2</sup>, "
+              "m L l cos q<sub>2</sub> q<sub>1</sub>'' + J q<sub>2</sub>'' = J sin 2q<sub>2</sub> "
+              "q<sub>1</sub>'<sup>2</sup>/2 &minus; m g l sin q<sub>2</sub></p>",
+          .scene = [] { return furuta(2, 0, 0); },
+          .times = {1, 2, 5},
+          .readings = {"arm [rad]", "pendulum [rad]", "arm [rad/s]", "pendulum [rad/s]"},
+          .observe = joint_state(),
+          .reference = solution_of(furuta_rates(), {0, 2, 0, 0})};
+}
+// In one state, q2 = 1, rates 2 and 3.
+TrajectoryCase furuta_evaluation() {
+  TrajectoryCase c = furuta_motion();
+  c.statement =
+      "Furuta's pendulum at 1 rad, its joints at 2 and 3 rad/s: accelerations. <p>M(q) q'' = "
+      "&minus;h(q, q')</p> with M and h of the motion above.";
+  c.scene = [] { return furuta(1, 2, 3); };
+  c.times = {0};
+  c.readings = {"arm [rad/s2]", "pendulum [rad/s2]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    return CaseReadings(evaluate(model, x).qdd);
+  };
+  c.reference = [](double) {
+    special::Numbers dx(4);
+    furuta_rates()(0, {0, 1, 2, 3}, dx);
+    return CaseReadings{static_cast<double>(dx[2]), static_cast<double>(dx[3])};
+  };
+  c.measure = relative_to_largest;
+  return c;
+}
+// Hanging it swings, upright it falls, at w^2 = m g l / (Jp - (m L l)^2 / (J0 + m L^2)); turning
+// at W the pendulum stands out where its weight and the centrifugal couple balance.
+TrajectoryCase furuta_special() {
+  TrajectoryCase c = furuta_motion();
+  c.statement =
+      "Furuta's pendulum swings below and falls from above at <p>w<sup>2</sup> = m g l/(J &minus; "
+      "(m L l)<sup>2</sup>/(J<sub>0</sub> + m L<sup>2</sup>)); turning at W it stands out at cos q "
+      "= m g l/(J W<sup>2</sup>)</p>";
+  c.scene = [] { return furuta(0, 0, 0); };
+  c.times = {0};
+  c.readings = {"swinging [rad/s]", "falling [rad/s]", "cosine at 12 rad/s"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    State<double> above = x, round = x;
+    above.q[1] = std::numbers::pi;
+    round.qd[0] = kWhirl;
+    double low = 0.5, high = 1.5;
+    for (double middle = 1; low < middle && middle < high; middle = (low + high) / 2) {
+      round.q[1] = middle;
+      (evaluate(model, round).qdd[1] > 0 ? low : high) = middle;
+    }
+    return CaseReadings{std::sqrt(squared_frequencies_of(model, x).back()),
+                        std::sqrt(-squared_frequencies_of(model, above).front()), std::cos(low)};
+  };
+  c.reference = [](double) {
+    const double weight = kBob * kGravity * kBobCom;
+    const double w = std::sqrt(weight / (kPivot - kMixed * kMixed / kTurned));
+    return CaseReadings{w, w, weight / (kPivot * kWhirl * kWhirl)};
+  };
+  c.measure = relative_each;
+  return c;
+}
+
+// ---- C9 ----
+
+constexpr double kRodInertia = 50e-7;  // about its centre [kg m^2]
+constexpr double kPlateX = 2500e-7, kPlateY = 500e-7, kPlateZ = 2000e-7;
+constexpr double kRodCentre = 0.075, kPlateCentre = 0.2, kRodMass = 0.01, kPlateMass = 0.1;
+
+CaseScene babyboot_scene() {
+  ModelBuilder builder;
+  builder.add_body("rod", 0, "swing", JointType::revolute, {}, Vector3::UnitX(),
+                   {kRodMass, {0, 0, -kRodCentre}, Vector3(kRodInertia, 0, 0).asDiagonal()});
+  builder.add_body(
+      "plate", 1, "turn", JointType::revolute, {}, Vector3::UnitZ(),
+      {kPlateMass, {0, 0, -kPlateCentre}, Vector3(kPlateX, kPlateY, kPlateZ).asDiagonal()});
+  return start_at(builder.build(), {std::numbers::pi / 2, kDegree}, {0, 0});
+}
+special::Rates babyboot_rates() {
+  return [](long double, const special::Numbers& x, special::Numbers& dx) {
+    // Exact decimals: chaos carries even their rounding to 1e-10.
+    constexpr long double mA = 0.01L, mB = 0.1L, LA = 0.075L, LB = 0.2L;
+    constexpr long double Bx = 2500e-7L, By = 500e-7L, Bz = 2000e-7L;
+    constexpr long double I0 = 50e-7L + mA * LA * LA + mB * LB * LB;
+    const long double s = std::sin(x[1]), c = std::cos(x[1]);
+    const long double weight = (mA * LA + mB * LB) * 9.81L * std::sin(x[0]);
+    dx = {x[2], x[3],
+          (2 * (Bx - By) * s * c * x[2] * x[3] - weight) / (I0 + Bx * c * c + By * s * s),
+          -(Bx - By) * s * c * x[2] * x[2] / Bz};
+  };
+}
+CaseReadings in_degrees(CaseReadings x) {
+  x.resize(2);
+  for (double& angle : x) angle /= kDegree;
+  return x;
+}
+
+TrajectoryCase babyboot_motion() {
+  const auto solved = solution_of(babyboot_rates(), {std::numbers::pi_v<long double> / 2,
+                                                     std::numbers::pi_v<long double> / 180, 0, 0});
+  return {
+      .statement =
+          "Kane's \"babyboot\": a rod on a level hinge, let go at 90&deg;, and a plate that "
+          "turns about it, at 1&deg;. Chaotic. <p>(I + B<sub>x</sub>cos<sup>2</sup>q<sub>B</sub> "
+          "+ B<sub>y</sub>sin<sup>2</sup>q<sub>B</sub>) q<sub>A</sub>'' = (B<sub>x</sub> &minus; "
+          "B<sub>y</sub>) sin 2q<sub>B</sub> q<sub>A</sub>'q<sub>B</sub>' &minus; "
+          "(m<sub>A</sub>L<sub>A</sub> + m<sub>B</sub>L<sub>B</sub>) g sin q<sub>A</sub>, "
+          "B<sub>z</sub>q<sub>B</sub>'' = (B<sub>y</sub> &minus; B<sub>x</sub>) sin "
+          "2q<sub>B</sub> q<sub>A</sub>'<sup>2</sup>/2</p>",
+      .scene = babyboot_scene,
+      .times = {5, 10},
+      .readings = {"rod [deg]", "plate [deg]"},
+      .observe = [](const Model<double>&, const State<double>& x) { return in_degrees(x.q); },
+      .reference = [solved](double t) { return in_degrees(solved(t)); }};
+}
+TrajectoryCase babyboot_fine() {
+  TrajectoryCase c = babyboot_motion();
+  c.lane = rk4_lane(2.5e-4);
+  return c;
+}
+TrajectoryCase babyboot_rates_at_end() {
+  TrajectoryCase c = babyboot_motion();
+  c.statement = "The same by dopri5: rates and accelerations at 10 s. <p>q'(t), q''(t)</p>";
+  c.times = {10};
+  c.readings = {"rod [rad/s]", "plate [rad/s]", "rod [rad/s2]", "plate [rad/s2]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    const std::vector<double> qdd = evaluate(model, x).qdd;
+    return CaseReadings{x.qd[0], x.qd[1], qdd[0], qdd[1]};
+  };
+  c.reference = [](double t) {
+    special::Numbers dx(4);
+    const special::Numbers x = special::solution(
+        babyboot_rates(),
+        {std::numbers::pi_v<long double> / 2, std::numbers::pi_v<long double> / 180, 0, 0}, t);
+    babyboot_rates()(t, x, dx);
+    return CaseReadings(dx.begin(), dx.end());
+  };
+  c.lane = dopri5_lane(1e-13);
+  return c;
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> crossed_hinges() {
+  const char* group = "chains";
+  return {
+      trajectory_case("C8", group, "Furuta's pendulum from 2 rad: angles, rates, 5 s", 1e-7,
+                      furuta_motion()),
+      trajectory_case("C8-start", group,
+                      "the same: 5.9332037721307034, -44.264142470077606 rad/s^2 [relative]", 1e-12,
+                      furuta_evaluation()),
+      trajectory_case("C8-special", group,
+                      "the same: 8.7222446090675629 rad/s twice, cosine 0.340625 [relative]", 1e-12,
+                      furuta_special()),
+      trajectory_case("C9", group, "Kane's babyboot, 10 s: angles [deg]", 1e-3, babyboot_motion()),
+      trajectory_case("C9-fine", group, "the same, 0.25 ms [deg]", 1e-5, babyboot_fine()),
+      trajectory_case("C9-end", group, "the same: rates and accelerations at 10 s, dopri5", 1e-5,
+                      babyboot_rates_at_end()),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

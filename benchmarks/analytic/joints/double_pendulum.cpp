@@ -1,0 +1,174 @@
+// C1, C2, C10: double pendulums in a plane. With a1, a2 from the vertical, J about the joint or
+// the centre of mass, K = m2 l1 c2, d = a1 - a2 (Lagrange):
+//   (J1 + m1 c1^2 + m2 l1^2) a1'' + K cos d a2'' + K sin d a2'^2 + (m1 c1 + m2 l1) g sin a1 = 0,
+//   K cos d a1'' + (J2 + m2 c2^2) a2'' - K sin d a1'^2 + m2 c2 g sin a2 = 0,
+// solved in extended precision. Two equal rods swing at w^2 = (3 -+ 6/sqrt 7) g/l.
+#include <cmath>
+#include <numbers>
+
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/chain_parts.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+
+constexpr double kQuarterTurn = std::numbers::pi / 2;
+const char* const kPlaneEquations =
+    "<p>(J<sub>1</sub> + m<sub>2</sub>l<sub>1</sub><sup>2</sup>) a<sub>1</sub>'' + K cos d "
+    "a<sub>2</sub>'' + K sin d a<sub>2</sub>'<sup>2</sup> + (m<sub>1</sub>c<sub>1</sub> + "
+    "m<sub>2</sub>l<sub>1</sub>) g sin a<sub>1</sub> = 0, K cos d a<sub>1</sub>'' + "
+    "J<sub>2</sub>a<sub>2</sub>'' &minus; K sin d a<sub>1</sub>'<sup>2</sup> + "
+    "m<sub>2</sub>c<sub>2</sub> g sin a<sub>2</sub> = 0</p>";
+
+special::Rates double_pendulum_rates(const ChainLink& one, const ChainLink& two,
+                                     long double gravity) {
+  const long double J1 = static_cast<long double>(one.mass) * one.com * one.com + one.inertia;
+  const long double J2 = static_cast<long double>(two.mass) * two.com * two.com + two.inertia;
+  const long double carried = static_cast<long double>(two.mass) * one.length;
+  const long double A = J1 + carried * one.length, K = carried * two.com;
+  const long double G1 = (static_cast<long double>(one.mass) * one.com + carried) * gravity;
+  const long double G2 = static_cast<long double>(two.mass) * two.com * gravity;
+  return [=](long double, const special::Numbers& x, special::Numbers& dx) {
+    const long double d = x[0] - x[1], S = K * std::sin(d);
+    const special::Two a = special::solve_two(
+        A, K * std::cos(d), J2,
+        {-S * x[3] * x[3] - G1 * std::sin(x[0]), S * x[2] * x[2] - G2 * std::sin(x[1])});
+    dx = {x[2], x[3], a.first, a.second};
+  };
+}
+
+const std::vector<std::string> kAnglesAndRates{"angle 1 [rad]", "angle 2 [rad]", "rate 1 [rad/s]",
+                                               "rate 2 [rad/s]"};
+
+// Two point masses, angles from the vertical [rad].
+template <int degrees1, int degrees2>
+TrajectoryCase two_points() {
+  static constexpr double a1 = degrees1 * kDegree, a2 = degrees2 * kDegree;
+  static const std::string statement =
+      "Two point masses of 1 kg on rods of 1 m are let go at " + std::to_string(degrees1) +
+      "&deg; and " + std::to_string(degrees2) + "&deg; from the vertical: " + kPlaneEquations;
+  const ChainLink link = point_link(1, 1);
+  return {.statement = statement.c_str(),
+          .scene =
+              [link] {
+                return start_at(plane_chain(link, 2), {a1, a2 - a1}, {0, 0});
+              },
+          .times = {1, 2, 5, 10},
+          .readings = kAnglesAndRates,
+          .observe = absolute_angles(),
+          .reference = solution_of(double_pendulum_rates(link, link, 9.81L), {a1, a2, 0, 0})};
+}
+
+TrajectoryCase two_rods() {
+  static const std::string statement =
+      std::string(
+          "Two rods of 1 m, 1 kg, the upper one level, the lower one in line with it, are "
+          "let go: chaotic. ") +
+      kPlaneEquations;
+  const ChainLink link = rod_link(1, 1);
+  const auto absolute =
+      solution_of(double_pendulum_rates(link, link, 9.81L),
+                  {std::numbers::pi_v<long double> / 2, std::numbers::pi_v<long double> / 2, 0, 0});
+  return {.statement = statement.c_str(),
+          .scene =
+              [link] {
+                return start_at(plane_chain(link, 2), {kQuarterTurn, 0}, {0, 0});
+              },
+          .times = {1, 2},
+          .readings = kAnglesAndRates,
+          .observe = joint_state(),
+          .reference =
+              [absolute](double t) {
+                const CaseReadings x = absolute(t);
+                return CaseReadings{x[0], x[1] - x[0], x[2], x[3] - x[2]};
+              }};
+}
+TrajectoryCase two_rods_until(std::vector<double> times, const Lane& lane) {
+  TrajectoryCase c = two_rods();
+  c.times = std::move(times);
+  c.lane = lane;
+  return c;
+}
+
+TrajectoryCase two_rods_modes() {
+  return {
+      .statement =
+          "Two equal rods of 1 m swing a little at <p>w<sup>2</sup> = (3 &#8723; "
+          "6/&radic;7) g/l</p>",
+      .scene = [] { return at_rest(plane_chain(rod_link(1, 1), 2)); },
+      .times = {0},
+      .readings = {"first [rad/s]", "second [rad/s]"},
+      .observe = [](const Model<double>& model,
+                    const State<double>& x) { return small_frequencies(model, x); },
+      .reference =
+          [](double) {
+            const double part = 6 / std::sqrt(7.0);
+            return CaseReadings{std::sqrt((3 - part) * kGravity), std::sqrt((3 + part) * kGravity)};
+          },
+      .measure = relative_each};
+}
+
+// Angles are measured from +x there; as absolute angles from -z they are a quarter turn more.
+TrajectoryCase two_plates() {
+  const ChainLink link{1, 1, 0.5, 1};
+  static const std::string statement =
+      std::string(
+          "Two links of 1 m, 1 kg, 1 kg m<sup>2</sup> about their middle are let go "
+          "level, g = 10 m/s<sup>2</sup>: a unit test of Project Chrono, "
+          "utest_CH_double_pend. ") +
+      kPlaneEquations;
+  const auto solved =
+      solution_of(double_pendulum_rates(link, link, 10),
+                  {std::numbers::pi_v<long double> / 2, std::numbers::pi_v<long double> / 2, 0, 0});
+  // From angles from -z: those from x, rates, and the centre of the second link.
+  const auto as_there = [](const CaseReadings& a) {
+    return CaseReadings{a[0] - kQuarterTurn,
+                        a[1] - kQuarterTurn,
+                        a[2],
+                        a[3],
+                        std::sin(a[0]) + std::sin(a[1]) / 2,
+                        -std::cos(a[0]) - std::cos(a[1]) / 2};
+  };
+  return {.statement = statement.c_str(),
+          .scene =
+              [link] {
+                return start_at(plane_chain(std::vector<ChainLink>{link, link}, 10),
+                                {kQuarterTurn, 0}, {0, 0});
+              },
+          .times = {1, 2, 5},
+          .readings = {"angle 1 [rad]", "angle 2 [rad]", "rate 1 [rad/s]", "rate 2 [rad/s]",
+                       "x 2 [m]", "y 2 [m]"},
+          .observe = [as_there](
+                         const Model<double>& model,
+                         const State<double>& x) { return as_there(absolute_angles()(model, x)); },
+          .reference = [solved, as_there](double t) { return as_there(solved(t)); }};
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> double_pendulum() {
+  const char* group = "chains";
+  return {
+      trajectory_case("C1-90-90", group,
+                      "two point masses from 90, 90 degrees: angles [rad], rates [rad/s], 10 s",
+                      1e-8, two_points<90, 90>()),
+      trajectory_case("C1-45-30", group,
+                      "two point masses from 45, 30 degrees: angles [rad], rates [rad/s], 10 s",
+                      1e-8, two_points<45, 30>()),
+      trajectory_case("C2", group, "two rods: angles [rad], rates [rad/s], 2 s", 1e-8, two_rods()),
+      trajectory_case("C2-10", group, "the same at 5 and 10 s, where it is chaotic", 1e-4,
+                      two_rods_until({5, 10}, rk4_lane())),
+      trajectory_case("C2-dopri5", group, "the same, 5 s, by dopri5 to 1e-13", 1e-8,
+                      two_rods_until({1, 2, 5}, dopri5_lane(1e-13))),
+      trajectory_case("C2-modes", group,
+                      "the same: 2.6801140122533753, 7.1886708702877137 rad/s [relative]", 1e-12,
+                      two_rods_modes()),
+      trajectory_case("C10-double", group,
+                      "Chrono's double pendulum: angles, rates, place of its end, 5 s", 1e-8,
+                      two_plates()),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

@@ -1,0 +1,174 @@
+// A5, a floating tree of four links on joints of four types. Without gravity, momentum P and
+// angular momentum H about the origin stay, whatever the joints do inside; under gravity
+//   P(t) = P0 + m g t,   H(t) = H0 + (m c0 t + P0 t^2 / 2) x g,   c0 the centre of mass at the
+//   start,
+// and energy stays where no joint takes any. A body that falls under semi-implicit steps of h is
+// off the parabola by -g h t / 2, and its energy by -m g^2 h t / 2: its own recurrence, exactly.
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/energy.h"
+#include "solver/dynamics/kinematics.h"
+#include "solver/dynamics/world_kinematics.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+
+const Vector3 kG(0.3, -0.2, -kGravity);
+
+Model<double> tree(const Vector3& gravity) {
+  ModelBuilder builder;
+  builder.set_gravity(gravity);
+  const auto inertia = [](double mass, double a, double b, double c) {
+    return BodyInertia{mass, {0.1, -0.05, 0.2}, Vector3(a, b, c).asDiagonal()};
+  };
+  const auto at = [](double x, double y, double z) {
+    return Pose{Eigen::AngleAxisd(x + y, Vector3(1, 2, 3).normalized()).toRotationMatrix(),
+                {x, y, z}};
+  };
+  const int trunk = builder.add_body("trunk", 0, "float", JointType::free, {}, Vector3::UnitZ(),
+                                     inertia(3, 0.2, 0.3, 0.4));
+  const int arm = builder.add_body("arm", trunk, "shoulder", JointType::spherical, at(0.2, 0.3, 0),
+                                   Vector3::UnitZ(), inertia(1, 0.05, 0.06, 0.04));
+  builder.add_body("hand", arm, "wrist", JointType::universal, at(0, 0.1, 0.4), Vector3::UnitX(),
+                   inertia(0.5, 0.02, 0.03, 0.02));
+  builder.add_body("leg", trunk, "hip", JointType::revolute, at(-0.2, 0.1, -0.3), {1, 1, 0},
+                   inertia(1.5, 0.05, 0.04, 0.06));
+  return builder.build();
+}
+
+CaseScene tumbling(const Vector3& gravity) {
+  CaseScene scene = at_rest(tree(gravity));
+  const double rates[] = {0.5, -0.3, 0.8, 0.4, -0.2, 0.3, 0.6, -0.7, 0.5, 0.4, -0.6, 0.9};
+  scene.start.qd.assign(std::begin(rates), std::end(rates));
+  return scene;
+}
+
+struct Whole {
+  Vector3 P, H, com;
+  double mass;
+};
+Whole whole(const Model<double>& model, const State<double>& x) {
+  Workspace<double> w(model);
+  kinematics(model, x, w);
+  const Force<double> all = momentum(model, w);
+  const MassAndCom<double> middle = mass_and_com(model, w);
+  return {to_eigen(all.f), to_eigen(all.n), to_eigen(middle.com), middle.mass};
+}
+CaseReadings observe_momenta(const Model<double>& model, const State<double>& x) {
+  const Whole all = whole(model, x);
+  return {all.P.x(), all.P.y(), all.P.z(), all.H.x(), all.H.y(), all.H.z()};
+}
+CaseReadings momenta_after(double t, const Vector3& gravity) {
+  static const Whole start = [] {
+    const CaseScene scene = tumbling(Vector3::Zero());
+    return whole(scene.model, scene.start);
+  }();
+  const Vector3 P = start.P + start.mass * t * gravity;
+  const Vector3 H = start.H + (start.mass * t * start.com + t * t / 2 * start.P).cross(gravity);
+  return {P.x(), P.y(), P.z(), H.x(), H.y(), H.z()};
+}
+// |dP| / |P| and |dH| / |H|, the larger.
+double momenta_error(const CaseReadings& seen, const CaseReadings& exact) {
+  const Eigen::Map<const Eigen::VectorXd> a(seen.data(), 6), b(exact.data(), 6);
+  return worse((a - b).head<3>().norm() / b.head<3>().norm(),
+               (a - b).tail<3>().norm() / b.tail<3>().norm());
+}
+
+TrajectoryCase momenta() {
+  return {
+      .statement =
+          "A floating tree of four links without gravity, its joints moved by torques from "
+          "within: linear momentum, and angular momentum about the origin, stay. <p>P(t) = P(0), "
+          "H(t) = H(0)</p>",
+      .scene =
+          [] {
+            CaseScene scene = tumbling(Vector3::Zero());
+            scene.conserves = false;
+            for (const std::size_t dof : {6, 9, 11})
+              scene.sources.push_back(std::make_shared<JointEffort>(
+                  [](double t, double) { return 0.1 * std::cos(2 * t); }, dof));
+            return scene;
+          },
+      .times = {2, 5, 10},
+      .readings = {"Px [N s]", "Py [N s]", "Pz [N s]", "Hx [N m s]", "Hy [N m s]", "Hz [N m s]"},
+      .observe = observe_momenta,
+      .reference = [](double t) { return momenta_after(t, Vector3::Zero()); },
+      .measure = momenta_error,
+      .mutant = more_inertia};
+}
+
+TrajectoryCase falling() {
+  TrajectoryCase c = momenta();
+  c.statement =
+      "The same tree under gravity, no torques: <p>P = P<sub>0</sub> + m g t, H = H<sub>0</sub> + "
+      "(m c<sub>0</sub> t + P<sub>0</sub> t<sup>2</sup>/2) &times; g</p>";
+  c.scene = [] { return tumbling(kG); };
+  c.reference = [](double t) { return momenta_after(t, kG); };
+  c.mutant = more_gravity;
+  return c;
+}
+
+TrajectoryCase energy() {
+  TrajectoryCase c = falling();
+  c.statement = "The same tree under gravity: <p>T + V = const</p>";
+  c.readings = {"energy [J]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
+  };
+  c.reference = [](double) {
+    static const double at_start = [] {
+      const CaseScene scene = tumbling(kG);
+      return kinetic_energy(scene.model, scene.start) + potential_energy(scene.model, scene.start);
+    }();
+    return CaseReadings{at_start};
+  };
+  c.measure = relative_to_largest;
+  return c;
+}
+
+TrajectoryCase ballistic() {
+  return {
+      .statement =
+          "2 kg fall from rest under semi-implicit steps of h: <p>E &minus; E<sub>0</sub> = "
+          "&minus;m g<sup>2</sup> h t/2</p> The error of the scheme itself.",
+      .scene =
+          [] {
+            Model<double> model = free_body(2, {0.1, 0.2, 0.25});
+            model.gravity = {0, 0, -kGravity};
+            CaseScene scene = at_rest(std::move(model));
+            scene.conserves = false;
+            return scene;
+          },
+      .times = {0.5, 1, 2},
+      .readings = {"energy [J]"},
+      .observe =
+          [](const Model<double>& model, const State<double>& x) {
+            return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
+          },
+      .reference = [](double t) { return CaseReadings{-2 * kGravity * kGravity * 1e-3 * t / 2}; },
+      .lane = {Integrator::semi_implicit, 1e-3, 0},
+      .of_its_lane = true};
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> floating_tree() {
+  const char* group = "free-body";
+  return {
+      trajectory_case("A5-momentum", group,
+                      "floating tree, torques within: momenta kept, 10 s [relative]", 1e-9,
+                      momenta()),
+      trajectory_case("A5-gravity", group, "the same under gravity: P and H as closed forms", 1e-9,
+                      falling()),
+      trajectory_case("A5-energy", group, "the same: energy kept, 10 s [relative to E0]", 1e-9,
+                      energy()),
+      trajectory_case("A5-ballistic", group,
+                      "semi-implicit fall: energy error -m g^2 h t / 2 [J]; its own recurrence",
+                      1e-9, ballistic()),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

@@ -1,0 +1,198 @@
+// C3, C4, C5: hanging chains of n links, 1 m long.
+// C3, equal point masses: w_i^2 = n g x_i, x_i the zeros of Laguerre's polynomial L_n, which are
+// the eigenvalues of its symmetric tridiagonal matrix (2k + 1; k) (Golub, Welsch 1969).
+// C4, rods, absolute angles: M_ij = m a^2 (n - j + 1/2) for i < j, M_ii = m a^2 (n - i + 1/3),
+// K_ii = m g a (n - i + 1/2), a = 1/n, i from 1; for n -> infinity w_k = j_(0,k)/2 sqrt(g/L).
+// C5, a folded chain of which one end is let go, with energy kept (Calkin, March, Am. J. Phys. 57,
+// 1989): v^2 = 2 g x (1 - x/2L)/(1 - x/L); a chain of n links comes near it.
+#include <cmath>
+#include <numbers>
+
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/chain_parts.h"
+#include "benchmarks/analytic/support/special_functions.h"
+#include "solver/dynamics/energy.h"
+#include "solver/dynamics/kinematics.h"
+#include "solver/linear_algebra/dense_algebra.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+
+CaseReadings laguerre_frequencies(int n) {
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n, n);
+  for (int k = 0; k < n; ++k) {
+    T(k, k) = 2 * k + 1;
+    if (k > 0) T(k, k - 1) = T(k - 1, k) = k;
+  }
+  CaseReadings all;
+  for (const double x : symmetric_eigenvalues(T)) all.push_back(std::sqrt(n * kGravity * x));
+  return all;
+}
+
+// The first `count` of a chain of n rods.
+CaseReadings rod_chain_frequencies(int n, int count) {
+  const double a = 1.0 / n;
+  Eigen::MatrixXd M(n, n), K = Eigen::MatrixXd::Zero(n, n);  // for m = 1
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const int lower = std::max(i, j);
+      M(i, j) = a * a * (n - lower - 1 + (i == j ? 1.0 / 3 : 0.5));
+    }
+    K(i, i) = kGravity * a * (n - i - 0.5);
+  }
+  // K is the harmless one: M x = mu K x has the slow motions as its largest eigenvalues.
+  const Eigen::VectorXd slow = generalized_eigenvalues(M, K);
+  CaseReadings all;
+  for (int k = 0; k < count; ++k) all.push_back(1 / std::sqrt(slow[n - 1 - k]));
+  return all;
+}
+
+std::vector<std::string> mode_names(std::size_t count) {
+  std::vector<std::string> all;
+  for (std::size_t k = 1; k <= count; ++k) all.push_back("w" + std::to_string(k) + " [rad/s]");
+  return all;
+}
+
+// The first so many frequencies of a chain that hangs at rest.
+TrajectoryCase chain_modes(const char* statement, const ChainLink& link, int n,
+                           CaseReadings exact) {
+  const std::size_t count = exact.size();
+  return {.statement = statement,
+          .scene = [link, n] { return at_rest(plane_chain(link, n)); },
+          .times = {0},
+          .readings = mode_names(count),
+          .observe =
+              [count](const Model<double>& model, const State<double>& x) {
+                CaseReadings all = squared_frequencies_of(model, x);
+                all.resize(count);
+                for (double& w : all) w = std::sqrt(w);
+                return all;
+              },
+          .reference = [exact](double) { return exact; },
+          .measure = relative_each};
+}
+
+AnalyticCase point_chain_case(const char* name, int n) {
+  return trajectory_case(
+      name, "chains", "chain of point masses: all frequencies; zeros of Laguerre [relative]", 1e-10,
+      chain_modes("A hanging chain of equal point masses, 1 m long: <p>w<sub>i</sub><sup>2</sup> = "
+                  "n g x<sub>i</sub>, L<sub>n</sub>(x<sub>i</sub>) = 0</p>",
+                  point_link(1, 1.0 / n), n, laguerre_frequencies(n)));
+}
+AnalyticCase rod_chain_case(const char* name, int n) {
+  return trajectory_case(
+      name, "chains", "chain of rods: lowest frequencies; minimal coordinates [relative]", 1e-10,
+      chain_modes("A hanging chain of uniform rods, 1 m long: <p>det(K &minus; w<sup>2</sup>M) = "
+                  "0, M and K written down for angles from the vertical.</p>",
+                  rod_link(1, 1.0 / n), n, rod_chain_frequencies(n, std::min(n, 3))));
+}
+// Finite chains are stiffer, by 0.0307 / n^2.
+AnalyticCase rope_case() {
+  constexpr int n = 50;
+  return trajectory_case(
+      "C4-rope", "chains", "chain of 50 rods as a rope: 3.766067388420843 rad/s [relative]", 1.3e-5,
+      chain_modes("A hanging chain of 50 rods, 1 m long, is nearly a rope: <p>w<sub>1</sub> = "
+                  "j<sub>0,1</sub>/2 &radic;(g/L)</p>",
+                  rod_link(1, 1.0 / n), n, {special::zero_of_bessel(1) / 2 * std::sqrt(kGravity)}));
+}
+
+// ---- C5 ----
+
+constexpr int kDown = 20, kFoldedLinks = 2 * kDown + 1;  // down, one level link, up again
+constexpr double kFoldedLink = 1.0 / kFoldedLinks, kDeep = 0.9;
+
+CaseScene folded_chain() {
+  std::vector<double> q(kFoldedLinks, 0.0);
+  q[kDown] = q[kDown + 1] = std::numbers::pi / 2;
+  return start_at(plane_chain(rod_link(kFoldedLink, kFoldedLink), kFoldedLinks), q,
+                  std::vector<double>(kFoldedLinks, 0.0));
+}
+// Dampers in the joints take what the whip lives on.
+void stiffen(CaseScene& scene) {
+  for (double& damping : scene.model.damping) damping = 1e-4;
+}
+
+double tip_depth(const Model<double>& model, const State<double>& x) {
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  return -k.position(kFoldedLinks, {0, 0, -kFoldedLink}).z();
+}
+
+// From rest at depth 0, of a chain of 1 m.
+long double folded_fall_time(long double depth) {
+  // x = s^2: the speed starts as sqrt(2 g x).
+  const auto slowness = [](long double s) {
+    const long double x = s * s;
+    return 2 * std::sqrt((1 - x) / (2 * 9.81L * (1 - x / 2)));
+  };
+  return special::integral(slowness, 0, std::sqrt(depth));
+}
+
+TrajectoryCase folded_fall() {
+  return {.statement =
+              "A chain of 1 m hangs from both ends side by side; one is let go, and falls faster "
+              "than a stone: <p>v<sup>2</sup> = 2 g x (1 &minus; x/2L)/(1 &minus; x/L)</p>",
+          .scene = folded_chain,
+          .times = {},
+          .readings = {},
+          .observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; },
+          .reference =
+              [](double) { return CaseReadings{static_cast<double>(folded_fall_time(kDeep))}; },
+          .measure = relative_each,
+          .mutant = stiffen,
+          .events = {[](const Model<double>& model, const State<double>& x) {
+                       return tip_depth(model, x) - kDeep;
+                     },
+                     1, 1}};
+}
+TrajectoryCase folded_energy() {
+  TrajectoryCase c = folded_fall();
+  c.statement = "The same chain: its energy stays what it was at the start. <p>T + V = V(0)</p>";
+  c.events = {};
+  c.times = {0.1, 0.2, 0.3, 0.35};
+  c.readings = {"energy [J]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
+  };
+  // Two straight halves, centres at a half of their length, and the level link below.
+  c.reference = [](double) {
+    const double half = kDown * kFoldedLink;
+    return CaseReadings{-kGravity * (2 * half * half / 2 + kFoldedLink * half)};
+  };
+  c.measure = largest_difference;
+  c.lane = dopri5_lane(1e-12);
+  return c;
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> hanging_chain() {
+  const char* group = "chains";
+  return {
+      point_chain_case("C3-1", 1),
+      point_chain_case("C3-2", 2),
+      point_chain_case("C3-3", 3),
+      point_chain_case("C3-4", 4),
+      point_chain_case("C3-5", 5),
+      point_chain_case("C3-6", 6),
+      point_chain_case("C3-8", 8),
+      point_chain_case("C3-10", 10),
+      rod_chain_case("C4-1", 1),
+      rod_chain_case("C4-2", 2),
+      rod_chain_case("C4-5", 5),
+      rod_chain_case("C4-10", 10),
+      rod_chain_case("C4-20", 20),
+      rod_chain_case("C4-50", 50),
+      rope_case(),
+      trajectory_case(
+          "C5", group,
+          "folded chain, 41 links: time to fall 0.9 L [relative]; a stone's is 15 % more", 0.01,
+          folded_fall()),
+      trajectory_case("C5-energy", group, "the same: its energy, 0.35 s [J]", 1e-8,
+                      folded_energy()),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

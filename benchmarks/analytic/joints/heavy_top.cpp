@@ -1,0 +1,252 @@
+// A4, a heavy symmetric top on a fixed point: 1 kg, centre 0.2 m from it, I1 = 0.05, I3 = 0.01
+// kg m^2 about it, released with its axis at rest, 30 degrees from upright, spin 100 rad/s.
+// (Whittaker, Analytical Dynamics, sections 71, 72.) With u = cos(theta), b = 2 m g l / I1,
+// a = I3 w3 / I1 and u0 = cos 30:
+//   u'^2 = b (u0 - u) (u - u1) (u2 - u),    u1, u2 the roots of b (1 - u^2) = a^2 (u0 - u),
+//   u = u1 + (u0 - u1) cd^2(k t, m),        k = sqrt(b (u2 - u1)) / 2,  m = (u0 - u1) / (u2 - u1),
+//   phi' = a (u0 - u) / (1 - u^2),  psi' = w3 - phi' u        (precession, spin; z-x-z angles).
+#include <cmath>
+
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
+#include "benchmarks/analytic/support/special_functions.h"
+#include "solver/dynamics/derivatives.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/energy.h"
+#include "solver/dynamics/kinematics.h"
+#include "solver/dynamics/world_kinematics.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+using Real = long double;
+
+constexpr double kMoment = 1 * kGravity * 0.2, I1 = 0.05, I3 = 0.01, kTilt = 30 * kDegree;
+constexpr double kSpin = 100;
+
+Model<double> top() {
+  const Vector3 about_centre(I1 - 0.04, I1 - 0.04, I3);
+  return one_body(JointType::spherical, Vector3::UnitZ(),
+                  {1, {0, 0, 0.2}, about_centre.asDiagonal()});
+}
+Eigen::Quaterniond attitude(const State<double>& x) {
+  return {x.q[0], x.q[1], x.q[2], x.q[3]};
+}
+Vector3 rate(const State<double>& x) {
+  return {x.qd[0], x.qd[1], x.qd[2]};
+}
+// Tilted about x, rates in body axes.
+CaseScene tilted(const Vector3& w) {
+  return start_at(top(), {std::cos(kTilt / 2), std::sin(kTilt / 2), 0, 0}, {w.x(), w.y(), w.z()});
+}
+
+struct Nutation {
+  Real u0 = std::sqrt(3.0L) / 2, b = 2 * Real(kMoment) / Real(I1), a = Real(I3) * kSpin / Real(I1);
+  Real u1, u2, k, m;
+  Nutation() {
+    const Real p = a * a / (2 * b), root = std::sqrt(p * p - 2 * p * u0 + 1);
+    u2 = p + root;
+    u1 = (2 * p * u0 - 1) / u2;
+    k = std::sqrt(b * (u2 - u1)) / 2;
+    m = (u0 - u1) / (u2 - u1);
+  }
+  Real period() const { return 2 * special::quarter_period(m) / k; }
+  Real height(Real t) const {  // u
+    const special::Jacobi j = special::jacobi(k * t, m);
+    return u1 + (u0 - u1) * (j.cn / j.dn) * (j.cn / j.dn);
+  }
+  Real height_rate(Real t) const {
+    const special::Jacobi j = special::jacobi(k * t, m);
+    return -2 * k * (u0 - u1) * (1 - m) * j.cn * j.sn / (j.dn * j.dn * j.dn);
+  }
+  Real precession(Real u) const { return a * (u0 - u) / (1 - u * u); }
+  Real azimuth(Real t) const {  // phi
+    return special::integral([this](Real s) { return precession(height(s)); }, 0, t);
+  }
+  Real own_turn(Real t) const {  // psi
+    return special::integral(
+        [this](Real s) {
+          const Real u = height(s);
+          return kSpin - precession(u) * u;
+        },
+        0, t);
+  }
+  Vector3 axis(Real t) const {
+    const Real u = height(t), s = std::sqrt(1 - u * u), phi = azimuth(t);
+    return {double(s * std::sin(phi)), double(-s * std::cos(phi)), double(u)};
+  }
+  Vector3 rate(Real t) const {
+    const Real u = height(t), s = std::sqrt(1 - u * u), psi = own_turn(t);
+    const Real along = -height_rate(t) / s, across = precession(u) * s;
+    return {double(across * std::sin(psi) + along * std::cos(psi)),
+            double(across * std::cos(psi) - along * std::sin(psi)), kSpin};
+  }
+};
+const Nutation& nutation() {
+  static const Nutation n;
+  return n;
+}
+
+CaseReadings observe_axis(const Model<double>&, const State<double>& x) {
+  const Vector3 e = attitude(x) * Vector3::UnitZ();
+  return {e.x(), e.y(), e.z()};
+}
+
+TrajectoryCase motion(double step) {
+  return {
+      .statement =
+          "A top of 1 kg, its centre 0.2 m from the fixed point, I<sub>1</sub> = 0.05 and "
+          "I<sub>3</sub> = 0.01 kg m<sup>2</sup> about it, is released 30&deg; from upright "
+          "with its axis at rest and a spin of 100 rad/s. Its axis falls and rises, "
+          "<p>cos &theta; = u<sub>1</sub> + (u<sub>0</sub> &minus; u<sub>1</sub>) "
+          "cd<sup>2</sup>(k t)</p> and goes round at <p>&phi;' = I<sub>3</sub>&omega;<sub>3</sub> "
+          "(u<sub>0</sub> &minus; u)/(I<sub>1</sub>(1 &minus; u<sup>2</sup>)), u = cos &theta;</p>",
+      .scene =
+          [] {
+            return tilted({0, 0, kSpin});
+          },
+      .times = {0.1, 0.38054140391335806, 0.5, 1},
+      .readings = {"x of the axis", "y of the axis", "z of the axis"},
+      .observe = observe_axis,
+      .reference =
+          [](double t) {
+            const Vector3 e = nutation().axis(t);
+            return CaseReadings{e.x(), e.y(), e.z()};
+          },
+      .lane = rk4_lane(step)};
+}
+
+// The rate in body axes, of which two components turn with the spin.
+TrajectoryCase rates() {
+  TrajectoryCase c = motion(1e-4);
+  c.readings = {"w1 [rad/s]", "w2 [rad/s]", "w3 [rad/s]"};
+  c.observe = [](const Model<double>&, const State<double>& x) { return x.qd; };
+  c.reference = [](double t) {
+    const Vector3 w = nutation().rate(t);
+    return CaseReadings{w.x(), w.y(), w.z()};
+  };
+  return c;
+}
+
+// The axis is lowest at half a period and at rest again at a whole one, further round.
+TrajectoryCase bounds() {
+  TrajectoryCase c = motion(1e-4);
+  c.times = {};
+  c.readings = {"tilt [rad]", "azimuth [rad]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    const CaseReadings e = observe_axis(model, x);
+    return CaseReadings{std::acos(e[2]), std::atan2(e[0], -e[1])};
+  };
+  c.reference = [](double k) {
+    const Nutation& n = nutation();
+    const Real t = n.period() * Real(k) / 2;
+    return CaseReadings{double(t), double(std::acos(n.height(t))), double(n.azimuth(t))};
+  };
+  c.events = {[](const Model<double>&, const State<double>& x) {
+                return (attitude(x) * rate(x).cross(Vector3::UnitZ())).z();
+              },
+              2, 1};
+  return c;
+}
+
+TrajectoryCase invariants() {
+  TrajectoryCase c = motion(1e-3);
+  c.lane = dopri5_lane(1e-12);
+  c.readings = {"Lz [N m s]", "w3 [rad/s]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    Workspace<double> w(model);
+    kinematics(model, x, w);
+    return CaseReadings{momentum(model, w).n.z, x.qd[2]};
+  };
+  c.reference = [](double) { return CaseReadings{I3 * kSpin * std::cos(kTilt), kSpin}; };
+  c.mutant = more_inertia;
+  return c;
+}
+
+// By how much the axis accelerates away from steady precession at W, along its meridian: a
+// quadratic in W, times I1 sin(theta) the equation I1 cos(theta) W^2 - I3 w3 W + m g l = 0.
+double residual(const Model<double>& model, double W) {
+  const CaseScene at = tilted({0, 0, 0});
+  const Eigen::Quaterniond R = attitude(at.start);
+  const Vector3 z = Vector3::UnitZ(), e = R * z;
+  const Vector3 w = R.inverse() * (W * z + (kSpin - W * e.z()) * e);
+  State<double> x = at.start;
+  x.qd = {w.x(), w.y(), w.z()};
+  const std::vector<double> qdd = evaluate(model, x).qdd;
+  const Vector3 a = R * (Vector3(qdd[0], qdd[1], qdd[2]).cross(z) + w.cross(w.cross(z)));
+  return (a - W * W * z.cross(z.cross(e))).dot(Vector3::UnitX().cross(e));
+}
+
+TrajectoryCase steady() {
+  TrajectoryCase c = motion(1e-3);
+  c.statement =
+      "Steady precession of that top at 30&deg;: <p>I<sub>1</sub> cos &theta; W<sup>2</sup> "
+      "&minus; I<sub>3</sub>&omega;<sub>3</sub> W + m g l = 0</p> has a slow and a fast root, and "
+      "none below a least spin.";
+  c.times = {0};
+  c.readings = {"slow [rad/s]", "fast [rad/s]", "least spin [rad/s]"};
+  c.observe = [](const Model<double>& model, const State<double>&) {
+    const double C = residual(model, 0), plus = residual(model, 20), minus = residual(model, -20);
+    const double A = (plus + minus - 2 * C) / 800, B = (plus - minus) / 40;
+    const double fast = (-B + (B < 0 ? 1 : -1) * std::sqrt(B * B - 4 * A * C)) / (2 * A);
+    return CaseReadings{C / (A * fast), fast, kSpin * std::sqrt(4 * A * C) / std::abs(B)};
+  };
+  c.reference = [](double) {
+    const double A = I1 * std::cos(kTilt), B = I3 * kSpin, root = B * B - 4 * A * kMoment;
+    const double fast = (B + std::sqrt(root)) / (2 * A);
+    return CaseReadings{kMoment / (A * fast), fast, std::sqrt(4 * A * kMoment) / I3};
+  };
+  c.measure = relative_to_largest;
+  return c;
+}
+
+// Upright, with z = z1 + i z2 the world's vertical and w = w1 + i w2 the rate, both in body axes:
+//   z' = -i w3 z + i w,   w' = -i D w - i F z,   D = (1 - I3 / I1) w3,  F = m g l / I1,
+// stable where (w3 - D)^2 >= 4 F. F and D are read off the derivatives of the accelerations.
+TrajectoryCase sleeping() {
+  TrajectoryCase c = motion(1e-3);
+  c.statement =
+      "Upright, the top sleeps where its spin is above <p>&omega;<sub>3</sub> = 2 "
+      "&radic;(m g l I<sub>1</sub>)/I<sub>3</sub></p>.";
+  c.scene = [] { return start_at(top(), {1, 0, 0, 0}, {0, 0, kSpin}); };
+  c.times = {0};
+  c.readings = {"least spin [rad/s]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    const auto d = forward_dynamics_derivatives(model, x, Forces<double>(model));
+    return CaseReadings{2 * std::sqrt(d.dq(0, 0)) / (1 - d.dqd(0, 1) / x.qd[2])};
+  };
+  c.reference = [](double) { return CaseReadings{2 * std::sqrt(kMoment * I1) / I3}; };
+  c.measure = relative_to_largest;
+  return c;
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> heavy_top() {
+  const char* group = "free-body";
+  return {
+      trajectory_case("A4", group, "heavy top: its axis, 1 s, rk4 1 ms; elliptic functions", 1e-5,
+                      motion(1e-3)),
+      trajectory_case("A4-fine", group, "the same, rk4 0.1 ms", 1e-9, motion(1e-4)),
+      trajectory_case("A4-rates", group, "the same: rates in body axes [rad/s], rk4 0.1 ms", 1e-8,
+                      rates()),
+      trajectory_case("A4-nutation", group,
+                      "tilt from 30 to 37.505163885493036 degrees, 0.81621178130406342 rad round "
+                      "in 0.38054140391335806 s [s, rad]",
+                      1e-6, bounds()),
+      trajectory_case("A4-invariants", group,
+                      "Lz [N m s] and w3 [rad/s] over 1 s; dopri5, tolerance 1e-12", 1e-10,
+                      invariants()),
+      trajectory_case(
+          "A4-steady", group,
+          "steady precession: 2.1649542110834523, 20.929056556501578; none below a spin "
+          "of 58.294799806244615 rad/s [relative]",
+          1e-12, steady()),
+      trajectory_case("A4-sleeping", group,
+                      "least spin of the upright top: 62.641839053463301 rad/s [relative]", 1e-12,
+                      sleeping()),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

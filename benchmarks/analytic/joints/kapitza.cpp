@@ -1,0 +1,161 @@
+// C7, Kapitza's pendulum: a point mass on a rod of 0.5 m, its pivot at a cos(w t), a = 0.02 m
+// (Landau, Lifshitz, Mechanics, section 30). From upright:  u'' = (g - a w^2 cos w t) sin(u) / l.
+// It stays up where the trace of its linear motion over one period is below 2: from w =
+// 156.65935736181 rad/s on; the average of many periods says sqrt(2 g l) / a = 156.6.
+#include <cmath>
+#include <numbers>
+
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/chain_parts.h"
+#include "solver/stepping/simulation.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+
+constexpr double kShaken = 0.5, kShake = 0.02, kFromTop = 0.01, kFloquet = 156.65935736181;
+
+CaseScene shaken(double w, double from_top) {
+  ModelBuilder builder;
+  builder.add_body("pivot", 0, "shaker", JointType::prescribed, {}, Vector3::UnitZ(),
+                   {1, Vector3::Zero(), Matrix3::Identity()});
+  builder.add_body("rod", 1, "hinge", JointType::revolute, {}, Vector3::UnitY(),
+                   {1, {0, 0, -kShaken}, Matrix3::Zero()});
+  CaseScene scene = at_rest(builder.build());
+  scene.start.q[scene.model.iq[2]] = std::numbers::pi + from_top;
+  scene.conserves = false;
+  scene.prepare = [w](Simulation& simulation) {
+    simulation.prescribe(1, [w](double t) {
+      PrescribedMotion motion;
+      motion.X_JL.p.z() = kShake * std::cos(w * t);
+      motion.velocity.z() = -kShake * w * std::sin(w * t);
+      motion.acceleration.z() = -kShake * w * w * std::cos(w * t);
+      return motion;
+    });
+  };
+  return scene;
+}
+double from_top(const Model<double>& model, const State<double>& x) {
+  return x.q[model.iq[2]] - std::numbers::pi;
+}
+// Angle and rate at t, from those at `from`.
+special::Numbers shaken_solution(double w, const special::Numbers& x, long double from,
+                                 long double t) {
+  const special::Rates rates = [w, from](long double after, const special::Numbers& now,
+                                         special::Numbers& dx) {
+    const long double W = w, lift = 9.81L - kShake * W * W * std::cos(W * (from + after));
+    dx = {now[1], lift * std::sin(now[0]) / kShaken};
+  };
+  return special::solution(rates, x, t - from, 1.0L / 512);
+}
+
+const char* const kShakenStatement =
+    "A pendulum of 0.5 m stands upside down on a pivot that shakes by 20 mm: it stays up where "
+    "the shaking is quick enough. <p>u'' = (g &minus; a w<sup>2</sup> cos wt) sin u / l</p>";
+
+TrajectoryCase shaken_motion(double w, double until) {
+  std::vector<double> times;
+  for (int k = 1; k <= 8; ++k) times.push_back(until * k / 8);
+  return {
+      .statement = kShakenStatement,
+      .scene = [w] { return shaken(w, kFromTop); },
+      .times = times,
+      .readings = {"angle from upright [rad]"},
+      .observe = [](const Model<double>& model,
+                    const State<double>& x) { return CaseReadings{from_top(model, x)}; },
+      .reference =
+          [w](double t) {
+            return CaseReadings{static_cast<double>(shaken_solution(w, {kFromTop, 0}, 0, t)[0])};
+          },
+      .lane = rk4_lane(2e-4)};
+}
+
+// The largest angle of 20 s, looked at every 2 ms.
+void much_more_gravity(CaseScene& scene) {
+  scene.model.gravity = 1.05 * scene.model.gravity;
+}
+TrajectoryCase stays_up(double w) {
+  TrajectoryCase c = shaken_motion(w, 20);
+  c.times.clear();
+  for (int k = 1; k <= 10000; ++k) c.times.push_back(20.0 * k / 10000);
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    return CaseReadings{std::abs(from_top(model, x))};
+  };
+  c.reference = [](double) { return CaseReadings{0}; };
+  c.mutant = much_more_gravity;
+  c.of_its_lane = true;  // no motion is known, only how far it goes
+  return c;
+}
+
+// When it passes 1 rad.
+TrajectoryCase falls(double w, double about) {
+  TrajectoryCase c = shaken_motion(w, about);
+  c.times = {};
+  c.readings = {};
+  c.observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
+  c.reference = [w, about](double) {
+    // It shakes about its path: the first of several passages.
+    long double t = about - 0.5L, end = t;
+    special::Numbers x = shaken_solution(w, {kFromTop, 0}, 0, t), next = x;
+    for (; std::abs(next[0]) < 1 && end < 20; next = shaken_solution(w, x, t, end)) {
+      x = next;
+      t = end;
+      end = t + 2e-4L;
+    }
+    for (long double middle; (middle = (t + end) / 2) > t && middle < end;) {
+      const special::Numbers there = shaken_solution(w, x, t, middle);
+      if (std::abs(there[0]) < 1)
+        x = there, t = middle;
+      else
+        end = middle;
+    }
+    return CaseReadings{static_cast<double>(end)};
+  };
+  c.events = {[](const Model<double>& model, const State<double>& x) {
+                return std::abs(from_top(model, x)) - 1;
+              },
+              1, 20};
+  return c;
+}
+
+// By symmetry the trace is twice where a start at 1 (at rest) is after a period: on the limit at 1.
+TrajectoryCase floquet() {
+  static constexpr double small = 1e-5;
+  TrajectoryCase c = shaken_motion(kFloquet, 1);
+  c.statement =
+      "Kapitza's pendulum on the limit: after one period of the pivot a small angle is what it "
+      "was. <p>w = 156.65935736181&nbsp;rad/s, by the trace of the monodromy</p>";
+  c.scene = [] { return shaken(kFloquet, small); };
+  c.times = {2 * std::numbers::pi / kFloquet};
+  c.readings = {"angle after a period, of the first"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    return CaseReadings{from_top(model, x) / small};
+  };
+  c.reference = [](double) { return CaseReadings{1}; };
+  c.lane = rk4_lane(1e-5);
+  return c;
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> kapitza() {
+  const char* group = "chains";
+  return {
+      trajectory_case("C7", group, "Kapitza's pendulum, 160 rad/s: angle, 2 s [rad]; its equation",
+                      1e-8, shaken_motion(160, 2)),
+      trajectory_case("C7-157.5", group, "the same, 157.5 rad/s: largest angle in 20 s [rad]",
+                      0.0101, stays_up(157.5)),
+      trajectory_case("C7-160", group, "the same, 160 rad/s: largest angle in 20 s [rad]", 0.0101,
+                      stays_up(160)),
+      trajectory_case("C7-156", group, "the same, 156 rad/s: passes 1 rad at 10.2 s [s]", 1e-5,
+                      falls(156, 10.2)),
+      trajectory_case("C7-150", group, "the same, 150 rad/s: passes 1 rad at 3.9 s [s]", 1e-5,
+                      falls(150, 3.9)),
+      trajectory_case("C7-limit", group,
+                      "on the limit 156.65935736181 rad/s a period brings it back [relative]", 1e-8,
+                      floquet()),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

@@ -1,0 +1,176 @@
+// B1, B2, a point mass on a rod of 1 m, w0^2 = g / l (Landau, Lifshitz, Mechanics, section 11).
+//   released at th0:  th = 2 asin(k cd(w0 t, k^2)),  k = sin(th0 / 2),  T = 2 pi / (w0 agm(1, k')),
+//   turning over:     th = 2 am(W t / 2, k^2),  k = 2 w0 / W,  W the rate at the bottom; a turn
+//                     takes 4 K / W,
+//   between the two:  th = 4 atan(exp(w0 t)) - pi.
+#include <cmath>
+#include <numbers>
+
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
+#include "benchmarks/analytic/support/special_functions.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+using Real = long double;
+
+const Real w0 = std::sqrt(Real(9.81L));
+constexpr Real kPi = std::numbers::pi_v<Real>;
+
+CaseScene released(double angle, double rate) {
+  return start_at(point_pendulum(), {angle}, {rate});
+}
+
+Real period(Real amplitude) {
+  return 2 * kPi / (w0 * special::arithmetic_geometric_mean(1, std::cos(amplitude / 2)));
+}
+
+// The angle passes zero at odd quarters of the period.
+template <int degrees>
+TrajectoryCase swing_time() {
+  constexpr Real amplitude = degrees * kPi / 180;
+  return {.statement =
+              "A pendulum of 1 m is released at rest from an angle and passes the bottom at "
+              "odd quarters of its period <p>T = 2&pi; / (&omega;<sub>0</sub> "
+              "agm(1, cos(&theta;<sub>0</sub>/2)))</p>",
+          .scene = [] { return released(static_cast<double>(amplitude), 0); },
+          .times = {},
+          .readings = {},
+          .observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; },
+          .reference =
+              [](double k) {
+                static const Real quarter = period(amplitude) / 4;
+                return CaseReadings{static_cast<double>((2 * Real(k) - 1) * quarter)};
+              },
+          .events = {[](const Model<double>&, const State<double>& x) { return x.q[0]; }, 3, 30}};
+}
+
+TrajectoryCase small_swings() {
+  return {.statement = "Small swings of a pendulum of 1 m take <p>2&pi; &radic;(l/g)</p>.",
+          .scene = [] { return released(0, 0); },
+          .times = {0},
+          .readings = {"period [s]"},
+          .observe =
+              [](const Model<double>& model, const State<double>& x) {
+                return CaseReadings{2 * std::numbers::pi / small_frequencies(model, x)[0]};
+              },
+          .reference = [](double) { return CaseReadings{static_cast<double>(2 * kPi / w0)}; },
+          .measure = relative_to_largest};
+}
+
+TrajectoryCase motion(const char* statement, std::function<CaseScene()> scene,
+                      std::vector<double> times, std::function<CaseReadings(double)> reference) {
+  return {.statement = statement,
+          .scene = std::move(scene),
+          .times = std::move(times),
+          .readings = {"angle [rad]", "rate [rad/s]"},
+          .observe = joint_state(),
+          .reference = std::move(reference)};
+}
+
+CaseReadings swinging(double t) {
+  const Real k2 = 0.5L, k = std::sqrt(k2);
+  const special::Jacobi j = special::jacobi(w0 * Real(t), k2);
+  return {static_cast<double>(2 * std::asin(k * j.cn / j.dn)),
+          static_cast<double>(-2 * k * std::sqrt(1 - k2) * w0 * j.sn / j.dn)};
+}
+TrajectoryCase swing() {
+  return motion(
+      "A pendulum of 1 m is released from 90&deg;: <p>&theta; = 2 asin(k "
+      "cd(&omega;<sub>0</sub>t)), k = sin(&theta;<sub>0</sub>/2)</p>",
+      [] { return released(std::numbers::pi / 2, 0); }, {1, 2, 5, 10}, swinging);
+}
+// The same motion as points of a plane: the benchmark A01 of the IFToMM library.
+TrajectoryCase swing_in_plane() {
+  TrajectoryCase c = swing();
+  c.statement =
+      "A particle on a circle of 1 m starts at rest from (&minus;1, 0): benchmark A01 of IFToMM's "
+      "library of multibody problems. <p>(x, y) = (&minus;sin &theta;, &minus;cos &theta;), "
+      "&theta; = 2 asin(k cd(&omega;<sub>0</sub>t))</p>";
+  c.readings = {"x [m]", "y [m]"};
+  c.observe = [](const Model<double>&, const State<double>& x) {
+    return CaseReadings{-std::sin(x.q[0]), -std::cos(x.q[0])};
+  };
+  c.times = {10};
+  c.reference = [](double t) {
+    const double angle = swinging(t)[0];
+    return CaseReadings{-std::sin(angle), -std::cos(angle)};
+  };
+  return c;
+}
+
+constexpr Real kOver = 7;  // W [rad/s]
+TrajectoryCase turning() {
+  return motion(
+      "A pendulum of 1 m starts at the bottom with 7 rad/s and turns over: <p>&theta; = 2 "
+      "am(W t/2), parameter 4g/(l W<sup>2</sup>)</p>",
+      [] { return released(0, double(kOver)); }, {1, 5, 10},
+      [](double t) {
+        const Real m = 4 * w0 * w0 / (kOver * kOver), u = kOver * Real(t) / 2;
+        const special::Jacobi j = special::jacobi(u, m);
+        const Real within = std::atan2(j.sn, j.cn);
+        const Real about = u * kPi / (2 * special::quarter_period(m));
+        const Real turns = std::round((about - within) / (2 * kPi));
+        return CaseReadings{static_cast<double>(2 * (within + 2 * kPi * turns)),
+                            static_cast<double>(kOver * j.dn)};
+      });
+}
+TrajectoryCase turn_time() {
+  TrajectoryCase c = turning();
+  c.times = {};
+  c.readings = {};
+  c.observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
+  c.reference = [](double k) {
+    const Real turn = 4 * special::quarter_period(4 * w0 * w0 / (kOver * kOver)) / kOver;
+    return CaseReadings{static_cast<double>(turn * Real(k))};
+  };
+  c.events = {[](const Model<double>&, const State<double>& x) { return std::sin(x.q[0] / 2); }, 3,
+              30};
+  return c;
+}
+
+TrajectoryCase separatrix() {
+  return motion(
+      "A pendulum of 1 m starts at the bottom with just what takes it to the top: "
+      "<p>&theta; = 4 atan(exp(&omega;<sub>0</sub>t)) &minus; &pi;</p>",
+      [] { return released(0, static_cast<double>(2 * w0)); }, {0.25, 0.5, 1},
+      [](double t) {
+        const Real u = w0 * Real(t);
+        return CaseReadings{static_cast<double>(4 * std::atan(std::exp(u)) - kPi),
+                            static_cast<double>(2 * w0 / std::cosh(u))};
+      });
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> pendulum() {
+  const char* group = "joints";
+  const char* time = "swing: three passages of the bottom [s]; agm";
+  return {
+      trajectory_case("B1-1", group, time, 1e-9, swing_time<1>()),
+      trajectory_case("B1-10", group, time, 1e-9, swing_time<10>()),
+      trajectory_case("B1-45", group, time, 1e-9, swing_time<45>()),
+      trajectory_case("B1-90", group, time, 1e-9, swing_time<90>()),
+      trajectory_case("B1-120", group, time, 1e-9, swing_time<120>()),
+      trajectory_case("B1-150", group, time, 1e-9, swing_time<150>()),
+      trajectory_case("B1-170", group, time, 1e-9, swing_time<170>()),
+      trajectory_case("B1-179", group, time, 1e-9, swing_time<179>()),
+      trajectory_case("B1-small", group, "period of small swings: 2.0060666807106474 s [relative]",
+                      1e-12, small_swings()),
+      trajectory_case(
+          "B2", group,
+          "pendulum from 90 degrees: angle [rad], rate [rad/s], 10 s; elliptic functions", 1e-8,
+          swing()),
+      trajectory_case("B2-A01", group, "IFToMM A01: place at 10 s [m]", 1e-8, swing_in_plane()),
+      trajectory_case("B2-over", group, "pendulum that turns over: angle [rad], rate [rad/s], 10 s",
+                      1e-8, turning()),
+      trajectory_case("B2-turn", group, "the same: each turn takes 1.2908937533774671 s [s]", 1e-8,
+                      turn_time()),
+      trajectory_case("B2-separatrix", group, "pendulum to the top: angle [rad], rate [rad/s], 1 s",
+                      1e-6, separatrix()),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

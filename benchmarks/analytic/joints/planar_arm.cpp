@@ -1,0 +1,188 @@
+// F2: mass matrix, velocity terms and accelerations of a planar two-link arm in ten states, against
+// the closed form of planar_arm.h.
+#include "benchmarks/analytic/joints/planar_arm.h"
+
+#include <cmath>
+#include <string>
+
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "solver/dynamics/dynamics.h"
+
+namespace twinarm::smooth_parts {
+
+Model<double> model_of(const PlanarArm& arm) {
+  const auto link = [](double mass, double com, double inertia) {
+    return BodyInertia{mass, {com, 0, 0}, Vector3(0.01 * inertia, inertia, inertia).asDiagonal()};
+  };
+  ModelBuilder builder;
+  const int upper = builder.add_body("arm1", 0, "joint1", JointType::revolute, {}, Vector3::UnitZ(),
+                                     link(arm.m1, arm.c1, arm.I1));
+  builder.add_body("arm2", upper, "joint2", JointType::revolute,
+                   {Matrix3::Identity(), {arm.l1, 0, 0}}, Vector3::UnitZ(),
+                   link(arm.m2, arm.c2, arm.I2));
+  return builder.build();
+}
+
+PlanarArmTerms terms_of(const PlanarArm& arm, long double q2, long double qd1, long double qd2) {
+  const long double m1 = arm.m1, m2 = arm.m2, l1 = arm.l1, c1 = arm.c1, c2 = arm.c2;
+  const long double cosine = std::cos(q2), h = m2 * l1 * c2 * std::sin(q2);
+  return {.M11 = arm.I1 + m1 * c1 * c1 + arm.I2 + m2 * (l1 * l1 + c2 * c2 + 2 * l1 * c2 * cosine),
+          .M12 = arm.I2 + m2 * (c2 * c2 + l1 * c2 * cosine),
+          .M22 = arm.I2 + m2 * c2 * c2,
+          .C1 = -h * (2 * qd1 * qd2 + qd2 * qd2),
+          .C2 = h * qd1 * qd1};
+}
+
+}  // namespace twinarm::smooth_parts
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+
+constexpr int kArmStates = 10;
+
+struct ArmState {
+  double q1, q2, qd1, qd2, tau1, tau2;
+};
+ArmState arm_state(int n) {  // all over the place
+  return {3 * std::sin(3. * n + 1), 3 * std::sin(5. * n + 2),   4 * std::sin(7. * n + 3),
+          6 * std::sin(11. * n),    20 * std::sin(13. * n + 5), 10 * std::sin(17. * n + 6)};
+}
+
+// What each state gives, one after the other.
+template <class F>
+CaseReadings in_all_states(F&& readings) {
+  CaseReadings all;
+  for (int n = 0; n < kArmStates; ++n)
+    for (const double value : readings(arm_state(n))) all.push_back(value);
+  return all;
+}
+CaseReadings doubles(std::initializer_list<long double> values) {
+  return {values.begin(), values.end()};
+}
+std::vector<std::string> names_in_all_states(const std::vector<std::string>& names) {
+  std::vector<std::string> all;
+  for (int n = 1; n <= kArmStates; ++n)
+    for (const std::string& name : names) all.push_back(name + " in state " + std::to_string(n));
+  return all;
+}
+State<double> state_of(const Model<double>& model, const ArmState& s) {
+  State<double> x(model);
+  x.q = {s.q1, s.q2};
+  x.qd = {s.qd1, s.qd2};
+  return x;
+}
+
+// The lower link's centre of mass 0.1 % further out.
+void further_out(CaseScene& scene) {
+  scene.model.I.back().h = 1.001 * scene.model.I.back().h;
+}
+
+TrajectoryCase mass_matrix() {
+  return {.statement =
+              "Two links with vertical hinges: <p>M<sub>11</sub> = I<sub>1</sub> + m<sub>1</sub>"
+              "c<sub>1</sub><sup>2</sup> + I<sub>2</sub> + m<sub>2</sub>(l<sub>1</sub><sup>2</sup> "
+              "+ c<sub>2</sub><sup>2</sup> + 2l<sub>1</sub>c<sub>2</sub> cos q<sub>2</sub>), "
+              "M<sub>12</sub> = I<sub>2</sub> + m<sub>2</sub>(c<sub>2</sub><sup>2</sup> + "
+              "l<sub>1</sub>c<sub>2</sub> cos q<sub>2</sub>), M<sub>22</sub> = I<sub>2</sub> + "
+              "m<sub>2</sub>c<sub>2</sub><sup>2</sup></p>",
+          .scene = [] { return at_rest(model_of({})); },
+          .times = {0},
+          .readings = names_in_all_states({"M11 [kg m^2]", "M12 [kg m^2]", "M22 [kg m^2]"}),
+          .observe =
+              [](const Model<double>& model, const State<double>&) {
+                return in_all_states([&](const ArmState& s) {
+                  Workspace<double> w(model);
+                  crba(model, state_of(model, s), w);
+                  return doubles({w.M[0], w.M[1], w.M[3]});
+                });
+              },
+          .reference =
+              [](double) {
+                return in_all_states([](const ArmState& s) {
+                  const PlanarArmTerms terms = terms_of({}, s.q2, s.qd1, s.qd2);
+                  return doubles({terms.M11, terms.M12, terms.M22});
+                });
+              },
+          .measure = relative_to_largest,
+          .mutant = further_out};
+}
+
+TrajectoryCase velocity_terms() {
+  TrajectoryCase c = mass_matrix();
+  c.statement =
+      "The same two links: <p>C<sub>1</sub> = &minus;h (2 q<sub>1</sub>' q<sub>2</sub>' + "
+      "q<sub>2</sub>'<sup>2</sup>), C<sub>2</sub> = h q<sub>1</sub>'<sup>2</sup>, h = "
+      "m<sub>2</sub>l<sub>1</sub>c<sub>2</sub> sin q<sub>2</sub></p>";
+  c.readings = names_in_all_states({"C1 [N m]", "C2 [N m]"});
+  c.observe = [](const Model<double>& model, const State<double>&) {
+    return in_all_states([&](const ArmState& s) {
+      return CaseReadings(inverse_dynamics(model, state_of(model, s), {0, 0}));
+    });
+  };
+  c.reference = [](double) {
+    return in_all_states([](const ArmState& s) {
+      const PlanarArmTerms terms = terms_of({}, s.q2, s.qd1, s.qd2);
+      return doubles({terms.C1, terms.C2});
+    });
+  };
+  return c;
+}
+
+TrajectoryCase arm_accelerations() {
+  TrajectoryCase c = mass_matrix();
+  c.statement =
+      "The same two links, torques on both: <p>q'' = M<sup>&minus;1</sup> (&tau; &minus; C)</p>";
+  c.readings = names_in_all_states({"q1'' [rad/s^2]", "q2'' [rad/s^2]"});
+  c.observe = [](const Model<double>& model, const State<double>&) {
+    return in_all_states([&](const ArmState& s) {
+      Workspace<double> w(model);
+      Forces<double> forces(model);
+      forces.tau = {s.tau1, s.tau2};
+      aba(model, state_of(model, s), forces, w);
+      return CaseReadings(w.qdd);
+    });
+  };
+  c.reference = [](double) {
+    return in_all_states([](const ArmState& s) {
+      const special::Two qdd = accelerations_of(terms_of({}, s.q2, s.qd1, s.qd2), {s.tau1, s.tau2});
+      return doubles({qdd.first, qdd.second});
+    });
+  };
+  return c;
+}
+
+TrajectoryCase no_weight() {
+  TrajectoryCase c = mass_matrix();
+  c.statement = "The same two links at rest: their axes stand along gravity, <p>G = 0</p>";
+  c.readings = names_in_all_states({"G1 [N m]", "G2 [N m]"});
+  c.observe = [](const Model<double>& model, const State<double>&) {
+    return in_all_states([&](ArmState s) {
+      s.qd1 = s.qd2 = 0;
+      return CaseReadings(inverse_dynamics(model, state_of(model, s), {0, 0}));
+    });
+  };
+  c.reference = [](double) { return CaseReadings(2 * kArmStates, 0); };
+  c.measure = largest_difference;
+  c.mutant = [](CaseScene& scene) { scene.model.gravity.x = 1e-3 * kGravity; };  // it leans
+  return c;
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> planar_arm() {
+  const char* group = "robots";
+  return {
+      trajectory_case("F2", group, "planar two-link arm: mass matrix in ten states [relative]",
+                      1e-12, mass_matrix()),
+      trajectory_case("F2-velocity", group, "the same: velocity terms C qd [relative]", 1e-12,
+                      velocity_terms()),
+      trajectory_case("F2-forward", group, "the same: accelerations under torques [relative]",
+                      1e-12, arm_accelerations()),
+      trajectory_case("F2-weight", group, "the same: gravity along its axes does nothing [N m]",
+                      1e-12, no_weight()),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

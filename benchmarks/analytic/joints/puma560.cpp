@@ -1,0 +1,292 @@
+// F1: the PUMA 560, built here from its table of Denavit-Hartenberg parameters (Armstrong, Khatib,
+// Burdick 1986; Corke, Armstrong-Helouvry 1994): A_i = Rz(q_i) Tz(d_i) Tx(a_i) Rx(alpha_i). Gravity
+// loads, mass matrix, inverse and forward dynamics against values of another code, and against the
+// digits that the Robotics Toolbox publishes.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "benchmarks/analytic/joints/puma560_values.h"
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/loops/constrained_dynamics.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+using puma560::Joints;
+
+struct PumaLink {
+  double a, d;                // [m]
+  int alpha;                  // quarter turns
+  double mass;                // [kg]
+  std::array<double, 3> com;  // in frame i [m]
+  std::array<double, 3> I;    // about it, axes of frame i [kg m^2]
+};
+constexpr std::array<PumaLink, 6> kPumaLinks{{
+    {0, 0, 1, 0, {0, 0, 0}, {0, 0.35, 0}},
+    {0.4318, 0, 0, 17.4, {-0.3638, 0.006, 0.2275}, {0.13, 0.524, 0.539}},
+    {0.0203, 0.15005, -1, 4.8, {-0.0203, -0.0141, 0.070}, {0.066, 0.086, 0.0125}},
+    {0, 0.4318, 1, 0.82, {0, 0.019, 0}, {1.8e-3, 1.3e-3, 1.8e-3}},
+    {0, 0, -1, 0.34, {0, 0, 0}, {0.3e-3, 0.4e-3, 0.3e-3}},
+    {0, 0, 0, 0.09, {0, 0, 0.032}, {0.15e-3, 0.15e-3, 0.04e-3}},
+}};
+struct PumaMotor {
+  double inertia, gear;  // before the gear [kg m^2]; its ratio, without sign
+  double viscous;        // before the gear [N m s/rad]
+  double plus, minus;    // Coulomb friction there, by the sign of the joint's rate [N m]
+};
+constexpr std::array<PumaMotor, 6> kPumaMotors{{
+    {200e-6, 62.6111, 1.48e-3, 0.395, 0.435},
+    {200e-6, 107.815, 0.817e-3, 0.126, 0.071},
+    {200e-6, 53.7063, 1.38e-3, 0.132, 0.105},
+    {33e-6, 76.0364, 71.2e-6, 11.2e-3, 16.9e-3},
+    {33e-6, 71.923, 82.6e-6, 9.26e-3, 14.5e-3},
+    {33e-6, 76.686, 36.7e-6, 3.96e-3, 10.5e-3},
+}};
+
+// A joint turns first and shifts afterwards: link i is frame i-1 turned by q_i, and the fixed rest
+// of A_i carries the inertia of frame i and the next joint.
+Model<double> puma() {
+  ModelBuilder builder;
+  int parent = 0;
+  Pose joint{};
+  for (std::size_t i = 0; i < 6; ++i) {
+    const PumaLink& row = kPumaLinks[i];
+    const PumaMotor& motor = kPumaMotors[i];
+    const double s = row.alpha, c = row.alpha == 0 ? 1 : 0, G = motor.gear;
+    Pose rest{Matrix3::Identity(), {row.a, 0, row.d}};
+    rest.R << 1, 0, 0, 0, c, -s, 0, s, c;
+    const Matrix3 I = Vector3(row.I.data()).asDiagonal();
+    const BodyInertia inertia{row.mass, rest * Vector3(row.com.data()),
+                              rest.R * I * rest.R.transpose()};
+    const JointProperties properties{.armature = G * G * motor.inertia,
+                                     .damping = G * G * motor.viscous,
+                                     .coulomb_plus = G * motor.plus,
+                                     .coulomb_minus = G * motor.minus};
+    const std::string n = std::to_string(parent + 1);
+    parent = builder.add_body("link" + n, parent, "j" + n, JointType::revolute, joint,
+                              Vector3::UnitZ(), inertia, properties);
+    joint = rest;
+  }
+  return builder.build();
+}
+
+State<double> puma_state(const Model<double>& model, const Joints& q, const Joints& qd = {}) {
+  State<double> x(model);
+  x.q.assign(q.begin(), q.end());
+  x.qd.assign(qd.begin(), qd.end());
+  return x;
+}
+void append(CaseReadings& all, const std::vector<double>& values) {
+  all.insert(all.end(), values.begin(), values.end());
+}
+void append(CaseReadings& all, const Joints& values) {
+  all.insert(all.end(), values.begin(), values.end());
+}
+
+// rne(q, qd, qdd) of the toolbox, with motors and joint friction.
+std::vector<double> puma_torques(const Model<double>& model, const Joints& q, const Joints& qd,
+                                 double qdd) {
+  std::vector<double> tau =
+      inverse_dynamics(model, puma_state(model, q, qd), std::vector<double>(6, qdd));
+  for (std::size_t k = 0; k < 6; ++k)
+    tau[k] += model.damping[k] * qd[k] + (qd[k] > 0   ? model.coulomb_plus[k]
+                                          : qd[k] < 0 ? -model.coulomb_minus[k]
+                                                      : 0);
+  return tau;
+}
+Model<double> without_friction(Model<double> model) {
+  for (auto* law : {&model.damping, &model.coulomb_plus, &model.coulomb_minus})
+    std::fill(law->begin(), law->end(), 0);
+  return model;
+}
+Model<double> links_alone(const Model<double>& model) {
+  Model<double> bare = without_friction(model);
+  std::fill(bare.armature.begin(), bare.armature.end(), 0);
+  return bare;
+}
+// By the solver's own joint friction.
+std::vector<double> puma_accelerations(const Model<double>& model) {
+  const State<double> x = puma_state(model, puma560::kNominal, puma560::kRate);
+  Forces<double> forces(model);
+  forces.tau.assign(puma560::kTorque.begin(), puma560::kTorque.end());
+  Workspace<double> w(model);
+  ForwardDynamics dynamics(model);
+  dynamics(x, forces, w);
+  return w.qdd;
+}
+
+// The largest of what each six are off, of the largest of the six.
+double relative_by_six(const CaseReadings& seen, const CaseReadings& exact) {
+  if (seen.size() != exact.size() || seen.size() % 6 != 0)
+    return std::numeric_limits<double>::quiet_NaN();
+  double error = 0;
+  for (std::size_t i = 0; i < seen.size(); i += 6) {
+    const auto six = [i](const CaseReadings& all) {
+      const auto first = all.begin() + static_cast<std::ptrdiff_t>(i);
+      return CaseReadings(first, first + 6);
+    };
+    error = worse(error, relative_to_largest(six(seen), six(exact)));
+  }
+  return error;
+}
+std::vector<std::string> puma_names(const std::vector<std::string>& rows, const char* unit) {
+  std::vector<std::string> names;
+  for (const std::string& row : rows)
+    for (int k = 1; k <= 6; ++k) names.push_back(row + " " + std::to_string(k) + " [" + unit + "]");
+  return names;
+}
+
+TrajectoryCase puma_weight() {
+  return {.statement =
+              "The PUMA 560 holds itself at rest in four postures, <i>qn, qz, qr, qs</i> of the "
+              "Robotics Toolbox: <p>&tau; = G(q)</p>",
+          .scene = [] { return at_rest(puma()); },
+          .times = {0},
+          .readings = puma_names({"qn", "qz", "qr", "qs"}, "N m"),
+          .observe =
+              [](const Model<double>& model, const State<double>&) {
+                CaseReadings all;
+                for (const puma560::GravityLoad& load : puma560::kGravityLoads)
+                  append(all, puma_torques(model, load.q, {}, 0));
+                return all;
+              },
+          .reference =
+              [](double) {
+                CaseReadings all;
+                for (const puma560::GravityLoad& load : puma560::kGravityLoads)
+                  append(all, load.tau);
+                return all;
+              },
+          .measure = relative_by_six};
+}
+
+TrajectoryCase puma_mass() {
+  TrajectoryCase c = puma_weight();
+  c.statement =
+      "Inertia of the PUMA's motors seen at the joints, and its mass matrix in the posture "
+      "<i>qn</i>: <p>M = M<sub>links</sub> + G<sup>2</sup> J<sub>m</sub></p>";
+  c.readings = puma_names({"armature", "M diagonal"}, "kg m^2");
+  for (const char* entry : {"M12", "M13", "M23"})
+    c.readings.push_back(std::string(entry) + " [kg m^2]");
+  c.observe = [](const Model<double>& model, const State<double>&) {
+    CaseReadings all = model.armature;
+    Workspace<double> w(model);
+    crba(model, puma_state(model, puma560::kNominal), w);
+    for (std::size_t k = 0; k < 6; ++k) all.push_back(w.M[7 * k]);
+    for (const std::size_t entry : {1, 2, 8}) all.push_back(w.M[entry]);
+    return all;
+  };
+  c.reference = [](double) {
+    CaseReadings all;
+    append(all, puma560::kArmature);
+    append(all, puma560::kMassDiagonal);
+    append(all, CaseReadings{puma560::kM12, puma560::kM13, puma560::kM23});
+    return all;
+  };
+  c.measure = relative_to_largest;
+  c.mutant = more_inertia;
+  return c;
+}
+
+constexpr Joints kOnes{1, 1, 1, 1, 1, 1};
+
+TrajectoryCase puma_inverse() {
+  TrajectoryCase c = puma_weight();
+  c.statement =
+      "Torques of the PUMA in the posture <i>qn</i> for q'' = 1: from rest; at q' = 1 with joint "
+      "friction; the same of the links alone. <p>&tau; = M q'' + C q' + G + B q' + "
+      "T<sub>c</sub> sign q'</p>";
+  c.readings = puma_names({"from rest", "moving", "links alone"}, "N m");
+  c.observe = [](const Model<double>& model, const State<double>&) {
+    const Joints& qn = puma560::kNominal;
+    CaseReadings all = puma_torques(model, qn, {}, 1);
+    append(all, puma_torques(model, qn, kOnes, 1));
+    append(all, puma_torques(links_alone(model), qn, kOnes, 1));
+    return all;
+  };
+  c.reference = [](double) {
+    CaseReadings all;
+    append(all, puma560::kTauFromRest);
+    append(all, puma560::kTauMoving);
+    append(all, puma560::kTauMovingLinks);
+    return all;
+  };
+  return c;
+}
+
+TrajectoryCase puma_forward() {
+  TrajectoryCase c = puma_weight();
+  c.statement =
+      "Accelerations of the PUMA in the posture <i>qn</i>, moving, under torques, with joint "
+      "friction and without: <p>q'' = M<sup>&minus;1</sup> (&tau; &minus; C q' &minus; G &minus; "
+      "B q' &minus; T<sub>c</sub> sign q')</p>";
+  c.readings = puma_names({"with friction", "without"}, "rad/s^2");
+  c.observe = [](const Model<double>& model, const State<double>&) {
+    CaseReadings all = puma_accelerations(model);
+    append(all, puma_accelerations(without_friction(model)));
+    return all;
+  };
+  c.reference = [](double) {
+    CaseReadings all;
+    append(all, puma560::kAcceleration);
+    append(all, puma560::kAccelerationNoFriction);
+    return all;
+  };
+  return c;
+}
+
+// rne from rest, moving; accel. And the unit of the last digit of each.
+constexpr std::array<double, 18> kPublished{
+    3.35311, 36.0025, 7.42596,  0.190043, 0.203441, 0.194133, 32.4952, 60.867,  17.7436,
+    1.45452, 1.29911, 0.713781, -7.4102,  -9.8432,  -10.9694, -4.4314, -0.9881, 21.0228};
+constexpr std::array<double, 18> kLastDigit{1e-5, 1e-4, 1e-5, 1e-6, 1e-6, 1e-6, 1e-4, 1e-4, 1e-4,
+                                            1e-5, 1e-5, 1e-6, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4};
+TrajectoryCase puma_published() {
+  TrajectoryCase c = puma_weight();
+  c.statement =
+      "The PUMA's torques and accelerations as the Robotics Toolbox publishes them, to 4 to 6 "
+      "digits, in units of the last one: <p>rne(qn, 0, 1), rne(qn, 1, 1), accel(qn, q', &tau;)</p>";
+  c.readings = puma_names({"from rest", "moving", "acceleration"}, "last digits");
+  c.observe = [](const Model<double>& model, const State<double>&) {
+    const Joints& qn = puma560::kNominal;
+    CaseReadings all = puma_torques(model, qn, {}, 1);
+    append(all, puma_torques(model, qn, kOnes, 1));
+    append(all, puma_accelerations(model));
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] /= kLastDigit[i];
+    return all;
+  };
+  c.reference = [](double) {
+    CaseReadings all;
+    for (std::size_t i = 0; i < 18; ++i) all.push_back(kPublished[i] / kLastDigit[i]);
+    return all;
+  };
+  c.measure = largest_difference;
+  return c;
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> puma560_robot() {
+  const char* group = "robots";
+  return {
+      trajectory_case("F1", group, "PUMA 560: gravity load in four postures [relative]", 1e-12,
+                      puma_weight()),
+      trajectory_case("F1-mass", group, "PUMA 560: armature and mass matrix at qn [relative]",
+                      1e-12, puma_mass()),
+      trajectory_case("F1-inverse", group, "PUMA 560: inverse dynamics at qn [relative]", 1e-12,
+                      puma_inverse()),
+      trajectory_case("F1-forward", group, "PUMA 560: forward dynamics at qn [relative]", 1e-12,
+                      puma_forward()),
+      trajectory_case("F1-published", group,
+                      "PUMA 560: published torques, accelerations [of the last digit]", 0.5,
+                      puma_published()),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

@@ -1,0 +1,200 @@
+// B7, a point mass on a rod of 1 m about a fixed point (Landau, Lifshitz, Mechanics, section 14).
+// With E = v^2/2 + g z and L = x vy - y vx, for 1 kg:
+//   z'^2 = 2 (E - g z)(1 - z^2) - L^2 = 2 g (z - z1)(z2 - z)(z3 - z),
+//   z = z1 + (z2 - z1) cd^2(k t, m),  k = sqrt(g (z3 - z1) / 2),  m = (z2 - z1) / (z3 - z1),
+// from its highest point; the azimuth turns at L / (1 - z^2). Near the conical pendulum, tilt a,
+// W^2 = g / cos a, small swings have w^2 = W^2 (1 + 3 cos^2 a).
+#include <cmath>
+
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
+#include "benchmarks/analytic/support/special_functions.h"
+#include "solver/dynamics/kinematics.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+using Real = long double;
+
+const Vector3 kRod(0, 0, -1);
+
+// On a ball joint the rod must not be without inertia about itself, of which the motion knows
+// nothing: it has no spin. On a universal joint, x then y, a point is enough.
+Model<double> on(JointType type) {
+  const double about_rod = type == JointType::spherical ? 0.1 : 0;
+  return one_body(type, Vector3::UnitX(), {1, kRod, Vector3(0, 0, about_rod).asDiagonal()});
+}
+
+// In the x-z plane at this tilt, going round at `turning`.
+CaseScene start(JointType type, double tilt, double turning) {
+  const double s = std::sin(tilt), c = std::cos(tilt);
+  if (type == JointType::universal) return start_at(on(type), {0, -tilt}, {turning * s / c, 0});
+  // Turned about -y by the tilt; rate in body axes, without a part along the rod:
+  // w x p = v with v = (0, turning s, 0).
+  const Vector3 p(s, 0, -c), w = p.cross(Vector3(0, turning * s, 0));
+  const Eigen::Quaterniond R(Eigen::AngleAxisd(-tilt, Vector3::UnitY()));
+  const Vector3 w_B = R.inverse() * w;
+  return start_at(on(type), {R.w(), R.x(), R.y(), R.z()}, {w_B.x(), w_B.y(), w_B.z()});
+}
+
+struct Motion {
+  Real g = 9.81L, L, z1, z2, z3, k, m;
+  Motion(Real tilt, Real turning) {
+    const Real s = std::sin(tilt), v2 = turning * turning * s * s;
+    z2 = -std::cos(tilt);
+    L = turning * s * s;
+    const Real E = v2 / 2 + g * z2;
+    const Real half = (E / g - z2) / 2, product = (L * L - 2 * E) / (2 * g) / z2;
+    z3 = half + std::sqrt(half * half - product);
+    z1 = product / z3;
+    k = std::sqrt(g * (z3 - z1) / 2);
+    m = (z2 - z1) / (z3 - z1);
+  }
+  Real height(Real t) const {
+    const special::Jacobi j = special::jacobi(k * t, m);
+    return z1 + (z2 - z1) * (j.cn / j.dn) * (j.cn / j.dn);
+  }
+  Real height_rate(Real t) const {
+    const special::Jacobi j = special::jacobi(k * t, m);
+    return -2 * k * (z2 - z1) * (1 - m) * j.cn * j.sn / (j.dn * j.dn * j.dn);
+  }
+  CaseReadings place(Real t) const {
+    const Real z = height(t), vz = height_rate(t), r = std::sqrt(1 - z * z);
+    const auto turning = [this](Real s) {
+      const Real at = height(s);
+      return L / (1 - at * at);
+    };
+    const Real a = special::integral(turning, 0, t), vr = -z * vz / r, va = L / r;
+    const Real c = std::cos(a), s = std::sin(a);
+    return {double(r * c),           double(r * s),           double(z),
+            double(vr * c - va * s), double(vr * s + va * c), double(vz)};
+  }
+  Real half_period() const { return special::quarter_period(m) / k; }
+};
+
+CaseReadings observe_place(const Model<double>& model, const State<double>& x) {
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  const Vector3 p = k.position(1, kRod), v = k.velocity(1, p);
+  return {p.x(), p.y(), p.z(), v.x(), v.y(), v.z()};
+}
+const Motion& wide() {
+  static const Motion motion(std::acos(-1.0L) / 3, 2);
+  return motion;
+}
+
+TrajectoryCase swing(JointType type) {
+  return {.statement =
+              "A spherical pendulum of 1 m starts 60&deg; from hanging and goes round at 2 "
+              "rad/s: <p>z = z<sub>1</sub> + (z<sub>2</sub> &minus; z<sub>1</sub>) "
+              "cd<sup>2</sup>(k t), azimuth' = L/(1 &minus; z<sup>2</sup>)</p>",
+          .scene = [type] { return start(type, 60 * kDegree, 2); },
+          .times = {1, 2, 5},
+          .readings = {"x [m]", "y [m]", "z [m]", "vx [m/s]", "vy [m/s]", "vz [m/s]"},
+          .observe = observe_place,
+          .reference = [](double t) { return wide().place(t); }};
+}
+
+// Lowest at half a period, at the height of the start after a whole one, further round.
+TrajectoryCase bounds() {
+  TrajectoryCase c = swing(JointType::spherical);
+  c.times = {};
+  c.readings = {"x [m]", "y [m]", "z [m]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    const CaseReadings all = observe_place(model, x);
+    return CaseReadings(all.begin(), all.begin() + 3);
+  };
+  c.reference = [](double n) {
+    const Real t = wide().half_period() * Real(n);
+    const CaseReadings all = wide().place(t);
+    return CaseReadings{static_cast<double>(t), all[0], all[1], all[2]};
+  };
+  c.events = {
+      [](const Model<double>& model, const State<double>& x) { return observe_place(model, x)[5]; },
+      2, 3};
+  return c;
+}
+
+TrajectoryCase momentum_kept() {
+  TrajectoryCase c = swing(JointType::spherical);
+  c.statement =
+      "The same: its angular momentum about the vertical stays. <p>L = m (x y' &minus; y x') = 1.5 "
+      "N m s</p>";
+  c.readings = {"Lz [N m s]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    const CaseReadings p = observe_place(model, x);
+    // About the vertical, of the body: its point mass alone has any.
+    return CaseReadings{model.I[1].m * (p[0] * p[4] - p[1] * p[3])};
+  };
+  c.reference = [](double) { return CaseReadings{1.5}; };
+  c.lane = dopri5_lane(1e-13);
+  c.mutant = more_inertia;
+  return c;
+}
+
+const double kCone = 30 * kDegree, kRound = std::sqrt(kGravity / std::cos(kCone));
+constexpr double kAside = 1e-5;  // its square is beyond the tolerance
+
+TrajectoryCase conical() {
+  TrajectoryCase c = swing(JointType::spherical);
+  c.statement = "A conical pendulum at 30&deg; goes round at <p>W = &radic;(g/(l cos a))</p>.";
+  c.scene = [] { return start(JointType::spherical, kCone, kRound); };
+  c.reference = [](double t) {
+    const double r = std::sin(kCone), z = -std::cos(kCone), C = std::cos(kRound * t);
+    const double S = std::sin(kRound * t), v = kRound * r;
+    return CaseReadings{r * C, r * S, z, -v * S, v * C, 0};
+  };
+  return c;
+}
+
+// The same angular momentum, a little aside: it swings about the cone.
+TrajectoryCase near_conical() {
+  TrajectoryCase c = conical();
+  c.statement =
+      "A little aside of the cone, with the same angular momentum, it swings at <p>w<sup>2</sup> = "
+      "W<sup>2</sup> (1 + 3 cos<sup>2</sup> a)</p>";
+  c.scene = [] {
+    const double ratio = std::sin(kCone) / std::sin(kCone + kAside);
+    return start(JointType::spherical, kCone + kAside, kRound * ratio * ratio);
+  };
+  c.times = {};
+  c.readings = {};
+  c.observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
+  c.reference = [](double n) {
+    const double swing = kRound * std::sqrt(1 + 3 * std::cos(kCone) * std::cos(kCone));
+    return CaseReadings{n * std::acos(-1.0) / swing};
+  };
+  c.events = {
+      [](const Model<double>& model, const State<double>& x) { return observe_place(model, x)[5]; },
+      4, 5};
+  return c;
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> spherical_pendulum() {
+  const char* group = "joints";
+  return {
+      trajectory_case("B7", group,
+                      "spherical pendulum on a ball: place [m], velocity [m/s], 5 s; elliptic "
+                      "functions",
+                      1e-8, swing(JointType::spherical)),
+      trajectory_case("B7-universal", group, "the same on a universal joint", 1e-8,
+                      swing(JointType::universal)),
+      trajectory_case("B7-bounds", group,
+                      "the same: z from -0.5 to -0.88759739960796994 m, 3.8311623896149764 rad "
+                      "round in 1.0796691626572801 s [s, m]",
+                      1e-8, bounds()),
+      trajectory_case("B7-momentum", group, "the same: Lz [N m s]; dopri5, tolerance 1e-13", 1e-11,
+                      momentum_kept()),
+      trajectory_case("B7-conical", group,
+                      "conical at 30 degrees, 3.3656518360490673 rad/s: place, velocity, 5 s", 1e-8,
+                      conical()),
+      trajectory_case("B7-near", group,
+                      "1e-5 rad from it: swings at 6.0675151351172159 rad/s, four half swings [s]",
+                      1e-8, near_conical()),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

@@ -1,0 +1,92 @@
+// A1, a free symmetric body: I1 = I2. With the angular momentum H, which keeps its direction,
+//   R(t) = Rot(H / |H|, |H| t / I1) Rot(e3, w3 (I1 - I3) t / I1),   R(0) = 1,
+// and the rate in body axes turns about e3 by w3 (I3 - I1) / I1.
+// Kane, Likins, Levinson, Spacecraft Dynamics (1983), 3.1.
+#include <cmath>
+
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/energy.h"
+#include "solver/dynamics/world_kinematics.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+
+constexpr double I1 = 0.04, I3 = 0.02;
+const Vector3 kRate(2, 0, 5);
+
+CaseScene scene() {
+  CaseScene s;
+  s.model = free_body(1, {I1, I1, I3});
+  s.start = State<double>(s.model);
+  for (int k = 0; k < 3; ++k) s.start.qd[static_cast<std::size_t>(k)] = kRate[k];
+  return s;
+}
+
+CaseReadings reference(double t) {
+  const Vector3 H(I1 * kRate.x(), I1 * kRate.y(), I3 * kRate.z());
+  const double nutation = kRate.z() * (I1 - I3) / I1 * t;
+  const Eigen::Quaterniond attitude(Eigen::AngleAxisd(H.norm() / I1 * t, H.normalized()) *
+                                    Eigen::AngleAxisd(nutation, Vector3::UnitZ()));
+  return attitude_and_rate(attitude, Eigen::AngleAxisd(-nutation, Vector3::UnitZ()) * kRate);
+}
+
+TrajectoryCase motion() {
+  return {.statement =
+              "A free body with moments of inertia 0.04, 0.04 and 0.02 kg m<sup>2</sup> starts "
+              "with (2, 0, 5) rad/s. Its axis e<sub>3</sub> goes round the angular momentum H: "
+              "<p>R(t) = Rot(H/|H|, |H| t/I<sub>1</sub>) Rot(e<sub>3</sub>, &omega;<sub>3</sub> "
+              "(I<sub>1</sub> &minus; I<sub>3</sub>) t/I<sub>1</sub>)</p>",
+          .scene = scene,
+          .times = {1, 5, 10},
+          .readings = {"qw", "qx", "qy", "qz", "w1 [rad/s]", "w2 [rad/s]", "w3 [rad/s]"},
+          .observe = observe_attitude_and_rate,
+          .reference = reference,
+          .measure = attitude_and_rate_error,
+          .mutant = more_inertia};
+}
+
+// In one state: kinetic energy, |H|, and the angle between the axis and H.
+TrajectoryCase at_start() {
+  TrajectoryCase c = motion();
+  c.times = {0};
+  c.readings = {"kinetic energy [J]", "|H| [N m s]", "angle of e3 to H [rad]"};
+  c.observe = [](const Model<double>& model, const State<double>& x) {
+    Workspace<double> w(model);
+    kinematics(model, x, w);
+    const Vec3<double> H = momentum(model, w).n;
+    return CaseReadings{kinetic_energy(model, x), std::sqrt(dot(H, H)),
+                        std::atan2(std::hypot(H.x, H.y), H.z)};
+  };
+  c.reference = [](double) {
+    const double across = I1 * kRate.x(), along = I3 * kRate.z();
+    return CaseReadings{(across * kRate.x() + along * kRate.z()) / 2, std::hypot(across, along),
+                        std::atan2(across, along)};
+  };
+  c.measure = relative_each;
+  return c;
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> symmetric_body() {
+  TrajectoryCase adaptive = motion();
+  adaptive.lane = dopri5_lane(1e-12);
+  return {
+      trajectory_case("A1", "free-body",
+                      "symmetric body: attitude [rad], rate [rad/s], 10 s; closed form", 1e-8,
+                      motion()),
+      trajectory_case(
+          "A1-start", "free-body",
+          "0.33 J, |H| = 0.12806248474865697 N m s, 38.659808254090091 degrees from the "
+          "axis [relative]",
+          1e-12, at_start()),
+      trajectory_case("A1-adaptive", "free-body", "the same, dopri5 with a tolerance of 1e-12",
+                      1e-10, adaptive),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

@@ -1,0 +1,114 @@
+// B8, Hooke's joint between shafts at an angle b: tan(out) = tan(in) / cos b, so that
+//   out' / in' = cos b / (cos^2(in) cos^2 b + sin^2(in)),   from cos b to 1 / cos b,
+// where at in = 0 the input's pin lies in the plane of the shafts. And a plate of 1 m x 0.6 m, 1
+// kg, hung by the middle of its short edge: w^2 = m g (1/2) / I about either axis of the joint.
+#include <cmath>
+
+#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
+#include "solver/dynamics/kinematics.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/loops/loop_assembly.h"
+
+namespace twinarm::smooth_cases {
+namespace {
+
+using namespace smooth_parts;
+
+constexpr double kAngle = 30 * kDegree;
+
+// The input shaft leans by b; the output shaft, which the loop keeps on the world's z, is carried
+// by the input through a universal joint whose pins are x of the one and y of the other.
+Model<double> shafts(double angle) {
+  const BodyInertia some{1, Vector3::Zero(), 0.1 * Matrix3::Identity()};
+  ModelBuilder builder;
+  const Matrix3 leaning = Eigen::AngleAxisd(-angle, Vector3::UnitY()).toRotationMatrix();
+  const int input = builder.add_body("input", 0, "bearing", JointType::revolute,
+                                     {leaning, Vector3::Zero()}, Vector3::UnitZ(), some);
+  builder.add_body("output", input, "hooke", JointType::universal, {}, Vector3::UnitX(), some);
+  return builder.build();
+}
+
+struct Output {
+  double angle, ratio;
+};
+Output output(const Model<double>& model, const State<double>& start, double input) {
+  std::vector<LoopClosure> loops(2);
+  loops[0] = {"bearing of the output", LoopType::hinge, 2, 0};
+  loops[1] = {"input", LoopType::locked, 1, 0};
+  loops[1].offset = input;
+  State<double> x = start;
+  x.q[0] = input;
+  x = close_loops(model, loops, std::move(x));
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  LoopClosures bearing(model, {loops[0]});
+  bearing.evaluate(x, k);
+  const Eigen::VectorXd rates = shortest_solution(bearing.J().rightCols(2), -bearing.J().col(0));
+  x.qd = {1, rates[0], rates[1]};
+  forward_kinematics(model, x, k);
+  const Vector3 pin = k.X_WL[2].R.col(1);
+  return {std::atan2(-pin.x(), pin.y()), k.w_WL[2].z()};
+}
+
+TrajectoryCase hooke() {
+  return {.statement =
+              "Hooke's joint between shafts at 30&deg;: <p>tan(out) = tan(in)/cos b, the "
+              "ratio of the rates goes from cos b to 1/cos b</p>",
+          .scene = [] { return at_rest(shafts(kAngle)); },
+          .times = {0},
+          .readings = {"angle out at 30 degrees in [rad]", "ratio there", "ratio at 0",
+                       "ratio at 90 degrees"},
+          .observe =
+              [](const Model<double>& model, const State<double>& x) {
+                const Output at_30 = output(model, x, 30 * kDegree);
+                return CaseReadings{at_30.angle, at_30.ratio, output(model, x, 0).ratio,
+                                    output(model, x, 90 * kDegree).ratio};
+              },
+          .reference =
+              [](double) {
+                const double c = std::cos(kAngle), in = 30 * kDegree;
+                const double C = std::cos(in) * c, S = std::sin(in);
+                return CaseReadings{std::atan(std::tan(in) / c), c / (C * C + S * S), 1 / c, c};
+              },
+          .measure = relative_each,
+          .mutant = [](CaseScene& scene) { scene.model = shafts(1.001 * kAngle); }};
+}
+
+TrajectoryCase plate() {
+  return {.statement =
+              "A plate of 1 m &times; 0.6 m, 1 kg, hangs by the middle of its short edge on "
+              "a universal joint: <p>w<sup>2</sup> = m g l / 2I</p> about each of its axes.",
+          .scene =
+              [] {
+                const Vector3 moments(1. / 12, 1.36 / 12, 0.36 / 12);
+                return at_rest(one_body(JointType::universal, Vector3::UnitX(),
+                                        {1, {0, 0, -0.5}, moments.asDiagonal()}));
+              },
+          .times = {0},
+          .readings = {"about the normal [rad/s]", "about the edge [rad/s]"},
+          .observe = [](const Model<double>& model,
+                        const State<double>& x) { return small_frequencies(model, x); },
+          .reference =
+              [](double) {
+                const double torque = kGravity / 2;
+                return CaseReadings{std::sqrt(torque / (1.36 / 12 + 0.25)), std::sqrt(torque * 3)};
+              }};
+}
+
+}  // namespace
+
+std::vector<AnalyticCase> universal_joint() {
+  const char* group = "joints";
+  return {
+      trajectory_case("B8", group,
+                      "Hooke's joint at 30 degrees: 33.690067525979787 degrees, ratio "
+                      "1.065877420042386, from 0.86602540378443865 to its inverse [relative]",
+                      1e-12, hooke()),
+      trajectory_case("B8-plate", group,
+                      "plate on a universal joint: 3.6742346141747671, 3.8360135557633265 rad/s",
+                      1e-6, plate()),
+  };
+}
+
+}  // namespace twinarm::smooth_cases

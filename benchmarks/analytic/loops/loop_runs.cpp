@@ -1,0 +1,207 @@
+// The mechanisms of loop_cases.h as known motions. D1, D2 and D7 have closed forms:
+//   D1  th = 2 asin(k sn(K - w0 t)), th' = -2 k w0 cn(K - w0 t); x = -sin th, z = -cos th
+//   D2  q'' = a sin q, a = c g / l, from upright at 1 rad/s: with W^2 = 1 + 4 a, m = 4 a / W^2 and
+//       u = W t / 2 - K(m), q = pi + 2 am(u, m), q' = W dn u
+//   D7  a e^(i th2) + b e^(i th3) = d + c e^(i th4), and its derivative
+// D3 to D6 have references that were computed elsewhere, at the times of loop_cases.h alone.
+#include "benchmarks/analytic/loops/loop_runs.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "benchmarks/analytic/loops/loop_cases.h"
+#include "benchmarks/analytic/support/case_constants.h"
+#include "benchmarks/analytic/support/special_functions.h"
+#include "solver/dynamics/kinematics.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/loops/loop_assembly.h"
+#include "solver/stepping/simulation.h"
+
+namespace twinarm {
+namespace {
+
+using LongReal = long double;
+
+CaseReadings rounded(std::initializer_list<LongReal> values) {
+  return {values.begin(), values.end()};
+}
+
+// Its readings at the times of its table; not numbers between them.
+CaseReadings tabulated(const LoopCase& c, double t) {
+  for (const LoopCase::Sample& sample : c.reference)
+    if (std::abs(sample.t - t) < 1e-12) return sample.values;
+  return CaseReadings(c.readings.size(), std::numeric_limits<double>::quiet_NaN());
+}
+
+CaseScene scene_of(const LoopCase& c) {
+  CaseScene scene{c.model, c.start};
+  if (c.source) scene.sources = {c.source};
+  scene.conserves = !c.source || c.stored;
+  scene.stored = c.stored;
+  scene.prepare = [loops = c.loops](Simulation& simulation) { simulation.set_loops(loops); };
+  return scene;
+}
+
+// ---- D1 ----
+
+CaseReadings swinging(double t) {  // from 90 degrees at rest
+  const LongReal w0 = std::sqrt(9.81L), m = 0.5L, k = std::sqrt(m);
+  const special::Jacobi j = special::jacobi(special::quarter_period(m) - w0 * LongReal(t), m);
+  const LongReal angle = 2 * std::asin(k * j.sn);
+  return rounded({-std::sin(angle), -std::cos(angle), -2 * k * w0 * j.cn});
+}
+TrajectoryCase swing_of(LoopCase (*make)(), const char* statement) {
+  TrajectoryCase motion = loop_motion(make, statement);
+  motion.reference = swinging;
+  motion.at_times_only = false;
+  return motion;
+}
+
+// ---- D2 ----
+
+CaseReadings turning_windows(int count, double t) {
+  const LongReal n = count, c = ((n + 1) / 2 + n) / ((n + 1) / 3 + n), a = c * 9.81L;
+  const LongReal W = std::sqrt(1 + 4 * a), m = 4 * a / (W * W);
+  const special::Jacobi j = special::jacobi(W * LongReal(t) / 2 - special::quarter_period(m), m);
+  const LongReal sine = -2 * j.sn * j.cn, cosine = 2 * j.sn * j.sn - 1, rate = W * j.dn;
+  return rounded({sine, cosine, cosine * rate, -sine * rate});
+}
+template <int count>
+TrajectoryCase windows_motion(double step) {
+  TrajectoryCase motion = loop_motion(
+      [] { return windows(count); },
+      "N four-bars in a row, 2 N + 1 rods of 1 m and 1 kg, turn over from upright, through places "
+      "where all rods lie in a line: <p>q'' = c (g/l) sin q, c = ((N + 1)/2 + N) / "
+      "((N + 1)/3 + N)</p>");
+  motion.times = {1, 10};
+  motion.reference = [](double t) { return turning_windows(count, t); };
+  motion.at_times_only = false;
+  motion.lane = rk4_lane(step);
+  return motion;
+}
+
+// ---- D7 ----
+
+// Put together from nearby; rates from J qd = 0 with the crank's given.
+CaseReadings assembled(const LoopCase& c, const Model<double>& model, const State<double>& nearby) {
+  State<double> x = close_loops(model, c.loops, nearby);
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  LoopClosures loops(model, {c.loops[0]});
+  loops.evaluate(x, k);
+  const Eigen::VectorXd rates = shortest_solution(loops.J().rightCols(2), -10 * loops.J().col(0));
+  x.qd = {10, rates[0], rates[1]};
+  return c.read(x, k);
+}
+CaseReadings four_bar_closed_form() {
+  constexpr LongReal a = 0.1L, b = 0.35L, c = 0.3L, d = 0.4L, w2 = 10;
+  const LongReal th2 = std::numbers::pi_v<LongReal> / 3;
+  // From the crank's end B to the rocker's foot D; C stands b from B, c from D, above the line.
+  const LongReal x = d - a * std::cos(th2), y = -a * std::sin(th2), BD = std::hypot(x, y);
+  const LongReal at_B = std::acos((b * b + BD * BD - c * c) / (2 * b * BD));
+  const LongReal th3 = std::atan2(y, x) + at_B;
+  const LongReal th4 =
+      std::atan2(a * std::sin(th2) + b * std::sin(th3), a * std::cos(th2) + b * std::cos(th3) - d);
+  const LongReal w3 = -a * w2 * std::sin(th2 - th4) / (b * std::sin(th3 - th4));
+  const LongReal w4 = a * w2 * std::sin(th2 - th3) / (c * std::sin(th4 - th3));
+  return rounded({th3, th4, w3, w4});
+}
+TrajectoryCase four_bar_place() {
+  const auto c = std::make_shared<const LoopCase>(four_bar());
+  return {
+      .statement =
+          "A four-bar with its crank at 60&deg; and 10 rad/s is put together: <p>a "
+          "e<sup>i&theta;<sub>2</sub></sup> + b e<sup>i&theta;<sub>3</sub></sup> = d + c "
+          "e<sup>i&theta;<sub>4</sub></sup></p>",
+      .scene =
+          [c] {
+            return CaseScene{c->model, c->start};
+          },
+      .times = {0},
+      .readings = c->readings,
+      .observe = [c](const Model<double>& model,
+                     const State<double>& x) { return assembled(*c, model, x); },
+      .reference = [](double) { return four_bar_closed_form(); },
+      // A crank that is 0.1 % longer.
+      .mutant = [](CaseScene& scene) { scene.model.Xtree[2].r = 1.001 * scene.model.Xtree[2].r; }};
+}
+
+// ---- the others ----
+
+TrajectoryCase squeezer_motion() {
+  TrajectoryCase motion = loop_motion(
+      squeezer,
+      "Andrews' squeezing mechanism: seven bodies in a plane, three loops, a motor of constant "
+      "torque and a spring (Hairer, Wanner, Solving Ordinary Differential Equations II, VII.7). "
+      "<p>T + V &minus; E<sub>0</sub> = &tau; (&beta; &minus; &beta;<sub>0</sub>)</p>");
+  motion.mutant = more_inertia;  // there is no gravity
+  return motion;
+}
+
+}  // namespace
+
+// Each run has a mechanism of its own: sources keep what they point at.
+TrajectoryCase loop_motion(LoopCase (*make)(), const char* statement) {
+  const auto c = std::make_shared<const LoopCase>(make());
+  TrajectoryCase motion{};
+  motion.statement = statement;
+  motion.scene = [make] { return scene_of(make()); };
+  for (const LoopCase::Sample& sample : c->reference) motion.times.push_back(sample.t);
+  motion.readings = c->readings;
+  motion.observe = [c](const Model<double>& model, const State<double>& x) {
+    Kinematics k(model);
+    forward_kinematics(model, x, k);
+    return c->read(x, k);
+  };
+  motion.reference = [c](double t) { return tabulated(*c, t); };
+  motion.at_times_only = true;
+  motion.lane = rk4_lane(c->step);
+  return motion;
+}
+
+std::vector<AnalyticCase> loop_runs() {
+  const char* group = "loops";
+  const auto add = [&](const char* name, const char* reference, double tolerance,
+                       TrajectoryCase motion) {
+    return trajectory_case(name, group, reference, tolerance, std::move(motion));
+  };
+  const char* pendulum =
+      "A pendulum equivalent to a point mass on a rod of 1 m, as a loop, let go at 90&deg;: "
+      "<p>&theta; = 2 asin(k cd(&omega;<sub>0</sub>t, k<sup>2</sup>)), k = sin 45&deg;</p>";
+  const char* flyball =
+      "A flyball governor: a shaft that turns freely, two rods with balls, couplers to a slider. "
+      "<p>With rigid couplers s = 1&nbsp;m (1 &minus; sin &alpha;)</p>";
+  return {
+      add("D1-hinge", "pendulum, a free body on a hinge: place, rate; elliptic functions",
+          pendulum_on_hinge().tolerance, swing_of(pendulum_on_hinge, pendulum)),
+      add("D1-circle", "pendulum, a particle at a distance: the same",
+          pendulum_on_circle().tolerance, swing_of(pendulum_on_circle, pendulum)),
+      add("D2-2", "two four-bars through a singular place: 10 s [m, m/s]", windows(2).tolerance,
+          windows_motion<2>(1e-3)),
+      add("D2-40", "forty four-bars, 200 rows of rank 80, 8 ms: 10 s [m, m/s]",
+          windows(40).tolerance, windows_motion<40>(8e-3)),
+      add("D3", "Andrews' squeezer: angles at 0.01 to 0.05 s [rad]", squeezer().tolerance,
+          squeezer_motion()),
+      add("D4", "Bricard's over-constrained 6R: place of a corner, 10 s [m]", bricard().tolerance,
+          loop_motion(bricard,
+                      "Bricard's six bars of 1 m on six hinges at right angles, over-constrained, "
+                      "fall from rest. They close a loop by five conditions, one too many: <p>J q' "
+                      "= 0, rank "
+                      "J = 4</p>")),
+      add("D5-springs", "governor with stiff couplers: slider, 10 s [m]",
+          governor(Couplers::springs).tolerance,
+          loop_motion([] { return governor(Couplers::springs); }, flyball)),
+      add("D5-rods", "governor with rigid couplers: slider at 10 s [m]",
+          governor(Couplers::rods).tolerance,
+          loop_motion([] { return governor(Couplers::rods); }, flyball)),
+      add("D6", "slider-crank: crank and piston, 10 s [rad, rad/s, m]", slider_crank().tolerance,
+          loop_motion(slider_crank,
+                      "A slider-crank in a vertical plane turns freely: <p>x = r cos &theta; + "
+                      "&radic;(l<sup>2</sup> &minus; r<sup>2</sup> sin<sup>2</sup>&theta;)</p>")),
+      add("D7", "four-bar at one place: angles and rates [rad, rad/s]", four_bar().tolerance,
+          four_bar_place()),
+  };
+}
+
+}  // namespace twinarm

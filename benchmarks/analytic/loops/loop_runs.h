@@ -1,0 +1,18 @@
+// The cases with closed loops, group D of docs/cases.md.
+#pragma once
+
+#include <vector>
+
+#include "benchmarks/analytic/support/analytic_case.h"
+
+namespace twinarm {
+
+struct LoopCase;
+
+// What a mechanism of loop_cases.h does in time. Its references are known at its times alone.
+TrajectoryCase loop_motion(LoopCase (*make)(), const char* statement);
+
+std::vector<AnalyticCase> loop_runs();  // D1 to D7
+std::vector<AnalyticCase> loop_ends();  // what D3 to D6 know beside
+
+}  // namespace twinarm

@@ -1,0 +1,45 @@
+// Cases whose outcome is known, as one list: the test loops over it, `twinarm compare` shows it.
+//
+// Each case measures ONE number with this project's solver, its error, in the unit of its
+// tolerance. References are closed forms or come from computations in extended precision that share
+// nothing with the solver (docs/cases.md). Two kinds: a motion that is known (trajectory), which
+// any integrator can be tried on; and all else, an experiment of its own (run).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "benchmarks/analytic/support/trajectory_case.h"
+
+namespace twinarm {
+
+struct CaseResult {
+  double error = 0;  // not a number fails
+  // max |E - E0| over the largest kinetic energy; nothing where forces are meant to change E.
+  std::optional<double> energy_drift{};
+  std::optional<double> order{};  // of convergence, where it is measured
+};
+
+struct AnalyticCase {
+  const char* name;       // "E1-times"
+  const char* group;      // "contact", "loops"
+  const char* reference;  // what is measured, with its unit, against what
+  double tolerance;       // the case passes where error <= tolerance; 0: nothing may be broken
+  CaseResult (*run)();    // null: a trajectory
+  std::shared_ptr<const TrajectoryCase> trajectory{};
+  CaseResult (*mistaken)() = nullptr;  // run() with a mistake in it, which must fail; may be null
+  const char* statement = nullptr;     // asked for by statement_of(); null where told elsewhere
+};
+
+inline AnalyticCase trajectory_case(const char* name, const char* group, const char* reference,
+                                    double tolerance, TrajectoryCase trajectory) {
+  return {name,      group,   reference,
+          tolerance, nullptr, std::make_shared<const TrajectoryCase>(std::move(trajectory))};
+}
+
+inline bool passes(const AnalyticCase& c, const CaseResult& result) {
+  return result.error <= c.tolerance;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,129 @@
+#include "benchmarks/analytic/support/contact_scene.h"
+
+#include <algorithm>
+#include <string>
+
+#include "collision/shapes/mass_properties.h"
+#include "solver/dynamics/energy.h"
+
+namespace twinarm {
+namespace {
+
+class ConstantPush final : public ForceSource {
+ public:
+  ConstantPush(std::size_t dof, const Vector3& force) : dof_(dof), force_(force) {}
+  void add_forces(const State<double>&, const Kinematics&,
+                  Forces<double>& forces) noexcept override {
+    for (std::size_t i = 0; i < 3; ++i)
+      forces.tau[dof_ + i] += force_[static_cast<Eigen::Index>(i)];
+  }
+
+ private:
+  std::size_t dof_;
+  Vector3 force_;
+};
+
+// A recorder may ask for other steps than the case names.
+double scaled_step(double h) {
+  return contact_recorder ? contact_recorder->step_scale * h : h;
+}
+
+}  // namespace
+
+int ContactScene::add(const Body& body) {
+  BodyInertia inertia;
+  inertia.mass = body.mass;
+  inertia.inertia = body.inertia;
+  if (body.inertia.isZero())
+    inertia.inertia = with_mass(mass_properties(body.shape, 1000), body.mass).inertia;
+  const std::string name = std::to_string(++count_);
+  builder_.add_body(name, 0, "joint " + name, JointType::free, {}, Vector3::UnitZ(), inertia);
+  bodies_.emplace_back(count_, body);
+  return count_;
+}
+
+void ContactScene::add_fixed(const Shape& shape, const ContactSurface& surface, const Pose& X_WG) {
+  fixed_.push_back({shape, surface, X_WG, 0});
+}
+
+// About the z axis of its frame.
+void ContactScene::add_turning(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
+                               double rate) {
+  const std::string name = std::to_string(++count_);
+  builder_.add_body(name, 0, "joint " + name, JointType::prescribed, {}, Vector3::UnitZ(), {});
+  fixed_.push_back({shape, surface, {}, count_});
+  turning_.push_back({count_, X_WG, rate});
+}
+
+void ContactScene::start() {
+  model_ = builder_.build();
+  State<double> x(model_);
+  contacts_ = std::make_unique<ContactConstraints>(model_, ContactResponse::rigid);
+  for (const Fixed& f : fixed_) contacts_->add({"fixed", f.body, f.X_WG, f.shape, f.surface});
+  for (const auto& [number, body] : bodies_) {
+    double* q = x.q.data() + model_.iq[index(number)];
+    double* qd = x.qd.data() + model_.iv[index(number)];
+    const Eigen::Quaterniond turn(body.R);
+    const Vector3 w_L = body.R.transpose() * body.w;
+    for (int k = 0; k < 3; ++k) q[k] = body.p[k], qd[k] = w_L[k], qd[3 + k] = body.v[k];
+    q[3] = turn.w(), q[4] = turn.x(), q[5] = turn.y(), q[6] = turn.z();
+    contacts_->add(
+        {"body", number, {Matrix3::Identity(), body.shape_at}, body.shape, body.surface});
+  }
+  simulation_ = std::make_unique<Simulation>(model_, x);
+  for (const Turning& turning : turning_)
+    simulation_->prescribe(turning.body, [turning](double t) {
+      PrescribedMotion motion;
+      motion.X_JL = {turning.X_WG.R * turn_about(Vector3::UnitZ(), turning.rate * t),
+                     turning.X_WG.p};
+      motion.angular_velocity = turning.rate * turning.X_WG.R.col(2);
+      return motion;
+    });
+  simulation_->add(*contacts_);
+  start_energy_ = lowest_ = energy();
+  most_kinetic_ = kinetic_energy(model_, simulation_->state());
+  if (contact_recorder) contact_recorder->begin(*this);
+}
+
+void ContactScene::push(int body, const Vector3& force) {
+  pushes_.push_back(std::make_unique<ConstantPush>(model_.iv[index(body)] + 3, force));
+  simulation_->add(*pushes_.back());
+}
+
+double ContactScene::energy() const {
+  return kinetic_energy(model_, simulation_->state()) +
+         potential_energy(model_, simulation_->state());
+}
+
+void ContactScene::watch() {
+  const double kinetic = kinetic_energy(model_, simulation_->state());
+  const double now = kinetic + potential_energy(model_, simulation_->state());
+  most_kinetic_ = std::max(most_kinetic_, kinetic);
+  strayed_ = std::max(strayed_, std::abs(now - start_energy_));
+  rise_ = std::max(rise_, now - lowest_);
+  lowest_ = std::min(lowest_, now);
+  if (contact_recorder) contact_recorder->note(*this, now);
+}
+
+bool ContactScene::step(double h) {
+  const StepReport report = simulation_->step(scaled_step(h));
+  ok_ = ok_ && report.ok();
+  watch();
+  return report.ok();
+}
+
+void ContactScene::run(double duration, double h) {
+  const long steps = std::lround(duration / scaled_step(h));
+  for (long n = 0; n < steps; ++n) step(h);
+}
+
+Vector3 ContactScene::force(int body) const {
+  Vector3 sum = Vector3::Zero();
+  for (const ContactPoint& point : contacts_->points()) {
+    if (contacts_->geometry(point.contact.b).body == body) sum += point.force_W;
+    if (contacts_->geometry(point.contact.a).body == body) sum -= point.force_W;
+  }
+  return sum;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,156 @@
+// Free bodies, fixed ones and turning ones under rigid contact: what the contact cases run.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "benchmarks/analytic/support/analytic_case.h"
+#include "benchmarks/analytic/support/case_constants.h"
+#include "benchmarks/analytic/support/contact_recorder.h"
+#include "collision/contact/contact_constraints.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/stepping/simulation.h"
+
+namespace twinarm {
+
+enum class Steps { fixed, located };
+constexpr double kStep = 1e-3;  // of the cases that name no other [s]
+
+// A body on the incline x: gravity is turned instead of the floor, which stays z = 0. [rad]
+inline Vector3 tilted_gravity(double angle) {
+  return kGravity * Vector3(std::sin(angle), 0, -std::cos(angle));
+}
+inline Matrix3 turn_about(const Vector3& axis, double angle) {
+  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
+inline ContactSurface surface(double friction, double restitution = 0) {
+  ContactSurface s;
+  s.friction = friction, s.restitution = restitution;
+  return s;
+}
+
+// Add all bodies, then start(), then step(). Bodies are numbered from 1, their link frames stand at
+// their centres of mass.
+class ContactScene {
+ public:
+  struct Body {
+    Shape shape;
+    ContactSurface surface{};
+    double mass = 1;
+    Vector3 p = Vector3::Zero();  // of the centre of mass [m]
+    Vector3 v = Vector3::Zero();  // of it [m/s]
+    Vector3 w = Vector3::Zero();  // world axes [rad/s]
+    Matrix3 R = Matrix3::Identity();
+    Matrix3 inertia = Matrix3::Zero();   // zero: that of the uniform solid [kg m^2]
+    Vector3 shape_at = Vector3::Zero();  // the shape's centre, in link axes [m]
+  };
+  explicit ContactScene(const Vector3& gravity = {0, 0, -kGravity}) {
+    builder_.set_gravity(gravity);
+  }
+  // Gravity times `off`, for mistakes.
+  explicit ContactScene(double off) : ContactScene(Vector3(0, 0, -kGravity * off)) {}
+  ContactScene(const ContactScene&) = delete;
+  ContactScene& operator=(const ContactScene&) = delete;
+
+  int add(const Body& body);
+  void add_fixed(const Shape& shape, const ContactSurface& surface, const Pose& X_WG = {});
+  void add_floor(const ContactSurface& surface) { add_fixed(HalfSpace{}, surface); }
+  void add_turning(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
+                   double rate);
+  void start();
+  // After start(): a constant force on a free body that no energy counts, for mistakes. World axes.
+  void push(int body, const Vector3& force);
+  // From now on steps of any length, whose events are located in time.
+  void locate_events() { simulation_->locate_events(); }
+
+  bool step(double h);  // false where it was not finite or not solved
+  void run(double duration, double h);
+  double t() const { return simulation_->state().t; }
+  Vector3 p(int body) const { return simulation_->kinematics().X_WL[index(body)].p; }
+  Matrix3 R(int body) const { return simulation_->kinematics().X_WL[index(body)].R; }
+  Vector3 v(int body) const { return simulation_->kinematics().v_WLo[index(body)]; }
+  Vector3 w(int body) const { return simulation_->kinematics().w_WL[index(body)]; }
+  Vector3 force(int body) const;  // of all contacts, on the body, in the last step [N]
+  double energy() const;          // [J]
+  // Over all steps: max |E - E0| over the largest kinetic energy, and the most that E rose above
+  // the lowest value before it.
+  double drift() const { return strayed_ / most_kinetic_; }
+  double rise() const { return rise_ / most_kinetic_; }
+  bool ok() const { return ok_; }  // all steps were
+
+  Simulation& simulation() { return *simulation_; }
+  const Model<double>& model() const { return model_; }
+  const ContactConstraints& contacts() const { return *contacts_; }
+
+ private:
+  static std::size_t index(int body) { return static_cast<std::size_t>(body); }
+  void watch();
+
+  struct Fixed {
+    Shape shape;
+    ContactSurface surface;
+    Pose X_WG;
+    int body;  // 0, or the turning one
+  };
+  struct Turning {
+    int body;
+    Pose X_WG;
+    double rate;
+  };
+  ModelBuilder builder_;
+  std::vector<std::pair<int, Body>> bodies_;
+  std::vector<Fixed> fixed_;
+  std::vector<Turning> turning_;
+  int count_ = 0;
+  Model<double> model_;
+  std::unique_ptr<ContactConstraints> contacts_;
+  std::unique_ptr<Simulation> simulation_;
+  std::vector<std::unique_ptr<ForceSource>> pushes_;
+  double start_energy_ = 0, lowest_ = 0, strayed_ = 0, rise_ = 0, most_kinetic_ = 0;
+  bool ok_ = true;
+};
+
+// A case with its mistake: the experiment multiplies one thing in it by `off`, which is 1 in the
+// case; in the mistake it is some thousandths more or less, and the case must fail.
+template <CaseResult (*experiment)(double off), int thousandths>
+AnalyticCase contact_case(const char* name, const char* reference, double tolerance) {
+  return {name,
+          "contact",
+          reference,
+          tolerance,
+          [] { return experiment(1); },
+          {},
+          [] { return experiment(1 + 1e-3 * thousandths); }};
+}
+
+// The value between `low`, where the outcome is false, and `high`, where it is true, to `within`.
+template <class Outcome>
+double threshold(double low, double high, double within, Outcome&& outcome) {
+  while (high - low > within) {
+    const double middle = 0.5 * (low + high);
+    const bool holds = outcome(middle);
+    if (contact_recorder) contact_recorder->outcome(middle, holds);
+    (holds ? high : low) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+// A case whose error falls with the step: its error at h, and the order from h to h / 4 where the
+// error is more than rounding.
+template <class Error>
+CaseResult with_order(Error&& error, double h) {
+  constexpr double kRounding = 1e-9;
+  CaseResult result{error(h)};
+  const double fine = error(h / 4);
+  if (fine > kRounding) result.order = std::log(result.error / fine) / std::log(4);
+  return result;
+}
+
+inline double relative(double value, double reference) {
+  return std::abs(value / reference - 1);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,105 @@
+#include "benchmarks/analytic/support/smooth_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/dynamics/derivatives.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/kinematics.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/loops/constrained_dynamics.h"
+
+namespace twinarm::smooth_parts {
+
+Model<double> free_body(double mass, const Vector3& moments) {
+  ModelBuilder builder;
+  builder.set_gravity(Vector3::Zero());
+  builder.add_body("body", 0, "free", JointType::free, {}, Vector3::UnitZ(),
+                   {mass, Vector3::Zero(), moments.asDiagonal()});
+  return builder.build();
+}
+
+Model<double> one_body(JointType type, const Vector3& axis, const BodyInertia& inertia,
+                       const JointProperties& properties, const Pose& X_PJ) {
+  ModelBuilder builder;
+  builder.add_body("body", 0, "joint", type, X_PJ, axis, inertia, properties);
+  return builder.build();
+}
+
+Model<double> point_pendulum(double length) {
+  return one_body(JointType::revolute, Vector3::UnitY(), {1, {0, 0, -length}, Matrix3::Zero()});
+}
+
+CaseScene at_rest(Model<double> model) {
+  CaseScene scene;
+  scene.start = State<double>(model);
+  scene.model = std::move(model);
+  return scene;
+}
+
+CaseScene start_at(Model<double> model, std::vector<double> q, std::vector<double> qd) {
+  CaseScene scene = at_rest(std::move(model));
+  scene.start.q = std::move(q);
+  scene.start.qd = std::move(qd);
+  return scene;
+}
+
+Workspace<double> evaluate(const Model<double>& model, const State<double>& x) {
+  Workspace<double> w(model);
+  Forces<double> forces(model);
+  kinematics(model, x, w);
+  ForwardDynamics dynamics(model);
+  dynamics(x, forces, w);
+  return w;
+}
+
+std::vector<double> inverse_dynamics(const Model<double>& model, const State<double>& x,
+                                     const std::vector<double>& qdd) {
+  Workspace<double> w(model);
+  rnea(model, x, qdd, std::vector<Force<double>>(model.parent.size()), w);
+  return w.tau;
+}
+
+Vector3 reaction(const Model<double>& model, const State<double>& x) {
+  const std::vector<double> qdd = evaluate(model, x).qdd;
+  Workspace<double> w(model);
+  kinematics(model, x, w);
+  rnea(model, x, qdd, std::vector<Force<double>>(model.parent.size()), w);
+  return to_eigen(w.X0[1].E).transpose() * to_eigen(w.f[1].f);
+}
+
+std::vector<double> small_frequencies(const Model<double>& model, const State<double>& x) {
+  const Eigen::MatrixXd dq = forward_dynamics_derivatives(model, x, Forces<double>(model)).dq;
+  const Eigen::VectorXcd eigenvalues = eigenvalues_of(dq);
+  std::vector<double> all;
+  for (const std::complex<double>& value : eigenvalues) all.push_back(std::sqrt(-value.real()));
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+CaseReadings attitude_and_rate(const Eigen::Quaterniond& attitude, const Vector3& rate) {
+  return {attitude.w(), attitude.x(), attitude.y(), attitude.z(), rate.x(), rate.y(), rate.z()};
+}
+
+CaseReadings observe_attitude_and_rate(const Model<double>&, const State<double>& x) {
+  return {x.q[3], x.q[4], x.q[5], x.q[6], x.qd[0], x.qd[1], x.qd[2]};
+}
+
+double attitude_and_rate_error(const CaseReadings& seen, const CaseReadings& exact) {
+  const auto attitude = [](const CaseReadings& r) {
+    return Eigen::Quaterniond(r[0], r[1], r[2], r[3]);
+  };
+  const auto rate = [](const CaseReadings& r) { return Vector3(r[4], r[5], r[6]); };
+  return worse(attitude(seen).angularDistance(attitude(exact)), (rate(seen) - rate(exact)).norm());
+}
+
+double relative_each(const CaseReadings& seen, const CaseReadings& exact) {
+  if (seen.size() != exact.size()) return std::numeric_limits<double>::quiet_NaN();
+  double error = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    error = worse(error, std::abs(seen[i] / exact[i] - 1));
+  return error;
+}
+
+}  // namespace twinarm::smooth_parts

@@ -1,0 +1,89 @@
+// A motion that is known: what moves, where and when it is looked at, and what should be seen.
+//
+// One aggregate holds a whole case; run_trajectory.h runs it with any integrator. A case of one
+// evaluation (accelerations, torques, energies in one state) is one whose only time is 0: no step
+// is taken, and no integrator is asked. How to add one: docs/adding_a_case.md.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solver/forces/force_source.h"
+#include "solver/integration/integrator.h"
+#include "solver/linear_algebra/nan_max.h"
+
+namespace twinarm {
+
+class Simulation;
+
+// What moves. Made anew for every run.
+struct CaseScene {
+  Model<double> model{};
+  State<double> start{};
+  // Rewindable too (checkpointable.h) where a time lies between two steps.
+  std::vector<std::shared_ptr<ForceSource>> sources{};
+  bool conserves = true;  // energy is kept, so that its drift tells something
+  // Energy of the sources, beside that of gravity [J].
+  std::function<double(const State<double>&)> stored{};
+  // Loops, laws of prescribed joints: once, before the first step.
+  std::function<void(Simulation&)> prepare{};
+};
+
+// By what it is run.
+struct Lane {
+  Integrator integrator = Integrator::rk4;
+  double step = 1e-3;    // [s]; of dopri5 the longest
+  double tolerance = 0;  // of dopri5, relative and absolute
+};
+inline Lane rk4_lane(double step = 1e-3) {
+  return {Integrator::rk4, step, 0};
+}
+inline Lane dopri5_lane(double tolerance = 1e-10) {
+  return {Integrator::dopri5, 0.1, tolerance};
+}
+
+using CaseReadings = std::vector<double>;
+using CaseObserver = std::function<CaseReadings(const Model<double>&, const State<double>&)>;
+// One number from what was seen at one time and what should have been.
+using CaseMeasure = double (*)(const CaseReadings& seen, const CaseReadings& exact);
+
+double largest_difference(const CaseReadings& seen, const CaseReadings& exact);
+double relative_to_largest(const CaseReadings& seen, const CaseReadings& exact);
+
+// Mistakes that a case must notice.
+void more_gravity(CaseScene& scene);  // by 0.1 %
+// 0.1 % in mass and in two of the moments of inertia of every body, about its origin, body axes.
+void more_inertia(CaseScene& scene);
+
+// In place of times: the first places where `zero` changes its sign, found with the integrator's
+// own step. A reading more, the time, comes before those of `observe`.
+struct CaseEvents {
+  std::function<double(const Model<double>&, const State<double>&)> zero{};
+  int count = 0;
+  double until = 0;  // a run in which they have not all come by then fails [s]
+};
+
+struct TrajectoryCase {
+  const char* statement;  // for people: one paragraph and the formula, HTML without a stylesheet
+  std::function<CaseScene()> scene;
+  std::vector<double> times;          // ascending [s]; with events, none
+  std::vector<std::string> readings;  // what observe() gives, in order, with unit: "angle [rad]"
+  CaseObserver observe;
+  // Computed in the case at every time; with events, for the number of the event, from 1 on.
+  std::function<CaseReadings(double)> reference;
+  Lane lane{};  // in which it is judged
+  CaseMeasure measure = largest_difference;
+  void (*mutant)(CaseScene&) = more_gravity;  // with this mistake the error is above the tolerance
+  CaseEvents events{};
+  // The reference is what a scheme gives at its step: no lane but its own.
+  bool of_its_lane = false;
+  bool at_times_only = false;  // the reference is known at the times and nowhere between
+
+  bool has_steps() const { return events.count > 0 || times.back() > 0; }
+  bool takes_lanes() const { return has_steps() && !of_its_lane; }
+};
+
+}  // namespace twinarm

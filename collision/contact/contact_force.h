@@ -1,0 +1,83 @@
+// Contact of moving links with fixed obstacles: Hunt-Crossley normal force, regularised Coulomb
+// friction, both at the END of the step, so stable at any stiffness (solver/forces/spring.h).
+//
+// d: depth at a contact point, s = d' its rate, positive when closing. After the step d' = d + h s.
+//   normal     N = k d' (1 + c s)           where d' > 0 and 1 + c s > 0, else 0
+//              (Hunt and Crossley 1975, exponent 1: flat faces)
+//   friction   T = -mu N_last v_t / sqrt(|v_t|^2 + v_s^2), N_last the normal force of the same
+//   contact
+//              one step before: a bound of this step's own N makes the two chase each other
+// N is linearised about the rate s0 of the last round, N = N0 + N' (s - s0), and s = s_n + h J qdd:
+// an explicit force and a weightless particle m* = h N' along the normal. Friction has its factor
+// mu N_last / sqrt(|v_t0|^2 + v_s^2) from the last round and acts as an implicit damper. Rounds of
+// forces and ABA go on until s stands still: Newton's method. A contact that is still apart takes
+// part if the step would close it, so a fast link does not enter the obstacle for a step.
+#pragma once
+
+#include <vector>
+
+#include "collision/detection/collision_world.h"
+#include "solver/forces/force_source.h"
+
+namespace twinarm {
+
+struct ContactLaw {
+  double k = 1e8;                // stiffness of one contact point [N/m]
+  double dissipation = 1;        // c [s/m]: 1 - c v is near the restitution at impact speed v
+  double friction = 0.3;         // mu
+  double stiction_speed = 1e-3;  // v_s [m/s]: below it friction acts as a damper
+};
+
+struct ContactReading {
+  Contact contact;  // at the start of the step
+  int body = 0;     // the moving link
+  Vector3 p_W = Vector3::Zero();
+  Vector3 normal_W = Vector3::Zero();    // out of the obstacle
+  double normal_force = 0;               // N at the end of the step [N]
+  Vector3 friction_W = Vector3::Zero();  // on the link [N]
+};
+
+class ContactForce final : public ForceSource {
+ public:
+  ContactForce(const Model<double>& model, const ContactLaw& law);
+
+  // A piece of a link (body > 0), or a fixed obstacle (body 0), at X_LG in its link.
+  void add(int body, const Pose& X_LG, const std::string& name, const Shape& shape);
+
+  void begin_step(const Kinematics& k, double t, double h) noexcept override;
+  void add_forces(const State<double>& x, const Kinematics& k,
+                  Forces<double>& forces) noexcept override;
+  bool refine(const Kinematics& k, const Workspace<double>& w) noexcept override;
+  bool needs_semi_implicit() const override { return true; }
+  bool needs_rounds() const override { return true; }
+
+  const std::vector<ContactReading>& readings() const { return readings_; }  // of the last step
+  // Largest depth of any contact at a pose, 0 where nothing penetrates [m].
+  double deepest(const Kinematics& k);
+
+ private:
+  struct Piece {
+    int body;
+    Pose X_LG;
+  };
+  struct Point {                     // one contact in the course of a step
+    double s_n = 0, s0 = 0;          // closing rate at the start, and of the last round [m/s]
+    Vector3 v_t0 = Vector3::Zero();  // sliding velocity of the last round [m/s]
+    Vector3 v_n = Vector3::Zero();   // velocity of the link's point at the start [m/s]
+    double N_last = 0;               // of the same contact, one step before [N]
+  };
+  void find_contacts(const Kinematics& k, double margin);
+  double last_normal_force(const Contact& contact) const;
+
+  const Model<double>& model_;
+  ContactLaw law_;
+  CollisionWorld world_;
+  std::vector<Piece> pieces_;
+  std::vector<Pose> X_WG_;
+  std::vector<Contact> contacts_;
+  std::vector<ContactReading> readings_, last_readings_;  // sorted by (a, b, feature)
+  std::vector<Point> points_;
+  double h_ = 0;
+};
+
+}  // namespace twinarm

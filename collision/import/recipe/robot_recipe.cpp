@@ -1,0 +1,181 @@
+// Recipe -> meshes -> mass properties and hulls -> robot.
+//
+// Per part: mass, com and inertia of the solid inside its mesh
+// (collision/shapes/mass_properties.h). Per link: their sum, about the common centre of mass. Cost:
+// linear in the triangles, but n log n for the hulls.
+#include "collision/import/recipe/robot_recipe.h"
+
+#include <map>
+#include <optional>
+#include <set>
+
+#include "collision/import/recipe/recipe_file.h"
+#include "collision/import/recipe/stl_writer.h"
+#include "collision/import/robot/robot_check.h"
+#include "collision/import/urdf/urdf_writer.h"
+#include "collision/mesh_files/mesh_file.h"
+#include "collision/shapes/convex_hull.h"
+#include "collision/shapes/mass_properties.h"
+#include "solver/support/atomic_file.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace {
+
+class Maker {
+ public:
+  explicit Maker(const std::filesystem::path& file) : recipe_(read_recipe_file(file, faults_)) {}
+
+  RecipeResult run() {
+    result_.robot.name = recipe_.name;
+    result_.robot.file = recipe_.file;
+    result_.robot.joints = recipe_.joints;
+    file_name(recipe_.name, "recipe", 1);
+    for (const RecipeLink& link : recipe_.links) make_link(link);
+    RobotCheck check = check_robot(result_.robot, true);
+    faults_.insert(faults_.end(), check.faults.begin(), check.faults.end());
+    result_.robot.warnings = std::move(check.warnings);
+    throw_in_line_order(faults_);
+    result_.robot.root = find_root(result_.robot);
+    return std::move(result_);
+  }
+
+ private:
+  void fault(int line, std::string where, std::string rule, std::string remedy) {
+    faults_.push_back(
+        {recipe_.file.string(), line, std::move(where), std::move(rule), std::move(remedy)});
+  }
+
+  // Runs f; what it finds wrong is told at the line of the recipe that asked for it.
+  template <class F>
+  auto told_at(int line, const std::string& where, F f) -> std::optional<decltype(f())> {
+    try {
+      return f();
+    } catch (const InputError& error) {
+      for (const Fault& inner : error.faults())
+        fault(line, where, (inner.file.empty() ? "" : inner.file + ": ") + inner.rule,
+              inner.remedy);
+      return std::nullopt;
+    }
+  }
+
+  void file_name(const std::string& name, const std::string& where, int line) {
+    if (name.find_first_of("/\\:") != std::string::npos)
+      fault(line, where, "'" + name + "' becomes the name of a file", "use letters, digits and _");
+  }
+
+  std::filesystem::path mesh_file(const RecipePart& part) const {
+    return recipe_.file.parent_path() / "meshes" / (part.mesh + ".stl");
+  }
+
+  void make_link(const RecipeLink& recipe) {
+    LinkDescription link;
+    link.name = recipe.name;
+    link.line = recipe.line;
+    std::map<std::string, TriangleMesh> meshes;  // by the name of the part
+    std::vector<MassProperties> masses;
+    for (const RecipePart& part : recipe.parts) make_part(part, link, meshes, masses);
+    if (!masses.empty()) {
+      const std::string where = "link '" + link.name + "'";
+      if (const auto sum = told_at(link.line, where, [&] { return combine(masses); })) {
+        link.has_inertia = true;
+        link.mass = sum->mass;
+        link.com = sum->com;
+        link.inertia = 0.5 * (sum->inertia + sum->inertia.transpose());
+      }
+    }
+    for (const RecipeCollision& collision : recipe.collisions) make_hull(collision, meshes, link);
+    result_.robot.links.push_back(std::move(link));
+  }
+
+  void make_part(const RecipePart& part, LinkDescription& link,
+                 std::map<std::string, TriangleMesh>& meshes, std::vector<MassProperties>& masses) {
+    const std::string where = "link '" + link.name + "', part '" + part.mesh + "'";
+    const auto material = recipe_.materials.find(part.material);
+    if (material == recipe_.materials.end() && !part.material.empty())
+      fault(part.line, where, "material '" + part.material + "' does not exist",
+            "give [material." + part.material + "] with density and color");
+    if (meshes.count(part.mesh)) {
+      fault(part.line, where, "the link has this part already", "a part counts once");
+      return;
+    }
+    if (part.mesh.empty()) return;
+    const auto mesh =
+        told_at(part.line, where, [&] { return load_mesh(mesh_file(part), recipe_.mesh_scale); });
+    // A part that could not be read stays known, so that its hull is not told as well.
+    meshes[part.mesh] = mesh.value_or(TriangleMesh());
+    if (!mesh || material == recipe_.materials.end()) return;
+    VisualPart visual;
+    visual.name = part.mesh;
+    visual.line = part.line;
+    visual.geometry = MeshGeometry{mesh_file(part), Vector3::Constant(recipe_.mesh_scale), {}};
+    visual.material = part.material;
+    visual.color = material->second.color;
+    link.visuals.push_back(std::move(visual));
+    if (const auto mass = told_at(part.line, where,
+                                  [&] { return mass_properties(*mesh, material->second.density); }))
+      masses.push_back(*mass);
+  }
+
+  void make_hull(const RecipeCollision& collision,
+                 const std::map<std::string, TriangleMesh>& meshes, LinkDescription& link) {
+    const std::string where = "link '" + link.name + "', collision '" + collision.name + "'";
+    file_name(collision.name, where, collision.line);
+    if (!hull_names_.insert(collision.name).second)
+      fault(collision.line, where, "another collision has this name", "give each its own `name`");
+    std::vector<Vector3> points;
+    for (const std::string& part : collision.parts) {
+      const auto mesh = meshes.find(part);
+      if (mesh == meshes.end()) {
+        fault(collision.line, where, "part '" + part + "' is no part of this link",
+              "name the meshes of the link's parts");
+        return;
+      }
+      if (mesh->second.vertices.empty()) return;  // told already
+      points.insert(points.end(), mesh->second.vertices.begin(), mesh->second.vertices.end());
+    }
+    const auto hull = told_at(collision.line, where, [&] { return convex_hull(points); });
+    if (!hull) return;
+    const auto file = recipe_.file.parent_path() / "collision" / (collision.name + ".stl");
+    result_.hulls.push_back({file, recipe_.mesh_scale, {hull->vertices, hull->triangles}});
+    CollisionPart part;
+    part.name = collision.name;
+    part.line = collision.line;
+    part.geometry = MeshGeometry{file, Vector3::Constant(recipe_.mesh_scale), {}};
+    link.collisions.push_back(std::move(part));
+  }
+
+  std::vector<Fault> faults_;  // before recipe_, whose reading fills it
+  RecipeFile recipe_;
+  RecipeResult result_;
+  std::set<std::string> hull_names_;
+};
+
+std::string comment_for(const RobotDescription& robot) {
+  double mass = 0;
+  for (const LinkDescription& link : robot.links) mass += link.mass;
+  return "Made from " + robot.file.filename().string() +
+         " and the meshes; do not edit, change the recipe and make it again.\n"
+         "Masses and inertias are integrals over the meshes with the densities of the recipe; "
+         "total " +
+         number_text(mass) + " kg.\nSI units, radians; collision meshes are convex hulls.";
+}
+
+}  // namespace
+
+RecipeResult read_recipe(const std::filesystem::path& recipe_toml) {
+  return Maker(recipe_toml).run();
+}
+
+void make_robot(const std::filesystem::path& recipe_toml) {
+  const RecipeResult result = read_recipe(recipe_toml);
+  const std::filesystem::path folder = result.robot.file.parent_path();
+  for (const HullFile& hull : result.hulls) {
+    std::error_code ignored;  // told by the writing that follows
+    std::filesystem::create_directories(hull.file.parent_path(), ignored);
+    write_whole_file(hull.file, stl_bytes(hull.hull, hull.scale));
+  }
+  write_urdf(result.robot, folder / (result.robot.name + ".urdf"), comment_for(result.robot));
+}
+
+}  // namespace twinarm

@@ -1,0 +1,46 @@
+// The rules that every robot must keep, whatever file it was read from.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "collision/import/robot/robot_description.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+
+// The names of the joint types as files spell them.
+const char* to_string(JointDescription::Type type);
+bool joint_type_from(const std::string& text, JointDescription::Type& type);
+inline constexpr const char* kSupportedJoints =
+    "types: fixed, revolute, continuous, prismatic, floating, planar, and beyond URDF screw, "
+    "cylindrical, universal, spherical";
+// Those that URDF itself has; and the one by which other programs shall know the type.
+bool is_urdf_type(JointDescription::Type type);
+JointDescription::Type urdf_type_of(JointDescription::Type type, bool limited);
+
+struct RobotCheck {
+  std::vector<Fault> faults;    // empty for a good robot
+  std::vector<Fault> warnings;  // what is suspicious, but can be computed with
+};
+
+// Names, the tree, inertias, axes, limits, damping, mimics. An inertia that no rigid body has is a
+// warning, or a fault where `strict`.
+RobotCheck check_robot(const RobotDescription& robot, bool strict = false);
+
+// Throws InputError with all faults in the order of their lines; returns if there is none.
+void throw_in_line_order(std::vector<Fault> faults);
+
+// The link that is no joint's child; empty where there is not exactly one.
+std::string find_root(const RobotDescription& robot);
+
+// Indices into robot.joints, each joint after the joint that carries its parent link; among those
+// that are ready at the same time, in the order of the file. The robot must have passed the check.
+std::vector<std::size_t> joints_from_root(const RobotDescription& robot);
+
+// Joints that carry nothing: neither the child link nor any link outward of it has mass or inertia.
+// Nothing tells how such a joint accelerates. The robot must have passed the check.
+std::vector<std::size_t> joints_without_inertia(const RobotDescription& robot);
+
+}  // namespace twinarm

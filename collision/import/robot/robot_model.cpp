@@ -1,0 +1,176 @@
+#include "collision/import/robot/robot_model.h"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "collision/import/robot/robot_check.h"
+
+namespace twinarm {
+namespace {
+
+JointType type_of(const JointDescription& joint) {
+  switch (joint.type) {
+    case JointDescription::Type::fixed:
+      return JointType::fixed;
+    case JointDescription::Type::revolute:
+    case JointDescription::Type::continuous:
+      return JointType::revolute;
+    case JointDescription::Type::prismatic:
+      return JointType::prismatic;
+    case JointDescription::Type::screw:
+      return JointType::screw;
+    case JointDescription::Type::cylindrical:
+      return JointType::cylindrical;
+    case JointDescription::Type::universal:
+      return JointType::universal;
+    case JointDescription::Type::spherical:
+      return JointType::spherical;
+    case JointDescription::Type::planar:
+      return JointType::planar;
+    case JointDescription::Type::floating:
+      return JointType::free;
+  }
+  return JointType::fixed;
+}
+
+JointProperties properties_of(const JointDescription& joint) {
+  JointProperties properties;
+  properties.pitch = joint.pitch / (2 * std::numbers::pi);
+  properties.armature = joint.armature;
+  properties.damping = joint.damping;
+  properties.coulomb_plus = joint.coulomb_plus;
+  properties.coulomb_minus = joint.coulomb_minus;
+  return properties;
+}
+
+// The robot with everything in it that the options ask for, and the faults of these.
+class Weighted {
+ public:
+  Weighted(const RobotDescription& robot, const ModelOptions& options) : robot_(robot) {
+    for (LinkDescription& link : robot_.links) link_[link.name] = &link;
+    for (const auto& [name, factor] : options.mass_scale)
+      if (LinkDescription* link = find(name, "mass_scale")) {
+        link->mass *= factor;
+        link->inertia *= factor;
+      }
+    for (const PointMass& added : options.added_masses)
+      if (LinkDescription* link = find(added.link, "added_masses"); link && added.mass > 0) {
+        const BodyInertia sum = plus_point_mass(inertia(*link), added.p_L, added.mass);
+        link->has_inertia = true;
+        link->mass = sum.mass;
+        link->com = sum.com;
+        link->inertia = sum.inertia;
+      }
+    for (JointDescription& joint : robot_.joints) {
+      if (!options.armature) joint.armature = 0;
+      if (!options.friction) joint.damping = joint.coulomb_plus = joint.coulomb_minus = 0;
+    }
+    check(options.floating);
+  }
+
+  const RobotDescription& robot() const { return robot_; }
+  BodyInertia inertia(const std::string& link) const { return inertia(*link_.at(link)); }
+
+ private:
+  static BodyInertia inertia(const LinkDescription& link) {
+    return {link.mass, link.com, link.inertia};
+  }
+
+  LinkDescription* find(const std::string& name, const char* option) {
+    const auto found = link_.find(name);
+    if (found != link_.end()) return found->second;
+    faults_.push_back({robot_.file.string(), 0, option, "'" + name + "' is no link of this robot",
+                       "name one of its links"});
+    return nullptr;
+  }
+
+  void check(bool floating) {
+    for (const std::size_t j : joints_without_inertia(robot_)) {
+      const JointDescription& joint = robot_.joints[j];
+      faults_.push_back({robot_.file.string(), joint.line, "joint '" + joint.name + "'",
+                         "neither link '" + joint.child +
+                             "' nor anything outward of it has mass: its acceleration is not "
+                             "determined",
+                         "give mass and inertia, or make the joint fixed"});
+    }
+    const auto is_heavy = [](const LinkDescription& link) { return link.mass > 0; };
+    if (floating && std::none_of(robot_.links.begin(), robot_.links.end(), is_heavy))
+      faults_.push_back({robot_.file.string(), 0, "robot '" + robot_.name + "'",
+                         "nothing of it has mass: it cannot float", "give mass and inertia"});
+    throw_in_line_order(faults_);
+  }
+
+  RobotDescription robot_;
+  std::map<std::string, LinkDescription*> link_;
+  std::vector<Fault> faults_;
+};
+
+// The builder knows names only: file and line are added to what it finds.
+Model<double> build(const ModelBuilder& builder, const RobotDescription& robot) {
+  try {
+    return builder.build();
+  } catch (const InputError& error) {
+    std::vector<Fault> faults = error.faults();
+    for (Fault& fault : faults) {
+      if (!fault.file.empty()) continue;
+      fault.file = robot.file.string();
+      for (const LinkDescription& link : robot.links)
+        if (fault.where == "link '" + link.name + "'") fault.line = link.line;
+      for (const JointDescription& joint : robot.joints)
+        if (fault.where == "joint '" + joint.name + "'") fault.line = joint.line;
+    }
+    throw_in_line_order(std::move(faults));
+    throw;
+  }
+}
+
+}  // namespace
+
+BodyInertia plus_point_mass(const BodyInertia& body, const Vector3& p, double mass) {
+  BodyInertia sum;
+  sum.mass = body.mass + mass;
+  sum.com = (body.mass * body.com + mass * p) / sum.mass;
+  const auto shifted = [&](double m, const Vector3& c) -> Matrix3 {
+    const Vector3 r = c - sum.com;
+    return m * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose());
+  };
+  sum.inertia = body.inertia + shifted(body.mass, body.com) + shifted(mass, p);
+  return sum;
+}
+
+std::string root_joint_name(const RobotDescription& robot, bool floating) {
+  std::string name = floating ? "base" : robot.root + "_on_world";
+  const auto taken = [&](const JointDescription& joint) { return joint.name == name; };
+  while (std::any_of(robot.joints.begin(), robot.joints.end(), taken)) name += "_";
+  return name;
+}
+
+void add_robot(ModelBuilder& builder, const RobotDescription& description,
+               const ModelOptions& options, const std::string& prefix, const Pose& X_WR) {
+  const Weighted weighted(description, options);
+  const RobotDescription& robot = weighted.robot();
+  std::map<std::string, int> body;  // of the links that are added already
+  body[robot.root] = builder.add_body(
+      prefix + robot.root, 0, prefix + root_joint_name(robot, options.floating),
+      options.floating ? JointType::free : JointType::fixed, options.floating ? Pose{} : X_WR,
+      Vector3::UnitZ(), weighted.inertia(robot.root));
+  for (const std::size_t j : joints_from_root(robot)) {
+    const JointDescription& joint = robot.joints[j];
+    body[joint.child] = builder.add_body(
+        prefix + joint.child, body[joint.parent], prefix + joint.name, type_of(joint), joint.X_PJ(),
+        joint.axis, weighted.inertia(joint.child), properties_of(joint));
+  }
+  for (const JointDescription& joint : robot.joints)
+    if (joint.mimic)
+      builder.add_mimic(prefix + joint.name, prefix + joint.mimic->joint, joint.mimic->multiplier,
+                        joint.mimic->offset);
+}
+
+Model<double> build_model(const RobotDescription& robot, const ModelOptions& options) {
+  ModelBuilder builder;
+  add_robot(builder, robot, options, "", {});
+  return build(builder, robot);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,99 @@
+#include "collision/import/toml/toml_file.h"
+
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+constexpr std::size_t kDeepest = 200;
+constexpr std::uintmax_t kMostTomlBytes = 4u << 20;
+
+// Goes through the text as far as brackets and dots are concerned. What is no TOML is parsed, and
+// refused, by others.
+class DepthScan {
+ public:
+  explicit DepthScan(std::string_view text) : text_(text) {}
+
+  // Where it is nested too deep; 0: nowhere.
+  int line_too_deep() {
+    for (; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      if (c == '\n') end_line();
+      if (c == '#') at_ = std::min(text_.find('\n', at_), text_.size()) - 1;
+      if (c == '"' || c == '\'') pass_string(c);
+      if (c == '.') ++dots_;
+      if (c == ',') dots_ = 0;
+      if (c == '[' || c == '{') open();
+      if (c == ']' || c == '}') close();
+      if (below_ + dots_ > kDeepest) return line_;
+    }
+    return 0;
+  }
+
+ private:
+  void end_line() {
+    ++line_;
+    if (open_.empty()) dots_ = 0;
+  }
+  // Within a bracket its key still counts.
+  void open() {
+    open_.push_back(std::exchange(dots_, 0));
+    below_ += open_.back() + 1;
+  }
+  void close() {
+    if (open_.empty()) return;
+    dots_ = open_.back();
+    below_ -= dots_ + 1;
+    open_.pop_back();
+  }
+  void pass_string(char quote) {
+    const std::string three(3, quote);
+    const bool is_long = text_.substr(at_, 3) == three;
+    const std::string_view end =
+        is_long ? std::string_view(three) : std::string_view(three).substr(2);
+    for (at_ += end.size(); at_ < text_.size(); ++at_) {
+      if (text_.substr(at_, end.size()) == end) break;
+      if (text_[at_] == '\\' && quote == '"') ++at_;
+      if (at_ < text_.size() && text_[at_] == '\n') {
+        ++line_;
+        if (!is_long) return;
+      }
+    }
+    at_ += end.size() - 1;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+  std::size_t dots_ = 0, below_ = 0;  // of the key at hand; of all brackets around, with theirs
+  std::vector<std::size_t> open_;
+};
+
+}  // namespace
+
+std::string read_toml_text(const std::filesystem::path& file) {
+  const auto refuse = [&](int line, const std::string& rule, const std::string& remedy) {
+    throw InputError({{file.string(), line, "", rule, remedy}});
+  };
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    refuse(0, "the file does not exist", "check the path");
+  if (std::filesystem::file_size(file, ignored) > kMostTomlBytes)
+    refuse(0, "the file has more than 4 MiB", "meshes and traces stand in files of their own");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) refuse(0, "the file cannot be read", "check its permissions: ls -l shows them");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  std::string read = std::move(text).str();
+  if (const int line = DepthScan(read).line_too_deep(); line > 0)
+    refuse(line, "keys and brackets are nested more than 200 deep", "no key here has such a place");
+  return read;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,115 @@
+#include "collision/import/urdf/urdf_elements.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace twinarm {
+
+using tinyxml2::XMLElement;
+
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+struct Word {
+  std::string_view element;
+  Names attributes;
+  Names children;        // described by a line of their own
+  Names without_effect;  // known children that mean nothing here
+};
+
+// The same element has the same attributes and children wherever it stands.
+const std::vector<Word>& vocabulary() {
+  static const std::vector<Word> words = {
+      {"robot",
+       {"name", "version"},
+       {"link", "joint", "material"},
+       {"transmission", "gazebo", "ros2_control", "sensor", "mujoco"}},
+      {"material", {"name"}, {"color", "texture"}, {}},
+      {"color", {"rgba"}, {}, {}},
+      {"texture", {"filename"}, {}, {}},
+      {"link", {"name"}, {"inertial", "visual", "collision"}, {"sensor", "gazebo", "contact"}},
+      {"inertial", {}, {"origin", "mass", "inertia"}, {}},
+      {"origin", {"xyz", "rpy", "quat_xyzw"}, {}, {}},
+      {"mass", {"value"}, {}, {}},
+      {"inertia", {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {}, {}},
+      {"visual", {"name"}, {"origin", "geometry", "material"}, {}},
+      {"collision", {"name"}, {"origin", "geometry"}, {"verbose", "contact_coefficients"}},
+      {"geometry", {}, {"box", "sphere", "cylinder", "capsule", "mesh"}, {}},
+      {"box", {"size"}, {}, {}},
+      {"sphere", {"radius"}, {}, {}},
+      {"cylinder", {"radius", "length"}, {}, {}},
+      {"capsule", {"radius", "length"}, {}, {}},
+      {"mesh", {"filename", "scale"}, {}, {}},
+      {"joint",
+       {"name", "type"},
+       {"origin", "parent", "child", "axis", "limit", "dynamics", "mimic", "twinarm"},
+       {"safety_controller", "calibration", "sensor", "gazebo"}},
+      {"parent", {"link"}, {}, {}},
+      {"child", {"link"}, {}, {}},
+      {"axis", {"xyz"}, {}, {}},
+      {"limit", {"lower", "upper", "effort", "velocity"}, {}, {}},
+      {"dynamics", {"damping", "friction"}, {}, {}},
+      {"mimic", {"joint", "multiplier", "offset"}, {}, {}},
+      {"twinarm", {"type", "pitch", "armature", "coulomb_plus", "coulomb_minus"}, {}, {}},
+  };
+  return words;
+}
+
+bool contains(const Names& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+const Word& word_of(std::string_view element) {
+  return *std::find_if(vocabulary().begin(), vocabulary().end(),
+                       [&](const Word& word) { return word.element == element; });
+}
+
+void check_attributes(const XMLElement& element, const Word& word, const std::string& where,
+                      UrdfSource& source) {
+  for (auto* a = element.FirstAttribute(); a; a = a->Next()) {
+    const std::string name = a->Name();
+    if (contains(word.attributes, name) || name.starts_with("xmlns")) continue;
+    source.warn_once("attribute " + std::string(word.element) + " " + name, a->GetLineNum(), where,
+                     "attribute '" + name + "' of <" + element.Name() + "> is not known",
+                     "it is left out; check its spelling");
+  }
+}
+
+void check_element(const XMLElement& element, const Word& word, const std::string& owner,
+                   UrdfSource& source) {
+  std::string where = owner;
+  if (word.element == "link" || word.element == "joint") {
+    const char* name = element.Attribute("name");
+    where = std::string(word.element) + " '" + (name ? name : "") + "'";
+  }
+  check_attributes(element, word, where, source);
+  for (const XMLElement* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) {
+    const std::string name = e->Name();
+    if (contains(word.children, name)) {
+      check_element(*e, word_of(name), where, source);
+    } else if (name.starts_with("xacro:")) {
+      source.fault(e->GetLineNum(), "<" + name + ">", "this is a xacro file",
+                   "expand it first (xacro robot.urdf.xacro > robot.urdf)");
+    } else if (contains(word.without_effect, name)) {
+      source.warn_once("element " + name, e->GetLineNum(), where,
+                       "<" + name + "> has no effect here", "other programs read it");
+    } else if (word.element != "geometry") {  // an unknown shape is told by its reader
+      source.warn_once("element " + std::string(word.element) + " " + name, e->GetLineNum(), where,
+                       "<" + name + "> in <" + element.Name() + "> is not known",
+                       "it is left out; check its spelling");
+    }
+  }
+}
+
+}  // namespace
+
+void check_vocabulary(const XMLElement& robot, UrdfSource& source) {
+  check_element(robot, word_of("robot"), "robot", source);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,186 @@
+// The <joint> of a URDF.
+#include "collision/import/urdf/urdf_joint.h"
+
+#include <tinyxml2.h>
+
+#include <cmath>
+
+#include "collision/import/robot/robot_check.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+
+using tinyxml2::XMLElement;
+
+namespace {
+
+using Type = JointDescription::Type;
+
+// Joints that URDF lacks come by our element, which names the true type; what stands in <joint
+// type=""> is for other programs.
+void read_type(const XMLElement& element, const std::string& where, JointDescription& joint,
+               UrdfSource& source) {
+  const std::string type = source.text(element, "type", where);
+  Type plain{};
+  const bool known = joint_type_from(type, plain);
+  if (known && !is_urdf_type(plain))
+    source.fault(element.GetLineNum(), where, "URDF has no joint type '" + type + "'",
+                 "write type=\"" + std::string(to_string(urdf_type_of(plain, false))) +
+                     "\" for other programs, and inside <twinarm type=\"" + type + "\"/>");
+  else if (!known && !type.empty())
+    source.fault(element.GetLineNum(), where, "joint type '" + type + "' is not supported",
+                 kSupportedJoints);
+  joint.type = plain;
+
+  const XMLElement* extension = element.FirstChildElement("twinarm");
+  const char* name = extension ? extension->Attribute("type") : nullptr;
+  if (!name) return;
+  Type extended{};
+  if (joint_type_from(name, extended) && (!is_urdf_type(extended) || extended == plain))
+    joint.type = extended;
+  else
+    source.fault(extension->GetLineNum(), where,
+                 std::string("<twinarm type=\"...\"> is '") + name +
+                     "', must be spherical, screw, cylindrical or universal",
+                 "give other types as <joint type=\"...\">");
+}
+
+// One line for each kind of value that the types of the joints make meaningless.
+void warn_without_effect(const XMLElement* element, const char* what, const std::string& where,
+                         const JointDescription& joint, UrdfSource& source) {
+  if (!element) return;
+  source.warn_once(what, element->GetLineNum(), where,
+                   std::string(what) + " has no effect on a " + to_string(joint.type) + " joint",
+                   "leave it out, or change the type of the joint");
+}
+
+void read_limits(const XMLElement& element, const std::string& where, JointDescription& joint,
+                 UrdfSource& source) {
+  const XMLElement* limit = element.FirstChildElement("limit");
+  const bool has_range = limit && (limit->FindAttribute("lower") || limit->FindAttribute("upper"));
+  if (limit) {
+    joint.effort = source.bound(*limit, "effort", where, 0.0).value_or(0.0);
+    joint.velocity = source.bound(*limit, "velocity", where, 0.0).value_or(0.0);
+  }
+  const bool must = joint.type == Type::revolute || joint.type == Type::prismatic;
+  if (must && !limit) {
+    source.fault(element.GetLineNum(), where,
+                 std::string("a ") + to_string(joint.type) + " joint must have limits",
+                 joint.type == Type::revolute
+                     ? "give <limit lower upper effort velocity/>, or make the joint continuous"
+                     : "give <limit lower upper effort velocity/> in metres");
+    return;
+  }
+  if (must && !has_range)
+    source.warn(limit->GetLineNum(), where, "its <limit> has neither lower nor upper",
+                "URDF takes both as 0, and the joint cannot move where limits act");
+  if (must && !(limit->FindAttribute("effort") && limit->FindAttribute("velocity")))
+    source.warn_once("limit without effort", limit->GetLineNum(), where,
+                     "its <limit> lacks effort or velocity",
+                     "they have no effect here, but other programs refuse the file");
+  if (must || (joint.type == Type::screw && has_range)) {
+    const auto lower = source.bound(*limit, "lower", where, 0.0);
+    const auto upper = source.bound(*limit, "upper", where, 0.0);
+    if (!lower || !upper) return;
+    joint.lower = *lower;
+    joint.upper = *upper;
+    if (joint.type == Type::screw && !(joint.lower < joint.upper))  // it would read as unlimited
+      source.fault(limit->GetLineNum(), where,
+                   "its lower limit " + number_text(joint.lower) +
+                       " does not lie below its upper limit " + number_text(joint.upper),
+                   "exchange them, or leave both out");
+  } else if (has_range) {
+    warn_without_effect(limit, "the range in <limit>", where, joint, source);
+  }
+}
+
+// Unit length; an axis that has it already keeps its bits. One that is zero stays so.
+Vector3 unit_axis(const Vector3& axis) {
+  const double length = axis.stableNorm();
+  return length < 1e-9 || std::abs(length - 1) < 1e-15 ? axis : Vector3(axis / length);
+}
+
+void read_axis(const XMLElement& element, const std::string& where, JointDescription& joint,
+               UrdfSource& source) {
+  const XMLElement* axis = element.FirstChildElement("axis");
+  if (!joint.has_axis()) return warn_without_effect(axis, "<axis>", where, joint, source);
+  if (!axis) return;  // x, as URDF has it
+  const Vector3 given = source.vector3(*axis, "xyz", where).value_or(Vector3::UnitX());
+  joint.axis = unit_axis(given);
+  const double length = given.stableNorm();
+  if (length >= 1e-9 && std::abs(length - 1) > 1e-3)
+    source.warn_once("length of axis", axis->GetLineNum(), where,
+                     "its axis has length " + number_text(length),
+                     "only the direction counts; give a unit vector");
+}
+
+void read_dynamics(const XMLElement& element, const std::string& where, JointDescription& joint,
+                   UrdfSource& source) {
+  if (const XMLElement* dynamics = element.FirstChildElement("dynamics")) {
+    joint.damping = source.number(*dynamics, "damping", where, 0.0).value_or(0.0);
+    joint.friction = source.number(*dynamics, "friction", where, 0.0).value_or(0.0);
+    if (joint.type == Type::fixed && (joint.damping != 0 || joint.friction != 0))
+      warn_without_effect(dynamics, "<dynamics>", where, joint, source);
+  }
+  joint.coulomb_plus = joint.coulomb_minus = joint.friction;
+  const XMLElement* extension = element.FirstChildElement("twinarm");
+  const auto take = [&](const char* attribute, double& value) {
+    if (extension) value = source.number(*extension, attribute, where, value).value_or(value);
+  };
+  take("armature", joint.armature);
+  take("coulomb_plus", joint.coulomb_plus);
+  take("coulomb_minus", joint.coulomb_minus);
+  const bool has_pitch = extension && extension->FindAttribute("pitch");
+  if (joint.type == Type::screw && extension && !has_pitch)
+    source.fault(extension->GetLineNum(), where, "a screw joint must have a pitch",
+                 "give <twinarm type=\"screw\" pitch=\"...\"/> in metres per revolution");
+  else if (joint.type == Type::screw)
+    take("pitch", joint.pitch);
+  else if (has_pitch)
+    warn_without_effect(extension, "the pitch", where, joint, source);
+}
+
+void read_mimic(const XMLElement& element, const std::string& where, JointDescription& joint,
+                UrdfSource& source) {
+  const XMLElement* mimic = element.FirstChildElement("mimic");
+  if (!mimic) return;
+  JointDescription::Mimic m;
+  m.joint = source.text(*mimic, "joint", where);
+  m.multiplier = source.number(*mimic, "multiplier", where, 1.0).value_or(1.0);
+  m.offset = source.number(*mimic, "offset", where, 0.0).value_or(0.0);
+  if (!m.joint.empty()) joint.mimic = m;  // a missing name is told already
+}
+
+}  // namespace
+
+JointDescription read_joint(const XMLElement& element, UrdfSource& source) {
+  JointDescription joint;
+  joint.line = element.GetLineNum();
+  if (const char* name = element.Attribute("name")) joint.name = name;
+  const std::string where = "joint '" + joint.name + "'";
+  for (const char* name : {"axis", "limit", "dynamics", "parent", "child", "mimic", "twinarm"})
+    source.at_most_one(element, name, where);
+  read_type(element, where, joint, source);
+  joint.origin = source.origin(element, where);
+
+  const auto line_of = [&](const char* name) {
+    const XMLElement* e = element.FirstChildElement(name);
+    return e ? e->GetLineNum() : 0;
+  };
+  joint.lines = {line_of("parent"),   line_of("child"),   line_of("axis"), line_of("limit"),
+                 line_of("dynamics"), line_of("twinarm"), line_of("mimic")};
+  const auto link_of = [&](const char* role) {  // what is missing is told by check_robot
+    const XMLElement* e = element.FirstChildElement(role);
+    const char* link = e ? e->Attribute("link") : nullptr;
+    return std::string(link ? link : "");
+  };
+  joint.parent = link_of("parent");
+  joint.child = link_of("child");
+  read_axis(element, where, joint, source);
+  read_limits(element, where, joint, source);
+  read_dynamics(element, where, joint, source);
+  read_mimic(element, where, joint, source);
+  return joint;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,188 @@
+// The shapes of a URDF link.
+#include "collision/import/urdf/urdf_shapes.h"
+
+#include <tinyxml2.h>
+
+#include <optional>
+#include <utility>
+
+#include "collision/import/urdf/mesh_search.h"
+
+namespace twinarm {
+
+using tinyxml2::XMLElement;
+
+namespace {
+
+MeshGeometry read_mesh(const XMLElement& element, const std::string& where, UrdfSource& source) {
+  MeshGeometry mesh;
+  mesh.name = source.text(element, "filename", where);
+  mesh.scale =
+      source.vector3(element, "scale", where, Vector3(Vector3::Ones())).value_or(Vector3::Ones());
+  if (mesh.scale.cwiseAbs().minCoeff() == 0)
+    source.fault(
+        element.GetLineNum(), where,
+        std::string("mesh scale is '") + element.Attribute("scale") + "', which flattens the mesh",
+        "give three numbers that are not 0 (a negative one mirrors)");
+  if (mesh.name.empty()) return mesh;
+  const FilePlace place = find_named_file("mesh", mesh.name, source.folder());
+  mesh.file = place.file;
+  if (place.rule.empty()) return mesh;
+  if (source.options().geometry == UrdfOptions::Geometry::required)
+    source.fault(element.GetLineNum(), where, place.rule, place.remedy);
+  else
+    source.warn_once("mesh", element.GetLineNum(), where, place.rule, place.remedy);
+  return mesh;
+}
+
+PartGeometry read_geometry(const XMLElement& part, const std::string& where, UrdfSource& source) {
+  const XMLElement* geometry = part.FirstChildElement("geometry");
+  const XMLElement* shape = geometry ? geometry->FirstChildElement() : nullptr;
+  const std::string kind = shape ? shape->Name() : "";
+  const auto length = [&](const char* attribute) {
+    return source.positive(*shape, attribute, where).value_or(1.0);
+  };
+  if (kind == "sphere") return SphereGeometry{length("radius")};
+  if (kind == "cylinder") return CylinderGeometry{length("radius"), length("length")};
+  if (kind == "capsule") return CapsuleGeometry{length("radius"), length("length")};
+  if (kind == "mesh") return read_mesh(*shape, where, source);
+  if (kind == "box") {
+    const Vector3 size = source.vector3(*shape, "size", where).value_or(Vector3::Ones());
+    if (!(size.minCoeff() > 0))
+      source.fault(shape->GetLineNum(), where,
+                   std::string("box size is '") + shape->Attribute("size") +
+                       "', must be three positive numbers",
+                   "give full edges in metres");
+    return BoxGeometry{size};
+  }
+  source.fault((shape      ? shape
+                : geometry ? geometry
+                           : &part)
+                   ->GetLineNum(),
+               where, kind.empty() ? "it has no geometry" : "shape <" + kind + "> is not known",
+               "shapes: box, sphere, cylinder, capsule, mesh");
+  return {};
+}
+
+std::string material_name(const XMLElement& material) {
+  const char* name = material.Attribute("name");
+  return std::string("material '") + (name ? name : "") + "'";
+}
+
+// The colour of a <material> element, if it states one. Colours are only to be looked at: a bad one
+// is told and mended.
+std::optional<Vector4> read_color(const XMLElement& material, UrdfSource& source) {
+  const UrdfSource::Softly softly(source, true);
+  const XMLElement* color = material.FirstChildElement("color");
+  if (!color) return std::nullopt;
+  const auto rgba = source.numbers(*color, "rgba", material_name(material), 4);
+  if (!rgba) return Vector4(VisualPart().color);
+  const Vector4 given((*rgba)[0], (*rgba)[1], (*rgba)[2], (*rgba)[3]);
+  const Vector4 clamped = given.cwiseMax(0.0).cwiseMin(1.0);
+  if (clamped != given)
+    source.fault(
+        color->GetLineNum(), material_name(material),
+        std::string("colour '") + color->Attribute("rgba") + "' lies outside [0, 1] and is clamped",
+        "give red, green, blue and opacity from 0 to 1");
+  return clamped;
+}
+
+// Where the picture of a <material> lies, if it names one. It is only to be looked at: where it is
+// missing, that is told. CAD exporters write empty names where there is none.
+void read_texture(const XMLElement& material, UrdfMaterial& result, UrdfSource& source) {
+  const XMLElement* texture = material.FirstChildElement("texture");
+  const char* name = texture ? texture->Attribute("filename") : nullptr;
+  if (!texture || (name && *name == '\0')) return;
+  const std::string where = material_name(material);
+  if (!name)
+    return source.warn(texture->GetLineNum(), where, "its <texture> has no 'filename'",
+                       "give filename=\"...\"");
+  result.texture_name = name;
+  const FilePlace place = find_named_file("texture", name, source.folder());
+  result.texture = place.file;
+  if (!place.rule.empty())
+    source.warn_once("texture", texture->GetLineNum(), where, place.rule, place.remedy);
+}
+
+// What a <material> element states itself, if anything.
+std::optional<UrdfMaterial> read_own_material(const XMLElement& material, UrdfSource& source) {
+  UrdfMaterial result;
+  read_texture(material, result, source);
+  const std::optional<Vector4> color = read_color(material, source);
+  if (!color && result.texture_name.empty()) return std::nullopt;
+  result.color = color.value_or(result.texture.empty() ? result.color : Vector4(1, 1, 1, 1));
+  return result;
+}
+
+void read_material(const XMLElement& visual, const std::string& where,
+                   const UrdfMaterials& materials, VisualPart& part, UrdfSource& source) {
+  const XMLElement* material = visual.FirstChildElement("material");
+  if (!material) return;
+  if (const char* name = material->Attribute("name")) part.material = name;
+  UrdfSource silent(source.file(), source.options());  // read_materials told what is wrong with it
+  std::optional<UrdfMaterial> found = read_own_material(*material, silent);
+  if (const auto known = materials.find(part.material); !found && known != materials.end())
+    found = known->second;
+  if (!found)
+    return source.warn_once("material " + part.material, material->GetLineNum(), where,
+                            "material '" + part.material + "' is not defined in this file",
+                            "define it with a <color> below <robot>; until then it is grey");
+  part.color = found->color;
+  part.texture_name = found->texture_name;
+  part.texture = found->texture;
+}
+
+}  // namespace
+
+UrdfMaterials read_materials(const XMLElement& robot, UrdfSource& source) {
+  UrdfMaterials materials;
+  const auto take = [&](const XMLElement& element) {
+    const auto material = read_own_material(element, source);
+    const char* name = element.Attribute("name");
+    if (material && name) materials.emplace(name, *material);
+  };
+  for (auto* m = robot.FirstChildElement("material"); m; m = m->NextSiblingElement("material")) {
+    const UrdfSource::Softly softly(source, true);
+    const std::string name = source.text(*m, "name", "material");
+    if (materials.count(name))
+      source.warn(m->GetLineNum(), material_name(*m), "it is defined twice", "the first counts");
+    take(*m);
+  }
+  for (auto* l = robot.FirstChildElement("link"); l; l = l->NextSiblingElement("link"))
+    for (auto* v = l->FirstChildElement("visual"); v; v = v->NextSiblingElement("visual"))
+      if (auto* m = v->FirstChildElement("material")) take(*m);
+  return materials;
+}
+
+void read_shapes(const XMLElement& link_element, const UrdfMaterials& materials,
+                 LinkDescription& link, UrdfSource& source) {
+  const UrdfSource::Softly softly(source,
+                                  source.options().geometry == UrdfOptions::Geometry::optional);
+  const auto read = [&](const XMLElement& element, auto& part) {
+    if (const char* name = element.Attribute("name")) part.name = name;
+    part.line = element.GetLineNum();
+    const std::string where = "link '" + link.name + "', " + element.Name() +
+                              (part.name.empty() ? "" : " '" + part.name + "'");
+    for (const char* name : {"geometry", "material"}) source.at_most_one(element, name, where);
+    part.origin = source.origin(element, where);
+    part.geometry = read_geometry(element, where, source);
+    return where;
+  };
+  for (auto* e = link_element.FirstChildElement("visual"); e; e = e->NextSiblingElement("visual")) {
+    VisualPart part;
+    const std::size_t before = source.softened();
+    const std::string where = read(*e, part);
+    if (source.softened() > before) continue;  // a shape made of harmless values
+    read_material(*e, where, materials, part, source);
+    link.visuals.push_back(std::move(part));
+  }
+  for (auto* e = link_element.FirstChildElement("collision"); e;
+       e = e->NextSiblingElement("collision")) {
+    CollisionPart part;
+    const std::size_t before = source.softened();
+    read(*e, part);
+    if (source.softened() == before) link.collisions.push_back(std::move(part));
+  }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,196 @@
+// Reading attributes of XML elements, with a fault for each bad one.
+#include "collision/import/urdf/urdf_xml.h"
+
+#include <tinyxml2.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "collision/import/robot/robot_check.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+
+using tinyxml2::XMLElement;
+
+namespace {
+
+std::string tag(const XMLElement& element, const char* attribute) {
+  return std::string("<") + element.Name() + " " + attribute + "=\"...\">";
+}
+
+// The likeliest slip of the pen.
+std::string remedy_for(const std::string& value) {
+  if (value.find("${") != std::string::npos || value.find("$(") != std::string::npos)
+    return "this is a xacro file: expand it first (xacro robot.urdf.xacro > robot.urdf)";
+  if (value.find(',') != std::string::npos)
+    return "write a decimal point, and blanks between numbers";
+  return "give finite decimal numbers in SI units";
+}
+
+// R = Rz(yaw) Ry(pitch) Rx(roll); at pitch = +-90 degrees only yaw -+ roll matters: roll is 0.
+Vector3 roll_pitch_yaw(const Matrix3& R) {
+  const double cos_pitch = std::hypot(R(0, 0), R(1, 0));
+  const double pitch = std::atan2(-R(2, 0), cos_pitch);
+  if (cos_pitch < 1e-12) return {0, pitch, std::atan2(-R(0, 1), R(1, 1))};
+  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
+}
+
+// A hostile file could make the message as long as itself.
+std::string shortened(const std::string& value) {
+  constexpr std::size_t kLongest = 80;
+  return value.size() <= kLongest ? value : value.substr(0, kLongest) + "...";
+}
+
+}  // namespace
+
+UrdfSource::UrdfSource(const std::filesystem::path& file, const UrdfOptions& options)
+    : file_(std::filesystem::absolute(file).lexically_normal()), options_(options) {}
+
+void UrdfSource::fault(int line, std::string where, std::string rule, std::string remedy) {
+  if (soft_) ++softened_;
+  add_fault(soft_ ? warnings_ : faults_,
+            {file_.string(), line, std::move(where), std::move(rule), std::move(remedy)});
+}
+
+void UrdfSource::fault(std::vector<Fault> faults) {
+  for (Fault& fault : faults) add_fault(faults_, std::move(fault));
+}
+
+void UrdfSource::warn(int line, std::string where, std::string rule, std::string remedy) {
+  add_fault(warnings_,
+            {file_.string(), line, std::move(where), std::move(rule), std::move(remedy)});
+}
+
+void UrdfSource::warn(std::vector<Fault> warnings) {
+  for (Fault& warning : warnings) add_fault(warnings_, std::move(warning));
+}
+
+void UrdfSource::warn_once(const std::string& kind, int line, std::string where, std::string rule,
+                           std::string remedy) {
+  Kind& entry = kinds_[kind];
+  if (entry.count++ == 0)
+    entry.first = {file_.string(), line, std::move(where), std::move(rule), std::move(remedy)};
+}
+
+void UrdfSource::check() {
+  throw_in_line_order(faults_);
+}
+
+std::vector<Fault> UrdfSource::warnings() const {
+  std::vector<Fault> all = warnings_;
+  for (const auto& [name, kind] : kinds_) {
+    all.push_back(kind.first);
+    if (kind.count > 1) all.back().rule += " (the first of " + std::to_string(kind.count) + ")";
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Fault& a, const Fault& b) { return a.line < b.line; });
+  return all;
+}
+
+std::optional<std::vector<double>> UrdfSource::numbers(const XMLElement& element,
+                                                       const char* attribute,
+                                                       const std::string& where,
+                                                       std::size_t count) {
+  const tinyxml2::XMLAttribute* found = element.FindAttribute(attribute);
+  if (!found) {
+    fault(element.GetLineNum(), where, tag(element, attribute) + " is missing",
+          "give it " + std::to_string(count) + (count == 1 ? " number" : " numbers"));
+    return std::nullopt;
+  }
+  const std::string value = found->Value();
+  auto numbers = parse_numbers(value);
+  if (!numbers || numbers->size() != count) {
+    fault(found->GetLineNum(), where,
+          tag(element, attribute) + " is '" + shortened(value) + "', must be " +
+              std::to_string(count) + (count == 1 ? " finite number" : " finite numbers"),
+          remedy_for(value));
+    return std::nullopt;
+  }
+  return numbers;
+}
+
+std::optional<double> UrdfSource::number(const XMLElement& element, const char* attribute,
+                                         const std::string& where, std::optional<double> fallback) {
+  if (fallback && !element.FindAttribute(attribute)) return fallback;
+  const auto values = numbers(element, attribute, where, 1);
+  return values ? std::optional((*values)[0]) : std::nullopt;
+}
+
+std::optional<double> UrdfSource::bound(const XMLElement& element, const char* attribute,
+                                        const std::string& where, double fallback) {
+  const char* value = element.Attribute(attribute);
+  std::string text = value ? value : "";
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (text == "inf" || text == "+inf") return std::numeric_limits<double>::infinity();
+  if (text == "-inf") return -std::numeric_limits<double>::infinity();
+  return number(element, attribute, where, fallback);
+}
+
+std::optional<double> UrdfSource::positive(const XMLElement& element, const char* attribute,
+                                           const std::string& where) {
+  const auto value = number(element, attribute, where);
+  if (!value || *value > 0) return value;
+  fault(element.FindAttribute(attribute)->GetLineNum(), where,
+        tag(element, attribute) + " is " + number_text(*value) + ", must be positive",
+        "give a length in metres");
+  return std::nullopt;
+}
+
+std::optional<Vector3> UrdfSource::vector3(const XMLElement& element, const char* attribute,
+                                           const std::string& where,
+                                           std::optional<Vector3> fallback) {
+  if (fallback && !element.FindAttribute(attribute)) return fallback;
+  const auto values = numbers(element, attribute, where, 3);
+  if (!values) return std::nullopt;
+  return Vector3((*values)[0], (*values)[1], (*values)[2]);
+}
+
+std::string UrdfSource::text(const XMLElement& element, const char* attribute,
+                             const std::string& where) {
+  const char* value = element.Attribute(attribute);
+  if (value && *value) return value;
+  fault(element.GetLineNum(), where,
+        tag(element, attribute) + (value ? " is empty" : " is missing"), "give it");
+  return {};
+}
+
+Origin UrdfSource::origin(const XMLElement& parent, const std::string& where) {
+  at_most_one(parent, "origin", where);
+  const XMLElement* element = parent.FirstChildElement("origin");
+  if (!element) return {};
+  Origin origin;
+  origin.xyz = vector3(*element, "xyz", where, Vector3(Vector3::Zero())).value_or(origin.xyz);
+  origin.rpy = vector3(*element, "rpy", where, Vector3(Vector3::Zero())).value_or(origin.rpy);
+  constexpr double kFullTurn = 6.3;
+  if (origin.rpy.lpNorm<Eigen::Infinity>() > kFullTurn)
+    warn(element->GetLineNum(), where,
+         "rpy = '" + std::string(element->Attribute("rpy")) + "' is more than a full turn",
+         "angles are in radians: 90 degrees are 1.5707963267948966");
+  if (!element->FindAttribute("quat_xyzw")) return origin;
+  if (element->FindAttribute("rpy"))
+    fault(element->GetLineNum(), where, "its <origin> has both rpy and quat_xyzw", "give one");
+  if (const auto q = numbers(*element, "quat_xyzw", where, 4)) {
+    const Eigen::Quaterniond turn((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
+    if (turn.norm() > 1e-9)
+      origin.rpy = roll_pitch_yaw(turn.normalized().toRotationMatrix());
+    else
+      fault(element->GetLineNum(), where, "its quat_xyzw is zero", "give a unit quaternion");
+  }
+  return origin;
+}
+
+void UrdfSource::at_most_one(const XMLElement& parent, const char* name, const std::string& where) {
+  const XMLElement* first = parent.FirstChildElement(name);
+  const XMLElement* second = first ? first->NextSiblingElement(name) : nullptr;
+  if (second)
+    fault(second->GetLineNum(), where, std::string("a second <") + name + ">",
+          std::string("give one <") + name + ">");
+}
+
+}  // namespace twinarm

@@ -1,0 +1,64 @@
+// All parts of a model in one mesh, welded by equal coordinates: O(n log n).
+#include "collision/mesh_files/mesh_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "collision/mesh_files/model_file.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+class Welder {
+ public:
+  explicit Welder(double scale) : scale_(scale) {}
+
+  void add(const ModelPart& part) {
+    std::vector<int> welded;
+    for (const auto& p : part.positions) welded.push_back(index_of(p));
+    for (const auto& [a, b, c] : part.triangles) {
+      const auto at = [&](std::int32_t i) { return welded[static_cast<std::size_t>(i)]; };
+      const std::array<int, 3> t{at(a), at(b), at(c)};
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
+    }
+  }
+
+  TriangleMesh mesh;
+
+ private:
+  int index_of(const std::array<float, 3>& v) {
+    const Vector3 p = scale_ * Vector3(v[0], v[1], v[2]);
+    // Adding zero makes -0 and 0 the same vertex.
+    const auto key = std::tuple(p.x() + 0.0, p.y() + 0.0, p.z() + 0.0);
+    const auto [place, is_new] = index_.try_emplace(key, static_cast<int>(mesh.vertices.size()));
+    if (is_new) mesh.vertices.push_back(p);
+    return place->second;
+  }
+
+  double scale_;
+  std::map<std::tuple<double, double, double>, int> index_;
+};
+
+}  // namespace
+
+TriangleMesh load_mesh(const std::filesystem::path& file, double scale) {
+  const auto refuse = [&](const std::string& rule, const std::string& remedy) {
+    throw InputError({{file.string(), 0, "mesh", rule, remedy}});
+  };
+  if (!(scale > 0 && std::isfinite(scale)))
+    refuse("scale is " + std::to_string(scale) + ", must be positive",
+           "give 1 for a file in metres, 0.001 for millimetres");
+  Welder welder(scale);
+  for (const ModelPart& part : read_model(file).parts) welder.add(part);
+  if (welder.mesh.triangles.empty())
+    refuse("there is no triangle in it that has three corners", "export the mesh again");
+  return std::move(welder.mesh);
+}
+
+}  // namespace twinarm

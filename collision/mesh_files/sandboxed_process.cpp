@@ -1,0 +1,163 @@
+// fork, three limits, and a pipe that carries the result home. See sandboxed_process.h.
+#include "collision/mesh_files/sandboxed_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <new>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace twinarm {
+namespace {
+
+// How the child ends, where no signal ends it.
+constexpr int kDone = 0, kOutOfMemory = 3, kThrew = 4, kCannotSend = 5;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;  // sanitizers reserve terabytes of addresses
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+#else
+constexpr bool kSanitized = false;
+#endif
+
+[[noreturn]] void fail(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+void limit(int what, rlim_t most) {
+  const rlimit both{most, most};
+  setrlimit(static_cast<__rlimit_resource_t>(what), &both);
+}
+
+// Of this process [bytes].
+std::size_t addresses_in_use() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+bool send(int pipe, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t sent = write(pipe, bytes.data(), bytes.size());
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(sent));
+  }
+  return true;
+}
+
+// Libraries may complain before they give up; what is to be said the parent says. A sanitizer's
+// words are another matter.
+void be_silent() {
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere < 0) return;
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+}
+
+[[noreturn]] void be_child(const std::function<std::string()>& work, const ChildLimits& limits,
+                           int pipe) {
+  // Whatever the program does with signals, the child ends at once and without a word.
+  for (const int each :
+       {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
+    std::signal(each, SIG_DFL);
+  if (!kSanitized) be_silent();
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, limits.cpu_seconds);
+  if (!kSanitized) limit(RLIMIT_AS, addresses_in_use() + limits.bytes);
+  int end = kDone;
+  try {
+    if (!send(pipe, work())) end = kCannotSend;
+  } catch (const std::bad_alloc&) {
+    end = kOutOfMemory;
+  } catch (...) {
+    end = kThrew;
+  }
+  _exit(end);  // neither destructors nor buffers of the parent's program
+}
+
+using Clock = std::chrono::steady_clock;
+
+// Waits for bytes, or the end of them, until `end`; false: there was neither.
+bool wait_for_bytes(int pipe, Clock::time_point end) {
+  while (true) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
+    if (left <= 0) return false;
+    pollfd ready{pipe, POLLIN, 0};
+    if (poll(&ready, 1, static_cast<int>(left)) > 0) return true;
+  }
+}
+
+// Nothing: the child has not closed its end by then.
+std::optional<std::string> receive(int pipe, Clock::time_point end) {
+  std::string bytes;
+  std::array<char, 1 << 16> some;
+  while (wait_for_bytes(pipe, end)) {
+    const ssize_t got = read(pipe, some.data(), some.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return bytes;
+    bytes.append(some.data(), static_cast<std::size_t>(got));
+  }
+  return std::nullopt;
+}
+
+std::string fault_of(int status, const ChildLimits& limits) {
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    if (signal == SIGXCPU || signal == SIGKILL)
+      return "takes more than " + std::to_string(limits.cpu_seconds) + " s of computing";
+    if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) return "was interrupted";
+    return "crashes";
+  }
+  switch (WEXITSTATUS(status)) {
+    case kDone:
+      return "";
+    case kOutOfMemory:
+      return "takes more than " + std::to_string(limits.bytes >> 30) + " GiB of memory";
+    default:
+      return "fails";
+  }
+}
+
+}  // namespace
+
+ChildResult run_limited(const std::function<std::string()>& work, const ChildLimits& limits) {
+  std::array<int, 2> ends;
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) fail("pipe");
+  const pid_t child = fork();
+  if (child < 0) {
+    close(ends[0]), close(ends[1]);
+    fail("fork");
+  }
+  if (child == 0) {
+    close(ends[0]);
+    be_child(work, limits, ends[1]);
+  }
+  close(ends[1]);
+  const auto bytes = receive(ends[0], Clock::now() + std::chrono::seconds(limits.wall_seconds));
+  if (!bytes) kill(child, SIGKILL);
+  close(ends[0]);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) fail("waitpid");
+  if (!bytes) return {"", "does not end within " + std::to_string(limits.wall_seconds) + " s"};
+  const std::string fault = fault_of(status, limits);
+  return {fault.empty() ? *bytes : "", fault};
+}
+
+}  // namespace twinarm

@@ -1,0 +1,117 @@
+// Closed forms: nearest points of two segments (C. Ericson, Real-Time Collision Detection, 2005,
+// 5.1.9), and signed distance of a point from a box and a cylinder in their own frames.  < 0.1 us.
+#include "collision/narrow_phase/round_contact.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace twinarm {
+namespace {
+
+constexpr double touching = 1e-12;  // cores nearer than this have no direction of their own [m]
+
+struct Segment {
+  Vector3 start, along;
+};
+
+Segment core_of(const Placed& body) {
+  const std::vector<Vector3>& ends = body.solid.core.hull.vertices;
+  return {body.X_WG * ends.front(), body.X_WG.R * (ends.back() - ends.front())};
+}
+
+// Parameters of the nearest points; either segment may have no length.
+std::pair<double, double> nearest_parameters(const Segment& a, const Segment& b) {
+  const Vector3 r = a.start - b.start;
+  const double aa = a.along.squaredNorm(), bb = b.along.squaredNorm();
+  const double ab = a.along.dot(b.along), ar = a.along.dot(r), br = b.along.dot(r);
+  if (aa == 0 && bb == 0) return {0, 0};
+  if (aa == 0) return {0, std::clamp(br / bb, 0.0, 1.0)};
+  if (bb == 0) return {std::clamp(-ar / aa, 0.0, 1.0), 0};
+  const double sine2 = aa * bb - ab * ab;  // parallel: any s; the clamps below mend it
+  double s = sine2 > 1e-12 * aa * bb ? std::clamp((ab * br - ar * bb) / sine2, 0.0, 1.0) : 0.0;
+  const double t = std::clamp((ab * s + br) / bb, 0.0, 1.0);
+  s = std::clamp((ab * t - ar) / aa, 0.0, 1.0);
+  return {s, t};
+}
+
+NearestPair segments(const Placed& a, const Placed& b) {
+  const Segment u = core_of(a), w = core_of(b);
+  const auto [s, t] = nearest_parameters(u, w);
+  const Vector3 p_a = u.start + s * u.along, p_b = w.start + t * w.along;
+  const double distance = (p_b - p_a).norm();
+  Vector3 n = p_b - p_a;
+  if (distance < touching) {  // crossing centre lines: out across both
+    n = u.along.cross(w.along);
+    const double scale = u.along.norm() * w.along.norm();
+    if (!(n.norm() > 1e-9 * scale)) {
+      const Vector3& longer = u.along.squaredNorm() > w.along.squaredNorm() ? u.along : w.along;
+      n = longer.squaredNorm() > 0 ? longer.unitOrthogonal() : Vector3(Vector3::UnitZ());
+    }
+  }
+  n.normalize();
+  const double r_a = a.solid.core.radius, r_b = b.solid.core.radius;
+  const Vector3 middle = 0.5 * (p_a + r_a * n + p_b - r_b * n);
+  return {{n, r_a + r_b - distance}, middle};
+}
+
+struct SignedPoint {
+  double distance;  // negative inside
+  Vector3 normal;   // outward, unit
+};
+
+SignedPoint from_box(const Box& box, const Vector3& p) {
+  const Vector3 half = box.size / 2;
+  const Vector3 outside = p - p.cwiseMax(-half).cwiseMin(half);
+  if (outside.norm() > touching) return {outside.norm(), outside.normalized()};
+  int axis = 0;
+  const double inside = (half - p.cwiseAbs()).minCoeff(&axis);
+  return {-inside, std::copysign(1.0, p[axis]) * Vector3::Unit(axis)};
+}
+
+SignedPoint from_cylinder(const Cylinder& c, const Vector3& p) {
+  const double rho = std::hypot(p.x(), p.y()), half = c.length / 2;
+  const Vector3 radial = rho > touching ? Vector3(p.x() / rho, p.y() / rho, 0) : Vector3::UnitX();
+  const Vector3 axial(0, 0, std::copysign(1.0, p.z()));
+  const double side = rho - c.radius, cap = std::abs(p.z()) - half;
+  if (side > touching && cap > touching) {
+    const Vector3 n = side * radial + cap * axial;
+    return {n.norm(), n.normalized()};
+  }
+  return side > cap ? SignedPoint{side, radial} : SignedPoint{cap, axial};
+}
+
+// The sphere is B.
+NearestPair sphere_at(const Placed& a, const Placed& b) {
+  const Vector3 p = a.X_WG.inverse() * b.X_WG.p;
+  const Box* const box = std::get_if<Box>(&a.solid.shape);
+  const SignedPoint at =
+      box != nullptr ? from_box(*box, p) : from_cylinder(std::get<Cylinder>(a.solid.shape), p);
+  const Vector3 n = a.X_WG.R * at.normal;
+  const double r = b.solid.core.radius;
+  return {{n, r - at.distance}, b.X_WG.p - n * (0.5 * (at.distance + r))};
+}
+
+bool is_round(const Shape& s) {
+  return std::holds_alternative<Sphere>(s) || std::holds_alternative<Capsule>(s);
+}
+bool has_point_distance(const Shape& s) {
+  return std::holds_alternative<Box>(s) || std::holds_alternative<Cylinder>(s);
+}
+
+}  // namespace
+
+std::optional<NearestPair> round_contact(const Placed& a, const Placed& b) {
+  const Shape& sa = a.solid.shape;
+  const Shape& sb = b.solid.shape;
+  if (is_round(sa) && is_round(sb)) return segments(a, b);
+  if (has_point_distance(sa) && std::holds_alternative<Sphere>(sb)) return sphere_at(a, b);
+  if (std::holds_alternative<Sphere>(sa) && has_point_distance(sb)) {
+    NearestPair pair = sphere_at(b, a);
+    pair.axis.n_W = -pair.axis.n_W;
+    return pair;
+  }
+  return std::nullopt;
+}
+
+}  // namespace twinarm

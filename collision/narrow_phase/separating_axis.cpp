@@ -1,0 +1,122 @@
+// Least overlap of two convex polytopes by enumeration.
+//
+// The bodies overlap by d along n if and only if the plane with normal n at distance d supports the
+// Minkowski difference A - B, and the origin is nearest to one of its FACES when they penetrate.
+// Its faces are: the faces of A, the faces of -B, and one parallelogram for each edge pair (e_a,
+// e_b) whose arcs on the Gauss sphere cross. With the normals p, q beside e_a and -r, -s beside
+// e_b:
+//   the arcs p-q and (-r)-(-s) cross  <=>  opposite signs of (-r).(q x p), (-s).(q x p), opposite
+//   signs of p.(s x r), q.(s x r), and the same hemisphere,
+// where q x p is along e_a and s x r along e_b.
+// S. Gottschalk, "Separating axis theorem", UNC TR96-024, 1996; D. Gregorius, "The separating axis
+// test between convex polyhedra", GDC 2013, for the arcs.
+// Cost: F_a V_b + F_b V_a + E_a E_b for the edges that are near the other body; box-box 0.4 us.
+#include "collision/narrow_phase/separating_axis.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace twinarm {
+namespace {
+
+constexpr double sine_of_parallel_edges =
+    1e-7;  // sine below which the cross product of two edges says nothing
+
+double highest(const std::vector<Vector3>& points, const Vector3& n) {
+  double h = -1e300;
+  for (const Vector3& p : points) h = std::max(h, p.dot(n));
+  return h;
+}
+
+}  // namespace
+
+void SeparatingAxis::place(const Placed& body, Posed& posed) {
+  const ConvexHull& hull = body.solid.core.hull;
+  posed.vertices.clear();
+  posed.normals.clear();
+  for (const Vector3& v : hull.vertices) posed.vertices.push_back(body.X_WG * v);
+  for (const Vector3& n : hull.normals) posed.normals.push_back(body.X_WG.R * n);
+  posed.near_edges.reserve(body.solid.core.edges.size());
+}
+
+// An edge that carries the optimum is within `reach` of the other body, and so of its bounding box.
+void SeparatingAxis::find_near_edges(const Polytope& core, const Posed& other, double reach,
+                                     Posed& posed) {
+  Vector3 low = other.vertices[0], high = other.vertices[0];
+  for (const Vector3& v : other.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  low.array() -= reach;
+  high.array() += reach;
+  posed.near_edges.clear();
+  for (std::size_t i = 0; i < core.edges.size(); ++i) {
+    const Vector3& v0 = posed.vertices[core.edges[i].v0];
+    const Vector3& v1 = posed.vertices[core.edges[i].v1];
+    const bool apart = (v0.cwiseMin(v1).array() > high.array()).any() ||
+                       (v0.cwiseMax(v1).array() < low.array()).any();
+    if (!apart) posed.near_edges.push_back(static_cast<int>(i));
+  }
+}
+
+double SeparatingAxis::overlap_along(const Vector3& n_W) const {
+  return highest(a_.vertices, n_W) + highest(b_.vertices, -n_W);
+}
+
+void SeparatingAxis::try_faces(const Placed& body, const Posed& own, const Posed& other,
+                               double sign, Axis& best) const {
+  const ConvexHull& hull = body.solid.core.hull;
+  for (std::size_t f = 0; f < own.normals.size(); ++f) {
+    const Vector3& n = own.normals[f];
+    const double value = n.dot(body.X_WG.p) + hull.offsets[f] + highest(other.vertices, -n);
+    if (value < best.overlap) best = {sign * n, value};
+  }
+}
+
+bool SeparatingAxis::is_difference_face(const Polytope::Edge& ea, const Vector3& da,
+                                        const Polytope::Edge& eb, const Vector3& db, const Posed& a,
+                                        const Posed& b) {
+  if (ea.f0 < 0 || eb.f0 < 0) return true;  // a bare segment has normals all round
+  // f0 walks the edge forward: n(f0) x n(f1) is along it, for either body.
+  const double r = -b.normals[eb.f0].dot(da), s = -b.normals[eb.f1].dot(da);
+  const double p = a.normals[ea.f0].dot(db), q = a.normals[ea.f1].dot(db);
+  return r * s < 0 && p * q < 0 && r * q > 0;
+}
+
+void SeparatingAxis::try_edges(const Polytope& a, const Polytope& b, Axis& best) const {
+  for (int i : a_.near_edges) {
+    const Polytope::Edge& ea = a.edges[i];
+    const Vector3& p_a = a_.vertices[ea.v0];
+    const Vector3 da = a_.vertices[ea.v1] - p_a;
+    for (int j : b_.near_edges) {
+      const Polytope::Edge& eb = b.edges[j];
+      const Vector3& p_b = b_.vertices[eb.v0];
+      const Vector3 db = b_.vertices[eb.v1] - p_b;
+      if (!is_difference_face(ea, da, eb, db, a_, b_)) continue;
+      Vector3 n = da.cross(db);
+      const double length = n.norm();
+      if (length < sine_of_parallel_edges * da.norm() * db.norm()) continue;
+      n /= length;
+      for (const double sign : {1.0, -1.0}) {
+        // Cheap first: along n the overlap is no less than that of these two edges.
+        if (sign * n.dot(p_a - p_b) >= best.overlap) continue;
+        const double value = overlap_along(sign * n);
+        if (value < best.overlap) best = {sign * n, value};
+      }
+    }
+  }
+}
+
+void SeparatingAxis::improve(const Placed& a, const Placed& b, double reach, Axis& best) {
+  place(a, a_);
+  place(b, b_);
+  try_faces(a, a_, b_, 1, best);
+  try_faces(b, b_, a_, -1, best);
+  const double near = std::max(reach, std::min(best.overlap, 1e3)) + 1e-9;
+  find_near_edges(a.solid.core, b_, near, a_);
+  find_near_edges(b.solid.core, a_, near, b_);
+  try_edges(a.solid.core, b.solid.core, best);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,150 @@
+// Newton's method for f on the unit sphere and on the unit circle. With n' n = 1, p(n) the point of
+// support (gradient of f in space) and f = n . p:
+//   gradient along the sphere   P p,            P = 1 - n n'
+//   Hessian along the sphere    P H P - f 1,    H = (A - a a')/alpha + (B - b b')/beta
+// where alpha = sqrt(n' A n), a = A n / alpha, and so for B. P.-A. Absil, R. Mahony, R. Sepulchre,
+// "Optimization algorithms on matrix manifolds", 2008, section 6.
+#include "collision/narrow_phase/sphere_minimization.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace twinarm {
+namespace {
+
+constexpr int max_steps = 60;
+constexpr double longest_step = 0.4;  // [rad]
+constexpr double done = 1e-15;        // [rad]
+constexpr double trusted = 1e-6;      // steps below this are not checked: f cannot tell [rad]
+
+struct Local {
+  Vector3 gradient = Vector3::Zero();  // point of support
+  Matrix3 H = Matrix3::Zero();
+};
+
+void add(const Matrix3& Q, const Vector3& n, Local& local) {
+  const Vector3 Qn = Q * n;
+  const double square = n.dot(Qn);
+  if (!(square > 1e-300)) return;
+  const double alpha = std::sqrt(square);
+  const Vector3 a = Qn / alpha;
+  local.gradient += a;
+  local.H += (Q - a * a.transpose()) / alpha;
+}
+
+Local at(const SupportSum& f, const Vector3& n) {
+  Local local;
+  local.gradient = f.c;
+  add(f.A, n, local);
+  add(f.B, n, local);
+  return local;
+}
+
+// -|H|^-1 g for a symmetric 2 x 2 Hessian: downhill also where it is not convex.
+Eigen::Vector2d downhill(double h00, double h01, double h11, const Eigen::Vector2d& g) {
+  const double mean = 0.5 * (h00 + h11), half = 0.5 * (h00 - h11), r = std::hypot(half, h01);
+  const double scale = 1e-12 * (std::abs(mean) + r) + 1e-300;
+  const double l0 = std::max(std::abs(mean + r), scale), l1 = std::max(std::abs(mean - r), scale);
+  Eigen::Vector2d e0(1, 0);
+  if (r > 0) e0 = half > 0 ? Eigen::Vector2d(half + r, h01) : Eigen::Vector2d(h01, r - half);
+  e0.normalize();
+  const Eigen::Vector2d e1(-e0.y(), e0.x());
+  return -(e0 * (e0.dot(g) / l0) + e1 * (e1.dot(g) / l1));
+}
+
+Vector3 newton_step(const SupportSum& f, const Vector3& n) {
+  const Local local = at(f, n);
+  const double value = n.dot(local.gradient);
+  const Vector3 u = n.unitOrthogonal(), w = n.cross(u);
+  const Vector3 Hu = local.H * u, Hw = local.H * w;
+  const Eigen::Vector2d s = downhill(u.dot(Hu) - value, u.dot(Hw), w.dot(Hw) - value,
+                                     Eigen::Vector2d(u.dot(local.gradient), w.dot(local.gradient)));
+  return s.x() * u + s.y() * w;
+}
+
+// The step across `axis` on the circle; downhill also where f is not convex.
+double newton_angle(const SupportSum& f, const Vector3& n, const Vector3& t) {
+  const Local local = at(f, n);
+  const double slope = t.dot(local.gradient);
+  const double curvature = t.dot(local.H * t) - n.dot(local.gradient);
+  return -slope / std::max(std::abs(curvature), 1e-12 * local.gradient.norm() + 1e-300);
+}
+
+}  // namespace
+
+double SupportSum::operator()(const Vector3& n) const {
+  return n.dot(c) + std::sqrt(std::max(0.0, n.dot(A * n))) + std::sqrt(std::max(0.0, n.dot(B * n)));
+}
+
+Vector3 minimise_on_sphere(const SupportSum& f, const Vector3& start) {
+  Vector3 n = start;
+  double value = f(n);
+  for (int k = 0; k < max_steps; ++k) {
+    Vector3 step = newton_step(f, n);
+    const double length = step.norm();
+    if (!(length > done)) break;
+    if (length > longest_step) step *= longest_step / length;
+    if (length < trusted) {  // quadratic from here: the next step is below rounding
+      n = (n + step).normalized();
+      const Vector3 last = newton_step(f, n);
+      if (last.norm() < trusted) n = (n + last).normalized();
+      break;
+    }
+    bool better = false;
+    for (int halving = 0; halving < 30 && !better; ++halving, step *= 0.5) {
+      const Vector3 trial = (n + step).normalized();
+      const double found = f(trial);
+      better = found < value;
+      if (better) n = trial, value = found;
+    }
+    if (!better) break;
+  }
+  return n;
+}
+
+void minimise_on_circle(const SupportSum& f, const Vector3& axis, bool is_deep,
+                        std::vector<Vector3>& out) {
+  const Vector3 u = axis.unitOrthogonal(), w = axis.cross(u);
+  const auto direction = [&](double angle) {
+    return Vector3(std::cos(angle) * u + std::sin(angle) * w);
+  };
+  if (f.A.isZero(0) && f.B.isZero(0)) {  // two lines, or a corner and a side: one wave
+    const Vector3 across = f.c - axis * axis.dot(f.c);
+    if (across.norm() > 0) out.push_back(-across.normalized());
+    return;
+  }
+  constexpr int most = 64;
+  const int count = is_deep ? most : 16;
+  std::array<double, most> fan;
+  const double spacing = 2 * std::numbers::pi / count;
+  for (int k = 0; k < count; ++k) fan[k] = f(direction(spacing * k));
+  for (int k = 0; k < count; ++k) {
+    if (fan[k] > fan[(k + 1) % count] || fan[k] > fan[(k + count - 1) % count]) continue;
+    Vector3 n = direction(spacing * k);
+    double value = fan[k];
+    for (int i = 0; i < max_steps; ++i) {
+      const Vector3 t = axis.cross(n);
+      double step = std::clamp(newton_angle(f, n, t), -0.5 * spacing, 0.5 * spacing);
+      if (std::abs(step) < trusted) {
+        n = (n + step * t).normalized();
+        const double last = newton_angle(f, n, axis.cross(n));
+        if (std::abs(last) < trusted) n = (n + last * axis.cross(n)).normalized();
+        break;
+      }
+      bool better = false;
+      for (int halving = 0; halving < 30 && !better; ++halving, step *= 0.5) {
+        const Vector3 trial = (n + step * t).normalized();
+        const double found = f(trial);
+        better = found < value;
+        if (better) n = trial, value = found;
+      }
+      if (!better) break;
+    }
+    out.push_back(n);
+  }
+}
+
+}  // namespace twinarm

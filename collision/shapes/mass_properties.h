@@ -1,0 +1,33 @@
+// Mass, centre of mass and inertia of solids: of every shape, and inside a closed triangle mesh.
+#pragma once
+
+#include <span>
+
+#include "collision/shapes/mesh.h"
+#include "collision/shapes/shape.h"
+#include "solver/spatial/pose.h"
+
+namespace twinarm {
+
+struct MassProperties {
+  double mass = 0;                    // [kg]
+  Vector3 com = Vector3::Zero();      // centre of mass, in the frame of the mesh [m]
+  Matrix3 inertia = Matrix3::Zero();  // about com, along the axes of that frame [kg m^2]
+};
+
+// Of the solid of constant `density` [kg/m^3]. A cavity is a closed part of the mesh that is turned
+// inside out. Throws InputError if the mesh is not closed or encloses no positive volume.
+MassProperties mass_properties(const TriangleMesh& mesh, double density);
+
+// Of a shape filled with constant `density` [kg/m^3]. Throws InputError for a bad shape, and for
+// one that encloses no solid: half-spaces, hollows.
+MassProperties mass_properties(const Shape& shape, double density);
+
+// The same solid with this mass [kg] instead.
+MassProperties with_mass(MassProperties properties, double mass);
+
+// Of several parts, all given in one frame. A part may have a negative mass (a hole); the sum may
+// not: then it throws InputError.
+MassProperties combine(std::span<const MassProperties> parts);
+
+}  // namespace twinarm

@@ -1,0 +1,143 @@
+#include "coupling/analysis/multi_joint_tracking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "coupling/analysis/joint_space_stiffness.h"
+#include "solver/linear_algebra/dense_algebra.h"
+
+namespace twinarm {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+// g = (1, s, s^2, s^3, s^4, cos W s, sin W s).
+constexpr Index kPowers = 5, kTerms = 7;
+
+MatrixXd rates_of_terms(double turn) {
+  MatrixXd N = MatrixXd::Zero(kTerms, kTerms);
+  for (Index n = 1; n < kPowers; ++n) N(n, n - 1) = static_cast<double>(n);
+  N(kPowers, kPowers + 1) = -turn;
+  N(kPowers + 1, kPowers) = turn;
+  return N;
+}
+
+Eigen::RowVectorXd coefficients(const MovePiece::Series& series) {
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(kTerms);
+  for (std::size_t n = 0; n < series.power.size(); ++n)
+    row[static_cast<Index>(n)] = series.power[n];
+  row[kPowers] = series.c;
+  row[kPowers + 1] = series.d;
+  return row;
+}
+
+// exp(A): a Taylor series of a part of A that is small, squared again and again.
+MatrixXd exponential(const MatrixXd& A) {
+  constexpr double kSmall = 0.25;
+  constexpr int kOrder = 12;
+  int squarings = 0;
+  double part = 1;
+  for (; A.cwiseAbs().rowwise().sum().maxCoeff() * part > kSmall; part /= 2) ++squarings;
+  const MatrixXd one = MatrixXd::Identity(A.rows(), A.cols());
+  MatrixXd sum = one;
+  for (int n = kOrder; n > 0; --n) sum = one + part / n * A * sum;
+  for (int n = 0; n < squarings; ++n) sum = MatrixXd(sum * sum);
+  return sum;
+}
+
+}  // namespace
+
+ChainErrors::ChainErrors(ChainFollower follower) : follower_(std::move(follower)) {
+  const SpringModes modes = spring_modes(follower_.M, follower_.K, follower_.B);
+  shapes_ = modes.shapes;
+  damping_ = modes.damping;
+  squares_ = modes.squares;
+  // What the modes that are held span: e_j is theirs alone where that row is the unit row.
+  const MatrixXd spanned = shapes_ * shapes_.transpose() * follower_.M;
+  for (Index j = 0; j < spanned.rows(); ++j) {
+    VectorXd rest = spanned.row(j);
+    rest[j] -= 1;
+    held_.push_back(rest.cwiseAbs().maxCoeff() < 1e-6);
+  }
+  for (Index i = 0; i < modes.size(); ++i) {
+    const double w = modes.omega(i);
+    if (w > 0) slowest_ = slowest_ > 0 ? std::min(slowest_, w) : w;
+    fastest_ = std::max(fastest_, w);
+  }
+}
+
+VectorXd ChainErrors::of_held(VectorXd by_joint, double others) const {
+  for (Index j = 0; j < by_joint.size(); ++j)
+    if (!is_held(j)) by_joint[j] = others;
+  return by_joint;
+}
+
+VectorXd ChainErrors::behind(TargetMove move, const VectorXd& distance, double time) const {
+  const double end = time + (slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
+  return peaks(pieces_of(move, 1, time), distance, VectorXd::Zero(distance.size()), end,
+               std::numbers::pi / time);
+}
+
+VectorXd ChainErrors::after_start(const VectorXd& v, double time) const {
+  const double end = std::max(time, slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
+  return peaks({{0, 1, {}, {{1}}}}, v, VectorXd::Zero(v.size()), end, 0);
+}
+
+VectorXd ChainErrors::after_reversal(const VectorXd& v, double time) const {
+  const double end = std::max(time, slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
+  return peaks({{0, -2, {}, {{-1}}}}, v, lag(v), end, 0);
+}
+
+VectorXd ChainErrors::lag(const VectorXd& v) const {
+  const VectorXd pulled = shapes_.transpose() * (follower_.absolute * of_held(v, 0));
+  VectorXd y = VectorXd::Zero(pulled.size());
+  for (Index i = 0; i < y.size(); ++i) {
+    const bool is_pulled = std::abs(pulled[i]) > 1e-10 * pulled.cwiseAbs().maxCoeff();
+    if (is_pulled) y[i] = squares_[i] > 0 ? pulled[i] / squares_[i] : kNone;
+  }
+  return of_held(shapes_ * y, kNone);
+}
+
+// Pieces are for a unit move; `along` has the joints' parts of it. e: at the start, at rest.
+VectorXd ChainErrors::peaks(const std::vector<MovePiece>& pieces, const VectorXd& along,
+                            const VectorXd& e, double end, double turn) const {
+  constexpr double kPerPeriod = 400, kLeast = 4000, kMost = 2e5;
+  const Index m = squares_.size();
+  if (m == 0 || squares_.minCoeff() < 0) return VectorXd::Constant(along.size(), kNone);
+  const VectorXd D = of_held(along, 0);
+  const VectorXd by_a = shapes_.transpose() * (follower_.M * D);
+  const VectorXd by_v = shapes_.transpose() * (follower_.absolute * D);
+  const double samples =
+      std::clamp(kPerPeriod * end * fastest_ / (2 * std::numbers::pi), kLeast, kMost);
+  VectorXd z = VectorXd::Zero(2 * m + kTerms), peak = VectorXd::Zero(along.size());
+  z.head(m) = shapes_.transpose() * (follower_.M * of_held(e, 0));
+  MatrixXd A = MatrixXd::Zero(z.size(), z.size());
+  A.block(0, m, m, m).setIdentity();
+  A.block(m, 0, m, m).diagonal() = -squares_;
+  A.block(m, m, m, m) = -damping_;
+  A.bottomRightCorner(kTerms, kTerms) = rates_of_terms(turn);
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const MovePiece& piece = pieces[p];
+    A.block(m, 2 * m, m, kTerms) =
+        by_a * coefficients(piece.acceleration) + by_v * coefficients(piece.velocity);
+    z.segment(m, m) += piece.jump * by_a;
+    z.tail(kTerms) << 1, VectorXd::Zero(kPowers - 1), 1, 0;
+    const double until = p + 1 < pieces.size() ? pieces[p + 1].start : end;
+    const double count = std::max(1.0, std::ceil(samples * (until - piece.start) / end));
+    const MatrixXd step = exponential((until - piece.start) / count * A);
+    for (double n = 0; n < count; ++n) {
+      z = VectorXd(step * z);
+      peak = peak.cwiseMax((shapes_ * z.head(m)).cwiseAbs());
+    }
+  }
+  return of_held(peak.cwiseMax(e.cwiseAbs()), kNone);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,237 @@
+#include "coupling/analysis/tracking_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "coupling/analysis/joint_space_stiffness.h"
+#include "solver/linear_algebra/dense_algebra.h"
+
+namespace twinarm {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+JumpErrors errors_of_jumps(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B,
+                           const std::vector<SpeedJump>& jumps, double duration) {
+  const MatrixXd inverse = inverse_of(M), of_e = -inverse * K, of_v = -inverse * B;
+  const double stiffest = std::sqrt(std::max(0.0, squared_frequencies(M, K).maxCoeff()));
+  const double most_damped = squared_frequencies(M, B).maxCoeff();
+  const double longest = std::min(duration / 100, 0.02 / std::max(stiffest, most_damped));
+  const auto a = [&](const VectorXd& x, const VectorXd& xd) {
+    return VectorXd(of_e * x + of_v * xd);
+  };
+  VectorXd e = VectorXd::Zero(M.rows()), v = e;
+  JumpErrors errors{e, e};
+  for (std::size_t j = 0; j < jumps.size(); ++j) {
+    v += jumps[j].V;
+    const double stretch = (j + 1 < jumps.size() ? jumps[j + 1].t : duration) - jumps[j].t;
+    const auto steps = static_cast<long>(std::ceil(stretch / longest));
+    const double dt = stretch / static_cast<double>(steps);
+    for (long n = 0; n < steps; ++n) {  // classical Runge-Kutta
+      const VectorXd before = e.cwiseAbs(), a1 = a(e, v);
+      const VectorXd v2 = v + dt / 2 * a1, a2 = a(e + dt / 2 * v, v2);
+      const VectorXd v3 = v + dt / 2 * a2, a3 = a(e + dt / 2 * v2, v3);
+      const VectorXd v4 = v + dt * a3, a4 = a(e + dt * v3, v4);
+      e += dt / 6 * (v + 2 * v2 + 2 * v3 + v4);
+      v += dt / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+      errors.peak = errors.peak.cwiseMax(e.cwiseAbs());
+      errors.mean += dt / 2 / duration * (before + e.cwiseAbs());
+    }
+  }
+  return errors;
+}
+
+VectorXd peak_after_jump(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B, const VectorXd& V,
+                         double time) {
+  return errors_of_jumps(M, K, B, {{0, V}}, time).peak;
+}
+
+double peak_after_jump(double V, double omega, double zeta) {
+  if (std::abs(zeta - 1) < 1e-9) return V / omega / std::exp(1.0);
+  if (zeta < 1) return V / omega * std::exp(-zeta * std::acos(zeta) / std::sqrt(1 - zeta * zeta));
+  return V / omega * std::exp(-zeta * std::acosh(zeta) / std::sqrt(zeta * zeta - 1));
+}
+
+double absolute_damper_lag(double v, double omega, double zeta) {
+  return 2 * zeta * v / omega;
+}
+double mocap_weld_lag(double v, double timeconst) {
+  return absolute_damper_lag(v, 1 / timeconst, 1);
+}
+
+const char* name_of(TargetMove move) {
+  switch (move) {
+    case TargetMove::ramp:
+      return "constant speed";
+    case TargetMove::cubic:
+      return "cubic";
+    case TargetMove::quintic:
+      return "quintic";
+    case TargetMove::cosine:
+      return "cosine";
+    case TargetMove::bang_bang:
+      return "bang-bang";
+  }
+  return "";
+}
+
+double largest_acceleration(TargetMove move, double distance, double time) {
+  constexpr double pi = std::numbers::pi;
+  const double unit = std::abs(distance) / (time * time);
+  switch (move) {
+    case TargetMove::cubic:
+      return 6 * unit;
+    case TargetMove::quintic:
+      return 10 / std::sqrt(3.0) * unit;
+    case TargetMove::cosine:
+      return pi * pi / 2 * unit;
+    case TargetMove::bang_bang:
+      return 4 * unit;
+    case TargetMove::ramp:
+      break;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+std::vector<MovePiece> pieces_of(TargetMove move, double D, double T) {
+  const double v = D / T, a = v / T, j = a / T, s = j / T, c = s / T;  // by powers of 1/T
+  const double W = std::numbers::pi / T;
+  std::vector<MovePiece> pieces;
+  switch (move) {
+    case TargetMove::ramp:
+      pieces = {{0, v, {}, {{v}}}};
+      break;
+    case TargetMove::cubic:
+      pieces = {{0, 0, {{6 * a, -12 * j}}, {{0, 6 * a, -6 * j}}}};
+      break;
+    case TargetMove::quintic:
+      pieces = {{0, 0, {{0, 60 * j, -180 * s, 120 * c}}, {{0, 0, 30 * j, -60 * s, 30 * c}}}};
+      break;
+    case TargetMove::cosine:
+      pieces = {{0, 0, {{}, D / 2 * W * W, 0}, {{}, 0, D / 2 * W}}};
+      break;
+    case TargetMove::bang_bang:
+      pieces = {{0, 0, {{4 * a}}, {{0, 4 * a}}}, {T / 2, 0, {{-4 * a}}, {{2 * v, -4 * a}}}};
+      break;
+  }
+  pieces.push_back({T, move == TargetMove::ramp ? -v : 0, {}, {}});
+  return pieces;
+}
+
+FollowingError::FollowingError(TargetMove move, double D, double T, double omega, double zeta,
+                               Damper damper)
+    : time_(T), omega_(omega), zeta_(zeta), turn_(std::numbers::pi / T), damper_(damper) {
+  for (const MovePiece& piece : pieces_of(move, D, T)) add_piece(piece);
+  solve();
+}
+
+void FollowingError::add_piece(const MovePiece& move) {
+  Piece piece{move.start, move.jump, move.acceleration, {}};
+  const Forcing& velocity = move.velocity;
+  if (damper_ == Damper::absolute) {
+    const double by = 2 * zeta_ * omega_;
+    std::vector<double>& power = piece.right.power;
+    power.resize(std::max(power.size(), velocity.power.size()));
+    for (std::size_t n = 0; n < velocity.power.size(); ++n) power[n] += by * velocity.power[n];
+    piece.right.c += by * velocity.c;
+    piece.right.d += by * velocity.d;
+  }
+  pieces_.push_back(std::move(piece));
+}
+
+// Powers, from the highest down: w^2 p_n + 2 z w (n+1) p_n+1 + (n+1)(n+2) p_n+2 = f_n.
+// (c cos + d sin): (w^2 - W^2) C + 2 z w W D = c,  (w^2 - W^2) D - 2 z w W C = d.
+void FollowingError::solve() {
+  const double w2 = omega_ * omega_, b = 2 * zeta_ * omega_;
+  Motion end{0, 0};
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    Piece& piece = pieces_[i];
+    const std::vector<double>& f = piece.right.power;
+    std::vector<double>& p = piece.particular.power;
+    p.assign(f.size() + 2, 0.0);
+    for (std::size_t n = f.size(); n-- > 0;) {
+      const auto m = static_cast<double>(n);
+      p[n] = (f[n] - b * (m + 1) * p[n + 1] - (m + 1) * (m + 2) * p[n + 2]) / w2;
+    }
+    const double stiff = w2 - turn_ * turn_, damp = b * turn_;
+    if (piece.right.c != 0 || piece.right.d != 0) {
+      const double all = stiff * stiff + damp * damp;
+      piece.particular.c = (stiff * piece.right.c - damp * piece.right.d) / all;
+      piece.particular.d = (stiff * piece.right.d + damp * piece.right.c) / all;
+    }
+    const Motion of = of_particular(piece, 0);
+    piece.e = end.e - of.e;
+    piece.e_dot = end.e_dot + piece.jump - of.e_dot;
+    if (i + 1 < pieces_.size()) end = in_piece(piece, pieces_[i + 1].start - piece.start);
+  }
+}
+
+FollowingError::Motion FollowingError::of_particular(const Piece& piece, double s) const {
+  Motion motion{0, 0};
+  const std::vector<double>& p = piece.particular.power;
+  for (std::size_t n = p.size(); n-- > 0;) {
+    motion.e_dot = motion.e_dot * s + motion.e;
+    motion.e = motion.e * s + p[n];
+  }
+  const double C = piece.particular.c, D = piece.particular.d;
+  const double cos = std::cos(turn_ * s), sin = std::sin(turn_ * s);
+  return {motion.e + C * cos + D * sin, motion.e_dot + turn_ * (D * cos - C * sin)};
+}
+
+// e'' + 2 z w e' + w^2 e = 0. With r^2 = w^2 |1 - z^2|, c and s of cos, sin or of cosh, sinh:
+// e = exp(-z w t) (e_0 c(r t) + (e'_0 + z w e_0) s(r t)/r).
+FollowingError::Motion FollowingError::free_motion(double e, double e_dot, double t) const {
+  const double r = omega_ * std::sqrt(std::abs(1 - zeta_ * zeta_)), zw = zeta_ * omega_;
+  const double rate = e_dot + zw * e;
+  double c, s_by_r, back;  // back: of c' = back s_by_r
+  if (r * t < 1e-8) {
+    c = std::exp(-zw * t);
+    s_by_r = t * c;
+    back = 0;
+  } else if (zeta_ < 1) {
+    c = std::exp(-zw * t) * std::cos(r * t);
+    s_by_r = std::exp(-zw * t) * std::sin(r * t) / r;
+    back = -r * r;
+  } else {  // both exponentials decay: no overflow
+    const double slow = std::exp((r - zw) * t), fast = std::exp(-(r + zw) * t);
+    c = (slow + fast) / 2;
+    s_by_r = (slow - fast) / (2 * r);
+    back = r * r;
+  }
+  const double now = e * c + rate * s_by_r;
+  return {now, -zw * now + e * back * s_by_r + rate * c};
+}
+
+FollowingError::Motion FollowingError::in_piece(const Piece& piece, double s) const {
+  const Motion of = of_particular(piece, s), free = free_motion(piece.e, piece.e_dot, s);
+  return {of.e + free.e, of.e_dot + free.e_dot};
+}
+
+double FollowingError::at(double t) const {
+  const Piece* piece = &pieces_.front();
+  for (const Piece& next : pieces_)
+    if (t >= next.start) piece = &next;
+  return in_piece(*piece, t - piece->start).e;
+}
+
+// On a fine grid over the move and a period after it, then by a parabola through the best three.
+double FollowingError::peak() const {
+  constexpr double kPerPeriod = 400, kLeast = 4000, kMost = 4e6;
+  const double period = 2 * std::numbers::pi / omega_, end = time_ + period;
+  const double count = std::clamp(kPerPeriod * end / period, kLeast, kMost), dt = end / count;
+  const auto size = [&](double n) { return std::abs(at(n * dt)); };
+  double best = 0, where = 0;
+  for (double n = 0; n <= count; ++n)
+    if (const double here = size(n); here > best) {
+      best = here;
+      where = n;
+    }
+  if (where < 1) return best;
+  const double before = size(where - 1), after = size(where + 1);
+  const double bend = before - 2 * best + after;
+  return bend < 0 ? best - (after - before) * (after - before) / (8 * bend) : best;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,140 @@
+#include "coupling/batch/batch_targets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "coupling/batch/set_spring.h"
+#include "coupling/target/delayed_motion.h"
+
+namespace twinarm {
+namespace {
+
+double* put(const Vector3& v, double* out) {
+  return std::copy_n(v.data(), 3, out);
+}
+
+// What the target has alone (RowSizes).
+void put_products(const RowSizes& size, const double* pose, const double* velocity, double* out) {
+  if (size.products > 1) *out++ = std::inner_product(pose, pose + 3, velocity, 0.0);
+  if (size.products > 0) *out = std::inner_product(velocity, velocity + 3, velocity, 0.0);
+}
+
+}  // namespace
+
+// Reads one spring's numbers off the KVR, and writes them one after another.
+struct BatchMotion::Reader {
+  PullKind kind;
+  std::size_t iq, iv, body;
+  Vector3 p_B;
+  Treatment treatment;
+  std::size_t target;
+
+  Vector3 point(const KvrSample& kvr) const { return kvr.k.X_WL[body].p + kvr.k.R_WB[body] * p_B; }
+  void pose(const KvrSample& kvr, double* out) const {
+    if (kind == PullKind::joint) *out = kvr.x.q[iq];
+    if (kind == PullKind::linear) put(point(kvr), out);
+    for (int column = 0; column < 3 && kind == PullKind::world; ++column)  // E = R^T, by rows
+      out = put(kvr.k.R_WB[body].col(column), out);
+  }
+  void velocity(const KvrSample& kvr, double* out) const {
+    if (kind == PullKind::joint) *out = kvr.x.qd[iv];
+    if (kind == PullKind::linear) put(kvr.k.velocity(static_cast<int>(body), point(kvr)), out);
+    if (kind == PullKind::world) put(kvr.k.w_WL[body], out);
+  }
+};
+
+BatchMotion::BatchMotion(const BatchSetup& setup) : joints(setup.measured.size()) {
+  for (const BatchSpring& spring : setup.springs) {
+    places.push_back({motion_stride, energy_stride});
+    const RowSizes size = row_sizes(kind_of(spring));
+    motion_stride += size.pose + size.velocity;
+    if (setup.energy) energy_stride += size.pose + 2 * size.velocity + size.products;
+  }
+}
+
+void BatchMotion::fill(const BatchSetup& setup, const LumpedModel& lumped, const BatchCell& cell) {
+  constexpr double kSameTime = 1e-9;  // parts of a step
+  const double whole = std::floor(setup.duration / cell.h + kSameTime);
+  const double rest = setup.duration - whole * cell.h;
+  const bool has_rest = rest > kSameTime * cell.h;
+  steps = static_cast<std::size_t>(whole) + (has_rest ? 1 : 0);
+  last_step = has_rest ? rest : cell.h;
+  motion.assign(steps * motion_stride, 0);
+  energy.assign((steps + 1) * energy_stride, 0);
+  q_K.assign((steps + 1) * joints, 0);
+
+  std::vector<PacedHand> hands;
+  std::vector<KinematicRobot> kvrs;
+  hands.reserve(setup.targets.size());
+  for (const BatchTarget& target : setup.targets) {
+    hands.emplace_back(*target.hand, cell.delay, cell.speed);
+    kvrs.emplace_back(lumped.model, hands.back(), target.mapping, target.joints);
+    kvrs.back().stand_at(target.rest);
+  }
+  std::vector<Reader> readers;
+  for (std::size_t s = 0; s < setup.springs.size(); ++s) {
+    const BatchSpring& spring = setup.springs[s];
+    const auto body = static_cast<std::size_t>(spring.body);
+    const Vec3<double> p = lumped.point_of(*setup.model, body, cell.springs[s].p_L);
+    readers.push_back({kind_of(spring), setup.model->iq[body], setup.model->iv[body],
+                       lumped.carrier[body], to_eigen(p), spring.treatment, spring.target});
+  }
+  double t = setup.start.t;
+  for (std::size_t n = 0; n < steps; ++n, t += cell.h) {
+    for (KinematicRobot& kvr : kvrs) kvr.begin_step(t, n + 1 < steps ? cell.h : last_step);
+    fill_step(n, setup, readers, kvrs);
+  }
+  if (setup.energy) find_corners(setup, cell.h);
+  find_range();
+}
+
+void BatchMotion::find_range() {
+  low.assign(joints, std::numeric_limits<double>::infinity());
+  high.assign(joints, -std::numeric_limits<double>::infinity());
+  for (std::size_t at = 0; at < q_K.size(); ++at) {
+    low[at % joints] = std::min(low[at % joints], q_K[at]);
+    high[at % joints] = std::max(high[at % joints], q_K[at]);
+  }
+}
+
+void BatchMotion::find_corners(const BatchSetup& setup, double h) {
+  is_corner.assign(steps + 1, 0);
+  is_corner.front() = is_corner.back() = 1;
+  if (last_step != h) is_corner[steps - 1] = 1;
+  for (std::size_t n = 1; n < steps; ++n)
+    for (std::size_t s = 0; s < places.size(); ++s) {
+      const RowSizes size = row_sizes(kind_of(setup.springs[s]));
+      const double* before = &energy[n * energy_stride + places[s].energy + size.pose];
+      if (!std::equal(before, before + size.velocity, before + size.velocity)) is_corner[n] = 1;
+    }
+}
+
+void BatchMotion::fill_step(std::size_t n, const BatchSetup& setup,
+                            const std::vector<Reader>& readers,
+                            const std::vector<KinematicRobot>& kvrs) {
+  for (std::size_t s = 0; s < readers.size(); ++s) {
+    const Reader& of = readers[s];
+    const RowSizes size = row_sizes(of.kind);
+    const KvrSample &start = kvrs[of.target].start(), &end = kvrs[of.target].end();
+    double* out = &motion[n * motion_stride + places[s].motion];
+    of.pose(of.treatment == Treatment::implicit ? end : start, out);
+    of.velocity(of.treatment == Treatment::explicit_ ? start : end, out + size.pose);
+    if (!setup.energy) continue;
+    double* pose = &energy[n * energy_stride + places[s].energy];
+    double *before = pose + size.pose, *after = before + size.velocity;
+    of.pose(start, pose);
+    of.velocity(start, after);
+    put_products(size, pose, after, after + size.velocity);
+    of.pose(end, pose + energy_stride);  // as the next step's start, but for the last
+    of.velocity(end, before + energy_stride);
+  }
+  for (std::size_t j = 0; j < joints; ++j) {
+    const std::size_t iq = setup.measured[j];
+    if (n == 0) q_K[j] = kvrs.front().start().x.q[iq];
+    q_K[(n + 1) * joints + j] = kvrs.front().end().x.q[iq];
+  }
+}
+
+}  // namespace twinarm

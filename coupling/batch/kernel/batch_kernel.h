@@ -1,0 +1,178 @@
+// The steps of one batch: couplings, forward dynamics, integration and measures, lane by lane.
+//
+//   qd' = qd + h qdd,   q' = q + h qd'
+// Forward dynamics are aba() (solver/passes/aba.h). Between its first pass, which knows where the
+// bodies are, and its second, which asks for the forces, the springs pull
+// (coupling/batch/kernel/batch_springs.h). Works are sums of powers by the trapezoidal rule; at a
+// corner, where a target's velocity or the step changes, the two halves differ.
+//
+// Callers include coupling/batch/batch_run.h.
+#pragma once
+
+#include "coupling/batch/kernel/batch_springs.h"
+#include "solver/passes/aba.h"
+
+namespace twinarm::TWINARM_ISA {
+
+template <class S>
+S magnitude(const S& x) {
+  return select(x < S(0), -x, x);
+}
+template <class S>
+S larger(const S& a, const S& b) {
+  return select(a < b, b, a);
+}
+
+// A spring at a corner of the motion, in body axes; of a joint the first component alone.
+template <class S>
+struct PullEnds {
+  Vec3<S> offset, v_D, v_before, v_after;  // of the target just before and after the moment
+};
+template <class S>
+PullEnds<S> ends_of(const BatchWork<S>& b, const LanePull<S>& pull, const double* row) {
+  if (pull.kind == PullKind::joint)
+    return {{S(row[0]) - b.x.q[pull.iq], S(0), S(0)},
+            {b.x.qd[pull.iv], S(0), S(0)},
+            {S(row[1]), S(0), S(0)},
+            {S(row[2]), S(0), S(0)}};
+  const Mat3<S>& E = b.E[pull.body];
+  const Motion<S>& v = b.w.v[pull.body];
+  const std::size_t velocity = pull.kind == PullKind::world ? 9 : 3;
+  const Vec3<S> before = E * spread3<S>(row + velocity), after = E * spread3<S>(row + velocity + 3);
+  if (pull.kind == PullKind::linear)
+    return {E * (spread3<S>(row) - b.o[pull.body]) - pull.p_B, plus_cross(v.v, v.w, pull.p_B),
+            before, after};
+  return {turn_between(E, row), v.w, before, after};
+}
+
+// The moment of step n: half of each power belongs to the step before, half to this one.
+template <class S>
+TWINARM_KERNEL void add_works_at_corner(BatchWork<S>& b, std::size_t n) {
+  const double* row = b.energy + n * b.energy_stride;
+  const S before = S(0.5) * b.h_before, after = n < b.steps ? S(0.5) * b.h : S(0);
+  S hand_before = b.hand_work, hand_after(0), held(0);
+  b.lost_work = b.lost_work + (before + after) * b.lost_power;  // in the joints
+  for (const LanePull<S>& pull : b.pulls) {
+    const PullEnds<S> e = ends_of(b, pull, row + pull.energy);
+    const SpringPowers<S> was(pull, e.offset, e.v_D, e.v_before),
+        is(pull, e.offset, e.v_D, e.v_after);
+    b.lost_work = b.lost_work + before * was.lost + after * is.lost;
+    hand_before = hand_before + before * was.hand;
+    hand_after = hand_after + after * is.hand;
+    held = held + S(0.5) * pull.k * dot(e.offset, e.offset);
+  }
+  b.hand_work_least = select(hand_before < b.hand_work_least, hand_before, b.hand_work_least);
+  b.hand_work = hand_before + hand_after;
+  if (n == 0) b.spring_energy_at_start = held;
+  if (n == b.steps) b.spring_energy = held;
+}
+
+// Elsewhere both halves are the same; the springs at links have added their powers while they
+// pulled.
+template <class S>
+TWINARM_KERNEL void add_works(BatchWork<S>& b, std::size_t n) {
+  const double* row = b.energy + n * b.energy_stride;
+  for (const LanePull<S>& pull : b.pulls) {
+    if (pull.kind != PullKind::joint) continue;
+    const double* target = row + pull.energy;
+    const S e = S(target[0]) - b.x.q[pull.iq], v_K(target[2]);
+    const S& v_D = b.x.qd[pull.iv];
+    add(b, SpringPowers<S>(pull, e * v_K, v_D * v_K, v_K * v_K, v_D * v_D));
+  }
+  b.lost_work = b.lost_work + b.h * b.lost_power;
+  const S half = S(0.5) * b.h * b.hand_power, before = b.hand_work + half;
+  b.hand_work_least = select(before < b.hand_work_least, before, b.hand_work_least);
+  b.hand_work = before + half;
+}
+
+template <class S>
+void start_powers(BatchWork<S>& b) {
+  b.lost_power = b.hand_power = S(0);
+  if (b.has_damping)
+    for (std::size_t d = 0; d < b.x.qd.size(); ++d)
+      b.lost_power = b.lost_power + b.model.damping[d] * b.x.qd[d] * b.x.qd[d];
+}
+
+// The hook of aba(): what acts by where the bodies are.
+template <class S>
+struct LanePulls {
+  BatchWork<S>& b;
+  const double* row;
+  std::size_t n;
+  template <class... T>
+  void felt(const T&...) const {}
+  void moved() const {
+    if (b.has_places) place_bodies(b);
+    if (b.has_bias) find_biases(b);
+    const bool smooth = b.has_energy && b.is_corner[n] == 0;
+    if (b.has_energy) start_powers(b);
+    for (const LanePull<S>& pull : b.pulls)
+      pull_at(b, pull, row + pull.motion,
+              smooth ? b.energy + n * b.energy_stride + pull.energy : nullptr);
+    if (smooth)
+      add_works(b, n);
+    else if (b.has_energy)
+      add_works_at_corner(b, n);
+    b.model.I = b.model.I_felt.data();
+  }
+};
+
+template <class S>
+TWINARM_KERNEL void integrate(BatchWork<S>& b) {
+  for (std::size_t d = 0; d < b.x.q.size(); ++d) {
+    b.x.qd[d] = b.x.qd[d] + b.h * b.w.qdd[d];
+    b.x.q[d] = b.x.q[d] + b.h * b.x.qd[d];
+  }
+}
+
+// Errors after step n; lanes that have left all bounds stop.
+template <class S>
+TWINARM_KERNEL void measure(BatchWork<S>& b, std::size_t n) {
+  const double* q_K = b.q_K + (n + 1) * b.measured.size();
+  S sum(0);
+  for (std::size_t j = 0; j < b.measured.size(); ++j) {
+    const S e = magnitude(S(q_K[j]) - b.x.q[b.measured[j]]);
+    sum = sum + e;
+    b.error_integral[j] = b.error_integral[j] + b.h * (e + b.error_last[j]);
+    b.error_last[j] = e;
+    b.window_error_of[j] = larger(b.window_error_of[j], e);
+  }
+  const auto outside = ~(sum < b.bound);  // NaN too
+  if (!any_lane(outside)) return;
+  for (std::size_t lane = 0; lane < sizeof(S) / sizeof(double); ++lane)
+    if (outside[lane]) b.stopped(b, lane, n + 1);
+}
+
+// The quarter's largest errors, by joint and of all, go where the run's are.
+template <class S>
+void end_window(BatchWork<S>& b, std::size_t window) {
+  for (std::size_t j = 0; j < b.measured.size(); ++j) {
+    b.error_max[j] = larger(b.error_max[j], b.window_error_of[j]);
+    b.window_error[window] = larger(b.window_error[window], b.window_error_of[j]);
+    b.window_error_of[j] = S(0);
+  }
+}
+
+template <class S>
+void run_steps(BatchWork<S>& b) {
+  std::size_t n = b.first;
+  for (std::size_t window = 0; window < b.kWindows; ++window) {
+    const std::size_t end = std::min(b.last, (window + 1) * b.steps / b.kWindows);
+    for (; n < end && b.lanes_running > 0; ++n) {
+      const double* row = b.motion + n * b.motion_stride;
+      if (b.has_joint_pulls || b.has_damping) pull_joints(b, row);
+      b.model.I = b.model.I_own.data();
+      aba(b.model, b.x, b.forces, b.w, LanePulls<S>{b, row, n});
+      integrate(b);
+      b.h_before = b.h;
+      measure(b, n);
+    }
+    end_window(b, window);
+  }
+  if (!b.has_energy || b.last < b.steps || b.lanes_running == 0) return;
+  b.model.I = b.model.I_own.data();  // the powers at the end; the motion's last row will do
+  aba(b.model, b.x, b.forces, b.w,
+      LanePulls<S>{b, b.motion + (b.steps - 1) * b.motion_stride, b.steps});
+}
+
+}  // namespace twinarm::TWINARM_ISA

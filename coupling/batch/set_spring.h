@@ -1,0 +1,60 @@
+// A cell's spring put into its lane of a batch.
+#pragma once
+
+#include "coupling/batch/batch_run.h"
+#include "coupling/batch/kernel/batch_state.h"
+#include "coupling/batch/simd_access.h"
+
+namespace twinarm {
+
+inline PullKind kind_of(const BatchSpring& spring) {
+  if (spring.type == CouplingSpec::Type::linear) return PullKind::linear;
+  return spring.measure == Measure::world ? PullKind::world : PullKind::joint;
+}
+
+inline Sees sees_of(Treatment treatment) {
+  return treatment == Treatment::explicit_       ? Sees::start
+         : treatment == Treatment::semi_implicit ? Sees::both
+                                                 : Sees::end;
+}
+
+// m* of the treatment (solver/forces/spring.h).
+inline double m_star(Treatment treatment, double h, const BatchCell::Gains& gains) {
+  const double by_damper = treatment == Treatment::explicit_ ? 0 : h * gains.b;
+  return by_damper + (treatment == Treatment::implicit ? h * h * gains.k : 0);
+}
+
+// A weightless flywheel, or a particle at p.
+inline Inertia<double> weightless(PullKind kind, double m, const Vec3<double>& p) {
+  if (kind == PullKind::world) return {0, {}, Sym3<double>::scaled_identity(m)};
+  return {m,
+          m * p,
+          {m * (p.y * p.y + p.z * p.z), m * (p.x * p.x + p.z * p.z), m * (p.x * p.x + p.y * p.y),
+           -m * p.x * p.y, -m * p.x * p.z, -m * p.y * p.z}};
+}
+
+// p: its point in body axes. What the treatment makes the body feel is added to `felt`, or to the
+// joint's armature.
+template <class S>
+void load_spring(BatchWork<S>& work, std::size_t s, std::size_t lane, const BatchSpring& spring,
+                 const BatchCell::Gains& gains, double h, const Vec3<double>& p,
+                 Inertia<double>& felt) {
+  LanePull<S>& pull = work.pulls[s];
+  const double look_ahead = spring.treatment == Treatment::implicit ? h : 0;
+  const double m = m_star(spring.treatment, h, gains);
+  set_lane(pull.k, lane, gains.k);
+  set_lane(pull.b, lane, gains.b);
+  set_lane(pull.kb, lane, gains.k * look_ahead + gains.b);
+  set_lane(pull.b_seen, lane, spring.absolute_damper ? 0 : gains.b);
+  set_lane(pull.m_star, lane, m);
+  set_lane(pull.p_B, lane, p);
+  set_lane(pull.kp, lane, gains.k * p);
+  if (pull.kind == PullKind::joint) {
+    S& armature = work.forces.armature[pull.iv];
+    set_lane(armature, lane, lane_of(armature, lane) + m);
+  } else {
+    add_congruence(Transform<double>{}, weightless(pull.kind, m, p), felt);
+  }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,140 @@
+#include "coupling/device/desktop_input.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace twinarm {
+
+GestureHand::GestureHand(const OmniFigures& omni, const GestureSettings& settings)
+    : omni_(omni), settings_(settings), newest_(Goal{}) {
+  goal_.p = omni_position(omni_, settings_.start);
+  std::copy_n(settings_.start.begin() + 3, 3, goal_.gimbal.begin());
+  end();
+}
+
+OmniAngles GestureHand::angles(const Goal& goal, double t) const noexcept {
+  const double dt = std::max(t - goal.t, 0.0);
+  const Vector3 p = goal.p + dt * Vector3(goal.rate[0], goal.rate[1], goal.rate[2]);
+  const auto arm = omni_nearest(omni_, p);
+  OmniAngles theta{arm[0], arm[1], arm[2]};
+  for (std::size_t j = 3; j < 6; ++j)
+    theta[j] = std::clamp(goal.gimbal[j - 3] + dt * goal.rate[j], omni_.lower[j], omni_.upper[j]);
+  return theta;
+}
+
+HandSample GestureHand::sample(double t, double /*toward: rates change between two calls*/) const {
+  if (t > asked_.load(std::memory_order_relaxed)) asked_.store(t, std::memory_order_relaxed);
+  const Goal& goal = newest_.read();
+  HandSample hand;
+  hand.theta = angles(goal, t);
+  hand.button = goal.buttons[0];
+  hand.clutch = goal.buttons[1];
+  if (goal.rate == std::array<double, 6>{}) return hand;
+  constexpr double kAhead = 1e-6;  // [s]; a difference: along the edge of the reach it slides too
+  const OmniAngles next = angles(goal, t + kAhead);
+  for (std::size_t j = 0; j < 6; ++j) hand.theta_dot[j] = (next[j] - hand.theta[j]) / kAhead;
+  return hand;
+}
+
+double GestureHand::duration() const {
+  return std::numeric_limits<double>::infinity();
+}
+
+void GestureHand::begin() noexcept {
+  const double t = asked_.load(std::memory_order_relaxed);
+  const OmniAngles theta = angles(goal_, t);
+  goal_.p = omni_position(omni_, theta);
+  std::copy_n(theta.begin() + 3, 3, goal_.gimbal.begin());
+  goal_.t = std::max(t, goal_.t);
+}
+
+void GestureHand::end() noexcept {
+  const OmniAngles theta = angles(goal_, goal_.t);
+  goal_.p = omni_position(omni_, theta);
+  std::copy_n(theta.begin() + 3, 3, goal_.gimbal.begin());
+  for (std::size_t j = 0; j < 6; ++j) {
+    const double keys = (keys_[j][1] ? 1.0 : 0.0) - (keys_[j][0] ? 1.0 : 0.0);
+    const double rate = std::clamp(keys + axes_[j], -1.0, 1.0);
+    goal_.rate[j] = rate * (j < 3 ? settings_.speed : settings_.turn_rate);
+  }
+  newest_.write(goal_);
+}
+
+void GestureHand::drag(double dx_px, double dy_px, const ViewPlane& view) noexcept {
+  const Vector3 shift = view.metres_per_px * (dx_px * view.right - dy_px * view.up);
+  if (!shift.allFinite()) return;
+  begin();
+  goal_.p += shift;
+  end();
+}
+
+void GestureHand::place(const Vector3& p) noexcept {
+  if (!p.allFinite()) return;
+  begin();
+  goal_.p = p;
+  end();
+}
+
+void GestureHand::wheel(double notches, const ViewPlane& view) noexcept {
+  const Vector3 shift = -settings_.metres_per_notch * notches * view.right.cross(view.up);
+  if (!shift.allFinite()) return;
+  begin();
+  goal_.p += shift;
+  end();
+}
+
+void GestureHand::turn_stylus(double dx_px, double dy_px) noexcept {
+  if (!std::isfinite(dx_px) || !std::isfinite(dy_px)) return;
+  begin();
+  goal_.gimbal[0] += settings_.radians_per_px * dx_px;
+  goal_.gimbal[1] -= settings_.radians_per_px * dy_px;
+  end();
+}
+
+void GestureHand::turn_stylus(const Vector3& by) noexcept {
+  if (!by.allFinite()) return;
+  begin();
+  for (std::size_t j = 0; j < 3; ++j) goal_.gimbal[j] += by[static_cast<Eigen::Index>(j)];
+  end();
+}
+
+void GestureHand::roll_stylus(double notches) noexcept {
+  if (!std::isfinite(notches)) return;
+  begin();
+  goal_.gimbal[2] += settings_.radians_per_notch * notches;
+  end();
+}
+
+void GestureHand::key(HandAxis axis, bool positive, bool down) noexcept {
+  begin();
+  keys_[static_cast<std::size_t>(axis)][positive ? 1 : 0] = down;
+  end();
+}
+
+void GestureHand::axes(const std::array<double, 6>& rates) noexcept {
+  begin();
+  for (std::size_t j = 0; j < 6; ++j) {
+    const double rate = std::isfinite(rates[j]) ? std::clamp(rates[j], -1.0, 1.0) : 0.0;
+    const double beyond = (std::abs(rate) - settings_.dead_zone) / (1 - settings_.dead_zone);
+    axes_[j] = beyond > 0 ? std::copysign(beyond, rate) : 0.0;
+  }
+  end();
+}
+
+void GestureHand::button(std::size_t index, bool down) noexcept {
+  if (index >= goal_.buttons.size()) return;
+  begin();
+  goal_.buttons[index] = down;
+  end();
+}
+
+void GestureHand::release() noexcept {
+  begin();
+  keys_ = {};
+  axes_ = {};
+  goal_.buttons = {};
+  end();
+}
+
+}  // namespace twinarm

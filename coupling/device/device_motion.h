@@ -1,0 +1,48 @@
+// A hand that is known only up to now: the newest target of a device, as a HandSource.
+//
+// A step [t, t + h] needs the KVR at its end, which nobody knows yet: x_K' = x_K + h v_K of the
+// newest target. Nothing is invented beyond one step: a target that is not renewed stands still.
+//
+// The last targets are kept, so that a coupling may see them late
+// (coupling/target/delayed_motion.h). With room for all of them the same class plays a run again,
+// with the same bits (device_log.h).
+#pragma once
+
+#include <vector>
+
+#include "coupling/device/device_mapping.h"
+#include "coupling/target/operator_motion.h"
+#include "coupling/target/paper_mapping.h"
+
+namespace twinarm {
+
+// Device angles and rates that turn the KVR in the step [t, t + h].
+struct HandStep {
+  double t = 0, h = 0;  // [s]
+  HandSample hand;
+};
+
+class LiveHand final : public HandSource {
+ public:
+  // Remembers so many steps, at least one; no allocation from then on.
+  explicit LiveHand(std::size_t remembered, const HandMapping& mapping = {});
+  // The target of the step that begins at t, later than all before.
+  void set(const HandTarget& target, double t, double h) noexcept;
+  void set(const HandStep& step) noexcept;
+  const HandStep& newest() const { return at(count_ - 1); }
+  // Those that are remembered, the oldest first.
+  std::vector<HandStep> steps() const;
+  // Before the first step it rests where that begins; after the newest where that ends.
+  HandSample sample(double t, double toward) const override;
+  double duration() const override;  // to the end of the newest step [s]
+  std::string description() const override { return "a hand device"; }
+
+ private:
+  const HandStep& at(std::size_t n) const { return steps_[n % steps_.size()]; }
+
+  HandMapping mapping_;
+  std::vector<HandStep> steps_;  // a ring
+  std::size_t count_ = 0;        // of all that were set
+};
+
+}  // namespace twinarm

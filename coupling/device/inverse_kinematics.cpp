@@ -1,0 +1,174 @@
+#include "coupling/device/inverse_kinematics.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/model/mimic.h"
+
+namespace twinarm {
+namespace {
+
+constexpr int kRounds = 30;
+constexpr double kNear = 1e-12;   // [m]: there
+constexpr double kFloor = 1e-10;  // of mu, in mean squares of J's columns: what keeps joints still
+                                  // that are not needed
+constexpr double kOutOfReach = 1e-9;  // [m]
+constexpr double kStretched = 1e-3;   // [rad]
+
+}  // namespace
+
+PointInverse::PointInverse(const MappedRobot& robot)
+    : model_(*robot.model),
+      body_(robot.body),
+      p_L_(robot.p_L),
+      x_(robot.stand.q.size() == robot.model->nq ? robot.stand : State<double>(*robot.model)),
+      k_(*robot.model),
+      joint_of_(robot.model->nv, -1),
+      ratio_(robot.model->nv, 1.0),
+      lower_(robot.lower),
+      upper_(robot.upper),
+      G_(robot.turned.size()) {
+  const std::size_t n = robot.turned.size();
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  if (lower_.empty()) lower_.assign(n, -kNowhere);
+  if (upper_.empty()) upper_.assign(n, kNowhere);
+  for (std::size_t j = 0; j < n; ++j) {
+    const auto b = static_cast<std::size_t>(robot.turned[j]);
+    iq_.push_back(model_.iq[b]);
+    joint_of_[model_.iv[b]] = static_cast<int>(j);
+    q_.push_back(std::clamp(x_.q[iq_[j]], lower_[j], upper_[j]));
+  }
+  for (const Mimic& mimic : model_.mimics)
+    if (joint_of_[mimic.leader] >= 0) {
+      joint_of_[mimic.follower] = joint_of_[mimic.leader];
+      ratio_[mimic.follower] = mimic.ratio;
+    }
+  before_ = gradient_ = dq_ = low_ = high_ = q_;
+  free_.assign(n, 1);
+  chain_.reserve(model_.nv);
+  stand_at(std::vector<double>(q_));
+}
+
+void PointInverse::stand_at(const std::vector<double>& q) noexcept {
+  for (std::size_t j = 0; j < q_.size(); ++j) {
+    q_[j] = std::clamp(q[j], lower_[j], upper_[j]);
+    low_[j] = lower_[j];
+    high_[j] = upper_[j];
+  }
+  look(p_);
+  look(p_);  // a goal where the point stands
+}
+
+void PointInverse::look(const Vector3& goal) {
+  for (std::size_t j = 0; j < q_.size(); ++j) x_.q[iq_[j]] = q_[j];
+  apply_mimics(model_, x_);
+  forward_kinematics(model_, x_, k_);
+  p_ = k_.position(body_, p_L_);
+  e_ = goal - p_;
+  chain_.clear();
+  std::fill(gradient_.begin(), gradient_.end(), 0.0);
+  for_each_dof_below(model_, k_, body_,
+                     [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
+                       if (joint_of_[dof] < 0) return;
+                       const auto joint = static_cast<std::size_t>(joint_of_[dof]);
+                       chain_.push_back({w, v + w.cross(p_ - o), ratio_[dof], joint});
+                       gradient_[joint] += ratio_[dof] * chain_.back().J.dot(e_);
+                     });
+  for (std::size_t j = 0; j < q_.size(); ++j)
+    free_[j] = !(q_[j] <= low_[j] && gradient_[j] < 0) && !(q_[j] >= high_[j] && gradient_[j] > 0);
+}
+
+double PointInverse::mean_square() const {
+  double sum = 0;
+  for (const Dof& dof : chain_) sum += dof.ratio * dof.ratio * dof.J.squaredNorm();
+  return chain_.empty() ? 1 : sum / static_cast<double>(chain_.size());
+}
+
+bool PointInverse::factorise(double mu, bool curved) {
+  const std::size_t n = q_.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j <= i; ++j) G_(i, j) = i == j ? mu + (free_[i] ? 0 : 1) : 0;
+  for (std::size_t b = 0; b < chain_.size(); ++b)  // a is between the base and b, or b itself
+    for (std::size_t a = b; a < chain_.size(); ++a) {
+      const Dof &A = chain_[a], &B = chain_[b];
+      if (!free_[A.joint] || !free_[B.joint]) continue;
+      const double bend = curved ? e_.dot(A.w.cross(B.J)) : 0;
+      const double g = A.ratio * B.ratio * (A.J.dot(B.J) - bend);
+      const std::size_t row = std::max(A.joint, B.joint), column = std::min(A.joint, B.joint);
+      G_(row, column) += a != b && row == column ? 2 * g : g;
+    }
+  G_.factorise(n);
+  for (std::size_t j = 0; j < n; ++j)
+    if (!(G_(j, j) > 0)) return false;
+  return true;
+}
+
+bool PointInverse::is_at_rest() const {
+  double push = 0;
+  for (std::size_t j = 0; j < q_.size(); ++j)
+    if (free_[j]) push = std::max(push, std::abs(gradient_[j]));
+  return push <= 1e-12 * std::sqrt(mean_square()) * e_.norm();
+}
+
+bool PointInverse::step(const Vector3& goal, double mu, bool curved) {
+  if (!(curved && factorise(mu, true))) factorise(mu, false);
+  for (std::size_t j = 0; j < q_.size(); ++j) dq_[j] = free_[j] ? gradient_[j] : 0;
+  G_.solve(dq_.data());
+  before_ = q_;
+  const double far = e_.squaredNorm();
+  for (std::size_t j = 0; j < q_.size(); ++j)
+    if (free_[j]) q_[j] = std::clamp(q_[j] + dq_[j], low_[j], high_[j]);
+  look(goal);
+  if (e_.squaredNorm() < far) return true;
+  q_ = before_;
+  look(goal);
+  return false;
+}
+
+// A stretched arm does not know which way to bend: it is bent by a little, and goes on from there.
+void PointInverse::nudge(const Vector3& goal) {
+  for (std::size_t j = 0; j < q_.size(); ++j)
+    q_[j] = std::clamp(q_[j] + kStretched * static_cast<double>(j), low_[j], high_[j]);
+  look(goal);
+}
+
+void PointInverse::reach(const Vector3& goal, double most) noexcept {
+  for (std::size_t j = 0; j < q_.size(); ++j) {
+    low_[j] = std::max(lower_[j], q_[j] - most);
+    high_[j] = std::min(upper_[j], q_[j] + most);
+  }
+  look(goal);
+  const double size = mean_square(), floor = kFloor * size;
+  double mu = floor;
+  bool nudged = false, curved = false;
+  for (int round = 0; round < kRounds && e_.norm() > kNear; ++round) {
+    if (is_at_rest()) {
+      if (nudged || factorise(floor, true)) return;  // the nearest place that there is
+      nudged = true;
+      nudge(goal);
+    }
+    const double far = e_.norm();
+    if (step(goal, mu, curved)) {
+      mu = std::max(floor, mu / 16);
+      curved = curved || e_.norm() > std::max(kOutOfReach, 0.3 * far);
+    } else {
+      if (mu > 1e6 * (size + e_.norm())) return;  // no step comes nearer: rounding
+      mu = std::max(8 * mu, 1e-4 * size);
+    }
+  }
+}
+
+Vector3 PointInverse::force_of(const std::vector<double>& tau) noexcept {
+  const double floor = kFloor * mean_square();
+  if (!factorise(floor, e_.norm() > kOutOfReach)) return Vector3::Zero();  // where should it go?
+  for (std::size_t j = 0; j < q_.size(); ++j) dq_[j] = free_[j] ? tau[j] : 0;
+  G_.solve(dq_.data());
+  Vector3 force = Vector3::Zero();
+  for (const Dof& dof : chain_)
+    if (free_[dof.joint]) force += dof.ratio * dq_[dof.joint] * dof.J;
+  return force;
+}
+
+}  // namespace twinarm

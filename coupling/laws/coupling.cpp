@@ -1,0 +1,79 @@
+#include "coupling/laws/coupling.h"
+
+#include <Eigen/Geometry>
+#include <utility>
+
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+
+Coupling::Coupling(std::string name, const Model<double>& model, KinematicRobot& kvr,
+                   std::vector<Spring> springs)
+    : name_(std::move(name)),
+      model_(model),
+      kvr_(kvr),
+      springs_(std::move(springs)),
+      readings_(springs_.size()) {
+  FaultList faults;
+  for (const Spring& spring : springs_) {
+    const std::string where = "coupling '" + name_ + "', spring '" + spring.name + "'";
+    if (spring.body <= 0 || spring.body >= model.body_count())
+      faults.add({"", 0, where, "it names no moving link", "name a link of the robot"});
+    const auto check = [&](double gain, const std::string& what) {
+      if (gain >= 0) return;
+      faults.add({"", 0, where, what + " is " + std::to_string(gain) + ", must not be negative",
+                  "give a " + what + " of at least 0"});
+    };
+    check(spring.k, "stiffness");
+    check(spring.b, "damping");
+    check(spring.k_turn, "stiffness of the turn");
+    check(spring.b_turn, "damping of the turn");
+  }
+  faults.check();
+}
+
+void Coupling::visit_memory(Memory& memory) {
+  for (SpringReading& reading : readings_) {
+    for (Vector3* v : {&reading.p_K, &reading.p_D, &reading.pull}) memory.visit(*v);
+    memory.visit(reading.size);
+    memory.visit(reading.m_star);
+  }
+}
+
+Eigen::MatrixXd Coupling::joint_row(int body) const {
+  Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(model_.nv));
+  row(0, static_cast<Eigen::Index>(model_.iv[static_cast<std::size_t>(body)])) = 1;
+  return row;
+}
+
+void Coupling::check_one_dof() const {
+  FaultList faults;
+  for (const Spring& spring : springs_) {
+    const auto i = static_cast<std::size_t>(spring.body);
+    if (model_.dofs(i) == 1) continue;
+    faults.add({"", 0, "coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
+                "the joint has " + std::to_string(model_.dofs(i)) + " degrees of freedom, not one",
+                "name links on revolute, prismatic or screw joints"});
+  }
+  faults.check();
+}
+
+Coupling::JointSpace::JointSpace(std::size_t nv) {
+  const auto n = static_cast<Eigen::Index>(nv);
+  K = B = Eigen::MatrixXd::Zero(n, n);
+}
+
+void Coupling::JointSpace::add(double k, double b, const Eigen::Ref<const Eigen::MatrixXd>& J) {
+  K += k * J.transpose() * J;
+  B += b * J.transpose() * J;
+}
+
+Vector3 rotation_vector(const Matrix3& R) {
+  const Eigen::Quaterniond quaternion(R);
+  const double sign = quaternion.w() < 0 ? -1.0 : 1.0;  // the shorter way round
+  const double s = quaternion.vec().norm();
+  if (s < 1e-12) return 2 * sign * quaternion.vec();  // sin(x) = x to rounding
+  return 2 * std::atan2(s, sign * quaternion.w()) / s * sign * quaternion.vec();
+}
+
+}  // namespace twinarm

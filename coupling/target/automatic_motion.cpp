@@ -1,0 +1,39 @@
+#include "coupling/target/automatic_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace twinarm {
+
+AutomaticMotion::AutomaticMotion(const HandMapping& mapping, double sweep_time, int sweeps)
+    : mapping_(mapping), sweep_time_(sweep_time), sweeps_(sweeps) {}
+
+HandSample AutomaticMotion::sample(double t, double toward) const {
+  constexpr double pi = std::numbers::pi;
+  const double s = t / sweep_time_;
+  // The sweep that a step between t and toward belongs to; a corner met to rounding is the corner.
+  const double middle = 0.5 * (t + toward) / sweep_time_;
+  const double nearest = std::round(s);
+  const double inside = std::abs(s - nearest) < 1e-9 ? middle : s;
+  // In this order also of a time that is no number, which a broken recording may tell.
+  const auto sweep = static_cast<int>(std::min(std::max(0.0, std::floor(inside)), sweeps_ - 1.0));
+  const double direction = sweep % 2 == 0 ? 1.0 : -1.0;
+  const double fraction = std::clamp(s - sweep, 0.0, 1.0);
+  const double along = direction * (fraction - 0.5);  // -0.5 at the paper's start, 0.5 at its end
+  const bool moving = inside >= 0 && inside < sweeps_;
+  const double rate = moving ? direction / sweep_time_ : 0.0;
+
+  HandSample hand;
+  mapping_.set_robot_angle(hand, 0, -pi * along, -pi * rate);
+  mapping_.set_robot_angle(hand, 1, pi / 2 * along, pi / 2 * rate);
+  return hand;
+}
+
+std::string AutomaticMotion::description() const {
+  return "automatic: joint 1 from 90 to -90 deg, joint 2 from -45 to 45 deg, " +
+         std::to_string(sweeps_) + " sweeps of " + std::to_string(sweep_time_) +
+         " s, linear in time";
+}
+
+}  // namespace twinarm

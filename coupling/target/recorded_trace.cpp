@@ -1,0 +1,291 @@
+#include "coupling/target/recorded_trace.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "coupling/target/csv_lines.h"
+#include "solver/support/atomic_file.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+constexpr std::array<const char*, 7> kColumns{"t[s]",        "theta1[rad]", "theta2[rad]",
+                                              "theta3[rad]", "theta4[rad]", "theta5[rad]",
+                                              "theta6[rad]"};
+constexpr std::size_t kMostTraceFaults = 20;  // of one file; a wrong unit would name every line
+constexpr std::size_t kMostSamples = std::size_t{1} << 23;  // two hours at 1 kHz
+constexpr double kDegree = std::numbers::pi / 180;
+
+// The ends of the Omni's joints, theta3 told relative to theta2 or to the world [rad]. A trace may
+// come from another hand: what lies beyond them is asked, not refused.
+constexpr std::array<double, 6> kJointEnd{0.98, 1.75, 3.0, 2.45, 1.75, 2.58};
+constexpr double kBeyond = 1.5;                     // this many times an end is not believed
+constexpr double kFullTurn = 2 * std::numbers::pi;  // no joint of a hand device turns that far
+constexpr double kFewRadians = 3.5;                 // degrees that small are more likely radians
+constexpr double kGapIntervals = 3, kJitterShare = 0.25;  // of the median interval: said beyond it
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::stringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) {
+    const auto first = cell.find_first_not_of(" \t\r"), last = cell.find_last_not_of(" \t\r");
+    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+  }
+  return cells;
+}
+
+bool to_number(const std::string& cell, double& value) {
+  const auto result = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return result.ec == std::errc() && result.ptr == cell.data() + cell.size() &&
+         std::isfinite(value);
+}
+
+std::string degree_column(std::size_t joint) {
+  return fmt::format("theta{}[deg]", joint + 1);
+}
+
+}  // namespace
+
+// Reads a file line by line into a trace; all faults come together.
+class TraceReader {
+ public:
+  explicit TraceReader(RecordedTrace& trace) : trace_(trace) {}
+  void read(std::istream& stream);
+
+ private:
+  using Cells = std::vector<std::string>;
+  void add(int line, const std::string& where, const std::string& rule, const std::string& remedy) {
+    if (++fault_count_ <= kMostTraceFaults) faults_.add({trace_.file_, line, where, rule, remedy});
+  }
+  std::string column_name(std::size_t joint) const {
+    return in_degrees_[joint] ? degree_column(joint) : kColumns[joint + 1];
+  }
+  void read_header(int line, const Cells& cells);
+  void read_sample(int line, const Cells& cells);
+  void check_angles();
+  void measure();
+  void measure_intervals(std::vector<double> intervals);
+
+  RecordedTrace& trace_;
+  FaultList faults_;
+  std::size_t fault_count_ = 0;
+  int header_line_ = 0;
+  std::array<std::size_t, 8> column_{};  // of t, theta1..theta6, button
+  std::array<bool, 6> in_degrees_{};
+  bool have_button_ = false;
+};
+
+void TraceReader::read(std::istream& stream) {
+  int line_number = 0;
+  for (std::string line; next_line(stream, line, trace_.file_, line_number + 1);) {
+    ++line_number;
+    const Cells cells = split(line);
+    const bool blank = cells.empty() || (cells.size() == 1 && cells[0].empty());
+    if (blank || cells[0].starts_with("#")) continue;
+    if (header_line_ == 0)
+      read_header(line_number, cells);
+    else
+      read_sample(line_number, cells);
+  }
+  if (fault_count_ == 0 && trace_.samples_.size() < 2)
+    add(0, "", "the trace has fewer than two samples", "give a header line and at least two lines");
+  check_angles();
+  if (fault_count_ > kMostTraceFaults)
+    faults_.add({trace_.file_, 0, "",
+                 fmt::format("and {} more faults", fault_count_ - kMostTraceFaults), ""});
+  faults_.check();
+  measure();
+  const double start = trace_.samples_.front().t;
+  for (RecordedTrace::Sample& sample : trace_.samples_) sample.t -= start;
+}
+
+void TraceReader::read_header(int line, const Cells& cells) {
+  header_line_ = line;
+  const auto find = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(cells.begin(), cells.end(), name) - cells.begin());
+  };
+  for (std::size_t c = 0; c < kColumns.size(); ++c) {
+    column_[c] = find(kColumns[c]);
+    if (column_[c] < cells.size()) continue;
+    if (c > 0) column_[c] = find(degree_column(c - 1));
+    if (column_[c] < cells.size())
+      in_degrees_[c - 1] = true;
+    else
+      add(line, "header", fmt::format("column '{}' is missing", kColumns[c]),
+          "give the columns t[s], theta1[rad] to theta6[rad] (or [deg]), and button if there is "
+          "one");
+  }
+  column_[7] = find("button");
+  have_button_ = column_[7] < cells.size();
+  faults_.check();
+}
+
+void TraceReader::read_sample(int line, const Cells& cells) {
+  RecordedTrace::Sample sample{};
+  double button = 0;
+  bool good = true;
+  for (std::size_t c = 0; c < (have_button_ ? 8u : 7u); ++c) {
+    double& value = c == 0 ? sample.t : c == 7 ? button : sample.theta[c - 1];
+    const std::string cell = column_[c] < cells.size() ? cells[column_[c]] : "";
+    if (to_number(cell, value)) {
+      if (c > 0 && c < 7 && in_degrees_[c - 1]) value *= kDegree;
+      continue;
+    }
+    good = false;
+    add(line,
+        c == 7   ? "button"
+        : c == 0 ? kColumns[0]
+                 : column_name(c - 1),
+        fmt::format("'{}' is not a finite number", cell), "mend or remove the line");
+  }
+  if (!good) return;
+  sample.button = button != 0;
+  auto& samples = trace_.samples_;
+  if (!samples.empty() && !(sample.t > samples.back().t)) {
+    add(line, "t[s]", fmt::format("time runs back from {} to {} s", samples.back().t, sample.t),
+        "sort the lines by time, one line for each instant");
+    return;
+  }
+  if (samples.size() == kMostSamples)
+    throw InputError({{trace_.file_, line, "", "the trace has more than 8 million samples",
+                       "cut it, or sample it more slowly"}});
+  samples.push_back(sample);
+}
+
+// Degrees in a column of radians. Beyond a whole turn there is no doubt that something is wrong;
+// beyond the Omni's own joints there is, and it is said.
+void TraceReader::check_angles() {
+  std::array<double, 6> farthest{};
+  for (const RecordedTrace::Sample& sample : trace_.samples_)
+    for (std::size_t j = 0; j < 6; ++j)
+      farthest[j] = std::max(farthest[j], std::abs(sample.theta[j]));
+  bool fits_as_degrees = true;
+  for (std::size_t j = 0; j < 6; ++j)
+    if (!in_degrees_[j] && farthest[j] * kDegree > kBeyond * kJointEnd[j]) fits_as_degrees = false;
+  double most_degrees = 0;
+  for (std::size_t j = 0; j < 6; ++j) {
+    const std::string name = fmt::format("theta{}", j + 1);
+    if (farthest[j] > kFullTurn && (in_degrees_[j] || !fits_as_degrees)) {
+      add(header_line_, column_name(j),
+          fmt::format("reaches {:.4g} rad, more than a whole turn; no joint of a hand device can",
+                      farthest[j]),
+          "give radians, or degrees in columns theta1[deg] and so on");
+    } else if (in_degrees_[j]) {
+      most_degrees = std::max(most_degrees, farthest[j] / kDegree);
+    } else if (farthest[j] > kFullTurn) {
+      add(header_line_, kColumns[j + 1],
+          fmt::format("reaches {:.4g} rad, more than a whole turn, which looks like degrees",
+                      farthest[j]),
+          "are these degrees? then name each column of degrees so: theta1[deg], theta2[deg], ...");
+    } else if (farthest[j] > kBeyond * kJointEnd[j]) {
+      trace_.quality_.warnings.push_back(fmt::format(
+          "{} reaches {:.3g} rad, where a Phantom Omni's joint ends near {:.3g}; if these are "
+          "degrees, name the column {}",
+          name, farthest[j], kJointEnd[j], degree_column(j)));
+    }
+  }
+  if (most_degrees > 0 && most_degrees < kFewRadians)
+    trace_.quality_.warnings.push_back(
+        fmt::format("the angles named [deg] stay below {:.2g} degrees; if these are radians, name "
+                    "the columns theta1[rad] and so on",
+                    most_degrees));
+}
+
+void TraceReader::measure() {
+  TraceQuality& quality = trace_.quality_;
+  const auto& samples = trace_.samples_;
+  std::vector<double> intervals;
+  for (std::size_t n = 1; n < samples.size(); ++n) {
+    intervals.push_back(samples[n].t - samples[n - 1].t);
+    if (intervals.back() <= quality.largest_gap) continue;
+    quality.largest_gap = intervals.back();
+    quality.gap_start = samples[n - 1].t;
+  }
+  measure_intervals(std::move(intervals));
+}
+
+void TraceReader::measure_intervals(std::vector<double> intervals) {
+  TraceQuality& quality = trace_.quality_;
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  quality.interval = *middle;
+  quality.rate = 1 / quality.interval;
+  double sum = 0, count = 0;
+  long gaps = 0;
+  for (double interval : intervals) {
+    const double off = interval - quality.interval;
+    if (interval > kGapIntervals * quality.interval) {
+      ++gaps;
+    } else {
+      sum += off * off;
+      ++count;
+    }
+  }
+  quality.jitter = std::sqrt(sum / count);
+  if (gaps > 0)
+    quality.warnings.push_back(fmt::format(
+        "{} gap{} longer than {:g} samples' time, the largest {:.3g} s at t = {:.6g} s; the hand "
+        "is "
+        "taken to go straight through, at one speed",
+        gaps, gaps == 1 ? "" : "s", kGapIntervals, quality.largest_gap, quality.gap_start));
+  if (quality.jitter > kJitterShare * quality.interval)
+    quality.warnings.push_back(
+        fmt::format("the time between samples jitters by {:.2g} s about {:.3g} s; the hand's speed "
+                    "jitters with it",
+                    quality.jitter, quality.interval));
+}
+
+RecordedTrace::RecordedTrace(const std::filesystem::path& file) : file_(file.string()) {
+  std::ifstream stream(file);
+  if (!stream)
+    throw InputError({{file_, 0, "", "the trace cannot be opened", "name a CSV file that exists"}});
+  TraceReader(*this).read(stream);
+}
+
+HandSample RecordedTrace::sample(double t, double toward) const {
+  // The interval that a step between t and toward belongs to.
+  const double inside = t + 1e-9 * (toward - t);
+  auto after = std::upper_bound(samples_.begin(), samples_.end(), inside,
+                                [](double time, const Sample& s) { return time < s.t; });
+  after = std::clamp(after, samples_.begin() + 1, samples_.end() - 1);
+  const Sample& a = *std::prev(after);
+  const Sample& b = *after;
+  HandSample hand;
+  const double s = std::clamp((t - a.t) / (b.t - a.t), 0.0, 1.0);
+  const bool moving = t < samples_.back().t || toward < samples_.back().t;
+  for (std::size_t j = 0; j < 6; ++j) {
+    hand.theta[j] = a.theta[j] + s * (b.theta[j] - a.theta[j]);
+    hand.theta_dot[j] = moving ? (b.theta[j] - a.theta[j]) / (b.t - a.t) : 0.0;
+  }
+  hand.button = t >= b.t ? b.button : a.button;
+  return hand;
+}
+
+std::string RecordedTrace::description() const {
+  return fmt::format("recorded trace {}, {} samples at {:.4g} Hz, {:.3g} s", file_, samples_.size(),
+                     quality_.rate, duration());
+}
+
+void write_trace(const HandSource& hand, double rate, const std::filesystem::path& file) {
+  std::string text = "# " + hand.description() + "\n";
+  for (const char* column : kColumns) text += fmt::format("{},", column);
+  text += "button\n";
+  const auto count = static_cast<long>(std::floor(hand.duration() * rate)) + 1;
+  for (long n = 0; n < count; ++n) {
+    const double t = static_cast<double>(n) / rate;
+    const HandSample sample = hand.sample(t, t + 1 / rate);
+    text += fmt::format("{:.6f}", t);
+    for (double theta : sample.theta) text += fmt::format(",{:.6f}", theta);
+    text += sample.button ? ",1\n" : ",0\n";
+  }
+  write_whole_file(file, text);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,77 @@
+#include "coupling/target/scripted_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace twinarm {
+namespace {
+
+// Is a step that begins at t and goes on towards `toward` after the corner? A corner that a sum of
+// steps meets to rounding is the corner.
+bool is_after(double t, double toward, double corner) {
+  return std::abs(t - corner) < 1e-9 ? 0.5 * (t + toward) > corner : t > corner;
+}
+
+std::string seconds_text(double t) {
+  std::string text = std::to_string(t);
+  text.erase(text.find_last_not_of('0') + 1);
+  return (text.back() == '.' ? text + "0" : text) + " s";
+}
+
+}  // namespace
+
+StepHand::StepHand(const HandAngles& from, const HandAngles& to, double at, double duration)
+    : from_(from), to_(to), at_(at), duration_(duration) {}
+
+HandSample StepHand::sample(double t, double toward) const {
+  HandSample hand;
+  hand.theta = is_after(t, toward, at_) ? to_ : from_;
+  return hand;
+}
+
+std::string StepHand::description() const {
+  return "scripted: a step after " + seconds_text(at_);
+}
+
+ChirpHand::ChirpHand(const HandAngles& middle, const HandAngles& amplitude, double f0, double f1,
+                     double T)
+    : middle_(middle), amplitude_(amplitude), f0_(f0), f1_(f1), duration_(T) {}
+
+HandSample ChirpHand::sample(double t, double toward) const {
+  const double s = std::clamp(t, 0.0, duration_), slope = (f1_ - f0_) / duration_;
+  const double phi = 2 * std::numbers::pi * (f0_ + 0.5 * slope * s) * s;
+  const bool moves = is_after(t, toward, 0) && !is_after(t, toward, duration_);
+  const double omega = moves ? 2 * std::numbers::pi * (f0_ + slope * s) : 0.0;
+  HandSample hand;
+  for (std::size_t j = 0; j < 6; ++j) {
+    hand.theta[j] = middle_[j] + amplitude_[j] * std::sin(phi);
+    hand.theta_dot[j] = amplitude_[j] * omega * std::cos(phi);
+  }
+  return hand;
+}
+
+std::string ChirpHand::description() const {
+  return "scripted: a chirp from " + std::to_string(f0_) + " to " + std::to_string(f1_) +
+         " Hz in " + seconds_text(duration_);
+}
+
+ReachHand::ReachHand(const HandAngles& from, const HandAngles& to, double at, double T)
+    : from_(from), to_(to), at_(at), T_(T) {}
+
+HandSample ReachHand::sample(double t, double /*toward: the motion has no corners*/) const {
+  const double s = std::clamp((t - at_) / T_, 0.0, 1.0);
+  HandSample hand;
+  for (std::size_t j = 0; j < 6; ++j) {
+    const double D = to_[j] - from_[j];
+    hand.theta[j] = from_[j] + D * s * s * s * (10 - 15 * s + 6 * s * s);
+    hand.theta_dot[j] = D / T_ * 30 * s * s * (1 - s) * (1 - s);
+  }
+  return hand;
+}
+
+std::string ReachHand::description() const {
+  return "scripted: a minimum-jerk reach of " + seconds_text(T_) + " after " + seconds_text(at_);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,34 @@
+// A synthetic hand: not a recording of a person. Minimum-jerk reaches (Flash and Hogan 1985)
+// between random targets with rests in between, and an 8 to 12 Hz tremor on every joint. Seeded:
+// the same seed gives the same hand, on every machine.
+#pragma once
+
+#include <vector>
+
+#include "coupling/target/operator_motion.h"
+
+namespace twinarm {
+
+class SyntheticOperator final : public HandSource {
+ public:
+  explicit SyntheticOperator(unsigned seed, double duration = 20.0);
+  HandSample sample(double t, double toward) const override;
+  double duration() const override { return duration_; }
+  std::string description() const override;
+
+ private:
+  struct Reach {
+    double start, end;  // [s]; the hand rests from here to the next reach
+    std::array<double, 6> from, to;
+    bool button;
+  };
+  struct Tremor {
+    double amplitude, omega, phase;  // [rad], [rad/s], [rad]
+  };
+  unsigned seed_;
+  double duration_;
+  std::vector<Reach> reaches_;
+  std::array<std::array<Tremor, 3>, 6> tremor_{};
+};
+
+}  // namespace twinarm

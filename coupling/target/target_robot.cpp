@@ -1,0 +1,110 @@
+#include "coupling/target/target_robot.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "solver/model/mimic.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+
+KinematicRobot::KinematicRobot(const Model<double>& model, const HandSource& hand,
+                               const HandMapping& mapping, const DrivenJoints& joints,
+                               KvrRates rates)
+    : model_(model),
+      hand_(hand),
+      mapping_(mapping),
+      rates_(rates),
+      gripper_open_(joints.gripper_open),
+      gripper_closed_(joints.gripper_closed),
+      start_(model),
+      middle_(model),
+      end_(model) {
+  FaultList faults;
+  const auto find = [&](const std::string& name) {
+    const int body = model.find_joint(name);
+    if (body < 0)
+      faults.add({"", 0, "joint '" + name + "'",
+                  "the robot has no such joint, but the hand moves it",
+                  "name the robot's joints joint1, joint2, joint3, gripper_lift"});
+    return static_cast<std::size_t>(body < 0 ? 0 : body);
+  };
+  for (const std::string& name : joints.turned) {
+    const std::size_t body = find(name);
+    iq_.push_back(model.iq[body]);
+    iv_.push_back(model.iv[body]);
+  }
+  if (!joints.gripper.empty()) gripper_ = static_cast<int>(find(joints.gripper));
+  faults.check();
+  difference_.assign(iq_.size(), 0.0);
+  for (KvrSample* sample : {&start_, &middle_, &end_})
+    sample->x.t = std::numeric_limits<double>::quiet_NaN();
+  set(start_, 0, 1);
+  set(end_, 0, 1);
+}
+
+void KinematicRobot::stand_at(const State<double>& x) {
+  for (KvrSample* sample : {&start_, &middle_, &end_}) {
+    sample->x.q = x.q;
+    sample->x.t = std::numeric_limits<double>::quiet_NaN();
+  }
+  set(start_, 0, 1);
+  set(end_, 0, 1);
+}
+
+void KinematicRobot::begin_step(double t, double h) {
+  if (started_ && start_.x.t == t && end_.x.t == t + h) return;
+  if (started_ && end_.x.t == t) std::swap(start_, end_);  // its pose is known already
+  // Kinematics are the dear part: once a step, for the start was the end of the step before.
+  const bool start_moved = look(start_, t, t + h);
+  bool end_moved = look(end_, t + h, t);
+  middle_.x.t = std::numeric_limits<double>::quiet_NaN();
+  if (rates_ == KvrRates::backward_difference) {
+    for (std::size_t j = 0; j < iq_.size(); ++j) {
+      difference_[j] = (end_.x.q[iq_[j]] - start_.x.q[iq_[j]]) / h;
+      end_moved = end_moved || end_.x.qd[iv_[j]] != difference_[j];
+      end_.x.qd[iv_[j]] = difference_[j];
+    }
+  }
+  if (start_moved) pose(start_);
+  if (end_moved) pose(end_);
+  started_ = true;
+}
+
+const KvrSample& KinematicRobot::at(double t) {
+  if (t == start_.x.t) return start_;
+  if (t == end_.x.t) return end_;
+  if (t != middle_.x.t) set(middle_, t, 0.5 * (start_.x.t + end_.x.t));
+  return middle_;
+}
+
+void KinematicRobot::set(KvrSample& sample, double t, double toward) const {
+  if (look(sample, t, toward)) pose(sample);
+}
+
+bool KinematicRobot::look(KvrSample& sample, double t, double toward) const {
+  const HandSample hand = hand_.sample(t, toward);
+  bool changed = std::isnan(sample.x.t);
+  const auto put = [&](double& place, double value) {
+    changed = changed || place != value;
+    place = value;
+  };
+  sample.x.t = t;
+  for (std::size_t j = 0; j < iq_.size(); ++j) {
+    put(sample.x.q[iq_[j]], mapping_.robot_angle(hand, j));
+    if (rates_ == KvrRates::from_hand) put(sample.x.qd[iv_[j]], mapping_.robot_rate(hand, j));
+    if (rates_ == KvrRates::backward_difference) put(sample.x.qd[iv_[j]], difference_[j]);
+  }
+  if (gripper_ > 0)
+    put(sample.x.q[model_.iq[static_cast<std::size_t>(gripper_)]],
+        hand.button ? gripper_closed_ : gripper_open_);
+  return changed;
+}
+
+void KinematicRobot::pose(KvrSample& sample) const {
+  apply_mimics(model_, sample.x);
+  forward_kinematics(model_, sample.x, sample.k);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,72 @@
+#include "solver/dynamics/kinematics.h"
+
+#include "solver/model/workspace.h"
+
+namespace twinarm {
+
+Kinematics::Kinematics(const Model<double>& model)
+    : X_WL(model.parent.size()),
+      w_WL(model.parent.size(), Vector3::Zero()),
+      v_WLo(model.parent.size(), Vector3::Zero()),
+      R_WB(model.parent.size(), Matrix3::Identity()),
+      a_bias(model.parent.size()),
+      v_(model.parent.size()),
+      subspace_(Workspace<double>(model).S_),
+      columns_(model.nv, {Vector3::Zero(), Vector3::Zero()}) {}
+
+Vector3 Kinematics::position(int body, const Vector3& p_L) const {
+  return X_WL[static_cast<std::size_t>(body)] * p_L;
+}
+
+Vector3 Kinematics::velocity(int body, const Vector3& p_W) const {
+  const auto i = static_cast<std::size_t>(body);
+  return v_WLo[i] + w_WL[i].cross(p_W - X_WL[i].p);
+}
+
+void forward_kinematics(const Model<double>& model, const State<double>& x, Kinematics& k) {
+  k.a_bias[0] = {{}, -model.gravity};
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    visit_joint(model, i, [&](auto joint) {
+      const auto p = static_cast<std::size_t>(model.parent[i]);
+      const double *q = x.q.data() + model.iq[i], *qd = x.qd.data() + model.iv[i];
+      const auto S_i = joint.subspace(q);
+      const auto vJ = joint_velocity(joint, S_i, q, qd);
+      const Transform<double> Xup = joint.XJ(q) * model.Xtree[i];
+      k.v_[i] = Xup * k.v_[p] + vJ;
+      k.a_bias[i] = Xup * k.a_bias[p] + (crm(k.v_[i], vJ) + joint.cJ(q, qd));
+      remember(S_i, k.subspace_.data() + model.iv[i]);
+
+      k.R_WB[i] = k.R_WB[p] * to_eigen(Xup.E).transpose();
+      k.X_WL[i].p = k.X_WL[p].p + k.R_WB[p] * to_eigen(Xup.r);
+      k.X_WL[i].R = k.R_WB[i] * to_eigen(model.turn[i]);
+      k.w_WL[i] = k.R_WB[i] * to_eigen(k.v_[i].w);
+      k.v_WLo[i] = k.R_WB[i] * to_eigen(k.v_[i].v);
+      for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof) {
+        const Motion<double>& s = k.subspace_[dof];
+        k.columns_[dof] = {k.R_WB[i].lazyProduct(to_eigen(s.w)),
+                           k.R_WB[i].lazyProduct(to_eigen(s.v))};
+      }
+    });
+  }
+}
+
+Eigen::Matrix3Xd point_jacobian(const Model<double>& model, const Kinematics& k, int body,
+                                const Vector3& p_W) {
+  Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.nv));
+  for_each_dof_below(model, k, body,
+                     [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
+                       J.col(static_cast<Eigen::Index>(dof)) = v + w.cross(p_W - o);
+                     });
+  return J;
+}
+
+Eigen::Matrix3Xd rotation_jacobian(const Model<double>& model, const Kinematics& k, int body) {
+  Eigen::Matrix3Xd J = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(model.nv));
+  for_each_dof_below(model, k, body,
+                     [&](std::size_t dof, const Vector3& w, const Vector3&, const Vector3&) {
+                       J.col(static_cast<Eigen::Index>(dof)) = w;
+                     });
+  return J;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,70 @@
+// Forward kinematics, and the one bridge between the passes' Pluecker transforms in body axes and
+// the poses, velocities and Jacobians in world axes that everything outside solver/ works with.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solver/model/model.h"
+#include "solver/spatial/pose.h"
+
+namespace twinarm {
+
+// Of every body, base included. W: world, L: link frame, B: body frame (Model::turn).
+struct Kinematics {
+  std::vector<Pose> X_WL;              // link frame in the world
+  std::vector<Vector3> w_WL;           // angular velocity of the link, world axes [rad/s]
+  std::vector<Vector3> v_WLo;          // velocity of the link's origin, world axes [m/s]
+  std::vector<Matrix3> R_WB;           // body axes in the world
+  std::vector<Motion<double>> a_bias;  // spatial acceleration at qdd = 0, with gravity as
+                                       // a_0 = -g, in body axes: what implicit terms hand back
+  explicit Kinematics(const Model<double>& model);
+
+  // Position and velocity of a point fixed to the link, p_L from the link's origin in link axes.
+  Vector3 position(int body, const Vector3& p_L) const;
+  Vector3 velocity(int body, const Vector3& p_W) const;  // of the link's point now at p_W
+
+ private:
+  friend void forward_kinematics(const Model<double>&, const State<double>&, Kinematics&);
+  template <class F>
+  friend void for_each_dof_below(const Model<double>&, const Kinematics&, int, F&&);
+  std::vector<Motion<double>> v_;         // spatial velocities, body axes
+  std::vector<Motion<double>> subspace_;  // columns of S by velocity, body axes
+  struct Column {
+    Vector3 w, v;
+  };
+  std::vector<Column> columns_;  // the same in world axes: contacts ask for them many times
+};
+
+// Fills all of k, in O(n).
+void forward_kinematics(const Model<double>& model, const State<double>& x, Kinematics& k);
+
+// d(velocity of the link's point now at p_W) / d qd, world axes, 3 x nv.
+Eigen::Matrix3Xd point_jacobian(const Model<double>& model, const Kinematics& k, int body,
+                                const Vector3& p_W);
+// d(angular velocity of the link) / d qd, world axes, 3 x nv.
+Eigen::Matrix3Xd rotation_jacobian(const Model<double>& model, const Kinematics& k, int body);
+
+inline Vector3 to_eigen(const Vec3<double>& v) {
+  return {v.x, v.y, v.z};
+}
+inline Vec3<double> from_eigen(const Vector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+inline Matrix3 to_eigen(const Mat3<double>& A) {
+  return (Matrix3() << A.r0.x, A.r0.y, A.r0.z, A.r1.x, A.r1.y, A.r1.z, A.r2.x, A.r2.y, A.r2.z)
+      .finished();
+}
+
+// Calls f(velocity index, angular part, linear part at the joint's origin, that origin) for every
+// degree of freedom between the base and the body; all in world axes. Allocates nothing.
+template <class F>
+void for_each_dof_below(const Model<double>& model, const Kinematics& k, int body, F&& f) {
+  for (int b = body; b > 0; b = model.parent[static_cast<std::size_t>(b)]) {
+    const auto i = static_cast<std::size_t>(b);
+    for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof)
+      f(dof, k.columns_[dof].w, k.columns_[dof].v, k.X_WL[i].p);
+  }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,241 @@
+#include "solver/dynamics/model_builder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/dynamics/dynamics.h"
+#include "solver/spatial/rotation_to_axis.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+Vec3<double> to_vec3(const Vector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+Mat3<double> to_mat3(const Matrix3& R) {
+  return {to_vec3(R.row(0)), to_vec3(R.row(1)), to_vec3(R.row(2))};
+}
+// Pluecker transform of the coordinates in A into those in B, from the pose of B in A.
+Transform<double> to_transform(const Pose& X_AB) {
+  return {to_mat3(X_AB.R.transpose()), to_vec3(X_AB.p)};
+}
+std::string joint_called(const std::string& name) {
+  return "joint '" + name + "'";
+}
+
+bool is_direction(const Vector3& axis) {
+  return axis.norm() > 0 && axis.allFinite();
+}
+bool has_axis(JointType type) {
+  return type != JointType::fixed && type != JointType::spherical && type != JointType::free &&
+         type != JointType::prescribed;
+}
+
+void check_inertia(const std::string& where, const BodyInertia& body, FaultList& faults) {
+  if (!std::isfinite(body.mass) || !body.com.allFinite() || !body.inertia.allFinite())
+    faults.add({"", 0, where, "mass, centre of mass or inertia is not a finite number", ""});
+  else if (body.mass < 0)
+    faults.add({"", 0, where, "mass is " + std::to_string(body.mass) + " kg, must not be negative",
+                "give the link its mass"});
+}
+void check_properties(const std::string& joint, const JointProperties& p, FaultList& faults) {
+  for (const auto& [what, value] : {std::pair{"armature", p.armature},
+                                    {"damping", p.damping},
+                                    {"Coulomb friction", p.coulomb_plus},
+                                    {"Coulomb friction", p.coulomb_minus}})
+    if (!(value >= 0 && std::isfinite(value)))
+      faults.add({"", 0, joint_called(joint),
+                  std::string(what) + " is " + std::to_string(value) + ", must not be negative",
+                  "give zero or a positive number"});
+  if (!std::isfinite(p.pitch))
+    faults.add({"", 0, joint_called(joint), "its pitch is not a finite number", ""});
+}
+
+Inertia<double> about_origin(const BodyInertia& body, const Matrix3& R_BL) {
+  const Vector3 c = R_BL * body.com;
+  const Matrix3 I = R_BL * body.inertia * R_BL.transpose() +
+                    body.mass * (c.squaredNorm() * Matrix3::Identity() - c * c.transpose());
+  return {body.mass, to_vec3(body.mass * c), symmetric_part_of(to_mat3(I))};
+}
+
+// The inertia that each dof feels (of D: ancestors locked, descendants free), the largest of three
+// postures, so that one that is singular by chance does not count; 0 where it is nothing but
+// rounding.
+std::vector<double> felt_inertia_by_dof(const Model<double>& model) {
+  Workspace<double> w(model);
+  const Forces<double> none(model);
+  State<double> x(model);
+  std::vector<double> largest(model.nv, 0);
+  for (int posture = 0; posture < 3; ++posture) {
+    for (std::size_t i = 1; i < model.parent.size(); ++i)
+      visit_joint(model, i, [&](auto joint) {
+        std::vector<double> shift(joint.nv);
+        for (std::size_t k = 0; k < joint.nv; ++k)
+          shift[k] = std::sin(1.0 + static_cast<double>(3 * i + k) + posture);
+        if (joint.nv > 0) joint.integrate(&x.q[model.iq[i]], shift.data(), &x.q[model.iq[i]]);
+      });
+    crba(model, x, w);
+    const std::vector<double> M = w.M;
+    aba(model, x, none, w);
+    for (std::size_t i = 1; i < model.parent.size(); ++i)
+      for (std::size_t k = 0; k < model.dofs(i); ++k) {
+        const std::size_t dof = model.iv[i] + k;
+        const double d = 1 / w.D_factors[w.iD[i] + k], scale = M[dof * model.nv + dof];
+        if (d > 1e-13 * scale && std::isfinite(d)) largest[dof] = std::max(largest[dof], d);
+      }
+  }
+  return largest;
+}
+
+// Every dof must feel some. One that does not spoils the numbers of its ancestors: from the tips
+// on, what is found is told, and mended in a copy, until nothing is found.
+void check_felt_inertia(const Model<double>& model, FaultList& faults) {
+  Model<double> mended = model;
+  std::vector<bool> told(model.parent.size());
+  for (bool found = true; found;) {
+    found = false;
+    const std::vector<double> felt = felt_inertia_by_dof(mended);
+    std::vector<bool> spoilt(model.parent.size());
+    for (std::size_t i = model.parent.size(); i-- > 1;) {
+      const auto first = felt.begin() + static_cast<std::ptrdiff_t>(model.iv[i]),
+                 last = first + static_cast<std::ptrdiff_t>(model.dofs(i));
+      const bool lacks = std::any_of(first, last, [](double inertia) { return !(inertia > 0); });
+      if (lacks && !spoilt[i] && !told[i]) {
+        faults.add({"", 0, joint_called(model.joint_name[i]),
+                    "what it moves has no inertia in its direction, so that no acceleration can be "
+                    "computed",
+                    "give link '" + model.body_name[i] +
+                        "' or a link beyond it mass and inertia, or the joint an armature"});
+        for (std::size_t k = 0; k < model.dofs(i); ++k) mended.armature[model.iv[i] + k] = 1;
+        told[i] = found = true;
+      }
+      if (lacks || spoilt[i]) spoilt[static_cast<std::size_t>(model.parent[i])] = true;
+    }
+  }
+}
+
+}  // namespace
+
+int ModelBuilder::add_body(const std::string& body_name, int parent, const std::string& joint_name,
+                           JointType type, const Pose& X_PJ, const Vector3& axis,
+                           const BodyInertia& inertia, const JointProperties& properties) {
+  bodies_.push_back({body_name, joint_name, parent, type, X_PJ, axis, inertia, properties});
+  return static_cast<int>(bodies_.size());
+}
+
+void ModelBuilder::add_mimic(const std::string& follower, const std::string& leader, double ratio,
+                             double offset) {
+  mimics_.push_back({follower, leader, ratio, offset});
+}
+
+void ModelBuilder::check(const Body& body, const Model<double>& so_far, FaultList& faults) {
+  const std::string where = "link '" + body.name + "'";
+  if (body.parent < 0 || body.parent >= so_far.body_count())
+    faults.add({"", 0, where, "its parent is not a body that was added before it", ""});
+  if (so_far.find_body(body.name) > 0)
+    faults.add({"", 0, where, "the name is taken already", "give each link its own name"});
+  if (so_far.find_joint(body.joint_name) > 0)
+    faults.add({"", 0, joint_called(body.joint_name), "the name is taken already",
+                "give each joint its own name"});
+  if (has_axis(body.type) && !is_direction(body.axis))
+    faults.add({"", 0, joint_called(body.joint_name), "its axis has no direction",
+                "give an axis that is not zero"});
+  check_inertia(where, body.inertia, faults);
+  check_properties(body.joint_name, body.properties, faults);
+}
+
+// Of a body with faults, too, so that the indices of those after it are right.
+void ModelBuilder::append(const Body& body, Model<double>& model, std::vector<Matrix3>& R_LB) {
+  const bool known_parent = body.parent >= 0 && body.parent < model.body_count();
+  const Matrix3 R_PlPb = R_LB[static_cast<std::size_t>(known_parent ? body.parent : 0)];
+  R_LB.push_back(has_axis(body.type) && is_direction(body.axis) ? turn_z_to(body.axis)
+                                                                : Matrix3::Identity());
+  const Pose X_PbPl{R_PlPb.transpose(), Vector3::Zero()};
+  const Pose X_LB{R_LB.back(), Vector3::Zero()};
+
+  model.body_name.push_back(body.name);
+  model.joint_name.push_back(body.joint_name);
+  model.parent.push_back(body.parent);
+  model.joint.push_back(body.type);
+  model.pitch.push_back(body.type == JointType::screw ? body.properties.pitch : 0);
+  model.iq.push_back(model.nq);
+  model.iv.push_back(model.nv);
+  model.Xtree.push_back(to_transform(X_PbPl * body.X_PJ * X_LB));
+  model.I.push_back(about_origin(body.inertia, R_LB.back().transpose()));
+  model.turn.push_back(to_mat3(R_LB.back().transpose()));
+  visit_joint<double>(body.type, 0, [&](auto joint) {
+    model.nq += joint.nq;
+    model.nv += joint.nv;
+  });
+  model.armature.resize(model.nv, body.properties.armature);
+  model.damping.resize(model.nv, body.properties.damping);
+  model.coulomb_plus.resize(model.nv, body.properties.coulomb_plus);
+  model.coulomb_minus.resize(model.nv, body.properties.coulomb_minus);
+}
+
+Model<double> ModelBuilder::build() const {
+  FaultList faults;
+  Model<double> model;
+  model.gravity = to_vec3(gravity_);
+  model.body_name = {"world"};
+  model.joint_name = {""};
+  model.parent = {-1};
+  model.joint = {JointType::fixed};
+  model.pitch = {0};
+  model.iq = model.iv = {0};
+  model.Xtree.resize(1);
+  model.I.resize(1);
+  model.turn = {Mat3<double>::identity()};
+  std::vector<Matrix3> R_LB = {Matrix3::Identity()};
+
+  for (const Body& body : bodies_) {
+    check(body, model, faults);
+    append(body, model, R_LB);
+  }
+  faults.check();
+  model.last_child.resize(model.parent.size());
+  for (int i = 1; i < model.body_count(); ++i)
+    model.last_child[static_cast<std::size_t>(model.parent[static_cast<std::size_t>(i)])] = i;
+  add_mimics_to(model, faults);
+  check_felt_inertia(model, faults);
+  faults.check();
+  return model;
+}
+
+void ModelBuilder::add_mimics_to(Model<double>& model, FaultList& faults) const {
+  for (const MimicByName& mimic : mimics_) {
+    Mimic found;
+    double ratio = mimic.ratio, offset = mimic.offset;
+    std::string leader = mimic.leader;
+    bool again = true;
+    for (std::size_t hops = 0; again; ++hops) {  // to the leader that follows nobody
+      again = false;
+      for (const MimicByName& other : mimics_)
+        if (other.follower == leader) {
+          offset += ratio * other.offset;
+          ratio *= other.ratio;
+          leader = other.leader;
+          again = true;
+          break;
+        }
+      if (hops > mimics_.size()) {
+        faults.add({"", 0, joint_called(mimic.follower), "it follows itself", "break the circle"});
+        return;
+      }
+    }
+    const int f = model.find_joint(mimic.follower), l = model.find_joint(leader);
+    if (f < 0 || l < 0 || model.dofs(static_cast<std::size_t>(f)) != 1 ||
+        model.dofs(static_cast<std::size_t>(l)) != 1) {
+      faults.add({"", 0, joint_called(mimic.follower),
+                  "it follows joint '" + leader + "', and both must exist and have one dof",
+                  "name a revolute, prismatic or screw joint"});
+      continue;
+    }
+    const auto fi = static_cast<std::size_t>(f), li = static_cast<std::size_t>(l);
+    found = {model.iv[fi], model.iv[li], model.iq[fi], model.iq[li], ratio, offset};
+    model.mimics.push_back(found);
+  }
+}
+
+}  // namespace twinarm

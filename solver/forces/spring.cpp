@@ -1,0 +1,67 @@
+#include "solver/forces/spring.h"
+
+namespace twinarm {
+namespace {
+
+std::size_t at(int body) {
+  return static_cast<std::size_t>(body);
+}
+
+Vec3<double> in_body_axes(const Kinematics& k, int body, const Vector3& x_W) {
+  return from_eigen(k.R_WB[at(body)].transpose() * x_W);
+}
+// From the body's origin to p_W, in body axes.
+Vec3<double> arm(const Kinematics& k, int body, const Vector3& p_W) {
+  return in_body_axes(k, body, p_W - k.X_WL[at(body)].p);
+}
+void add_weightless(const Kinematics& k, int body, const ArticulatedInertia<double>& inertia,
+                    Forces<double>& forces) {
+  forces.add_impedance(at(body), inertia);
+  forces.f_ext[at(body)] += inertia * k.a_bias[at(body)];  // hand back what acts at qdd = 0
+}
+
+}  // namespace
+
+void add_point_force(const Kinematics& k, int body, const Vector3& p_W, const Vector3& f_W,
+                     Forces<double>& forces) {
+  const Vec3<double> f = in_body_axes(k, body, f_W);
+  forces.f_ext[at(body)] += Force<double>{cross(arm(k, body, p_W), f), f};
+}
+
+void add_couple(const Kinematics& k, int body, const Vector3& n_W, Forces<double>& forces) {
+  forces.f_ext[at(body)] += Force<double>{in_body_axes(k, body, n_W), {}};
+}
+
+void add_particle(const Kinematics& k, int body, const Vector3& p_W, double mass,
+                  Forces<double>& forces) {
+  const Vec3<double> r = arm(k, body, p_W);
+  const Inertia<double> particle{
+      mass,
+      mass * r,
+      {mass * (r.y * r.y + r.z * r.z), mass * (r.x * r.x + r.z * r.z),
+       mass * (r.x * r.x + r.y * r.y), -mass * r.x * r.y, -mass * r.x * r.z, -mass * r.y * r.z}};
+  add_weightless(k, body, ArticulatedInertia<double>(particle), forces);
+}
+
+void add_particle_along(const Kinematics& k, int body, const Vector3& p_W, const Vector3& n_W,
+                        double mass, Forces<double>& forces) {
+  const Vec3<double> n = in_body_axes(k, body, n_W);
+  const Force<double> line{cross(arm(k, body, p_W), n), n};
+  add_weightless(k, body, outer(mass * line, line), forces);
+}
+
+void add_flywheel(const Kinematics& k, int body, double inertia, Forces<double>& forces) {
+  add_weightless(k, body, {Sym3<double>::scaled_identity(inertia), {}, {}}, forces);
+}
+
+Vector3 angular_acceleration_of_qdd(const Kinematics& k, const Workspace<double>& w, int body) {
+  return k.R_WB[at(body)] * to_eigen(w.a[at(body)].w - k.a_bias[at(body)].w);
+}
+
+Vector3 point_acceleration_of_qdd(const Kinematics& k, const Workspace<double>& w, int body,
+                                  const Vector3& p_W) {
+  const Vector3 linear = k.R_WB[at(body)] * to_eigen(w.a[at(body)].v - k.a_bias[at(body)].v);
+  return linear + angular_acceleration_of_qdd(k, w, body).cross(p_W - k.X_WL[at(body)].p);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,119 @@
+// Who touches whom, in impulse_solver.h: islands, the order of their trees in the matrix, and the
+// discs of each contact.
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "solver/impulses/impulse_solver.h"
+
+namespace twinarm {
+namespace {
+
+constexpr int world = ImpulseConstraint::no_tree;
+
+}  // namespace
+
+void ImpulseSolver::link_discs(const ImpulseProblem& problem) {
+  const std::vector<ImpulseConstraint>& all = problem.constraints();
+  next_disc_.assign(all.size(), -1);
+  for (std::size_t i = all.size(); i-- > 0;)
+    if (all[i].law == ImpulseLaw::disc && all[i].radius > 0) {
+      next_disc_[i] = next_disc_[all[i].of];
+      next_disc_[all[i].of] = static_cast<int>(i);
+    }
+}
+
+// Union by constraints; islands in the order of their first tree, members ascending.
+void ImpulseSolver::find_islands(const ImpulseProblem& problem) {
+  const auto trees = static_cast<std::size_t>(problem.tree_count());
+  root_.resize(trees);
+  std::iota(root_.begin(), root_.end(), 0);
+  const auto find = [&](int t) {
+    while (root_[t] != t) t = root_[t] = root_[root_[t]];
+    return t;
+  };
+  for (const ImpulseConstraint& c : problem.constraints())
+    if (c.tree[0] != world && c.tree[1] != world) {
+      const int a = find(c.tree[0]), b = find(c.tree[1]);
+      root_[std::max(a, b)] = std::min(a, b);
+    }
+  island_of_.assign(trees, -1);
+  island_count_ = 0;
+  const auto island_at = [&](int tree) -> Island& {
+    int& island = island_of_[find(tree)];
+    if (island < 0) {
+      island = static_cast<int>(island_count_++);
+      if (islands_.size() < island_count_) islands_.emplace_back();
+      islands_[island].trees.clear(), islands_[island].constraints.clear();
+    }
+    return islands_[island];
+  };
+  for (std::size_t i = 0; i < problem.constraints().size(); ++i) {
+    const ImpulseConstraint& c = problem.constraints()[i];
+    if (const int t = c.tree[0] != world ? c.tree[0] : c.tree[1]; t != world)
+      island_at(t).constraints.push_back(static_cast<int>(i));
+  }
+  for (std::size_t t = 0; t < trees; ++t)  // those without a constraint move as v0
+    if (const int island = island_of_[find(static_cast<int>(t))]; island >= 0)
+      islands_[island].trees.push_back(static_cast<int>(t));
+}
+
+// Reverse Cuthill-McKee: a breadth-first walk from an outermost tree, back to front; it keeps the
+// rows of the matrix short.
+void ImpulseSolver::order(const ImpulseProblem& problem, const Island& island) {
+  const auto trees = static_cast<std::size_t>(problem.tree_count());
+  neighbour_begin_.assign(trees + 1, 0);
+  const auto for_each_pair = [&](auto&& f) {
+    int last_a = world, last_b = world;
+    for (const int i : island.constraints) {
+      const auto [a, b] = problem.constraints()[i].tree;
+      if (a == world || b == world || a == b || (a == last_a && b == last_b)) continue;
+      f(a, b), last_a = a, last_b = b;
+    }
+  };
+  for_each_pair([&](int a, int b) { ++neighbour_begin_[a + 1], ++neighbour_begin_[b + 1]; });
+  for (std::size_t t = 0; t < trees; ++t) neighbour_begin_[t + 1] += neighbour_begin_[t];
+  neighbours_.resize(neighbour_begin_[trees]);
+  lowest_.assign(neighbour_begin_.begin(), neighbour_begin_.end());
+  for_each_pair(
+      [&](int a, int b) { neighbours_[lowest_[a]++] = b, neighbours_[lowest_[b]++] = a; });
+  const auto degree = [&](int t) { return neighbour_begin_[t + 1] - neighbour_begin_[t]; };
+
+  const auto walk = [&](int start) {
+    for (const int t : island.trees) lowest_[t] = 0;
+    order_.assign(1, start), lowest_[start] = 1;
+    for (std::size_t done = 0; done < order_.size(); ++done) {
+      const std::size_t from = order_.size();
+      for (int e = neighbour_begin_[order_[done]]; e < neighbour_begin_[order_[done] + 1]; ++e)
+        if (const int t = neighbours_[e]; !lowest_[t]) lowest_[t] = 1, order_.push_back(t);
+      std::sort(order_.begin() + static_cast<std::ptrdiff_t>(from), order_.end(),
+                [&](int a, int b) { return std::pair(degree(a), a) < std::pair(degree(b), b); });
+    }
+  };
+  walk(island.trees.front());
+  walk(order_.back());  // from one end to the other
+  std::reverse(order_.begin(), order_.end());
+}
+
+void ImpulseSolver::lay_out(const ImpulseProblem& problem, const Island& island) {
+  row_.resize(static_cast<std::size_t>(problem.tree_count()));
+  lowest_.resize(row_.size());
+  std::size_t row = 0;
+  for (const int t : order_) {
+    row_[t] = row;
+    lowest_[t] = t;
+    row += static_cast<std::size_t>(problem.size(t));
+  }
+  for (const int i : island.constraints) {
+    const auto [a, b] = problem.constraints()[i].tree;
+    if (a == world || b == world) continue;
+    const int later = row_[a] > row_[b] ? a : b, earlier = later == a ? b : a;
+    if (row_[earlier] < row_[lowest_[later]]) lowest_[later] = earlier;
+  }
+  matrix_.clear();
+  for (const int t : order_)
+    for (int k = 0; k < problem.size(t); ++k) matrix_.add_row(row_[lowest_[t]]);
+  rhs_.resize(row);
+}
+
+}  // namespace twinarm

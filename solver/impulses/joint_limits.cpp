@@ -1,0 +1,98 @@
+#include "solver/impulses/joint_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace twinarm {
+namespace {
+
+constexpr double kSlop = 1e-9, kLeastReach = 1e-3;  // [rad, m]
+constexpr double kSeparationPart = 0.2;             // of the rest beyond the limit, in each step
+
+}  // namespace
+
+void JointLimits::add(int body, double lower, double upper) {
+  if (body <= 0 || body >= model_->body_count() ||
+      model_->dofs(static_cast<std::size_t>(body)) != 1)
+    throw std::invalid_argument("a position limit needs a joint of one dof");
+  if (!(lower <= upper)) throw std::invalid_argument("the lower limit lies above the upper one");
+  limits_.push_back({body, lower, upper});
+  rows_.reserve(2 * limits_.size());
+}
+
+// Those that the joint can reach at twice its speed, or from rest at some 1e4 rad/s^2.
+void JointLimits::begin_step(const Kinematics&, const State<double>& x, double h) noexcept {
+  rows_.clear();
+  for (std::size_t i = 0; i < limits_.size(); ++i) {
+    const Limit& limit = limits_[i];
+    const auto body = static_cast<std::size_t>(limit.body);
+    const double q = x.q[model_->iq[body]],
+                 reach = 2 * h * std::abs(x.qd[model_->iv[body]]) + 1e4 * h * h + kLeastReach;
+    if (q - limit.lower < reach) rows_.push_back({i, 1, q - limit.lower});
+    if (limit.upper - q < reach) rows_.push_back({i, -1, limit.upper - q});
+  }
+}
+
+bool JointLimits::wants_separation() const noexcept {
+  return std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.after < -kSlop; });
+}
+
+void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept {
+  for (const Row& row : rows_) {
+    if (!takes_part(frame, row)) continue;
+    const std::size_t dof = model_->iv[static_cast<std::size_t>(limits_[row.limit].body)];
+    ImpulseConstraint& c = problem.add(ImpulseLaw::at_least, 1, frame.trees.tree_of_dof(dof),
+                                       ImpulseConstraint::no_tree);
+    problem.J(c, 0)[frame.trees.place(dof)] = row.sign;
+    switch (frame.phase) {
+      case Phase::impact:  // a limit that is not reached yet is far away
+        c.b[0] = row.gap > kClosed ? 1e9 : 0;
+        break;
+      case Phase::step:
+        c.b[0] = std::max(0.0, row.gap - kClosed) / frame.h;
+        c.p[0] = std::max(0.0, row.sign * limits_[row.limit].force * frame.h);
+        break;
+      case Phase::hit:
+        break;
+      case Phase::flow:
+        c.b[0] = kGapRate * row.gap;
+        c.p[0] = std::max(0.0, row.sign * limits_[row.limit].force * frame.h);
+        break;
+      case Phase::separate:
+        c.b[0] = row.after >= 0 ? row.after : std::min(0.0, kSeparationPart * (row.after + kSlop));
+        break;
+    }
+  }
+}
+
+void JointLimits::take(const ConstraintFrame& frame, const ImpulseProblem& problem,
+                       std::size_t first) noexcept {
+  if (frame.phase == Phase::separate) return;
+  const bool jumps = frame.phase == Phase::impact || frame.phase == Phase::hit;
+  if (!jumps)
+    for (Limit& limit : limits_) limit.force = 0;
+  for (Row& row : rows_) {
+    if (!takes_part(frame, row)) continue;
+    const ImpulseConstraint& c = problem.constraints()[first++];
+    Limit& limit = limits_[row.limit];
+    const double u = c.u[0] - c.b[0];  // away from the limit, at the end
+    const double work = 0.5 * c.p[0] * (u + speed(row, frame.x));
+    if (jumps) {
+      limit.work += work;
+      continue;
+    }
+    limit.force += row.sign * c.p[0] / frame.h;
+    row.after = row.gap + frame.h * u;
+    if (frame.phase == Phase::step)
+      limit.work += work;
+    else
+      for (std::size_t i = 0; i < held_.size(); ++i)
+        if (held_[i].limit == row.limit && held_[i].sign == row.sign) {
+          held_[i].opens = c.u[0] > kMoves;
+          flow_works_[i] += work;
+        }
+  }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,91 @@
+#include "solver/impulses/kinematic_trees.h"
+
+namespace twinarm {
+
+ModelTrees::ModelTrees(const Model<double>& model)
+    : model_(&model),
+      tree_(model.parent.size(), ImpulseConstraint::no_tree),
+      tree_of_dof_(model.nv),
+      place_(model.nv),
+      Ic_(model.parent.size()) {
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    tree_[i] = tree_[static_cast<std::size_t>(model.parent[i])];
+    const std::size_t dofs = model.dofs(i);
+    if (dofs == 0) continue;
+    if (tree_[i] == ImpulseConstraint::no_tree) {
+      tree_[i] = count();
+      size_.push_back(0);
+    }
+    for (std::size_t dof = model.iv[i]; dof < model.iv[i] + dofs; ++dof) {
+      tree_of_dof_[dof] = tree_[i];
+      place_[dof] = static_cast<std::size_t>(size_[tree_[i]]++);
+    }
+  }
+}
+
+// The composite-rigid-body algorithm, RBDA section 6.2, tree by tree.
+void ModelTrees::add_to(ImpulseProblem& problem, const Forces<double>* forces,
+                        Workspace<double>& w) {
+  const Model<double>& model = *model_;
+  for (const int size : size_) problem.add_tree(size);
+  const std::size_t n = model.parent.size();
+  for (std::size_t i = 1; i < n; ++i) {
+    Ic_[i] = model.I[i];
+    if (forces && forces->has_impedance) Ic_[i] += forces->impedance[i];
+  }
+  for (std::size_t i = n; i-- > 1;) {
+    if (tree_[i] == ImpulseConstraint::no_tree) continue;
+    const auto parent = static_cast<std::size_t>(model.parent[i]);
+    if (parent > 0) add_congruence(w.Xup[i], Ic_[i], Ic_[parent], Ic_[parent]);
+    const auto size = static_cast<std::size_t>(size_[tree_[i]]);
+    double* M = problem.M(tree_[i]);
+    for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof) {
+      Force<double> F = Ic_[i] * w.S_[dof];
+      for (std::size_t j = i; j > 0; j = static_cast<std::size_t>(model.parent[j])) {
+        for (std::size_t other = model.iv[j]; other < model.iv[j] + model.dofs(j); ++other)
+          M[place_[dof] * size + place_[other]] = M[place_[other] * size + place_[dof]] =
+              dot(w.S_[other], F);
+        F = transpose_times(w.Xup[j], F);
+      }
+      double& diagonal = M[place_[dof] * (size + 1)];
+      diagonal += model.armature[dof] + (forces ? forces->armature[dof] : 0);
+    }
+  }
+}
+
+void ModelTrees::gather(const std::vector<double>& qd, ImpulseProblem& problem) const {
+  for (std::size_t dof = 0; dof < qd.size(); ++dof)
+    problem.v0(tree_of_dof_[dof])[place_[dof]] = qd[dof];
+}
+
+void ModelTrees::scatter(const ImpulseProblem& problem, std::vector<double>& qd) const {
+  for (std::size_t dof = 0; dof < qd.size(); ++dof)
+    qd[dof] = problem.v(tree_of_dof_[dof])[place_[dof]];
+}
+
+void ModelTrees::add_point_rows(const Kinematics& k, int body, const Vector3& p_W,
+                                const Matrix3& axes, int count, double sign, double* J) const {
+  const int tree = tree_of(body);
+  if (tree == ImpulseConstraint::no_tree) return;
+  const auto n = static_cast<std::size_t>(size_[tree]);
+  for_each_dof_below(
+      *model_, k, body, [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
+        const Vector3 at_point = v + w.cross(p_W - o);
+        for (int r = 0; r < count; ++r)
+          J[static_cast<std::size_t>(r) * n + place_[dof]] += sign * axes.col(r).dot(at_point);
+      });
+}
+
+void ModelTrees::add_turn_rows(const Kinematics& k, int body, const Matrix3& axes, int count,
+                               double sign, double* J) const {
+  const int tree = tree_of(body);
+  if (tree == ImpulseConstraint::no_tree) return;
+  const auto n = static_cast<std::size_t>(size_[tree]);
+  for_each_dof_below(
+      *model_, k, body, [&](std::size_t dof, const Vector3& w, const Vector3&, const Vector3&) {
+        for (int r = 0; r < count; ++r)
+          J[static_cast<std::size_t>(r) * n + place_[dof]] += sign * axes.col(r).dot(w);
+      });
+}
+
+}  // namespace twinarm

@@ -1,0 +1,275 @@
+// The inner problem of impulse_solver.h: Newton's method on one island.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/impulses/block_matrices.h"
+#include "solver/impulses/impulse_solver.h"
+
+namespace twinarm {
+namespace {
+
+constexpr int no_tree = ImpulseConstraint::no_tree;
+
+double dot(const Vec& a, const Vec& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+}  // namespace
+
+// The convex problem, whose shifts are held; then, from its solution, Newton on the shifts that
+// follow. That has no function to go down on, so it is taken only as long as it comes nearer, in
+// shorter steps where there is time for them; otherwise back to the solution.
+ImpulseSolver::Round ImpulseSolver::solve_round(ImpulseProblem& problem, const Island& island,
+                                                int most) {
+  Round round;
+  int& steps = round.steps;
+  for (Gradient now = gradient(problem, island, Shift::held);
+       steps < most && now.largest > now.rounding; now = gradient(problem, island, Shift::held)) {
+    find_direction(problem, island, true);
+    const double step = step_length(problem, island);
+    move(problem, island, step);
+    ++steps;
+    if (step == 1 && now.largest < 1e2 * now.rounding) break;
+  }
+  for (const int t : island.trees)
+    std::copy_n(problem.v(t), problem.size(t),
+                held_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)));
+  Gradient now = gradient(problem, island, Shift::followed);
+  round.left = now.left();
+  while (steps < most && now.largest > now.rounding) {
+    find_direction(problem, island, false);
+    move(problem, island, 1);
+    ++steps;
+    Gradient then = gradient(problem, island, Shift::followed);
+    double step = 1;
+    if (most > quick_newton_few)
+      for (; !(then.squared < (1 - 0.5 * step) * now.squared) && step > 0.05; step *= 0.5) {
+        move(problem, island, -0.5 * step);
+        then = gradient(problem, island, Shift::followed);
+      }
+    if (!(then.squared < (step < 1 ? 1 - 0.5 * step : 0.25) * now.squared)) {
+      for (const int t : island.trees)
+        std::copy_n(held_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)),
+                    problem.size(t), problem.v(t));
+      round.left = gradient(problem, island, Shift::held).left();
+      round.strayed = true;
+      break;
+    }
+    now = then;
+    round.left = now.left();
+  }
+  return round;
+}
+
+void ImpulseSolver::move(ImpulseProblem& problem, const Island& island, double step) {
+  for (const int t : island.trees)
+    for (int k = 0; k < problem.size(t); ++k)
+      problem.v(t)[k] += step * dv_[problem.first(t) + static_cast<std::size_t>(k)];
+}
+
+// u, p and D at v; rhs_ = M (v - v0) - J^T p.
+ImpulseSolver::Gradient ImpulseSolver::gradient(ImpulseProblem& problem, const Island& island,
+                                                Shift shift) {
+  for (const int t : island.trees)
+    std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)), problem.size(t), 0.0);
+  double fastest = 0;
+  crosses_.clear();
+  for (const int i : island.constraints) {
+    const ImpulseConstraint& c = problem.constraints()[i];
+    problem.velocity(c, problem.v(0), u_[i]);
+    for (int r = 0; r < c.rows; ++r) u_[i][r] += c.b[r];
+    if (c.law == ImpulseLaw::disc && shift == Shift::followed)
+      respond_disc(c, i);
+    else
+      respond(c, memory_[i], shift, u_[i], p_[i], D_[i]);
+    problem.add_transpose(c, p_[i], f_.data());
+    fastest = std::max({fastest, std::abs(u_[i][0]), std::abs(u_[i][1]), std::abs(u_[i][2])});
+  }
+  Gradient all = balance(problem, island);
+  all.noise = rho_ratio_ * noise_;
+  all.rounding = std::max({0.01 * tolerance, 2e-14 * rho_ratio_ * fastest, all.noise});
+  return all;
+}
+
+// What the rounding of u makes of the balance by way of p = l - rho u, for rho = rho0: u is a sum,
+// and where a body rolls the sum is 0, but its terms are not. As a velocity [m/s, rad/s].
+double ImpulseSolver::noise(const ImpulseProblem& problem, const Island& island) {
+  for (const int t : island.trees)
+    std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)), problem.size(t), 0.0);
+  const auto for_each_side = [&](const ImpulseConstraint& c, auto&& f) {
+    for (int side = 0; side < 2; ++side)
+      if (const int t = c.tree[side]; t != no_tree) f(problem.J(c, side), problem.size(t), t);
+  };
+  for (const int i : island.constraints) {
+    const ImpulseConstraint& c = problem.constraints()[i];
+    Vec terms{std::abs(c.b[0]), std::abs(c.b[1]), std::abs(c.b[2])};
+    for_each_side(c, [&](const double* J, int n, int t) {
+      for (int r = 0; r < c.rows; ++r)
+        for (int k = 0; k < n; ++k) terms[r] += std::abs(J[r * n + k] * problem.v(t)[k]);
+    });
+    for_each_side(c, [&](const double* J, int n, int t) {
+      for (int r = 0; r < c.rows; ++r)
+        for (int k = 0; k < n; ++k)
+          f_[problem.first(t) + static_cast<std::size_t>(k)] +=
+              rho0_[i] * terms[r] * std::abs(J[r * n + k]);
+    });
+  }
+  double largest = 0;
+  for (const int t : island.trees)
+    for (int k = 0; k < problem.size(t); ++k)
+      largest = std::max(largest, f_[problem.first(t) + static_cast<std::size_t>(k)] /
+                                      problem.M(t)[k * problem.size(t) + k]);
+  return std::numeric_limits<double>::epsilon() * largest;
+}
+
+// A disc whose radius follows the contact's p_n at this u.
+void ImpulseSolver::respond_disc(const ImpulseConstraint& c, int i) {
+  LawMemory memory = memory_[i];
+  memory.radius = c.radius * std::max(0.0, p_[c.of][0]);
+  respond(c, memory, Shift::followed, u_[i], p_[i], D_[i]);
+  const Vec way = along_edge(c, memory, u_[i]);
+  if (way == Vec{}) return;
+  Cross& cross = crosses_.emplace_back(Cross{i, c.of, {}});
+  for (int r = 0; r < c.rows; ++r)
+    for (int k = 0; k < 3; ++k) cross.D[3 * r + k] = c.radius * way[r] * D_[c.of][k];
+}
+
+// rhs_ = M (v - v0) - f_
+ImpulseSolver::Gradient ImpulseSolver::balance(const ImpulseProblem& problem,
+                                               const Island& island) {
+  Gradient all;
+  for (const int t : island.trees) {
+    const int n = problem.size(t);
+    const std::size_t at = problem.first(t);
+    const double* M = problem.M(t);
+    for (int k = 0; k < n; ++k)
+      delta_[at + static_cast<std::size_t>(k)] = problem.v(t)[k] - problem.v0(t)[k];
+    for (int r = 0; r < n; ++r) {
+      double sum = -f_[at + static_cast<std::size_t>(r)];
+      for (int k = 0; k < n; ++k) sum += M[r * n + k] * delta_[at + static_cast<std::size_t>(k)];
+      rhs_[row_[t] + static_cast<std::size_t>(r)] = sum;
+      all.largest = worse(all.largest, std::abs(sum) / M[r * n + r]);
+      all.squared += sum * sum / M[r * n + r];
+    }
+  }
+  return all;
+}
+
+// dv_ = -(M + J^T D J)^-1 rhs_
+void ImpulseSolver::find_direction(const ImpulseProblem& problem, const Island& island,
+                                   bool symmetric) {
+  assemble(problem, island, symmetric);
+  matrix_.factorise(symmetric);
+  matrix_.solve(rhs_.data());
+  for (const int t : island.trees)
+    for (int k = 0; k < problem.size(t); ++k)
+      dv_[problem.first(t) + static_cast<std::size_t>(k)] =
+          -rhs_[row_[t] + static_cast<std::size_t>(k)];
+}
+
+// M + J^T D J; if symmetric, without what is above the diagonal.
+void ImpulseSolver::assemble(const ImpulseProblem& problem, const Island& island, bool symmetric) {
+  matrix_.set_zero();
+  for (const int t : island.trees) {
+    const std::size_t at = row_[t];
+    const int n = problem.size(t);
+    const double* M = problem.M(t);
+    for (int r = 0; r < n; ++r)
+      for (int k = 0; k <= r; ++k) {
+        const std::size_t row = at + static_cast<std::size_t>(r);
+        matrix_.row(row, at)[k] += M[r * n + k];
+        if (!symmetric && k < r) matrix_.column(row, at)[k] += M[r * n + k];
+      }
+  }
+  const std::vector<ImpulseConstraint>& all = problem.constraints();
+  for (const int i : island.constraints) add_products(problem, all[i], all[i], D_[i], symmetric);
+  if (!symmetric)
+    for (const Cross& cross : crosses_)
+      add_products(problem, all[cross.of], all[cross.by], cross.D, symmetric);
+}
+
+// J^T D J of the left, D, and the right, each with both of its sides.
+void ImpulseSolver::add_products(const ImpulseProblem& problem, const ImpulseConstraint& left,
+                                 const ImpulseConstraint& right, const Mat& D, bool symmetric) {
+  for (int side = 0; side < 2; ++side) {
+    if (right.tree[side] == no_tree) continue;
+    const int n = problem.size(right.tree[side]);
+    DJ_.resize(std::max(DJ_.size(), static_cast<std::size_t>(3 * n)));
+    if (&left == &right)
+      with_shape(left.rows, n, [&](auto rows, auto size) {
+        product(D.data(), rows, problem.J(right, side), rows, size, DJ_.data());
+      });
+    else
+      product(D.data(), left.rows, problem.J(right, side), right.rows, n, DJ_.data());
+    for (int other = 0; other < 2; ++other)
+      if (left.tree[other] != no_tree) add_block(problem, left, other, right, side, symmetric);
+  }
+}
+
+// J_s^T (D J)_t, s and t the trees of two sides; what is above the diagonal lies by columns.
+void ImpulseSolver::add_block(const ImpulseProblem& problem, const ImpulseConstraint& left,
+                              int side_s, const ImpulseConstraint& right, int side_t,
+                              bool symmetric) {
+  const int s = left.tree[side_s], t = right.tree[side_t];
+  const std::size_t row = row_[s], column = row_[t];
+  if (symmetric && row < column) return;
+  const double *J = problem.J(left, side_s), *DJ = DJ_.data();
+  const auto place = [](std::size_t from, int k) { return from + static_cast<std::size_t>(k); };
+  const auto below = [&](int k) { return matrix_.row(place(row, k), column); };
+  const auto above = [&](int k) { return matrix_.column(place(column, k), row); };
+  with_shapes(left.rows, problem.size(s), problem.size(t), [&](auto rows, auto m, auto n) {
+    if (row > column) {
+      add_product_rows(J, m, DJ, n, rows, below, [&](int) { return n; });
+    } else if (row < column) {
+      add_product_rows(DJ, n, J, m, rows, above, [&](int) { return m; });
+    } else {
+      add_product_rows(J, m, DJ, n, rows, below, [](int r) { return r + 1; });
+      if (!symmetric) add_product_rows(DJ, n, J, m, rows, above, [](int k) { return k; });
+    }
+  });
+}
+
+// Where the slope along dv is zero, near enough; the slope only rises.
+double ImpulseSolver::step_length(const ImpulseProblem& problem, const Island& island) {
+  double slope0 = 0, curvature = 0;  // of 1/2 |v - v0|_M^2
+  for (const int t : island.trees) {
+    const int n = problem.size(t);
+    const double *dv = dv_.data() + problem.first(t), *delta = delta_.data() + problem.first(t);
+    const double* M = problem.M(t);
+    for (int r = 0; r < n; ++r)
+      for (int k = 0; k < n; ++k) {
+        slope0 += dv[r] * M[r * n + k] * delta[k];
+        curvature += dv[r] * M[r * n + k] * dv[k];
+      }
+  }
+  double start = slope0;
+  for (const int i : island.constraints) {
+    problem.velocity(problem.constraints()[i], dv_.data(), du_[i]);
+    start -= dot(p_[i], du_[i]);
+  }
+  const auto slope = [&](double s) {
+    double sum = slope0 + s * curvature;
+    for (const int i : island.constraints) {
+      Vec u = u_[i];
+      for (int r = 0; r < 3; ++r) u[r] += s * du_[i][r];
+      sum -= dot(answer(problem.constraints()[i], memory_[i], u), du_[i]);
+    }
+    return sum;
+  };
+  double low = 0, high = 1, at_low = start, at_high = slope(1);
+  if (!(at_high > 0.3 * std::abs(start))) return 1;
+  double s = 1;
+  for (int k = 0; k < 30; ++k) {  // regula falsi, halving what stays (Illinois)
+    s = (low * at_high - high * at_low) / (at_high - at_low);
+    const double here = slope(s);
+    if (std::abs(here) <= 0.1 * std::abs(start)) break;
+    if (here > 0)
+      high = s, at_high = here, at_low *= 0.5;
+    else
+      low = s, at_low = here, at_high *= 0.5;
+  }
+  return s;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,120 @@
+#include "solver/integration/constraint_work.h"
+
+#include <algorithm>
+
+#include "solver/model/configuration.h"
+
+namespace twinarm {
+
+StepAccount::StepAccount(const Model<double>& model, std::size_t loops, std::size_t rows)
+    : model_(&model),
+      moved_(bodies_that_forces_move(model)),
+      w_(model),
+      loops_(loops),
+      stabilisation_(loops),
+      mimics_(model.mimics.size()),
+      flow_(kNumbers * loops + mimics_.size()),
+      share_q_(loops, std::vector<double>(model.nv)),
+      share_qd_(share_q_),
+      push_(loops),
+      lambda_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows))) {
+  for (State<double>* x : {&seen_, &before_, &after_, &trial_, &pushes_[0].from, &pushes_[0].to,
+                           &pushes_[1].from, &pushes_[1].to}) {
+    x->q.resize(model.nq);
+    x->qd.resize(model.nv);
+  }
+}
+
+void StepAccount::start_step() {
+  std::fill(loops_.begin(), loops_.end(), Exchange{});
+  std::fill(stabilisation_.begin(), stabilisation_.end(), Exchange{});
+  std::fill(mimics_.begin(), mimics_.end(), 0);
+  separation_ = {};
+  push_count_ = 0;
+  pending_ = false;
+}
+
+void StepAccount::before_projection(const State<double>& x) {
+  seen_.q = x.q;
+  seen_.qd = x.qd;
+}
+
+void StepAccount::after_projection(const State<double>& x, const LoopProjection& projection,
+                                   const LoopClosures& at_start) {
+  if (x.q == seen_.q && x.qd == seen_.qd) {
+    pending_ = pending_ && x.q == after_.q && x.qd == after_.qd;
+    return;
+  }
+  std::swap(before_.q, seen_.q);
+  std::swap(before_.qd, seen_.qd);
+  after_.q = x.q;
+  after_.qd = x.qd;
+  const std::vector<double>& lambda = projection.pushed_qd();
+  for (std::size_t r = 0; r < lambda.size(); ++r) lambda_[static_cast<Eigen::Index>(r)] = lambda[r];
+  for (std::size_t l = 0; l < stabilisation_.size(); ++l) {
+    projection.share_of(l, share_q_[l], share_qd_[l]);
+    const LoopWrench wrench = at_start.wrench(l, lambda_);
+    push_[l] = {};
+    push_[l].add_wrench(1, at_start.point(l), wrench.force, wrench.couple);
+  }
+  pending_ = true;
+}
+
+// E is quadratic in v: over the mean of the velocities before and after, works of all loops add up.
+void StepAccount::count_projection() {
+  if (!pending_) return;
+  pending_ = false;
+  if (push_count_ < pushes_.size()) {
+    Push& push = pushes_[push_count_++];
+    push.from.q = push.to.q = after_.q;
+    push.from.qd = before_.qd;
+    push.to.qd = after_.qd;
+  }
+  const Exchange from = contents(before_);
+  for (std::size_t l = 0; l < stabilisation_.size(); ++l) {
+    integrate_coordinates(*model_, before_.q, share_q_[l], trial_.q);
+    trial_.qd = before_.qd;
+    stabilisation_[l] += contents(trial_) - from;
+    trial_.q = after_.q;
+    for (const double side : {1.0, -1.0}) {
+      for (std::size_t d = 0; d < model_->nv; ++d)
+        trial_.qd[d] = 0.5 * (before_.qd[d] + after_.qd[d] + side * share_qd_[l][d]);
+      push_[l].work += side * contents(trial_).work;
+    }
+    loops_[l] += push_[l];
+  }
+}
+
+void StepAccount::add_separation(const State<double>& before, const State<double>& after) {
+  separation_ += contents(after) - contents(before);
+}
+
+void StepAccount::add_loop(std::size_t loop, const Exchange& on_a, bool in_flow) {
+  if (!in_flow) {
+    loops_[loop] += on_a;
+    return;
+  }
+  double* sums = &flow_[kNumbers * loop];
+  sums[0] += on_a.work;
+  for (int c = 0; c < 3; ++c) sums[1 + c] += on_a.impulse[c], sums[4 + c] += on_a.moment[c];
+}
+
+void StepAccount::add_mimic(std::size_t mimic, double work, bool in_flow) {
+  (in_flow ? flow_[kNumbers * loops_.size() + mimic] : mimics_[mimic]) += work;
+}
+
+void StepAccount::start_flow() {
+  std::fill(flow_.begin(), flow_.end(), 0);
+}
+
+void StepAccount::count_flow() {
+  for (std::size_t l = 0; l < loops_.size(); ++l) {
+    const double* sums = &flow_[kNumbers * l];
+    loops_[l] += Exchange{sums[0], {sums[1], sums[2], sums[3]}, {sums[4], sums[5], sums[6]}};
+  }
+  for (std::size_t i = 0; i < mimics_.size(); ++i)
+    mimics_[i] += flow_[kNumbers * loops_.size() + i];
+  start_flow();
+}
+
+}  // namespace twinarm

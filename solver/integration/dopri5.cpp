@@ -1,0 +1,162 @@
+#include "solver/integration/dopri5.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/model/configuration.h"
+
+namespace twinarm {
+namespace {
+
+constexpr Tableau::Row<double> kErrorWeights{
+    71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+constexpr int kMaxAttempts = 10'000'000;  // in one step: no run goes on for ever in silence
+
+double largest(double a, double b) {
+  return b <= a ? a : b;  // a NaN b stays
+}
+
+}  // namespace
+
+Dopri5::Dopri5(const Mechanism& m)
+    : rk_(m.model.nv),
+      margin_(m.dynamics.families().size()),
+      size_(m.model.nv),
+      size_new_(m.model.nv) {}
+
+void Dopri5::step(Mechanism& m, double h, bool one, StepReport& report) {
+  const double t_end = m.x.t + h;
+  report.substeps = 0;
+  if (!(h > 0)) return;
+  m.accelerate();
+  rk_.first_stage(m);
+  rejected_ = false;
+  if (h_next_ == 0) h_next_ = first_substep(m, h);
+  while (m.x.t < t_end) {
+    const bool last = m.x.t + 1.001 * h_next_ >= t_end;  // no sliver is left over
+    const double h_try = last ? t_end - m.x.t : h_next_;
+    const bool shortest = m.x.t + 0.1 * h_try == m.x.t;
+    if (m.dynamics.has_coulomb()) margin_.start(m);
+    stages(m, h_try);
+    err_ = error(m, h_try);
+    if (err_ <= 1) {
+      const double h_done = up_to_event(m, h_try, report);
+      if (h_done == h_try) choose_next(h_try, !last);
+      accept(m, last && h_done == h_try ? t_end : m.x.t + h_done);
+      ++report.substeps;
+      if (one) return;
+      continue;
+    }
+    ++report.rejected;
+    if (shortest || report.substeps + report.rejected >= kMaxAttempts) {
+      report.reached = false;
+      if (!std::isfinite(err_)) {  // what is not finite in every substep is shown, not kept out
+        std::swap(m.x.q, m.stage.q);
+        std::swap(m.x.qd, m.stage.qd);
+      }
+      return;
+    }
+    choose_next(h_try, true);
+  }
+}
+
+void Dopri5::stages(Mechanism& m, double h) {
+  const Tableau& tableau = tableau_of(Integrator::dopri5);
+  for (int s = 1; s < tableau.stages; ++s) rk_.stage(m, tableau, s, h);
+}
+
+// The part of h after which a joint comes to rest or breaks loose; m.stage is there then.
+double Dopri5::up_to_event(Mechanism& m, double h, StepReport& report) {
+  if (!m.dynamics.has_coulomb()) return h;
+  const auto margin = [&](double s) {
+    stages(m, s);
+    return margin_(m.dynamics, m.stage);
+  };
+  const double g_end = margin_(m.dynamics, m.stage);
+  if (!(g_end < 0 && margin_.at_start() > 0)) return h;
+  const double h_event = step_to_zero(h, margin_.at_start(), g_end, margin);
+  if (m.x.t + h_event > m.x.t) {
+    ++report.events;
+    return h_event;
+  }
+  stages(m, h);  // too near to the start to be a substep
+  return h;
+}
+
+// After it m.w holds the acceleration at the new m.x, the first stage of the next substep.
+void Dopri5::accept(Mechanism& m, double t) {
+  std::swap(m.x.q, m.stage.q);
+  std::swap(m.x.qd, m.stage.qd);
+  m.x.t = t;
+  if (m.dynamics.has_coulomb()) {
+    m.dynamics.settle(m.x);
+    m.refresh();
+    m.accelerate();
+  } else {
+    m.start_projection();
+  }
+  rk_.first_stage(m);
+}
+
+double Dopri5::error(const Mechanism& m, double h) {
+  const int stages = Tableau::kMaxStages;
+  coordinate_sizes(m.model, m.x.q, size_);
+  coordinate_sizes(m.model, m.stage.q, size_new_);
+  double err = 0;
+  for (std::size_t i = 0; i < size_.size(); ++i) {
+    const double shift = h * rk_.rate_sum(kErrorWeights, stages, i);
+    const double change = h * rk_.qdd_sum(kErrorWeights, stages, i);
+    err = largest(err, scaled(shift, size_[i], size_new_[i]));
+    err = largest(err, scaled(change, m.x.qd[i], m.stage.qd[i]));
+    if (!m.has_loops()) continue;  // else the last stage was moved: that was an error too
+    err = largest(err, scaled(m.projection.moved_q()[i], size_[i], size_new_[i]));
+    err = largest(err, scaled(m.projection.moved_qd()[i], m.x.qd[i], m.stage.qd[i]));
+  }
+  return err;
+}
+
+double Dopri5::scaled(double error, double y, double y_new) const {
+  return std::abs(error) / (tolerance_ * (1 + std::max(std::abs(y), std::abs(y_new))));
+}
+
+// After an attempt with h; `whole`: h was recommended, not what was left of the step.
+void Dopri5::choose_next(double h, bool whole) {
+  if (!(err_ <= 1)) {
+    const double factor = std::isfinite(err_) ? std::max(0.2, 0.9 * std::pow(err_, -0.2)) : 0.1;
+    h_next_ = h * factor;
+    rejected_ = true;
+    return;
+  }
+  const double err = std::max(err_, 1e-8);
+  double factor = 0.9 * std::pow(err, -0.17) * std::pow(err_before_, 0.04);
+  factor = std::clamp(factor, 0.2, rejected_ ? 1.0 : 10.0);  // no growth after a rejection
+  h_next_ = whole ? h * factor : std::max(h_next_, h * factor);
+  err_before_ = std::max(err, 1e-4);
+  rejected_ = false;
+}
+
+// Hairer, Norsett, Wanner, II.4: such that an Euler step would change little, and that the second
+// derivative, by a difference, fits the tolerance.
+double Dopri5::first_substep(Mechanism& m, double h_max) {
+  const Tableau& euler = tableau_of(Integrator::euler);
+  coordinate_sizes(m.model, m.x.q, size_);
+  double d0 = 0, d1 = 0, d2 = 0;
+  for (std::size_t i = 0; i < size_.size(); ++i) {
+    const double v = m.x.qd[i], a = rk_.qdd_sum(euler.b, 1, i);
+    d0 = largest(d0, std::max(scaled(size_[i], size_[i], 0), scaled(v, v, 0)));
+    d1 = largest(d1, largest(scaled(v, size_[i], 0), scaled(a, v, 0)));
+  }
+  const double h0 = std::min(h_max, d0 < 1e-5 || !(d1 > 1e-5) ? 1e-6 : 0.01 * d0 / d1);
+  rk_.stage(m, tableau_of(Integrator::heun), 1, h0);
+  const Tableau::Row<double> second{-1 / h0, 1 / h0};
+  for (std::size_t i = 0; i < size_.size(); ++i) {
+    d2 = largest(d2, scaled(rk_.rate_sum(second, 2, i), size_[i], 0));
+    d2 = largest(d2, scaled(rk_.qdd_sum(second, 2, i), m.x.qd[i], 0));
+  }
+  const double d = std::max(d1, d2);
+  const double h1 = d > 1e-15 ? std::pow(0.01 / d, 0.2) : std::max(1e-6, 1e-3 * h0);
+  return std::isfinite(d) ? std::min({h_max, 100 * h0, h1}) : h_max;
+}
+
+}  // namespace twinarm

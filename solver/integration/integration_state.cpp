@@ -1,0 +1,127 @@
+#include "solver/integration/integration_state.h"
+
+#include <utility>
+
+#include "solver/dynamics/dynamics.h"
+#include "solver/loops/loop_checks.h"
+#include "solver/model/mimic.h"
+
+namespace twinarm {
+
+// In the child's own axes, R = R_JL: w = R^T w_J and v = R^T dp/dt, whose rates of change there are
+//   dw/dt = R^T alpha_J              (w x w = 0)
+//   dv/dt = R^T d^2p/dt^2 - w x v.
+void store_motion(const PrescribedMotion& motion, double* q) {
+  const Matrix3 R_LJ = motion.X_JL.R.transpose();
+  const Eigen::Quaterniond turn(motion.X_JL.R);
+  const Vector3 w = R_LJ * motion.angular_velocity, v = R_LJ * motion.velocity;
+  const Vector3 w_rate = R_LJ * motion.angular_acceleration;
+  const Vector3 v_rate = R_LJ * motion.acceleration - w.cross(v);
+  for (int c = 0; c < 3; ++c) {
+    q[c] = motion.X_JL.p[c];
+    q[4 + c] = turn.vec()[c];
+    q[7 + c] = w[c];
+    q[10 + c] = v[c];
+    q[13 + c] = w_rate[c];
+    q[16 + c] = v_rate[c];
+  }
+  q[3] = turn.w();
+}
+
+Mechanism::Mechanism(const Model<double>& model_of, State<double> start)
+    : model(model_of),
+      x(std::move(start)),
+      k(model),
+      stage(x),
+      k_stage(model),
+      w(model),
+      forces(model),
+      dynamics(model),
+      projection(model) {
+  refresh();
+}
+
+void Mechanism::place(State<double>& at) const {
+  for (const Drive& drive : drives)
+    store_motion(drive.law(at.t), at.q.data() + model.iq[drive.body]);
+}
+
+void Mechanism::place_and_look() {
+  apply_mimics(model, x);
+  place(x);
+  forward_kinematics(model, x, k);
+}
+
+void Mechanism::refresh() {
+  place_and_look();
+  loops_open = close(x, k);
+}
+
+double Mechanism::close(State<double>& at, Kinematics& k_at) {
+  if (!has_loops()) return 0;
+  if (account) account->before_projection(at);
+  const double open = projection(dynamics.at_rest(at), at, k_at, w);
+  if (account) account->after_projection(at, projection, dynamics.bilateral().loops());
+  return open;
+}
+
+void Mechanism::start(State<double> from) {
+  apply_mimics(model, from);
+  place(from);
+  if (has_loops()) check_loops(model, dynamics.bilateral().loops().loops(), from);
+  x = std::move(from);
+  forward_kinematics(model, x, k);
+  prepare_projection();
+  refresh();
+}
+
+void Mechanism::resume(State<double> from) {
+  x = std::move(from);
+  forward_kinematics(model, x, k);
+}
+
+void Mechanism::set_loops(LoopClosures loops) {
+  projection.set_loops(loops);
+  dynamics.set_loops(std::move(loops));
+  prepare_projection();
+  refresh();
+}
+
+void Mechanism::prepare_projection() {
+  if (!has_loops()) return;
+  dynamics.bilateral().loops().evaluate(x, k);
+  forces.clear();
+  aba(model, x, forces, w);
+  dynamics.bilateral().prepare(w);
+  start_projection();
+}
+
+void Mechanism::accelerate_stage() {
+  place(stage);
+  forward_kinematics(model, stage, k_stage);
+  close(stage, k_stage);
+  accelerate(stage, k_stage, Friction::as_chosen, 0);
+}
+
+void Mechanism::accelerate_end(double t) {
+  x.t = t;
+  refresh();
+  accelerate(x, k, Friction::as_chosen, 0);
+}
+
+void Mechanism::accelerate(const State<double>& at, const Kinematics& k_at, Friction rule,
+                           double h) {
+  if (has_loops()) dynamics.bilateral().loops().evaluate(at, k_at);
+  forces.clear();
+  for (ForceSource* source : sources) source->add_forces(at, k_at, forces);
+  switch (rule) {
+    case Friction::now:
+      return dynamics(at, forces, w);
+    case Friction::end_of_step:
+      return dynamics.over_step(at, h, forces, w);
+    case Friction::as_chosen:
+      return dynamics.as_chosen(at, forces, w);
+  }
+}
+
+}  // namespace twinarm

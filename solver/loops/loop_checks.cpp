@@ -1,0 +1,159 @@
+#include "solver/loops/loop_checks.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace twinarm {
+namespace {
+
+template <class... Parts>
+std::string text(const Parts&... parts) {
+  std::ostringstream out;
+  out.precision(6);
+  (out << ... << parts);
+  return out.str();
+}
+bool is_frame(const Pose& X) {
+  return X.p.allFinite() && (X.R * X.R.transpose() - Matrix3::Identity()).norm() < 1e-9 &&
+         X.R.determinant() > 0;
+}
+bool same_pose(const Pose& a, const Pose& b) {
+  return a.R == b.R && a.p == b.p;
+}
+bool between_joints(LoopType type) {
+  return type == LoopType::gear || type == LoopType::locked;
+}
+bool same(const LoopClosure& a, const LoopClosure& b) {
+  if (a.type != b.type || a.body_a != b.body_a) return false;
+  if (a.type == LoopType::locked) return true;
+  if (a.body_b != b.body_b) return false;
+  return a.type == LoopType::gear || (same_pose(a.X_LaC, b.X_LaC) && same_pose(a.X_LbC, b.X_LbC));
+}
+bool moves_between(const Model<double>& model, int a, int b) {
+  std::size_t dofs = 0;
+  while (a != b) {
+    int& higher = a > b ? a : b;
+    const auto i = static_cast<std::size_t>(higher);
+    dofs += model.dofs(i);
+    higher = model.parent[i];
+  }
+  return dofs > 0;
+}
+
+// Faults of one loop by itself.
+class OneLoop {
+ public:
+  OneLoop(const Model<double>& model, const LoopClosure& loop, std::vector<Fault>& faults)
+      : model_(model), loop_(loop), faults_(faults) {}
+
+  void check() {
+    const bool joints = between_joints(loop_.type);
+    bool bodies = is_body(loop_.body_a, "a");
+    if (loop_.type != LoopType::locked) bodies = is_body(loop_.body_b, "b") && bodies;
+    if (joints) return check_joints(bodies);
+    if (!is_frame(loop_.X_LaC) || !is_frame(loop_.X_LbC))
+      add("its frames C are not finite, or not turned by rotations",
+          "give R and p of X_LaC, X_LbC");
+    if (loop_.type == LoopType::distance && !(loop_.length > 0 && std::isfinite(loop_.length)))
+      add(text("its length is ", loop_.length, " m, must be positive"),
+          "give the length of the rod, or a ball");
+    if (!bodies) return;
+    if (!moves_between(model_, loop_.body_a, loop_.body_b))
+      add("no joint lets its ends move against each other", "close the loop between other bodies");
+  }
+
+ private:
+  void add(std::string rule, std::string remedy) {
+    faults_.push_back({"", 0, "loop '" + loop_.name + "'", std::move(rule), std::move(remedy)});
+  }
+  bool is_body(int body, const char* end) {
+    if (body >= 0 && body < model_.body_count()) return true;
+    add(text("body ", end, " is ", body, ", of 0 .. ", model_.body_count() - 1),
+        "take the number from Model::find_body");
+    return false;
+  }
+  bool has_one_dof(int body) {
+    const auto i = static_cast<std::size_t>(body);
+    if (body > 0 && model_.dofs(i) == 1) return true;
+    add(text("the joint of body ", body, " (", name_of(model_.joint[i]), ") has ", model_.dofs(i),
+             " degrees of freedom, must have one"),
+        "weld the link instead, or take another joint");
+    return false;
+  }
+  void check_joints(bool bodies) {
+    const bool gear = loop_.type == LoopType::gear;
+    if (!std::isfinite(loop_.offset) || (gear && !std::isfinite(loop_.ratio)))
+      add("ratio and offset must be finite", "give numbers");
+    if (!bodies) return;
+    has_one_dof(loop_.body_a);
+    if (!gear) return;
+    has_one_dof(loop_.body_b);
+    if (loop_.body_a == loop_.body_b) add("it gears a joint to itself", "give two joints");
+  }
+
+  const Model<double>& model_;
+  const LoopClosure& loop_;
+  std::vector<Fault>& faults_;
+};
+
+// By loop: its faults, alone and beside those before it.
+std::vector<std::vector<Fault>> faults_by_loop(const Model<double>& model,
+                                               const std::vector<LoopClosure>& loops) {
+  std::vector<std::vector<Fault>> faults(loops.size());
+  for (std::size_t l = 0; l < loops.size(); ++l) {
+    OneLoop(model, loops[l], faults[l]).check();
+    for (std::size_t other = 0; other < l; ++other)
+      if (same(loops[l], loops[other]))
+        faults[l].push_back({"", 0, "loop '" + loops[l].name + "'",
+                             "it is the same as loop '" + loops[other].name + "'", "give it once"});
+  }
+  return faults;
+}
+
+// A hinge or weld is also met where axes point in opposite directions.
+bool is_turned_over(const LoopClosure& loop, const Kinematics& k) {
+  if (loop.type != LoopType::hinge && loop.type != LoopType::weld) return false;
+  const Matrix3 R = (k.X_WL[static_cast<std::size_t>(loop.body_a)].R * loop.X_LaC.R).transpose() *
+                    k.X_WL[static_cast<std::size_t>(loop.body_b)].R * loop.X_LbC.R;
+  return R(2, 2) < 0 || (loop.type == LoopType::weld && (R(0, 0) < 0 || R(1, 1) < 0));
+}
+
+void add_open(const Model<double>& model, const LoopClosure& loop, const State<double>& x,
+              std::vector<Fault>& faults) {
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  LoopClosures alone(model, {loop});
+  alone.evaluate(x, k);
+  const double open = alone.g().lpNorm<Eigen::Infinity>();
+  const std::string remedy =
+      "start where it is closed: close_loops() looks for such a state nearby";
+  if (is_turned_over(loop, k))
+    faults.push_back({"", 0, "loop '" + loop.name + "'",
+                      "its frames are turned over against each other at the start", remedy});
+  else if (!(open <= kOpenAtStart))
+    faults.push_back(
+        {"", 0, "loop '" + loop.name + "'",
+         text("it is open by ", open, " (m or rad) at the start, may be ", kOpenAtStart), remedy});
+}
+
+void throw_all(const std::vector<std::vector<Fault>>& by_loop) {
+  FaultList all;
+  for (const std::vector<Fault>& faults : by_loop) all.add(faults);
+  all.check();
+}
+
+}  // namespace
+
+void check_loops(const Model<double>& model, const std::vector<LoopClosure>& loops) {
+  throw_all(faults_by_loop(model, loops));
+}
+
+void check_loops(const Model<double>& model, const std::vector<LoopClosure>& loops,
+                 const State<double>& x) {
+  std::vector<std::vector<Fault>> faults = faults_by_loop(model, loops);
+  for (std::size_t l = 0; l < loops.size(); ++l)
+    if (faults[l].empty()) add_open(model, loops[l], x, faults[l]);
+  throw_all(faults);
+}
+
+}  // namespace twinarm

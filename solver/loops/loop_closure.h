@@ -1,0 +1,121 @@
+// Loop closures: bilateral constraints between two bodies, or between two joints.
+//
+// A Model is a tree. What closes a loop in it is a condition g(q, t) = 0 of m rows (RBDA
+// section 8.2),
+//   g' = J qd + (what prescribed joints do) = 0,      g'' = J qdd + gamma = 0,
+// gamma = J' qd, with the accelerations of prescribed joints, is g'' at qdd = 0. This file computes
+// g, g', J and gamma from kinematics alone; who solves with them is another matter (acceleration:
+// loop_forces.h, position and velocity: loop_projection.h).
+//
+// C is a frame on link a and another one on link b; where the loop is closed the two agree, in
+// what the type asks for. Rows and their multipliers lambda, J^T lambda being the force:
+//   ball      3  origins of C_a and C_b, in the axes of C_a      [m]    force on a at C_b [N]
+//   hinge     5  ball, and z of C_b has no x, y in C_a     [rad]     couple on a about x, y [N m]
+//   weld      6  ball, and the axes of C_a and C_b agree   [rad]     couple on a [N m]
+//   distance  1  |p_Ca - p_Cb| - length                    [m]       force that drives them apart
+//   gear      1  q_a - ratio q_b - offset, one dof each    [rad, m]  torque on joint a
+//   locked    1  q_a - offset, a joint of one dof          [rad, m]  torque on joint a
+// Rows hold the dofs between a and b alone; what both share drops out. Cost O(depth) a loop; no
+// allocation after the constructor.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "solver/dynamics/kinematics.h"
+#include "solver/model/model.h"
+#include "solver/spatial/pose.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+
+enum class LoopType : unsigned char { weld, ball, hinge, distance, gear, locked };
+struct LoopTypeFacts {
+  LoopType type;
+  const char* name;
+  std::size_t rows;
+};
+inline constexpr std::array<LoopTypeFacts, 6> all_loop_types{{{LoopType::weld, "weld", 6},
+                                                              {LoopType::ball, "ball", 3},
+                                                              {LoopType::hinge, "hinge", 5},
+                                                              {LoopType::distance, "distance", 1},
+                                                              {LoopType::gear, "gear", 1},
+                                                              {LoopType::locked, "locked", 1}}};
+constexpr const LoopTypeFacts& facts_of(LoopType type) {
+  return all_loop_types[static_cast<std::size_t>(type)];
+}
+
+struct LoopClosure {
+  std::string name;
+  LoopType type = LoopType::ball;
+  int body_a = 0, body_b = 0;    // 0: the world. gear: whose joints; locked: a's alone
+  Pose X_LaC{}, X_LbC{};         // C in the axes of either link; a hinge turns about z of C
+  double length = 0;             // of a distance [m]
+  double ratio = 1, offset = 0;  // of a gear, and the place of a locked joint [rad, m]
+};
+
+// The wrench that a loop puts on link a at C_b (distance: at C_a), world axes; link b feels the
+// opposite.
+struct LoopWrench {
+  Vector3 couple = Vector3::Zero();  // [N m]
+  Vector3 force = Vector3::Zero();   // [N]
+};
+
+class LoopClosures {
+ public:
+  LoopClosures() = default;  // none
+  // Throws InputError with all faults (loop_checks.h). The model must outlive it.
+  LoopClosures(const Model<double>& model, std::vector<LoopClosure> loops);
+
+  bool any() const { return !loops_.empty(); }
+  const std::vector<LoopClosure>& loops() const { return loops_; }
+  std::size_t rows() const { return loop_of_row_.size(); }
+  std::size_t first_row(std::size_t loop) const { return ends_[loop].first_row; }
+  std::size_t loop_of(std::size_t row) const { return loop_of_row_[row]; }
+  // The velocities that a row depends on; J is zero in all others.
+  const std::vector<std::size_t>& dofs_of(std::size_t row) const {
+    return ends_[loop_of_row_[row]].dofs;
+  }
+
+  // Sets what follows at x, of which k is the kinematics.
+  void evaluate(const State<double>& x, const Kinematics& k) noexcept;
+  const Eigen::VectorXd& g() const { return g_; }
+  const Eigen::VectorXd& rate() const { return rate_; }    // g'
+  const Eigen::VectorXd& gamma() const { return gamma_; }  // g'' at qdd = 0
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& J() const {
+    return J_;
+  }
+  // Where the force of a loop acts; of a distance any point of its line will do.
+  const Vector3& point(std::size_t loop) const { return ends_[loop].p_WC; }
+  // For lambda of all rows, where evaluate() was last.
+  LoopWrench wrench(std::size_t loop, const Eigen::VectorXd& lambda) const;
+
+ private:
+  struct Ends {
+    std::size_t first_row = 0;
+    std::size_t shared = 0;              // velocities below this move both ends
+    std::vector<std::size_t> dofs;       // of the others, on either side
+    Matrix3 R_WC = Matrix3::Identity();  // axes of C_a
+    Vector3 p_WC = Vector3::Zero();      // origin of C_b
+    std::array<Vector3, 3> n;            // of the rotational rows, or the distance
+  };
+  struct Side;
+  Side side(const Kinematics& k, int body, const Pose& X_LC) const;
+  void evaluate_points(const Kinematics& k, Ends& e, const LoopClosure& loop, const Side& a,
+                       const Side& b);
+  void evaluate_axes(const Kinematics& k, Ends& e, const LoopClosure& loop, const Side& a,
+                     const Side& b);
+  void evaluate_distance(const Kinematics& k, Ends& e, const LoopClosure& loop, const Side& a,
+                         const Side& b);
+  void evaluate_joints(const State<double>& x, const Ends& e, const LoopClosure& loop);
+
+  const Model<double>* model_ = nullptr;
+  std::vector<LoopClosure> loops_;
+  std::vector<Ends> ends_;
+  std::vector<std::size_t> loop_of_row_;
+  Eigen::VectorXd g_, rate_, gamma_;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J_;
+};
+
+}  // namespace twinarm

@@ -1,0 +1,40 @@
+#include "solver/model/configuration.h"
+
+#include <cmath>
+
+#include "solver/model/joint_slice.h"
+
+namespace twinarm {
+
+void integrate_coordinates(const Model<double>& model, const std::vector<double>& q,
+                           const std::vector<double>& shift, std::vector<double>& q_out) {
+  for (std::size_t i = 1; i < model.parent.size(); ++i)
+    visit_joint(model, i, [&](auto joint) {
+      joint.integrate(q.data() + model.iq[i], shift.data() + model.iv[i],
+                      q_out.data() + model.iq[i]);
+    });
+}
+
+void shift_rate(const Model<double>& model, const std::vector<double>& theta,
+                const std::vector<double>& qd, std::vector<double>& rate) {
+  for (std::size_t i = 1; i < model.parent.size(); ++i)
+    visit_joint(model, i, [&](auto joint) {
+      const std::size_t iv = model.iv[i];
+      store(joint.dexpinv(slice<joint.nv>(theta, iv), slice<joint.nv>(qd, iv)), rate, iv);
+    });
+}
+
+void coordinate_sizes(const Model<double>& model, const std::vector<double>& q,
+                      std::vector<double>& size) {
+  for (std::size_t i = 1; i < model.parent.size(); ++i)
+    visit_joint(model, i, [&](auto joint) {
+      const std::size_t iq = model.iq[i], iv = model.iv[i];
+      const bool rotation_first = joint.nq == joint.nv + 1;  // spherical; free: x, y, z after it
+      for (std::size_t c = 0; c < joint.nv; ++c)
+        size[iv + c] = !rotation_first ? std::abs(q[iq + c])
+                       : c < 3         ? 0.0
+                                       : std::abs(q[iq + c - 3]);
+    });
+}
+
+}  // namespace twinarm

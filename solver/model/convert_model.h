@@ -1,0 +1,54 @@
+// The same model and state in another scalar: float, Dual<N>, Batch<N>.
+#pragma once
+
+#include "solver/model/model.h"
+#include "solver/spatial/convert_spatial.h"
+
+namespace twinarm {
+
+template <class T, class S>
+T convert(const S& a) {
+  return T(a);
+}
+template <class T, class From>
+auto convert_all(const std::vector<From>& all) {
+  std::vector<decltype(convert<T>(std::declval<From>()))> out;
+  out.reserve(all.size());
+  for (const From& one : all) out.push_back(convert<T>(one));
+  return out;
+}
+
+template <class T>
+Model<T> convert(const Model<double>& m) {
+  Model<T> out;
+  out.body_name = m.body_name;
+  out.joint_name = m.joint_name;
+  out.parent = m.parent;
+  out.last_child = m.last_child;
+  out.joint = m.joint;
+  out.pitch = convert_all<T>(m.pitch);
+  out.iq = m.iq;
+  out.iv = m.iv;
+  out.Xtree = convert_all<Constant<T>>(m.Xtree);
+  out.I = convert_all<Constant<T>>(m.I);
+  out.turn = convert_all<T>(m.turn);
+  out.gravity = convert<T>(m.gravity);
+  out.nq = m.nq;
+  out.nv = m.nv;
+  out.armature = convert_all<T>(m.armature);
+  out.damping = convert_all<T>(m.damping);
+  out.coulomb_plus = convert_all<T>(m.coulomb_plus);
+  out.coulomb_minus = convert_all<T>(m.coulomb_minus);
+  out.mimics = m.mimics;
+  return out;
+}
+template <class T>
+State<T> convert(const State<double>& x) {
+  State<T> out;
+  out.q = convert_all<T>(x.q);
+  out.qd = convert_all<T>(x.qd);
+  out.t = T(x.t);
+  return out;
+}
+
+}  // namespace twinarm

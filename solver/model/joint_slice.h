@@ -1,0 +1,46 @@
+// The n numbers (or forces) of one joint, out of and into the arrays of the whole mechanism.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "solver/model/joint_algebra.h"
+
+namespace twinarm {
+
+template <std::size_t n, class T>
+std::array<T, n> slice(const std::vector<T>& all, std::size_t first) {
+  std::array<T, n> part;
+  for (std::size_t k = 0; k < n; ++k) part[k] = all[first + k];
+  return part;
+}
+template <class T, std::size_t n>
+void store(const std::array<T, n>& part, std::vector<T>& all, std::size_t first) {
+  for (std::size_t k = 0; k < n; ++k) all[first + k] = part[k];
+}
+// Row by row.
+template <class S, std::size_t n>
+void store(const MatN<S, n>& part, std::vector<S>& all, std::size_t first) {
+  for (std::size_t k = 0; k < n; ++k) store(part[k], all, first + k * n);
+}
+template <class S, std::size_t n>
+void add_to_diagonal(MatN<S, n>& A, const std::vector<S>& d1, const std::vector<S>& d2,
+                     std::size_t first) {
+  for (std::size_t k = 0; k < n; ++k) A[k][k] = A[k][k] + d1[first + k] + d2[first + k];
+}
+// A factorization takes n (n + 1) / 2 numbers: 1/d, then the rows of L.
+template <class S, std::size_t n>
+void store(const Spd<S, n>& part, std::vector<S>& all, std::size_t first) {
+  store(part.inverse_d, all, first);
+  for (std::size_t k = 0; k < row_of_L(n); ++k) all[first + n + k] = part.L[k];
+}
+template <std::size_t n, class S>
+Spd<S, n> slice_spd(const std::vector<S>& all, std::size_t first) {
+  Spd<S, n> part;
+  part.inverse_d = slice<n>(all, first);
+  for (std::size_t k = 0; k < row_of_L(n); ++k) part.L[k] = all[first + n + k];
+  return part;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,35 @@
+#include "solver/model/mimic.h"
+
+#include <algorithm>
+
+namespace twinarm {
+
+void apply_mimics(const Model<double>& model, State<double>& x) {
+  for (const Mimic& m : model.mimics) {
+    x.q[m.follower_q] = m.ratio * x.q[m.leader_q] + m.offset;
+    x.qd[m.follower] = m.ratio * x.qd[m.leader];
+  }
+}
+
+std::vector<std::size_t> independent_dofs(const Model<double>& model) {
+  std::vector<std::size_t> dofs;
+  for (std::size_t d = 0; d < model.nv; ++d)
+    if (std::none_of(model.mimics.begin(), model.mimics.end(),
+                     [d](const Mimic& m) { return m.follower == d; }))
+      dofs.push_back(d);
+  return dofs;
+}
+
+Eigen::MatrixXd mimic_projection(const Model<double>& model) {
+  const std::vector<std::size_t> independent = independent_dofs(model);
+  const auto index = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(index(model.nv), index(independent.size()));
+  for (std::size_t y = 0; y < independent.size(); ++y) {
+    G(index(independent[y]), index(y)) = 1;
+    for (const Mimic& m : model.mimics)
+      if (m.leader == independent[y]) G(index(m.follower), index(y)) = m.ratio;
+  }
+  return G;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,116 @@
+// The model: what a mechanism is. Immutable once built; structure of arrays by body.
+//
+// Bodies are numbered so that parent[i] < i; body 0 is the fixed base (RBDA section 4.1). Body i
+// moves relative to its parent through joint i. Each body has two frames with the same origin, the
+// origin of joint i:
+//   body frame  turned at build time so that the joint's axis is z; the passes work in it;
+//   link frame  the axes of the user's file; everything that leaves solver/ is in it.
+// turn[i] = R_BL takes coordinates in link axes to coordinates in body axes.
+#pragma once
+
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "solver/model/joint.h"
+#include "solver/spatial/convert_spatial.h"
+#include "solver/spatial/spatial.h"
+
+namespace twinarm {
+
+// qd[follower] = ratio qd[leader] and q[follower] = ratio q[leader] + offset: a URDF's mimic joint.
+// The leader of one is never the follower of another.
+struct Mimic {
+  std::size_t follower, leader;      // velocity indices
+  std::size_t follower_q, leader_q;  // coordinate indices
+  double ratio = 1, offset = 0;
+};
+
+// By body, and the same in all lanes of S: kept once, and spread over the lanes where it is read.
+// That takes no instruction more than to load them, and an Nth of the memory: batches fill caches.
+template <template <class> class T, class S>
+class Spread {
+ public:
+  Spread() = default;
+  Spread(std::vector<T<Constant<S>>> once) : once_(std::move(once)) {}  // NOLINT: as a vector
+  T<S> operator[](std::size_t i) const { return convert<S>(once_[i]); }
+
+ private:
+  std::vector<T<Constant<S>>> once_;
+};
+template <template <class> class T, class S>
+using Constants =
+    std::conditional_t<std::is_same_v<S, Constant<S>>, std::vector<T<S>>, Spread<T, S>>;
+
+template <class S>
+struct Model {
+  std::vector<std::string> body_name;   // the link's name in the user's file
+  std::vector<std::string> joint_name;  // of the joint that carries the body; empty for the base
+  std::vector<int> parent;
+  std::vector<int> last_child;  // of a body's children that with the highest number; 0: a tip
+  std::vector<JointType> joint;
+  std::vector<S> pitch;             // of screws [m/rad]; 0 for all others
+  std::vector<std::size_t> iq, iv;  // first coordinate and first velocity of joint i
+  Constants<Transform, S> Xtree;    // from the parent's body frame to joint i at q_i = identity
+  Constants<Inertia, S> I;          // about the body's origin, body axes [kg, kg m, kg m^2]
+  std::vector<Mat3<S>> turn;        // R_BL
+  Vec3<S> gravity{S(0), S(0), S(-9.81)};  // world axes [m/s^2]
+  std::size_t nq = 0, nv = 0;
+
+  // By velocity.
+  std::vector<S> armature;                     // rotor inertia felt at the joint [kg m^2, kg]
+  std::vector<S> damping;                      // viscous [N m s/rad, N s/m]
+  std::vector<S> coulomb_plus, coulomb_minus;  // Coulomb friction for qd > 0, qd < 0 [N m, N]
+  std::vector<Mimic> mimics;
+
+  std::size_t dofs(std::size_t i) const { return (i + 1 < iv.size() ? iv[i + 1] : nv) - iv[i]; }
+  int body_count() const { return static_cast<int>(parent.size()); }  // with the base
+  int find_body(const std::string& name) const;                       // -1 where there is none
+  int find_joint(const std::string& name) const;  // the body that the joint carries, or -1
+};
+
+// Calls f with the joint struct of body i.
+template <class S, class F>
+void visit_joint(const Model<S>& model, std::size_t i, F&& f) {
+  visit_joint<S>(model.joint[i], model.pitch[i], std::forward<F>(f));
+}
+
+// The same with how its Ia is formed: a hinge is told apart from a geared one.
+template <class S, class F>
+void visit_joint(const Model<S>& model, const std::vector<S>& more_armature, std::size_t i, F&& f) {
+  if (model.joint[i] == JointType::revolute &&
+      !is_nonzero(model.armature[model.iv[i]] + more_armature[model.iv[i]]))
+    return f(RevoluteJoint<S>{}, HingeZeros{});
+  visit_joint(model, i, [&](auto joint) { f(joint, FullInertia{}); });
+}
+
+template <class S>
+int Model<S>::find_body(const std::string& name) const {
+  for (int i = 1; i < body_count(); ++i)
+    if (body_name[static_cast<std::size_t>(i)] == name) return i;
+  return !body_name.empty() && name == body_name[0] ? 0 : -1;  // a link may be called "world" too
+}
+template <class S>
+int Model<S>::find_joint(const std::string& name) const {
+  for (int i = 1; i < body_count(); ++i)
+    if (joint_name[static_cast<std::size_t>(i)] == name) return i;
+  return -1;
+}
+
+// Where the mechanism is and how fast it moves: coordinates q and velocities qd of joint i begin at
+// Model::iq[i] and iv[i].
+template <class S>
+struct State {
+  std::vector<S> q, qd;
+  S t{};  // [s]
+
+  State() = default;
+  // Every joint at its identity, at rest.
+  explicit State(const Model<S>& model) : q(model.nq, S(0)), qd(model.nv, S(0)) {
+    for (std::size_t i = 1; i < model.parent.size(); ++i)
+      visit_joint(model, i, [&](auto joint) { joint.identity(q.data() + model.iq[i]); });
+  }
+};
+
+}  // namespace twinarm

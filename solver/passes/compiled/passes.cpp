@@ -1,0 +1,28 @@
+// The passes for one scalar (TWINARM_SCALAR) at one level of the instruction set (TWINARM_ISA).
+// Compiled once for each pair that solver/CMakeLists.txt lists.
+#include "solver/passes/aba.h"
+#include "solver/passes/crba.h"
+#include "solver/passes/kinematics_pass.h"
+#include "solver/passes/minv.h"
+#include "solver/passes/pass_table.h"
+#include "solver/passes/rnea.h"
+#include "solver/spatial/batch.h"
+#include "solver/spatial/dual.h"
+
+namespace twinarm::TWINARM_ISA {
+
+template <class S>
+const Passes<S>& table();
+
+template <>
+const Passes<TWINARM_SCALAR>& table() {
+  using S = TWINARM_SCALAR;
+  static constexpr Passes<S> all{
+      [](const Model<S>& model, const State<S>& x, const Forces<S>& forces, Workspace<S>& w) {
+        aba(model, x, forces, w, NoTrace{});
+      },
+      &rnea<S>, &crba<S>, &minv_times<S>, &kinematics<S>};
+  return all;
+}
+
+}  // namespace twinarm::TWINARM_ISA

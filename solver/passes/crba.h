@@ -1,0 +1,51 @@
+// The mass matrix by the composite-rigid-body algorithm, RBDA section 6.2, table 6.2.
+//
+// Writes w.M, nv x nv, both triangles, the armature of the rotors on its diagonal. O(n depth).
+// Callers include solver/dynamics/dynamics.h.
+#pragma once
+
+#include <algorithm>
+
+#include "solver/model/joint_slice.h"
+#include "solver/model/workspace.h"
+#include "solver/spatial/instruction_set.h"
+
+namespace twinarm::TWINARM_ISA {
+
+template <class S>
+[[gnu::flatten]] void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w) {
+  const std::size_t n_bodies = model.parent.size(), nv = model.nv;
+  forget(w.Ic);
+  for (std::size_t k = 0; k < nv * nv; ++k) w.M[k] = S(0);
+
+  for (std::size_t i = 1; i < n_bodies; ++i) {
+    visit_joint(model, i, [&](auto joint) TWINARM_KERNEL {
+      const S* q = x.q.data() + model.iq[i];
+      w.Xup[i] = joint.XJ(q) * model.Xtree[i];
+      w.Ic[i] = model.I[i];
+      remember(joint.subspace(q), w.S_.data() + model.iv[i]);
+    });
+  }
+
+  for (std::size_t i = n_bodies; i-- > 1;) {
+    if (model.parent[i] > 0)
+      add_congruence(w.Xup[i], w.Ic[i], w.Ic[static_cast<std::size_t>(model.parent[i])]);
+
+    // M_ji = S_j^T F_i for j = i and every ancestor j of i
+    for (std::size_t col = model.iv[i]; col < model.iv[i] + model.dofs(i); ++col) {
+      Force<S> F = w.Ic[i] * w.S_[col];
+      for (std::size_t j = i; j > 0; j = static_cast<std::size_t>(model.parent[j])) {
+        const std::size_t jv = model.iv[j];
+        if (model.joint[j] == JointType::revolute)
+          w.M[jv * nv + col] = w.M[col * nv + jv] = F.n.z;
+        else
+          for (std::size_t row = jv; row < jv + model.dofs(j); ++row)
+            w.M[row * nv + col] = w.M[col * nv + row] = dot(w.S_[row], F);
+        F = transpose_times(w.Xup[j], F);
+      }
+      w.M[col * nv + col] = w.M[col * nv + col] + model.armature[col];
+    }
+  }
+}
+
+}  // namespace twinarm::TWINARM_ISA

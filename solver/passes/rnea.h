@@ -1,0 +1,58 @@
+// Inverse dynamics by the recursive Newton-Euler algorithm, RBDA section 5.3, table 5.1.
+//
+//   tau = M qdd + C(q, qd, f_ext),  in O(n), in body axes.
+//
+// Leaves w.f, the force that the parent exerts on body i through joint i, and w.tau; the armature
+// of the rotors is in w.tau alone. Callers include solver/dynamics/dynamics.h.
+#pragma once
+
+#include "solver/model/joint_slice.h"
+#include "solver/model/workspace.h"
+#include "solver/spatial/instruction_set.h"
+
+namespace twinarm::TWINARM_ISA {
+
+template <class S>
+[[gnu::flatten]] void rnea(const Model<S>& model, const State<S>& x, const std::vector<S>& qdd,
+                           const std::vector<Force<S>>& f_ext, Workspace<S>& w) {
+  const std::size_t n_bodies = model.parent.size();
+  forget(w.v), forget(w.c), forget(w.a), forget(w.f), forget(w.tau);
+  w.v[0] = {};
+  w.a[0] = {{}, -model.gravity};
+  w.f[0] = {};
+
+  // base to tips: velocities, accelerations, and the force that each body's motion needs
+  for (std::size_t i = 1; i < n_bodies; ++i) {
+    visit_joint(model, i, [&](auto joint) TWINARM_KERNEL {
+      const auto p = static_cast<std::size_t>(model.parent[i]);
+      const S *q = x.q.data() + model.iq[i], *qd = x.qd.data() + model.iv[i];
+      const auto S_i = joint.subspace(q);
+      const auto vJ = joint_velocity(joint, S_i, q, qd);
+
+      w.Xup[i] = joint.XJ(q) * model.Xtree[i];
+      w.v[i] = w.Xup[i] * w.v[p] + vJ;
+      w.c[i] = crm(w.v[i], vJ) + joint.cJ(q, qd);
+      w.a[i] = w.Xup[i] * w.a[p] + w.c[i] + times(S_i, slice<joint.nv>(qdd, model.iv[i]));
+      w.f[i] = model.I[i] * w.a[i] + crf(w.v[i], model.I[i] * w.v[i]) - f_ext[i];
+      remember(S_i, w.S_.data() + model.iv[i]);
+    });
+  }
+
+  // tips to base: forces through the joints
+  for (std::size_t i = n_bodies; i-- > 1;) {
+    visit_joint(model, i, [&](auto joint) {
+      const auto p = static_cast<std::size_t>(model.parent[i]);
+      const std::size_t iv = model.iv[i];
+      decltype(joint.subspace(nullptr)) S_i;
+      recall(w.S_.data() + iv, S_i);
+
+      auto tau = transpose_times(S_i, w.f[i]);
+      for (std::size_t k = 0; k < joint.nv; ++k)
+        tau[k] = tau[k] + model.armature[iv + k] * qdd[iv + k];
+      store(tau, w.tau, iv);
+      w.f[p] += transpose_times(w.Xup[i], w.f[i]);
+    });
+  }
+}
+
+}  // namespace twinarm::TWINARM_ISA

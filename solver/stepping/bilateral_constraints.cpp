@@ -1,0 +1,92 @@
+// Mimics and closed loops, as laws of a step under constraints (constrained_step.h): g' = 0 of
+// each.
+#include "solver/stepping/constrained_step.h"
+
+namespace twinarm {
+
+void ConstrainedStep::add_mimics() {
+  for (std::size_t i = 0; i < model_->mimics.size(); ++i) {
+    const Mimic& mimic = model_->mimics[i];
+    const int a = trees_.tree_of_dof(mimic.follower), b = trees_.tree_of_dof(mimic.leader);
+    ImpulseConstraint& c =
+        problem_.add(ImpulseLaw::equal, 1, a, a == b ? ImpulseConstraint::no_tree : b);
+    problem_.J(c, 0)[trees_.place(mimic.follower)] = 1;
+    problem_.J(c, a == b ? 0 : 1)[trees_.place(mimic.leader)] -= mimic.ratio;
+    c.p[0] = mimic_guess_[i];
+  }
+}
+
+void ConstrainedStep::add_bilateral(Mechanism& m, Phase phase, double h) {
+  first_bilateral_ = problem_.constraints().size();
+  add_mimics();
+  if (m.has_loops()) add_loops(m, phase, h);
+}
+
+// Works and momenta of what add_bilateral() added (constraint_work.h).
+void ConstrainedStep::count_bilateral(Mechanism& m, Phase phase) {
+  if (!m.account) return;
+  const bool in_flow = phase == Phase::flow;
+  const auto work_of = [&](const ImpulseConstraint& c) {
+    std::array<double, 3> before, after;
+    problem_.velocity(c, velocity_.data(), before);
+    problem_.velocity(c, problem_.v(0), after);
+    double work = 0;
+    for (std::size_t r = 0; r < 3; ++r) work += 0.5 * c.p[r] * (before[r] + after[r]);
+    return work;
+  };
+  std::size_t next = first_bilateral_;
+  for (std::size_t i = 0; i < model_->mimics.size(); ++i)
+    m.account->add_mimic(i, work_of(problem_.constraints()[next++]), in_flow);
+  const LoopClosures& loops = m.dynamics.bilateral().loops();
+  lambda_.resize(static_cast<Eigen::Index>(loops.rows()));
+  for (std::size_t row = 0; row < loops.rows(); ++next) {
+    const ImpulseConstraint& c = problem_.constraints()[next];
+    Exchange on_both;
+    on_both.work = work_of(c);
+    m.account->add_loop(loops.loop_of(row), on_both, in_flow);
+    for (int r = 0; r < c.rows; ++r)
+      lambda_[static_cast<Eigen::Index>(row++)] = c.p[static_cast<std::size_t>(r)];
+  }
+  for (std::size_t l = 0; l < loops.loops().size(); ++l) {
+    Exchange on_a;
+    const LoopWrench wrench = loops.wrench(l, lambda_);
+    on_a.add_wrench(1, loops.point(l), wrench.force, wrench.couple);
+    m.account->add_loop(l, on_a, in_flow);
+  }
+}
+
+// g' = 0; what is left of g = 0 is for Mechanism::refresh().
+void ConstrainedStep::add_loops(Mechanism& m, Phase phase, double h) {
+  LoopClosures& loops = m.dynamics.bilateral().loops();
+  loops.evaluate(m.x, m.k);
+  loop_guess_.resize(loops.rows());
+  for (std::size_t row = 0, count = 0; row < loops.rows(); row += count) {
+    for (count = 1; count < 3 && row + count < loops.rows() &&
+                    loops.loop_of(row + count) == loops.loop_of(row);)
+      ++count;
+    const std::vector<std::size_t>& dofs = loops.dofs_of(row);
+    int a = ImpulseConstraint::no_tree, b = ImpulseConstraint::no_tree;
+    for (const std::size_t dof : dofs) {
+      const int tree = trees_.tree_of_dof(dof);
+      if (a == ImpulseConstraint::no_tree) a = tree;
+      if (tree != a) b = tree;
+    }
+    ImpulseConstraint& c = problem_.add(ImpulseLaw::equal, static_cast<int>(count), a, b);
+    for (std::size_t r = 0; r < count; ++r) {
+      const auto from = static_cast<Eigen::Index>(row + r);
+      c.b[r] = phase == Phase::separate ? 0 : loops.rate()[from];
+      if (with_gamma_ && phase == Phase::step) c.b[r] += h * loops.gamma()[from];
+      if (phase == Phase::step || phase == Phase::flow) c.p[r] = loop_guess_[row + r];
+      for (const std::size_t dof : dofs) {
+        const double entry = loops.J()(from, static_cast<Eigen::Index>(dof));
+        const int tree = trees_.tree_of_dof(dof);
+        const std::size_t n = static_cast<std::size_t>(problem_.size(tree));
+        problem_.J(c, tree == a ? 0 : 1)[r * n + trees_.place(dof)] = entry;
+        // what prescribed joints do is in g' and not in J qd
+        if (phase != Phase::separate) c.b[r] -= entry * m.x.qd[dof];
+      }
+    }
+  }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,33 @@
+#include "solver/support/atomic_file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+
+void write_whole_file(const std::filesystem::path& file, const std::string& bytes) {
+  // The process number keeps two programs that write the same file apart.
+  const std::filesystem::path temporary = file.string() + "." + std::to_string(::getpid()) + ".tmp";
+  std::error_code error;
+  errno = 0;
+  {
+    std::ofstream out(temporary, std::ios::binary);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (out) std::filesystem::rename(temporary, file, error);
+    if (out && !error) return;
+  }
+  const std::string why = error ? error.message() : errno != 0 ? std::strerror(errno) : "";
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  throw InputError(
+      {{file.string(), 0, "", "the file cannot be written" + (why.empty() ? "" : ": " + why),
+        "choose a folder that exists, can be written and has room"}});
+}
+
+}  // namespace twinarm

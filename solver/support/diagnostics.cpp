@@ -1,0 +1,72 @@
+#include "solver/support/diagnostics.h"
+
+#include <utility>
+
+namespace twinarm {
+namespace {
+
+std::string line_by_line(const std::vector<Fault>& faults) {
+  std::string text;
+  for (const Fault& fault : faults) text += (text.empty() ? "" : "\n") + to_string(fault);
+  return text;
+}
+
+// Not within a letter of UTF-8.
+void shorten(std::string& text) {
+  constexpr std::size_t kLongest = 1000;
+  if (text.size() <= kLongest) return;
+  std::size_t end = kLongest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  text.resize(end);
+  text += "...";
+}
+
+void shorten(Fault& fault) {
+  for (std::string* text : {&fault.where, &fault.rule, &fault.remedy}) shorten(*text);
+}
+
+std::vector<Fault>& shortened(std::vector<Fault>& faults) {
+  for (Fault& fault : faults) shorten(fault);
+  return faults;
+}
+
+}  // namespace
+
+std::string to_string(const Fault& fault) {
+  std::string text;
+  if (!fault.file.empty()) {
+    text += fault.file;
+    if (fault.line > 0) text += ":" + std::to_string(fault.line);
+    text += ": ";
+  }
+  if (!fault.where.empty()) text += fault.where + ": ";
+  text += fault.rule;
+  if (!fault.remedy.empty()) text += "; " + fault.remedy;
+  return text;
+}
+
+void add_fault(std::vector<Fault>& faults, Fault fault) {
+  shorten(fault);
+  if (faults.size() < kMostFaults)
+    faults.push_back(std::move(fault));
+  else if (faults.size() == kMostFaults)
+    faults.push_back({std::move(fault.file), 0, "",
+                      "has more than " + std::to_string(kMostFaults) + " faults",
+                      "mend the others that are told, and try again"});
+}
+
+InputError::InputError(std::vector<Fault> faults)
+    : std::runtime_error(line_by_line(shortened(faults))), faults_(std::move(faults)) {}
+InputError::~InputError() = default;
+
+void FaultList::add(Fault fault) {
+  add_fault(faults_, std::move(fault));
+}
+void FaultList::add(const std::vector<Fault>& more) {
+  for (const Fault& fault : more) add(fault);
+}
+void FaultList::check() const {
+  if (!faults_.empty()) throw InputError(faults_);
+}
+
+}  // namespace twinarm

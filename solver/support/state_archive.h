@@ -1,0 +1,102 @@
+// What a run remembers from step to step besides its state: held forces, stick anchors, guesses of
+// impulses, lengths of substeps. Without it a restart is not bit-exact.
+//
+// Each owner names its fields once, in visit_memory(). A Memory that was made empty appends them as
+// bytes; one that was made of such bytes puts them back. Little-endian, sizes before vectors.
+#pragma once
+
+#include <Eigen/Core>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "solver/spatial/pose.h"
+
+namespace twinarm {
+
+class Memory {
+ public:
+  Memory() = default;  // writes
+  explicit Memory(std::string bytes) : bytes_(std::move(bytes)), reads_(true) {}
+  bool reads() const { return reads_; }
+  const std::string& bytes() const { return bytes_; }
+  bool at_end() const { return at_ == bytes_.size(); }
+
+  // All throw std::runtime_error where there are too few bytes to read.
+  template <class T>
+  void visit(T& value) {
+    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>, "field by field: no padding");
+    static_assert(std::endian::native == std::endian::little);
+    if (!reads_) {
+      bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+      return;
+    }
+    need(sizeof value);
+    if constexpr (std::is_same_v<T, bool>)
+      value = bytes_[at_] != 0;  // another byte is no bool
+    else
+      std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    at_ += sizeof value;
+  }
+  void visit(Vector3& v) {
+    for (int c = 0; c < 3; ++c) visit(v[c]);
+  }
+  template <class T>
+  void visit(std::vector<T>& values) {
+    resize(values, sizeof(T));
+    for (T& value : values) visit(value);
+  }
+  // Of a vector that is as long as the scene makes it.
+  template <class T>
+  void visit_fixed(std::vector<T>& values) {
+    const std::size_t size = values.size();
+    visit(values);
+    if (values.size() != size) of_another_scene();
+  }
+  // Of one of `count` things of the scene.
+  template <class T>
+  void visit_index(T& index, std::size_t count) {
+    visit(index);
+    if (!std::in_range<std::size_t>(index) || static_cast<std::size_t>(index) >= count)
+      of_another_scene();
+  }
+  void visit(std::string& text) {
+    std::uint64_t size = text.size();
+    visit(size);
+    if (reads_) {
+      need(size);
+      text = bytes_.substr(at_, size);
+      at_ += size;
+    } else {
+      bytes_ += text;
+    }
+  }
+  // Of a vector whose elements the caller visits; each has at least so many bytes.
+  template <class T>
+  void resize(std::vector<T>& values, std::size_t least_bytes) {
+    std::uint64_t size = values.size();
+    visit(size);
+    if (!reads_) return;
+    if (size > (bytes_.size() - at_) / least_bytes) of_another_scene();
+    values.resize(size);
+  }
+
+ private:
+  void need(std::size_t bytes) const {
+    if (bytes > bytes_.size() - at_) of_another_scene();
+  }
+  [[noreturn]] static void of_another_scene() {
+    throw std::runtime_error("what a run remembers is cut short, or is of another scene");
+  }
+  std::string bytes_;
+  std::size_t at_ = 0;
+  bool reads_ = false;
+};
+
+}  // namespace twinarm
