@@ -55,7 +55,8 @@ MapBlocks blocks_of(const MapJob& job) {
 
 TileFile empty_tile_file(const MapJob& job) {
   TileFile file;
-  file.head = {std::string("program ") + kProgramVersion, "scene " + job.run.robot.model.generic_string()};
+  file.head = {std::string("program ") + kProgramVersion,
+               "scene " + job.run.robot.model.generic_string()};
   file.head.insert(file.head.end(), job.identity.begin(), job.identity.end());
   return file;
 }

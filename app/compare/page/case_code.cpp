@@ -127,7 +127,8 @@ std::pair<const CaseSource*, std::size_t> find_case(std::string name) {
   for (; name.size() >= 2; name.pop_back()) {
     const std::string quoted = "\"" + name + "\"";
     for (const CaseSource& source : case_sources()) {
-      if (source.file.ends_with("_statements.cpp") || source.file.ends_with("analytic_cases.cpp")) continue;
+      if (source.file.ends_with("_statements.cpp") || source.file.ends_with("analytic_cases.cpp"))
+        continue;
       std::size_t at = source.text.find(quoted), last = at;
       // The mechanism's own name may stand before; what registers comes last.
       for (; at != std::string_view::npos; at = source.text.find(quoted, at + 1)) last = at;

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/support/output_file.h"
 #include "app/study/calibration/whole_number.h"
+#include "app/support/output_file.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 
