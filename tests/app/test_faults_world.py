@@ -170,8 +170,8 @@ class Pages(Case):
     def lab(self, *more):
         process = subprocess.Popen([PROGRAM, "lab", PENDULUM, "--json", "--no-browser", *more],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder)
-        self.addCleanup(process.communicate)
-        self.addCleanup(process.kill)
+        self.addCleanup(process.communicate, timeout=TIMEOUT)
+        self.addCleanup(process.send_signal, signal.SIGINT)  # it takes its temporary folder away
         return process, json.loads(process.stdout.readline())["url"]
 
     def test_a_port_that_is_taken_is_told_with_the_way_out(self):
