@@ -27,7 +27,7 @@ def main():
     skipped = skipped_tests(sys.argv[1])
     if not skipped:
         return 0
-    print(f"\nSkipped, in {len({test for test, _ in skipped})} tests:")
+    print(f"\nSkipped tests: {len({test for test, _ in skipped})}")
     for test, reason in skipped:
         print(f"  {test}: {reason}")
     groups = sorted({group for _, reason in skipped for group in re.findall(r"scripts/setup (--[a-z]+)", reason)})

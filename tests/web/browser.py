@@ -61,6 +61,7 @@ class Browser:
             os.set_inheritable(4, True)
 
         self.process = subprocess.Popen(command, preexec_fn=take_pipes, close_fds=False,
+                                        env=dict(os.environ, TMPDIR=self.folder),  # of which it leaves something
                                         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                         stderr=subprocess.DEVNULL)
         os.close(to_browser)
