@@ -221,7 +221,7 @@ class Maps(MapCommand):
             before = work.stat().st_size if work.exists() else 0
             process = subprocess.Popen([*command, work], stdout=subprocess.PIPE,
                                        stderr=subprocess.PIPE)
-            deadline = time.time() + 60
+            deadline = time.time() + TIMEOUT
             while time.time() < deadline and process.poll() is None:
                 if work.exists() and work.stat().st_size > before:
                     process.send_signal(blow)

@@ -10,11 +10,11 @@ import struct
 import subprocess
 import sys
 import unittest
-from waiting import TIMEOUT
 
 sys.dont_write_bytecode = True
 import test_map_command
 from test_map_command import ARM, HINGE, INERTIA, MapCommand, ROOT
+from waiting import TIMEOUT
 
 MEASURES = ("stable", "max_error", "mean_error", "energy", "passivity")
 SLIDER = ('<robot name="slider"><link name="base"/><link name="arm"><inertial><mass value="1"/>'

@@ -134,22 +134,22 @@ class OnCluster(unittest.TestCase):
             ["sinfo", "--noheader", "--format=%T"], env=self.environment, capture_output=True,
             text=True).stdout.strip() == "idle", "slurm")
 
-    def wait_for(self, is_so, what, seconds=60):
-        end = time.time() + seconds
+    def wait_for(self, is_so, what):
+        end = time.time() + TIMEOUT
         while not is_so():
             self.assertLess(time.time(), end, f"{what} does not come up\n{self.logs()}")
             time.sleep(0.2)
 
     def kill_part(self, number, submitted):
         """The program that computes the part, once it has kept a block. Its process number."""
-        end = time.time() + 120
+        end = time.time() + TIMEOUT
         while time.time() < end and submitted.poll() is None:
             for entry in pathlib.Path("/proc").glob("[0-9]*"):
                 try:
                     words = (entry / "cmdline").read_bytes().decode(errors="replace").split("\0")
                 except OSError:
                     continue
-                mine = words[0] == PROGRAM and str(self.scene) in words
+                mine = words[0] == PROGRAM and str(self.scene) in words and "--tile" in words
                 if mine and words[words.index("--tile") + 1] == str(number):
                     os.kill(int(entry.name), signal.SIGKILL)
                     return int(entry.name)
