@@ -9,7 +9,7 @@
 // Only ends tests that hang [s]; TWINARM_TEST_TIMEOUT is a factor for slow machines.
 inline double longest_wait() {
   const char* factor = std::getenv("TWINARM_TEST_TIMEOUT");
-  return 300 * (factor ? std::atof(factor) : 1);
+  return 900 * (factor ? std::atof(factor) : 1);
 }
 
 inline bool comes_true(const std::function<bool()>& is_so, int period_ms = 5) {

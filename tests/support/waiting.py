@@ -8,7 +8,7 @@ import pathlib
 import resource
 import time
 
-TIMEOUT = 300 * float(os.environ.get("TWINARM_TEST_TIMEOUT", "1"))
+TIMEOUT = 900 * float(os.environ.get("TWINARM_TEST_TIMEOUT", "1"))
 
 
 def wait_for(condition, what):
