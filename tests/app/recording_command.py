@@ -4,6 +4,7 @@ import subprocess
 
 import robot_command
 from robot_command import RobotCommand, joint, link, robot
+from waiting import TIMEOUT
 
 DOUBLE = robot('<link name="base"/>', link("upper"), link("lower"),
                joint("shoulder", "continuous", "base", "upper", axis="0 1 0",
@@ -75,7 +76,7 @@ point = [0.5, 0, 1]
 class RecordingCommand(RobotCommand):
     def twinarm(self, *arguments, code=0):
         result = subprocess.run([robot_command.PROGRAM, *map(str, arguments)], cwd=self.folder,
-                                capture_output=True, text=True, timeout=120)
+                                capture_output=True, text=True, timeout=TIMEOUT)
         self.assertEqual(result.returncode, code, result.stderr + result.stdout[:2000])
         return result
 

@@ -4,8 +4,12 @@ import json
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ""
@@ -52,7 +56,7 @@ class RobotCommand(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="twinarm-robot-"))
         self.addCleanup(shutil.rmtree, self.folder)
 
-    def run_it(self, urdf, *options, state=None, timeout=300):
+    def run_it(self, urdf, *options, state=None, timeout=TIMEOUT):
         """`urdf` is XML or a path below the project, `state` an object, JSON text or a path."""
         if urdf.startswith("<"):
             (self.folder / "test.urdf").write_text(urdf)

@@ -12,13 +12,15 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT, wait_for_work  # noqa: E402
 
 PROGRAM = ""
 
 
-def run(*arguments, timeout=120, **more):
+def run(*arguments, timeout=TIMEOUT, **more):
     return subprocess.run([PROGRAM, "compare", *arguments], capture_output=True, text=True,
                           timeout=timeout, **more)
 
@@ -144,9 +146,9 @@ class Compare(unittest.TestCase):
     def test_ctrl_c_ends_it_with_130_and_no_half_answer(self):
         process = subprocess.Popen([PROGRAM, "compare", "--json"], stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True)
-        time.sleep(0.5)
+        wait_for_work(process, 0.3)
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=TIMEOUT)
         self.assertEqual((process.returncode, out), (130, ""), err)
         self.assertIn("interrupted", err)
 
@@ -362,9 +364,9 @@ class PageFaults(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             process = subprocess.Popen([PROGRAM, "compare", "--html", folder + "/out"],
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            time.sleep(0.5)
+            wait_for_work(process, 0.3)
             process.send_signal(signal.SIGINT)
-            out, err = process.communicate(timeout=60)
+            out, err = process.communicate(timeout=TIMEOUT)
             self.assertEqual((process.returncode, out), (130, ""), err)
             self.assertEqual(os.listdir(folder), [])
 

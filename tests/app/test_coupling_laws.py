@@ -13,6 +13,7 @@ import unittest
 
 import robot_command
 from robot_command import RobotCommand, joint, link, robot
+from waiting import TIMEOUT
 
 INERTIA = 0.5
 # The centre of mass on the axis: a weld then holds the orientation alone.
@@ -57,7 +58,7 @@ class CouplingLaws(RobotCommand):
 
     def twinarm(self, *arguments, codes=(0,)):
         done = subprocess.run([robot_command.PROGRAM, *map(str, arguments), "--json"],
-                              capture_output=True, text=True, timeout=120, cwd=self.folder)
+                              capture_output=True, text=True, timeout=TIMEOUT, cwd=self.folder)
         self.assertIn(done.returncode, codes, done.stderr)
         return done.returncode, json.loads(done.stdout)
 
@@ -224,7 +225,7 @@ class Limits(CouplingLaws):
         scene = self.scene(coupling("torsional", "implicit", measure="joint", stiffness=10,
                                     outside=[-1, 1]))
         done = subprocess.run([robot_command.PROGRAM, "coupling", "predict", scene],
-                              capture_output=True, text=True, timeout=60)
+                              capture_output=True, text=True, timeout=TIMEOUT)
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("stops", done.stderr)
 
@@ -356,7 +357,7 @@ class Errors(CouplingLaws):
         self.assertIsNone(found["start"]["elbow"])
         self.assertGreater(found["start"]["shoulder"], 0)
         table = subprocess.run([robot_command.PROGRAM, "coupling", "predict", scene],
-                               capture_output=True, text=True, timeout=60).stdout
+                               capture_output=True, text=True, timeout=TIMEOUT).stdout
         self.assertRegex(table, r"elbow +deg +- +-")
 
 

@@ -13,6 +13,7 @@ import unittest
 
 import robot_command
 from robot_command import RobotCommand, joint, link, robot
+from waiting import TIMEOUT
 
 # One hinge about z with inertia 0.5.
 HINGE = robot('<link name="base"/>', link("arm", 1, (0, 0, 0), (0.5, 0, 0, 0.5, 0, 0.5)),
@@ -45,7 +46,7 @@ class CouplingTypes(RobotCommand):
         scene = self.folder / "scene.toml"
         scene.write_text('[[robot]]\nname = "r"\nmodel = "robot.urdf"\n' + text)
         done = subprocess.run([robot_command.PROGRAM, "simulate", scene, "--json",
-                               *map(str, options)], capture_output=True, text=True, timeout=120)
+                               *map(str, options)], capture_output=True, text=True, timeout=TIMEOUT)
         self.assertEqual(done.returncode, code, done.stderr)
         return json.loads(done.stdout)
 
@@ -92,7 +93,7 @@ class CouplingTypes(RobotCommand):
                 (self.folder / "robot.urdf").write_text(HINGE)
                 scene.write_text('[[robot]]\nname = "r"\nmodel = "robot.urdf"\n' + self.scene(kind))
                 done = subprocess.run([robot_command.PROGRAM, "simulate", scene, "--integrator",
-                                       "rk4"], capture_output=True, text=True, timeout=60)
+                                       "rk4"], capture_output=True, text=True, timeout=TIMEOUT)
                 self.assertEqual(done.returncode, 2)
                 self.assertIn("--integrator semi-implicit", done.stderr)
 

@@ -15,13 +15,13 @@ import struct
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-for folder in ("tests/faults", "tests/lab"):
+for folder in ("tests/faults", "tests/lab", "tests/support"):
     sys.path.insert(0, str(ROOT / folder))
 from live_socket import Lab  # noqa: E402
+from waiting import TIMEOUT, processor_time, wait_for, wait_while_running  # noqa: E402
 from whole_files import check_whole  # noqa: E402
 from writers import PENDULUM, SCENES, SMALL, WRITERS  # noqa: E402
 
@@ -33,6 +33,10 @@ DAY = 86400
 
 
 class Case(unittest.TestCase):
+    def need_ffmpeg(self):
+        if not shutil.which("ffmpeg"):
+            self.skipTest("ffmpeg is not installed: scripts/setup --film")
+
     def setUp(self):
         holder = tempfile.TemporaryDirectory(prefix="twinarm-faults-")
         self.addCleanup(holder.cleanup)
@@ -41,7 +45,7 @@ class Case(unittest.TestCase):
         self.folder.mkdir()
 
     def run_it(self, *words, folder=None, **environment):
-        return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=300,
+        return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=TIMEOUT,
                               cwd=folder or self.folder, env=dict(os.environ, **environment))
 
     def succeeds(self, *words, **more):
@@ -93,9 +97,9 @@ class Strange(Case):
                             (["render", scene, "--png", "Bild ß.png", *SMALL], "Bild ß.png"),
                             (["render", scene, "--mp4", "Film ß.mp4", "--to", 0.1, *SMALL], "Film ß.mp4"),
                             (["trace", "--out", "Spur ø.csv"], "Spur ø.csv")):
-            if "--mp4" in words and not shutil.which("ffmpeg"):
-                continue
             with self.subTest(file):
+                if "--mp4" in words:
+                    self.need_ffmpeg()
                 self.succeeds(*words, folder=folder)
                 check_whole(folder / file)
         self.succeeds("hand", HAND, "--simulated", "--duration", 0.2, "--record", "--out", "Hand ï", folder=folder)
@@ -103,7 +107,7 @@ class Strange(Case):
 
     def test_a_language_with_decimal_commas_changes_no_byte(self):
         if not shutil.which("localedef") or not pathlib.Path("/usr/share/i18n/locales/de_DE").exists():
-            self.skipTest("the package locales is not installed")
+            self.skipTest("the package locales is not installed: scripts/setup --test")
         made = subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", self.base / "de_DE.UTF-8"],
                               capture_output=True)
         self.assertTrue((self.base / "de_DE.UTF-8/LC_NUMERIC").exists(), made.stderr)
@@ -141,7 +145,7 @@ class Clock(Case):
     def test_a_clock_that_jumps_by_days_is_not_noticed(self):
         faketime = next(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"), None)
         if faketime is None:
-            self.skipTest("the package faketime is not installed")
+            self.skipTest("the package faketime is not installed: scripts/setup --test")
         jumps = self.folder / "clock"
         jumps.write_text("+0")
         environment = {"LD_PRELOAD": str(faketime), "FAKETIME_TIMESTAMP_FILE": str(jumps), "FAKETIME_NO_CACHE": "1",
@@ -149,10 +153,12 @@ class Clock(Case):
         process = subprocess.Popen([PROGRAM, "hand", HAND, "--duration", "2", "--record", "--json", "--out",
                                     self.folder / "out"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                    env=dict(os.environ, **environment))
-        for days in (1000, -1000, 3):
-            time.sleep(0.5)
+        log = self.folder / "out/hand.csv"
+        for rows, days in ((500, 1000), (1000, -1000), (1500, 3)):
+            wait_for(lambda: process.poll() is not None or (log.exists() and log.read_bytes().count(b"\n") > rows),
+                     f"{rows} rows of the log")
             jumps.write_text(f"{days * DAY:+d}")
-        out, told = process.communicate(timeout=300)
+        out, told = process.communicate(timeout=TIMEOUT)
         self.assertEqual(process.returncode, 0, told)
         answer = json.loads(out)
         self.assertEqual(answer["ticks"], 2000)
@@ -164,8 +170,8 @@ class Pages(Case):
     def lab(self, *more):
         process = subprocess.Popen([PROGRAM, "lab", PENDULUM, "--json", "--no-browser", *more],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder)
-        self.addCleanup(process.communicate)
-        self.addCleanup(process.kill)
+        self.addCleanup(process.communicate, timeout=TIMEOUT)
+        self.addCleanup(process.send_signal, signal.SIGINT)  # it takes its temporary folder away
         return process, json.loads(process.stdout.readline())["url"]
 
     def test_a_port_that_is_taken_is_told_with_the_way_out(self):
@@ -210,23 +216,20 @@ class Pages(Case):
 class Ends(Case):
     """What scripts/kill_test meets by chance, on purpose."""
 
-    def struck(self, words, blow, part=None):
-        """After two seconds, or as soon as there is that file."""
+    def struck(self, words, blow, is_ready):
+        """As soon as is_ready(process)."""
         process = subprocess.Popen([PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    text=True, cwd=self.folder, start_new_session=True)
-        time.sleep(0 if part else 2)
-        while part and not (self.folder / part).exists():
-            self.assertIsNone(process.poll())
-            time.sleep(0.01)
+        wait_while_running(process, lambda: is_ready(process), "it is at work")
         os.killpg(process.pid, blow)
-        out, told = process.communicate(timeout=300)
+        out, told = process.communicate(timeout=TIMEOUT)
         return process.returncode, out, told
 
     def test_a_terminal_that_is_closed_ends_it_as_ctrl_c_does(self):
-        for file, part in (("film.mp4", "film.mp4.part"), ("film.gif", None)):  # a GIF's comes at its end
-            if not shutil.which("ffmpeg"):
-                self.skipTest("ffmpeg is not installed")
-            code, _, _ = self.struck(["render", LONG, "--" + file[-3:], file, "--fps", 1000], signal.SIGHUP, part)
+        self.need_ffmpeg()
+        for file, is_ready in (("film.mp4", lambda _: (self.folder / "film.mp4.part").exists()),
+                               ("film.gif", lambda process: processor_time(process) > 1)):  # its file comes at its end
+            code, _, _ = self.struck(["render", LONG, "--" + file[-3:], file, "--fps", 1000], signal.SIGHUP, is_ready)
             self.assertEqual(code, 130)
             self.assertEqual(list(self.folder.iterdir()), [])
 
@@ -234,17 +237,16 @@ class Ends(Case):
         process = subprocess.Popen([PROGRAM, "simulate", LONG, "--record", "run.twinrec"], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, cwd=self.folder,
                                    preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
-        for _ in range(1000):
-            if list(self.folder.iterdir()):
-                break
-            time.sleep(0.01)
+        wait_while_running(process, lambda: list(self.folder.iterdir()), "a recording that has begun")
         process.send_signal(signal.SIGHUP)
-        _, told = process.communicate(timeout=300)
+        _, told = process.communicate(timeout=TIMEOUT)
         self.assertEqual(process.returncode, 0, told)
         check_whole(self.folder / "run.twinrec")
 
     def test_ctrl_c_ends_a_run_under_a_hand_and_its_recording_is_made_all_the_same(self):
-        code, out, told = self.struck(["hand", HAND, "--record", "--json", "--out", "."], signal.SIGINT)
+        log = self.folder / "hand.csv"
+        code, out, told = self.struck(["hand", HAND, "--record", "--json", "--out", "."], signal.SIGINT,
+                                      lambda _: log.exists() and log.stat().st_size > 20000)
         self.assertEqual(code, 0, told)
         self.assertTrue(json.loads(out)["same_bits"])
         check_whole(self.folder / "run.twinrec")

@@ -13,6 +13,7 @@ import unittest
 
 import robot_command
 from robot_command import ROOT
+from waiting import TIMEOUT
 
 SCENES = ROOT / "assets/scenes"
 GALLERY = tomllib.loads((SCENES / "gallery/gallery.toml").read_text())["scene"]
@@ -31,7 +32,7 @@ class Gallery(unittest.TestCase):
     def twinarm(self, command, model, *options):
         result = subprocess.run([robot_command.PROGRAM, command, str(model),
                                  *map(str, options), "--json"], capture_output=True, text=True,
-                                timeout=300, cwd=ROOT)
+                                timeout=TIMEOUT, cwd=ROOT)
         self.assertEqual(result.returncode, 0, result.stdout[:500] + result.stderr)
         return json.loads(result.stdout)
 

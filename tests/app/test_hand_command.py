@@ -10,8 +10,10 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT, wait_while_running  # noqa: E402
 
 PROGRAM = None
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -20,7 +22,7 @@ SCENE = ROOT / "assets/scenes/hand_and_obstacles.toml"
 
 def run(*arguments, code=0):
     done = subprocess.run([PROGRAM, "hand", *map(str, arguments)], capture_output=True, text=True,
-                          timeout=120)
+                          timeout=TIMEOUT)
     assert done.returncode == code, f"{done.returncode}: {done.stdout}{done.stderr}"
     return done
 
@@ -55,7 +57,7 @@ class Hand(unittest.TestCase):
         column = lines[0].split(",").index("theta1[rad]")
         kinematic = [2 * float(line.split(",")[column]) for line in lines[1:]]
         done = subprocess.run([PROGRAM, "simulate", str(self.out / "scene.toml"), "--every", "0.001",
-                               "--json"], capture_output=True, text=True, check=True, timeout=120)
+                               "--json"], capture_output=True, text=True, check=True, timeout=TIMEOUT)
         dynamic = [sample["q"]["joint1"] for sample in json.loads(done.stdout)["samples"]]
         largest = max(abs(k - d) for k, d in zip(kinematic, dynamic))
         self.assertAlmostEqual(largest, told["joint1"]["max"], delta=1e-9)
@@ -70,12 +72,9 @@ class Hand(unittest.TestCase):
         process = subprocess.Popen([PROGRAM, "hand", str(SCENE), "--json", "--out", str(self.out)],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         log = self.out / "hand.csv"
-        for _ in range(600):
-            if log.is_file() and log.stat().st_size > 20000:
-                break
-            time.sleep(0.05)
+        wait_while_running(process, lambda: log.is_file() and log.stat().st_size > 20000, "20 kB of the log")
         process.send_signal(signal.SIGINT)
-        told, errors = process.communicate(timeout=60)
+        told, errors = process.communicate(timeout=TIMEOUT)
         self.assertEqual(process.returncode, 0, errors)
         summary = json.loads(told)
         lines = log.read_text().splitlines()

@@ -4,17 +4,21 @@
     test_help_command.py PATH/TO/twinarm
 """
 import os
+import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
+
 PROGRAM = ""
 
 
 def run(*arguments, cwd="/"):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=20, cwd=cwd)
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=TIMEOUT, cwd=cwd)
 
 
 def options_of(page):
@@ -78,7 +82,7 @@ class HelpCommand(unittest.TestCase):
             with open(file, "w", encoding="utf-8") as out:
                 out.write(run("help", "--completion").stdout)
             done = subprocess.run(["bash", "-c", script, file, *words], capture_output=True, text=True,
-                                  timeout=20, cwd=folder)
+                                  timeout=TIMEOUT, cwd=folder)
         return sorted(line for line in done.stdout.split("\n") if line)
 
     def test_the_shell_completes_commands_options_and_files_and_nothing_where_a_number_stands(self):

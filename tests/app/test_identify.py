@@ -14,6 +14,7 @@ import unittest
 
 import robot_command
 from robot_command import RobotCommand, dot
+from waiting import TIMEOUT
 
 PAPER = {"E3": (16.6, 23.5, 8.6, 5.2), "E4": (3.4, 6.0, 0.3, 0.6)}  # maxima, means [deg]
 RATE = 60
@@ -62,7 +63,7 @@ class Identify(RobotCommand):
         scene = self.folder / "scene.toml"
         scene.write_text(text)
         done = subprocess.run([robot_command.PROGRAM, "simulate", scene, "--every", repr(1 / RATE),
-                               "--json"], capture_output=True, text=True, timeout=120,
+                               "--json"], capture_output=True, text=True, timeout=TIMEOUT,
                               cwd=robot_command.ROOT)
         self.assertEqual(done.returncode, 0, done.stderr)
         errors = [[], []]
@@ -155,7 +156,7 @@ class Identify(RobotCommand):
                                 ("E5/spring/fast", ["'E5'", "'spring'", "stable-pd", "'fast'"]),
                                 ("E4/linear/0", ["no rate"])):
             done = subprocess.run([robot_command.PROGRAM, "study", "--ask", question],
-                                  capture_output=True, text=True, timeout=60,
+                                  capture_output=True, text=True, timeout=TIMEOUT,
                                   cwd=robot_command.ROOT)
             self.assertEqual(done.returncode, 2, done.stdout)
             for word in words:

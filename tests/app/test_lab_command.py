@@ -16,6 +16,8 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/lab"))
 from live_socket import Frame, Lab  # noqa: E402
+sys.path.insert(0, str(ROOT / "tests/support"))
+from waiting import TIMEOUT  # noqa: E402
 
 PROGRAM = None
 PENDULUM = """<robot name="rod"><link name="base"/>
@@ -51,7 +53,7 @@ target = "device"
 
 
 def program(*words, code=0):
-    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=TIMEOUT)
     assert done.returncode == code, f"{done.returncode}: {done.stdout}{done.stderr}"
     return done.stdout
 
@@ -66,7 +68,7 @@ class Running:
 
     def end(self, how=signal.SIGINT):
         self.process.send_signal(how)
-        _, errors = self.process.communicate(timeout=30)
+        _, errors = self.process.communicate(timeout=TIMEOUT)
         return self.process.returncode, errors
 
 
@@ -285,12 +287,15 @@ class LabTest(unittest.TestCase):
         self.assertEqual(picture.body[:4], b"\x89PNG")
 
     def test_a_client_that_never_reads_slows_nobody(self):
+        """Compared with itself on the same machine; scripts/lab_load measures how fast it is."""
+        def frames_and_time():
+            times = [frame.time for kind, frame in self.live.messages(2.0) if kind == "frame"]
+            return len(times), times[-1] - times[0]
+        self.frame()
+        without = frames_and_time()
         with self.lab.stalled():
-            start, begin = self.frame(), time.monotonic()
-            frames = sum(kind == "frame" for kind, _ in self.live.messages(2.0))
-            end = self.frame()
-            self.assertGreater(frames, 60)
-            self.assertGreater((end.time - start.time) / (time.monotonic() - begin), 0.8)
+            for found, wanted in zip(frames_and_time(), without):
+                self.assertGreater(found, 0.5 * wanted)
 
 
 class LabLanes(unittest.TestCase):
@@ -311,7 +316,7 @@ class LabLanes(unittest.TestCase):
         self.live.do("play", on=False)
         taken = self.live.wait_for("frame", lambda f: f.stands).step
         self.live.do("step", steps=steps - taken)
-        return self.live.wait_for("frame", lambda f: f.step == steps, timeout=60)
+        return self.live.wait_for("frame", lambda f: f.step == steps, timeout=TIMEOUT)
 
     def test_six_integrators_part_as_the_gallery_says(self):
         self.start("six_integrators")

@@ -14,6 +14,7 @@ import robot_command
 from bodies_of_scene import Contents, add, bodies_of, has_motors, size, symmetric
 from recording_command import DRIVEN, RecordingCommand
 from robot_command import ROOT, joint, link, robot
+from waiting import TIMEOUT
 
 SCENES = [scene for scene in sorted((ROOT / "assets" / "scenes").glob("*.toml"))
           if not has_motors(scene)]
@@ -57,7 +58,7 @@ class Ledgers(RecordingCommand):
     def run_scene(self, scene, *options):
         arguments = [robot_command.PROGRAM, "simulate", scene, *map(str, options), "--json"]
         result = subprocess.run(arguments, cwd=self.folder, capture_output=True, text=True,
-                                timeout=120)
+                                timeout=TIMEOUT)
         if result.returncode == 2:
             return None, result.stderr
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -9,6 +9,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GOOD = """# 0. A sum
 
@@ -51,7 +54,7 @@ class Runner(unittest.TestCase):
             (folder / "lesson.md").write_text(text)
             (folder.parent / "instructor.md").write_text(answers)
             done = subprocess.run([ROOT / "scripts/lessons", "--program", "/bin/true", "--folder", place, *words],
-                                  capture_output=True, text=True, timeout=60)
+                                  capture_output=True, text=True, timeout=TIMEOUT)
             self.left = sorted(file.name for file in folder.iterdir())
             return done
 

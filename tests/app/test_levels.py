@@ -47,8 +47,6 @@ class Levels(unittest.TestCase):
     def setUp(self):
         self.objects = level_objects()
         self.assertTrue(any(level == "generic" for level, _, _ in self.objects), BUILD)
-        if not any(level != "generic" for level, _, _ in self.objects):
-            self.skipTest("this build has no levels above generic")
 
     def test_every_level_is_built_and_known_here(self):
         self.assertEqual({level for level, _, _ in self.objects}, {"generic", *LEVELS})

@@ -14,6 +14,7 @@ import unittest
 
 import robot_command
 from robot_command import joint, link, robot
+from waiting import TIMEOUT
 
 SCENE = '[[robot]]\nname = "arm"\nmodel = "%s"\nq = { first = 0.3%s }\n%s\n'
 
@@ -28,7 +29,7 @@ class LockedJoints(unittest.TestCase):
         scene = self.folder / "scene.toml"
         scene.write_text(SCENE % ("arm.urdf", q, keys))
         result = subprocess.run([robot_command.PROGRAM, "simulate", str(scene), "--duration", "0.4",
-                                 "--json"], capture_output=True, text=True, timeout=60)
+                                 "--json"], capture_output=True, text=True, timeout=TIMEOUT)
         self.assertEqual(result.returncode, code, result.stderr)
         return json.loads(result.stdout)
 

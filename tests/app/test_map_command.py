@@ -15,6 +15,9 @@ import tempfile
 import time
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ""
 
@@ -48,7 +51,7 @@ class MapCommand(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
         (self.folder / "hinge.urdf").write_text(HINGE)
 
-    def twinarm(self, *arguments, code=0, timeout=300):
+    def twinarm(self, *arguments, code=0, timeout=TIMEOUT):
         result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
                                 timeout=timeout, cwd=ROOT)
         self.assertEqual(result.returncode, code, result.stdout + result.stderr)
@@ -135,7 +138,7 @@ class Maps(MapCommand):
             self.assertEqual(words[:2], ["twinarm", "simulate"])
             run = json.loads(subprocess.run(
                 [PROGRAM, *words[1:], "--every", str(opened["y"]), "--json"], capture_output=True,
-                text=True, timeout=60, cwd=ROOT).stdout)
+                text=True, timeout=TIMEOUT, cwd=ROOT).stdout)
             created = sum(v for k, v in run["ledger"].items()
                           if k == "numerical" or k.endswith("/implicit"))
             if planes["stable"][iy][ix] == 0:
@@ -218,13 +221,13 @@ class Maps(MapCommand):
             before = work.stat().st_size if work.exists() else 0
             process = subprocess.Popen([*command, work], stdout=subprocess.PIPE,
                                        stderr=subprocess.PIPE)
-            deadline = time.time() + 60
+            deadline = time.time() + TIMEOUT
             while time.time() < deadline and process.poll() is None:
                 if work.exists() and work.stat().st_size > before:
                     process.send_signal(blow)
                     break
                 time.sleep(0.005)
-            out, told = process.communicate(timeout=60)
+            out, told = process.communicate(timeout=TIMEOUT)
             self.assertEqual(process.returncode, code, told)
             self.assertEqual(out, b"")
             if blow == signal.SIGINT:

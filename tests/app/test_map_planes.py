@@ -14,6 +14,7 @@ import unittest
 sys.dont_write_bytecode = True
 import test_map_command
 from test_map_command import ARM, HINGE, INERTIA, MapCommand, ROOT
+from waiting import TIMEOUT
 
 MEASURES = ("stable", "max_error", "mean_error", "energy", "passivity")
 SLIDER = ('<robot name="slider"><link name="base"/><link name="arm"><inertial><mass value="1"/>'
@@ -77,7 +78,7 @@ class Planes(MapCommand):
         """By joint, the largest |q_K - q_D| of the run of an opened cell."""
         run = json.loads(subprocess.run(
             [test_map_command.PROGRAM, *opened["command"].split()[1:], "--every", str(y), "--json"],
-            capture_output=True, text=True, timeout=60, cwd=ROOT).stdout)
+            capture_output=True, text=True, timeout=TIMEOUT, cwd=ROOT).stdout)
         return {joint: max(abs(s["targets"]["pull_arm1"]["q"][joint] - s["q"][joint])
                            for s in run["samples"]) for joint in ("joint1", "joint2")}
 

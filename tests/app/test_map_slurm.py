@@ -18,6 +18,9 @@ import tempfile
 import time
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ""
 NEEDED = ("slurmctld", "slurmd", "munged", "sbatch", "sinfo", "scontrol")
@@ -87,7 +90,7 @@ class OnCluster(unittest.TestCase):
         self.environment = dict(os.environ, TWINARM=PROGRAM,
                                 SLURM_CONF=str(self.folder / "slurm.conf"))
         whole = self.folder / "whole.twinmap"
-        subprocess.run([PROGRAM, "map", self.scene, *AXES, "--work", whole], check=True, timeout=300,
+        subprocess.run([PROGRAM, "map", self.scene, *AXES, "--work", whole], check=True, timeout=TIMEOUT,
                        stdout=subprocess.DEVNULL)
         self.whole = whole.read_bytes()
 
@@ -131,22 +134,22 @@ class OnCluster(unittest.TestCase):
             ["sinfo", "--noheader", "--format=%T"], env=self.environment, capture_output=True,
             text=True).stdout.strip() == "idle", "slurm")
 
-    def wait_for(self, is_so, what, seconds=60):
-        end = time.time() + seconds
+    def wait_for(self, is_so, what):
+        end = time.time() + TIMEOUT
         while not is_so():
             self.assertLess(time.time(), end, f"{what} does not come up\n{self.logs()}")
             time.sleep(0.2)
 
     def kill_part(self, number, submitted):
         """The program that computes the part, once it has kept a block. Its process number."""
-        end = time.time() + 120
+        end = time.time() + TIMEOUT
         while time.time() < end and submitted.poll() is None:
             for entry in pathlib.Path("/proc").glob("[0-9]*"):
                 try:
                     words = (entry / "cmdline").read_bytes().decode(errors="replace").split("\0")
                 except OSError:
                     continue
-                mine = words[0] == PROGRAM and str(self.scene) in words
+                mine = words[0] == PROGRAM and str(self.scene) in words and "--tile" in words
                 if mine and words[words.index("--tile") + 1] == str(number):
                     os.kill(int(entry.name), signal.SIGKILL)
                     return int(entry.name)
@@ -156,8 +159,7 @@ class OnCluster(unittest.TestCase):
     def test_a_job_array_with_one_part_killed_gives_the_bytes_of_one_machine(self):
         absent = [p for p in NEEDED if not shutil.which(p)]
         if absent:
-            self.skipTest(f"Slurm is not installed ({', '.join(absent)} missing): "
-                          "scripts/setup --cluster installs it")
+            self.skipTest(f"Slurm is not installed ({', '.join(absent)} missing): scripts/setup --cluster")
         if os.getuid() != 0:
             self.skipTest("starts slurmd, which needs root")
         self.start_slurm()
@@ -167,7 +169,7 @@ class OnCluster(unittest.TestCase):
                                stderr=subprocess.STDOUT, text=True)
         killed = self.kill_part(2, run)
         try:
-            told, _ = run.communicate(timeout=240)
+            told, _ = run.communicate(timeout=TIMEOUT)
         except subprocess.TimeoutExpired:
             run.kill()
             self.fail(self.logs())
@@ -179,10 +181,10 @@ class OnCluster(unittest.TestCase):
 
     def test_gnu_parallel_gives_the_bytes_of_one_machine(self):
         if not shutil.which("parallel"):
-            self.skipTest("GNU parallel is not installed: scripts/setup --cluster installs it")
+            self.skipTest("GNU parallel is not installed: scripts/setup --cluster")
         out = self.folder / "parts"
         subprocess.run([ROOT / "scripts/map_parallel", "5", out, self.scene, *AXES], check=True,
-                       env=self.environment, timeout=240, stdout=subprocess.DEVNULL)
+                       env=self.environment, timeout=TIMEOUT, stdout=subprocess.DEVNULL)
         self.assertEqual((out / "map.twinmap").read_bytes(), self.whole)
 
 

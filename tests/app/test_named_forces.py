@@ -13,6 +13,7 @@ import unittest
 
 import robot_command
 from robot_command import PENDULUM, ROOT, RobotCommand, add, cross, joint, link, robot
+from waiting import TIMEOUT
 
 G = 9.81
 BODY = ('[[body]]\nname = "{name}"\nshape = {{ box = {{ size = [0.1, 0.1, 0.1] }} }}\nmass = {mass}\n'
@@ -133,7 +134,7 @@ class NamedForces(RobotCommand):
     def test_all_of_it_at_a_recorded_instant(self):
         scene, file = ROOT / "assets/scenes/slider_crank.toml", self.folder / "run.twinrec"
         subprocess.run([robot_command.PROGRAM, "simulate", scene, "--duration", "0.2", "--record",
-                        file], check=True, capture_output=True, timeout=60)
+                        file], check=True, capture_output=True, timeout=TIMEOUT)
         found = self.answer(str(file), "--at", 0.1, "--axes", "rod", "--about", "piston")
         pin = self.force(found, "constraint/pin")
         self.assertEqual({end["body"] for end in pin["on"]}, {"rod", "piston"})

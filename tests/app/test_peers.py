@@ -6,10 +6,14 @@ compare` says. No time is judged.
 """
 import json
 import math
+import pathlib
 import statistics
 import subprocess
 import sys
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
 
 PEERS = TWINARM = ""
 ORDERS = {"verlet": 2, "midpoint": 2, "heun": 2, "implicit-midpoint": 2, "trapezoid": 2, "rk4": 4,
@@ -17,7 +21,7 @@ ORDERS = {"verlet": 2, "midpoint": 2, "heun": 2, "implicit-midpoint": 2, "trapez
 ENGINES = {"twinarm", "mujoco", "bullet", "dart", "simbody", "ode"}
 
 
-def run(*arguments, timeout=300):
+def run(*arguments, timeout=TIMEOUT):
     return subprocess.run([PEERS, *arguments], capture_output=True, text=True, timeout=timeout)
 
 
@@ -48,7 +52,7 @@ class Peers(unittest.TestCase):
     def test_our_error_is_the_one_that_compare_finds_with_the_same_scheme_and_step(self):
         schemes = ["verlet", "heun", "rk4"]
         result = subprocess.run([TWINARM, "compare", "C2", "--integrator", ",".join(schemes),
-                                 "--json"], capture_output=True, text=True, timeout=300)
+                                 "--json"], capture_output=True, text=True, timeout=TIMEOUT)
         lanes = {lane["integrator"]: lane["error"]
                  for lane in json.loads(result.stdout)["cases"][0]["lanes"]}
         ours = {row["scheme"]: row["error"] for row in self.rows("C2")

@@ -8,18 +8,17 @@ import io
 import json
 import os
 import pathlib
-import shutil
 import signal
 import struct
 import subprocess
 import sys
-import time
 import unittest
 import zlib
 
 import robot_command
 from recording_command import BOXES, DOUBLE, DRIVEN, HELD, RecordingCommand
 from robot_command import PENDULUM, joint, link, robot
+from waiting import TIMEOUT, wait_while_running
 
 
 class Recordings(RecordingCommand):
@@ -129,7 +128,6 @@ class Recordings(RecordingCommand):
         for name, row in fork["ledger"].items():
             self.assertLess(abs(row["fork"] - row["recorded"]), 1e-4, name)
 
-    @unittest.skipUnless(shutil.which("gnuplot"), "needs gnuplot")
     def test_the_plot_of_a_fork_has_both_branches_with_their_units(self):
         file = self.record(HELD % (50, 2, ""), "--duration", 0.3)
         plot = self.folder / "fork.svg"
@@ -143,9 +141,8 @@ class Recordings(RecordingCommand):
             error = self.refused("replay", file, "--set", "coupling.stiffness=800", "--plot", name)
             self.assertIn(str(name.parent), error)
         fork = self.folder / "new" / "folder" / "fork.svg"
-        if shutil.which("gnuplot"):
-            self.twinarm("replay", file, "--set", "coupling.stiffness=800", "--plot", fork)
-            self.assertTrue(fork.exists())
+        self.twinarm("replay", file, "--set", "coupling.stiffness=800", "--plot", fork)
+        self.assertTrue(fork.exists())
 
     def test_faults_of_a_change_name_what_was_typed_and_no_copy_of_the_files(self):
         file = self.record(HELD % (50, 2, ""), "--duration", 0.1)
@@ -278,9 +275,7 @@ class Damage(RecordingCommand):
             [robot_command.PROGRAM, "simulate", self.folder / "test.urdf", "--duration", "1e4",
              "--record", file], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         part = pathlib.Path(str(file) + ".part")
-        deadline = time.time() + 30
-        while time.time() < deadline and not (part.exists() and part.stat().st_size > 100_000):
-            time.sleep(0.05)
+        wait_while_running(process, lambda: part.exists() and part.stat().st_size > 100_000, "100 kB of the recording")
         process.send_signal(signal.SIGKILL)
         process.wait()
         self.assertFalse(file.exists())
@@ -297,9 +292,10 @@ class Damage(RecordingCommand):
         process = subprocess.Popen(
             [robot_command.PROGRAM, "simulate", self.folder / "test.urdf", "--duration", "1e4",
              "--record", file], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(0.7)
+        part = pathlib.Path(str(file) + ".part")
+        wait_while_running(process, lambda: part.exists() and part.stat().st_size > 0, "a recording that has begun")
         process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(timeout=20), 130)
+        self.assertEqual(process.wait(timeout=TIMEOUT), 130)
         self.assertEqual(self.exported(file)["end"], "interrupted")
 
 

@@ -12,6 +12,7 @@ import unittest
 import recording_format as form
 import robot_command
 from recording_command import BOXES, HELD, RecordingCommand
+from waiting import TIMEOUT
 
 TIED = HELD % (4e6, 0, "") + BOXES.replace("step = 0.002", "") % ""
 
@@ -63,7 +64,7 @@ class Bytes(RecordingCommand):
                 bad = bad[:chance.randrange(len(bad))]
             file.write_bytes(bytes(bad))
             result = subprocess.run([robot_command.PROGRAM, "export", file, "--csv"],
-                                    capture_output=True, text=True, timeout=60)
+                                    capture_output=True, text=True, timeout=TIMEOUT)
             self.assertIn(result.returncode, (0, 2), f"{at}: {result.stderr}")
             self.assertTrue(result.stderr, f"byte {at} of {len(data)}")
 
@@ -85,7 +86,7 @@ class Bytes(RecordingCommand):
             file.write_bytes(form.file_of(made))
             for command in (["export", file, "--json"], ["export", file, "--csv"]):
                 result = subprocess.run([robot_command.PROGRAM, *command], capture_output=True,
-                                        text=True, errors="replace", timeout=60)
+                                        text=True, errors="replace", timeout=TIMEOUT)
                 self.assertIn(result.returncode, (0, 2), f"{trial}: {result.stderr[:500]}")
 
 

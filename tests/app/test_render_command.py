@@ -11,12 +11,13 @@ import struct
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/render"))
 import picture  # noqa: E402
+sys.path.insert(0, str(ROOT / "tests/support"))
+from waiting import TIMEOUT, wait_while_running  # noqa: E402
 
 PROGRAM = None
 SCENES = sorted((ROOT / "assets/scenes").glob("*.toml"))
@@ -59,7 +60,7 @@ class Render(unittest.TestCase):
         if path is not None:
             environment["PATH"] = str(path)
         return subprocess.run([PROGRAM, "render", *map(str, words)], capture_output=True, text=True,
-                              timeout=120, env=environment)
+                              timeout=TIMEOUT, env=environment)
 
     def rendered(self, *words, **more):
         result = self.run_render(*words, "--json", **more)
@@ -112,7 +113,7 @@ class Render(unittest.TestCase):
     def test_a_recording_gives_the_film_of_its_run(self):
         recording = self.folder / "run.twinrec"
         subprocess.run([PROGRAM, "simulate", self.ball, "--record", recording], check=True,
-                       capture_output=True, timeout=60)
+                       capture_output=True, timeout=TIMEOUT)
         out = self.folder / "film"
         told = self.rendered(recording, "--frames", out, "--size", "64x48", "--quality", "draft",
                              "--fps", 10, "--show", "all")
@@ -126,7 +127,7 @@ class Render(unittest.TestCase):
         scene, recording = self.folder / f"{name}.toml", self.folder / f"{name}.twinrec"
         scene.write_text(text)
         subprocess.run([PROGRAM, "simulate", scene, "--record", recording], check=True,
-                       capture_output=True, timeout=60)
+                       capture_output=True, timeout=TIMEOUT)
         return recording
 
     def test_two_recordings_stand_side_by_side_to_the_end_of_the_longer_one(self):
@@ -182,9 +183,9 @@ class Render(unittest.TestCase):
         out = self.folder / "film.mp4"
         process = subprocess.Popen([PROGRAM, "render", self.ball, "--mp4", out, "--fps", "1000"],
                                    env=dict(os.environ, PATH=path), stderr=subprocess.PIPE)
-        time.sleep(2.5)
+        wait_while_running(process, (self.folder / "film.mp4.part").exists, "a film that has begun")
         process.send_signal(signal.SIGINT)
-        process.communicate(timeout=60)
+        process.communicate(timeout=TIMEOUT)
         self.assertEqual(process.returncode, 130)
         self.assertEqual(list(self.folder.glob("film*")), [])
 

@@ -14,8 +14,10 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/scene"))
+sys.path.insert(0, str(ROOT / "tests/support"))
 import golden_hashes  # noqa: E402
 from golden_hashes import SCENES, read_table  # noqa: E402
+from waiting import TIMEOUT  # noqa: E402
 
 PROGRAM = ""
 MAP = ["assets/scenes/tracking_map.toml", "--x", "coupling.stiffness:1e4:1e6:40:log", "--y",
@@ -50,7 +52,7 @@ class Threads(unittest.TestCase):
     def twinarm(self, *words, processors=None, **environment):
         """With fewer processors there are fewer threads."""
         pinned = (lambda: os.sched_setaffinity(0, processors)) if processors else None
-        done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=300, cwd=ROOT,
+        done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=TIMEOUT, cwd=ROOT,
                               preexec_fn=pinned, env=dict(os.environ, **environment))
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout

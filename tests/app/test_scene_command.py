@@ -12,6 +12,7 @@ import unittest
 
 import robot_command
 from robot_command import ROOT, RobotCommand, add, joint, link, robot, scale
+from waiting import TIMEOUT
 
 BALL = """
 [[body]]
@@ -48,7 +49,7 @@ class Scenes(RobotCommand):
         if state is not None:
             (self.folder / "state.json").write_text(json.dumps(state))
             arguments += ["--state", self.folder / "state.json"]
-        return subprocess.run([*map(str, arguments)], capture_output=True, text=True, timeout=60,
+        return subprocess.run([*map(str, arguments)], capture_output=True, text=True, timeout=TIMEOUT,
                               cwd=ROOT)
 
     def run_scene(self, scene, *options, **more):
@@ -141,7 +142,7 @@ class FreeFlight(Scenes):
     def test_the_table_shows_where_the_bodies_are(self):
         (self.folder / "scene.toml").write_text(BALL)
         result = subprocess.run([robot_command.PROGRAM, "simulate", self.folder / "scene.toml",
-                                 "--duration", "1"], capture_output=True, text=True, timeout=60)
+                                 "--duration", "1"], capture_output=True, text=True, timeout=TIMEOUT)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("ball/x [m]", result.stdout)
 
@@ -447,7 +448,7 @@ class Refused(Scenes):
     def test_dynamics_takes_no_scene(self):
         (self.folder / "scene.toml").write_text(BALL)
         result = subprocess.run([robot_command.PROGRAM, "dynamics", self.folder / "scene.toml"],
-                                capture_output=True, text=True, timeout=60)
+                                capture_output=True, text=True, timeout=TIMEOUT)
         self.assertEqual(result.returncode, 2)
         self.assertIn("twinarm simulate", result.stderr)
 

@@ -15,6 +15,9 @@ import tempfile
 import tomllib
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else None
 PAGE = (ROOT / "docs/scenes.md").read_text()
@@ -80,7 +83,7 @@ def known(before, skip=(), inside=None):
             file = pathlib.Path(place) / "scene.toml"
             file.write_text(f"{before}\n{body}\n")
             ran = subprocess.run([PROGRAM, "simulate", file, "--duration", "0.001"], capture_output=True, text=True,
-                                 timeout=60)
+                                 timeout=TIMEOUT)
         if ran.returncode != 2:
             raise AssertionError(f"the scene was not refused: {ran.stderr[:500]}")
         refused = set(re.findall(r", (\w+): (?:this key is not known here|there is no such)", ran.stderr))
@@ -144,7 +147,7 @@ class Settings(unittest.TestCase):
             (assets / "robots").symlink_to(ROOT / "assets/robots")
             (assets / "study/settings.toml").write_text("[[robot.mount]]\n" * 2)
             ran = subprocess.run([PROGRAM, "study", "--assets", assets, "--out", pathlib.Path(place) / "out", "--json"],
-                                 capture_output=True, text=True, timeout=60)
+                                 capture_output=True, text=True, timeout=TIMEOUT)
         self.assertEqual(ran.returncode, 2, ran.stderr)
         return {re.sub(r"\[\d\]", "[]", fault["where"]) for fault in json.loads(ran.stdout)["errors"]
                 if fault["file"].endswith("settings.toml")}

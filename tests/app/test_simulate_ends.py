@@ -9,12 +9,12 @@ import os
 import signal
 import subprocess
 import sys
-import time
 import unittest
 
 import robot_command
 from robot_command import (PENDULUM, RobotCommand, add, cross, dot, from_quaternion, link, robot,
                            scale, slider, times)
+from waiting import TIMEOUT, wait_for_work
 
 LEVEL = {"q": {"hinge": math.pi / 2}}
 
@@ -132,10 +132,9 @@ class Ends(RobotCommand):
             [robot_command.PROGRAM, "simulate", str(self.folder / "test.urdf"), "--json",
              "--duration", "1e5", "--every", "1000"],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        time.sleep(0.7)
-        self.assertIsNone(process.poll(), "it ended before it could be interrupted")
+        wait_for_work(process, 0.3)
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=20)
+        out, err = process.communicate(timeout=TIMEOUT)
         self.assertEqual((process.returncode, out), (130, ""), err)
         self.assertIn("interrupted", err)
 

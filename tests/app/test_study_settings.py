@@ -11,6 +11,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
+
 ASSETS = pathlib.Path(__file__).resolve().parents[2] / "assets"
 SHIPPED = (ASSETS / "study/settings.toml").read_text()
 PROGRAM = ""
@@ -26,7 +29,7 @@ class Settings(unittest.TestCase):
             file = assets / "study/settings.toml"
             file.write_text(text)
             ran = subprocess.run([PROGRAM, "study", "--assets", assets, "--out", pathlib.Path(place) / "out", "--json"],
-                                 capture_output=True, text=True, timeout=60)
+                                 capture_output=True, text=True, timeout=TIMEOUT)
             self.assertEqual(ran.returncode, 2, ran.stderr)
             errors = json.loads(ran.stdout)["errors"]
             self.assertEqual({error["file"] for error in errors}, {str(file)})

@@ -13,6 +13,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
+
 PROGRAM = None
 L1, L2 = 0.25, 0.35  # of the S-103's arms [m]
 OBJECT, GOAL = (0.42, 0.28), (0.42, -0.28)
@@ -43,7 +46,7 @@ def trace_of(stops):
 
 def run(*arguments, code=0):
     done = subprocess.run([PROGRAM, "trial", *map(str, arguments)], capture_output=True, text=True,
-                          timeout=200, stdin=subprocess.DEVNULL)
+                          timeout=TIMEOUT, stdin=subprocess.DEVNULL)
     assert done.returncode == code, f"{done.returncode}: {done.stdout}{done.stderr}"
     return done
 
@@ -111,7 +114,7 @@ class Trial(unittest.TestCase):
         log = told["results"][0]["log"]
         scene.write_text(scene.read_text().replace('"device"', f'"{log}"'))
         done = subprocess.run([PROGRAM, "simulate", str(scene), "--duration", "3", "--json"],
-                              capture_output=True, text=True, timeout=60)
+                              capture_output=True, text=True, timeout=TIMEOUT)
         self.assertEqual(done.returncode, 0, done.stderr)
         sample = json.loads(done.stdout)["samples"][-1]
         # It has gone to the object (1.5 s) and waits there.

@@ -13,6 +13,7 @@ import unittest
 
 import robot_command
 from robot_command import RobotCommand, joint, link, robot
+from waiting import TIMEOUT
 
 SPRING = ('[[coupling]]\nname = "{name}"\ntype = "torsional"\nmeasure = "joint"\nlink = "{link}"\n'
           'stiffness = {k}\ndamping = {b}\ntreatment = "{treatment}"\n'
@@ -28,7 +29,7 @@ class WrongGain(RobotCommand):
             SPRING.format(name="hard", link="arm2", joint="joint2", k=k, b=0, treatment=treatment))
         return subprocess.run(
             [robot_command.PROGRAM, "simulate", scene, "--duration", str(duration), "--json",
-             *map(str, options)], capture_output=True, text=True, timeout=120,
+             *map(str, options)], capture_output=True, text=True, timeout=TIMEOUT,
             cwd=robot_command.ROOT)
 
     def test_the_right_spring_is_named_and_what_it_says_would_hold_holds(self):
@@ -60,7 +61,7 @@ class WrongGain(RobotCommand):
         self.assertEqual(done.returncode, 0, done.stderr)
         opened = subprocess.run(
             [robot_command.PROGRAM, "inspect", file, "--at", "0.03", "--force", "hard", "--json"],
-            capture_output=True, text=True, timeout=60)
+            capture_output=True, text=True, timeout=TIMEOUT)
         self.assertEqual(opened.returncode, 0, opened.stdout + opened.stderr)
         force, = json.loads(opened.stdout)["forces"]
         self.assertEqual([j["joint"] for j in force["joints"]], ["joint2"])
@@ -106,7 +107,7 @@ class WrongGainOfALaw(RobotCommand):
         return subprocess.run([robot_command.PROGRAM, "simulate", scene, "--duration", "3", "--step",
                                str(step), "--json", "--post-mortem", self.folder / "last.twinrec",
                                "--energy-bound", "100"],  # a point spring has a largest pull
-                              capture_output=True, text=True, timeout=120)
+                              capture_output=True, text=True, timeout=TIMEOUT)
 
     def check_holds(self, keys, beside, step=0.001):
         run = self.run_with(keys, beside, step)

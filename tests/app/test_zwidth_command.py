@@ -11,23 +11,26 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
+
 PROGRAM = ""
 ANSWERS = {}
 
 
 def run(*options):
     return subprocess.run([PROGRAM, "zwidth", *options], capture_output=True, text=True,
-                          timeout=300, check=False)
+                          timeout=TIMEOUT, check=False)
 
 
 def answer():
     """One run for all tests: it takes seconds."""
     if "it" not in ANSWERS:
-        folder = tempfile.mkdtemp()
-        done = run("--json", "--svg", f"{folder}/plane.svg")
-        assert done.returncode == 0, done.stderr
-        ANSWERS["it"] = json.loads(done.stdout)
-        ANSWERS["svg"] = pathlib.Path(folder, "plane.svg").read_text(encoding="utf-8")
+        with tempfile.TemporaryDirectory() as folder:
+            done = run("--json", "--svg", f"{folder}/plane.svg")
+            assert done.returncode == 0, done.stderr
+            ANSWERS["it"] = json.loads(done.stdout)
+            ANSWERS["svg"] = pathlib.Path(folder, "plane.svg").read_text(encoding="utf-8")
     return ANSWERS["it"]
 
 

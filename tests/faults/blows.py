@@ -5,9 +5,13 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import time
 
 from whole_files import Half, check_whole
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOFT = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -105,7 +109,7 @@ class Victim:
                     os.killpg(process.pid, blow)
                 else:
                     process.send_signal(blow)
-            _, self.told = process.communicate(timeout=120)
+            _, self.told = process.communicate(timeout=TIMEOUT)
         finally:
             if process.poll() is None:
                 process.kill()

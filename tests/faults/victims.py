@@ -11,6 +11,7 @@ from whole_files import check_whole, map_blocks, recorded_blocks
 
 sys.path.insert(0, str(ROOT / "tests/lab"))
 from live_socket import Lab  # noqa: E402
+from waiting import TIMEOUT  # noqa: E402
 
 ARM = ROOT / "assets/scenes/robot_beside_obstacles.toml"
 ROD = ('<robot name="hinge"><link name="base"/><link name="arm"><inertial><mass value="1"/>'
@@ -69,7 +70,7 @@ class Simulate(Victim):
         frames = beginning_of(self.whole, part, "after a kill")
         if run.exists():
             return
-        read = subprocess.run([self.program, "replay", run, "--json"], capture_output=True, text=True, timeout=120)
+        read = subprocess.run([self.program, "replay", run, "--json"], capture_output=True, text=True, timeout=TIMEOUT)
         if frames == 0:
             demand(read.returncode == 2 and "record it again" in read.stderr, f"of no frames: {read.stderr}")
         else:
@@ -144,7 +145,7 @@ class Hand(Victim):
         again = self.out.parent / "again.twinrec"
         done = subprocess.run([self.program, "simulate", self.out.parent / "scene.toml", "--duration",
                                repr(min(rows, 1000) / 1000), "--record", again], capture_output=True, text=True,
-                              timeout=120)
+                              timeout=TIMEOUT)
         demand(done.returncode == 0, f"of a log of {rows} rows: {done.stderr}")
         check_whole(again)
 
@@ -223,7 +224,7 @@ class LabUnderFire(Victim):
         try:
             lab = Lab(json.loads(process.stdout.readline())["url"])
             with lab.live() as live:
-                live.wait_for("frame", timeout=100)
+                live.wait_for("frame", timeout=TIMEOUT)
                 for n in range(10**6):
                     lab.post(f"/open?name=ball{n}.toml", (ROOT / "assets/scenes/pendulum.toml").read_text())
                     reply = lab.get("/save")

@@ -11,6 +11,7 @@
 #include "app/device/vrpn_client.h"
 #include "solver/support/diagnostics.h"
 #include "tests/hand/vrpn_server.h"
+#include "tests/support/waiting.h"
 
 using namespace twinarm;
 using namespace vrpn_bytes;
@@ -20,15 +21,10 @@ namespace {
 double test_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-// Polls at 1 kHz until something is so, at most 8 s.
+// Polls at 1 kHz until something is so.
 template <class Condition>
 bool soon(VrpnDevice& device, const Condition& condition) {
-  const double end = test_clock() + 8;
-  while (test_clock() < end) {
-    if (condition(device.poll(test_clock()))) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
+  return comes_true([&] { return condition(device.poll(test_clock())); }, 1);
 }
 
 struct Said {

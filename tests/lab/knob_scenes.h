@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "app/lab/parameters/presets.h"
 #include "app/record/unpack.h"
 #include "app/run/run.h"
+#include "tests/import/helpers.h"
 
 namespace twinarm {
 
@@ -52,10 +52,8 @@ inline ShortRun ran(const SimulatePlan& plan, long steps) {
 }
 
 inline std::filesystem::path temporary_scene(const std::string& name, const std::string& text) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("twinarm_knobs_" + name + ".toml");
-  std::ofstream(file) << text;
-  return file;
+  static const TemporaryFolder folder;  // until the program ends
+  return folder.write(name + ".toml", text);
 }
 
 inline const Knob& knob_at(const std::vector<Knob>& knobs, const std::string& path) {

@@ -13,17 +13,10 @@
 #include "app/lab/server/lab_server.h"
 #include "tests/lab/raw_client.h"
 #include "tests/sanitized.h"
+#include "tests/support/waiting.h"
 
 inline twinarm::Bytes bytes_of(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
-}
-
-inline bool comes_true(const std::function<bool()>& what) {
-  for (int n = 0; n < 2000; ++n) {
-    if (what()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return false;
 }
 
 // Resident memory of this program [MB].

@@ -16,11 +16,16 @@ import hashlib
 import http.client
 import json
 import os
+import pathlib
 import select
 import socket
 import struct
+import sys
 import time
 import urllib.parse
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
 
 TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10
 FRAME_MAGIC, HISTORY_MAGIC = 0x31465754, 0x31485754
@@ -42,7 +47,7 @@ class Lab:
         self.cookie = reply.headers["Set-Cookie"].split(";")[0]
 
     def ask(self, method, path, body=None, headers=None):
-        connection = http.client.HTTPConnection(self.host, self.port, timeout=60)
+        connection = http.client.HTTPConnection(self.host, self.port, timeout=TIMEOUT)
         try:
             fields = {"Cookie": self.cookie} if self.cookie else {}
             connection.request(method, path, body, fields | (headers or {}))
@@ -71,7 +76,7 @@ class Lab:
 class LiveSocket:
     """One WebSocket. Pings are answered; of each kind the newest message is kept in `newest`."""
     def __init__(self, host, port, cookie):
-        self.socket = socket.create_connection((host, port), timeout=10)
+        self.socket = socket.create_connection((host, port), timeout=TIMEOUT)
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self.unread = bytearray()
         self.pieces = []  # of a message that comes in several frames
@@ -171,7 +176,7 @@ class LiveSocket:
             elif select.select([self.socket], [], [], left)[0]:
                 self.waiting.extend(self.pump())
 
-    def wait_for(self, kind, condition=lambda message: True, timeout=60.0):
+    def wait_for(self, kind, condition=lambda message: True, timeout=TIMEOUT):
         """The next message of a kind for which a condition holds; TimeoutError if none comes."""
         last = None
         for got, message in self.messages(timeout):

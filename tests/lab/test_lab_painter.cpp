@@ -9,6 +9,7 @@
 #include "app/lab/app/state_message.h"
 #include "tests/lab/built_scene.h"
 #include "tests/lab/helpers.h"
+#include "tests/support/waiting.h"
 
 namespace twinarm {
 namespace {
@@ -34,7 +35,7 @@ struct Painted {
     audience.opened(1);
     painter.welcome(1);
     painter.begin();
-    REQUIRE(until([&] { return !frames().empty(); }));
+    REQUIRE(comes_true([&] { return !frames().empty(); }));
   }
   ~Painted() {
     session.end();
@@ -62,19 +63,13 @@ struct Painted {
     return states_;
   }
   LabStatus status() const { return *session.now().status; }
-  static bool until(const std::function<bool()>& what) {
-    for (int n = 0; n < 4000; ++n) {
-      if (what()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return false;
-  }
   // Told once more, and done: all that was said before has been done then, and painted.
   void settle() {
     static int count = 0;
     const std::string text = "settled " + std::to_string(++count);
     session.note("note", text);
-    REQUIRE(until([&] { return !status().notes.empty() && status().notes.back().text == text; }));
+    REQUIRE(
+        comes_true([&] { return !status().notes.empty() && status().notes.back().text == text; }));
     bool is_done = false;
     for (int n = 0; n < 2; ++n) {  // the first time it may be on its way past
       is_done = false;
@@ -82,7 +77,7 @@ struct Painted {
         const std::lock_guard lock(mutex);
         is_done = true;
       });
-      REQUIRE(until([&] {
+      REQUIRE(comes_true([&] {
         const std::lock_guard lock(mutex);
         return is_done;
       }));
@@ -145,7 +140,7 @@ TEST_CASE("lab frames: commands and notes send no frame twice, and inputs come i
   }
   const double gone = seconds_since(start);
   const std::size_t told = lab.states() - states;
-  REQUIRE(Painted::until([&] { return lab.frames().back().stamp == 300; }));
+  REQUIRE(comes_true([&] { return lab.frames().back().stamp == 300; }));
   const std::vector<SentFrame> frames = lab.frames();
   CHECK(frames.size() > 5);
   for (std::size_t n = 1; n < frames.size(); ++n) {
@@ -160,7 +155,7 @@ TEST_CASE("lab frames: commands and notes send no frame twice, and inputs come i
 TEST_CASE("lab frames: while time stands one comes for each change of what is seen, and no more") {
   Painted lab(kSlowlyDriven);
   lab.session.push(said(R"({"do": "play", "on": false})"));
-  REQUIRE(Painted::until([&] { return (lab.frames().back().flags & 1) != 0; }));
+  REQUIRE(comes_true([&] { return (lab.frames().back().flags & 1) != 0; }));
   lab.settle();
   const std::size_t before = lab.frames().size();
   for (int n = 0; n < 10; ++n) {  // more than twenty at once would not all be kept
@@ -172,26 +167,26 @@ TEST_CASE("lab frames: while time stands one comes for each change of what is se
   // Another layer, which no step brings.
   lab.audience.want_layers(1, {"bodies", "frames"});
   lab.painter.look_again();
-  REQUIRE(Painted::until([&] { return lab.frames().size() > before; }));
+  REQUIRE(comes_true([&] { return lab.frames().size() > before; }));
   lab.settle();
   CHECK(lab.frames().size() == before + 1);
   const std::uint64_t step = lab.frames().back().step;
   lab.session.push(said(R"({"do": "step", "steps": 3})"));
-  REQUIRE(Painted::until([&] { return lab.frames().back().step == step + 3; }));
+  REQUIRE(comes_true([&] { return lab.frames().back().step == step + 3; }));
   lab.session.push(said(R"({"do": "look", "at": 0})"));
-  REQUIRE(Painted::until([&] { return (lab.frames().back().flags & 2) != 0; }));
+  REQUIRE(comes_true([&] { return (lab.frames().back().flags & 2) != 0; }));
   CHECK(lab.frames().back().step == 0);
 }
 
 TEST_CASE("lab frames: a run that rushes sends no more of them, and at last the last one") {
   Painted lab(kFreeBox);
   lab.session.push(said(R"({"do": "play", "on": false})"));
-  REQUIRE(Painted::until([&] { return (lab.frames().back().flags & 1) != 0; }));
+  REQUIRE(comes_true([&] { return (lab.frames().back().flags & 1) != 0; }));
   const auto start = std::chrono::steady_clock::now();
   const std::size_t before = lab.frames().size();
   const std::uint64_t step = lab.frames().back().step;
   lab.session.push(said(R"({"do": "step", "steps": 50000})"));
-  REQUIRE(Painted::until([&] { return lab.frames().back().step == step + 50000; }));
+  REQUIRE(comes_true([&] { return lab.frames().back().step == step + 50000; }));
   const auto count = static_cast<double>(lab.frames().size() - before);
   CHECK(count <= 63 * seconds_since(start) + 2);
 }
@@ -200,7 +195,7 @@ TEST_CASE("lab session: the status goes with news at once, else a few times a se
   Painted lab(kSlowlyDriven);
   const auto start = std::chrono::steady_clock::now();
   const std::size_t states = lab.states(), frames = lab.frames().size();
-  REQUIRE(Painted::until([&] { return lab.frames().size() > frames + 60; }));
+  REQUIRE(comes_true([&] { return lab.frames().size() > frames + 60; }));
   // Each quarter of a second, and the limits beside the knobs at their own time.
   CHECK(static_cast<double>(lab.states() - states) <= 7 * seconds_since(start) + 3);
   CHECK(lab.states() > states);
@@ -210,7 +205,7 @@ TEST_CASE("lab session: whoever is woken between a look and the wait does not wa
   const std::vector<GalleryScene> gallery;
   LabSession session(built_from(kFreeBox), gallery);
   session.push(said(R"({"do": "play", "on": false})"));
-  REQUIRE(Painted::until([&] { return !session.now().status->playing; }));
+  REQUIRE(comes_true([&] { return !session.now().status->playing; }));
   const LabNow seen = session.now();
   session.wake();
   constexpr double kLongest = 20;
@@ -232,7 +227,7 @@ TEST_CASE("lab session: a page that comes later is told of the hand as it is") {
   CHECK_FALSE(lab.status().hand.gripper_closed);
   lab.session.push(said(R"({"do": "hand", "source": "drag"})"));
   lab.session.push(said(R"({"do": "button", "index": 0, "down": true})"));
-  REQUIRE(Painted::until([&] { return lab.status().hand.gripper_closed; }));
+  REQUIRE(comes_true([&] { return lab.status().hand.gripper_closed; }));
   CHECK(lab.status().hand.source == "drag");
   CHECK(lab.status().hand.mode == "live");
   CHECK(lab.status().hand.spec.empty());
@@ -241,7 +236,7 @@ TEST_CASE("lab session: a page that comes later is told of the hand as it is") {
   lab.settle();
   CHECK(lab.status().hand.gripper_closed);
   lab.session.push(said(R"({"do": "hand", "source": "device", "spec": "virtual:synthetic:4"})"));
-  REQUIRE(Painted::until([&] { return lab.status().hand.source == "device"; }));
+  REQUIRE(comes_true([&] { return lab.status().hand.source == "device"; }));
   CHECK(lab.status().hand.spec == "virtual:synthetic:4");
   const std::string message = state_message(lab.status(), lab.audience.view(), {}, {});
   for (const char* part :

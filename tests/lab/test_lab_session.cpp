@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <functional>
-#include <thread>
 
 #include "app/lab/app/clients.h"
 #include "app/lab/app/uploaded_file.h"
@@ -15,6 +13,7 @@
 #include "solver/support/diagnostics.h"
 #include "tests/lab/built_scene.h"
 #include "tests/lab/helpers.h"
+#include "tests/support/waiting.h"
 
 namespace twinarm {
 namespace {
@@ -42,20 +41,15 @@ struct ToldSession {
     session.push(parse_command(R"({"do": "set", "changes": [")" + change + "\"]}"));
   }
   bool comes_to(const std::string& changes) const {
-    return waits_until([&] { return texts_of(session.now().status->changes) == changes; });
+    return comes_true([&] { return texts_of(session.now().status->changes) == changes; });
   }
   bool has_note(const std::string& words) const {
-    return waits_until([&] {
+    return comes_true([&] {
       const auto status = session.now().status;
       return std::any_of(status->notes.begin(), status->notes.end(), [&](const LabNote& note) {
         return note.text.find(words) != std::string::npos;
       });
     });
-  }
-  static bool waits_until(const std::function<bool()>& is_so) {
-    for (int n = 0; n < 4000 && !is_so(); ++n)
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    return is_so();
   }
 };
 
@@ -104,9 +98,9 @@ TEST_CASE("lab session: what is remembered of a run begins at its start, however
   const long before = lab.session.now().change_number;
   lab.session.push(parse_command(R"({"do": "step", "steps": 100000})"));
   lab.session.push(parse_command(R"({"do": "reset"})"));
-  REQUIRE(ToldSession::waits_until([&] { return lab.session.now().change_number > before; }));
+  REQUIRE(ToldSession::comes_true([&] { return lab.session.now().change_number > before; }));
   CHECK(lab.session.now().frame);
-  CHECK(ToldSession::waits_until([&] { return lab.session.now().status->time > 0.1; }));
+  CHECK(ToldSession::comes_true([&] { return lab.session.now().status->time > 0.1; }));
   REQUIRE_FALSE(lab.session.history(0).empty());
   CHECK(lab.session.history(0).front()->recorded.t == 0);
 }
@@ -123,7 +117,7 @@ TEST_CASE("lab session: whoever opens a file is answered, also where others do a
       order.done = [&](const std::string&) { ++answered; };
       lab.session.open(std::move(order));
     }
-    CHECK(ToldSession::waits_until([&] { return answered == 20; }));
+    CHECK(ToldSession::comes_true([&] { return answered == 20; }));
   }
   CHECK(answered == 20);
 }

@@ -12,6 +12,9 @@ import unittest
 
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PUMA = "assets/robots/puma560/puma560.urdf"
 DOUBLE_PENDULUM = "assets/robots/teaching/double_pendulum.urdf"
@@ -39,7 +42,7 @@ def states(model, count, seed=1):
 def program(*arguments):
     """What the program prints as JSON."""
     done = subprocess.run([PROGRAM, *map(str, arguments), "--json"], capture_output=True, text=True,
-                          timeout=60, cwd=ROOT)
+                          timeout=TIMEOUT, cwd=ROOT)
     if done.returncode != 0:
         raise AssertionError(done.stderr)
     return json.loads(done.stdout)

@@ -17,6 +17,9 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import picture  # noqa: E402
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
+
 HERE = pathlib.Path(__file__).resolve().parent
 SCENES = HERE.parents[1] / "assets/scenes"
 ROBOTS = HERE.parents[1] / "assets/robots"
@@ -36,7 +39,7 @@ GOLDEN = {
 def paint(folder, name, words, **environment):
     out = pathlib.Path(folder) / f"{name}.png"
     subprocess.run([PROGRAM, "render", *map(str, words), "--png", out, "--size", SIZE], check=True,
-                   capture_output=True, timeout=240, env=dict(os.environ, **environment))
+                   capture_output=True, timeout=TIMEOUT, env=dict(os.environ, **environment))
     return out
 
 

@@ -8,18 +8,24 @@ import base64
 import contextlib
 import json
 import os
+import pathlib
 import select
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
 
 PROGRAMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 CODES = {" ": 32, "Tab": 9, "Enter": 13, "Escape": 27, "PageUp": 33, "PageDown": 34, "End": 35,
          "Home": 36, "ArrowLeft": 37, "ArrowUp": 38, "ArrowRight": 39, "ArrowDown": 40}
 TEXTS = {"Enter": "\r"}
 SHIFT = 8
+NO_BROWSER = "no Chromium: scripts/setup --lab"
 OWN_WORDS = "GPU stall due to ReadPixels"  # what it says where it draws without a graphics card
 
 
@@ -29,7 +35,7 @@ def find_browser():
 
 
 class Browser:
-    def __init__(self, width=1280, height=720, timeout=60, dark=False):
+    def __init__(self, width=1280, height=720, timeout=TIMEOUT, dark=False):
         self.timeout = timeout
         self.errors = []  # of the console, and exceptions
         self.requests = []  # whatever the page asked for besides itself
@@ -55,6 +61,7 @@ class Browser:
             os.set_inheritable(4, True)
 
         self.process = subprocess.Popen(command, preexec_fn=take_pipes, close_fds=False,
+                                        env=dict(os.environ, TMPDIR=self.folder),  # of which it leaves something
                                         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                         stderr=subprocess.DEVNULL)
         os.close(to_browser)

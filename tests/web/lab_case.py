@@ -8,11 +8,12 @@ import tempfile
 import time
 import unittest
 
-from browser import Browser, find_browser
+from browser import NO_BROWSER, Browser, find_browser
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/lab"))
 from live_socket import Lab  # noqa: E402
+from waiting import TIMEOUT, wait_for  # noqa: E402
 
 SCENE = ROOT / "assets/scenes/hand_and_obstacles.toml"
 STATE = "twinarm.page.state"
@@ -29,13 +30,18 @@ class Program:
     def end(self):
         """Its exit code, and what it said."""
         self.process.send_signal(signal.SIGINT)
-        _, said = self.process.communicate(timeout=30)
+        _, said = self.process.communicate(timeout=TIMEOUT)
         return self.process.returncode, said
 
 
 class LabCase(unittest.TestCase):
     program = None
     pictures = None  # a folder
+
+    @classmethod
+    def setUpClass(cls):
+        if reason := why_no_page(cls.program):
+            raise unittest.SkipTest(reason)
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -86,13 +92,8 @@ class LabCase(unittest.TestCase):
                        buttons=1, clickCount=1)
 
     def downloaded(self, end):
-        deadline = time.monotonic() + 60
-        while time.monotonic() < deadline:
-            found = [f for f in self.path.iterdir() if f.name.endswith(end)]
-            if found and found[0].stat().st_size > 0:
-                return found[0]
-            time.sleep(0.1)
-        self.fail(f"no {end} in {[f.name for f in self.path.iterdir()]}")
+        return wait_for(lambda: next((f for f in self.path.iterdir() if f.name.endswith(end) and f.stat().st_size > 0),
+                                     None), f"a download {end}")
 
     def drag_tip(self, right, down):
         ring = "document.querySelector('button.grip').getBoundingClientRect()"
@@ -105,18 +106,16 @@ class LabCase(unittest.TestCase):
         return x + right, y + down
 
 
-def page_is_there(program, test):
-    """False, with a line, where there is no browser or the program has no pages."""
+def why_no_page(program):
+    """The reason for which the page cannot be opened here, or None."""
     if not find_browser():
-        print(f"{test}: skipped: no Chromium here; scripts/setup --lab installs it")
-        return False
+        return NO_BROWSER
     lab = Program(program)
     try:
         Lab(lab.url)
-        return True
+        return None
     except ConnectionError as error:
-        print(f"{test}: skipped: {error}")
-        return False
+        return f"{error}: scripts/setup --lab, then build"
     finally:
         lab.end()
 
@@ -127,5 +126,4 @@ def main():
     if len(sys.argv) > 1 and not sys.argv[1].startswith("-") and "." not in sys.argv[1]:
         LabCase.pictures = pathlib.Path(sys.argv.pop(1))
         LabCase.pictures.mkdir(parents=True, exist_ok=True)
-    if page_is_there(LabCase.program, pathlib.Path(sys.argv[0]).stem):
-        unittest.main()
+    unittest.main()

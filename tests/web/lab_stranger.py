@@ -15,10 +15,11 @@ import tempfile
 import time
 
 from browser import Browser
-from lab_case import ROOT, STATE, Program, page_is_there
+from lab_case import ROOT, STATE, Program, why_no_page
 from test_lab_page import ROD
 
 HEAP = 12e6  # bytes that a page may have grown by, after its garbage is collected
+SKIPPED = 77  # as tests/support/run_test.py
 REFUSED = ("422", "status of 4")  # the browser's own words for a file that the lab refuses
 
 
@@ -225,8 +226,9 @@ def main():
     given = parser.parse_args()
     if not pathlib.Path(given.program).exists():
         parser.error(f"{given.program} is not there: scripts/build release twinarm")
-    if not page_is_there(given.program, "lab_stranger"):
-        return 0
+    if reason := why_no_page(given.program):
+        print(f"skipped: {reason}")
+        return SKIPPED
     faults = visit(given.program, 60 * given.minutes, given.seed, lambda words: print(words, flush=True))
     for fault in faults:
         print(f"fault: {fault}")

@@ -12,7 +12,8 @@ import sys
 import tempfile
 import unittest
 
-from browser import Browser, find_browser
+from browser import NO_BROWSER, Browser, find_browser
+from waiting import TIMEOUT
 
 HERE = pathlib.Path(__file__).resolve().parent
 MODULES = pathlib.Path(sys.argv.pop(1)).resolve()
@@ -40,13 +41,14 @@ def flat(value):
     return [value]
 
 
-@unittest.skipUnless(find_browser(), "no Chromium here: scripts/setup --lab installs it")
-@unittest.skipUnless(NODE and (MODULES / "katex").is_dir(), "the pages' packages are not installed")
+@unittest.skipUnless(find_browser(), NO_BROWSER)
+@unittest.skipUnless(NODE and (MODULES / "katex").is_dir(),
+                     "the program was built without its pages: scripts/setup --web, then build")
 class GlassPanel(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         done = subprocess.run([NODE, "-e", BUNDLE, str(MODULES), str(HERE / "glass_harness.ts")],
-                              capture_output=True, text=True, check=True, timeout=240)
+                              capture_output=True, text=True, check=True, timeout=TIMEOUT)
         script, style = json.loads(done.stdout)
         cls.folder = tempfile.TemporaryDirectory()
         cls.page = pathlib.Path(cls.folder.name) / "glass.html"
@@ -175,8 +177,9 @@ class GlassPanel(unittest.TestCase):
                    "warnings": ["cannot be looked into"]})
         self.assertIn("cannot be looked into", self.browser.evaluate("document.body.textContent"))
 
-    @unittest.skipUnless(PICTURES, "no folder for pictures")
     def test_pictures(self):
+        if not PICTURES:
+            return  # no test, but a way to look at them
         PICTURES.mkdir(parents=True, exist_ok=True)
         for width in (400, 1100):
             self.browser.call("Emulation.setDeviceMetricsOverride", width=width, height=1500,

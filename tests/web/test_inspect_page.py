@@ -10,8 +10,9 @@ import sys
 import tempfile
 import unittest
 
-from browser import Browser, find_browser
-from page_file import data_of, is_missing, run
+from browser import NO_BROWSER, Browser, find_browser
+from page_file import data_of, run, skip_without_pages
+from waiting import TIMEOUT
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = sys.argv.pop(1)
@@ -56,7 +57,7 @@ class InspectPage(unittest.TestCase):
         self.assertIn("default-src 'none'", self.html)
         self.assertLess(len(self.html), 5e6)
 
-    @unittest.skipUnless(find_browser(), "no Chromium here: scripts/setup --lab installs it")
+    @unittest.skipUnless(find_browser(), NO_BROWSER)
     def test_keys_step_through_the_passes_and_show_the_numbers(self):
         with Browser(*((1280, 720) if PICTURES else (840, 480))) as browser:
             browser.open(self.file.as_uri())
@@ -93,14 +94,11 @@ class InspectPage(unittest.TestCase):
             self.assertEqual([float(text) for text in shown[quantity["name"]]], numbers)
 
 
-def bundle_is_there():
-    """False, with a line, where the program was built without its pages."""
+def setUpModule():
     with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run([PROGRAM, "inspect", ROBOT, "--html", f"{folder}/page.html"],
-                              check=False, capture_output=True, text=True, timeout=60)
-    return not is_missing(done)
+        skip_without_pages(subprocess.run([PROGRAM, "inspect", ROBOT, "--html", f"{folder}/page.html"],
+                                          check=False, capture_output=True, text=True, timeout=TIMEOUT))
 
 
 if __name__ == "__main__":
-    if bundle_is_there():
-        unittest.main()
+    unittest.main()

@@ -11,6 +11,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from waiting import TIMEOUT  # noqa: E402
+
 HERE = pathlib.Path(__file__).resolve().parent
 LAB = HERE.parents[1] / "app" / "web" / "src" / "lab"
 MODULES = pathlib.Path(sys.argv.pop(1)).resolve()
@@ -30,8 +33,8 @@ await esbuild.build({ entryPoints: [entry], outfile: out, bundle: true, format: 
 
 
 class LabLogic(unittest.TestCase):
-    @unittest.skipUnless(NODE, "no Node here: scripts/setup --lab installs it")
-    @unittest.skipUnless((MODULES / "esbuild").is_dir(), "the program was built without its pages")
+    @unittest.skipUnless(NODE and (MODULES / "esbuild").is_dir(),
+                         "the program was built without its pages: scripts/setup --web, then build")
     def test_it_holds_what_its_sentences_say(self):
         for sentences, parts in PARTS.items():
             with self.subTest(sentences):
@@ -46,9 +49,9 @@ class LabLogic(unittest.TestCase):
             (folder / "entry.ts").write_text(entry, encoding="utf-8")
             out = folder / "lab.mjs"
             subprocess.run([NODE, folder / "bundle.mjs", MODULES, folder / "entry.ts", out],
-                           check=True, timeout=120)
+                           check=True, timeout=TIMEOUT)
             done = subprocess.run([NODE, "--test", HERE / f"{sentences}.mjs"], check=False,
-                                  env={**os.environ, "MODULES": str(out)}, timeout=120,
+                                  env={**os.environ, "MODULES": str(out)}, timeout=TIMEOUT,
                                   capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 

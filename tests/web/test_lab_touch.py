@@ -112,7 +112,7 @@ class Touch(LabCase):
         for i in range(1, 9):
             self.page.touch("touchMove", [(at[0] + 5 * i, at[1])])
             time.sleep(0.03)
-        self.assertEqual(self.value("twinarm.page.grab.held.kind"), "pull")
+        self.until("twinarm.page.grab.held?.kind === 'pull'")
         self.page.touch("touchEnd", [])
         self.page.frames(2)
         self.assertIsNone(self.value("twinarm.page.grab.held"))

@@ -10,8 +10,9 @@ import sys
 import tempfile
 import unittest
 
-from browser import Browser, find_browser
-from page_file import data_of, is_missing, png, run
+from browser import NO_BROWSER, Browser, find_browser
+from page_file import data_of, png, run, skip_without_pages
+from waiting import TIMEOUT
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = sys.argv.pop(1)
@@ -170,7 +171,7 @@ class Contents(Pages):
             self.assertIn(word, twinarm("export", self.ball.recording, place, code=2).stderr)
 
 
-@unittest.skipUnless(find_browser(), "no Chromium here: scripts/setup --lab installs it")
+@unittest.skipUnless(find_browser(), NO_BROWSER)
 class InTheBrowser(Pages):
     @classmethod
     def setUpClass(cls):
@@ -343,17 +344,14 @@ class InTheBrowser(Pages):
         self.check_quiet(browser, self.ball)
 
 
-def bundle_is_there():
-    """False, with a line, where the program was built without its pages."""
+def setUpModule():
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "run.twinrec"
         twinarm("simulate", SCENES / "bouncing_ball.toml", "--duration", 0.01, "--record", file,
                 "--json")
-        done = subprocess.run([PROGRAM, "export", file, file.with_suffix(".html")], check=False,
-                              capture_output=True, text=True, timeout=60)
-    return not is_missing(done)
+        skip_without_pages(subprocess.run([PROGRAM, "export", file, file.with_suffix(".html")], check=False,
+                                          capture_output=True, text=True, timeout=TIMEOUT))
 
 
 if __name__ == "__main__":
-    if bundle_is_there():
-        unittest.main()
+    unittest.main()

@@ -11,7 +11,8 @@ import sys
 import tempfile
 import unittest
 
-from browser import Browser, find_browser
+from browser import NO_BROWSER, Browser, find_browser
+from waiting import TIMEOUT
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PICTURES = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else None
@@ -56,7 +57,7 @@ class Checker(unittest.TestCase):
             self.assertIn(said, faults[0])
 
 
-@unittest.skipUnless(HAS_GENERATOR, "scripts/setup --docs installs the generator")
+@unittest.skipUnless(HAS_GENERATOR, "no Sphinx or KaTeX: scripts/setup --docs")
 class Site(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -65,7 +66,7 @@ class Site(unittest.TestCase):
         # As scripts/site does it, but for the look at the packages.
         made = subprocess.run(["sphinx-build", "-q", "-W", "--keep-going", "-c", ROOT / "docs/site", "-d",
                                cls.site.parent / "doctrees", "-b", "html", ROOT / "docs", cls.site],
-                              capture_output=True, text=True, timeout=300)
+                              capture_output=True, text=True, timeout=TIMEOUT)
         if made.returncode:
             raise AssertionError(made.stderr)
         cls.pages = sorted(cls.site.rglob("*.html"))
@@ -89,7 +90,7 @@ class Site(unittest.TestCase):
         self.assertGreater(lesson.count('class="katex"'), 20)
         self.assertNotIn("$\\omega", lesson)
 
-    @unittest.skipUnless(find_browser(), "no browser")
+    @unittest.skipUnless(find_browser(), NO_BROWSER)
     def test_it_is_as_light_or_dark_as_the_browser_likes_and_a_click_changes_it(self):
         for dark in (False, True):
             with Browser(width=1500, height=900, dark=dark) as page:
@@ -100,14 +101,14 @@ class Site(unittest.TestCase):
                 page.evaluate("document.querySelector('.theme-toggle-content .theme-toggle').click()")
                 self.assertEqual(page.evaluate(red) < 50, not dark)
 
-    @unittest.skipUnless(find_browser(), "no browser")
+    @unittest.skipUnless(find_browser(), NO_BROWSER)
     def test_the_search_finds_a_page_without_a_server(self):
         with Browser() as page:
             page.call("Page.navigate", url=(self.site / "search.html").as_uri() + "?q=torsional")
             page.wait_for("document.querySelectorAll('#search-results li').length > 3")
             self.assertEqual(page.errors, [])
 
-    @unittest.skipUnless(find_browser(), "no browser")
+    @unittest.skipUnless(find_browser(), NO_BROWSER)
     def test_the_browser_opens_every_page_without_a_word_and_without_a_network(self):
         with Browser(width=1280, height=900) as page:
             for file in self.pages:
