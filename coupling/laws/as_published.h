@@ -35,7 +35,7 @@ struct PrintedOptions {
   // opposed to the restoring couple of a DVR that lags), +1 along it.
   double damping_sign = -1;
   Difference difference = Difference::per_second;
-  int hold_steps = 1;
+  int hold_steps = 1;  // 0: as 1, at every step
 };
 
 class PrintedTorsional final : public Coupling {

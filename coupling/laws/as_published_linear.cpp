@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "coupling/laws/as_published.h"
@@ -10,7 +11,9 @@ PrintedLinear::PrintedLinear(std::string name, const Model<double>& model, Kinem
                              std::vector<Spring> springs, PrintedOptions options)
     : Coupling(std::move(name), model, kvr, std::move(springs)),
       options_(options),
-      past_(springs_.size()) {}
+      past_(springs_.size()) {
+  options_.hold_steps = std::max(1, options_.hold_steps);
+}
 
 void PrintedLinear::begin_step(const Kinematics& k, double t, double h) noexcept {
   kvr_.begin_step(t, h);

@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -22,7 +23,9 @@ PrintedTorsional::PrintedTorsional(std::string name, const Model<double>& model,
                                    PrintedOptions options)
     : Coupling(std::move(name), model, kvr, std::move(springs)),
       options_(options),
-      past_(springs_.size()) {}
+      past_(springs_.size()) {
+  options_.hold_steps = std::max(1, options_.hold_steps);
+}
 
 // Of the link in the world, or relative to its parent link.
 Matrix3 PrintedTorsional::orientation(const Spring& spring, const Kinematics& k) const {

@@ -23,7 +23,9 @@ class JointStops final : public Coupling {
   // Of the KVR nothing is asked.
   JointStops(std::string name, const Model<double>& model, KinematicRobot& kvr,
              std::vector<Stop> stops)
-      : Coupling(std::move(name), model, kvr, springs_of(stops)), stops_(std::move(stops)) {}
+      : Coupling(std::move(name), model, kvr, springs_of(stops)), stops_(std::move(stops)) {
+    check_one_dof();
+  }
 
   void begin_step(const Kinematics&, double, double h) noexcept override { h_ = h; }
   void add_forces(const State<double>& x, const Kinematics& k,

@@ -13,7 +13,9 @@ TorsionalCoupling::TorsionalCoupling(std::string name, const Model<double>& mode
     : Coupling(std::move(name), model, kvr, std::move(springs)),
       measure_(measure),
       treatment_(treatment),
-      hold_(hold_steps, treatment) {}
+      hold_(hold_steps, treatment) {
+  if (measure == Measure::joint) check_one_dof();
+}
 
 void TorsionalCoupling::begin_step(const Kinematics&, double t, double h) noexcept {
   h_ = h;

@@ -18,7 +18,8 @@ namespace twinarm {
 class TorsionalCoupling final : public Coupling {
  public:
   // hold_steps > 0: the couple is computed every hold_steps steps and held between (explicit only);
-  // 0: at every step and stage.
+  // 0: at every step and stage. Throws InputError for springs on joints that have not one dof where
+  // they are measured at the joint.
   TorsionalCoupling(std::string name, const Model<double>& model, KinematicRobot& kvr,
                     std::vector<Spring> springs, Measure measure, Treatment treatment,
                     int hold_steps = 0);

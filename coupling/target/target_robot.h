@@ -35,7 +35,8 @@ enum class KvrRates {
 
 class KinematicRobot {
  public:
-  // The model and the hand must outlive the robot.
+  // The model and the hand must outlive the robot. Throws InputError for joints that are not there
+  // or have not one degree of freedom.
   KinematicRobot(const Model<double>& model, const HandSource& hand, const HandMapping& mapping,
                  const DrivenJoints& joints, KvrRates rates = KvrRates::from_hand);
 

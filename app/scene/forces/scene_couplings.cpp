@@ -116,7 +116,7 @@ struct SceneCouplings::Tie {
     law.measure = spec.measure;
     law.treatment = spec.treatment;
     law.hold_steps = hold_steps(scene, spec, h, faults);
-    law.options.hold_steps = std::max(1, law.hold_steps);
+    law.options.hold_steps = law.hold_steps;
     law.reference = spec.reference;
     law.springs = spec.springs;
     if (spec.outside) {
