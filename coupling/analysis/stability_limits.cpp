@@ -6,6 +6,7 @@
 
 #include "coupling/analysis/joint_space_stiffness.h"
 #include "solver/linear_algebra/dense_algebra.h"
+#include "solver/step_size.h"
 
 namespace twinarm {
 
@@ -165,6 +166,7 @@ double largest_stable_step(const MatrixXd& M, const MatrixXd& K, const MatrixXd&
 
 double largest_stiffness_factor(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B,
                                 Scheme scheme, double h, Keep keep) {
+  check_step_size(h);
   const SpringModes modes = spring_modes(M, K, B);
   if (modes.size() == 0) return kNoLimit;
   const MatrixXd squares = modes.squares.asDiagonal();

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "solver/linear_algebra/dense_algebra.h"
+#include "solver/step_size.h"
 
 namespace twinarm {
 
@@ -12,6 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 double largest_target_radius(double I, double r, double k, double b, double h) {
+  check_step_size(h);
   if (k == 0 || r == 0) return std::numeric_limits<double>::infinity();
   return (4 * I + 2 * r * r * (h * h * k + h * b)) / (h * h * k * r);
 }

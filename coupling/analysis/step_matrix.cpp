@@ -7,6 +7,7 @@
 #include "coupling/analysis/joint_space_stiffness.h"
 #include "coupling/analysis/stability_limits.h"
 #include "solver/linear_algebra/dense_algebra.h"
+#include "solver/step_size.h"
 
 namespace twinarm {
 namespace {
@@ -170,6 +171,7 @@ double growth(const Reduced& system, Integrator integrator, double h) {
 
 double growth_per_step(const MatrixXd& M, const std::vector<StepPart>& parts, Integrator integrator,
                        double h) {
+  check_step_size(h);
   const Reduced system = reduced(M, parts);
   return system.n == 0 ? 1 : growth(system, integrator, h);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/step_size.h"
+
 namespace twinarm {
 
 TrackingError tracking_error(const TrackingSeries& series) {
@@ -23,6 +25,7 @@ TrackingError tracking_error(const TrackingSeries& series) {
 }
 
 TrackingSystem::TrackingSystem(const TrackingSetup& setup) : setup_(setup) {
+  check_step_size(setup.h);
   kvr_ = std::make_unique<KinematicRobot>(*setup.kvr_model, *setup.hand, setup.mapping,
                                           setup.joints, setup.kvr_rates);
   State<double> start(*setup.dvr_model);

@@ -40,6 +40,7 @@ struct TrackingSetup {
 // The system put together. Sources beside the couplings (contact, joint stops) can be added.
 class TrackingSystem {
  public:
+  // Throws InputError for joints, couplings or a step size that cannot be.
   explicit TrackingSystem(const TrackingSetup& setup);
   Simulation& simulation() { return *simulation_; }
   KinematicRobot& kvr() { return *kvr_; }

@@ -13,6 +13,7 @@
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/energy.h"
 #include "solver/model/convert_model.h"
+#include "solver/step_size.h"
 
 namespace twinarm {
 
@@ -313,7 +314,8 @@ BatchRun::~BatchRun() = default;
 BatchRun::BatchRun(BatchRun&&) noexcept = default;
 BatchRun& BatchRun::operator=(BatchRun&&) noexcept = default;
 
-void BatchRun::run(std::span<const BatchCell> cells, std::span<BatchResult> out) noexcept {
+void BatchRun::run(std::span<const BatchCell> cells, std::span<BatchResult> out) {
+  for (const BatchCell& cell : cells) check_step_size(cell.h);
   driver_->run(cells, out);
 }
 std::size_t BatchRun::lanes() const {

@@ -58,7 +58,7 @@ struct BatchCell {
     double k = 0, b = 0;
     Vector3 p_L = Vector3::Zero();  // link axes; linear springs only
   };
-  double h = 1e-3;              // [s], positive
+  double h = 1e-3;              // [s]
   double speed = 1, delay = 0;  // of all hands: coupling/target/delayed_motion.h
   std::vector<Gains> springs;
   std::vector<double> mass_factor;  // on mass, first moment and inertia; empty: 1 for all
@@ -97,8 +97,9 @@ class BatchRun {
   BatchRun& operator=(BatchRun&&) noexcept;
 
   // Any number of cells, in any order; out is as long. Not for several threads at once: each has a
-  // BatchRun of its own. Allocates between batches, never in a step.
-  void run(std::span<const BatchCell> cells, std::span<BatchResult> out) noexcept;
+  // BatchRun of its own. Allocates between batches, never in a step. Throws InputError where the
+  // step of a cell is not positive and finite; then none has run.
+  void run(std::span<const BatchCell> cells, std::span<BatchResult> out);
   std::size_t lanes() const;  // runs at once, by the level of the instruction set
 
  private:

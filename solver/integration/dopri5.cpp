@@ -28,7 +28,6 @@ Dopri5::Dopri5(const Mechanism& m)
 void Dopri5::step(Mechanism& m, double h, bool one, StepReport& report) {
   const double t_end = m.x.t + h;
   report.substeps = 0;
-  if (!(h > 0)) return;
   m.accelerate();
   rk_.first_stage(m);
   rejected_ = false;

@@ -8,6 +8,7 @@
 #include "solver/loops/loop_checks.h"
 #include "solver/model/mimic.h"
 #include "solver/model/non_finite.h"
+#include "solver/step_size.h"
 
 namespace twinarm {
 namespace {
@@ -113,15 +114,18 @@ void Simulation::set_state(State<double> x) {
   dopri5_.forget();
 }
 
-StepReport Simulation::step(double h) noexcept {
+StepReport Simulation::step(double h) {
+  check_step_size(h);
   return advance(h, false);
 }
 
-StepReport Simulation::substep(double h) noexcept {
+StepReport Simulation::substep(double h) {
+  check_step_size(h);
   return advance(h, true);
 }
 
 State<double> Simulation::side_step(double h, StepReport* report) const {
+  check_step_size(h);
   const std::vector<Rewindable*> all = memories();
   for (Rewindable* memory : all) memory->keep();
   Simulation aside(*this);

@@ -3,7 +3,7 @@
 //   kinematics -> sources (targets, contacts, forces) -> ABA (+ implicit terms, joint friction,
 //   mimics, loops) -> integrate -> report
 //
-// step() never throws and never allocates. The same inputs give the same bits.
+// step() never allocates, and throws for a step size alone. The same inputs give the same bits.
 #pragma once
 
 #include <optional>
@@ -63,11 +63,12 @@ class Simulation {
   // Elsewhere, at another time; followers go to their leaders. What sources remember is left alone.
   void set_state(State<double> x);
 
-  // By exactly h. Only dopri5 may stand before it, and then says so (StepReport::reached).
-  StepReport step(double h) noexcept;
+  // By exactly h. Only dopri5 may stand before it, and then says so (StepReport::reached). This and
+  // the two below throw InputError for an h that is not positive and finite; nothing has changed.
+  StepReport step(double h);
   // By one substep of dopri5, of the size that its tolerance asks for, at most h; other integrators
   // take the whole of h. StepReport::h says how far it went.
-  StepReport substep(double h) noexcept;
+  StepReport substep(double h);
   // Where a step of h would lead; the run is not changed, down to the last bit. For samples between
   // the steps. Throws std::invalid_argument for a source that is not Rewindable. May allocate.
   State<double> side_step(double h, StepReport* report = nullptr) const;

@@ -1,6 +1,11 @@
-// Input that couplings and kinematic robots refuse: joints without exactly one degree of freedom.
+// Input that couplings and kinematic robots refuse: joints without exactly one degree of freedom,
+// step sizes that are not positive and finite.
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <limits>
+
+#include "coupling/batch/batch_run.h"
 #include "coupling/laws/joint_stops.h"
 #include "solver/support/diagnostics.h"
 #include "tests/coupling/laws.h"
@@ -9,6 +14,9 @@ using namespace twinarm;
 using namespace twinarm::testing;
 
 namespace {
+
+constexpr double kBadSteps[] = {0.0, -1e-3, std::numeric_limits<double>::infinity(),
+                                std::numeric_limits<double>::quiet_NaN()};
 
 // hinge (revolute) - plate (fixed) - ball (spherical).
 Model<double> mixed_chain() {
@@ -94,5 +102,43 @@ TEST_CASE("a printed coupling that holds its force for 0 steps computes it at ev
     CHECK(end[0].q == end[1].q);
     CHECK(end[0].qd == end[1].qd);
     CHECK(end[0].q[0] != 0);
+  }
+}
+
+TEST_CASE("a tracking run and predictions refuse a step size that is not positive and finite") {
+  const Model<double> model = chain_of_three(3);
+  const SteadyHand hand;
+  TrackingSetup tracking;
+  tracking.kvr_model = tracking.dvr_model = &model;
+  tracking.hand = &hand;
+  tracking.joints.turned = kThreeJoints;
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Constant(1, 1, 1.0);
+  for (const double h : kBadSteps) {
+    CAPTURE(h);
+    tracking_run.h = h;
+    CHECK_THROWS_AS(TrackingSystem{tracking}, InputError);
+    CHECK_THROWS_AS(growth_per_step(one, {{one, one, one}}, Integrator::rk4, h), InputError);
+    CHECK_THROWS_AS(largest_stiffness_factor(one, one, one, Scheme::euler, h, Keep::damping_ratio),
+                    InputError);
+    CHECK_THROWS_AS(largest_target_radius(1, 1, 1, 1, h), InputError);
+  }
+}
+
+TEST_CASE("runs side by side refuse a step size that is not positive and finite before any runs") {
+  const Model<double> model = chain_of_three(3);
+  const SteadyHand hand;
+  BatchSetup setup;
+  setup.model = &model;
+  setup.start = State<double>(model);
+  setup.targets = {{&hand, {}, {kThreeJoints, "", 0, 0}, setup.start}};
+  setup.duration = 0.1;
+  BatchRun batch(setup);
+  for (const double h : kBadSteps) {
+    CAPTURE(h);
+    std::vector<BatchCell> cells(3);
+    cells[2].h = h;
+    std::vector<BatchResult> results(3);
+    CHECK_THROWS_AS(batch.run(cells, results), InputError);
+    CHECK(results[0].steps == 0);
   }
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "solver/dynamics/dynamics.h"
+#include "solver/impulses/joint_limits.h"
 #include "solver/stepping/simulation.h"
 #include "solver/support/diagnostics.h"
 #include "tests/solver/random_tree.h"
@@ -87,6 +88,37 @@ TEST_CASE("a tolerance that is not positive, or no number, is refused") {
   for (const double bad : {0.0, -1e-6, HUGE_VAL, std::numeric_limits<double>::quiet_NaN()})
     CHECK_THROWS_WITH(simulation.set_tolerance(bad), "a tolerance is a positive number");
   CHECK_NOTHROW(simulation.set_tolerance(1e-6));
+}
+
+TEST_CASE("a step size that is not positive and finite is refused, and nothing has changed") {
+  const Model<double> model = chain(2);
+  for (const Integrator integrator : {Integrator::semi_implicit, Integrator::dopri5})
+    for (const bool limited : {false, true}) {
+      if (limited && integrator == Integrator::dopri5) continue;
+      CAPTURE(integrator_name(integrator));
+      CAPTURE(limited);
+      JointLimits limits(model);
+      limits.add(1, -1e-4, 1e-4);
+      Simulation simulation(model, State<double>(model));
+      simulation.set_integrator(integrator);
+      if (limited) simulation.add(limits);
+      simulation.step(1e-3);
+      const State<double> before = simulation.state();
+      for (const double h :
+           {0.0, -1e-3, HUGE_VAL, -HUGE_VAL, std::numeric_limits<double>::quiet_NaN()}) {
+        CAPTURE(h);
+        CHECK_THROWS_AS(simulation.step(h), InputError);
+        CHECK_THROWS_AS(simulation.substep(h), InputError);
+        CHECK_THROWS_AS(simulation.side_step(h), InputError);
+        CHECK(simulation.state().q == before.q);
+        CHECK(simulation.state().qd == before.qd);
+        CHECK(simulation.state().t == before.t);
+      }
+      CHECK_THROWS_WITH(simulation.step(-0.5),
+                        "step size: is -0.5 s, must be positive and finite; give a step size in "
+                        "seconds, such as 0.001");
+      CHECK(simulation.step(1e-3).ok());
+    }
 }
 
 namespace {
