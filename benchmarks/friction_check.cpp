@@ -1,0 +1,202 @@
+// Solves one frictional contact problem with ImpulseSolver and measures the answer r as the FCLIB
+// collection of problems does, independently of the solver: by the natural map
+//   |r - P_K(r - (u + mu |u_t| n))| / |q|,    u = W r + q,
+// which is zero where r obeys Coulomb's law. K: the cones |r_t| <= mu r_n; P_K: the projection.
+//
+// ImpulseSolver takes M and J with W = J M^-1 J^T. Here M = 1, and J is a factor of W by its
+// eigenvectors, for each set of contacts that W couples.
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "solver/impulses/impulse_solver.h"
+
+namespace twinarm {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr const char* kUsage =
+    "usage: friction_check PROBLEM\n"
+    "Solves one frictional contact problem and prints its error as JSON.\n"
+    "PROBLEM is a text file of numbers: the number of contacts n; n friction coefficients; 3 n\n"
+    "numbers q; then the lower triangle of the symmetric 3 n x 3 n matrix W, as ROW COLUMN VALUE\n"
+    "from 0. Rows are (normal, tangent, tangent) of each contact.\n"
+    "contacts: n; error: of the natural map, over |q|; law: residual in the solver's own measure\n"
+    "[m/s]; converged; ms: shortest time of up to ten solutions; newton, interior, path:\n"
+    "iterations of the solver's methods.\n";
+
+struct FrictionProblem {
+  VectorXd mu, q;
+  MatrixXd W;
+  Index contacts() const { return mu.size(); }
+};
+
+FrictionProblem read_problem(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error("cannot be read");
+  const auto check = [](bool good, const std::string& what) {
+    if (!good) throw std::runtime_error(what);
+  };
+  constexpr Index kMaxContacts = 10000;  // W is dense
+  Index n = 0;
+  check(in >> n && n > 0 && n <= kMaxContacts,
+        "begins with no number of contacts from 1 to " + std::to_string(kMaxContacts));
+  FrictionProblem problem{VectorXd(n), VectorXd(3 * n), MatrixXd::Zero(3 * n, 3 * n)};
+  for (Index c = 0; c < n; ++c)
+    check(in >> problem.mu[c] && problem.mu[c] >= 0,
+          "friction coefficient " + std::to_string(c) + " is missing, negative or no number");
+  for (Index row = 0; row < 3 * n; ++row)
+    check(bool(in >> problem.q[row]), "q[" + std::to_string(row) + "] is missing or no number");
+  check(problem.q.squaredNorm() > 0, "q is zero: no error relative to |q| exists");
+  for (Index entry = 0; !(in >> std::ws).eof(); ++entry) {
+    Index row = 0, column = 0;
+    double value = 0;
+    check(in >> row >> column >> value && column >= 0 && row >= column && row < 3 * n,
+          "entry " + std::to_string(entry) +
+              " of W is not ROW COLUMN VALUE with 0 <= COLUMN <= ROW" + " < " +
+              std::to_string(3 * n));
+    problem.W(row, column) = problem.W(column, row) = value;
+  }
+  return problem;
+}
+
+// For each contact the first of the set that W couples it to.
+std::vector<Index> coupled_sets(const FrictionProblem& problem) {
+  std::vector<Index> next(static_cast<std::size_t>(problem.contacts()));
+  std::iota(next.begin(), next.end(), 0);
+  const auto first = [&](Index c) {
+    while (next[static_cast<std::size_t>(c)] != c) c = next[static_cast<std::size_t>(c)];
+    return c;
+  };
+  for (Index a = 0; a < problem.contacts(); ++a)
+    for (Index b = 0; b < a; ++b)
+      if (!problem.W.block<3, 3>(3 * a, 3 * b).isZero(0))
+        next[static_cast<std::size_t>(first(a))] = first(b);
+  std::vector<Index> sets;
+  for (Index c = 0; c < problem.contacts(); ++c) sets.push_back(first(c));
+  return sets;
+}
+
+// L with L L^T = A, without directions whose eigenvalues are rounding.
+MatrixXd factor_of(const MatrixXd& A) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
+  const VectorXd& values = eigen.eigenvalues();  // ascending
+  const double rounding = 1e-13 * values.maxCoeff() * static_cast<double>(A.rows());
+  Index dropped = 0;
+  while (dropped < A.rows() - 1 && values[dropped] < rounding) ++dropped;
+  const Index rank = A.rows() - dropped;
+  return eigen.eigenvectors().rightCols(rank) *
+         values.tail(rank).cwiseSqrt().asDiagonal().toDenseMatrix();
+}
+
+ImpulseProblem impulse_problem_of(const FrictionProblem& problem) {
+  const Index n = problem.contacts();
+  const std::vector<Index> sets = coupled_sets(problem);
+  ImpulseProblem made;
+  std::vector<int> tree(static_cast<std::size_t>(n));
+  std::vector<MatrixXd> J(static_cast<std::size_t>(n));  // by contact, 3 x rank of its set
+  for (Index set = 0; set < n; ++set) {
+    std::vector<Index> rows;
+    for (Index c = 0; c < n; ++c)
+      if (sets[static_cast<std::size_t>(c)] == set)
+        rows.insert(rows.end(), {3 * c, 3 * c + 1, 3 * c + 2});
+    if (rows.empty()) continue;
+    const MatrixXd L = factor_of(problem.W(rows, rows));
+    const int t = made.add_tree(static_cast<int>(L.cols()));
+    for (Index d = 0; d < L.cols(); ++d) made.M(t)[d * L.cols() + d] = 1;
+    for (std::size_t k = 0; k < rows.size(); k += 3) {
+      const auto c = static_cast<std::size_t>(rows[k] / 3);
+      tree[c] = t;
+      J[c] = L.middleRows<3>(static_cast<Index>(k));
+    }
+  }
+  for (std::size_t c = 0; c < J.size(); ++c) {
+    const auto at = static_cast<Index>(c);
+    ImpulseConstraint& law = made.add(ImpulseLaw::coulomb, 3, tree[c], ImpulseConstraint::no_tree);
+    law.mu = problem.mu[at];
+    for (Index row = 0; row < 3; ++row) {
+      law.b[static_cast<std::size_t>(row)] = problem.q[3 * at + row];
+      for (Index k = 0; k < J[c].cols(); ++k) made.J(law, 0)[row * J[c].cols() + k] = J[c](row, k);
+    }
+  }
+  return made;
+}
+
+// The nearest point of the cone |z_t| <= mu z_n.
+Vector3d project_on_cone(const Vector3d& z, double mu) {
+  const double slip = std::hypot(z[1], z[2]);
+  if (slip <= mu * z[0]) return z;
+  if (mu * slip <= -z[0]) return Vector3d::Zero();
+  const double normal = (mu * slip + z[0]) / (mu * mu + 1);
+  return {normal, mu * normal * z[1] / slip, mu * normal * z[2] / slip};
+}
+
+double natural_map(const FrictionProblem& problem, const VectorXd& r) {
+  const VectorXd u = problem.W * r + problem.q;
+  double sum = 0;
+  for (Index c = 0; c < problem.contacts(); ++c) {
+    const double mu = problem.mu[c];
+    const Vector3d r_c = r.segment<3>(3 * c), u_c = u.segment<3>(3 * c);
+    Vector3d z = r_c - u_c;
+    z[0] -= mu * std::hypot(u_c[1], u_c[2]);
+    sum += (r_c - project_on_cone(z, mu)).squaredNorm();
+  }
+  return std::sqrt(sum) / problem.q.norm();
+}
+
+void solve(const FrictionProblem& problem) {
+  constexpr int kMaxRepeats = 10;
+  constexpr double kMaxSeconds = 0.5;
+  ImpulseProblem impulses = impulse_problem_of(problem);
+  ImpulseReport report;
+  double shortest = HUGE_VAL, spent = 0;
+  for (int n = 0; n < kMaxRepeats && spent < kMaxSeconds; ++n) {
+    for (ImpulseConstraint& c : impulses.constraints()) c.p = {}, c.u = {};
+    ImpulseSolver solver;  // without what an earlier solution has left
+    const auto start = std::chrono::steady_clock::now();
+    report = solver.solve(impulses);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    spent += time.count();
+    shortest = std::min(shortest, time.count());
+  }
+  VectorXd r(problem.q.size());
+  for (Index c = 0; c < problem.contacts(); ++c)
+    r.segment<3>(3 * c) =
+        Eigen::Map<const Vector3d>(impulses.constraints()[static_cast<std::size_t>(c)].p.data());
+  std::printf(
+      "{\"contacts\": %d, \"error\": %.3e, \"law\": %.3e, \"converged\": %s, \"ms\": %.4f, "
+      "\"newton\": %d, \"interior\": %d, \"path\": %d}\n",
+      static_cast<int>(problem.contacts()), natural_map(problem, r), report.residual,
+      report.converged ? "true" : "false", 1e3 * shortest, report.newton, report.interior,
+      report.path);
+}
+
+}  // namespace
+}  // namespace twinarm
+
+int main(int count, char** arguments) {
+  const std::string file = count == 2 ? arguments[1] : "";
+  if (file == "--help") return std::fputs(twinarm::kUsage, stdout) < 0;
+  if (file.empty()) {
+    std::fputs(twinarm::kUsage, stderr);
+    return 2;
+  }
+  try {
+    twinarm::solve(twinarm::read_problem(file));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "friction_check: %s: %s\n", file.c_str(), error.what());
+    return 2;
+  }
+}
