@@ -3,7 +3,9 @@
 //
 // d: depth at a contact point, s = d' its rate, positive when closing. After the step d' = d + h s.
 //   normal     N = k d' (1 + c s)           where d' > 0 and 1 + c s > 0, else 0
-//              (Hunt and Crossley 1975, exponent 1: flat faces)
+//              (Hunt and Crossley 1975, exponent 1: flat faces). An impact at speed v has the
+//              restitution e of  c v - ln(1 + c v) = -c e v - ln(1 - c e v),
+//              which is 1 - (2/3) c v to first order
 //   friction   T = -mu N_last v_t / sqrt(|v_t|^2 + v_s^2), N_last the normal force of the same
 //   contact
 //              one step before: a bound of this step's own N makes the two chase each other
@@ -23,7 +25,7 @@ namespace twinarm {
 
 struct ContactLaw {
   double k = 1e8;                // stiffness of one contact point [N/m]
-  double dissipation = 1;        // c [s/m]: 1 - c v is near the restitution at impact speed v
+  double dissipation = 1;        // c [s/m]
   double friction = 0.3;         // mu
   double stiction_speed = 1e-3;  // v_s [m/s]: below it friction acts as a damper
 };

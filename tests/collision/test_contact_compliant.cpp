@@ -6,6 +6,7 @@
 
 #include "solver/support/diagnostics.h"
 #include "tests/collision/contact_scene.h"
+#include "tests/collision/hunt_crossley.h"
 
 using namespace twinarm;
 using namespace twinarm::testing;
@@ -63,6 +64,38 @@ TEST_CASE("two springs in series: the soft one decides, and two alike are half a
   CHECK(in_series(rubber, steel).dissipation == in_series(steel, rubber).dissipation);
   CHECK(in_series(rubber, rubber).stiffness == doctest::Approx(5e3).epsilon(1e-15));
   CHECK(in_series(rubber, rubber).dissipation == doctest::Approx(0.3).epsilon(1e-15));
+}
+
+TEST_CASE("a compliant impact nears Hunt and Crossley's restitution in first order of the step") {
+  for (const double cv : {0.1, 0.5, 1.0, 3.0}) {
+    CAPTURE(cv);
+    const double exact = hunt_crossley_restitution(cv);
+    double error = 0;
+    for (const double h : {2e-5, 1e-5, 5e-6}) {
+      CAPTURE(h);
+      ContactScene scene(ContactResponse::compliant);
+      scene.set_gravity(Vector3::Zero());
+      scene.floor(soft(1e5, 0));
+      const int ball = scene.body(Sphere{0.1}, 1, soft(1e5, 0), {{0, 0, 0.1001}, {0, 0, -cv}});
+      scene.begin();  // c = 1 s/m
+      scene.run(h, static_cast<int>(0.05 / h));
+      REQUIRE(scene.position(ball).z() > 0.1);
+      const double error_before = error;
+      error = exact - scene.velocity(ball).z() / cv;
+      CHECK(std::abs(error) < 500 * h);
+      if (error_before != 0) CHECK(error / error_before == doctest::Approx(0.5).epsilon(0.1));
+    }
+  }
+}
+
+TEST_CASE("Hunt and Crossley's restitution is 1 - (2/3) c v to first order, 0.594 at c v = 1") {
+  for (const double cv : {1e-3, 1e-2, 1e-1}) {
+    const double slope = (1 - hunt_crossley_restitution(cv)) / cv;
+    CHECK(std::abs(slope - 2.0 / 3) < 0.5 * cv);
+  }
+  CHECK(hunt_crossley_restitution(0.1) == doctest::Approx(0.93748).epsilon(1e-5));
+  CHECK(hunt_crossley_restitution(0.5) == doctest::Approx(0.74844).epsilon(1e-5));
+  CHECK(hunt_crossley_restitution(1) == doctest::Approx(0.59362).epsilon(1e-5));
 }
 
 TEST_CASE("a surface without stiffness, or of one that is no number, is refused") {

@@ -10,6 +10,7 @@
 #include "solver/dynamics/model_builder.h"
 #include "solver/impulses/joint_limits.h"
 #include "solver/stepping/simulation.h"
+#include "tests/collision/hunt_crossley.h"
 
 using namespace twinarm;
 
@@ -116,6 +117,17 @@ TEST_CASE("a block dropped at 3 m/s enters less than 0.5 mm at k = 1e8 and gains
         CHECK(most < start + 1e-9);
         CHECK(block.z() > -1e-4);
       }
+}
+
+TEST_CASE("the restitution of an impact is that of Hunt and Crossley's law, to 2e-3") {
+  for (const double v : {0.1, 0.5, 1.0, 3.0}) {  // c = 1 s/m
+    CAPTURE(v);
+    Block block(false, true, {1e13, 1, 0, 1e-3}, 0, 0, -v);  // so short that gravity does nothing
+    for (int n = 0; n < 60000 && (block.vz() < 0 || block.normal_force() > 0); ++n)
+      REQUIRE_UNARY(block.simulation.step(1e-10).finite);
+    CHECK(block.normal_force() == 0);
+    CHECK(std::abs(block.vz() / v - testing::hunt_crossley_restitution(v)) < 2e-3);
+  }
 }
 
 TEST_CASE("a block that slides is slowed by mu g, to 1 percent, and then stays where it stopped") {
