@@ -6,7 +6,7 @@
 
 #include "coupling/analysis/joint_space_stiffness.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/step_size.h"
+#include "solver/support/step_size.h"
 
 namespace twinarm {
 

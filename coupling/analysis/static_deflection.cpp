@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/step_size.h"
+#include "solver/support/step_size.h"
 
 namespace twinarm {
 

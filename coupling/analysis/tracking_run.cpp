@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/step_size.h"
+#include "solver/support/step_size.h"
 
 namespace twinarm {
 

@@ -13,7 +13,7 @@
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/energy.h"
 #include "solver/model/convert_model.h"
-#include "solver/step_size.h"
+#include "solver/support/step_size.h"
 
 namespace twinarm {
 

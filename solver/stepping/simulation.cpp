@@ -8,7 +8,7 @@
 #include "solver/loops/loop_checks.h"
 #include "solver/model/mimic.h"
 #include "solver/model/non_finite.h"
-#include "solver/step_size.h"
+#include "solver/support/step_size.h"
 
 namespace twinarm {
 namespace {

@@ -1,4 +1,4 @@
-#include "solver/step_size.h"
+#include "solver/support/step_size.h"
 
 #include <charconv>
 #include <cmath>
