@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "app/data/html_text.h"
 #include "app/support/interrupt.h"
 #include "app/support/output_file.h"
 #include "solver/support/atomic_file.h"
@@ -182,7 +183,7 @@ std::string Gnuplot::svg(const std::string& name, const std::string& title, int 
   replace_all(drawn, "'gp", "'" + name + "_gp");
   replace_all(drawn, "#gp", "#" + name + "_gp");
   replace_all(drawn, "\"DejaVu Sans\"", "\"DejaVu Sans, Verdana, sans-serif\"");
-  replace_all(drawn, "<title>" + name + "</title>", "<title>" + title + "</title>");
+  replace_all(drawn, "<title>" + name + "</title>", "<title>" + escaped(title) + "</title>");
   const std::size_t begin = drawn.find("<desc>"), end = drawn.find("</desc>");
   if (end != std::string::npos && begin < end) drawn.erase(begin, end + 7 - begin);
   return drawn;

@@ -4,6 +4,7 @@
     test_recording.py PATH/TO/twinarm
 """
 import csv
+import html
 import io
 import json
 import os
@@ -13,6 +14,7 @@ import struct
 import subprocess
 import sys
 import unittest
+import xml.etree.ElementTree
 import zlib
 
 import robot_command
@@ -134,6 +136,15 @@ class Recordings(RecordingCommand):
         self.twinarm("replay", file, "--from", 0.1, "--set", "coupling.stiffness=800", "--plot", plot)
         for words in ("q/hinge [rad]", "time [s]", "[J]", "recorded", "coupling.stiffness=800"):
             self.assertIn(words, plot.read_text())
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "needs gnuplot")
+    def test_the_plot_of_a_fork_is_well_formed_for_any_name_of_a_joint(self):
+        name = 'a</title>&"b'
+        file = self.record(PENDULUM.replace('name="hinge"', f'name="{html.escape(name)}"'), "--duration", 0.1)
+        plot = self.folder / "fork.svg"
+        self.twinarm("replay", file, "--set", "gravity=0,5,0", "--plot", plot)
+        title = xml.etree.ElementTree.parse(plot).getroot().find("{http://www.w3.org/2000/svg}title")
+        self.assertEqual(title.text, f"Recorded run and fork: q/{name}")
 
     def test_a_plot_that_could_not_be_drawn_is_refused_before_the_run(self):
         file = self.record(HELD % (50, 2, ""), "--duration", 0.1)
