@@ -27,7 +27,8 @@ void add_hand(CLI::App& app, CommandLine& line) {
   hand->add_option("--force-scale", options->force_scale, "of what is felt (1)")
       ->check(zero_or_more());
   hand->add_option("--duration", options->duration, "seconds; left out: until Ctrl-C");
-  hand->add_option("--step", options->step, "seconds; left out: the scene's")->check(above_zero());
+  hand->add_option("--step", options->step, "seconds, 1e-6 to 0.1; left out: the scene's")
+      ->check(above_zero());
   hand->add_flag(
       "--simulated", options->simulated,
       "as fast as it goes: the same run on every machine, for a device that is simulated");

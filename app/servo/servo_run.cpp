@@ -3,11 +3,24 @@
 #include <algorithm>
 
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
 
 constexpr double kRemembered = 2.0;  // of the hand, for couplings that see it late [s]
+constexpr double kShortestStep = 1e-6, kLongestStep = 0.1;  // [s]
+
+double step_of(const SceneModel& scene, const LiveOptions& options) {
+  const bool is_option = options.step > 0;
+  const double h = is_option ? options.step : scene.description.step;
+  if (h >= kShortestStep && h <= kLongestStep) return h;
+  throw InputError(
+      {{is_option ? "" : scene.description.file.string(), 0, is_option ? "--step" : "step",
+        "with a hand device the step is from 1e-6 to 0.1 s, and here " + short_number_text(h) +
+            " s",
+        "give 0.001"}});
+}
 
 // A tick takes one semi-implicit step of known work.
 void check_steps(const SceneModel& scene, FaultList& faults) {
@@ -52,7 +65,7 @@ std::vector<std::size_t> find_led(const SceneModel& scene, double h) {
 }  // namespace
 
 LiveRun::LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions& options)
-    : h_(options.step > 0 ? options.step : scene.description.step),
+    : h_(step_of(scene, options)),
       led_(find_led(scene, h_)),
       leader_(led_.front()),
       hand_(std::make_unique<LiveHand>(static_cast<std::size_t>(kRemembered / h_) + 2)),

@@ -20,7 +20,7 @@
 namespace twinarm {
 
 struct LiveOptions : HandLoopOptions {
-  double step = 0;  // [s]; 0: the scene's
+  double step = 0;  // from 1e-6 to 0.1 s; 0: the scene's
 };
 
 // What a tick did, for the log and for whoever watches.
@@ -34,9 +34,9 @@ struct TickView {
 
 class LiveRun {
  public:
-  // Scene and device must outlive it. Throws InputError: an integrator that is not semi-implicit,
-  // contact = "event", no coupling with target = "device",
-  // couplings that follow the device with different joints, a mapping that cannot move them.
+  // Scene and device must outlive it. Throws InputError: a step beyond its range, an integrator
+  // that is not semi-implicit, contact = "event", no coupling with target = "device", couplings
+  // that follow the device with different joints, a mapping that cannot move them.
   LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions& options);
 
   TickView tick() noexcept;

@@ -6,6 +6,7 @@
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -105,6 +106,16 @@ class Hand(unittest.TestCase):
             done = run(*arguments, "--out", self.out, code=2)
             self.assertIn(words, done.stderr)
             self.assertFalse(self.out.exists(), arguments)
+
+    def test_a_step_beyond_its_range_is_refused_by_its_name(self):
+        for step in (3, 0.11, 1e-12):
+            error = run(SCENE, "--simulated", "--step", step, "--out", self.out, code=2).stderr
+            self.assertIn("--step: with a hand device the step is from 1e-6 to 0.1 s", error)
+            self.assertNotIn("delay", error)
+        scene = pathlib.Path(self.folder.name) / "slow.toml"
+        scene.write_text(f"step = 0.5\n{re.sub('(?m)^step *=.*', '', SCENE.read_text())}")
+        error = run(scene, "--simulated", "--out", self.out, code=2).stderr
+        self.assertIn("slow.toml: step: with a hand device", error)
 
     def test_the_list_of_devices_needs_no_scene(self):
         self.assertIn("vrpn", run("--device", "list").stdout)
