@@ -164,6 +164,11 @@ int run_trial(const TrialOptions& options) {
   if (options.simulated && !options.device.starts_with("virtual"))
     faults.add({"", 0, "--simulated", "a person has no simulated time",
                 "leave it out, or give --device virtual:HAND"});
+  if (!std::all_of(options.subject.begin(), options.subject.end(),
+                   [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; }))
+    faults.add({"", 0, "--subject",
+                "'" + options.subject + "' has characters other than letters, digits, - and _",
+                "it names a folder below --out: give a code such as S7"});
   faults.check();
 
   open_device(options.device);  // what is wrong with it is said before anyone waits
@@ -187,9 +192,9 @@ int run_trial(const TrialOptions& options) {
   }
   for (const Step& step : steps) {
     report.results.push_back(run_step(options, mapping, step, folder));
+    add_last_to_csv(report, report.csv);  // it stays, whatever happens to the next task
     if (is_interrupted()) break;
   }
-  add_to_csv(report, report.csv);
   fmt::print("{}", options.json
                        ? trial_json(report) + "\n"
                        : "\n" + trial_table(report) + "\nall subjects: " + report.csv + "\n");

@@ -97,10 +97,8 @@ std::string trial_json(const TrialReport& report) {
   return json.str();
 }
 
-void add_to_csv(const TrialReport& report, const std::filesystem::path& file) {
-  std::string text = old_rows(file);
-  for (std::size_t i = 0; i < report.results.size(); ++i) text += csv_row(report, i);
-  write_whole_file(file, text);
+void add_last_to_csv(const TrialReport& report, const std::filesystem::path& file) {
+  write_whole_file(file, old_rows(file) + csv_row(report, report.results.size() - 1));
 }
 
 std::string next_subject(const std::filesystem::path& file) {

@@ -19,9 +19,9 @@ struct TrialReport {
 
 std::string trial_table(const TrialReport& report);
 std::string trial_json(const TrialReport& report);
-// Adds the trial's rows to a file of earlier subjects, which is written anew as a whole. Throws
-// InputError where the file is there and is no such table.
-void add_to_csv(const TrialReport& report, const std::filesystem::path& file);
+// Adds the row of the last result to a file of earlier ones. Throws InputError where the file is
+// there and is no such table.
+void add_last_to_csv(const TrialReport& report, const std::filesystem::path& file);
 // "S1", or the next that the file has not.
 std::string next_subject(const std::filesystem::path& file);
 

@@ -135,6 +135,19 @@ class Trial(unittest.TestCase):
             self.assertIn(words, run(*arguments, "--out", self.out, code=2).stderr)
         self.assertEqual((self.out / "results.csv").read_text(), "something else\n")
 
+    def test_a_subject_that_leaves_the_folder_is_refused(self):
+        for subject in ("../../x", str(self.out.parent / "x"), "a/b", "..", "x y"):
+            error = run("--device", "virtual", "--simulated", "--subject", subject, "--out", self.out, code=2)
+            self.assertIn("--subject", error.stderr)
+        self.assertEqual(os.listdir(self.folder.name), [])
+
+    def test_results_of_finished_tasks_are_kept_when_a_later_task_fails(self):
+        done = subprocess.run([PROGRAM, "trial", "--device", "virtual", "--tasks", "free", "--seconds", "0.2",
+                               "--out", str(self.out)], input="\n", capture_output=True, text=True, timeout=100)
+        self.assertEqual(done.returncode, 2, done.stderr)  # there is no second line to read
+        rows = list(csv.DictReader((self.out / "results.csv").read_text().splitlines()))
+        self.assertEqual([(row["order"], row["condition"]) for row in rows], [("1", "torsional")])
+
     def test_without_a_terminal_it_asks_for_yes(self):
         done = run("--device", "virtual", "--tasks", "free", "--out", self.out, code=2)
         self.assertIn("--yes", done.stderr)
