@@ -1,6 +1,9 @@
 #include "app/record/unpack.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
+#include <utility>
 
 #include "app/support/output_file.h"
 #include "solver/support/atomic_file.h"
@@ -22,10 +25,18 @@ UnpackedRun::Folder::~Folder() {
   std::filesystem::remove_all(path, ignored);
 }
 
-UnpackedRun::UnpackedRun(const RecordingHeader& header) : header_(header) {
-  for (const RecordedFile& file : header.files) {
+UnpackedRun::UnpackedRun(RecordingHeader header) : header_(std::move(header)) {
+  write_missing();
+}
+
+// Cleaners of temporary folders remove what is old, also while it is in use.
+void UnpackedRun::write_missing() const {
+  const std::lock_guard lock(writing_);
+  mkdir(folder_.path.c_str(), S_IRWXU);  // as it was made: for nobody else
+  for (const RecordedFile& file : header_.files) {
     const std::filesystem::path copy = copy_of(file.path);
     std::error_code ignored;
+    if (std::filesystem::is_regular_file(copy, ignored)) continue;
     std::filesystem::create_directories(copy.parent_path(), ignored);
     write_whole_file(copy, file.bytes);
   }
@@ -53,6 +64,7 @@ void UnpackedRun::lead_to_copies(TomlValue& value) const {
 }
 
 SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
+  write_missing();
   SimulateOptions options = header_.options;
   options.robot.model = copy_of(options.robot.model);
   if (!options.robot.state.empty()) options.robot.state = copy_of(options.robot.state);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -16,17 +17,20 @@ namespace twinarm {
 class UnpackedRun {
  public:
   // Throws InputError where a file cannot be written, or would not lie in the folder.
-  explicit UnpackedRun(const RecordingHeader& header);
+  explicit UnpackedRun(RecordingHeader header);
   UnpackedRun(const UnpackedRun&) = delete;
   UnpackedRun& operator=(const UnpackedRun&) = delete;
 
-  // What the run was given, its paths those of the copies.
+  const RecordingHeader& header() const { return header_; }
+  // What the run was given, its paths those of the copies. Copies that something else has removed
+  // are written again; the recorded run must outlive what is read with these options.
   SimulateOptions options(const std::vector<Change>& changes = {}) const;
   // Faults of such a run: copies by the names of their originals, and what a change brought in by
   // that change.
   InputError as_typed(const InputError& error, const std::vector<Change>& changes = {}) const;
 
  private:
+  void write_missing() const;
   std::filesystem::path copy_of(const std::filesystem::path& original) const;
   void lead_to_copies(TomlValue& value) const;
   struct Folder {  // made, and removed with all that is in it
@@ -34,8 +38,9 @@ class UnpackedRun {
     ~Folder();
     std::filesystem::path path;
   };
-  const RecordingHeader& header_;
+  RecordingHeader header_;
   Folder folder_;
+  mutable std::mutex writing_;
 };
 
 }  // namespace twinarm

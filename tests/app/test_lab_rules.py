@@ -6,6 +6,7 @@
 import json
 import os
 import pathlib
+import shutil
 import struct
 import sys
 import time
@@ -161,6 +162,48 @@ class LabLeavesNothing(unittest.TestCase):
             self.assertEqual(len(list(pathlib.Path(folder).rglob("part.stl"))), 1)
             self.assertEqual(running.end(), (0, ""))
             self.assertEqual(os.listdir(folder), [])
+
+
+class LabOutlivesItsTemporaryFiles(unittest.TestCase):
+    def setUp(self):
+        self.folder = command.tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        os.environ["TMPDIR"] = self.folder.name
+        self.running = command.Running(command.ROOT / "assets/scenes/bouncing_ball.toml")
+        del os.environ["TMPDIR"]
+        self.addCleanup(self.running.process.kill)
+        self.live = Lab(self.running.url).live()
+        self.addCleanup(self.live.close)
+        self.live.wait_for("frame")
+
+    def remove_copies(self):
+        for copies in pathlib.Path(self.folder.name).glob("twinarm-replay-*"):
+            shutil.rmtree(copies)
+            yield copies
+
+    def test_copies_that_were_removed_are_written_again(self):
+        self.assertEqual(len(list(self.remove_copies())), 1)
+        self.live.do("glass", on=True, body=1)
+        self.live.wait_for("glass")
+        list(self.remove_copies())
+        self.live.do("set", changes=["gravity=0,0,-1.62"])
+        self.live.wait_for("state", lambda s: s["changes"] == ["gravity=0,0,-1.62"])
+        self.assertEqual(self.running.end(), (0, ""))
+
+    def test_copies_that_cannot_be_written_again_are_reported_and_the_lab_goes_on(self):
+        places = list(self.remove_copies())
+        for place in places:
+            place.write_text("not a folder")
+        self.live.do("glass", on=True, body=1)
+        notes = self.live.wait_for("state", lambda s: s["notes"])["notes"]
+        self.assertEqual(notes[-1]["level"], "error")
+        self.assertIn("the lab cannot draw this", notes[-1]["text"])
+        step = self.live.wait_for("frame").step
+        self.live.wait_for("frame", lambda f: f.step > step)
+        for place in places:
+            place.unlink()
+        self.live.wait_for("glass")
+        self.assertEqual(self.running.end(), (0, ""))
 
 
 if __name__ == "__main__":

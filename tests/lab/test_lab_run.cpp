@@ -1,4 +1,5 @@
 // A run of the lab: the bits of `simulate`, changed on the way, led by a hand, pulled by a mouse.
+#include "app/record/recorded_instant.h"
 #include "tests/lab/helpers.h"
 
 namespace twinarm {
@@ -26,6 +27,23 @@ TEST_CASE("lab run: a run step by step has the bits of `simulate`, its files gon
     }
     CHECK(run.time() == doctest::Approx(1.5).epsilon(1e-12));
   }
+}
+
+TEST_CASE("recorded instant: its files can be read again after the recording is closed") {
+  const TemporaryFolder folder;
+  const SimulateOptions options = options_of(folder, arm_with("paper"));
+  const SimulatePlan plan = prepare_simulation(options);
+  const std::filesystem::path file = folder.path() / "run.twinrec";
+  RunRecorder recorder(file, header_of(options, plan, {}), plan, 0.5);
+  RunWatch watch;
+  watch.look = [&](RunView& run) { recorder.look(run); };
+  watch.sample = [](double, const State<double>&) {};
+  run_plan(plan.input, plan.run, watch);
+  recorder.finish("done");
+  const RecordedInstant instant = open_instant(file, {});
+  const SimulateOptions again = instant.files->options();
+  CHECK(again.robot.model.filename() == options.robot.model.filename());
+  CHECK(prepare_simulation(again).input.scene->couplings.size() == 3);
 }
 
 TEST_CASE("lab run: a stiffness changed on the way is the fork of a recording from that frame") {

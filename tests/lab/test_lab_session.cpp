@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
+#include <future>
+#include <thread>
 
 #include "app/lab/app/clients.h"
 #include "app/lab/app/uploaded_file.h"
@@ -83,6 +86,40 @@ TEST_CASE("lab session: of two changes to one number the later holds, by whichev
        {"coupling.stiffness=31", "coupling.one.stiffness=32", "coupling.stiffness=33"})
     put(changes, parse_change(text));
   CHECK(built_from(kSlowlyDriven).scene->text(changes).find("stiffness = 33") != std::string::npos);
+}
+
+TEST_CASE("lab session: a failure in the run's thread pauses the run and is shown as an error") {
+  ToldSession lab;
+  Order order;
+  const TemporaryFolder folder;
+  order.file = folder.write("scene.toml", kFreeBox);
+  order.done = [](const std::string&) { throw std::runtime_error("nobody is there to answer"); };
+  lab.session.open(std::move(order));
+  CHECK(lab.has_note("the run is paused: nobody is there to answer"));
+  CHECK_FALSE(lab.session.now().status->playing);
+  lab.session.push(parse_command(R"({"do": "play", "on": true})"));
+  CHECK(ToldSession::waits_until([&] { return lab.session.now().status->playing; }));
+}
+
+TEST_CASE("lab session: an order that is replaced may ask the session in its answer") {
+  std::promise<void> begun, go_on;
+  std::string answer;
+  ToldSession lab;
+  Order blocking, replaced, last;
+  blocking.file = "nowhere.toml";
+  blocking.done = [&](const std::string&) {
+    begun.set_value();
+    go_on.get_future().wait();
+  };
+  replaced.done = [&](const std::string& why) {
+    answer = why + lab.session.now().status->scene_name;
+  };
+  lab.session.open(std::move(blocking));
+  begun.get_future().wait();
+  lab.session.open(std::move(replaced));
+  lab.session.open(std::move(last));
+  CHECK(answer.find("try again") != std::string::npos);
+  go_on.set_value();
 }
 
 TEST_CASE("lab session: of more notes than are kept the last are told") {

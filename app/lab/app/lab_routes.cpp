@@ -1,5 +1,7 @@
 #include "app/lab/app/lab_routes.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <charconv>
 
@@ -45,6 +47,17 @@ HttpReply faults_of(const InputError& error) {
   return reply_of(422, words);
 }
 
+// What `work` throws is answered.
+void answer_faults(const LabRoutes::Answer& answer, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    answer(faults_of(error));
+  } catch (const std::exception& error) {
+    answer(reply_of(500, error.what()));
+  }
+}
+
 double number_of(const std::string& query, const std::string& key, double otherwise) {
   const std::string text = query_value(query, key).value_or("");
   double value = 0;
@@ -67,6 +80,18 @@ std::string after(const std::string& path, const std::string& start) {
   return path.rfind(start, 0) == 0 ? path.substr(start.size()) : "";
 }
 
+HttpReply reply_of_painter(LabPainter& painter, const HttpRequest& request) {
+  const std::string& path = request.path;
+  if (path == "/history") {
+    const double from = number_of(request.query, "from", 0);
+    return file_of("application/octet-stream", shared_bytes(painter.history(from)), false);
+  }
+  const std::string mesh = after(path, "/mesh/"), texture = after(path, "/texture/");
+  const Bytes found = mesh.empty() ? painter.view().texture(texture) : painter.view().mesh(mesh);
+  if (!found) return not_found();
+  return file_of(mesh.empty() ? "image/png" : "application/octet-stream", found, true);
+}
+
 }  // namespace
 
 LabRoutes::LabRoutes(LabSession& session, LabPainter& painter,
@@ -77,7 +102,8 @@ LabRoutes::LabRoutes(LabSession& session, LabPainter& painter,
       gallery_(gallery),
       page_(shared_bytes(std::move(page))),
       missing_(std::move(missing)),
-      folder_(make_temporary_folder("twinarm-lab")) {}
+      folder_(make_temporary_folder("twinarm-lab")),
+      errands_([this](const std::string& why) { session_.note("error", why); }) {}
 
 LabRoutes::~LabRoutes() {
   std::error_code ignored;
@@ -114,28 +140,14 @@ void LabRoutes::end() {
 
 void LabRoutes::ask_painter(const HttpRequest& request, const Answer& answer) {
   painter_.ask([request, answer](LabPainter& painter) {
-    const std::string& path = request.path;
-    if (path == "/history") {
-      const double from = number_of(request.query, "from", 0);
-      return answer(
-          file_of("application/octet-stream", shared_bytes(painter.history(from)), false));
-    }
-    const std::string mesh = after(path, "/mesh/"), texture = after(path, "/texture/");
-    const Bytes found = mesh.empty() ? painter.view().texture(texture) : painter.view().mesh(mesh);
-    if (!found) return answer(not_found());
-    answer(file_of(mesh.empty() ? "image/png" : "application/octet-stream", found, true));
+    answer_faults(answer, [&] { answer(reply_of_painter(painter, request)); });
   });
 }
 
 void LabRoutes::ask_errands(const HttpRequest& request, const Answer& answer) {
   const bool is_taken = errands_.add([this, request, answer] {
-    try {
-      answer(run_errand(request));
-    } catch (const InputError& error) {
-      answer(faults_of(error));
-    } catch (const std::exception& error) {
-      answer(reply_of(500, error.what()));
-    }
+    mkdir(folder_.c_str(), S_IRWXU);  // cleaners of temporary folders may have removed it
+    answer_faults(answer, [&] { answer(run_errand(request)); });
   });
   if (!is_taken) answer(reply_of(503, "too much was asked for at once; try again"));
 }

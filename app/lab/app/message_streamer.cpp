@@ -12,6 +12,7 @@ namespace twinarm {
 namespace {
 
 constexpr double kGlassEvery = 0.2, kGlassStanding = 0.05, kKnobsEvery = 0.4, kIdle = 0.1;  // [s]
+constexpr double kFailureEvery = 5;                                                         // [s]
 constexpr double kRate = 60, kSlowRate = 30;  // frames a second, to few clients and to more
 constexpr std::size_t kManyClients = 2;
 // A run whose frames cannot stand so evenly, by its step, may send so much more of them.
@@ -65,20 +66,38 @@ void LabPainter::work() {
   pthread_setname_np(pthread_self(), "lab painter");
   for (;;) {
     const LabNow now = session_.now();
-    take_scene(now);
-    do_jobs();
+    double left = kIdle;
+    try {
+      take_scene(now);
+      do_jobs();
+      left = paint(now);
+    } catch (const std::exception& error) {
+      show_failure(error.what());
+    }
     {
       const std::lock_guard lock(mutex_);
       if (stop_) return;
     }
-    const double rate = audience_.view().clients.size() > kManyClients ? kSlowRate : kRate;
-    session_.set_rate(rate);
-    look_at_knobs(now);
-    tell_state(now);
-    const double left = tell_frame(now, kMore * rate);
-    tell_glass(now);
     session_.wait(now, std::min(left, kIdle));
   }
+}
+
+double LabPainter::paint(const LabNow& now) {
+  const double rate = audience_.view().clients.size() > kManyClients ? kSlowRate : kRate;
+  session_.set_rate(rate);
+  look_at_knobs(now);
+  tell_state(now);
+  const double left = tell_frame(now, kMore * rate);
+  tell_glass(now);
+  return left;
+}
+
+// What fails may fail again with each frame: the same failure is shown every few seconds.
+void LabPainter::show_failure(const std::string& why) {
+  if (why == failure_ && !is_due(last_failure_, kFailureEvery)) return;
+  failure_ = why;
+  last_failure_ = Clock::now();
+  session_.note("error", "the lab cannot draw this: " + why);
 }
 
 void LabPainter::do_jobs() {

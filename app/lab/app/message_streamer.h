@@ -54,6 +54,8 @@ class LabPainter {
   using Clock = std::chrono::steady_clock;
 
   void work();
+  double paint(const LabNow& now);
+  void show_failure(const std::string& why);
   void do_jobs();
   void take_scene(const LabNow& now);
   void tell_scene();
@@ -100,7 +102,8 @@ class LabPainter {
   FrameTold told_frame_;
   Allowance frames_;
   Bytes last_frame_;
-  Clock::time_point last_glass_{}, last_knobs_{};
+  Clock::time_point last_glass_{}, last_knobs_{}, last_failure_{};
+  std::string failure_;  // the last one that was shown
   std::thread thread_;
 };
 

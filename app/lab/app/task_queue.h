@@ -7,18 +7,22 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <string>
 #include <thread>
+#include <utility>
 
 namespace twinarm {
 
 class Errands {
  public:
-  Errands() : thread_([this] { work(); }) {}
+  // `failed` gets what an errand throws, from the thread of the errands.
+  explicit Errands(std::function<void(const std::string& why)> failed)
+      : failed_(std::move(failed)), thread_([this] { work(); }) {}
   ~Errands() { end(); }
   Errands(const Errands&) = delete;
   Errands& operator=(const Errands&) = delete;
 
-  // From any thread. False where too many wait already. It must not throw.
+  // From any thread. False where too many wait already.
   bool add(std::function<void()> errand) {
     {
       const std::lock_guard lock(mutex_);
@@ -52,10 +56,15 @@ class Errands {
         errand = std::move(errands_.front());
         errands_.pop_front();
       }
-      errand();
+      try {
+        errand();
+      } catch (const std::exception& error) {
+        failed_(error.what());
+      }
     }
   }
 
+  std::function<void(const std::string&)> failed_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<std::function<void()>> errands_;

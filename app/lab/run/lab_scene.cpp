@@ -10,12 +10,6 @@
 
 namespace twinarm {
 
-struct LabScene::Files {
-  explicit Files(RecordingHeader read) : header(std::move(read)), unpacked(header) {}
-  RecordingHeader header;
-  UnpackedRun unpacked;
-};
-
 namespace {
 
 // What a change turns that stands beside the scene, as on the command line of `simulate`.
@@ -85,26 +79,26 @@ void put_scene_number(TomlValue& scene, const std::string& key, double number) {
 
 LabScene::LabScene(const SimulateOptions& given) {
   const SimulateOptions options = without_end(given);
-  files_ =
-      std::make_shared<const Files>(header_of(options, prepare_simulation(options), given.command));
+  files_ = std::make_shared<const UnpackedRun>(
+      header_of(options, prepare_simulation(options), given.command));
 }
 
 LabScene::LabScene(RecordingHeader header) {
   header.options = without_end(std::move(header.options));
-  files_ = std::make_shared<const Files>(std::move(header));
+  files_ = std::make_shared<const UnpackedRun>(std::move(header));
 }
 
 bool LabScene::is_scene() const {
-  return files_->header.options.robot.model.extension() == ".toml";
+  return files_->header().options.robot.model.extension() == ".toml";
 }
 
 std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& changes) const {
-  SimulateOptions beside = files_->header.options;
+  SimulateOptions beside = files_->header().options;
   FaultList faults;
   const std::vector<Change> others = of_the_scene(changes, beside, faults);
   faults.check();
   try {
-    SimulateOptions options = files_->unpacked.options(others);
+    SimulateOptions options = files_->options(others);
     options.step = beside.step;
     options.tolerance = beside.tolerance;
     options.integrator = beside.integrator;
@@ -117,15 +111,15 @@ std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& change
     prepared.run.times.clear();
     return std::make_unique<Plan>(Plan{std::move(prepared), files_});
   } catch (const InputError& error) {
-    throw by_change(files_->unpacked.as_typed(error, others), changes);
+    throw by_change(files_->as_typed(error, others), changes);
   }
 }
 
 TomlValue LabScene::tree(const std::vector<Change>& changes) const {
-  SimulateOptions beside = files_->header.options;
+  SimulateOptions beside = files_->header().options;
   FaultList faults;
   const std::vector<Change> others = of_the_scene(changes, beside, faults);
-  TomlValue scene = read_toml(files_->unpacked.options().robot.model);
+  TomlValue scene = read_toml(files_->options().robot.model);
   for (std::size_t i = 0; i < others.size(); ++i)
     if (others[i].path != "gravity") apply(others[i], 0, scene, faults);
   for (const Change& change : others)
@@ -154,7 +148,7 @@ std::string LabScene::text(const std::vector<Change>& changes) const {
 
 RecordingHeader LabScene::header(const std::vector<Change>& changes, const Hand& hand) const {
   const std::unique_ptr<Plan> planned = plan(changes);
-  RecordingHeader header = files_->header;
+  RecordingHeader header = files_->header();
   FaultList faults;
   for (const Change& change : of_the_scene(changes, header.options, faults))
     if (change.path == "gravity") header.options.robot.gravity = change.value;

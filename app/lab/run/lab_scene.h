@@ -41,9 +41,8 @@ class LabScene {
   RecordingHeader header(const std::vector<Change>& changes, const Hand& hand) const;
 
  private:
-  struct Files;
   TomlValue tree(const std::vector<Change>& changes) const;
-  std::shared_ptr<const Files> files_;
+  std::shared_ptr<const UnpackedRun> files_;
 };
 
 }  // namespace twinarm

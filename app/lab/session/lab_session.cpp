@@ -74,11 +74,18 @@ void LabSession::push(LabCommand command) {
 }
 
 void LabSession::open(Order order) {
+  std::optional<Order> left;
+  const char* why = "something else was asked for before this was begun; try again";
   {
     const std::lock_guard lock(mutex_);
-    if (workshop_) return workshop_->order(std::move(order));
+    if (workshop_) {
+      left = workshop_->order(std::move(order));
+    } else {
+      left = std::move(order);
+      why = "the lab is ending";
+    }
   }
-  if (order.done) order.done("the lab is ending");
+  if (left && left->done) left->done(why);  // it may ask the session something
 }
 
 LabNow LabSession::now() const {
@@ -113,21 +120,38 @@ void LabSession::work() {
   next_tick_ = Clock::now();
   pace_.begin(next_tick_, run_->time(), status_.speed);
   for (;;) {
-    take_commands();
-    {
-      const std::lock_guard lock(mutex_);
-      if (stop_) return;
+    try {
+      take_commands();
+      {
+        const std::lock_guard lock(mutex_);
+        if (stop_) return;
+      }
+      advance();
+    } catch (const std::exception& error) {
+      show_failure(error.what());
     }
-    const Clock::time_point now = Clock::now();
-    if (steps_left_ > 0)
-      take_steps(now, HUGE_VAL);
-    else if (status_.playing)
-      take_steps(now, pace_.due(now));
-    else
-      pace_.begin(now, run_->time(), status_.speed);
-    publish();
     rest();
   }
+}
+
+void LabSession::advance() {
+  const Clock::time_point now = Clock::now();
+  if (steps_left_ > 0)
+    take_steps(now, HUGE_VAL);
+  else if (status_.playing)
+    take_steps(now, pace_.due(now));
+  else
+    pace_.begin(now, run_->time(), status_.speed);
+  publish();
+}
+
+// The run pauses. A failure that comes again at once is shown once.
+void LabSession::show_failure(const std::string& why) {
+  status_.playing = false;
+  steps_left_ = 0;
+  is_news_ = true;
+  const std::string text = "the run is paused: " + why;
+  if (status_.notes.empty() || status_.notes.back().text != text) note("error", text);
 }
 
 // Until the next step is due, or a command comes.

@@ -68,6 +68,8 @@ class LabSession {
 
   // The loop: lab_session.cpp.
   void work();
+  void advance();
+  void show_failure(const std::string& why);
   void rest();
   void take_steps(Clock::time_point begin, double due);
   bool take_step();

@@ -73,15 +73,14 @@ Workshop::~Workshop() {
   thread_.join();
 }
 
-void Workshop::order(Order order) {
+std::optional<Order> Workshop::order(Order order) {
   std::optional<Order> left;
   {
     const std::lock_guard lock(mutex_);
     left = std::exchange(next_, std::move(order));
   }
   wake_.notify_all();
-  if (left && left->done)
-    left->done("something else was asked for before this was begun; try again");
+  return left;
 }
 
 // It was tried already, with an order before this one.

@@ -65,8 +65,8 @@ class Workshop {
   };
   explicit Workshop(Out out);
   ~Workshop();
-  // From any thread. Takes the place of one that has not been begun.
-  void order(Order order);
+  // From any thread. Takes the place of one that has not been begun, which is returned.
+  [[nodiscard]] std::optional<Order> order(Order order);
 
  private:
   void work();

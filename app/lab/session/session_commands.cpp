@@ -32,6 +32,8 @@ void LabSession::take_commands() {
       act(command);
     } catch (const InputError& error) {
       for (const Fault& fault : error.faults()) note("error", to_string(fault));
+    } catch (const std::exception& error) {
+      note("error", error.what());
     }
   if (failed) done_with(*failed);
   for (Built& one : built) {
@@ -40,11 +42,9 @@ void LabSession::take_commands() {
       adopt(std::move(one));
       publish();  // its start is seen and remembered, however soon steps follow
       if (done) done("");
-    } catch (const InputError& error) {
-      std::string words;
-      for (const Fault& fault : error.faults()) words += to_string(fault) + "\n";
-      note("error", words);
-      if (done) done(words);
+    } catch (const std::exception& error) {
+      note("error", error.what());
+      if (done) done(error.what());
     }
   }
 }
@@ -175,7 +175,7 @@ void LabSession::preset(const std::string& name) {
   order.words.file = preset->scene;
   order.hand = preset->hand;
   for (const std::string& text : preset->changes) put(order.changes, parse_change(text));
-  workshop_->order(std::move(order));
+  open(std::move(order));
 }
 
 void LabSession::open_from_gallery(const std::string& name) {
@@ -183,7 +183,7 @@ void LabSession::open_from_gallery(const std::string& name) {
   if (!scene)
     throw InputError({{"command", 0, "scene", "there is no '" + name + "'",
                        "the state lists them under gallery"}});
-  workshop_->order(order_to_open(*scene));
+  open(order_to_open(*scene));
 }
 
 void LabSession::ask(Asked asked) {
@@ -205,7 +205,7 @@ void LabSession::order(Order::What what, double at) {
   order.asked.assign(asked_.begin(), asked_.end());
   order.lanes = scene_->order.lanes;
   order.at = at;
-  workshop_->order(std::move(order));
+  open(std::move(order));
 }
 
 // Where a run that goes on begins; null where that is no longer remembered.
