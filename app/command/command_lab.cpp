@@ -37,9 +37,14 @@ Order scene_asked_for(const LabOptions& options, const std::vector<GalleryScene>
   return order;
 }
 
+bool is_loopback(const std::string& address) {
+  return address == "localhost" || address == "::1" || address.rfind("127.", 0) == 0;
+}
+
 Order first_order(const LabOptions& options, const std::vector<GalleryScene>& gallery) {
   Order order = scene_asked_for(options, gallery);
   if (!options.lanes.empty()) order.lanes = parse_lanes(options.lanes);
+  order.is_shared = !is_loopback(options.listen);
   return order;
 }
 
@@ -76,10 +81,6 @@ LabCommand drop_all() {
   return command;
 }
 
-bool is_loopback(const std::string& address) {
-  return address == "localhost" || address == "::1" || address.rfind("127.", 0) == 0;
-}
-
 // Session, painter and server, each with its thread; a message goes to whom it concerns.
 class Lab {
  public:
@@ -92,7 +93,7 @@ class Lab {
                  [this](ClientId client, LabPainter::Channel channel, Bytes bytes, bool binary) {
                    server_->send(client, channel, std::move(bytes), binary);
                  }),
-        routes_(session_, painter_, gallery_, std::string(web_bundle().lab),
+        routes_(session_, painter_, audience_, gallery_, std::string(web_bundle().lab),
                 std::string(web_bundle().missing)) {
     ServerOptions server;
     server.address = options.listen;

@@ -22,6 +22,7 @@ class UnpackedRun {
   UnpackedRun& operator=(const UnpackedRun&) = delete;
 
   const RecordingHeader& header() const { return header_; }
+  const std::filesystem::path& folder() const { return folder_.path; }
   // What the run was given, its paths those of the copies. Copies that something else has removed
   // are written again; the recorded run must outlive what is read with these options.
   SimulateOptions options(const std::vector<Change>& changes = {}) const;

@@ -29,7 +29,9 @@ std::optional<RobotDescription> read_model_file(const RobotOptions& options, Fau
     return std::nullopt;
   }
   return attempt(faults, [&] {
-    return read_urdf(file, {.geometry = UrdfOptions::Geometry::optional, .strict = options.strict});
+    return read_urdf(file, {.geometry = UrdfOptions::Geometry::optional,
+                            .strict = options.strict,
+                            .roots = options.roots});
   });
 }
 

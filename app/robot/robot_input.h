@@ -9,6 +9,7 @@
 #include "app/robot/coordinates.h"
 #include "app/robot/state_file.h"
 #include "collision/import/robot/robot_description.h"
+#include "collision/import/urdf/mesh_search.h"
 #include "solver/model/model.h"
 #include "solver/support/diagnostics.h"
 
@@ -20,6 +21,7 @@ struct RobotOptions {
   bool floating = false;
   bool friction = true, armature = true;
   bool strict = false;  // inertias that no body has are faults
+  FileRoots roots;      // of the files that the model names
 };
 
 struct RobotInput {

@@ -123,7 +123,7 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
   auto description = attempt(faults, [&] {
     TomlValue tree = options.scene ? *options.scene : read_toml(options.robot.model);
     if (options.change_scene) options.change_scene(tree, faults);
-    return read_scene(tree, options.robot.model);
+    return read_scene(tree, options.robot.model, options.robot.roots);
   });
   choose_contact(options.contact, description ? &*description : nullptr, faults);
   const RunPlan plan =

@@ -6,6 +6,7 @@
 import json
 import math
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -257,20 +258,31 @@ class LabTest(unittest.TestCase):
             known = len(self.told(self.state())) if text else 0
             self.live.say(text)
             self.state(lambda s: len(self.told(s)) > known)
-        bad = self.lab.post("/open?name=bad.toml", "[[robot]]\nmodel = 'no.urdf'\nmass = 3\n")
+        bad = self.lab.upload("bad.toml", "[[robot]]\nmodel = 'no.urdf'\nmass = 3\n", self.live)
         self.assertEqual(bad.status, 422)
         self.assertIn("no.urdf", bad.body.decode())
         for name in ("../../etc/x.toml", "", "a%2f..%2fb.toml"):
-            self.assertEqual(self.lab.post(f"/open?name={name}", "x").status, 422)
+            self.assertEqual(self.lab.upload(name, "x", self.live).status, 422)
         step = self.frame().step
         self.frame(lambda f: f.step > step)
 
     def test_a_robot_is_dropped_onto_the_page(self):
         number = self.live.wait_for("scene")["scene"]
-        self.assertEqual(self.lab.post("/open?name=fresh.urdf", PENDULUM).status, 200)
+        self.assertEqual(self.lab.upload("fresh.urdf", PENDULUM, self.live).status, 200)
         scene = self.live.wait_for("scene", lambda s: s["scene"] > number)
         self.assertEqual(scene["file"], "fresh.urdf")
         self.frame(lambda f: f.scene == scene["scene"])
+
+    def test_only_the_page_that_has_control_uploads_files(self):
+        with self.lab.live() as other:
+            refused = self.lab.upload("fresh.urdf", PENDULUM, other)
+            self.assertEqual((refused.status, refused.body), (403, b"another page has control; ask for it\n"))
+            self.assertEqual(self.lab.post("/open?name=fresh.urdf", PENDULUM).status, 403)
+            self.assertEqual(self.lab.post("/open?name=fresh.urdf&secret=", PENDULUM).status, 403)
+            self.live.do("give", to=self.state(live=other)["you"])
+            self.state(lambda s: s["holder"] == s["you"], live=other)
+            self.assertEqual(self.lab.upload("fresh.urdf", PENDULUM, self.live).status, 403)
+            self.assertEqual(self.lab.upload("fresh.urdf", PENDULUM, other).status, 200)
 
     def test_the_scene_with_its_changes_and_the_page_to_share_stand_alone(self):
         self.live.do("set", changes=["coupling[0].stiffness=33"])
@@ -412,6 +424,44 @@ class LabEnds(unittest.TestCase):
                     self.assertEqual("other machines" in notes[-1]["text"], is_refused, notes[-1])
                 live.do("hand", source="device", spec="virtual:synthetic")
                 live.wait_for("state", lambda s: s["hand"]["spec"] == "virtual:synthetic")
+            running.end()
+
+    def test_uploads_of_other_machines_name_only_uploads_and_assets(self):
+        secret = "the secret of this machine\n"
+        body = ('[[body]]\nname = "ball"\nmass = 1\nshape = {{ sphere = {{ radius = 0.1 }} }}\n'
+                'position = [0, 0, 1]\n{}')
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)
+            (path / "secret.png").write_text(secret)
+            (path / "rod.urdf").write_text(PENDULUM)
+            running = Running(ROOT / "assets/scenes/bouncing_ball.toml", "--listen", "0.0.0.0")
+            self.addCleanup(running.process.kill)
+            lab = Lab(running.url)
+            with lab.live() as live:
+                for name, text in (
+                        ("a.toml", body.format(f'texture = "{path}/secret.png"')),
+                        ("b.toml", body.format(f'texture = "../../..{path}/secret.png"')),
+                        ("c.toml", f'[[robot]]\nname = "rod"\nmodel = "{path}/rod.urdf"'),
+                        ("d.toml", SCENE.replace("rod.urdf", "robots/s103/s103.urdf").replace(
+                            '"device"', f'"{path}/secret.png"')),
+                        ("e.toml", body.format('texture = "/nowhere/secret.png"'))):
+                    reply = lab.upload(name, text, live)
+                    self.assertEqual(reply.status, 422, name)
+                    self.assertIn("is not among those that this scene may read", reply.body.decode(), name)
+                    self.assertNotIn("of this machine", reply.body.decode())
+                mesh = f'<mesh filename="{path}/secret.png"/>'
+                self.assertEqual(lab.upload("f.urdf", re.sub('<box.*?/>', mesh, PENDULUM), live).status, 200)
+                self.assertFalse(secret.encode() in lab.get("/save").body)
+                # What it may name: uploads, and assets.
+                for name, text in (("rod.urdf", PENDULUM), ("g.toml", SCENE),
+                                   ("h.toml", SCENE.replace("rod.urdf", "robots/puma560/puma560.urdf").replace(
+                                       '"rod"', '"link1"').replace("hinge", "j1"))):
+                    reply = lab.upload(name, text, live)
+                    self.assertEqual(reply.status, 200, reply.body)
+                known = live.wait_for("state", lambda s: s["name"] == "h")["notes"]
+                live.do("set", changes=[f"body[0].texture={path}/secret.png"])
+                notes = live.wait_for("state", lambda s: len(s["notes"]) > len(known))["notes"]
+                self.assertIn("is not among those", notes[-1]["text"])
             running.end()
 
     def test_bad_words_are_told(self):

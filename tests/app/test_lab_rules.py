@@ -109,7 +109,7 @@ class LabRules(unittest.TestCase):
         (self.path / "ball.toml").write_text('[[body]]\nname = "b"\nshape = { sphere = { radius = 0.1 } }\nmass = 1\n')
         number = self.live.wait_for("scene")["scene"]
         self.live.do("play", on=True)
-        self.lab.post("/open?name=ball.toml", (self.path / "ball.toml").read_bytes())
+        self.lab.upload("ball.toml", (self.path / "ball.toml").read_bytes(), self.live)
         scene = self.live.wait_for("scene", lambda s: s["scene"] > number)
         self.assertFalse([row for row in scene["ledger"] if "pull" in row or "hinge" in row], scene["ledger"])
         self.assertLess(self.frame(lambda f: f.scene == scene["scene"]).time, 0.3)
@@ -134,9 +134,9 @@ class LabRules(unittest.TestCase):
 
     def test_what_is_asked_for_wrongly_is_refused_or_bounded(self):
         self.assertEqual(self.lab.post("/save", "x").status, 404)
-        self.assertEqual(self.lab.post("/open?name=part.stl", "solid").body, b"kept\n")
+        self.assertEqual(self.lab.upload("part.stl", "solid", self.live).body, b"kept\n")
         for name in ("/etc/x.toml", "%2ftmp/x.toml", "..%2fx.toml", "a/../../x.toml", ".hidden.toml", "a" * 300):
-            self.assertEqual(self.lab.post(f"/open?name={name}", "step = 1").status, 422, name)
+            self.assertEqual(self.lab.upload(name, "step = 1", self.live).status, 422, name)
         for query, size in (("width=1e9&height=1", (1920, 64)), ("width=nan&height=-5", (960, 64)),
                             ("width=200&height=100", (200, 100))):
             picture = self.lab.get(f"/frame.png?{query}").body
@@ -158,7 +158,9 @@ class LabLeavesNothing(unittest.TestCase):
             os.environ["TMPDIR"] = folder
             running = command.Running(command.ROOT / "assets/scenes/cradle.toml")
             del os.environ["TMPDIR"]
-            Lab(running.url).post("/open?name=part.stl", "solid")
+            lab = Lab(running.url)
+            with lab.live() as live:
+                self.assertEqual(lab.upload("part.stl", "solid", live).status, 200)
             self.assertEqual(len(list(pathlib.Path(folder).rglob("part.stl"))), 1)
             self.assertEqual(running.end(), (0, ""))
             self.assertEqual(os.listdir(folder), [])

@@ -226,7 +226,7 @@ class LabUnderFire(Victim):
             with lab.live() as live:
                 live.wait_for("frame", timeout=TIMEOUT)
                 for n in range(10**6):
-                    lab.post(f"/open?name=ball{n}.toml", (ROOT / "assets/scenes/pendulum.toml").read_text())
+                    lab.upload(f"ball{n}.toml", (ROOT / "assets/scenes/pendulum.toml").read_text(), live)
                     reply = lab.get("/save")
                     if reply.status == 200:  # else it says that it is ending
                         (self.out / "saved.twinrec").write_bytes(reply.body)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "app/lab/server/http_text.h"
+
 namespace twinarm {
 
 void Audience::opened(ClientId client) {
@@ -45,6 +47,18 @@ bool Audience::give(ClientId from, ClientId to) {
 bool Audience::has_hand(ClientId client) const {
   const std::lock_guard lock(mutex_);
   return holder_ == client;
+}
+
+std::string Audience::secret(ClientId client) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = clients_.find(client);
+  return found == clients_.end() ? "" : found->second.secret;
+}
+
+bool Audience::has_hand(std::string_view secret) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = clients_.find(holder_);
+  return found != clients_.end() && is_secret(secret, found->second.secret);
 }
 
 void Audience::want_layers(ClientId client, std::vector<std::string> names) {

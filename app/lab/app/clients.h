@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/lab/server/lab_server.h"
@@ -28,6 +29,9 @@ class Audience {
   // False where `from` has nothing to give, or `to` is not there.
   bool give(ClientId from, ClientId to);
   bool has_hand(ClientId client) const;
+  // Over HTTP all clients look alike: each has a secret, which only its own state message carries.
+  std::string secret(ClientId client) const;  // empty: it is not there
+  bool has_hand(std::string_view secret) const;
 
   void want_layers(ClientId client, std::vector<std::string> names);
   void want_glass(ClientId client, std::optional<long> body);
@@ -40,6 +44,7 @@ class Audience {
   struct Client {
     std::vector<std::string> layers{"bodies", "ghost", "couplings", "contacts"};
     std::optional<long> glass;
+    std::string secret = random_token();
   };
   mutable std::mutex mutex_;
   std::map<ClientId, Client> clients_;

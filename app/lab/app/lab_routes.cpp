@@ -8,8 +8,8 @@
 #include "app/lab/app/uploaded_file.h"
 #include "app/page/replay_page.h"
 #include "app/render/gl/painter.h"
+#include "app/support/find_assets.h"
 #include "app/support/output_file.h"
-#include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -94,15 +94,17 @@ HttpReply reply_of_painter(LabPainter& painter, const HttpRequest& request) {
 
 }  // namespace
 
-LabRoutes::LabRoutes(LabSession& session, LabPainter& painter,
+LabRoutes::LabRoutes(LabSession& session, LabPainter& painter, const Audience& audience,
                      const std::vector<GalleryScene>& gallery, std::string page,
                      std::string missing)
     : session_(session),
       painter_(painter),
+      audience_(audience),
       gallery_(gallery),
       page_(shared_bytes(std::move(page))),
       missing_(std::move(missing)),
       folder_(make_temporary_folder("twinarm-lab")),
+      uploads_(folder_ / "uploads"),
       errands_([this](const std::string& why) { session_.note("error", why); }) {}
 
 LabRoutes::~LabRoutes() {
@@ -145,9 +147,13 @@ void LabRoutes::ask_painter(const HttpRequest& request, const Answer& answer) {
 }
 
 void LabRoutes::ask_errands(const HttpRequest& request, const Answer& answer) {
-  const bool is_taken = errands_.add([this, request, answer] {
+  do_errand(answer, [this, request, answer] { answer(run_errand(request)); });
+}
+
+void LabRoutes::do_errand(const Answer& answer, std::function<void()> errand) {
+  const bool is_taken = errands_.add([this, errand = std::move(errand), answer] {
     mkdir(folder_.c_str(), S_IRWXU);  // cleaners of temporary folders may have removed it
-    answer_faults(answer, [&] { answer(run_errand(request)); });
+    answer_faults(answer, errand);
   });
   if (!is_taken) answer(reply_of(503, "too much was asked for at once; try again"));
 }
@@ -181,31 +187,31 @@ HttpReply LabRoutes::picture(const HttpRequest& request) const {
   return file_of("image/png", shared_bytes(encode_png(painter.paint(painter_.drawn()))), false);
 }
 
-// What is no scene by itself (a mesh) waits in the folder for the one that names it.
 void LabRoutes::answer_open(const HttpRequest& request, const Answer& answer) {
   const std::string name = query_value(request.query, "name").value_or("");
+  if (!audience_.has_hand(query_value(request.query, "secret").value_or("")))
+    return answer(reply_of(403, "another page has control; ask for it"));
   if (!is_plain(name))
     return answer(reply_of(422, "name: '" + name + "' is none for a file; use letters, digits, -"));
-  try {
-    const BroughtFile brought = brought_file(name, request.body);
-    if (!brought.fault.empty()) return answer(reply_of(422, name + ": " + brought.fault));
-    const std::filesystem::path file = folder_ / brought.path;
-    std::error_code ignored;
-    std::filesystem::create_directories(file.parent_path(), ignored);
-    write_whole_file(file, request.body);
-    if (!brought.opens) return answer(reply_of(200, "kept"));
-    Order order;
-    order.file = file;
-    order.name = file.stem().string();
-    order.words.title = order.name;
-    order.words.file = name;
-    order.done = [answer](const std::string& faults) {
-      answer(faults.empty() ? reply_of(200, "opened") : reply_of(422, faults));
-    };
-    session_.open(std::move(order));
-  } catch (const InputError& error) {
-    answer(faults_of(error));
-  }
+  do_errand(answer, [this, name, body = request.body, answer] { open(name, body, answer); });
+}
+
+// What is no scene by itself (a mesh) waits in the folder for the one that names it.
+void LabRoutes::open(const std::string& name, const std::string& bytes, const Answer& answer) {
+  const BroughtFile brought = brought_file(name, bytes);
+  if (!brought.fault.empty()) return answer(reply_of(422, name + ": " + brought.fault));
+  const std::filesystem::path file = uploads_.write(brought.path, bytes);
+  if (!brought.opens) return answer(reply_of(200, "kept"));
+  Order order;
+  order.file = file;
+  if (session_.now().scene->order.is_shared) order.roots = {uploads_.path(), find_assets()};
+  order.name = file.stem().string();
+  order.words.title = order.name;
+  order.words.file = name;
+  order.done = [answer](const std::string& faults) {
+    answer(faults.empty() ? reply_of(200, "opened") : reply_of(422, faults));
+  };
+  session_.open(std::move(order));
 }
 
 }  // namespace twinarm

@@ -10,6 +10,7 @@
 #include "app/lab/app/task_queue.h"
 #include "app/lab/server/lab_server.h"
 #include "app/lab/session/lab_session.h"
+#include "app/lab/upload_folder.h"
 
 namespace twinarm {
 
@@ -17,9 +18,9 @@ class LabRoutes {
  public:
   // All must outlive it. `page`: empty where the program was built without its pages; `missing`
   // says why then.
-  LabRoutes(LabSession& session, LabPainter& painter, const std::vector<GalleryScene>& gallery,
-            std::string page, std::string missing);
-  ~LabRoutes();  // what pages have brought goes with it
+  LabRoutes(LabSession& session, LabPainter& painter, const Audience& audience,
+            const std::vector<GalleryScene>& gallery, std::string page, std::string missing);
+  ~LabRoutes();  // uploaded files are removed
   LabRoutes(const LabRoutes&) = delete;
   LabRoutes& operator=(const LabRoutes&) = delete;
 
@@ -34,15 +35,19 @@ class LabRoutes {
   void ask_painter(const HttpRequest& request, const Answer& answer);
   void ask_errands(const HttpRequest& request, const Answer& answer);
   HttpReply picture(const HttpRequest& request) const;
+  void do_errand(const Answer& answer, std::function<void()> errand);
   void answer_open(const HttpRequest& request, const Answer& answer);
+  void open(const std::string& name, const std::string& bytes, const Answer& answer);
   HttpReply run_errand(const HttpRequest& request) const;
 
   LabSession& session_;
   LabPainter& painter_;
+  const Audience& audience_;
   const std::vector<GalleryScene>& gallery_;
   Bytes page_;
   std::string missing_;
-  std::filesystem::path folder_;  // of files that pages have brought
+  std::filesystem::path folder_;  // of temporary files
+  UploadFolder uploads_;          // of the errands' thread
   Errands errands_;
 };
 

@@ -172,7 +172,8 @@ void LabPainter::tell_state(const LabNow& now) {
   if (state == state_) return;
   state_ = std::move(state);
   for (const ClientId client : audience.clients)
-    post_(client, state_channel, shared(addressed(state_, client)), false);
+    post_(client, state_channel, shared(addressed(state_, client, audience_.secret(client))),
+          false);
 }
 
 // What has been told is not told again, whatever else is new. How long the next has to wait [s]:

@@ -156,8 +156,9 @@ std::string state_message(const LabStatus& status, const Audience::View& audienc
   return json.str();
 }
 
-std::string addressed(const std::string& state, ClientId you) {
-  return "{\"you\": " + std::to_string(you) + ", " + state.substr(state.find_first_not_of("{ \n"));
+std::string addressed(const std::string& state, ClientId you, const std::string& secret) {
+  return "{\"you\": " + std::to_string(you) + ", \"secret\": \"" + secret + "\", " +
+         state.substr(state.find_first_not_of("{ \n"));
 }
 
 }  // namespace twinarm

@@ -11,9 +11,9 @@
 
 namespace twinarm {
 
-// For all clients alike, but for `you`: addressed() puts that in.
+// For all clients alike, but for `you` and `secret`: addressed() puts them in.
 std::string state_message(const LabStatus& status, const Audience::View& audience,
                           const std::vector<Knob>& knobs, const std::vector<GalleryScene>& gallery);
-std::string addressed(const std::string& state, ClientId you);
+std::string addressed(const std::string& state, ClientId you, const std::string& secret);
 
 }  // namespace twinarm

@@ -77,15 +77,19 @@ void put_scene_number(TomlValue& scene, const std::string& key, double number) {
 
 }  // namespace
 
-LabScene::LabScene(const SimulateOptions& given) {
+LabScene::LabScene(const SimulateOptions& given, FileRoots roots) : roots_(std::move(roots)) {
   const SimulateOptions options = without_end(given);
   files_ = std::make_shared<const UnpackedRun>(
       header_of(options, prepare_simulation(options), given.command));
+  if (!roots_) return;
+  roots_->push_back(files_->folder());
+  for (const RecordedFile& file : files_->header().files) roots_->push_back(file.path);
 }
 
-LabScene::LabScene(RecordingHeader header) {
+LabScene::LabScene(RecordingHeader header, FileRoots roots) : roots_(std::move(roots)) {
   header.options = without_end(std::move(header.options));
   files_ = std::make_shared<const UnpackedRun>(std::move(header));
+  if (roots_) roots_->push_back(files_->folder());
 }
 
 bool LabScene::is_scene() const {
@@ -104,6 +108,7 @@ std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& change
     options.integrator = beside.integrator;
     options.contact = beside.contact;
     options.has_hand = true;
+    options.robot.roots = roots_;
     SimulatePlan prepared = prepare_simulation(options);
     if (prepared.run.is_adaptive() && !options.step)  // not all of the run in one
       prepared.run.step = prepared.input.scene ? prepared.input.scene->description.step : 0.001;

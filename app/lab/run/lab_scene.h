@@ -15,9 +15,10 @@ class LabScene {
  public:
   // As `twinarm simulate` would run it; the duration counts for nothing. Throws InputError with all
   // faults.
-  explicit LabScene(const SimulateOptions& options);
+  // `roots`: where files lie that changes may name, beside its own.
+  explicit LabScene(const SimulateOptions& options, FileRoots roots = {});
   // What a recording was of.
-  explicit LabScene(RecordingHeader header);
+  explicit LabScene(RecordingHeader header, FileRoots roots = {});
 
   // With changes: those of a fork (app/record/unpack.h), and also step, integrator, contact,
   // gravity. The run that it plans has no end, and no sample times. Throws InputError, faults of a
@@ -43,6 +44,7 @@ class LabScene {
  private:
   TomlValue tree(const std::vector<Change>& changes) const;
   std::shared_ptr<const UnpackedRun> files_;
+  FileRoots roots_;
 };
 
 }  // namespace twinarm

@@ -78,6 +78,7 @@ void LabSession::open(Order order) {
   const char* why = "something else was asked for before this was begun; try again";
   {
     const std::lock_guard lock(mutex_);
+    order.is_shared = scene_->order.is_shared;
     if (workshop_) {
       left = workshop_->order(std::move(order));
     } else {

@@ -6,17 +6,21 @@
 #include <utility>
 
 #include "app/record/recording_reader.h"
+#include "app/support/find_assets.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {
 
-std::shared_ptr<const LabScene> open_scene(const std::filesystem::path& file) {
-  if (file.extension() == ".twinrec")
-    return std::make_shared<const LabScene>(Recording(file).header());
+std::shared_ptr<const LabScene> open_scene(const Order& order) {
+  FileRoots roots;
+  if (order.is_shared) roots = {find_assets()};
+  if (order.file.extension() == ".twinrec")
+    return std::make_shared<const LabScene>(Recording(order.file).header(), roots);
   SimulateOptions options;
-  options.robot.model = file;
-  return std::make_shared<const LabScene>(options);
+  options.robot.model = order.file;
+  options.robot.roots = order.roots;
+  return std::make_shared<const LabScene>(options, roots);
 }
 
 std::string words_of(const InputError& error) {
@@ -47,7 +51,7 @@ Built build(Order order) {
   Built built;
   for (const Asked& asked : order.asked) put_asked(order.changes, asked);
   if (!order.lanes.empty()) put(order.changes, order.lanes.change(0));
-  built.scene = order.what == Order::What::open ? open_scene(order.file) : order.scene;
+  built.scene = order.what == Order::What::open ? open_scene(order) : order.scene;
   built.header = built.scene->header(order.changes, {});
   built.run = built.scene->plan(order.changes);
   built.view = built.scene->plan(order.changes);

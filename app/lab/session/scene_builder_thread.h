@@ -29,7 +29,10 @@ struct Asked {
 struct Order {
   enum class What { open, change, branch, reset };
   What what = What::open;
-  std::filesystem::path file;             // open: a scene, a robot, a recording
+  std::filesystem::path file;  // open: a scene, a robot, a recording
+  FileRoots roots;             // open: of the files that this one names
+  // Pages on other machines may change it: changes name only its own files, and the assets.
+  bool is_shared = false;
   std::string name;                       // open: as the gallery has it
   SceneWords words;                       // open
   std::shared_ptr<const LabScene> scene;  // of all others

@@ -131,6 +131,7 @@ void SceneReader::read_robot(const TomlValue& value) {
   if (const auto model = table.text("model"))
     if (const auto urdf = find_file(table, "model", *model)) {
       UrdfOptions options;
+      options.roots = roots;
       if (!robot.collide) options.geometry = UrdfOptions::Geometry::optional;
       try {
         robot.description = read_urdf(*urdf, options);

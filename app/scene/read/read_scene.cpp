@@ -25,10 +25,12 @@ SceneDescription read_scene(const std::filesystem::path& file) {
   return read_scene(read_toml(file), file);
 }
 
-SceneDescription read_scene(const TomlValue& root, const std::filesystem::path& file) {
+SceneDescription read_scene(const TomlValue& root, const std::filesystem::path& file,
+                            const FileRoots& roots) {
   SceneReader reader;
   reader.path = file;
   reader.file = file.string();
+  reader.roots = roots;
   reader.scene.file = file;
   reader.read(root);
   try {
@@ -146,9 +148,14 @@ std::optional<std::filesystem::path> SceneReader::find_file(SceneTable& table,
   } catch (const InputError&) {  // without assets there is one place less
   }
   for (const fs::path& place : places)
-    if (fs::is_regular_file(place, ignored)) return fs::absolute(place).lexically_normal();
-  table.fault(key, "the file '" + name + "' does not exist",
-              "give it absolute, relative to the scene, or below assets/");
+    if (may_name(roots, place) && fs::is_regular_file(place, ignored))
+      return fs::absolute(place).lexically_normal();
+  if (roots)  // the same whether there is one or not
+    table.fault(key, "the file '" + name + "' is not among those that this scene may read",
+                "upload it before the scene, or name one below assets/");
+  else
+    table.fault(key, "the file '" + name + "' does not exist",
+                "give it absolute, relative to the scene, or below assets/");
   return std::nullopt;
 }
 

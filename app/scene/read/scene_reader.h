@@ -7,12 +7,14 @@
 
 #include "app/data/table_reader.h"
 #include "app/scene/read/scene_description.h"
+#include "collision/import/urdf/mesh_search.h"
 
 namespace twinarm {
 
 struct SceneReader {
   std::filesystem::path path;
   std::string file;  // the same, for faults
+  FileRoots roots;   // of the files that it names
   FaultList faults;
   SceneDescription scene;
 

@@ -54,13 +54,28 @@ fs::path find_in_package(const fs::path& package, const fs::path& rest, const fs
 
 }  // namespace
 
-FilePlace find_named_file(const std::string& kind, const std::string& name,
-                          const fs::path& folder) {
+bool may_name(const FileRoots& roots, const fs::path& file) {
+  if (!roots) return true;
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(file, error);
+  return !error && std::any_of(roots->begin(), roots->end(), [&](const fs::path& root) {
+    const fs::path top = fs::weakly_canonical(root, error);
+    return !error &&
+           std::mismatch(top.begin(), top.end(), path.begin(), path.end()).first == top.end();
+  });
+}
+
+FilePlace find_named_file(const std::string& kind, const std::string& name, const fs::path& folder,
+                          const FileRoots& roots) {
   FilePlace place;
   const std::size_t scheme = name.find("://");
   if (scheme == std::string::npos || name.starts_with("file://")) {
     const fs::path expected =  // an absolute path replaces the folder
         (folder / (scheme == std::string::npos ? name : name.substr(7))).lexically_normal();
+    if (!may_name(roots, expected))  // the same whether there is one or not
+      return {{},
+              kind + " file '" + name + "' lies outside the folders that may be read",
+              "upload it with the URDF, and name it relative to the URDF"};
     if (is_file(expected)) return {expected, "", ""};
     place.remedy = "expected at " + expected.string();
   } else {
@@ -72,7 +87,8 @@ FilePlace find_named_file(const std::string& kind, const std::string& name,
               "give a path relative to the URDF, or package://NAME/PATH, or file://"};
     const fs::path found = find_in_package(name.substr(scheme + 3, slash - scheme - 3),
                                            name.substr(slash + 1), folder);
-    if (!found.empty()) return {fs::absolute(found).lexically_normal(), "", ""};
+    if (!found.empty() && may_name(roots, found))
+      return {fs::absolute(found).lexically_normal(), "", ""};
     place.remedy = "the package was sought above and beside " + folder.string() +
                    " and in ROS_PACKAGE_PATH; put it there, or give a path relative to the URDF";
   }

@@ -2,9 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace twinarm {
+
+// Where a file may lie that another file names: below one of these folders, or one of these files.
+// Nothing: anywhere.
+using FileRoots = std::optional<std::vector<std::filesystem::path>>;
+// Follows "..", and links.
+bool may_name(const FileRoots& roots, const std::filesystem::path& file);
 
 struct FilePlace {
   std::filesystem::path file;  // absolute; empty where it was not found
@@ -17,6 +25,6 @@ struct FilePlace {
 // levels down, or of AMENT_PREFIX_PATH (share/NAME); or, at last, `folder` itself.
 // `kind` is what faults call it.
 FilePlace find_named_file(const std::string& kind, const std::string& name,
-                          const std::filesystem::path& folder);
+                          const std::filesystem::path& folder, const FileRoots& roots = {});
 
 }  // namespace twinarm

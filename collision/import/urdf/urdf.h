@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "collision/import/robot/robot_description.h"
+#include "collision/import/urdf/mesh_search.h"
 
 namespace twinarm {
 
@@ -15,6 +16,7 @@ struct UrdfOptions {
   Geometry geometry = Geometry::required;
   // An inertia that no rigid body can have is a fault, and not only a warning.
   bool strict = false;
+  FileRoots roots;  // of meshes and textures
 };
 
 // Throws InputError with ALL faults of the file, each with its line. What was read but is

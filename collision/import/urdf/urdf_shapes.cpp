@@ -25,7 +25,8 @@ MeshGeometry read_mesh(const XMLElement& element, const std::string& where, Urdf
         std::string("mesh scale is '") + element.Attribute("scale") + "', which flattens the mesh",
         "give three numbers that are not 0 (a negative one mirrors)");
   if (mesh.name.empty()) return mesh;
-  const FilePlace place = find_named_file("mesh", mesh.name, source.folder());
+  const FilePlace place =
+      find_named_file("mesh", mesh.name, source.folder(), source.options().roots);
   mesh.file = place.file;
   if (place.rule.empty()) return mesh;
   if (source.options().geometry == UrdfOptions::Geometry::required)
@@ -98,7 +99,7 @@ void read_texture(const XMLElement& material, UrdfMaterial& result, UrdfSource& 
     return source.warn(texture->GetLineNum(), where, "its <texture> has no 'filename'",
                        "give filename=\"...\"");
   result.texture_name = name;
-  const FilePlace place = find_named_file("texture", name, source.folder());
+  const FilePlace place = find_named_file("texture", name, source.folder(), source.options().roots);
   result.texture = place.file;
   if (!place.rule.empty())
     source.warn_once("texture", texture->GetLineNum(), where, place.rule, place.remedy);

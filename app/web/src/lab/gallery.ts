@@ -116,7 +116,7 @@ export class Gallery implements Panel {
     let opened = false;
     for (const file of sorted) {
       this.tell('note', `Opening ${file.name} …`, []);
-      const { ok, words } = await post(file);
+      const { ok, words } = await post(file, this.page.state?.secret ?? '');
       if (!ok) {
         const faults = words.split('\n').filter((line) => line.trim());
         this.tell('error', `${file.name} was not opened`, faults);
@@ -145,9 +145,10 @@ export class Gallery implements Panel {
 }
 
 // What the lab says of it: that it is open or kept, or all its faults.
-async function post(file: File): Promise<{ ok: boolean; words: string }> {
+async function post(file: File, secret: string): Promise<{ ok: boolean; words: string }> {
   try {
-    const answer = await fetch(`/open?name=${encodeURIComponent(file.name)}`, {
+    const query = new URLSearchParams({ name: file.name, secret });
+    const answer = await fetch(`/open?${query}`, {
       method: 'POST',
       body: file,
     });

@@ -102,6 +102,7 @@ export interface HandState {
 export interface StateMessage {
   kind: 'state';
   you: number;
+  secret: string; // of this page: goes with an upload
   holder: number | null; // 0, null: nobody
   clients: number;
   asked: number[]; // who asks for the hand
