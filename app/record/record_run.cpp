@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <variant>
 
+#include "app/render/list/image.h"
 #include "app/robot/robot_table.h"
+#include "app/support/find_assets.h"
 #include "app/support/output_file.h"
 #include "app/support/version.h"
+#include "collision/mesh_files/model_file.h"
 #include "solver/dynamics/energy.h"
 
 namespace twinarm {
@@ -20,6 +23,40 @@ void add_file(std::vector<RecordedFile>& files, const std::filesystem::path& fil
     files.push_back({path, read_whole_file(file)});
 }
 
+// The program's own files need no check, which costs milliseconds each.
+bool is_asset(const std::filesystem::path& file) {
+  try {
+    return may_name(std::vector{find_assets()}, file);
+  } catch (const InputError&) {  // there are no assets
+    return false;
+  }
+}
+
+template <class Decode>
+bool is_decodable(const Decode& decode, const std::filesystem::path& file) {
+  try {
+    decode(file);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+// A file that a scene calls a picture or a mesh may be any file of this machine. Of one that no
+// decoder accepts nothing but the name is recorded.
+template <class Decode>
+void add_decoded(std::vector<RecordedFile>& files, const std::filesystem::path& file,
+                 const Decode& decode) {
+  const std::size_t before = files.size();
+  add_file(files, file);
+  if (files.size() > before && !is_asset(file) && !is_decodable(decode, file))
+    files.back().bytes.clear();
+}
+
+void add_picture(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
+  add_decoded(files, file, read_image);
+}
+
 // Files beside a mesh that it names: materials, and their textures; buffers of glTF.
 void add_companions(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
   constexpr int kMost = 1000;  // files of a folder that are looked at
@@ -32,7 +69,9 @@ void add_companions(std::vector<RecordedFile>& files, const std::filesystem::pat
        std::filesystem::recursive_directory_iterator(file.parent_path(), error)) {
     if (++looked_at > kMost) return;
     const std::size_t before = files.size();
-    if (text.find(other.path().filename().string()) != std::string::npos)
+    const std::filesystem::path end = other.path().extension();
+    if (text.find(other.path().filename().string()) != std::string::npos &&
+        (end == ".mtl" || end == ".bin" || is_decodable(read_image, other.path())))
       add_file(files, other.path());
     if (files.size() > before) add_companions(files, other.path());
   }
@@ -40,7 +79,7 @@ void add_companions(std::vector<RecordedFile>& files, const std::filesystem::pat
 
 void add_mesh_file(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
   const std::size_t before = files.size();
-  add_file(files, file);
+  add_decoded(files, file, [](const std::filesystem::path& mesh) { read_model(mesh); });
   if (files.size() > before) add_companions(files, file);
 }
 
@@ -53,7 +92,7 @@ void add_meshes_of(const RobotDescription& robot, std::vector<RecordedFile>& fil
   for (const LinkDescription& link : robot.links) {
     for (const VisualPart& part : link.visuals) {
       add_mesh(files, part.geometry);
-      add_file(files, part.texture);
+      add_picture(files, part.texture);
     }
     for (const CollisionPart& part : link.collisions) add_mesh(files, part.geometry);
   }
@@ -69,7 +108,7 @@ void add_files_of(const SceneDescription& scene, std::vector<RecordedFile>& file
   for (const BodyDescription& body : scene.bodies) {
     if (const auto* mesh = std::get_if<MeshSpec>(&body.shape))
       add_mesh_file(files, mesh->mesh.file);
-    add_file(files, body.texture);
+    add_picture(files, body.texture);
   }
   for (const CouplingDescription& coupling : scene.couplings)
     add_file(files, coupling.target.trace);

@@ -137,6 +137,19 @@ class Recordings(RecordingCommand):
         for words in ("q/hinge [rad]", "time [s]", "[J]", "recorded", "coupling.stiffness=800"):
             self.assertIn(words, plot.read_text())
 
+    def test_of_a_picture_or_mesh_that_cannot_be_decoded_no_bytes_are_recorded(self):
+        secret = b"a text that is neither a picture nor a mesh"
+        for name in ("secret.png", "secret.stl"):
+            (self.folder / name).write_bytes(secret)
+        scene = BOXES % "" + '[[body]]\nname = "ball"\nmass = 1\nshape = { sphere = { radius = 0.1 } }\n' \
+                             'position = [9, 9, 9]\ntexture = "secret.png"\n'
+        mesh = PENDULUM.replace('<link name="base"/>', '<link name="base"><visual><geometry>'
+                                '<mesh filename="secret.stl"/></geometry></visual></link>')
+        for text in (scene, mesh):
+            file = self.record(text, "--duration", 0.01)
+            self.assertFalse(secret in file.read_bytes(), "its bytes are recorded")
+            self.assertIn("same bits", self.twinarm("replay", file).stdout)
+
     @unittest.skipUnless(shutil.which("gnuplot"), "needs gnuplot")
     def test_the_plot_of_a_fork_is_well_formed_for_any_name_of_a_joint(self):
         name = 'a</title>&"b'
