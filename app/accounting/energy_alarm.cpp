@@ -13,10 +13,17 @@ constexpr double kBurst = 10, kBurstShare = 0.5, kBurstHeight = 1e3;  // of floo
 // What an ideal element does is in none of these.
 std::vector<LedgerRow> watched(const std::vector<LedgerRow>& rows) {
   std::vector<LedgerRow> found;
-  for (const LedgerRow& row : rows)
-    if (row.name == "numerical" || row.name.ends_with("/stabilisation") ||
-        row.name.ends_with("/implicit"))
-      found.push_back(row);
+  for (const LedgerRow& row : rows) switch (row.kind) {
+      case LedgerKind::numerical:
+      case LedgerKind::coupling_implicit:
+      case LedgerKind::constraint_stabilisation:
+      case LedgerKind::contact_stabilisation:
+      case LedgerKind::limit_stabilisation:
+        found.push_back(row);
+        break;
+      default:
+        break;
+    }
   return found;
 }
 

@@ -22,6 +22,12 @@ double dot(const Eigen::VectorXd& rows, const NamedJoint& joint,
   return sum;
 }
 
+using ThirdRow = SceneCoupling::ThirdRow;
+
+const char* name_of(ThirdRow row) {
+  return row == ThirdRow::drive ? "drive" : row == ThirdRow::implicit ? "implicit" : "as_printed";
+}
+
 }  // namespace
 
 Ledger::Ledger(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
@@ -42,10 +48,11 @@ void Ledger::find_rows(Integrator integrator, bool others_want_inner) {
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (!input_.state.has_tau[j]) continue;
     actuators_.push_back({&joints[j], is_rate(joints[j].type)});
-    if (!actuators_.back().is_exact) integrals_.push_back({"actuator/" + joints[j].name});
+    if (!actuators_.back().is_exact)
+      integrals_.push_back({LedgerKind::actuator, "actuator/" + joints[j].name});
   }
   for (std::size_t i = 0; i < wrenches_.size(); ++i)
-    integrals_.push_back({"wrench/" + std::to_string(i)});
+    integrals_.push_back({LedgerKind::wrench, "wrench/" + std::to_string(i)});
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     if (model.dofs(i) == 0) continue;
     const std::size_t iv = model.iv[i];  // the dofs of a joint are all alike
@@ -53,11 +60,15 @@ void Ledger::find_rows(Integrator integrator, bool others_want_inner) {
     if (model.damping[iv] != 0) damped_.push_back(friction);
     if (model.coulomb_plus[iv] != 0 || model.coulomb_minus[iv] != 0) rubbing_.push_back(friction);
   }
-  for (const Friction& f : damped_) integrals_.push_back({"joint/" + f.joint + "/damping"});
-  for (const Friction& f : rubbing_) integrals_.push_back({"joint/" + f.joint + "/friction"});
+  for (const Friction& f : damped_)
+    integrals_.push_back({LedgerKind::joint_damping, "joint/" + f.joint + "/damping"});
+  for (const Friction& f : rubbing_)
+    integrals_.push_back({LedgerKind::joint_friction, "joint/" + f.joint + "/friction"});
   for (std::size_t c = 0; c < coupling_count(); ++c)
-    for (const char* part : {"/spring", "/damper", "/hand_on_damper"})
-      integrals_.push_back({"coupling/" + couplings_->spec(c).name + part});
+    for (const auto& [kind, part] : {std::pair{LedgerKind::coupling_spring, "/spring"},
+                                     std::pair{LedgerKind::coupling_damper, "/damper"},
+                                     std::pair{LedgerKind::coupling_other, "/hand_on_damper"}})
+      integrals_.push_back({kind, "coupling/" + couplings_->spec(c).name + part});
   implicit_.assign(coupling_count(), 0);
 
   const int order = facts_of(integrator).order;
@@ -125,7 +136,7 @@ void Ledger::add_step(double h, const std::vector<State<double>>& inner, const S
 // (pull h - m* (v' - v)) . (v + v')/2, less what spring and damper have already.
 void Ledger::add_implicit(double h, const State<double>& end) {
   for (std::size_t c = 0; c < coupling_count(); ++c) {
-    if (!couplings_->spec(c).third_row()) continue;
+    if (couplings_->spec(c).third_row() == ThirdRow::none) continue;
     const double m_star = couplings_->m_star(c);
     forward_kinematics(input_.model, now_, k_);
     const CouplingEnds before = couplings_->ends(c, now_, k_);
@@ -158,15 +169,15 @@ std::vector<LedgerRow> Ledger::hand() const {
   std::vector<LedgerRow> rows;
   const std::size_t first = integrals_.size() - 3 * coupling_count();
   for (std::size_t c = 0; c < coupling_count(); ++c)
-    rows.push_back({couplings_->spec(c).name,
+    rows.push_back({LedgerKind::coupling_other, couplings_->spec(c).name,
                     integrals_[first + 3 * c].work + integrals_[first + 3 * c + 2].work});
   return rows;
 }
 
 std::vector<LedgerRow> Ledger::rows() const {
   const Model<double>& model = input_.model;
-  std::vector<LedgerRow> rows{
-      {"gravity", potential_energy(model, start_) - potential_energy(model, now_)}};
+  std::vector<LedgerRow> rows{{LedgerKind::gravity, "gravity",
+                               potential_energy(model, start_) - potential_energy(model, now_)}};
   auto integral = integrals_.begin();
   for (const Actuator& actuator : actuators_) {
     if (!actuator.is_exact) {
@@ -176,22 +187,25 @@ std::vector<LedgerRow> Ledger::rows() const {
     const NamedJoint& joint = *actuator.joint;
     std::vector<double> way = coordinates_of(joint, now_);
     for (std::size_t c = 0; c < joint.nq; ++c) way[c] -= start_.q[joint.iq + c];
-    rows.push_back({"actuator/" + joint.name, dot(input_.state.tau, joint, way)});
+    rows.push_back(
+        {LedgerKind::actuator, "actuator/" + joint.name, dot(input_.state.tau, joint, way)});
   }
   const auto couplings = integrals_.end() - static_cast<std::ptrdiff_t>(3 * coupling_count());
   rows.insert(rows.end(), integral, couplings);
   for (std::size_t c = 0; c < coupling_count(); ++c) {
     const auto hand = couplings + static_cast<std::ptrdiff_t>(3 * c), damper = hand + 1;
     const double spring = hand->work - (elastic_energy(c, now_) - elastic_energy(c, start_));
-    rows.push_back({hand->name, spring});
+    rows.push_back({LedgerKind::coupling_spring, hand->name, spring});
     rows.push_back(*damper);
-    if (const char* third = couplings_->spec(c).third_row())
-      rows.push_back({"coupling/" + couplings_->spec(c).name + "/" + third,
-                      implicit_[c] - spring - damper->work});
+    const SceneCoupling& spec = couplings_->spec(c);
+    if (const ThirdRow third = spec.third_row(); third != ThirdRow::none)
+      rows.push_back(
+          {third == ThirdRow::implicit ? LedgerKind::coupling_implicit : LedgerKind::coupling_other,
+           "coupling/" + spec.name + "/" + name_of(third), implicit_[c] - spring - damper->work});
   }
   double rest = kinetic_energy(model, now_) - kinetic_energy(model, start_);
   for (const LedgerRow& row : rows) rest -= row.work;
-  rows.push_back({"numerical", rest});
+  rows.push_back({LedgerKind::numerical, kNumericalRow, rest});
   return rows;
 }
 

@@ -28,6 +28,7 @@
 namespace twinarm {
 
 struct MomentumRow {
+  LedgerKind kind = LedgerKind::earlier;
   std::string name;
   Vector3 linear = Vector3::Zero();   // [N s]
   Vector3 angular = Vector3::Zero();  // [N m s]

@@ -18,17 +18,21 @@ std::vector<LedgerRow> MomentumLedger::energy_rows(const Simulation& simulation,
   std::vector<LedgerRow> rows;
   const std::vector<LoopClosure>& loops = simulation.dynamics().bilateral().loops().loops();
   for (std::size_t l = 0; l < loop_count_; ++l) {
-    rows.push_back({"constraint/" + loops[l].name, sums_[loop(l)].work});
-    rows.push_back({"constraint/" + loops[l].name + "/stabilisation", stabilisation_[l].work});
+    rows.push_back({LedgerKind::constraint, "constraint/" + loops[l].name, sums_[loop(l)].work});
+    rows.push_back({LedgerKind::constraint_stabilisation,
+                    "constraint/" + loops[l].name + "/stabilisation", stabilisation_[l].work});
   }
   const Model<double>& model = input_.model;
   for (std::size_t m = 0; m < mimics_.size(); ++m)
     for (std::size_t i = 1; i < model.parent.size(); ++i)
       if (model.dofs(i) > 0 && model.iv[i] == model.mimics[m].follower && mimics_[m] != 0)
-        rows.push_back({"joint/" + model.joint_name[i] + "/mimic", mimics_[m]});
-  if (separation_.work != 0) rows.push_back({"contact/stabilisation", separation_.work});
+        rows.push_back(
+            {LedgerKind::joint_mimic, "joint/" + model.joint_name[i] + "/mimic", mimics_[m]});
+  if (separation_.work != 0)
+    rows.push_back({LedgerKind::contact_stabilisation, "contact/stabilisation", separation_.work});
   if (limit_separation_.work != 0)
-    rows.push_back({name_of_limits(model, contacts), limit_separation_.work});
+    rows.push_back(
+        {LedgerKind::limit_stabilisation, name_of_limits(model, contacts), limit_separation_.work});
   return rows;
 }
 
@@ -47,51 +51,56 @@ std::vector<MomentumRow> MomentumLedger::rows(const Simulation& simulation,
   if (rule_ == Rule::located)
     for (std::size_t t = 0; t < trees_.size(); ++t)
       through[t] += contents(trees_[t].bodies, now_) - contents(trees_[t].bodies, start_);
-  const auto add = [&](const std::string& name, const Exchange& e) {
-    rows.push_back({name, e.impulse, e.moment});
+  const auto add = [&](LedgerKind kind, const std::string& name, const Exchange& e) {
+    rows.push_back({kind, name, e.impulse, e.moment});
   };
   const auto moves = [&](int body) { return moved_[static_cast<std::size_t>(body)] != 0; };
   // Between a and b, as b feels it; a row where one of the two stands.
-  const auto between = [&](const std::string& name, const Exchange& on_b, int a, int b) {
+  const auto between = [&](LedgerKind kind, const std::string& name, const Exchange& on_b, int a,
+                           int b) {
     subtract_from_trees(on_b, b, 1, through);
     subtract_from_trees(on_b, a, -1, through);
-    if (moves(a) != moves(b)) add(name, (moves(b) ? 1.0 : -1.0) * on_b);
+    if (moves(a) != moves(b)) add(kind, name, (moves(b) ? 1.0 : -1.0) * on_b);
   };
-  add("gravity", sums_[0]);
+  add(LedgerKind::gravity, "gravity", sums_[0]);
   for (std::size_t i = 0; i < wrenches_.size(); ++i)
-    between("wrench/" + std::to_string(i), sums_[wrench(i)], 0,
+    between(LedgerKind::wrench, "wrench/" + std::to_string(i), sums_[wrench(i)], 0,
             static_cast<int>(wrenches_[i].body()));
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
     if (spec.is_external())
-      between("coupling/" + spec.name, sums_[coupling(c)], 0, spec.spring.body);
+      between(LedgerKind::coupling_other, "coupling/" + spec.name, sums_[coupling(c)], 0,
+              spec.spring.body);
   }
   if (contacts && contacts->contacts())
     for (const ContactWork& pair : contacts->contacts()->work()) {
       const ContactGeometry &a = contacts->contacts()->geometry(pair.a),
                             &b = contacts->contacts()->geometry(pair.b);
-      between("contact/" + a.name + "-" + b.name, {0, pair.impulse_W, pair.moment_W}, a.body,
-              b.body);
+      between(LedgerKind::contact, "contact/" + a.name + "-" + b.name,
+              {0, pair.impulse_W, pair.moment_W}, a.body, b.body);
     }
   if (outside && outside->has_acted()) {
     for (const OutsideForce::Given& part : outside->given())
       subtract_from_trees(part.exchange, part.body, 1, through);
-    add(outside->name(), outside->total());
+    add(LedgerKind::outside, outside->name(), outside->total());
   }
   const std::vector<LoopClosure>& loops = simulation.dynamics().bilateral().loops().loops();
   for (std::size_t l = 0; l < loop_count_; ++l)
     if (loops[l].type != LoopType::gear && loops[l].type != LoopType::locked)
-      between("constraint/" + loops[l].name, sums_[loop(l)], loops[l].body_b, loops[l].body_a);
+      between(LedgerKind::constraint, "constraint/" + loops[l].name, sums_[loop(l)],
+              loops[l].body_b, loops[l].body_a);
   for (std::size_t l = 0; l < loop_count_; ++l)
-    add("constraint/" + loops[l].name + "/stabilisation", stabilisation_[l]);
+    add(LedgerKind::constraint_stabilisation, "constraint/" + loops[l].name + "/stabilisation",
+        stabilisation_[l]);
   if (!separation_.impulse.isZero(0) || !separation_.moment.isZero(0))
-    add("contact/stabilisation", separation_);
+    add(LedgerKind::contact_stabilisation, "contact/stabilisation", separation_);
   if (!limit_separation_.impulse.isZero(0) || !limit_separation_.moment.isZero(0))
-    add(name_of_limits(input_.model, contacts), limit_separation_);
-  for (std::size_t t = 0; t < trees_.size(); ++t) add("joint/" + trees_[t].joint, through[t]);
+    add(LedgerKind::limit_stabilisation, name_of_limits(input_.model, contacts), limit_separation_);
+  for (std::size_t t = 0; t < trees_.size(); ++t)
+    add(LedgerKind::tree, "joint/" + trees_[t].joint, through[t]);
   Exchange rest = contents(moved_, now_) - contents(moved_, start_);
   for (const MomentumRow& row : rows) rest += Exchange{0, -row.linear, -row.angular};
-  add("numerical", rest);
+  add(LedgerKind::numerical, kNumericalRow, rest);
   return rows;
 }
 

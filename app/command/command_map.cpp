@@ -207,7 +207,7 @@ MapOptions as_merged(MapOptions options) {
   const TileFile first = read_tile_file(options.merge.front());
   const auto take = [&](std::string& option, const char* key) {
     if (option.empty()) option = first.value_of(key);
-    if (option == "as the scene says" || option == "the first coupling") option.clear();
+    if (option == identity::kAsScene || option == identity::kFirstCoupling) option.clear();
   };
   const auto take_number = [&](std::optional<double>& option, const char* key) {
     if (!option) option = parse_number(first.value_of(key));
@@ -217,7 +217,7 @@ MapOptions as_merged(MapOptions options) {
   take(options.y, "y");
   take(options.of, "of");
   take(options.integrator, "integrator");
-  options.alone = first.value_of("cells") == "one by one";
+  options.alone = first.value_of("cells") == identity::kOneByOne;
   take_number(options.duration, "duration");
   take_number(options.step, "step");
   return options;

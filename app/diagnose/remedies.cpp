@@ -61,10 +61,10 @@ class RemedyFinder {
 
   void blame(const Suspect& s) {
     if (s.step <= s.largest_step) return;
-    if (s.name.rfind("damper of joint", 0) == 0) damper_ = true;
-    for (std::size_t i = 0; i < scene_.couplings.size(); ++i)
-      if (s.name == "coupling '" + scene_.couplings[i].name + "'")
-        guilty_.push_back(static_cast<int>(i));
+    if (s.kind == Suspect::Kind::joint_damper)
+      damper_ = true;
+    else
+      guilty_.push_back(static_cast<int>(s.index));
   }
 
   // Each for itself is within its limit, all together are not.

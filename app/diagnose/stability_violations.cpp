@@ -138,6 +138,7 @@ Suspect suspect_of(const SteppedCoupling& c) {
   const SceneCoupling& spec = *c.spec;
   const double steps = std::max(1, c.part.hold_steps);
   Suspect s;
+  s.index = spec.description;
   s.name = "coupling '" + spec.coupling + "'";
   s.scheme = method_of(c);
   s.step = steps * c.h;
@@ -223,6 +224,8 @@ void add_dampers(const SimulatePlan& prepared, const Eigen::MatrixXd& M,
         model.damping[iv] * inverse(static_cast<Eigen::Index>(iv), static_cast<Eigen::Index>(iv));
     if (!(rate > 0)) continue;
     Suspect s;
+    s.kind = Suspect::Kind::joint_damper;
+    s.index = i;
     s.name = "damper of joint '" + model.joint_name[i] + "'";
     s.scheme = std::string("b/I for w; ") + integrator_name(prepared.run.integrator);
     s.step = h;

@@ -14,11 +14,10 @@ namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-// The potential energy comes first: its lowest value is taken off it and off the sum.
 std::vector<CurveSample> sample_energy(const SceneModel*, const Moment& moment) {
-  std::vector<CurveSample> all{{"potential", moment.potential}, {"kinetic", moment.kinetic}};
+  std::vector<CurveSample> all{{"potential", moment.potential, true}, {"kinetic", moment.kinetic}};
   if (!moment.pulls.empty()) all.push_back({"in springs", moment.elastic});
-  all.push_back({"sum", moment.potential + moment.kinetic + moment.elastic});
+  all.push_back({"sum", moment.potential + moment.kinetic + moment.elastic, true});
   return all;
 }
 
@@ -76,14 +75,14 @@ void take_off_lowest(Plot& plot) {
     if (std::isfinite(y)) lowest = std::min(lowest, y);
   if (!std::isfinite(lowest)) return;
   for (PlotCurve& curve : plot.curves)
-    if (curve.name == "potential" || curve.name == "sum")
+    if (curve.from_lowest)
       for (double& y : curve.y) y -= lowest;
 }
 
 }  // namespace
 
 const std::vector<CurveKind>& all_curves() {
-  static const std::vector<CurveKind> all{{"energy", "energy [J]", sample_energy, true},
+  static const std::vector<CurveKind> all{{"energy", "energy [J]", sample_energy},
                                           {"forces", "spring-dampers [N]", sample_forces},
                                           {"couples", "spring-dampers [N m]", sample_couples},
                                           {"contacts", "contact forces [N]", sample_contacts},
@@ -129,9 +128,10 @@ void CurveTrace::add(const SceneModel* scene, const Moment& moment) {
       auto curve = std::find_if(plot.curves.begin(), plot.curves.end(),
                                 [&](const PlotCurve& c) { return c.name == sample.name; });
       if (curve == plot.curves.end())
-        curve = plot.curves.insert(plot.curves.end(),
-                                   {sample.name, palette::curve(plot.curves.size()),
-                                    std::vector<double>(plot.t.size() + 1, kNoValue)});
+        curve =
+            plot.curves.insert(plot.curves.end(), {sample.name, palette::curve(plot.curves.size()),
+                                                   std::vector<double>(plot.t.size() + 1, kNoValue),
+                                                   sample.from_lowest});
       curve->y.back() = sample.value;
     }
     plot.t.push_back(moment.x.t);
@@ -141,7 +141,7 @@ void CurveTrace::add(const SceneModel* scene, const Moment& moment) {
 std::vector<Plot> CurveTrace::plots() const {
   std::vector<Plot> all = plots_;
   for (std::size_t p = 0; p < all.size(); ++p) {
-    if (kinds_[p]->from_lowest && !all[p].curves.empty()) take_off_lowest(all[p]);
+    if (!all[p].curves.empty()) take_off_lowest(all[p]);
     all[p].range = range_of({&all[p]});
   }
   return all;

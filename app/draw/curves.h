@@ -13,13 +13,13 @@ namespace twinarm {
 struct CurveSample {
   std::string name;
   double value = 0;
+  bool from_lowest = false;  // has no zero of its own: counted from the lowest of the first sample
 };
 
 struct CurveKind {
   const char* name;   // of --plot
   const char* title;  // with the unit
   std::vector<CurveSample> (*sample)(const SceneModel* scene, const Moment& moment);
-  bool from_lowest = false;  // a potential: its zero is the lowest of the run
 };
 
 const std::vector<CurveKind>& all_curves();

@@ -109,7 +109,7 @@ SimulatePlan prepare_to_film(const SimulateOptions& options, const FilmTimes& ti
     const std::string option = times.is_film ? "--to" : "--at";
     std::vector<Fault> faults = error.faults();
     for (Fault& fault : faults) {
-      if (fault.where != "--duration") continue;
+      if (!is_of_option(fault, "duration")) continue;
       fault.where = option;
       if (!fault.remedy.empty()) fault.remedy = "give " + option + " SECONDS";
     }

@@ -28,8 +28,9 @@ void copy_into(Image& image, const Image& part, int left, int top) {
 }
 
 bool same_legend(const std::vector<LegendLine>& a, const std::vector<LegendLine>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const LegendLine& x, const LegendLine& y) { return x.text == y.text; });
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [](const LegendLine& x, const LegendLine& y) { return x.words() == y.words(); });
 }
 
 }  // namespace

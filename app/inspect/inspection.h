@@ -33,6 +33,7 @@ struct Actor {
   std::vector<OnJoint> joints;
   // Where it acts, if at a point; and the normal of a contact. World axes.
   std::optional<Vector3> point_W{}, normal_W{};
+  bool is_tie = false;  // a coupling, contact, constraint or wrench; else it acts within a joint
 };
 
 // An actor of what a source of forces added to forces that were zero.

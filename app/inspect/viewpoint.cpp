@@ -45,7 +45,8 @@ NamedWrench Viewpoint::see(const Inspection& in, std::size_t body, NamedWrench w
 std::vector<NamedForce> named_forces(const Inspection& in, const Viewpoint& from) {
   std::vector<NamedForce> all;
   for (const Actor& actor : in.actors) {
-    NamedForce named{actor.source, {}, {}, actor.point_W, actor.normal_W, std::nullopt};
+    NamedForce named{actor.source,   {},           {},          actor.point_W,
+                     actor.normal_W, std::nullopt, actor.is_tie};
     for (const Actor::OnBody& on : actor.bodies) {
       const Force<double> f = in.force_of(on);
       const Matrix3& R = in.k.R_WB[on.body];

@@ -53,6 +53,7 @@ struct NamedForce {
     double normal, friction;
   };
   std::optional<Parts> parts;
+  bool is_tie = false;  // as in Actor
 };
 // In the order of the list of actors.
 std::vector<NamedForce> named_forces(const Inspection& in, const Viewpoint& from);

@@ -35,8 +35,7 @@ double largest_twin_energy(const SimulatePlan& plan, std::size_t c) {
 double created(const std::vector<LedgerRow>& ledger) {
   double sum = 0;
   for (const LedgerRow& row : ledger)
-    if (row.name == "numerical" ||
-        (row.name.starts_with("coupling/") && row.name.ends_with("/implicit")))
+    if (row.kind == LedgerKind::numerical || row.kind == LedgerKind::coupling_implicit)
       sum += row.work;
   return sum;
 }

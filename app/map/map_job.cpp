@@ -104,7 +104,7 @@ void check_scene(MapJob& job, const std::string& of, FaultList& faults) {
 }
 
 std::string or_scene(const std::optional<double>& value) {
-  return value ? number_text(*value) : "as the scene says";
+  return value ? number_text(*value) : identity::kAsScene;
 }
 
 void check_axes(const MapJob& job, const MapOptions& options, FaultList& faults) {
@@ -184,15 +184,15 @@ MapJob read_map_job(const MapOptions& options) {
   job.identity = {
       "x " + job.x.text(),
       "y " + job.y.text(),
-      "of " + (options.of.empty() ? "the first coupling" : options.of),
+      "of " + (options.of.empty() ? identity::kFirstCoupling : options.of),
       "duration " + or_scene(options.duration),
       "step " + or_scene(options.step),
-      "integrator " + (options.integrator.empty() ? "as the scene says" : options.integrator)};
+      "integrator " + (options.integrator.empty() ? identity::kAsScene : options.integrator)};
   check_scene(job, options.of, faults);
   check_once(faults);
   job.side_by_side = !options.alone && CellBatch::of(job);
   job.identity.push_back(std::string("cells ") +
-                         (job.side_by_side ? "side by side" : "one by one"));
+                         (job.side_by_side ? identity::kSideBySide : identity::kOneByOne));
   return job;
 }
 

@@ -12,6 +12,15 @@
 
 namespace twinarm {
 
+// What lines of MapJob::identity say besides names and numbers. They are part of the form of tile
+// files, of which older ones must fit: no word of them changes.
+namespace identity {
+inline constexpr const char* kAsScene = "as the scene says";
+inline constexpr const char* kFirstCoupling = "the first coupling";
+inline constexpr const char* kSideBySide = "side by side";
+inline constexpr const char* kOneByOne = "one by one";
+}  // namespace identity
+
 struct MapJob {
   MapAxis x, y;
   MapMeasure measure = MapMeasure::stable;

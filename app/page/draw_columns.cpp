@@ -81,7 +81,7 @@ void write_legend(JsonWriter& json, const std::vector<LegendLine>& legend) {
   for (const LegendLine& line : legend) {
     json.begin_object();
     write_color(json, "color", line.color);
-    json.key("text").text(line.text);
+    json.key("text").text(line.words());
     json.end_object();
   }
   json.end_array();

@@ -148,7 +148,7 @@ void PageLayers::add_entries(PageLayer& layer, const Drawn& from, const Drawn& t
   layer.first_label.push_back(static_cast<std::uint32_t>(layer.text.size()));
   for (std::size_t i = from.legend; i < to.legend; ++i) {
     const LegendLine& line = list.legend[i];
-    const auto is_same = [&](const LegendLine& other) { return other.text == line.text; };
+    const auto is_same = [&](const LegendLine& other) { return other.words() == line.words(); };
     if (std::none_of(layer.legend.begin(), layer.legend.end(), is_same))
       layer.legend.push_back(line);
   }

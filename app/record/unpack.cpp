@@ -109,7 +109,7 @@ InputError UnpackedRun::as_typed(const InputError& error,
       const std::string typed = "--set " + changes[i].path + "=" + changes[i].value;
       if (fault.line == line_of_change(i))
         fault = {"", 0, typed, fault.where + ": " + fault.rule, fault.remedy};
-      else if (changes[i].path == "gravity" && fault.where == "--gravity")
+      else if (changes[i].path == "gravity" && is_of_option(fault, "gravity"))
         fault = {"", 0, typed, fault.rule, "write --set gravity=0,0,-9.81"};
     }
   }

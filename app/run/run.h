@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/accounting/energy_alarm.h"
@@ -30,6 +31,9 @@ class RunView {
   virtual std::string memory() = 0;                       // all that the run goes on from
 };
 
+// Fault::code where a run cannot take over the memory of an earlier one.
+inline constexpr std::string_view kOtherMemory = "run.other-memory";
+
 // A step of an earlier run to begin at, and the last one to take.
 struct RunStart {
   std::string memory;
@@ -42,6 +46,9 @@ struct RunStart {
 
 // A spring or damper against the limit that the method sets to it, by linear theory.
 struct Suspect {
+  enum class Kind { coupling, joint_damper };
+  Kind kind = Kind::coupling;
+  std::size_t index = 0;  // in SceneDescription::couplings; of a damper the body of the joint
   std::string name, scheme;
   double step = 0, largest_step = 0;  // of a held force: between two evaluations [s]
   double product = 0, limit = 0;      // w h, and the largest that holds

@@ -29,11 +29,11 @@ void visit_head(Memory& memory, long& steps, double& end, long& unsolved, long& 
 }
 
 // A new one stands before the last, `numerical`.
-LedgerRow& row_named(const std::string& name, std::vector<LedgerRow>& rows) {
-  const auto is_it = [&](const LedgerRow& row) { return row.name == name; };
+LedgerRow& row_like(const LedgerRow& wanted, std::vector<LedgerRow>& rows) {
+  const auto is_it = [&](const LedgerRow& row) { return row.name == wanted.name; };
   const auto found = std::find_if(rows.begin(), rows.end(), is_it);
   if (found != rows.end()) return *found;
-  return *rows.insert(rows.empty() ? rows.end() : rows.end() - 1, {name, 0});
+  return *rows.insert(rows.empty() ? rows.end() : rows.end() - 1, {wanted.kind, wanted.name, 0});
 }
 
 }  // namespace
@@ -107,15 +107,16 @@ std::vector<LedgerRow> SteppedRun::ledger() const {
   };
   if (contacts_) add(contacts_->rows());
   add(momentum_->energy_rows(sim_, contacts()));
-  if (outside_ && outside_->has_acted()) add({{outside_->name(), outside_->total().work}});
-  for (const LedgerRow& row : carried_) row_named(row.name, all).work += row.work;
+  if (outside_ && outside_->has_acted())
+    add({{LedgerKind::outside, outside_->name(), outside_->total().work}});
+  for (const LedgerRow& row : carried_) row_like(row, all).work += row.work;
   return all;
 }
 
 void SteppedRun::keep_books(const std::vector<LedgerRow>& told) {
   carried_.clear();
   std::vector<LedgerRow> carried = told;
-  for (const LedgerRow& row : ledger()) row_named(row.name, carried).work -= row.work;
+  for (const LedgerRow& row : ledger()) row_like(row, carried).work -= row.work;
   carried_ = std::move(carried);
 }
 
@@ -175,8 +176,9 @@ void SteppedRun::take_back(const std::string& bytes) {
     visit_memory(memory);
     if (!memory.at_end()) throw std::runtime_error("it holds more than this scene remembers");
   } catch (const std::runtime_error& error) {
-    throw InputError({{"", 0, "restart", error.what(),
-                       "change nothing that alters joints, contacts, couplings or integrator"}});
+    throw InputError(
+        {{"", 0, "restart", error.what(),
+          "change nothing that alters joints, contacts, couplings or integrator", kOtherMemory}});
   }
 }
 

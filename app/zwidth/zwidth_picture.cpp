@@ -61,6 +61,12 @@ std::string plane_script(Gnuplot& gnuplot, const WallPlane& plane) {
   return text + "\n";
 }
 
+constexpr double kDrawnDelay = 0.1;  // [s]
+
+bool is_prompt(const DelayRow& row) {
+  return row.delay == 0;
+}
+
 std::string delay_script(Gnuplot& gnuplot, const std::vector<DelayRow>& delays) {
   std::string text =
       "unset logscale\nset autoscale\nset title 'Energy of the hand behind a delay of 100 ms each "
@@ -68,15 +74,15 @@ std::string delay_script(Gnuplot& gnuplot, const std::vector<DelayRow>& delays) 
       "set key bottom right Left reverse\nset xrange [0:8]\n";
   double top = 1;  // what runs away leaves the picture
   for (const DelayRow& row : delays)
-    if (row.name == "none")
+    if (is_prompt(row))
       for (const double E : row.energy) top = std::max(top, 1e3 * E);
   text += fmt::format("set yrange [{:.5g}:{:.5g}]\n", -3 * top, 1.5 * top) +
           "plot 0 with lines lc '#9A9A9A' notitle";
   for (const DelayRow& row : delays) {
-    if (row.name != "100 ms" && row.name != "none") continue;
+    const bool late = !is_prompt(row);
+    if (late && (row.delay != kDrawnDelay || row.jitter > 0 || row.loss > 0)) continue;
     std::vector<double> energy;
     for (const double E : row.energy) energy.push_back(1e3 * E);
-    const bool late = row.name != "none";
     if (!late && row.control) continue;
     text += fmt::format(", {} with lines lw {} lc '{}' title '{}'", gnuplot.curve(row.t, energy),
                         late ? 2 : 4,

@@ -20,9 +20,6 @@ Mat3<double> to_mat3(const Matrix3& R) {
 Transform<double> to_transform(const Pose& X_AB) {
   return {to_mat3(X_AB.R.transpose()), to_vec3(X_AB.p)};
 }
-std::string joint_called(const std::string& name) {
-  return "joint '" + name + "'";
-}
 
 bool is_direction(const Vector3& axis) {
   return axis.norm() > 0 && axis.allFinite();
@@ -117,6 +114,13 @@ void check_felt_inertia(const Model<double>& model, FaultList& faults) {
 
 }  // namespace
 
+std::string link_called(const std::string& name) {
+  return "link '" + name + "'";
+}
+std::string joint_called(const std::string& name) {
+  return "joint '" + name + "'";
+}
+
 int ModelBuilder::add_body(const std::string& body_name, int parent, const std::string& joint_name,
                            JointType type, const Pose& X_PJ, const Vector3& axis,
                            const BodyInertia& inertia, const JointProperties& properties) {
@@ -130,7 +134,7 @@ void ModelBuilder::add_mimic(const std::string& follower, const std::string& lea
 }
 
 void ModelBuilder::check(const Body& body, const Model<double>& so_far, FaultList& faults) {
-  const std::string where = "link '" + body.name + "'";
+  const std::string where = link_called(body.name);
   if (body.parent < 0 || body.parent >= so_far.body_count())
     faults.add({"", 0, where, "its parent is not a body that was added before it", ""});
   if (so_far.find_body(body.name) > 0)

@@ -26,6 +26,10 @@ struct JointProperties {
   double coulomb_plus = 0, coulomb_minus = 0;  // [N m, N]
 };
 
+// Fault::where of what build() finds: who knows files and lines looks for it by these.
+std::string link_called(const std::string& name);
+std::string joint_called(const std::string& name);
+
 class ModelBuilder {
  public:
   // Places joint `joint_name` at X_PJ in the parent's link frame; at the joint's identity the new

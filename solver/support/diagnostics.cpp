@@ -45,6 +45,10 @@ std::string to_string(const Fault& fault) {
   return text;
 }
 
+bool is_of_option(const Fault& fault, std::string_view option) {
+  return fault.where.starts_with("--") && fault.where.substr(2) == option;
+}
+
 void add_fault(std::vector<Fault>& faults, Fault fault) {
   shorten(fault);
   if (faults.size() < kMostFaults)

@@ -6,6 +6,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace twinarm {
@@ -13,10 +14,16 @@ namespace twinarm {
 struct Fault {
   std::string file;    // empty where no file is at fault
   int line = 0;        // 1-based; 0 where unknown
-  std::string where;   // the element, body, joint or option, by its name in the user's file
+  std::string where;   // the element, body or joint, by its name in the user's file; or "--option"
   std::string rule;    // what does not hold, with the value that was found
   std::string remedy;  // what to do about it
+  // What kind of fault it is: GROUP.NAME, a literal that stays when the texts above change.
+  // Programs and tests compare this and no text. Empty where nothing tells the fault from others
+  // yet.
+  std::string_view code = {};
 };
+
+bool is_of_option(const Fault& fault, std::string_view option);  // "duration"
 
 // "robot.urdf:12: link 'arm1': mass is -3 kg, must be positive; give <mass value=...>"
 std::string to_string(const Fault& fault);

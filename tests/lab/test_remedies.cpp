@@ -1,6 +1,10 @@
 // Each remedy tried: the run that stopped, again, with its changes.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <tuple>
+
+#include "app/diagnose/post_mortem.h"
 #include "app/diagnose/remedies.h"
 #include "tests/lab/knob_scenes.h"
 
@@ -76,6 +80,31 @@ TEST_CASE("remedies: a step, a gain and a treatment are offered for a spring tha
   CHECK(first[0].find("step=") == 0);
   CHECK(first[1].find("].stiffness=") != std::string::npos);
   CHECK(first[2].find("].treatment=implicit") != std::string::npos);
+}
+
+TEST_CASE("remedies: they follow from the kind and the place of a suspect, whatever its name") {
+  const BadScene stiff = bad_scenes().front();
+  const SimulatePlan coupled = planned(stiff.file, stiff.changes);
+  SimulatePlan damped = planned(stiff.file, {"integrator=euler", "coupling.stiffness=1"});
+  damped.input.robot.model.damping.assign(damped.input.robot.model.nv, 1e4);
+  const auto changes_by = [](const SimulatePlan& plan, const std::vector<Suspect>& suspects) {
+    PostMortem dead;
+    dead.suspects = suspects;
+    std::vector<std::string> changes;
+    for (const Remedy& remedy : remedies_of(plan, dead))
+      changes.insert(changes.end(), remedy.changes.begin(), remedy.changes.end());
+    return changes;
+  };
+  for (const auto& [plan, kind, change] :
+       {std::tuple{&coupled, Suspect::Kind::coupling, "coupling[0].treatment=implicit"},
+        std::tuple{&damped, Suspect::Kind::joint_damper, "integrator=semi-implicit"}}) {
+    std::vector<Suspect> suspects = find_suspects(*plan);
+    REQUIRE(!suspects.empty());
+    CHECK(suspects.front().kind == kind);
+    for (Suspect& suspect : suspects) suspect.name = "another name";
+    const std::vector<std::string> changes = changes_by(*plan, suspects);
+    CHECK(std::find(changes.begin(), changes.end(), change) != changes.end());
+  }
 }
 
 TEST_CASE(

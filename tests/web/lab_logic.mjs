@@ -8,6 +8,7 @@ const page = await import(pathToFileURL(process.env.MODULES).href);
 const { placeOf, valueAt, stepped, niceStep, numberText, parseNumber } = page;
 const { Store, bucketsOf, outline, samples, timesOf, csvText, fileName } = page;
 const { RunRecord, decodeHistory, LiveSpecs } = page;
+const { chosen, post } = page;
 
 // The same numbers each time.
 function random(seed) {
@@ -379,4 +380,23 @@ test('lanes have a plot for each quantity, with a curve each in the lane’s own
   }
   assert.deepEqual(all[1].curves.map(({ column }) => column), [2, 5]);
   assert.equal(all.find(({ id }) => id === 'angles'), undefined); // they stand there already
+});
+
+test('which hand is chosen follows from how it was asked for, not from its description', () => {
+  const hand = (source, spec, felt) => chosen({ source, spec, felt, mapping: '', q: [] });
+  assert.equal(hand('drag', '', 'a trace of a synthetic hand'), 'drag');
+  assert.equal(hand('device', 'virtual:synthetic:7', 'other words'), 'synthetic');
+  assert.equal(hand('device', 'virtual:trace:a.csv', 'other words'), 'trace');
+  assert.equal(hand('device', 'vrpn:Phantom0@localhost', 'synthetic'), 'device');
+  assert.equal(hand('device', 'gamepad', ''), 'device');
+});
+
+test('whether a file is open or kept is told by the status of the answer, not by its text', async () => {
+  const answered = (status) => {
+    globalThis.fetch = async () => new Response('words', { status });
+    return post(new File([], 'a.toml')).then(({ state }) => state);
+  };
+  assert.equal(await answered(200), 'opened');
+  assert.equal(await answered(202), 'kept');
+  assert.equal(await answered(422), 'failed');
 });

@@ -20,7 +20,7 @@ MODULES = pathlib.Path(sys.argv.pop(1)).resolve()
 NODE = shutil.which("node") or shutil.which("nodejs")
 # What is tested, and of which modules.
 PARTS = {
-    "lab_logic": ("scale", "store", "export", "run_record", "live_specs"),
+    "lab_logic": ("scale", "store", "export", "run_record", "live_specs", "hand_bar", "gallery"),
     "lab_view": ("frame", "meshes", "handles", "leash", "joint_leash", "pace"),
 }
 BUNDLE = """

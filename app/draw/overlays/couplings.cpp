@@ -42,11 +42,11 @@ void add_ramp_legend(Stage& stage, const DrawnPulls& drawn) {
   if (drawn.force) {
     stage.list.legend.push_back({palette::ramp(0), "spring-damper that pulls little"});
     stage.list.legend.push_back(
-        {palette::ramp(1), "most in this run: " + with_unit(stage.scales.force, "N")});
+        {palette::ramp(1), "most in this run", ": " + with_unit(stage.scales.force, "N")});
   }
   if (drawn.couple)
-    stage.list.legend.push_back({palette::ramp(1), "most couple of a spring-damper: " +
-                                                       with_unit(stage.scales.couple, "N m")});
+    stage.list.legend.push_back({palette::ramp(1), "most couple of a spring-damper",
+                                 ": " + with_unit(stage.scales.couple, "N m")});
 }
 
 }  // namespace

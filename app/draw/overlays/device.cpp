@@ -79,9 +79,9 @@ void show_felt(Stage& stage, const Moment& moment) {
     add_label(stage.list, p_W, fmt::format("{:.2f} of {:.1f} N", size, most), {26, -30});
   }
   stage.list.legend.push_back(
-      {palette::kFelt, scale_words("force on the hand", kFeltLength / most, 0.2, "N")});
+      {palette::kFelt, "force on the hand", scale_words(kFeltLength / most, 0.2, "N")});
   stage.list.legend.push_back(
-      {palette::kFeltMost, "at the device's limit: " + with_unit(most, "N")});
+      {palette::kFeltMost, "at the device's limit", ": " + with_unit(most, "N")});
 }
 
 }  // namespace twinarm

@@ -41,7 +41,7 @@ void show_forces(Stage& stage, const Moment& moment) {
                      palette::kForce);
   }
   stage.list.legend.push_back(
-      {palette::kForce, scale_words("contact force", scale, stage.scales.length, "N")});
+      {palette::kForce, "contact force", scale_words(scale, stage.scales.length, "N")});
 }
 
 void show_gravity(Stage& stage, const Moment& moment) {
@@ -57,7 +57,7 @@ void show_gravity(Stage& stage, const Moment& moment) {
     add_arrow(stage.list, c, c + scale * m * g, stage.scales.radius(), palette::kGravity);
   }
   stage.list.legend.push_back(
-      {palette::kGravity, scale_words("weight", scale, stage.scales.length, "N")});
+      {palette::kGravity, "weight", scale_words(scale, stage.scales.length, "N")});
 }
 
 }  // namespace twinarm

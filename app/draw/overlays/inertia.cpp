@@ -86,9 +86,8 @@ void show_articulated(Stage& stage, const Moment& moment) {
     draw_ellipsoid(stage, i, moment.k.X_WL[i].p, all[i], scale * all[i].values,
                    palette::kArticulated);
   }
-  stage.list.legend.push_back(
-      {palette::kArticulatedSwatch,
-       scale_words("apparent mass of links: semi-axes", scale, stage.scales.length, "kg")});
+  stage.list.legend.push_back({palette::kArticulatedSwatch, "apparent mass of links: semi-axes",
+                               scale_words(scale, stage.scales.length, "kg")});
 }
 
 }  // namespace twinarm

@@ -36,10 +36,10 @@ void show_momentum(Stage& stage, const Moment& moment) {
     add_arrow(stage.list, total.com_W, tip, radius, palette::kLinear);
     add_label(stage.list, tip, with_unit(size, "kg m/s"), {14, -6});
   }
-  stage.list.legend.push_back(
-      {palette::kLinear, stage.scales.momentum > least
-                             ? scale_words("momentum", scale, stage.scales.length, "kg m/s")
-                             : "momentum: none"});
+  stage.list.legend.push_back({palette::kLinear, "momentum",
+                               stage.scales.momentum > least
+                                   ? scale_words(scale, stage.scales.length, "kg m/s")
+                                   : ": none"});
   if (spin > least * stage.scales.length) {
     add_turn_arrow(stage.list, total.com_W, total.angular, 0.25 * stage.scales.length, radius,
                    palette::kAngular);

@@ -116,12 +116,10 @@ void add_turn_arrow(DrawList& list, const Vector3& center_W, const Vector3& axis
       Vector3(2.4 * thickness, 2.4 * thickness, (at(kTurn) - at(kTurn - head)).norm()));
 }
 
-std::string scale_words(const std::string& what, double metres_per, double length,
-                        const std::string& unit) {
-  if (!(metres_per > 0)) return what;
+std::string scale_words(double metres_per, double length, const std::string& unit) {
+  if (!(metres_per > 0)) return "";
   const double shown = round_down(0.3 * length);
-  return fmt::format("{} ({} = {})", what, with_unit(shown, "m"),
-                     with_unit(shown / metres_per, unit));
+  return fmt::format(" ({} = {})", with_unit(shown, "m"), with_unit(shown / metres_per, unit));
 }
 
 }  // namespace twinarm

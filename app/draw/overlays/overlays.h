@@ -57,8 +57,7 @@ std::string with_unit(double value, const std::string& unit);
 // An arc about an axis with an arrow's head, three quarters of a turn in the sense of the axis.
 void add_turn_arrow(DrawList& list, const Vector3& center_W, const Vector3& axis_W, double radius,
                     double thickness, const Color& color);
-// The scale of arrows, as the legend says it: "contact force, 0.1 m = 50 N".
-std::string scale_words(const std::string& what, double metres_per, double length,
-                        const std::string& unit);
+// The scale of arrows, as the legend says it behind their name: " (0.1 m = 50 N)".
+std::string scale_words(double metres_per, double length, const std::string& unit);
 
 }  // namespace twinarm

@@ -46,12 +46,6 @@ bool concerns(const InspectView& view, const NamedForce& named) {
                      [&](const NamedForce::OnJoint& on) { return is_shown(on.body); });
 }
 
-bool is_tie(const std::string& source) {
-  for (const char* kind : {"coupling/", "contact/", "constraint/", "wrench/"})
-    if (source.starts_with(kind)) return true;
-  return false;
-}
-
 std::string point_text(const Vector3& p) {
   const double size = p.lpNorm<Eigen::Infinity>();
   return fmt::format("({}, {}, {})", short_number(p.x(), size), short_number(p.y(), size),
@@ -101,9 +95,8 @@ void write_balances(const Inspection& in, const InspectView& view, Sheet& sheet)
 void write_named_forces(const Inspection& in, const InspectView& view, Sheet& sheet) {
   std::vector<NamedForce> all = forces_in_view(in, view);
   if (!view.forces_alone)
-    std::erase_if(all, [&](const NamedForce& named) {
-      return !is_tie(named.source) || !concerns(view, named);
-    });
+    std::erase_if(all,
+                  [&](const NamedForce& named) { return !named.is_tie || !concerns(view, named); });
   if (all.empty()) return;
   sheet.title("FORCES BY NAME, on bodies that move: force [N] | torque [N m]",
               viewpoint_in_words(view));

@@ -26,6 +26,7 @@ std::vector<Actor> given_actors(const RobotInput& input) {
   for (std::size_t i = 0; i < input.state.wrenches.size(); ++i) {
     const Wrench& wrench = input.state.wrenches[i];
     Actor actor{"wrench/" + std::to_string(i), {{wrench.body, in_body_axes(wrench, k), {}}}, {}};
+    actor.is_tie = true;
     actor.point_W = wrench.in_link_axes ? k.X_WL[wrench.body] * wrench.point : wrench.point;
     actors.push_back(std::move(actor));
   }

@@ -98,6 +98,7 @@ class SceneInspector::FirstStep {
       source->add_forces(x_, k_, added);
       const SceneCoupling& spec = input_.couplings->spec(c);
       actors_.push_back(actor_of("coupling/" + spec.coupling, added));
+      actors_.back().is_tie = true;
       if (spec.type == CouplingDescription::Type::linear)
         actors_.back().point_W = k_.position(spec.spring.body, spec.spring.p_L);
     }
@@ -171,6 +172,7 @@ class SceneInspector::FirstStep {
       const Vector3 half = 0.5 * std::max(0.0, -p.contact.depth) * p.contact.n_W;
       const Vector3 on_b = p.contact.p_WC + (moves(a.body) ? Vector3::Zero() : half);
       const Vector3 on_a = p.contact.p_WC - (moves(b.body) ? Vector3::Zero() : half);
+      actor.is_tie = true;
       actor.point_W = p.contact.p_WC;
       actor.normal_W = p.contact.n_W;
       push(actor, b.body, on_b, p.force_W, p.couple_W);
@@ -215,6 +217,7 @@ class SceneInspector::FirstStep {
   void add_loop(const LoopClosures& loops, std::size_t l, const Eigen::VectorXd& lambda) {
     const LoopClosure& loop = loops.loops()[l];
     Actor actor{"constraint/" + loop.name, {}, {}};
+    actor.is_tie = true;
     if (loop.type == LoopType::gear || loop.type == LoopType::locked) {
       const std::size_t row = loops.first_row(l);
       for (const std::size_t dof : loops.dofs_of(row))

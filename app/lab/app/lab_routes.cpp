@@ -201,7 +201,7 @@ void LabRoutes::open(const std::string& name, const std::string& bytes, const An
   const BroughtFile brought = brought_file(name, bytes);
   if (!brought.fault.empty()) return answer(reply_of(422, name + ": " + brought.fault));
   const std::filesystem::path file = uploads_.write(brought.path, bytes);
-  if (!brought.opens) return answer(reply_of(200, "kept"));
+  if (!brought.opens) return answer(reply_of(202, "kept"));
   Order order;
   order.file = file;
   if (session_.now().scene->order.is_shared) order.roots = {uploads_.path(), find_assets()};

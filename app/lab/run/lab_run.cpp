@@ -86,7 +86,7 @@ void LabRun::start(const LabFrame* from) {
     const RunStart start{from->recorded.memory};
     run_ = std::make_unique<SteppedRun>(prepared.input, prepared.run, watch_, &start, pull_.get());
   } catch (const InputError& error) {
-    if (error.faults().front().where != "restart") throw;
+    if (error.faults().front().code != kOtherMemory) throw;
     begun_anew_ = error.faults().front().rule;
     begin_anew(*from);
   }
@@ -115,7 +115,8 @@ void LabRun::begin_anew(const LabFrame& from) {
 void LabRun::keep_books(const LabFrame& from, const LabNames& names) {
   std::vector<LedgerRow> told;
   for (std::size_t i = 0; i < from.recorded.rows.size(); ++i)
-    told.push_back({names.rows[from.recorded.rows[i]], from.recorded.works[i]});
+    told.push_back(
+        {LedgerKind::earlier, names.rows[from.recorded.rows[i]], from.recorded.works[i]});
   // The springs are as long as they were there: the books hold their energy.
   if (from.hand) lead_->stand_as(*from.hand, from.recorded.t, step_length());
   run_->keep_books(told);

@@ -55,7 +55,7 @@ InputError by_change(const InputError& error, const std::vector<Change>& changes
   std::vector<Fault> faults = error.faults();
   for (Fault& fault : faults)
     for (const Change& change : changes)
-      if (fault.where == "--" + change.path)
+      if (is_of_option(fault, change.path))
         fault.where = "--set " + change.path + "=" + change.value;
   return InputError(std::move(faults));
 }

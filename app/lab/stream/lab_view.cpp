@@ -20,11 +20,6 @@ bool is_finite(const State<double>& x) {
          std::all_of(x.qd.begin(), x.qd.end(), finite);
 }
 
-// Up to what changes from frame to frame: "contact force (0.1 m = 50 N)".
-std::string unchanging(const std::string& text) {
-  return text.substr(0, text.find_first_of("(:"));
-}
-
 }  // namespace
 
 struct LabView::Impl {
@@ -69,9 +64,9 @@ void LabView::Impl::take_legend(std::size_t layer, const Drawn& from, std::size_
     const LegendLine& line = stage.list.legend[i];
     std::vector<LegendLine>& known = legends[layer];
     const auto same = std::find_if(known.begin(), known.end(), [&](const LegendLine& other) {
-      return unchanging(other.text) == unchanging(line.text);
+      return other.text == line.text;
     });
-    if (same != known.end() && same->text == line.text) continue;
+    if (same != known.end() && same->value == line.value) continue;
     if (same == known.end())
       known.push_back(line);
     else

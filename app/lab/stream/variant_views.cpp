@@ -20,7 +20,7 @@ double energy_of(const Moment& moment) {
 double numerical_work(const LabFrame& frame, const std::vector<std::string>& rows) {
   const RecordedFrame& recorded = frame.recorded;
   for (std::size_t i = 0; i < std::min(recorded.rows.size(), recorded.works.size()); ++i)
-    if (recorded.rows[i] < rows.size() && rows[recorded.rows[i]] == "numerical")
+    if (recorded.rows[i] < rows.size() && rows[recorded.rows[i]] == kNumericalRow)
       return recorded.works[i];
   return kNone;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "app/accounting/energy_balance.h"
 #include "app/data/text_table.h"
 #include "app/plot/gnuplot.h"
 #include "app/support/output_file.h"
@@ -124,7 +125,7 @@ std::vector<std::string> names_of_both(std::vector<std::string> names,
   for (const std::string& name : others)
     if (place_of(names, name) == names.size()) names.push_back(name);
   std::stable_partition(names.begin(), names.end(),
-                        [](const std::string& name) { return name != "numerical"; });
+                        [](const std::string& name) { return name != kNumericalRow; });
   return names;
 }
 

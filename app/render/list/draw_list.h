@@ -62,6 +62,8 @@ struct Label {
 struct LegendLine {
   Color color;  // of the swatch
   std::string text;
+  std::string value = {};  // follows the text at once, and may change from frame to frame
+  std::string words() const { return text + value; }
 };
 
 // A filled box on the picture, under all letters: bars and panels.

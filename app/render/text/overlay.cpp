@@ -169,7 +169,7 @@ void draw_legend(Image& image, const DrawList& list, Lettering& lettering, doubl
   const double swatch = 0.85 * size_px, text_x = swatch + 0.7 * size_px;
   double width = 0;
   for (const LegendLine& line : list.legend) {
-    width = std::max(width, text_x + lettering.width(line.text, size_px));
+    width = std::max(width, text_x + lettering.width(line.words(), size_px));
   }
   const double height = row * static_cast<double>(list.legend.size());
   const Vector2d low(margin, image.height - margin - height - 2 * padding);
@@ -180,7 +180,7 @@ void draw_legend(Image& image, const DrawList& list, Lettering& lettering, doubl
   for (const LegendLine& line : list.legend) {
     const Vector2d top = at - Vector2d(0, 0.5 * swatch);
     draw_box(image, top, top + Vector2d(swatch, swatch), 0.22 * swatch, line.color);
-    lettering.draw(image, line.text, at + Vector2d(text_x, 0.36 * size_px), size_px, kInk);
+    lettering.draw(image, line.words(), at + Vector2d(text_x, 0.36 * size_px), size_px, kInk);
     at.y() += row;
   }
 }

@@ -15,7 +15,8 @@ namespace twinarm {
 struct PlotCurve {
   std::string name;
   Color color;
-  std::vector<double> y;  // one for each time; what is not finite leaves a gap
+  std::vector<double> y;     // one for each time; what is not finite leaves a gap
+  bool from_lowest = false;  // as in CurveSample
 };
 
 struct PlotRange {

@@ -21,36 +21,45 @@ void sum_up(MomentumRow& sum, const MomentumRow& row) {
   sum.angular += row.angular;
 }
 
-// "contact/floor-box/friction": which of the kinds it is one of, or nothing.
-std::string kind_of(const std::string& name) {
-  const std::size_t last = name.rfind('/');
-  for (const char* what : {"contact", "constraint"}) {
-    if (!name.starts_with(std::string(what) + "/")) continue;
-    const std::string part = name.substr(last + 1);
-    for (const char* kind : {"normal", "friction", "impact", "stabilisation"})
-      if (part == kind) return std::string(what) + ", all/" + kind;
-    return std::string(what) + ", all";
+// Of the rows of a kind that are summed where there are many; others have none.
+const char* name_of_sum(LedgerKind kind) {
+  switch (kind) {
+    case LedgerKind::contact:
+      return "contact, all";
+    case LedgerKind::contact_normal:
+      return "contact, all/normal";
+    case LedgerKind::contact_friction:
+      return "contact, all/friction";
+    case LedgerKind::contact_impact:
+      return "contact, all/impact";
+    case LedgerKind::contact_stabilisation:
+      return "contact, all/stabilisation";
+    case LedgerKind::constraint:
+      return "constraint, all";
+    case LedgerKind::constraint_stabilisation:
+      return "constraint, all/stabilisation";
+    default:
+      return nullptr;
   }
-  return "";
 }
 
 // Rows of many contacts or constraints are summed by kind: the JSON has them all.
 template <class Row>
 std::vector<Row> shortened(const std::vector<Row>& rows) {
   constexpr std::ptrdiff_t most = 12;
-  const auto has_kind = [](const Row& row) { return !kind_of(row.name).empty(); };
-  if (std::count_if(rows.begin(), rows.end(), has_kind) <= most) return rows;
+  const auto is_summed = [](const Row& row) { return name_of_sum(row.kind) != nullptr; };
+  if (std::count_if(rows.begin(), rows.end(), is_summed) <= most) return rows;
   std::vector<Row> out;
   for (const Row& row : rows) {
-    const std::string kind = kind_of(row.name);
-    const auto same = std::find_if(out.begin(), out.end(),
-                                   [&](const Row& o) { return !kind.empty() && o.name == kind; });
+    const auto same = std::find_if(out.begin(), out.end(), [&](const Row& other) {
+      return is_summed(row) && other.kind == row.kind;
+    });
     if (same != out.end()) {
       sum_up(*same, row);
       continue;
     }
     out.push_back(row);
-    if (!kind.empty()) out.back().name = kind;
+    if (is_summed(row)) out.back().name = name_of_sum(row.kind);
   }
   return out;
 }
@@ -64,10 +73,9 @@ std::string momentum_table(const SimulateResult& result) {
       for (const double component : v) cells.push_back(cell(component));
     table.add(std::move(cells));
   };
-  MomentumRow sum{"change of momentum", Vector3::Zero(), Vector3::Zero()};
+  MomentumRow sum{LedgerKind::earlier, "change of momentum", Vector3::Zero(), Vector3::Zero()};
   for (const MomentumRow& row : shortened(result.momentum)) {
-    const bool is_tie = row.name.starts_with("contact") || row.name.starts_with("constraint");
-    if (!is_tie || !row.linear.isZero(0) || !row.angular.isZero(0)) line(row);
+    if (!name_of_sum(row.kind) || !row.linear.isZero(0) || !row.angular.isZero(0)) line(row);
     sum_up(sum, row);
   }
   line(sum);

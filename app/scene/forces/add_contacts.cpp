@@ -125,21 +125,21 @@ void SceneContacts::look_at_start(const Simulation& simulation) {
 
 std::vector<LedgerRow> SceneContacts::rows() const {
   std::vector<LedgerRow> rows;
-  const auto add = [&](const std::string& name, double work) {
-    if (work != 0) rows.push_back({name, work});
+  const auto add = [&](LedgerKind kind, const std::string& name, double work) {
+    if (work != 0) rows.push_back({kind, name, work});
   };
   if (limits_)
     for (const JointLimits::Limit& limit : limits_->limits()) {
       const auto body = static_cast<std::size_t>(limit.body);
-      add("joint/" + scene_.model.joint_name[body] + "/limit", limit.work);
+      add(LedgerKind::joint_limit, "joint/" + scene_.model.joint_name[body] + "/limit", limit.work);
     }
   if (!contacts_) return rows;
   for (const ContactWork& pair : contacts_->work()) {
     const std::string name =
         "contact/" + contacts_->geometry(pair.a).name + "-" + contacts_->geometry(pair.b).name;
-    add(name + "/normal", pair.normal);
-    add(name + "/friction", pair.friction);
-    add(name + "/impact", pair.impact);
+    add(LedgerKind::contact_normal, name + "/normal", pair.normal);
+    add(LedgerKind::contact_friction, name + "/friction", pair.friction);
+    add(LedgerKind::contact_impact, name + "/impact", pair.impact);
   }
   return rows;
 }

@@ -18,8 +18,10 @@ std::size_t robot_named(const SceneDescription& scene, const std::string& name) 
 }
 
 // All but the pulls.
-SceneCoupling without_pulls(const SceneModel& scene, const CouplingDescription& given) {
+SceneCoupling without_pulls(const SceneModel& scene, std::size_t index) {
+  const CouplingDescription& given = scene.description.couplings[index];
   SceneCoupling made;
+  made.description = index;
   made.name = made.coupling = given.name;
   made.line = given.line;
   made.leader = scene.couplings.size();
@@ -93,8 +95,9 @@ std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robo
 
 void build_couplings(SceneModel& scene) {
   FaultList faults;
-  for (const CouplingDescription& given : scene.description.couplings) {
-    SceneCoupling made = without_pulls(scene, given);
+  for (std::size_t i = 0; i < scene.description.couplings.size(); ++i) {
+    const CouplingDescription& given = scene.description.couplings[i];
+    SceneCoupling made = without_pulls(scene, i);
     if (given.law == Law::god_object) {
       add_god_object(scene, std::move(made), faults);
       continue;

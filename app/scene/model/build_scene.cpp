@@ -148,6 +148,20 @@ class SceneBuilder {
     return name;
   }
 
+  bool is_of_robot(const Fault& fault, std::size_t r) const {
+    const RobotInScene& robot = description().robots[r];
+    const std::string prefix = prefix_of(description(), r);
+    const auto is_joint = [&](const std::string& name) {
+      return fault.where == joint_called(prefix + name);
+    };
+    return is_joint(root_joint_name(robot.description, robot.floating)) ||
+           std::any_of(
+               robot.description.links.begin(), robot.description.links.end(),
+               [&](const auto& link) { return fault.where == link_called(prefix + link.name); }) ||
+           std::any_of(robot.description.joints.begin(), robot.description.joints.end(),
+                       [&](const auto& joint) { return is_joint(joint.name); });
+  }
+
   // The builder knows the names of the model only; the line is the robot's.
   void build_model() {
     try {
@@ -157,10 +171,11 @@ class SceneBuilder {
       for (Fault& fault : faults) {
         fault.file = description().file.string();
         for (std::size_t r = 0; r < description().robots.size(); ++r)
-          if (fault.where.find("'" + prefix_of(description(), r)) != std::string::npos)
-            fault.line = description().robots[r].line;
+          if (is_of_robot(fault, r)) fault.line = description().robots[r].line;
         for (const BodyDescription& body : description().bodies)
-          if (fault.where == "link '" + body.name + "'") fault.line = body.line;
+          if (fault.where == link_called(body.name) ||
+              fault.where == joint_called(free_joint_name(body.name)))
+            fault.line = body.line;
       }
       throw InputError(faults);
     }

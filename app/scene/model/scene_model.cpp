@@ -7,10 +7,10 @@ bool SceneCoupling::needs_semi_implicit() const {
          facts_of(law, printed).treatments == CouplingFacts::Treatments::own;
 }
 
-const char* SceneCoupling::third_row() const {
-  if (law == CouplingSpec::Type::god_object) return "drive";
-  if (needs_semi_implicit()) return "implicit";
-  return printed ? "as_printed" : nullptr;
+SceneCoupling::ThirdRow SceneCoupling::third_row() const {
+  if (law == CouplingSpec::Type::god_object) return ThirdRow::drive;
+  if (needs_semi_implicit()) return ThirdRow::implicit;
+  return printed ? ThirdRow::as_printed : ThirdRow::none;
 }
 
 }  // namespace twinarm

@@ -42,7 +42,8 @@ struct SceneMotion {
 // One pull of a coupling. A coupling in six dimensions is two of them, NAME/force and NAME/couple;
 // a god object one for each joint, NAME/JOINT. Each is drawn, recorded and booked by itself.
 struct SceneCoupling {
-  std::string name, coupling;  // of the pull, of its coupling
+  std::string name, coupling;   // of the pull, of its coupling
+  std::size_t description = 0;  // of its coupling, in SceneDescription::couplings
   int line = 0;
   std::size_t leader = 0;  // the first pull of the same coupling, in SceneModel::couplings
   CouplingSpec::Type law = CouplingSpec::Type::linear;
@@ -78,8 +79,8 @@ struct SceneCoupling {
   // It belongs to the semi-implicit step: its treatment, or the law itself, sees the step's end.
   bool needs_semi_implicit() const;
   // What it does besides a spring and a damper at the ends of the step: the ledger's third row.
-  // nullptr where there is nothing.
-  const char* third_row() const;
+  enum class ThirdRow { none, implicit, as_printed, drive };
+  ThirdRow third_row() const;
 };
 
 // The frames C of both coincide at the start: origin at the point, z along the axis.

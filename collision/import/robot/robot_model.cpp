@@ -116,9 +116,9 @@ Model<double> build(const ModelBuilder& builder, const RobotDescription& robot) 
       if (!fault.file.empty()) continue;
       fault.file = robot.file.string();
       for (const LinkDescription& link : robot.links)
-        if (fault.where == "link '" + link.name + "'") fault.line = link.line;
+        if (fault.where == link_called(link.name)) fault.line = link.line;
       for (const JointDescription& joint : robot.joints)
-        if (fault.where == "joint '" + joint.name + "'") fault.line = joint.line;
+        if (fault.where == joint_called(joint.name)) fault.line = joint.line;
     }
     throw_in_line_order(std::move(faults));
     throw;

@@ -30,6 +30,9 @@ export interface LabelColumns {
   offset: Int16Array; // pixels to the right and down
 }
 
+// The ledger's row of what is left, by its name in recordings and in the lab's messages.
+export const NUMERICAL = 'numerical';
+
 export interface LegendLine {
   color: [number, number, number];
   text: string;

@@ -116,14 +116,14 @@ export class Gallery implements Panel {
     let opened = false;
     for (const file of sorted) {
       this.tell('note', `Opening ${file.name} …`, []);
-      const { ok, words } = await post(file, this.page.state?.secret ?? '');
-      if (!ok) {
+      const { state, words } = await post(file, this.page.state?.secret ?? '');
+      if (state === 'failed') {
         const faults = words.split('\n').filter((line) => line.trim());
         this.tell('error', `${file.name} was not opened`, faults);
         if (!this.root.open) this.root.showModal();
         return;
       }
-      opened = words.trim() === 'opened';
+      opened = state === 'opened';
     }
     const { name } = sorted[sorted.length - 1];
     if (!opened) {
@@ -144,8 +144,13 @@ export class Gallery implements Panel {
   }
 }
 
+const KEPT = 202; // HTTP: Accepted
+
 // What the lab says of it: that it is open or kept, or all its faults.
-async function post(file: File, secret: string): Promise<{ ok: boolean; words: string }> {
+export async function post(
+  file: File,
+  secret: string,
+): Promise<{ state: 'opened' | 'kept' | 'failed'; words: string }> {
   try {
     const query = new URLSearchParams({ name: file.name, secret });
     const answer = await fetch(`/open?${query}`, {
@@ -153,8 +158,9 @@ async function post(file: File, secret: string): Promise<{ ok: boolean; words: s
       body: file,
     });
     const words = await answer.text();
-    return { ok: answer.ok, words: words || `the lab answers ${answer.status}` };
+    const state = answer.status === KEPT ? 'kept' : answer.ok ? 'opened' : 'failed';
+    return { state, words: words || `the lab answers ${answer.status}` };
   } catch {
-    return { ok: false, words: 'the lab does not answer' };
+    return { state: 'failed', words: 'the lab does not answer' };
   }
 }

@@ -2,6 +2,7 @@
 // far.
 import type { CallStep, Neighbour } from '../data/glass';
 import type { JointBalance, NamedForce, Quantity } from '../data/inspection';
+import { NUMERICAL } from '../data/run';
 import { element, largestOf, short, unitText } from '../ui/dom';
 import { math, source, texOf } from '../ui/formula';
 import { quantityCard } from '../ui/quantity';
@@ -59,7 +60,7 @@ export function contactTables(forces: NamedForce[], body: string): HTMLElement[]
 
 // The largest first; the remainder last.
 export function ledgerTable(ledger: Record<string, number>): HTMLElement {
-  const rank = (name: string) => (name === 'numerical' ? 1 : 0);
+  const rank = (name: string) => (name === NUMERICAL ? 1 : 0);
   const all = Object.entries(ledger).sort(
     ([a, x], [b, y]) => rank(a) - rank(b) || Math.abs(y) - Math.abs(x),
   );

@@ -176,7 +176,8 @@ export class HandBar implements Panel {
   }
 }
 
-function chosen({ source, felt }: HandState): string {
+// Which of SOURCES a hand is.
+export function chosen({ source, spec }: HandState): string {
   if (source !== 'device') return source;
-  return ['synthetic', 'trace'].find((name) => felt.includes(name)) ?? 'device';
+  return SOURCES.find((one) => one.spec && spec.startsWith(one.spec))?.name ?? 'device';
 }

@@ -1,4 +1,5 @@
 // The energy ledger row by row, at the instant that is seen.
+import { NUMERICAL } from '../data/run';
 import { element, short } from '../ui/dom';
 import type { Frame, SceneMessage } from './link';
 import type { Panel } from './panel';
@@ -36,7 +37,7 @@ export class LedgerPanel implements Panel {
     this.largest = 1e-300;
     this.cells = [];
     const rows = scene.ledger.map((name, row) => ({ name, row }));
-    rows.sort((a, b) => Number(a.name === 'numerical') - Number(b.name === 'numerical'));
+    rows.sort((a, b) => Number(a.name === NUMERICAL) - Number(b.name === NUMERICAL));
     const lines = rows.map(({ name, row }) => {
       const now = element('td', { class: 'number', 'data-row': name });
       const bar = element('i');

@@ -92,6 +92,7 @@ export interface Note {
 
 export interface HandState {
   source: 'scene' | 'drag' | 'joints' | 'device' | ''; // '': no hand leads this scene
+  spec: string; // of a device, as it was chosen
   mapping: string;
   q: number[];
   felt: string; // what device it is

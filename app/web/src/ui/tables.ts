@@ -1,5 +1,5 @@
 // Tables beside the picture: the ledger, and what the run was made of.
-import type { Run } from '../data/run';
+import { NUMERICAL, type Run } from '../data/run';
 import { button, element, short } from './dom';
 import type { Player } from './player';
 
@@ -128,7 +128,7 @@ export class MomentumTable {
 }
 
 function rank(name: string): number {
-  return name === 'numerical' ? 1 : 0;
+  return name === NUMERICAL ? 1 : 0;
 }
 
 function table(title: string, head: string[], rows: string[][]): HTMLElement {
