@@ -188,7 +188,7 @@ int run_export(const ExportOptions& options) {
   if (!options.page.empty()) return export_page(options);
   if (options.json == options.csv)
     throw InputError({{"", 0, "--csv, --json", options.json ? "both are given" : "neither is given",
-                       "give one of them, or the name of a page"}});
+                       "give one of them, or the name of a page", "option.conflict"}});
   const Recording recording(options.recording);
   for (const std::string& note : recording.notes()) say("twinarm: {}\n", note);
   options.json ? print_recording_json(recording) : print_recording_csv(recording);

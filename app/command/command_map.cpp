@@ -31,10 +31,10 @@ void check_output(const char* option, const std::filesystem::path& file, const c
   if (file.empty()) return;
   if (*extension && file.extension() != extension)
     faults.add({file.string(), 0, option, std::string("writes a file that ends in ") + extension,
-                "give it that name"});
+                "give it that name", "file.ending"});
   if (is_there(file) && !force)
     faults.add({file.string(), 0, option, "the file is there already",
-                "choose another name, or give --force"});
+                "choose another name, or give --force", "file.exists"});
   attempt(faults, [&] {
     require_writable_folder(file.has_parent_path() ? file.parent_path() : ".", option);
     return true;
@@ -50,18 +50,21 @@ void check_modes(const MapOptions& options, FaultList& faults) {
   if (part && (options.tiles < 1 || options.tile < 0 || options.tile >= options.tiles))
     faults.add({"", 0, "--tiles, --tile",
                 fmt::format("there is no part {} of {}", options.tile, options.tiles),
-                "give --tiles N with N at least 1, and --tile I with I from 0 to N - 1"});
+                "give --tiles N with N at least 1, and --tile I with I from 0 to N - 1",
+                "map.part"});
   if (part && !(options.svg.empty() && options.png.empty() && options.csv.empty()))
     faults.add({"", 0, "--tile", "a part of a map has no picture and no table",
-                "leave --svg, --png and --csv to --merge"});
+                "leave --svg, --png and --csv to --merge", "map.part-output"});
   if (!options.merge.empty() && (part || !options.cell.empty()))
-    faults.add({"", 0, "--merge", "joins finished parts", "leave --tiles, --tile and --cell out"});
+    faults.add({"", 0, "--merge", "joins finished parts", "leave --tiles, --tile and --cell out",
+                "map.merge-options"});
   if (!options.cell.empty() && part)
-    faults.add({"", 0, "--cell", "opens a cell of the map as a whole", "leave --tile out"});
+    faults.add({"", 0, "--cell", "opens a cell of the map as a whole", "leave --tile out",
+                "map.cell-options"});
   if (options.cell.empty() != options.record.empty())
     faults.add({"", 0, options.cell.empty() ? "--record" : "--cell",
                 options.cell.empty() ? "of which cell" : "where should its recording go",
-                "give --cell IX,IY --record FILE together"});
+                "give --cell IX,IY --record FILE together", "map.cell-options"});
 }
 
 void check_outputs(const MapOptions& options, FaultList& faults) {
@@ -75,8 +78,8 @@ void check_outputs(const MapOptions& options, FaultList& faults) {
     std::filesystem::path scene = options.record;
     scene.replace_extension(".toml");
     if (scene == options.record)
-      return faults.add(
-          {options.record.string(), 0, "--record", "is the name of a scene", "end it in .twinrec"});
+      return faults.add({options.record.string(), 0, "--record", "is the name of a scene",
+                         "end it in .twinrec", "file.ending"});
     check_output("--record", options.record, "", options.force, faults);
     check_output("--record", scene, "", options.force, faults);
   }
@@ -119,7 +122,7 @@ std::vector<int> wanted_blocks(const MapOptions& options, const MapBlocks& block
     throw InputError({{"", 0, "--tiles",
                        fmt::format("the map has {} blocks of 16 x 16 cells, fewer than {} parts",
                                    blocks.count(), options.tiles),
-                       "give fewer --tiles"}});
+                       "give fewer --tiles", "map.part"}});
   return wanted;
 }
 
@@ -145,7 +148,8 @@ TileFile merged(const MapOptions& options, const TileFile& empty, const MapBlock
     faults.add({"", 0, "--merge",
                 fmt::format("{} of {} blocks are missing:{}{}", count, blocks.count(), missing,
                             count > 10 ? " .." : ""),
-                "give the files of all parts; compute those that failed with --tile again"});
+                "give the files of all parts; compute those that failed with --tile again",
+                "map.blocks-missing"});
   faults.check();
   return file;
 }

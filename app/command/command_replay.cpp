@@ -82,7 +82,8 @@ int run_replay(const ReplayOptions& options) {
   std::vector<Change> changes;
   for (const std::string& text : options.changes) changes.push_back(parse_change(text));
   if (!options.plot.empty() && changes.empty())
-    throw InputError({{"", 0, "--plot", "there is one branch only", "give --set too"}});
+    throw InputError(
+        {{"", 0, "--plot", "there is one branch only", "give --set too", "option.conflict"}});
   if (!options.plot.empty()) check_plot(options.plot);
   const Recording recording(options.recording);
   for (const std::string& note : recording.notes()) say("twinarm: {}\n", note);

@@ -28,7 +28,8 @@ int tell(const InputError& error, bool as_json) {
   Told errors = Told::array();
   for (const Fault& fault : error.faults()) {
     say("twinarm: {}\n", to_string(fault));
-    errors.push_back({{"file", fault.file},
+    errors.push_back({{"code", fault.code},
+                      {"file", fault.file},
                       {"line", fault.line},
                       {"remedy", fault.remedy},
                       {"rule", fault.rule},

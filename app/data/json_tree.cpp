@@ -174,7 +174,7 @@ std::string describe(const JsonValue& value) {
 JsonValue read_json(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
-    throw InputError({{file.string(), 0, "", "is a folder", "name a JSON file"}});
+    throw InputError({{file.string(), 0, "", "is a folder", "name a JSON file", "file.is-folder"}});
   constexpr std::uintmax_t kMostJsonBytes = 4u << 20;
   if (std::filesystem::file_size(file, error) > kMostJsonBytes && !error)
     throw InputError({{file.string(), 0, "", "has more than 4 MiB",

@@ -27,7 +27,7 @@ const TomlValue* SceneTable::find(const std::string& key, TomlValue::Kind kind,
                                   const char* wanted) {
   const TomlValue* value = find(key);
   if (!value || value->kind == kind) return value;
-  fault(key, std::string("must be ") + wanted + ", is " + describe(*value), "");
+  fault(key, std::string("must be ") + wanted + ", is " + describe(*value), "", "scene.type");
   return nullptr;
 }
 
@@ -35,21 +35,23 @@ std::optional<double> SceneTable::number(const std::string& key) {
   const TomlValue* value = find(key, TomlValue::Kind::number, "a number");
   if (!value) return std::nullopt;
   if (std::isfinite(value->number)) return value->number;
-  fault(key, "must be finite, is " + describe(*value), "give a number in SI units");
+  fault(key, "must be finite, is " + describe(*value), "give a number in SI units",
+        "scene.not-finite");
   return std::nullopt;
 }
 
 std::optional<double> SceneTable::positive(const std::string& key) {
   const auto value = number(key);
   if (!value || *value > 0) return value;
-  fault(key, "must be positive, is " + number_text(*value), "give a number above 0");
+  fault(key, "must be positive, is " + number_text(*value), "give a number above 0",
+        "scene.not-positive");
   return std::nullopt;
 }
 
 std::optional<double> SceneTable::not_negative(const std::string& key) {
   const auto value = number(key);
   if (!value || *value >= 0) return value;
-  fault(key, "must not be negative, is " + number_text(*value), "give 0 or more");
+  fault(key, "must not be negative, is " + number_text(*value), "give 0 or more", "scene.negative");
   return std::nullopt;
 }
 
@@ -57,7 +59,7 @@ std::optional<std::string> SceneTable::text(const std::string& key) {
   const TomlValue* value = find(key, TomlValue::Kind::text, "a text");
   if (!value) return std::nullopt;
   if (!value->text.empty()) return value->text;
-  fault(key, "must not be empty", "give " + key + " = \"...\"");
+  fault(key, "must not be empty", "give " + key + " = \"...\"", "scene.empty");
   return std::nullopt;
 }
 
@@ -77,7 +79,7 @@ std::optional<std::vector<double>> SceneTable::numbers(const std::string& key, s
     fault(key,
           "must be a list of " + std::to_string(count) + " finite numbers, is " + describe(*value) +
               (bad != value->items.end() ? " with " + describe(*bad) : ""),
-          "");
+          "", "scene.list");
     return std::nullopt;
   }
   std::vector<double> found;
@@ -96,7 +98,7 @@ std::optional<Vector3> SceneTable::unit_vector(const std::string& key) {
   if (!found) return std::nullopt;
   if (std::abs(found->norm() - 1) <= kFewDigits) return found->normalized();
   fault(key, "must have length 1, has " + short_number_text(found->norm()),
-        "divide it by its length");
+        "divide it by its length", "scene.length");
   return std::nullopt;
 }
 
@@ -107,7 +109,7 @@ std::optional<Matrix3> SceneTable::orientation(const std::string& key) {
   if (std::abs(turn.norm() - 1) > kFewDigits) {
     fault(key,
           "a quaternion (w, x, y, z) has length 1, this one has " + short_number_text(turn.norm()),
-          "divide it by its length");
+          "divide it by its length", "scene.length");
     return std::nullopt;
   }
   return turn.normalized().toRotationMatrix();
@@ -119,7 +121,7 @@ std::optional<std::size_t> SceneTable::choice(const std::string& key,
   if (!name) return std::nullopt;
   const auto found = std::find(names.begin(), names.end(), *name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  fault(key, "'" + *name + "' is not known", name_remedy(*name, names, "possible"));
+  fault(key, "'" + *name + "' is not known", name_remedy(*name, names, "possible"), "scene.choice");
   return std::nullopt;
 }
 
@@ -129,14 +131,15 @@ std::vector<const TomlValue*> SceneTable::tables(const std::string& key) {
   if (!value) return found;
   constexpr std::size_t kMostTables = 10000;  // each is compared with all others by name
   if (value->items.size() > kMostTables) {
-    fault(key, "has " + std::to_string(value->items.size()) + " tables", "give at most 10000");
+    fault(key, "has " + std::to_string(value->items.size()) + " tables", "give at most 10000",
+          "scene.too-many");
     return found;
   }
   for (const TomlValue& item : value->items)
     if (item.kind == TomlValue::Kind::table) found.push_back(&item);
   if (value->kind != TomlValue::Kind::list || found.size() != value->items.size())
     fault(key, "must be a list of tables, is " + describe(*value),
-          "write [[" + key + "]] with two brackets");
+          "write [[" + key + "]] with two brackets", "scene.type");
   return found;
 }
 
@@ -144,21 +147,23 @@ const TomlValue* SceneTable::table(const std::string& key) {
   return find(key, TomlValue::Kind::table, "a table");
 }
 
-void SceneTable::fault(const std::string& key, std::string rule, std::string remedy) {
+void SceneTable::fault(const std::string& key, std::string rule, std::string remedy,
+                       std::string_view code) {
   const TomlValue* value = table_.find(key);
   const std::string inside = key.empty() ? "" : ", " + key;
   faults_.add({file_, value ? value->line : table_.line, where_ + inside, std::move(rule),
-               std::move(remedy)});
+               std::move(remedy), code});
 }
 
 void SceneTable::missing(const std::string& key, std::string remedy) {
-  if (!find(key)) fault(key, "is missing", std::move(remedy));
+  if (!find(key)) fault(key, "is missing", std::move(remedy), "scene.missing");
 }
 
 void SceneTable::done() {
   for (const TomlValue& member : table_.members)
     if (!faults_.is_full() && std::find(asked_.begin(), asked_.end(), member.key) == asked_.end())
-      fault(member.key, "this key is not known here", name_remedy(member.key, asked_, "keys"));
+      fault(member.key, "this key is not known here", name_remedy(member.key, asked_, "keys"),
+            "scene.unknown-key");
 }
 
 }  // namespace twinarm

@@ -43,7 +43,8 @@ class SceneTable {
   const TomlValue* table(const std::string& key);
 
   // At the key where it stands, else at the table.
-  void fault(const std::string& key, std::string rule, std::string remedy);
+  void fault(const std::string& key, std::string rule, std::string remedy,
+             std::string_view code = {});
   void missing(const std::string& key, std::string remedy);
   void done();
 

@@ -76,9 +76,9 @@ TomlValue read_toml(const std::filesystem::path& file) {
   try {
     return value_of(toml::parse(text, file.string()));
   } catch (const toml::parse_error& error) {
-    throw InputError(
-        {{file.string(), static_cast<int>(error.source().begin.line), "",
-          "not well-formed TOML: " + std::string(error.description()), "mend this line"}});
+    throw InputError({{file.string(), static_cast<int>(error.source().begin.line), "",
+                       "not well-formed TOML: " + std::string(error.description()),
+                       "mend this line", "file.toml"}});
   }
 }
 

@@ -45,34 +45,41 @@ std::string MapAxis::text() const {
 std::optional<MapAxis> parse_axis(const std::string& option, const std::string& text,
                                   FaultList& faults) {
   bool good = true;
-  const auto fault = [&](const std::string& rule, const std::string& remedy) {
-    faults.add({"", 0, option, rule, remedy});
+  const auto fault = [&](const std::string& rule, const std::string& remedy,
+                         std::string_view code) {
+    faults.add({"", 0, option, rule, remedy, code});
     good = false;
   };
   const std::vector<std::string> parts = at_colons(text);
   if (parts.size() < 4 || parts.size() > 5 || parts[0].empty()) {
-    fault("'" + text + "' is no axis", kAxisForm);
+    fault("'" + text + "' is no axis", kAxisForm, "axis.form");
     return std::nullopt;
   }
   MapAxis axis;
   axis.path = parts[0];
   const auto number = [&](std::size_t i, const char* name) {
     const auto value = parse_number(parts[i]);
-    if (!value) fault(std::string(name) + " '" + parts[i] + "' is not a finite number", kAxisForm);
+    if (!value)
+      fault(std::string(name) + " '" + parts[i] + "' is not a finite number", kAxisForm,
+            "axis.number");
     return value.value_or(0);
   };
   axis.from = number(1, "FROM");
   axis.to = number(2, "TO");
   const double count = number(3, "N");
   if (good && !(axis.from < axis.to))
-    fault("goes from " + parts[1] + " to " + parts[2], "give the smaller value first");
+    fault("goes from " + parts[1] + " to " + parts[2], "give the smaller value first",
+          "axis.order");
   if (good && (count < 2 || count > kMostCells || count != std::floor(count)))
-    fault("has " + parts[3] + " cells", "give a whole number of them, from 2 to 4096");
+    fault("has " + parts[3] + " cells", "give a whole number of them, from 2 to 4096",
+          "axis.count");
   axis.log = parts.size() == 5;
   if (axis.log && parts[4] != "log")
-    fault("'" + parts[4] + "' is not known", "write log, or leave it out: then it is linear");
+    fault("'" + parts[4] + "' is not known", "write log, or leave it out: then it is linear",
+          "axis.scale");
   if (good && axis.log && !(axis.from > 0))
-    fault("a logarithmic axis begins at " + parts[1], "begin above 0, or leave ':log' out");
+    fault("a logarithmic axis begins at " + parts[1], "begin above 0, or leave ':log' out",
+          "axis.log-from-zero");
   axis.count = static_cast<int>(good ? count : 0);
   if (!good) return std::nullopt;
   return axis;

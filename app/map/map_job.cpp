@@ -22,15 +22,19 @@ MapMeasure parse_measure(const std::string& name, FaultList& faults) {
   if (found != kMapMeasures.end()) return static_cast<MapMeasure>(found - kMapMeasures.begin());
   const std::vector<std::string> names(kMapMeasures.begin(), kMapMeasures.end());
   faults.add({"", 0, "--measure", name.empty() ? "is missing" : "'" + name + "' is not known",
-              name_remedy(name, names, "measures")});
+              name_remedy(name, names, "measures"), "map.measure"});
   return MapMeasure::stable;
 }
 
 InputError told_by_axis(const InputError& error, const MapJob& job, double x, double y) {
   std::vector<Fault> faults = error.faults();
   const auto by = [](const char* option, const MapAxis& axis, double value, const Fault& fault) {
-    return Fault{"", 0, option + (" " + axis.path + " = " + number_text(value)),
-                 fault.where + ": " + fault.rule, fault.remedy};
+    return Fault{"",
+                 0,
+                 option + (" " + axis.path + " = " + number_text(value)),
+                 fault.where + ": " + fault.rule,
+                 fault.remedy,
+                 fault.code};
   };
   for (Fault& fault : faults)
     if (fault.line == kLineOfX)
@@ -51,13 +55,13 @@ void check_couplings(const SceneModel& scene, const std::string& of, MapJob& job
   const std::string option = std::string("--measure ") + name_of(job.measure);
   if (needs && scene.couplings.empty())
     return faults.add({scene.description.file.string(), 0, option, "the scene has no coupling",
-                       "measure stable or energy, or add a [[coupling]]"});
+                       "measure stable or energy, or add a [[coupling]]", "map.no-coupling"});
   std::vector<std::string> names;
   for (const SceneCoupling& coupling : scene.couplings) names.push_back(coupling.coupling);
   const auto found = std::find(names.begin(), names.end(), of);
   if (!of.empty() && found == names.end())
-    return faults.add(
-        {"", 0, "--of", "there is no coupling '" + of + "'", name_remedy(of, names, "couplings")});
+    return faults.add({"", 0, "--of", "there is no coupling '" + of + "'",
+                       name_remedy(of, names, "couplings"), "map.coupling-unknown"});
   if (!of.empty()) job.measured_coupling = static_cast<std::size_t>(found - names.begin());
   const MeasuredJoints joints = measured_joints(scene, job.measured_coupling);
   if (joints.slide && !joints.turn) job.error_unit = "m";
@@ -67,7 +71,8 @@ void check_couplings(const SceneModel& scene, const std::string& of, MapJob& job
     faults.add({"", 0, option,
                 joints.iq.empty() ? "no joint of one degree of freedom carries what is pulled"
                                   : "some of the measured joints turn and some slide",
-                "name another coupling with --of; " + name_remedy("", names, "couplings")});
+                "name another coupling with --of; " + name_remedy("", names, "couplings"),
+                "map.mixed-joints"});
 }
 
 std::string content_hash(const MapJob& job, const SimulatePlan& base) {
@@ -87,7 +92,7 @@ void check_plan(const MapJob& job, const SimulatePlan& plan, double x, double y)
         fmt::format("a run of {} s in steps of {} s {}", short_number_text(plan.run.duration),
                     short_number_text(plan.run.step),
                     steps < 1 ? "has no whole step" : "has more than 1e8 of them"),
-        "choose other steps, or --duration"}});
+        "choose other steps, or --duration", "map.steps"}});
 }
 
 // Faults of the scene itself hide those of the axes.
@@ -109,16 +114,19 @@ std::string or_scene(const std::optional<double>& value) {
 
 void check_axes(const MapJob& job, const MapOptions& options, FaultList& faults) {
   if (job.x.path == job.y.path)
-    faults.add({"", 0, "--y", "is the same number as --x", "give two numbers of the scene"});
+    faults.add({"", 0, "--y", "is the same number as --x", "give two numbers of the scene",
+                "map.same-axes"});
   for (const auto& [name, axis] : {std::pair{"--x", &job.x}, std::pair{"--y", &job.y}}) {
     if (axis->path == "step" && options.step)
-      faults.add({"", 0, "--step", std::string(name) + " varies it", "leave one of them out"});
+      faults.add({"", 0, "--step", std::string(name) + " varies it", "leave one of them out",
+                  "map.option-and-axis"});
     if (axis->path == "duration" && options.duration)
-      faults.add({"", 0, "--duration", std::string(name) + " varies it", "leave one of them out"});
+      faults.add({"", 0, "--duration", std::string(name) + " varies it", "leave one of them out",
+                  "map.option-and-axis"});
   }
   if (static_cast<double>(job.nx()) * job.ny() > kMostMapCells)
     faults.add({"", 0, "--x, --y", fmt::format("{} x {} cells are too many", job.nx(), job.ny()),
-                "give at most four million"});
+                "give at most four million", "map.too-many-cells"});
 }
 
 // Of faults at the corners of a map each is told once.
@@ -160,13 +168,14 @@ MapJob read_map_job(const MapOptions& options) {
   FaultList faults;
   MapJob job;
   if (options.scene.empty())
-    faults.add(
-        {"", 0, "command line", "no scene is given", "twinarm map SCENE.toml --x .. --y .."});
+    faults.add({"", 0, "command line", "no scene is given", "twinarm map SCENE.toml --x .. --y ..",
+                "map.no-scene"});
   else if (options.scene.extension() != ".toml")
     faults.add({options.scene.string(), 0, "", "is no scene",
-                "give a scene in TOML, with the robot in it"});
+                "give a scene in TOML, with the robot in it", "map.no-scene"});
   const auto axis = [&](const char* name, const std::string& text, MapAxis& into) {
-    if (text.empty()) return faults.add({"", 0, name, "is missing", "give PATH:FROM:TO:N[:log]"});
+    if (text.empty())
+      return faults.add({"", 0, name, "is missing", "give PATH:FROM:TO:N[:log]", "axis.missing"});
     if (const auto found = parse_axis(name, text, faults)) into = *found;
   };
   axis("--x", options.x, job.x);

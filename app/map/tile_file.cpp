@@ -28,9 +28,10 @@ std::string block_bytes(int number, const std::vector<double>& values) {
   return memory.bytes();
 }
 
-InputError is_damaged(const std::filesystem::path& path, const std::string& how) {
+InputError is_damaged(const std::filesystem::path& path, const std::string& how,
+                      std::string_view code) {
   return InputError({{path.string(), 0, "", "the file of a map is damaged: " + how,
-                      "delete it, and compute its part again"}});
+                      "delete it, and compute its part again", code}});
 }
 
 std::string key_of(const std::string& line) {
@@ -72,13 +73,15 @@ std::string to_bytes(const TileFile& file) {
 TileFile read_tile_file(const std::filesystem::path& path) {
   std::error_code unknown;
   if (std::filesystem::file_size(path, unknown) > kMostTileBytes && !unknown)
-    throw InputError({{path.string(), 0, "", "has more than 256 MiB: no map is as large",
-                       "give a file that `twinarm map` has written with --work or --tile"}});
+    throw InputError(
+        {{path.string(), 0, "", "has more than 256 MiB: no map is as large",
+          "give a file that `twinarm map` has written with --work or --tile", "file.too-large"}});
   const std::string bytes = read_whole_file(path);
   const std::size_t end = bytes.substr(0, kHeadMost).find("\n\n");
   if (!bytes.starts_with(std::string(kFirstLine) + "\n") || end == std::string::npos)
-    throw InputError({{path.string(), 0, "", "is no file of a map",
-                       "give a file that `twinarm map` has written with --work or --tile"}});
+    throw InputError(
+        {{path.string(), 0, "", "is no file of a map",
+          "give a file that `twinarm map` has written with --work or --tile", "map.file-form"}});
   TileFile file;
   for (std::size_t at = bytes.find('\n') + 1; at < end + 1;) {
     const std::size_t line_end = bytes.find('\n', at);
@@ -88,18 +91,19 @@ TileFile read_tile_file(const std::filesystem::path& path) {
   for (std::size_t at = end + 2; at < bytes.size();) {
     std::uint32_t number = 0, cells = 0;
     constexpr std::size_t kFrame = 2 * sizeof number + sizeof(std::uint64_t);
-    if (bytes.size() - at < kFrame) throw is_damaged(path, "its end is cut off");
+    if (bytes.size() - at < kFrame) throw is_damaged(path, "its end is cut off", "map.cut-short");
     std::memcpy(&number, bytes.data() + at, sizeof number);
     std::memcpy(&cells, bytes.data() + at + sizeof number, sizeof cells);
     if (cells > kMapMeasures.size() * MapBlocks::kSide * MapBlocks::kSide)
-      throw is_damaged(path, "a block is too large");
-    if (bytes.size() - at < kFrame + 8 * cells) throw is_damaged(path, "its end is cut off");
+      throw is_damaged(path, "a block is too large", "map.block-size");
+    if (bytes.size() - at < kFrame + 8 * cells)
+      throw is_damaged(path, "its end is cut off", "map.cut-short");
     std::vector<double> values(cells);
     if (cells > 0)  // else there is no place to copy to
       std::memcpy(values.data(), bytes.data() + at + 2 * sizeof number, 8 * cells);
     const std::string again = block_bytes(static_cast<int>(number), values);
     if (bytes.compare(at, again.size(), again) != 0)
-      throw is_damaged(path, fmt::format("block {} has another check sum", number));
+      throw is_damaged(path, fmt::format("block {} has another check sum", number), "map.checksum");
     file.blocks[static_cast<int>(number)] = std::move(values);
     at += again.size();
   }
@@ -118,7 +122,8 @@ void check_same_map(const TileFile& found, const TileFile& wanted,
                                  ? "the scene, or a file that it names, is not the same"
                              : key == "of" ? "it measures " + here + ", not " + there
                                            : key + " is " + here + ", not " + there;
-    faults.add({path.string(), 0, "", "the file is of another map: " + what, remedy});
+    faults.add(
+        {path.string(), 0, "", "the file is of another map: " + what, remedy, "map.other-map"});
   }
 }
 
@@ -126,7 +131,7 @@ void add_blocks(const TileFile& from, const MapBlocks& blocks, const std::filesy
                 TileFile& into, FaultList& faults) {
   const auto fault = [&](int number, const char* rule) {
     faults.add({path.string(), 0, fmt::format("block {}", number), rule,
-                "delete the file, and compute its part again"});
+                "delete the file, and compute its part again", "map.blocks"});
   };
   for (const auto& [number, values] : from.blocks) {
     if (number < 0 || number >= blocks.count() ||

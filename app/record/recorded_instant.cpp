@@ -27,7 +27,8 @@ void check_recorded(const RobotOptions& given, FaultList& faults) {
       given.armature && !given.strict)
     return;
   faults.add({"", 0, "--state, --gravity, --floating, --no-friction, --no-armature, --strict",
-              "a recording has its own state and model", "leave them out; choose by --at"});
+              "a recording has its own state and model", "leave them out; choose by --at",
+              "option.conflict"});
 }
 
 RecordedInstant open_instant(const std::filesystem::path& file, std::optional<double> at) {

@@ -39,22 +39,26 @@ Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
   std::error_code unknown;
   size_ = std::filesystem::file_size(file_, unknown);
   if (unknown) size_ = 0;
-  const auto refuse = [&](const std::string& rule, const std::string& remedy) {
-    throw InputError({{file_, 0, "", rule, remedy}});
+  const auto refuse = [&](const std::string& rule, const std::string& remedy,
+                          std::string_view code) {
+    throw InputError({{file_, 0, "", rule, remedy, code}});
   };
   using namespace recording_format;
   std::string start(std::min(size_, kStart), '\0');
   stream_.read(start.data(), static_cast<std::streamsize>(start.size()));
   if (start.empty())
     refuse("it is empty: the run that was to write it did not begin, or the disk was full",
-           "record it again");
+           "record it again", "recording.empty");
   if (!std::string(kMagic, 8).starts_with(start.substr(0, 8)))
-    refuse("it is no recording", "give a file that `twinarm simulate --record FILE` wrote");
-  if (start.size() < kStart) refuse("it is cut short within its first bytes", "record it again");
+    refuse("it is no recording", "give a file that `twinarm simulate --record FILE` wrote",
+           "recording.form");
+  if (start.size() < kStart)
+    refuse("it is cut short within its first bytes", "record it again", "recording.cut-short");
   if (const std::uint32_t version = number_at(start, 8); version != kVersion)
     refuse(
         fmt::format("its format is version {}; this program reads version {}", version, kVersion),
-        version > kVersion ? "read it with the newer twinarm that wrote it" : "record it again");
+        version > kVersion ? "read it with the newer twinarm that wrote it" : "record it again",
+        "recording.version");
   try {
     read_blocks();
   } catch (const std::runtime_error& error) {  // whole by its checksum, yet not to be understood
@@ -62,7 +66,7 @@ Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
   }
   if (!has_header_ || places_.empty())
     refuse("nothing of it is whole: it is cut short or damaged within its first frame",
-           "record it again");
+           "record it again", "recording.cut-short");
 }
 
 void Recording::read_blocks() {
@@ -170,9 +174,9 @@ RecordedFrame Recording::frame(std::size_t n) const {
          frame.momenta.size() == 2 * frame.momentum_rows.size() &&
          all_below(frame.momentum_rows, momentum_names_.size());
   if (!fits)
-    throw InputError(
-        {{file_, 0, fmt::format("frame {}, at byte {}", n, places_[n].begin),
-          "its checksum is right, but its numbers do not fit the header", "record it again"}});
+    throw InputError({{file_, 0, fmt::format("frame {}, at byte {}", n, places_[n].begin),
+                       "its checksum is right, but its numbers do not fit the header",
+                       "record it again", "recording.numbers"}});
   return frame;
 }
 
@@ -183,7 +187,7 @@ std::size_t Recording::at(double t, const std::string& option) const {
     throw InputError({{file_, 0, option,
                        short_number_text(t) + " s is not in the recording, which goes from " +
                            short_number_text(first) + " to " + short_number_text(last) + " s",
-                       "give a time within"}});
+                       "give a time within", "recording.time"}});
   const auto after = std::upper_bound(places_.begin() + 1, places_.end(), t + slack,
                                       [](double end, const Place& place) { return end < place.t; });
   return static_cast<std::size_t>(after - places_.begin()) - 1;

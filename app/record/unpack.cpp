@@ -46,8 +46,9 @@ void UnpackedRun::write_missing() const {
 // absolute path nothing is left that leads upwards.
 std::filesystem::path UnpackedRun::copy_of(const std::filesystem::path& original) const {
   if (!original.is_absolute())
-    throw InputError({{original.string(), 0, "a file in the recording", "its path is not absolute",
-                       "the recording is damaged, or not made by twinarm: record it again"}});
+    throw InputError(
+        {{original.string(), 0, "a file in the recording", "its path is not absolute",
+          "the recording is damaged, or not made by twinarm: record it again", "recording.path"}});
   return folder_.path / original.lexically_normal().relative_path();
 }
 
@@ -78,13 +79,13 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
     else if (std::find(kept.begin(), kept.end(), changes[i].path) != kept.end())
       faults.add({"", 0, "--set " + changes[i].path,
                   "a fork keeps the grid and the method of its recording",
-                  "run `twinarm simulate` with another " + changes[i].path});
+                  "run `twinarm simulate` with another " + changes[i].path, "change.method"});
     else if (is_scene)
       of_scene.emplace_back(changes[i], line_of_change(i));
     else
       faults.add({"", 0, "--set " + changes[i].path,
                   "a robot alone has gravity to be changed, no more",
-                  "write --set gravity=x,y,z, or record a scene"});
+                  "write --set gravity=x,y,z, or record a scene", "change.robot"});
   faults.check();
   options.change_scene = [this, of_scene](TomlValue& tree, FaultList& found) {
     lead_to_copies(tree);
@@ -108,9 +109,9 @@ InputError UnpackedRun::as_typed(const InputError& error,
     for (std::size_t i = 0; i < changes.size(); ++i) {
       const std::string typed = "--set " + changes[i].path + "=" + changes[i].value;
       if (fault.line == line_of_change(i))
-        fault = {"", 0, typed, fault.where + ": " + fault.rule, fault.remedy};
+        fault = {"", 0, typed, fault.where + ": " + fault.rule, fault.remedy, fault.code};
       else if (changes[i].path == "gravity" && is_of_option(fault, "gravity"))
-        fault = {"", 0, typed, fault.rule, "write --set gravity=0,0,-9.81"};
+        fault = {"", 0, typed, fault.rule, "write --set gravity=0,0,-9.81", fault.code};
     }
   }
   return InputError(std::move(faults));

@@ -25,7 +25,8 @@ std::optional<RobotDescription> read_model_file(const RobotOptions& options, Fau
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
-    faults.add({file.string(), 0, "model", "is a folder", "name the robot's URDF in it"});
+    faults.add({file.string(), 0, "model", "is a folder", "name the robot's URDF in it",
+                "file.is-folder"});
     return std::nullopt;
   }
   return attempt(faults, [&] {
@@ -50,7 +51,7 @@ std::vector<double> parse_list(const std::string& option, const std::string& tex
       values.push_back(*value);
     } else {
       faults.add({"", 0, option, "'" + item + "' is not a finite number",
-                  "write numbers separated by commas"});
+                  "write numbers separated by commas", "option.number"});
       return {};
     }
     begin = end + 1;
@@ -63,7 +64,7 @@ std::optional<Vector3> parse_gravity(const std::string& text, FaultList& faults)
   if (numbers.size() == 3) return Vector3(numbers.data());
   if (!numbers.empty())
     faults.add({"", 0, "--gravity", "has " + std::to_string(numbers.size()) + " numbers",
-                "give three: --gravity 0,0,-9.81"});
+                "give three: --gravity 0,0,-9.81", "option.count"});
   return std::nullopt;
 }
 

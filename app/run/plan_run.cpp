@@ -28,10 +28,10 @@ void check_times(const std::vector<double>& times, double duration, FaultList& f
     if (times[i] < 0 || times[i] > duration)
       faults.add({"", 0, "--at",
                   t + " s is not within the run, from 0 to " + number_text(duration) + " s",
-                  "give a longer --duration"});
+                  "give a longer --duration", "run.time"});
     else if (i > 0 && times[i] <= times[i - 1])
       faults.add({"", 0, "--at", t + " s comes after " + number_text(times[i - 1]) + " s",
-                  "give each time once, in ascending order"});
+                  "give each time once, in ascending order", "run.time-order"});
   }
 }
 
@@ -42,16 +42,17 @@ void choose_integrator(const SimulateOptions& options, RunPlan& plan, FaultList&
     plan.integrator = *found;
   else if (!options.integrator.empty())
     faults.add({"", 0, "--integrator", "there is no '" + options.integrator + "'",
-                name_remedy(options.integrator, names, "integrators")});
+                name_remedy(options.integrator, names, "integrators"), "run.integrator"});
   if (!options.tolerance) return;
   plan.tolerance = *options.tolerance;
   if (!is_positive(plan.tolerance))
-    faults.add({"", 0, "--tolerance", "must be positive, is " + number_text(plan.tolerance), ""});
+    faults.add({"", 0, "--tolerance", "must be positive, is " + number_text(plan.tolerance), "",
+                "option.not-positive"});
   if (!plan.is_adaptive())
     faults.add({"", 0, "--tolerance",
                 "'" + std::string(integrator_name(plan.integrator)) +
                     "' has steps of fixed size, and no tolerance",
-                "give --step, or --integrator dopri5"});
+                "give --step, or --integrator dopri5", "run.tolerance"});
 }
 
 }  // namespace
@@ -62,37 +63,40 @@ RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults, Fa
   plan.locates_events = defaults.locates_events;
   choose_integrator(options, plan, faults);
   const std::optional<double> duration = options.duration ? options.duration : defaults.duration;
-  if (!duration) faults.add({"", 0, "--duration", "is missing", "give --duration SECONDS"});
+  if (!duration)
+    faults.add({"", 0, "--duration", "is missing", "give --duration SECONDS", "option.missing"});
   plan.duration = duration.value_or(1);
   plan.step_is_given = options.step.has_value();
   plan.step = options.step.value_or(plan.is_adaptive() ? plan.duration : defaults.step);
   const auto positive = [&](const char* option, double value) {
     if (!is_positive(value))
-      faults.add(
-          {"", 0, option, "must be a positive number of seconds, is " + number_text(value), ""});
+      faults.add({"", 0, option, "must be a positive number of seconds, is " + number_text(value),
+                  "", "option.not-positive"});
     return is_positive(value);
   };
   const bool good_duration = positive("--duration", plan.duration);
   const bool good_step = !options.step || positive("--step", *options.step);
   if (good_step && good_duration && plan.duration / plan.step > kMostSteps)
     faults.add({"", 0, options.step ? "--step" : "step", "the run would have more than 1e10 steps",
-                "give a longer step or a shorter duration"});
+                "give a longer step or a shorter duration", "run.too-many-steps"});
   if (options.record_every) positive("--record-every", *options.record_every);
   if (options.record_every && options.record.empty())
-    faults.add({"", 0, "--record-every", "nothing is recorded", "give --record FILE"});
+    faults.add(
+        {"", 0, "--record-every", "nothing is recorded", "give --record FILE", "option.useless"});
   if (options.energy_bound) {
     plan.energy_bound = *options.energy_bound;
     if (!(plan.energy_bound > 0))
       faults.add(
           {"", 0, "--energy-bound",
-           "must be a positive number of joules, or inf, is " + number_text(plan.energy_bound),
-           ""});
+           "must be a positive number of joules, or inf, is " + number_text(plan.energy_bound), "",
+           "option.not-positive"});
   }
   if (options.json && options.csv)
-    faults.add({"", 0, "--csv", "stdout is taken by --json", "leave one of them out"});
-  if (options.every && !options.at.empty())
     faults.add(
-        {"", 0, "--every", "samples are asked for by --at already", "leave one of them out"});
+        {"", 0, "--csv", "stdout is taken by --json", "leave one of them out", "option.conflict"});
+  if (options.every && !options.at.empty())
+    faults.add({"", 0, "--every", "samples are asked for by --at already", "leave one of them out",
+                "option.conflict"});
 
   plan.times = {0, plan.duration};
   if (!options.at.empty()) {
@@ -100,7 +104,8 @@ RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults, Fa
     if (good_duration) check_times(plan.times, plan.duration, faults);
   } else if (options.every && positive("--every", *options.every) && good_duration) {
     if (plan.duration / *options.every > kMostSamples)
-      faults.add({"", 0, "--every", "there would be more than 1e7 samples", "give a longer time"});
+      faults.add({"", 0, "--every", "there would be more than 1e7 samples", "give a longer time",
+                  "run.too-many-samples"});
     else
       plan.times = every(*options.every, plan.duration);
   }

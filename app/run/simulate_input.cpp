@@ -31,7 +31,7 @@ void choose_contact(const std::string& name, SceneDescription* scene, FaultList&
   const auto found = std::find(kContactModes.begin(), kContactModes.end(), name);
   if (found == kContactModes.end())
     faults.add({"", 0, "--contact", "'" + name + "' is not known",
-                name_remedy(name, kContactModes, "possible")});
+                name_remedy(name, kContactModes, "possible"), "option.choice"});
   else if (scene)
     scene->contact = static_cast<ContactMode>(found - kContactModes.begin());
 }
@@ -41,7 +41,8 @@ void check_treatments(const SceneModel& scene, const RunPlan& plan, FaultList& f
     if (!coupling.leads()) continue;
     const auto fault = [&](std::string rule, std::string remedy) {
       faults.add({scene.description.file.string(), coupling.line,
-                  "coupling '" + coupling.coupling + "'", std::move(rule), std::move(remedy)});
+                  "coupling '" + coupling.coupling + "'", std::move(rule), std::move(remedy),
+                  "run.integrator"});
     };
     if (coupling.needs_semi_implicit() && !facts_of(plan.integrator).implicit_force)
       fault(std::string("its treatment goes with the semi-implicit integrators only, not with ") +
@@ -116,7 +117,8 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
   if (options.robot.model.extension() != ".toml" && !options.scene) {
     const RunPlan plan = plan_run(options, {}, faults);
     if (!options.contact.empty())
-      faults.add({"", 0, "--contact", "a robot alone touches nothing", "give a scene"});
+      faults.add(
+          {"", 0, "--contact", "a robot alone touches nothing", "give a scene", "option.useless"});
     return {{read_robot_input(options.robot, faults), nullptr, nullptr}, plan};
   }
   refuse_robot_options(options.robot, faults);

@@ -52,7 +52,8 @@ void follow(const FollowCase& what, const Model<double>& model, const HandSource
   for (const Spring& spring : springs)
     rows.push_back(
         {what.name, hand_name, spring.name,
-         std::find(what.driven.begin(), what.driven.end(), spring.name) != what.driven.end()});
+         std::find(what.driven.begin(), what.driven.end(), spring.name) != what.driven.end(),
+         model.joint[static_cast<std::size_t>(spring.body)] == JointType::prismatic});
   long samples = 0;
   system.run([&](double t) {
     if (++samples % 256 == 0) look();

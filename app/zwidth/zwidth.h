@@ -44,8 +44,8 @@ struct DelayRow {
 // A robot that follows the hand, all its joints coupled.
 struct FollowRow {
   std::string robot, hand, joint;
-  bool driven = false;
-  double max = 0, mean = 0;  // [rad, m]
+  bool driven = false, slides = false;  // by the hand; along its axis: errors in metres
+  double max = 0, mean = 0;             // [rad, m]
 };
 
 struct ZwidthResult {

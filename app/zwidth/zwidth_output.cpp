@@ -58,11 +58,10 @@ std::string delays_text(const std::vector<DelayRow>& delays) {
 std::string follows_text(const std::vector<FollowRow>& follows) {
   TextTable table({"tracking errors", "hand", "joint", "moved by", "max", "mean", "unit"});
   for (const FollowRow& row : follows) {
-    const bool slides = row.joint == "gripper_lift";
-    const double unit = slides ? 1e3 : 180 / std::numbers::pi;
+    const double unit = row.slides ? 1e3 : 180 / std::numbers::pi;
     table.add({row.robot, row.hand, row.joint, row.driven ? "the hand" : "nobody",
                short_cell(unit * row.max, 3), short_cell(unit * row.mean, 3),
-               slides ? "mm" : "deg"});
+               row.slides ? "mm" : "deg"});
   }
   return table.str() +
          "  Implicit joint springs of 50 rad/s at critical damping, of the inertia at the start; "

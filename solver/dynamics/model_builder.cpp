@@ -31,10 +31,11 @@ bool has_axis(JointType type) {
 
 void check_inertia(const std::string& where, const BodyInertia& body, FaultList& faults) {
   if (!std::isfinite(body.mass) || !body.com.allFinite() || !body.inertia.allFinite())
-    faults.add({"", 0, where, "mass, centre of mass or inertia is not a finite number", ""});
+    faults.add({"", 0, where, "mass, centre of mass or inertia is not a finite number", "",
+                "model.not-finite"});
   else if (body.mass < 0)
     faults.add({"", 0, where, "mass is " + std::to_string(body.mass) + " kg, must not be negative",
-                "give the link its mass"});
+                "give the link its mass", "model.negative"});
 }
 void check_properties(const std::string& joint, const JointProperties& p, FaultList& faults) {
   for (const auto& [what, value] : {std::pair{"armature", p.armature},
@@ -44,9 +45,10 @@ void check_properties(const std::string& joint, const JointProperties& p, FaultL
     if (!(value >= 0 && std::isfinite(value)))
       faults.add({"", 0, joint_called(joint),
                   std::string(what) + " is " + std::to_string(value) + ", must not be negative",
-                  "give zero or a positive number"});
+                  "give zero or a positive number", "model.negative"});
   if (!std::isfinite(p.pitch))
-    faults.add({"", 0, joint_called(joint), "its pitch is not a finite number", ""});
+    faults.add(
+        {"", 0, joint_called(joint), "its pitch is not a finite number", "", "model.not-finite"});
 }
 
 Inertia<double> about_origin(const BodyInertia& body, const Matrix3& R_BL) {
@@ -103,7 +105,8 @@ void check_felt_inertia(const Model<double>& model, FaultList& faults) {
                     "what it moves has no inertia in its direction, so that no acceleration can be "
                     "computed",
                     "give link '" + model.body_name[i] +
-                        "' or a link beyond it mass and inertia, or the joint an armature"});
+                        "' or a link beyond it mass and inertia, or the joint an armature",
+                    "model.no-inertia"});
         for (std::size_t k = 0; k < model.dofs(i); ++k) mended.armature[model.iv[i] + k] = 1;
         told[i] = found = true;
       }
@@ -136,15 +139,17 @@ void ModelBuilder::add_mimic(const std::string& follower, const std::string& lea
 void ModelBuilder::check(const Body& body, const Model<double>& so_far, FaultList& faults) {
   const std::string where = link_called(body.name);
   if (body.parent < 0 || body.parent >= so_far.body_count())
-    faults.add({"", 0, where, "its parent is not a body that was added before it", ""});
+    faults.add(
+        {"", 0, where, "its parent is not a body that was added before it", "", "model.parent"});
   if (so_far.find_body(body.name) > 0)
-    faults.add({"", 0, where, "the name is taken already", "give each link its own name"});
+    faults.add({"", 0, where, "the name is taken already", "give each link its own name",
+                "model.name-taken"});
   if (so_far.find_joint(body.joint_name) > 0)
     faults.add({"", 0, joint_called(body.joint_name), "the name is taken already",
-                "give each joint its own name"});
+                "give each joint its own name", "model.name-taken"});
   if (has_axis(body.type) && !is_direction(body.axis))
     faults.add({"", 0, joint_called(body.joint_name), "its axis has no direction",
-                "give an axis that is not zero"});
+                "give an axis that is not zero", "model.axis-zero"});
   check_inertia(where, body.inertia, faults);
   check_properties(body.joint_name, body.properties, faults);
 }
@@ -224,7 +229,8 @@ void ModelBuilder::add_mimics_to(Model<double>& model, FaultList& faults) const 
           break;
         }
       if (hops > mimics_.size()) {
-        faults.add({"", 0, joint_called(mimic.follower), "it follows itself", "break the circle"});
+        faults.add({"", 0, joint_called(mimic.follower), "it follows itself", "break the circle",
+                    "model.mimic-loop"});
         return;
       }
     }
@@ -233,7 +239,7 @@ void ModelBuilder::add_mimics_to(Model<double>& model, FaultList& faults) const 
         model.dofs(static_cast<std::size_t>(l)) != 1) {
       faults.add({"", 0, joint_called(mimic.follower),
                   "it follows joint '" + leader + "', and both must exist and have one dof",
-                  "name a revolute, prismatic or screw joint"});
+                  "name a revolute, prismatic or screw joint", "model.mimic"});
       continue;
     }
     const auto fi = static_cast<std::size_t>(f), li = static_cast<std::size_t>(l);

@@ -27,7 +27,7 @@ void write_whole_file(const std::filesystem::path& file, const std::string& byte
   std::filesystem::remove(temporary, ignored);
   throw InputError(
       {{file.string(), 0, "", "the file cannot be written" + (why.empty() ? "" : ": " + why),
-        "choose a folder that exists, can be written and has room"}});
+        "choose a folder that exists, can be written and has room", "file.unwritable"}});
 }
 
 }  // namespace twinarm

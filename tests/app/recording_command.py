@@ -103,6 +103,12 @@ class RecordingCommand(RobotCommand):
         result = self.twinarm(*arguments, code=2)
         return result.stderr
 
+    def refused_as(self, code, *arguments):
+        """One fault, of that code; returns all that it says."""
+        (fault,) = json.loads(self.twinarm(*arguments, "--json", code=2).stdout)["errors"]
+        self.assertEqual(fault["code"], code, fault)
+        return " ".join((fault["file"], fault["where"], fault["rule"], fault["remedy"]))
+
     def goes_on_with_the_same_bits(self, file, times):
         frames = self.exported(file)["frames"]
         for t in times:

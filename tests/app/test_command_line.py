@@ -195,7 +195,7 @@ class CommandLine(unittest.TestCase):
         errors = json.loads(result.stdout)["errors"]
         self.assertEqual([error["line"] for error in errors], [3, 4])
         for error in errors:
-            self.assertEqual(sorted(error), ["file", "line", "remedy", "rule", "where"])
+            self.assertEqual(sorted(error), ["code", "file", "line", "remedy", "rule", "where"])
             self.assertEqual(error["file"], str(file))
             self.assertTrue(error["rule"])
 

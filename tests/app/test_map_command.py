@@ -67,9 +67,17 @@ class MapCommand(unittest.TestCase):
                                        "--json").stdout)
 
     def faults(self, *arguments):
-        result = self.twinarm("map", *arguments, "--json", code=2)
-        return " | ".join(f'{e["where"]}: {e["rule"]}; {e["remedy"]}'
-                          for e in json.loads(result.stdout)["errors"])
+        return json.loads(self.twinarm("map", *arguments, "--json", code=2).stdout)["errors"]
+
+    def refused(self, code, value, *arguments):
+        """There is a fault of that code, which tells the value or the name."""
+        faults = self.faults(*arguments)
+        self.tells(faults, code, value)
+
+    def tells(self, faults, code, value):
+        self.assertTrue(any(f["code"] == code and value in
+                            f'{f["file"]} {f["where"]}: {f["rule"]}; {f["remedy"]}' for f in faults),
+                        (code, value, faults))
 
 
 class Maps(MapCommand):
@@ -257,60 +265,62 @@ class Faults(MapCommand):
 
     def test_axes_that_the_scene_has_not_are_told_with_the_nearest_names(self):
         scene = self.scene()
-        for path, words in (("couplng.stiffness", "did you mean 'coupling'"),
-                            ("coupling.stifness", "did you mean 'stiffness'"),
-                            ("coupling[3].stiffness", "no item 3"),
-                            ("coupling.name", "the text 'pull', and no number"),
-                            ("gravity", "gravity[0]"), ("stepp", "did you mean 'step'"),
-                            ("robot.q.joint1", "has no 'q'"), ("coupling..x", "is no path")):
-            self.assertIn(words, self.faults(scene, "--x", f"{path}:1:2:3", "--y",
-                                             "coupling.damping:0:1:2"), path)
+        for path, code, value in (
+                ("couplng.stiffness", "path.unknown-key", "'coupling'"),
+                ("coupling.stifness", "scene.unknown-key", "'stiffness'"),
+                ("coupling[3].stiffness", "path.no-item", "3"),
+                ("coupling.name", "path.no-number", "'pull'"),
+                ("gravity", "path.no-number", "gravity[0]"),
+                ("stepp", "scene.unknown-key", "'step'"),
+                ("robot.q.joint1", "path.unknown-key", "'q'"), ("coupling..x", "path.form", "x")):
+            self.refused(code, value, scene, "--x", f"{path}:1:2:3", "--y", "coupling.damping:0:1:2")
 
     def test_absurd_values_are_told_with_the_remedy(self):
         scene = self.scene()
         y = ("--y", "coupling.damping:0:1:2")
-        for axis, words in (("coupling.stiffness:-5:10:4", "must not be negative, is -5"),
-                            ("step:0:1:4", "must be positive, is 0"),
-                            ("step:1e-8:0.01:4", "more than 1e8"),
-                            ("step:1e-12:0.01:4", "more than 1e10"),
-                            ("step:0.1:100:4", "no whole step"),
-                            ("step:0.1:0.2:1", "from 2 to 4096"),
-                            ("step:0.1:0.2:2.5", "from 2 to 4096"),
-                            ("step:0:0.2:4:log", "begin above 0"),
-                            ("step:-1:1:4:log", "begin above 0"),
-                            ("step:0.2:0.1:4", "smaller value first"),
-                            ("step:0.1:nan:4", "'nan' is not a finite number"),
-                            ("step:0.1:0.2:4:lag", "write log"), ("step:0.1", "is no axis"),
-                            ("coupling.damping:0:1:2", "is the same number as --x")):
-            self.assertIn(words, self.faults(scene, "--x", axis, *y), axis)
+        for axis, code, value in (("coupling.stiffness:-5:10:4", "scene.negative", "-5"),
+                                  ("step:0:1:4", "scene.not-positive", "0"),
+                                  ("step:1e-8:0.01:4", "map.steps", "1e8"),
+                                  ("step:1e-12:0.01:4", "run.too-many-steps", "1e10"),
+                                  ("step:0.1:100:4", "map.steps", "100"),
+                                  ("step:0.1:0.2:1", "axis.count", "4096"),
+                                  ("step:0.1:0.2:2.5", "axis.count", "4096"),
+                                  ("step:0:0.2:4:log", "axis.log-from-zero", "0"),
+                                  ("step:-1:1:4:log", "axis.log-from-zero", "-1"),
+                                  ("step:0.2:0.1:4", "axis.order", "0.2"),
+                                  ("step:0.1:nan:4", "axis.number", "'nan'"),
+                                  ("step:0.1:0.2:4:lag", "axis.scale", "'lag'"),
+                                  ("step:0.1", "axis.form", "step:0.1"),
+                                  ("coupling.damping:0:1:2", "map.same-axes", "--x")):
+            self.refused(code, value, scene, "--x", axis, *y)
         told = self.faults(scene, "--x", "step:0:1:1", "--y", "y:5:3:2:log", "--measure", "max_eror")
-        for words in ("from 2 to 4096", "smaller value first", "did you mean 'max_error'"):
-            self.assertIn(words, told)
-        self.assertIn("leave one of them out", self.faults(scene, *self.AXES, "--step", 0.1))
-        self.assertIn("no scene", self.faults(self.folder / "hinge.urdf", *self.AXES))
-        self.assertIn("did you mean 'pull'", self.faults(scene, *self.AXES, "--of", "pul"))
-        self.assertIn("0,0 to 2,2", self.faults(scene, *self.AXES, "--cell", "3,0", "--record",
-                                                self.folder / "x.twinrec"))
+        for code, value in (("axis.count", "4096"), ("axis.order", "5"),
+                            ("map.measure", "'max_error'")):
+            self.tells(told, code, value)
+        self.refused("map.option-and-axis", "--step", scene, *self.AXES, "--step", 0.1)
+        self.refused("map.no-scene", "hinge.urdf", self.folder / "hinge.urdf", *self.AXES)
+        self.refused("map.coupling-unknown", "'pull'", scene, *self.AXES, "--of", "pul")
+        self.refused("map.cell", "0,0 to 2,2", scene, *self.AXES, "--cell", "3,0", "--record",
+                     self.folder / "x.twinrec")
 
     def test_files_of_another_map_are_refused_and_nothing_is_overwritten_without_force(self):
         scene = self.scene(duration=0.5)
         work, picture = self.folder / "work", self.folder / "map.svg"
         self.twinarm("map", scene, *self.AXES, "--work", work, "--svg", picture)
         kept = work.read_bytes()
-        self.assertIn("the file is there already",
-                      self.faults(scene, *self.AXES, "--work", work, "--svg", picture))
+        self.refused("file.exists", "--svg", scene, *self.AXES, "--work", work, "--svg", picture)
         axes = ("--x", "coupling[0].damping:0.5:21:3", *self.AXES[2:])
-        self.assertIn("x is coupling[0].damping:0.5:20:3, not coupling[0].damping:0.5:21:3",
-                      self.faults(scene, *axes, "--work", work))
+        told = self.faults(scene, *axes, "--work", work)
+        for value in ("coupling[0].damping:0.5:20:3", "coupling[0].damping:0.5:21:3"):
+            self.tells(told, "map.other-map", value)
         scene.write_text(scene.read_text().replace("500", "501"))
         told = self.faults(scene, *self.AXES, "--work", work)
-        self.assertIn("the scene, or a file that it names, is not the same", told)
-        self.assertIn("--force", told)
+        self.assertEqual([fault["code"] for fault in told], ["map.other-map"])
+        self.tells(told, "map.other-map", "--force")
         self.assertEqual(work.read_bytes(), kept)
         self.twinarm("map", scene, *self.AXES, "--work", work, "--svg", picture, "--force")
         self.assertNotEqual(work.read_bytes(), kept)
-        self.assertIn("cannot be written", self.faults(scene, *self.AXES, "--csv",
-                                                       "/proc/none/map.csv"))
+        self.refused("file.unwritable", "/proc/none", scene, *self.AXES, "--csv", "/proc/none/map.csv")
 
     def test_a_merge_tells_parts_that_are_missing_foreign_or_damaged(self):
         scene = self.scene(duration=0.2)
@@ -318,23 +328,25 @@ class Faults(MapCommand):
         parts = [self.folder / f"p{i}" for i in range(3)]
         for i, part in enumerate(parts):
             self.twinarm("map", scene, *axes, "--tiles", 3, "--tile", i, "--work", part)
-        self.assertIn("2 of 6 blocks are missing: 1 4", self.faults("--merge", parts[0], parts[2]))
+        told = self.faults("--merge", parts[0], parts[2])
+        for value in ("2 of 6", "1 4"):
+            self.tells(told, "map.blocks-missing", value)
         self.twinarm("map", scene, *axes[:3], "step:0.005:0.04:20", "--tiles", 3, "--tile", 1,
                      "--work", parts[1], "--force")
         told = self.faults("--merge", *parts)
-        self.assertIn("y is step:0.005:0.04:20, not step:0.005:0.05:20", told)
-        self.assertIn("2 of 6 blocks are missing", told)
+        for value in ("step:0.005:0.04:20", "step:0.005:0.05:20"):
+            self.tells(told, "map.other-map", value)
+        self.tells(told, "map.blocks-missing", "2 of 6")
         data = bytearray(parts[2].read_bytes())
         data[-100] ^= 1
         parts[2].write_bytes(data)
-        self.assertIn("check sum", self.faults("--merge", *parts))
+        self.refused("map.checksum", "p2", "--merge", *parts)
         parts[2].write_bytes(data[:-100])
-        self.assertIn("its end is cut off", self.faults("--merge", *parts))
+        self.refused("map.cut-short", "p2", "--merge", *parts)
         parts[2].write_text("hello")
-        self.assertIn("is no file of a map", self.faults("--merge", *parts))
-        self.assertIn("no part 3 of 3", self.faults(scene, *axes, "--tiles", 3, "--tile", 3))
-        self.assertIn("fewer than 99 parts",
-                      self.faults(scene, *axes, "--tiles", 99, "--tile", 98))
+        self.refused("map.file-form", "p2", "--merge", *parts)
+        self.refused("map.part", "3 of 3", scene, *axes, "--tiles", 3, "--tile", 3)
+        self.refused("map.part", "99", scene, *axes, "--tiles", 99, "--tile", 98)
 
 
 if __name__ == "__main__":

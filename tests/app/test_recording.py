@@ -170,13 +170,14 @@ class Recordings(RecordingCommand):
 
     def test_faults_of_a_change_name_what_was_typed_and_no_copy_of_the_files(self):
         file = self.record(HELD % (50, 2, ""), "--duration", 0.1)
-        for change, words in (("coupling.stiffness=-1", "negative"),
-                              ("coupling.pull.stiffness=stiff", "number"),
-                              ("coupling.treatment=magic", "magic"),
-                              ("gravity=0,1", "2 numbers"), ("gravity=down", "down")):
-            error = self.refused("replay", file, "--set", change)
+        for change, code, value in (("coupling.stiffness=-1", "scene.negative", "-1"),
+                                    ("coupling.pull.stiffness=stiff", "scene.type", "'stiff'"),
+                                    ("coupling.treatment=magic", "scene.choice", "'magic'"),
+                                    ("gravity=0,1", "option.count", " 2 "),
+                                    ("gravity=down", "option.number", "'down'")):
+            error = self.refused_as(code, "replay", file, "--set", change)
             self.assertIn("--set " + change, error)
-            self.assertIn(words, error)
+            self.assertIn(value, error)
             for word in ("twinarm-replay", "--gravity"):
                 self.assertNotIn(word, error)
         # What the scene itself does not allow then, by the name of the file that was recorded.
@@ -185,12 +186,14 @@ class Recordings(RecordingCommand):
 
     def test_what_a_fork_cannot_change_is_refused(self):
         file = self.record(HELD % (50, 2, ""), "--duration", 0.1)
-        for change, words in (("coupling.stifness=1", "stifness"), ("step=0.1", "grid"),
-                              ("couplin.stiffness=1", "'coupling'"), ("nonsense", "PATH=VALUE"),
-                              ("coupling[7].stiffness=1", "no such"),
-                              ("coupling.stiffness=-1", "negative")):
-            self.assertIn(words, self.refused("replay", file, "--set", change))
-        self.assertIn("--from", self.refused("replay", file, "--from", 5))
+        for change, code, value in (("coupling.stifness=1", "scene.unknown-key", "stifness"),
+                                    ("step=0.1", "change.method", "--set step"),
+                                    ("couplin.stiffness=1", "change.unknown-key", "'coupling'"),
+                                    ("nonsense", "change.form", "PATH=VALUE"),
+                                    ("coupling[7].stiffness=1", "change.unknown-key", "coupling[0]"),
+                                    ("coupling.stiffness=-1", "scene.negative", "-1")):
+            self.assertIn(value, self.refused_as(code, "replay", file, "--set", change))
+        self.assertIn("--from", self.refused_as("recording.time", "replay", file, "--from", 5))
 
     def test_the_ledger_and_the_states_are_those_that_simulate_prints(self):
         file = self.record(BOXES % "", "--duration", 0.4)
@@ -257,10 +260,9 @@ class Damage(RecordingCommand):
                                 for n in exported["notes"]), exported["notes"])
         for cut in (0, 5, 11, 12, 20, frames[0] - 1):
             file.write_bytes(data[:cut])
-            for command in (("export", file, "--csv"), ("replay", file), ("inspect", file)):
-                error = self.refused(*command)
-                self.assertIn(str(file), error)
-                self.assertIn("empty" if cut == 0 else "cut short", error)
+            code = "recording.empty" if cut == 0 else "recording.cut-short"
+            for command in ("export", "replay", "inspect"):
+                self.assertIn(str(file), self.refused_as(code, command, file))
         file.write_bytes(data + b"more of something else")
         exported = self.exported(file)
         self.assertEqual(len(exported["frames"]), 6)
@@ -283,14 +285,14 @@ class Damage(RecordingCommand):
         data = bytearray(file.read_bytes())
         data[8:12] = struct.pack("<I", 7)
         file.write_bytes(data)
-        for command in (["export", file, "--csv"], ["replay", file], ["inspect", file]):
-            error = self.refused(*command)
+        for command in ("export", "replay", "inspect"):
+            error = self.refused_as("recording.version", command, file)
             self.assertIn("version 7", error)
             self.assertIn("version 2", error)
         file.write_bytes(b"not at all")
-        self.assertIn("no recording", self.refused("export", file, "--csv"))
-        self.assertIn("does not exist; check", self.refused("export", self.folder / "none", "--csv"))
-        self.assertIn("is a folder", self.refused("export", self.folder, "--csv"))
+        self.refused_as("recording.form", "export", file)
+        self.refused_as("file.missing", "export", self.folder / "none")
+        self.refused_as("file.is-folder", "export", self.folder)
 
     def test_a_run_that_is_killed_leaves_what_it_had_flushed(self):
         (self.folder / "test.urdf").write_text(PENDULUM)

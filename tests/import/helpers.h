@@ -79,6 +79,16 @@ inline bool tells(const std::vector<Fault>& faults, int line, const std::string&
   return false;
 }
 
+// The same of a fault of that code; `value` is what it names of the user's file, in any language.
+inline bool tells(const std::vector<Fault>& faults, int line, const std::string& code,
+                  const std::string& value) {
+  for (const Fault& fault : faults)
+    if (fault.line == line && fault.code == code &&
+        to_string(fault).find(value) != std::string::npos)
+      return true;
+  return false;
+}
+
 // Largest difference of two numbers or arrays relative to the size of the array; a tolerance of 0
 // demands equal bits (so 0 and -0 differ).
 inline bool same(double a, double b, double tolerance) {

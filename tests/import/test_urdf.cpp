@@ -159,7 +159,7 @@ TEST_CASE("a mesh may be stretched and mirrored, and stays oriented outward") {
     read_urdf(folder.write("arm.urdf", replaced(kGoodArm, "<box size=\"0.4 0.1 0.1\"/>", flat)));
   });
   CHECK(faults.size() == 1);
-  CHECK(tells(faults, 10, "'1 0 1', which flattens the mesh; give three numbers that are not 0"));
+  CHECK(tells(faults, 10, "urdf.mesh-scale", "'1 0 1'"));
 }
 
 // Sets an environment variable for as long as it lives.

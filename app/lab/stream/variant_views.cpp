@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "app/accounting/energy_balance.h"
 #include "app/robot/robot_table.h"
 
 namespace twinarm {

@@ -43,12 +43,13 @@ void check_contacts(const SceneModel& scene, Integrator integrator, FaultList& f
       if (coupling.leads() && coupling.needs_semi_implicit())
         faults.add({file, coupling.line, "coupling '" + coupling.coupling + "'",
                     "its treatment does not go with contact = \"event\"",
-                    "give treatment = \"explicit\", or contact = \"rigid\""});
+                    "give treatment = \"explicit\", or contact = \"rigid\"", "scene.treatment"});
   if (scene.may_touch() && integrator != Integrator::semi_implicit)
     faults.add({file, 0, "integrator",
                 std::string("contacts go with the semi-implicit integrator, not with ") +
                     integrator_name(integrator),
-                "give --integrator semi-implicit, or keep the bodies apart with groups"});
+                "give --integrator semi-implicit, or keep the bodies apart with groups",
+                "run.integrator"});
 }
 
 SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : scene_(scene) {
@@ -75,7 +76,7 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
     throw InputError({{scene.description.file.string(), 0, "contact",
                        deepest_pair_ + " stand " + short_number_text(deepest_at_start_) +
                            " m deep in one another at the start",
-                       "move them apart, or let contact = \"rigid\" do it"}});
+                       "move them apart, or let contact = \"rigid\" do it", "scene.deep"}});
   simulation.locate_events();
 }
 

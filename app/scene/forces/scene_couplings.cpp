@@ -52,7 +52,7 @@ int hold_steps(const SceneModel& scene, const SceneCoupling& coupling, double h,
               "coupling '" + coupling.coupling + "'",
               "between two evaluations at " + short_number_text(coupling.rate) + " Hz lie " +
                   short_number_text(steps) + " steps of " + short_number_text(h) + " s",
-              "choose rate and step so that it is a whole number"});
+              "choose rate and step so that it is a whole number", "scene.rate"});
   return 1;
 }
 

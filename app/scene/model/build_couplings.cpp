@@ -79,7 +79,8 @@ void add_god_object(SceneModel& scene, SceneCoupling made, FaultList& faults) {
              Pull::torsional, joint);
   if (made.springs.empty())
     faults.add({scene.description.file.string(), made.line, "coupling '" + made.name + "'",
-                "its robot has no joint to drive", "name a robot that can move"});
+                "its robot has no joint to drive", "name a robot that can move",
+                "scene.nothing-to-drive"});
 }
 
 }  // namespace

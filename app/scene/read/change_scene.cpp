@@ -135,28 +135,31 @@ Change parse_change(const std::string& text) {
   const std::size_t equal = text.find('=');
   if (equal == std::string::npos || equal == 0 || equal + 1 == text.size())
     throw InputError({{"", 0, "--set", "'" + text + "' is no change",
-                       "write PATH=VALUE, as in coupling.stiffness=800"}});
+                       "write PATH=VALUE, as in coupling.stiffness=800", "change.form"}});
   return {text.substr(0, equal), text.substr(equal + 1)};
 }
 
 void apply(const Change& change, int line, TomlValue& scene, FaultList& faults) {
-  const auto fault = [&](const std::string& rule, const std::string& remedy) {
-    faults.add({"", 0, "--set " + change.path, rule, remedy});
+  const auto fault = [&](const std::string& rule, const std::string& remedy,
+                         std::string_view code) {
+    faults.add({"", 0, "--set " + change.path, rule, remedy, code});
   };
   constexpr std::size_t kLongestPath = 16;  // each step is a table within a table
   SceneChange wanted(change, line);
   if (wanted.count() > kLongestPath)
     return fault("the path has " + std::to_string(wanted.count()) + " steps",
-                 "no number of a scene lies deeper than a few");
+                 "no number of a scene lies deeper than a few", "change.too-deep");
   const std::string& name = wanted.top();
   add_left_out(name, line, scene);
   std::vector<std::string> names;
   for (const TomlValue& member : scene.members) names.push_back(member.key);
   if (!scene.find(name))
-    return fault("the scene has no '" + name + "'", name_remedy(name, names, "keys"));
+    return fault("the scene has no '" + name + "'", name_remedy(name, names, "keys"),
+                 "change.unknown-key");
   if (!wanted.apply(scene))
     fault("the scene has no such " + name,
-          "write " + name + "[0].KEY, " + name + ".KEY for all, or " + name + ".NAME.KEY");
+          "write " + name + "[0].KEY, " + name + ".KEY for all, or " + name + ".NAME.KEY",
+          "change.unknown-key");
 }
 
 }  // namespace twinarm

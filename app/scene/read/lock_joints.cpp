@@ -31,11 +31,11 @@ void fix_at(JointDescription& joint, double q) {
 void SceneReader::lock_joints(SceneTable& table, RobotInScene& robot) {
   const TomlValue* list = table.find("lock");
   if (!list) return;
-  const auto fault = [&](const std::string& rule, const std::string& remedy) {
-    table.fault("lock", rule, remedy);
-  };
+  const auto fault = [&](const std::string& rule, const std::string& remedy,
+                         std::string_view code) { table.fault("lock", rule, remedy, code); };
   if (list->kind != TomlValue::Kind::list)
-    return fault("must be a list of joints, is " + describe(*list), "write lock = [\"joint1\"]");
+    return fault("must be a list of joints, is " + describe(*list), "write lock = [\"joint1\"]",
+                 "scene.type");
   std::vector<JointDescription>& joints = robot.description.joints;
   std::vector<std::string> names;
   for (const JointDescription& joint : joints)
@@ -49,15 +49,19 @@ void SceneReader::lock_joints(SceneTable& table, RobotInScene& robot) {
       return j.mimic && j.mimic->joint == item.text;
     };
     if (joint == joints.end())
-      fault("there is no joint " + describe(item), name_remedy(item.text, names, "joints"));
+      fault("there is no joint " + describe(item), name_remedy(item.text, names, "joints"),
+            "scene.unknown-name");
     else if (joint->mimic || std::any_of(joints.begin(), joints.end(), follows))
-      fault(quoted + " follows another, or another follows it", "leave both as they are");
+      fault(quoted + " follows another, or another follows it", "leave both as they are",
+            "scene.lock");
     else if (joint->type != JointDescription::Type::revolute &&
              joint->type != JointDescription::Type::continuous &&
              joint->type != JointDescription::Type::prismatic)
-      fault(quoted + " neither turns nor slides alone", "lock revolute and prismatic joints");
+      fault(quoted + " neither turns nor slides alone", "lock revolute and prismatic joints",
+            "scene.lock");
     else if (robot.qd.contains(item.text))
-      fault(quoted + " has a velocity at the start", "leave it out of qd, or of lock");
+      fault(quoted + " has a velocity at the start", "leave it out of qd, or of lock",
+            "scene.lock");
     else {
       const auto q = robot.q.find(item.text);
       fix_at(*joint, q == robot.q.end() ? 0 : q->second.values[0]);

@@ -58,8 +58,8 @@ class PathWalk {
   bool walk(TomlValue& scene) { return go(scene, 0); }
 
  private:
-  bool fault(const std::string& rule, const std::string& remedy) {
-    faults_.add({"", 0, where_, rule, remedy});
+  bool fault(const std::string& rule, const std::string& remedy, std::string_view code) {
+    faults_.add({"", 0, where_, rule, remedy, code});
     return false;
   }
   std::string up_to(std::size_t p) const {  // the path before part p, as "the scene" or "body[0]"
@@ -76,10 +76,10 @@ class PathWalk {
     const bool last = p + 1 == parts_.size();
     if (part.name.empty() || part.index == -2)
       return fault("'" + path_ + "' is no path",
-                   "write it as in coupling[0].stiffness, body.mass or step");
+                   "write it as in coupling[0].stiffness, body.mass or step", "path.form");
     if (table.kind != TomlValue::Kind::table)
       return fault(up_to(p) + " is " + describe(table) + ", and has no '" + part.name + "'",
-                   "name a number of the scene file");
+                   "name a number of the scene file", "path.unknown-key");
     TomlValue* member = find_member(table, part.name);
     if (!member && last && part.index < 0) {
       table.members.emplace_back();
@@ -90,7 +90,8 @@ class PathWalk {
     if (!member) {
       std::vector<std::string> names;
       for (const TomlValue& m : table.members) names.push_back(m.key);
-      return fault(up_to(p) + " has no '" + part.name + "'", name_remedy(part.name, names, "keys"));
+      return fault(up_to(p) + " has no '" + part.name + "'", name_remedy(part.name, names, "keys"),
+                   "path.unknown-key");
     }
     if (part.index >= 0) return go_to_item(*member, p, last);
     if (last) return take(*member, p, table);
@@ -102,11 +103,11 @@ class PathWalk {
     const auto i = static_cast<std::size_t>(parts_[p].index);
     if (list.kind != TomlValue::Kind::list)
       return fault("'" + parts_[p].name + "' is " + describe(list) + ", and has no items",
-                   "leave the brackets out");
+                   "leave the brackets out", "path.no-list");
     if (i >= list.items.size())
       return fault("'" + parts_[p].name + "' has " + std::to_string(list.items.size()) +
                        " items, counted from 0, and no item " + std::to_string(i),
-                   "give an index below " + std::to_string(list.items.size()));
+                   "give an index below " + std::to_string(list.items.size()), "path.no-item");
     return last ? take(list.items[i], p, list) : go(list.items[i], p + 1);
   }
 
@@ -116,7 +117,7 @@ class PathWalk {
       const TomlValue* name = item.find("name");
       if (!name || name->text != parts_[p + 1].name) continue;
       if (p + 2 < parts_.size()) return go(item, p + 2);
-      return fault("'" + path_ + "' is a table", "name one of its numbers");
+      return fault("'" + path_ + "' is a table", "name one of its numbers", "path.no-number");
     }
     return std::all_of(list.items.begin(), list.items.end(),
                        [&](TomlValue& item) { return go(item, p + 1); });
@@ -127,7 +128,8 @@ class PathWalk {
       const bool is_list = value.kind == TomlValue::Kind::list;
       return fault("'" + path_ + "' is " + describe(value) + ", and no number",
                    is_list ? "name one of them: " + parts_[p].name + "[0]"
-                           : "name a number of the scene file");
+                           : "name a number of the scene file",
+                   "path.no-number");
     }
     found.push_back(&value);
     tables.push_back(&inside);

@@ -26,7 +26,7 @@ std::optional<Matrix3> read_inertia(SceneTable& table, SceneDescription& scene) 
     table.fault(
         "inertia",
         "its principal moments must be positive, the least is " + short_number_text(principal[0]),
-        "give [xx, yy, zz, xy, xz, yz] in kg m^2, about the centre of mass");
+        "give [xx, yy, zz, xy, xz, yz] in kg m^2, about the centre of mass", "scene.inertia");
   else if (principal[0] + principal[1] < principal[2] * (1 - 1e-9))
     scene.warnings.push_back(scene.file.string() + ": " + table.where() +
                              ", inertia: no body has this one: of its principal moments the "
@@ -41,11 +41,13 @@ void read_mass(SceneTable& table, BodyDescription& body, SceneDescription& scene
   body.inertia = read_inertia(table, scene);
   if (table.has("com") && !table.has("inertia"))
     table.fault("com", "goes with 'inertia' alone: the inertia of the shape is about its centre",
-                "give inertia = [xx, yy, zz, xy, xz, yz] about this point");
+                "give inertia = [xx, yy, zz, xy, xz, yz] about this point", "scene.key-alone");
   if (table.has("mass") && table.has("density"))
-    table.fault("density", "the body has a mass already", "leave one of them out");
+    table.fault("density", "the body has a mass already", "leave one of them out",
+                "scene.two-keys");
   if (body.is_free() && !table.has("mass") && !table.has("density"))
-    table.fault("", "a free body needs a mass", "give mass or density, or fixed = true, or motion");
+    table.fault("", "a free body needs a mass", "give mass or density, or fixed = true, or motion",
+                "scene.missing");
 }
 
 void read_motion(SceneReader& reader, SceneTable& table, BodyDescription& body) {
@@ -56,14 +58,15 @@ void read_motion(SceneReader& reader, SceneTable& table, BodyDescription& body) 
                              velocities.vector("angular").value_or(Vector3::Zero())};
     velocities.done();
     if (body.fixed)
-      table.fault("motion", "a fixed body does not move", "leave 'fixed' or 'motion' out");
+      table.fault("motion", "a fixed body does not move", "leave 'fixed' or 'motion' out",
+                  "scene.two-keys");
   }
   for (const auto& [key, velocity] : {std::pair{"linear_velocity", &body.linear_velocity},
                                       std::pair{"angular_velocity", &body.angular_velocity}}) {
     *velocity = table.vector(key).value_or(Vector3::Zero());
     if (!body.is_free() && !velocity->isZero(0))
       table.fault(key, "is of a free body, and this one is not",
-                  "leave it out, or give motion = { linear, angular }");
+                  "leave it out, or give motion = { linear, angular }", "scene.key-useless");
   }
 }
 
@@ -71,11 +74,11 @@ void read_motion(SceneReader& reader, SceneTable& table, BodyDescription& body) 
 void read_looks(SceneReader& reader, SceneTable& table, BodyDescription& body) {
   body.color = table.vector("color");
   if (body.color && !(body.color->minCoeff() >= 0 && body.color->maxCoeff() <= 1))
-    table.fault("color", "red, green and blue must lie from 0 to 1", "");
+    table.fault("color", "red, green and blue must lie from 0 to 1", "", "scene.range");
   if (const auto name = table.text("texture"))
     body.texture = reader.find_file(table, "texture", *name).value_or("");
   if (!body.texture.empty() && std::holds_alternative<HalfSpaceSpec>(body.shape))
-    table.fault("texture", "a half-space has none", "leave it out");
+    table.fault("texture", "a half-space has none", "leave it out", "scene.key-useless");
 }
 
 }  // namespace
@@ -90,7 +93,7 @@ void SceneReader::read_body(const TomlValue& value) {
     body.shape = *shape;
     if (const char* why = why_not_free(*shape); why && body.is_free())
       table.fault("shape", std::string(why) + ": it cannot be a free body",
-                  "give fixed = true or motion = { ... }");
+                  "give fixed = true or motion = { ... }", "scene.no-inside");
   }
   read_mass(table, body, scene);
   body.X_WB = read_pose(table);
@@ -99,7 +102,8 @@ void SceneReader::read_body(const TomlValue& value) {
   if (const auto group = table.number("group")) {
     body.group = static_cast<int>(*group);
     if (!(*group >= 0 && *group <= 31 && *group == body.group))
-      table.fault("group", "must be a whole number from 0 to 31, is " + number_text(*group), "");
+      table.fault("group", "must be a whole number from 0 to 31, is " + number_text(*group), "",
+                  "scene.range");
   }
   table.done();
   scene.bodies.push_back(std::move(body));

@@ -23,35 +23,37 @@ void SceneReader::read_constraint(const TomlValue& value, std::size_t index) {
     if (gear) {
       const auto joint = find_joint(scene, *name);
       if (!joint)
-        table.fault(key, "there is no joint '" + *name + "'", "name it as robot/joint");
+        table.fault(key, "there is no joint '" + *name + "'", "name it as robot/joint",
+                    "scene.unknown-name");
       else if (joint->joint->dofs() != 1)
         table.fault(key,
                     "the joint has " + std::to_string(joint->joint->dofs()) + " degrees of freedom",
-                    "a gear goes between joints of one");
+                    "a gear goes between joints of one", "scene.degrees-of-freedom");
       return *name;
     }
     const auto found = find_reference(scene, *name);
     if (!found || (found->robot >= 0 && found->link.empty()))
       table.fault(key, found ? "a robot has many links" : "there is no body '" + *name + "'",
-                  name_remedy(*name, reference_names(scene), "names"));
+                  name_remedy(*name, reference_names(scene), "names"), "scene.unknown-name");
     return *name;
   };
   constraint.a = read_end("a");
   constraint.b = read_end("b");
   if (!constraint.a.empty() && constraint.a == constraint.b)
-    table.fault("b", "is the same as a", "name two");
+    table.fault("b", "is the same as a", "name two", "scene.same-ends");
 
   const auto place = [&](const char* key, bool allowed) -> std::optional<Vector3> {
     const auto found = table.vector(key);
     if (table.has(key) && !allowed)
-      table.fault(key, "has no meaning in this type of constraint", "leave it out");
+      table.fault(key, "has no meaning in this type of constraint", "leave it out",
+                  "scene.key-useless");
     return found;
   };
   constraint.point = place("point", !gear);
   constraint.point_b = place("point_b", constraint.type == Type::distance);
   constraint.axis = place("axis", constraint.type == Type::hinge);
   if (constraint.axis && !(constraint.axis->norm() > 0))
-    table.fault("axis", "has no direction", "give an axis that is not zero");
+    table.fault("axis", "has no direction", "give an axis that is not zero", "scene.no-direction");
   if (constraint.type == Type::ball || constraint.type == Type::hinge)
     table.missing("point", "give the point that both share, in the world at the start");
   if (constraint.type == Type::hinge)
@@ -59,8 +61,8 @@ void SceneReader::read_constraint(const TomlValue& value, std::size_t index) {
   if (gear) table.missing("ratio", "give the speed of a as a multiple of that of b");
   if (const auto ratio = table.number("ratio")) {
     constraint.ratio = *ratio;
-    if (!gear) table.fault("ratio", "is of a gear", "leave it out");
-    if (*ratio == 0) table.fault("ratio", "must not be 0", "");
+    if (!gear) table.fault("ratio", "is of a gear", "leave it out", "scene.key-useless");
+    if (*ratio == 0) table.fault("ratio", "must not be 0", "", "scene.zero");
   }
   table.done();
   scene.constraints.push_back(std::move(constraint));

@@ -26,7 +26,7 @@ const RobotInScene* read_robot_of(SceneTable& table, const SceneDescription& sce
     if (robot.name == coupling.robot) return &robot;
   if (!coupling.robot.empty())
     table.fault("robot", "there is no robot '" + coupling.robot + "'",
-                name_remedy(coupling.robot, names, "robots"));
+                name_remedy(coupling.robot, names, "robots"), "scene.unknown-name");
   return nullptr;
 }
 
@@ -38,18 +38,19 @@ void read_link(SceneTable& table, const RobotDescription& robot, CouplingDescrip
   for (const LinkDescription& link : robot.links) names.push_back(link.name);
   if (!find_link(robot, coupling.link))
     return table.fault("link", "there is no link '" + coupling.link + "'",
-                       name_remedy(coupling.link, names, "links"));
+                       name_remedy(coupling.link, names, "links"), "scene.unknown-name");
   if (coupling.type != CouplingDescription::Type::torsional || coupling.measure != Measure::joint)
     return;
   for (const JointDescription& joint : robot.joints)
     if (joint.child == coupling.link && joint.dofs() == 1 && !joint.mimic) return;
   table.fault("link", "its joint has not one degree of freedom of its own",
-              "name a link on a revolute, prismatic or screw joint, or give measure = \"world\"");
+              "name a link on a revolute, prismatic or screw joint, or give measure = \"world\"",
+              "scene.degrees-of-freedom");
 }
 
 // Whether the key is one of the law's; told where it stands and is not.
 bool fits(SceneTable& table, const char* key, bool is_of_law, const char* rule) {
-  if (!is_of_law && table.has(key)) table.fault(key, rule, "leave it out");
+  if (!is_of_law && table.has(key)) table.fault(key, rule, "leave it out", "scene.key-useless");
   return is_of_law;
 }
 
@@ -70,10 +71,10 @@ void read_treatment(SceneTable& table, const CouplingFacts& facts, CouplingDescr
   if (coupling.treatment == Treatment::explicit_) return;
   if (facts.treatments == Treatments::explicit_only)
     table.fault("treatment", "this type of coupling is explicit: it sees the start of the step",
-                "leave it out, or choose another type");
+                "leave it out, or choose another type", "scene.treatment");
   if (coupling.rate > 0)
     table.fault("rate", "a held force is explicit: it cannot see the end of the step",
-                "give treatment = \"explicit\", or leave 'rate' out");
+                "give treatment = \"explicit\", or leave 'rate' out", "scene.treatment");
 }
 
 void read_gains(SceneTable& table, CouplingDescription& coupling) {
@@ -102,7 +103,8 @@ void read_gains(SceneTable& table, CouplingDescription& coupling) {
     if (fits(table, key, is_weld, "is of a weld")) *value = table.positive(key).value_or(*value);
   if (is_weld && weld.impedance >= 1)
     table.fault("impedance", "must be below 1: at 1 the weld would be rigid",
-                "give a number between 0 and 1, or a [[constraint]] of type \"weld\"");
+                "give a number between 0 and 1, or a [[constraint]] of type \"weld\"",
+                "scene.range");
 }
 
 // How it pulls, and where.
@@ -131,12 +133,13 @@ void read_outside(SceneTable& table, CouplingDescription& coupling) {
   if (!ends) return;
   coupling.outside = {(*ends)[0], (*ends)[1]};
   if (!((*ends)[0] <= (*ends)[1]))
-    table.fault("outside", "the first is above the second", "give [lower, upper]");
+    table.fault("outside", "the first is above the second", "give [lower, upper]", "scene.order");
   const bool at_joint =
       coupling.type == CouplingDescription::Type::torsional && coupling.measure == Measure::joint;
   if (!at_joint || coupling.treatment != Treatment::implicit || table.has("target"))
     table.fault("outside", "a stop is a torsional coupling at a joint, implicit, without a target",
-                "give type = \"torsional\", measure = \"joint\", and leave the others out");
+                "give type = \"torsional\", measure = \"joint\", and leave the others out",
+                "scene.stop");
 }
 
 // The joint that the button of the hand moves.
@@ -145,7 +148,8 @@ void read_gripper(SceneReader& reader, SceneTable& table, const RobotDescription
   const TomlValue* value = table.table("gripper");
   if (!value) return;
   if (!target.is_hand())
-    table.fault("gripper", "no hand moves this target", "give one, as target = \"paper\"");
+    table.fault("gripper", "no hand moves this target", "give one, as target = \"paper\"",
+                "scene.key-useless");
   SceneTable gripper = reader.open(*value, table.where() + ", gripper");
   for (const char* key : {"joint", "open", "closed"})
     gripper.missing(key, "give { joint = \"..\", open = 0, closed = 0.06 }");
@@ -159,19 +163,19 @@ void read_gripper(SceneReader& reader, SceneTable& table, const RobotDescription
   if (!target.gripper.empty() &&
       std::find(names.begin(), names.end(), target.gripper) == names.end())
     gripper.fault("joint", "there is no such joint of one degree of freedom",
-                  name_remedy(target.gripper, names, "joints"));
+                  name_remedy(target.gripper, names, "joints"), "scene.unknown-name");
 }
 
 void read_synthetic(SceneTable& hand, CouplingTarget& target) {
   target.kind = CouplingTarget::Kind::synthetic;
   const double seed = hand.not_negative("seed").value_or(1);
   if (!(seed <= 4294967295.0) || seed != std::floor(seed))
-    hand.fault("seed", "must be a whole number below 2^32", "give seed = 1");
+    hand.fault("seed", "must be a whole number below 2^32", "give seed = 1", "scene.range");
   else
     target.seed = static_cast<unsigned>(seed);
   target.duration = hand.positive("duration").value_or(20);
   if (target.duration > 1e5)
-    hand.fault("duration", "must be at most 100000 s", "give a shorter one");
+    hand.fault("duration", "must be at most 100000 s", "give a shorter one", "scene.range");
 }
 
 // What should be known of a trace before a run on it. Its faults are told where it is played.
@@ -221,12 +225,12 @@ void read_pace(SceneTable& table, CouplingDescription& coupling) {
   coupling.delay = table.not_negative("delay").value_or(0);
   if (coupling.delay > 0 && !moves)
     table.fault("delay", "the target stands still: seen late, it is the same",
-                "leave it out, or give a target that moves");
+                "leave it out, or give a target that moves", "scene.key-useless");
   const auto speed = table.positive("speed");
   coupling.speed = speed.value_or(1);
   if (speed && target != Kind::paper && target != Kind::trace && target != Kind::synthetic)
     table.fault("speed", "is of a target that is a motion by name or a trace",
-                "leave it out, or give target = \"paper\" or a trace file");
+                "leave it out, or give target = \"paper\" or a trace file", "scene.key-useless");
 }
 
 }  // namespace

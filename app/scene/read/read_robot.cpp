@@ -42,7 +42,8 @@ void read_masses(SceneReader& reader, SceneTable& table, RobotInScene& robot) {
   for (const LinkDescription& link : robot.description.links) links.push_back(link.name);
   const auto check_link = [&](SceneTable& where, const std::string& key, const std::string& name) {
     if (std::find(links.begin(), links.end(), name) == links.end())
-      where.fault(key, "there is no link '" + name + "'", name_remedy(name, links, "links"));
+      where.fault(key, "there is no link '" + name + "'", name_remedy(name, links, "links"),
+                  "scene.unknown-name");
   };
   if (const TomlValue* scales = table.table("mass_scale")) {
     SceneTable factors = reader.open(*scales, table.where() + ", mass_scale");
@@ -86,12 +87,12 @@ JointValueMap SceneReader::read_joints(SceneTable& table, const char* key,
                                     [&](const JointDescription& j) { return j.name == name; });
     if (joint == robot.joints.end()) {
       joints.fault(name, "there is no such joint",
-                   name_remedy(name, moving_joints(robot), "joints"));
+                   name_remedy(name, moving_joints(robot), "joints"), "scene.unknown-name");
     } else if (joint->mimic || joint->dofs() == 0) {
       joints.fault(name,
                    joint->mimic ? "it follows joint '" + joint->mimic->joint + "'"
                                 : "it is fixed, and has no coordinate",
-                   "leave it out");
+                   "leave it out", "scene.no-coordinate");
     } else {
       const std::size_t count =
           velocities ? static_cast<std::size_t>(joint->dofs()) : coordinate_count(*joint);
@@ -103,7 +104,8 @@ JointValueMap SceneReader::read_joints(SceneTable& table, const char* key,
       if (!numbers) continue;
       const int first = velocities ? -1 : first_of_quaternion(joint->type);
       if (first >= 0 && !normalise(numbers->data() + first))
-        joints.fault(name, "a quaternion (w, x, y, z) has length 1", "divide it by its length");
+        joints.fault(name, "a quaternion (w, x, y, z) has length 1", "divide it by its length",
+                     "scene.length");
       found[name] = {*numbers, value.line};
     }
   }
@@ -123,7 +125,8 @@ void SceneReader::read_robot(const TomlValue& value) {
                                       std::pair{"angular_velocity", &robot.angular_velocity}}) {
     *velocity = table.vector(key).value_or(Vector3::Zero());
     if (!robot.floating && !velocity->isZero(0))
-      table.fault(key, "the robot stands on the world", "give base = \"floating\"");
+      table.fault(key, "the robot stands on the world", "give base = \"floating\"",
+                  "scene.key-useless");
   }
 
   table.missing("model", "give model = \"robots/.../robot.urdf\"");

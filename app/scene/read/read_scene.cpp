@@ -72,17 +72,19 @@ std::string SceneReader::read_name(SceneTable& table, const char* kind) {
   table.rename(std::string(kind) + " '" + name + "'");
   if (name.find('/') != std::string::npos)
     table.fault("name", "must not contain '/': that parts a robot from its link",
-                "choose another name");
-  if (name == "world") table.fault("name", "'world' is the world itself", "choose another name");
+                "choose another name", "scene.name");
+  if (name == "world")
+    table.fault("name", "'world' is the world itself", "choose another name", "scene.name");
   const auto is_same = [&](const auto& item) { return item.name == name; };
   if (std::any_of(scene.robots.begin(), scene.robots.end(), is_same) ||
       std::any_of(scene.bodies.begin(), scene.bodies.end(), is_same))
-    table.fault("name", "the name is taken already", "give each robot and body its own name");
+    table.fault("name", "the name is taken already", "give each robot and body its own name",
+                "scene.name-taken");
   // One robot's links keep their names in what is printed, beside those of the bodies.
   else if (std::string(kind) == "body" && scene.robots.size() == 1 &&
            find_link(scene.robots[0].description, name))
     table.fault("name", "a link of robot '" + scene.robots[0].name + "' has this name",
-                "choose another name");
+                "choose another name", "scene.name-taken");
   return name;
 }
 
@@ -92,7 +94,7 @@ Surface SceneReader::read_surface(SceneTable& table) {
   if (const auto e = table.not_negative("restitution")) {
     if (*e > 1)
       table.fault("restitution", "must be at most 1: an impact creates no energy",
-                  "give a number from 0 to 1");
+                  "give a number from 0 to 1", "scene.range");
     surface.restitution = *e;
   }
   surface.torsional_friction = table.not_negative("torsional_friction").value_or(0);
@@ -120,7 +122,7 @@ void SceneReader::read_pair(const TomlValue& value) {
       table.fault(
           key,
           name == "world" ? "the world has no surface" : "there is no body or robot '" + name + "'",
-          name_remedy(name, reference_names(scene), "names"));
+          name_remedy(name, reference_names(scene), "names"), "scene.unknown-name");
     return name;
   };
   pair.a = read_end("a");
@@ -129,7 +131,7 @@ void SceneReader::read_pair(const TomlValue& value) {
   pair.restitution = table.not_negative("restitution");
   if (pair.restitution.value_or(0) > 1)
     table.fault("restitution", "must be at most 1: an impact creates no energy",
-                "give a number from 0 to 1");
+                "give a number from 0 to 1", "scene.range");
   pair.stiffness = table.positive("stiffness");
   pair.dissipation = table.not_negative("dissipation");
   pair.collide = table.flag("collide");
@@ -152,10 +154,10 @@ std::optional<std::filesystem::path> SceneReader::find_file(SceneTable& table,
       return fs::absolute(place).lexically_normal();
   if (roots)  // the same whether there is one or not
     table.fault(key, "the file '" + name + "' is not among those that this scene may read",
-                "upload it before the scene, or name one below assets/");
+                "upload it before the scene, or name one below assets/", "file.missing");
   else
     table.fault(key, "the file '" + name + "' does not exist",
-                "give it absolute, relative to the scene, or below assets/");
+                "give it absolute, relative to the scene, or below assets/", "file.missing");
   return std::nullopt;
 }
 

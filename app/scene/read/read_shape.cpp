@@ -18,7 +18,7 @@ Vector3 lengths(SceneTable& table, const char* key) {
   table.missing(key, std::string("give ") + key + " = [x, y, z] in metres");
   const auto found = table.vector(key);
   if (found && !(found->minCoeff() > 0))
-    table.fault(key, "all three must be positive", "give lengths above 0");
+    table.fault(key, "all three must be positive", "give lengths above 0", "scene.not-positive");
   return found.value_or(Vector3::Ones());
 }
 
@@ -46,7 +46,7 @@ ShapeSpec read_mesh(SceneReader& reader, SceneTable& table) {
   else if (scale)
     mesh.mesh.scale = table.vector("scale").value_or(Vector3::Ones());
   if ((mesh.mesh.scale.array() == 0).any())
-    table.fault("scale", "must not be 0", "give metres per unit of the file");
+    table.fault("scale", "must not be 0", "give metres per unit of the file", "scene.zero");
   mesh.convex = table.flag("convex").value_or(true);
   return mesh;
 }
@@ -94,12 +94,13 @@ std::optional<ShapeSpec> SceneReader::read_shape(SceneTable& body) {
   std::vector<std::string> names;
   for (const ShapeByName& known : kShapes) names.emplace_back(known.name);
   if (shape->members.empty())
-    body.fault("shape", "names no shape", name_remedy("", names, "shapes"));
+    body.fault("shape", "names no shape", name_remedy("", names, "shapes"), "scene.shapes");
   if (shape->members.size() > 1) {
     std::string given;
     for (const TomlValue& member : shape->members)
       given += (given.empty() ? "" : " and ") + member.key;
-    body.fault("shape", "names " + given, "give one shape; a second one needs a second body");
+    body.fault("shape", "names " + given, "give one shape; a second one needs a second body",
+               "scene.shapes");
   }
   std::optional<ShapeSpec> found;
   for (const TomlValue& member : shape->members) {
@@ -107,9 +108,11 @@ std::optional<ShapeSpec> SceneReader::read_shape(SceneTable& body) {
     const auto known = std::find(names.begin(), names.end(), member.key);
     if (known == names.end()) {
       open(*shape, where)
-          .fault(member.key, "there is no such shape", name_remedy(member.key, names, "shapes"));
+          .fault(member.key, "there is no such shape", name_remedy(member.key, names, "shapes"),
+                 "scene.unknown-key");
     } else if (member.kind != TomlValue::Kind::table) {
-      open(*shape, where).fault(member.key, "must be a table, is " + describe(member), "");
+      open(*shape, where)
+          .fault(member.key, "must be a table, is " + describe(member), "", "scene.type");
     } else {
       SceneTable table = open(member, where + ", " + member.key);
       found = kShapes[static_cast<std::size_t>(known - names.begin())].read(*this, table);

@@ -40,7 +40,7 @@ struct SceneReader {
     for (const auto& other : others)
       if (other.name == name)
         table.fault("name", "the name is taken already",
-                    std::string("give each ") + kind + " its own name");
+                    std::string("give each ") + kind + " its own name", "scene.name-taken");
     return name;
   }
   Surface read_surface(SceneTable& table);

@@ -33,13 +33,20 @@ std::string parameter_words(const Identification& found, std::size_t j) {
   return words + "</span></span> ";
 }
 
+bool is_open(double singular_value) {
+  return !(singular_value * std::log(kOpenFactor) > 1);
+}
+
+bool leaves_open(const Identification& found) {
+  return std::any_of(found.singular_values.begin(), found.singular_values.end(), is_open);
+}
+
 // The combinations that the row does not hold: "k1 b1^-0.9", those parts that weigh.
 std::string open_combinations(const Identification& found) {
+  if (!leaves_open(found)) return "none";
   std::string words;
-  int open = 0;
   for (std::size_t i = 0; i < found.singular_values.size(); ++i) {
-    if (found.singular_values[i] * std::log(kOpenFactor) > 1) continue;
-    ++open;
+    if (!is_open(found.singular_values[i])) continue;
     const std::vector<double>& v = found.directions[i];
     const auto largest = std::max_element(
         v.begin(), v.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
@@ -55,7 +62,7 @@ std::string open_combinations(const Identification& found) {
     }
     words += (words.empty() ? "" : ", ") + product;
   }
-  return open == 0 ? "none" : words;
+  return words;
 }
 
 // Over all parameters that the profiles found within the allowance.
@@ -124,7 +131,7 @@ std::string verdict(const std::vector<Identification>& all) {
       ++asked;
       if (found.fit.objective > 1) continue;
       ++agree;
-      if (open_combinations(found) != "none") ++open;
+      if (leaves_open(found)) ++open;
     }
     html += fmt::format(
         "<li>{}: {} of {} pairs of law and rate agree with all four numbers to the digit; {} of "

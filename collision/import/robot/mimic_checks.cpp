@@ -33,27 +33,30 @@ class MimicRules {
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  void fault(std::size_t follower, const std::string& rule, const std::string& remedy) {
+  void fault(std::size_t follower, const std::string& rule, const std::string& remedy,
+             std::string_view code) {
     const JointDescription& joint = book_.robot.joints[follower];
-    book_.fault(line_of(joint.lines.mimic, joint.line), of(joint), rule, remedy);
+    book_.fault(line_of(joint.lines.mimic, joint.line), of(joint), rule, remedy, code);
   }
 
   void pair(std::size_t follower, std::size_t leader) {
     const JointDescription& joint = book_.robot.joints[follower];
     if (!std::isfinite(joint.mimic->multiplier) || !std::isfinite(joint.mimic->offset))
-      fault(follower, "its mimic has a number that is not finite", "give finite numbers");
+      fault(follower, "its mimic has a number that is not finite", "give finite numbers",
+            "robot.not-finite");
     if (leader == kNone)
       return fault(follower, "it mimics joint '" + joint.mimic->joint + "', which does not exist",
-                   "name a joint of this robot");
+                   "name a joint of this robot", "robot.mimic-unknown");
     if (leader == follower)
-      return fault(follower, "it mimics itself", "name the joint that it follows");
+      return fault(follower, "it mimics itself", "name the joint that it follows",
+                   "robot.mimic-itself");
     const JointDescription& other = book_.robot.joints[leader];
     for (const JointDescription* j : {&joint, &other})
       if (j->dofs() != 1)
         return fault(follower,
                      "it mimics " + of(other) + ", but " + of(*j) + " (" + to_string(j->type) +
                          ") has " + std::to_string(j->dofs()) + " coordinates",
-                     kOneCoordinate);
+                     kOneCoordinate, "robot.mimic-coordinates");
     if (joint.mimic->multiplier == 0)
       book_.warn(line_of(joint.lines.mimic, joint.line), of(joint),
                  "its mimic has multiplier 0: it stands still at the offset",
@@ -79,7 +82,8 @@ class MimicRules {
         first = std::min(first, k);
         if (k == j) break;
       }
-      fault(first, "joints mimic each other in a loop: " + text, "let one of them lead");
+      fault(first, "joints mimic each other in a loop: " + text, "let one of them lead",
+            "robot.mimic-loop");
     }
   }
 

@@ -35,7 +35,8 @@ void unique_names(RuleBook& book, const std::vector<Item>& items, const std::str
   std::map<std::string, int> first_line;
   for (const Item& item : items) {
     if (item.name.empty()) {
-      book.fault(item.line, kind, "it has no name", "give it a name of its own");
+      book.fault(item.line, kind, "it has no name", "give it a name of its own",
+                 "robot.name-missing");
       continue;
     }
     const auto [first, is_new] = first_line.emplace(item.name, item.line);
@@ -43,7 +44,7 @@ void unique_names(RuleBook& book, const std::vector<Item>& items, const std::str
       book.fault(
           item.line, of(item),
           "the name is taken already by the " + kind + " of line " + std::to_string(first->second),
-          "give each " + kind + " a name of its own");
+          "give each " + kind + " a name of its own", "robot.name-taken");
   }
 }
 
@@ -79,7 +80,8 @@ Type urdf_type_of(Type type, bool limited) {
 RobotCheck check_robot(const RobotDescription& robot, bool strict) {
   RuleBook book{robot, {}};
   if (robot.links.empty())
-    book.fault(0, "robot '" + robot.name + "'", "it has no link", "give at least one link");
+    book.fault(0, "robot '" + robot.name + "'", "it has no link", "give at least one link",
+               "robot.empty");
   unique_names(book, robot.links, "link");
   unique_names(book, robot.joints, "joint");
   check_values(book, strict);

@@ -33,7 +33,7 @@ class TreeRules {
       book_.fault(line_of(line, joint.line), of(joint),
                   "its " + role + " link " +
                       (link.empty() ? "is not given" : "'" + link + "' does not exist"),
-                  "name a link of this robot");
+                  "name a link of this robot", "robot.link-unknown");
       return false;
     };
     bool children_known = true;
@@ -49,11 +49,11 @@ class TreeRules {
     for (const JointDescription& joint : robot_.joints) {
       const auto [first, is_new] = parent_joint_.emplace(joint.child, &joint);
       if (!is_new)
-        book_.fault(
-            joint.line, of(joint),
-            "its child link '" + joint.child + "' has a parent already, by " + of(*first->second) +
-                " of line " + std::to_string(first->second->line),
-            "a robot is a tree: give each link one parent, and close loops by a constraint");
+        book_.fault(joint.line, of(joint),
+                    "its child link '" + joint.child + "' has a parent already, by " +
+                        of(*first->second) + " of line " + std::to_string(first->second->line),
+                    "a robot is a tree: give each link one parent, and close loops by a constraint",
+                    "robot.two-parents");
     }
   }
 
@@ -88,7 +88,8 @@ class TreeRules {
       text += up->parent + " -> ";
     }
     book_.fault(first->line, of(*first), "its links form a loop: " + text + loop.front(),
-                "a robot is a tree: leave one joint out, and close the loop by a constraint");
+                "a robot is a tree: leave one joint out, and close the loop by a constraint",
+                "robot.loop");
   }
 
   void one_root() {
@@ -99,7 +100,8 @@ class TreeRules {
         book_.fault(link.line, of(link),
                     "it has no parent, and '" + first->name + "' of line " +
                         std::to_string(first->line) + " has none either: a robot has one root",
-                    "join it to the tree, with a fixed joint if it does not move");
+                    "join it to the tree, with a fixed joint if it does not move",
+                    "robot.two-roots");
       if (!first) first = &link;
     }
   }

@@ -32,7 +32,8 @@ void physical_moments(RuleBook& book, const LinkDescription& link, bool strict) 
   if (strict)
     book.fault(line, of(link), rule,
                "no rigid body of positive density has it; check units, signs and the order ixx ixy "
-               "ixz iyy iyz izz, about the centre of mass");
+               "ixz iyy iyz izz, about the centre of mass",
+               "robot.inertia-not-physical");
   else
     book.warn(line, of(link), rule,
               "no rigid body of positive density has it; forward dynamics may still work, MuJoCo "
@@ -44,11 +45,11 @@ void inertia(RuleBook& book, const LinkDescription& link, bool strict) {
   const int mass_line = line_of(link.mass_line, link.line);
   if (!std::isfinite(link.mass) || !link.com.allFinite() || !link.inertia.allFinite())
     return book.fault(mass_line, of(link), "its mass, centre or inertia is not a finite number",
-                      "give finite numbers in SI units");
+                      "give finite numbers in SI units", "robot.not-finite");
   if (link.mass < 0)
     book.fault(mass_line, of(link),
                "its mass is " + number_text(link.mass) + " kg, must not be negative",
-               "give the mass in kg");
+               "give the mass in kg", "robot.negative");
   if (link.inertia.isZero(0)) {
     if (link.mass > 0)
       book.warn(line_of(link.inertia_line, link.line), of(link),
@@ -67,12 +68,12 @@ void values(RuleBook& book, const JointDescription& joint) {
   const JointDescription::Lines& lines = joint.lines;
   if (joint.has_axis() && !(joint.axis.norm() >= 1e-9))
     book.fault(line_of(lines.axis, joint.line), of(joint), "its axis is zero",
-               "give a direction such as 0 0 1");
+               "give a direction such as 0 0 1", "robot.axis-zero");
   if (joint.is_limited() && !(joint.lower <= joint.upper))
     book.fault(line_of(lines.limits, joint.line), of(joint),
                "its lower limit " + number_text(joint.lower) + " lies above its upper limit " +
                    number_text(joint.upper),
-               "exchange them, or make the joint continuous");
+               "exchange them, or make the joint continuous", "robot.limits");
   if (joint.type == JointDescription::Type::screw && joint.pitch == 0)
     book.warn(line_of(lines.extension, joint.line), of(joint), "its pitch is 0",
               "then it is a plain hinge: make it continuous");
@@ -81,7 +82,7 @@ void values(RuleBook& book, const JointDescription& joint) {
       book.fault(
           line_of(line, joint.line), of(joint),
           std::string("its ") + name + " is " + number_text(value) + ", must not be negative",
-          "a negative value would feed energy into the joint");
+          "a negative value would feed energy into the joint", "robot.negative");
   };
   not_negative("damping", joint.damping, lines.dynamics);
   not_negative("friction", joint.friction, lines.dynamics);

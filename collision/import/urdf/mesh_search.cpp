@@ -75,8 +75,9 @@ FilePlace find_named_file(const std::string& kind, const std::string& name, cons
     if (!may_name(roots, expected))  // the same whether there is one or not
       return {{},
               kind + " file '" + name + "' lies outside the folders that may be read",
-              "upload it with the URDF, and name it relative to the URDF"};
-    if (is_file(expected)) return {expected, "", ""};
+              "upload it with the URDF, and name it relative to the URDF",
+              "file.missing"};
+    if (is_file(expected)) return {expected, "", "", ""};
     place.remedy = "expected at " + expected.string();
   } else {
     const std::size_t slash = name.find('/', scheme + 3);
@@ -84,15 +85,17 @@ FilePlace find_named_file(const std::string& kind, const std::string& name, cons
     if (!is_package || slash == std::string::npos || slash == scheme + 3)
       return {{},
               kind + " '" + name + "' has a scheme that is not known",
-              "give a path relative to the URDF, or package://NAME/PATH, or file://"};
+              "give a path relative to the URDF, or package://NAME/PATH, or file://",
+              "file.scheme-unknown"};
     const fs::path found = find_in_package(name.substr(scheme + 3, slash - scheme - 3),
                                            name.substr(slash + 1), folder);
     if (!found.empty() && may_name(roots, found))
-      return {fs::absolute(found).lexically_normal(), "", ""};
+      return {fs::absolute(found).lexically_normal(), "", "", ""};
     place.remedy = "the package was sought above and beside " + folder.string() +
                    " and in ROS_PACKAGE_PATH; put it there, or give a path relative to the URDF";
   }
   place.rule = kind + " file '" + name + "' does not exist";
+  place.code = "file.missing";
   return place;
 }
 

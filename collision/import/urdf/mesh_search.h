@@ -17,6 +17,7 @@ bool may_name(const FileRoots& roots, const std::filesystem::path& file);
 struct FilePlace {
   std::filesystem::path file;  // absolute; empty where it was not found
   std::string rule, remedy;    // then: why not, and what to do
+  std::string_view code;       // of the fault
 };
 
 // A name without scheme, or with file://, is relative to `folder` (that of the robot's file) unless

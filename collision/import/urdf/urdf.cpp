@@ -44,13 +44,14 @@ void read_inertial(const XMLElement& element, const std::string& where, LinkDesc
     link.mass = source.number(*mass, "value", where).value_or(1.0);
   } else {
     source.fault(element.GetLineNum(), where, "<inertial> has no <mass>",
-                 "give <mass value=\"...\"/> in kg");
+                 "give <mass value=\"...\"/> in kg", "urdf.mass-missing");
   }
 
   const XMLElement* inertia = element.FirstChildElement("inertia");
   if (!inertia) {
     source.fault(element.GetLineNum(), where, "<inertial> has no <inertia>",
-                 "give <inertia ixx ixy ixz iyy iyz izz/> about the centre of mass");
+                 "give <inertia ixx ixy ixz iyy iyz izz/> about the centre of mass",
+                 "urdf.inertia-missing");
     return;
   }
   link.inertia_line = inertia->GetLineNum();
@@ -90,10 +91,10 @@ const XMLElement& open_robot(tinyxml2::XMLDocument& document, UrdfSource& source
   std::error_code ignored;
   const XMLElement* robot = nullptr;
   if (!std::filesystem::is_regular_file(source.file(), ignored)) {
-    source.fault(0, "", "the file does not exist", "check the path");
+    source.fault(0, "", "the file does not exist", "check the path", "file.missing");
   } else if (std::filesystem::file_size(source.file(), ignored) > kMaxBytes) {
-    source.fault(0, "", "the file has more than 16 MiB",
-                 "give a URDF file; meshes stand in theirs");
+    source.fault(0, "", "the file has more than 16 MiB", "give a URDF file; meshes stand in theirs",
+                 "file.too-large");
   } else if (document.LoadFile(source.file().c_str()) != tinyxml2::XML_SUCCESS) {
     // Where an end tag is missing, the line is that of the element's beginning.
     const bool may_be_open = document.ErrorID() == tinyxml2::XML_ERROR_PARSING ||
@@ -101,15 +102,16 @@ const XMLElement& open_robot(tinyxml2::XMLDocument& document, UrdfSource& source
     source.fault(document.ErrorLineNum(), "", "not well-formed XML: " + xml_error_text(document),
                  may_be_open ? "mend the XML near this line, or close the element that begins here "
                                "(is there a </robot> at the end?)"
-                             : "mend the XML at or shortly before this line");
+                             : "mend the XML at or shortly before this line",
+                 "urdf.xml");
   } else {
     robot = document.RootElement();
     if (robot && std::string(robot->Name()) != "robot") {
       source.fault(robot->GetLineNum(), "",
                    std::string("the outermost element is <") + robot->Name() + ">, must be <robot>",
-                   "give a URDF file");
+                   "give a URDF file", "urdf.no-robot");
     } else if (!robot) {
-      source.fault(0, "", "there is no <robot> element", "give a URDF file");
+      source.fault(0, "", "there is no <robot> element", "give a URDF file", "urdf.no-robot");
     }
   }
   source.check();
@@ -132,7 +134,7 @@ RobotDescription read_urdf(const std::filesystem::path& file, const UrdfOptions&
     constexpr std::size_t kMostParts = 40000;
     if (robot.links.size() + robot.joints.size() == kMostParts) {
       source.fault(e->GetLineNum(), "", "there are more than 40,000 links and joints",
-                   "what does not move belongs to one link");
+                   "what does not move belongs to one link", "urdf.too-many");
       source.check();
     }
     const std::string name = e->Name();

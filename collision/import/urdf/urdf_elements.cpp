@@ -94,7 +94,7 @@ void check_element(const XMLElement& element, const Word& word, const std::strin
       check_element(*e, word_of(name), where, source);
     } else if (name.starts_with("xacro:")) {
       source.fault(e->GetLineNum(), "<" + name + ">", "this is a xacro file",
-                   "expand it first (xacro robot.urdf.xacro > robot.urdf)");
+                   "expand it first (xacro robot.urdf.xacro > robot.urdf)", "urdf.xacro");
     } else if (contains(word.without_effect, name)) {
       source.warn_once("element " + name, e->GetLineNum(), where,
                        "<" + name + "> has no effect here", "other programs read it");

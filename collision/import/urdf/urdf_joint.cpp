@@ -26,10 +26,11 @@ void read_type(const XMLElement& element, const std::string& where, JointDescrip
   if (known && !is_urdf_type(plain))
     source.fault(element.GetLineNum(), where, "URDF has no joint type '" + type + "'",
                  "write type=\"" + std::string(to_string(urdf_type_of(plain, false))) +
-                     "\" for other programs, and inside <twinarm type=\"" + type + "\"/>");
+                     "\" for other programs, and inside <twinarm type=\"" + type + "\"/>",
+                 "urdf.joint-type");
   else if (!known && !type.empty())
     source.fault(element.GetLineNum(), where, "joint type '" + type + "' is not supported",
-                 kSupportedJoints);
+                 kSupportedJoints, "urdf.joint-type");
   joint.type = plain;
 
   const XMLElement* extension = element.FirstChildElement("twinarm");
@@ -42,7 +43,7 @@ void read_type(const XMLElement& element, const std::string& where, JointDescrip
     source.fault(extension->GetLineNum(), where,
                  std::string("<twinarm type=\"...\"> is '") + name +
                      "', must be spherical, screw, cylindrical or universal",
-                 "give other types as <joint type=\"...\">");
+                 "give other types as <joint type=\"...\">", "urdf.joint-type");
 }
 
 // One line for each kind of value that the types of the joints make meaningless.
@@ -68,7 +69,8 @@ void read_limits(const XMLElement& element, const std::string& where, JointDescr
                  std::string("a ") + to_string(joint.type) + " joint must have limits",
                  joint.type == Type::revolute
                      ? "give <limit lower upper effort velocity/>, or make the joint continuous"
-                     : "give <limit lower upper effort velocity/> in metres");
+                     : "give <limit lower upper effort velocity/> in metres",
+                 "urdf.limits-missing");
     return;
   }
   if (must && !has_range)
@@ -88,7 +90,7 @@ void read_limits(const XMLElement& element, const std::string& where, JointDescr
       source.fault(limit->GetLineNum(), where,
                    "its lower limit " + number_text(joint.lower) +
                        " does not lie below its upper limit " + number_text(joint.upper),
-                   "exchange them, or leave both out");
+                   "exchange them, or leave both out", "robot.limits");
   } else if (has_range) {
     warn_without_effect(limit, "the range in <limit>", where, joint, source);
   }
@@ -133,7 +135,8 @@ void read_dynamics(const XMLElement& element, const std::string& where, JointDes
   const bool has_pitch = extension && extension->FindAttribute("pitch");
   if (joint.type == Type::screw && extension && !has_pitch)
     source.fault(extension->GetLineNum(), where, "a screw joint must have a pitch",
-                 "give <twinarm type=\"screw\" pitch=\"...\"/> in metres per revolution");
+                 "give <twinarm type=\"screw\" pitch=\"...\"/> in metres per revolution",
+                 "urdf.pitch-missing");
   else if (joint.type == Type::screw)
     take("pitch", joint.pitch);
   else if (has_pitch)

@@ -23,14 +23,14 @@ MeshGeometry read_mesh(const XMLElement& element, const std::string& where, Urdf
     source.fault(
         element.GetLineNum(), where,
         std::string("mesh scale is '") + element.Attribute("scale") + "', which flattens the mesh",
-        "give three numbers that are not 0 (a negative one mirrors)");
+        "give three numbers that are not 0 (a negative one mirrors)", "urdf.mesh-scale");
   if (mesh.name.empty()) return mesh;
   const FilePlace place =
       find_named_file("mesh", mesh.name, source.folder(), source.options().roots);
   mesh.file = place.file;
   if (place.rule.empty()) return mesh;
   if (source.options().geometry == UrdfOptions::Geometry::required)
-    source.fault(element.GetLineNum(), where, place.rule, place.remedy);
+    source.fault(element.GetLineNum(), where, place.rule, place.remedy, place.code);
   else
     source.warn_once("mesh", element.GetLineNum(), where, place.rule, place.remedy);
   return mesh;
@@ -53,7 +53,7 @@ PartGeometry read_geometry(const XMLElement& part, const std::string& where, Urd
       source.fault(shape->GetLineNum(), where,
                    std::string("box size is '") + shape->Attribute("size") +
                        "', must be three positive numbers",
-                   "give full edges in metres");
+                   "give full edges in metres", "urdf.number");
     return BoxGeometry{size};
   }
   source.fault((shape      ? shape
@@ -61,7 +61,7 @@ PartGeometry read_geometry(const XMLElement& part, const std::string& where, Urd
                            : &part)
                    ->GetLineNum(),
                where, kind.empty() ? "it has no geometry" : "shape <" + kind + "> is not known",
-               "shapes: box, sphere, cylinder, capsule, mesh");
+               "shapes: box, sphere, cylinder, capsule, mesh", "urdf.shape");
   return {};
 }
 
@@ -84,7 +84,7 @@ std::optional<Vector4> read_color(const XMLElement& material, UrdfSource& source
     source.fault(
         color->GetLineNum(), material_name(material),
         std::string("colour '") + color->Attribute("rgba") + "' lies outside [0, 1] and is clamped",
-        "give red, green, blue and opacity from 0 to 1");
+        "give red, green, blue and opacity from 0 to 1", "urdf.color");
   return clamped;
 }
 

@@ -24,8 +24,11 @@ std::string tag(const XMLElement& element, const char* attribute) {
 }
 
 // The likeliest slip of the pen.
+bool is_xacro(const std::string& value) {
+  return value.find("${") != std::string::npos || value.find("$(") != std::string::npos;
+}
 std::string remedy_for(const std::string& value) {
-  if (value.find("${") != std::string::npos || value.find("$(") != std::string::npos)
+  if (is_xacro(value))
     return "this is a xacro file: expand it first (xacro robot.urdf.xacro > robot.urdf)";
   if (value.find(',') != std::string::npos)
     return "write a decimal point, and blanks between numbers";
@@ -51,10 +54,11 @@ std::string shortened(const std::string& value) {
 UrdfSource::UrdfSource(const std::filesystem::path& file, const UrdfOptions& options)
     : file_(std::filesystem::absolute(file).lexically_normal()), options_(options) {}
 
-void UrdfSource::fault(int line, std::string where, std::string rule, std::string remedy) {
+void UrdfSource::fault(int line, std::string where, std::string rule, std::string remedy,
+                       std::string_view code) {
   if (soft_) ++softened_;
   add_fault(soft_ ? warnings_ : faults_,
-            {file_.string(), line, std::move(where), std::move(rule), std::move(remedy)});
+            {file_.string(), line, std::move(where), std::move(rule), std::move(remedy), code});
 }
 
 void UrdfSource::fault(std::vector<Fault> faults) {
@@ -99,7 +103,8 @@ std::optional<std::vector<double>> UrdfSource::numbers(const XMLElement& element
   const tinyxml2::XMLAttribute* found = element.FindAttribute(attribute);
   if (!found) {
     fault(element.GetLineNum(), where, tag(element, attribute) + " is missing",
-          "give it " + std::to_string(count) + (count == 1 ? " number" : " numbers"));
+          "give it " + std::to_string(count) + (count == 1 ? " number" : " numbers"),
+          "urdf.attribute-missing");
     return std::nullopt;
   }
   const std::string value = found->Value();
@@ -108,7 +113,7 @@ std::optional<std::vector<double>> UrdfSource::numbers(const XMLElement& element
     fault(found->GetLineNum(), where,
           tag(element, attribute) + " is '" + shortened(value) + "', must be " +
               std::to_string(count) + (count == 1 ? " finite number" : " finite numbers"),
-          remedy_for(value));
+          remedy_for(value), is_xacro(value) ? "urdf.xacro" : "urdf.number");
     return std::nullopt;
   }
   return numbers;
@@ -138,7 +143,7 @@ std::optional<double> UrdfSource::positive(const XMLElement& element, const char
   if (!value || *value > 0) return value;
   fault(element.FindAttribute(attribute)->GetLineNum(), where,
         tag(element, attribute) + " is " + number_text(*value) + ", must be positive",
-        "give a length in metres");
+        "give a length in metres", "urdf.number");
   return std::nullopt;
 }
 
@@ -156,7 +161,8 @@ std::string UrdfSource::text(const XMLElement& element, const char* attribute,
   const char* value = element.Attribute(attribute);
   if (value && *value) return value;
   fault(element.GetLineNum(), where,
-        tag(element, attribute) + (value ? " is empty" : " is missing"), "give it");
+        tag(element, attribute) + (value ? " is empty" : " is missing"), "give it",
+        "urdf.attribute-missing");
   return {};
 }
 
@@ -174,13 +180,15 @@ Origin UrdfSource::origin(const XMLElement& parent, const std::string& where) {
          "angles are in radians: 90 degrees are 1.5707963267948966");
   if (!element->FindAttribute("quat_xyzw")) return origin;
   if (element->FindAttribute("rpy"))
-    fault(element->GetLineNum(), where, "its <origin> has both rpy and quat_xyzw", "give one");
+    fault(element->GetLineNum(), where, "its <origin> has both rpy and quat_xyzw", "give one",
+          "urdf.two-rotations");
   if (const auto q = numbers(*element, "quat_xyzw", where, 4)) {
     const Eigen::Quaterniond turn((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
     if (turn.norm() > 1e-9)
       origin.rpy = roll_pitch_yaw(turn.normalized().toRotationMatrix());
     else
-      fault(element->GetLineNum(), where, "its quat_xyzw is zero", "give a unit quaternion");
+      fault(element->GetLineNum(), where, "its quat_xyzw is zero", "give a unit quaternion",
+            "urdf.number");
   }
   return origin;
 }
@@ -190,7 +198,7 @@ void UrdfSource::at_most_one(const XMLElement& parent, const char* name, const s
   const XMLElement* second = first ? first->NextSiblingElement(name) : nullptr;
   if (second)
     fault(second->GetLineNum(), where, std::string("a second <") + name + ">",
-          std::string("give one <") + name + ">");
+          std::string("give one <") + name + ">", "urdf.twice");
 }
 
 }  // namespace twinarm

@@ -29,7 +29,8 @@ class UrdfSource {
   std::filesystem::path folder() const { return file_.parent_path(); }
   const UrdfOptions& options() const { return options_; }
 
-  void fault(int line, std::string where, std::string rule, std::string remedy);
+  void fault(int line, std::string where, std::string rule, std::string remedy,
+             std::string_view code = {});
   void fault(std::vector<Fault> faults);
   void warn(int line, std::string where, std::string rule, std::string remedy);
   void warn(std::vector<Fault> warnings);
