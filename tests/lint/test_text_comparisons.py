@@ -30,7 +30,7 @@ ALLOWED = {
     "app/lab/app/lab_routes.cpp": "names of files that pages send",
     "app/scene/read/parameter_path.cpp": "keys of scenes",
     "app/command/command_map.cpp": "keys of tile files",
-    "app/options/": "types and names of options, by CLI11",
+    "app/command/": "types and names of options, by CLI11",
     "app/scene/read/change_scene.cpp": "values and keys of scenes",
     "app/record/output/branch_view.cpp": "names of columns of recordings",
     "app/scene/": "keys, names and values of scenes",
