@@ -8,7 +8,7 @@
 
 // Where a product takes a dozen instructions (SSE2), it is called: a third of the code, of the time
 // to compile it, and by half slower than inlined. Above that all is inlined
-// (tests/app/test_levels.py).
+// (tests/lint/test_levels.py).
 #if defined(__AVX__)
 #define TWINARM_DUAL_OPERATION
 #else

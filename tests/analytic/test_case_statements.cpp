@@ -53,7 +53,7 @@ TEST_CASE("cases: an entry for the very case counts more than one for all that b
 TEST_CASE("cases: the files that a page quotes are those of this folder") {
   bool found = false;
   for (const CaseSource& source : case_sources())
-    found |= source.file == "pendulum.cpp" &&
+    found |= source.file == "joints/pendulum.cpp" &&
              source.text.find("TrajectoryCase swing_time()") != std::string_view::npos;
   CHECK(found);
 }

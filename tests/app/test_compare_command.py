@@ -305,8 +305,8 @@ class Page(unittest.TestCase):
 
     def test_every_contact_case_is_drawn_but_the_one_where_nothing_moves(self):
         root = pathlib.Path(__file__).resolve().parents[2]
-        cases = "".join(p.read_text() for p in root.glob("benchmarks/analytic/contact_*.cpp"))
-        looks = "".join(p.read_text() for p in root.glob("app/compare/contact_looks_*.cpp"))
+        cases = "".join(p.read_text() for p in root.glob("benchmarks/analytic/contact/*.cpp"))
+        looks = "".join(p.read_text() for p in root.glob("app/compare/page/contact_plots_*.cpp"))
         names = re.findall(r'contact_case<[^>]+>\(\s*"([^"]+)"', cases)
         self.assertGreater(len(names), 50)
         names += re.findall(r'\{"(H1[^"]+)",', (root / "benchmarks/analytic/registry/engine_tasks.cpp")

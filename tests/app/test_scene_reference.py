@@ -65,7 +65,7 @@ def named_within(heading, key):
 
 def words_of_sources():
     """What may be a key: each such word in quotes in the reader's sources, and in the page."""
-    text = " ".join(file.read_text() for file in sorted((ROOT / "app/scene").glob("*.cpp")))
+    text = " ".join(file.read_text() for file in sorted((ROOT / "app/scene").rglob("*.cpp")))
     quoted = set(re.findall(r'"([a-z][a-z_0-9]*)"', text))
     in_page = {word for span in spans(PAGE) for word in WORD.findall(span)}
     return sorted(quoted | in_page)
