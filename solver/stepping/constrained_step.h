@@ -19,6 +19,7 @@
 #pragma once
 
 #include <array>
+#include <stdexcept>
 #include <vector>
 
 #include "solver/impulses/constraint_source.h"
@@ -60,10 +61,13 @@ class ConstrainedStep {
   }
   std::size_t law_count() const { return problem_.constraints().size(); }  // of the last solution
   void set_usual_accuracy() { set_accuracy(usual_[0], usual_[1], usual_[2]); }
-  // Guesses of impulses.
-  void visit_memory(Memory& memory) {
+  // Guesses of impulses. Those of loops: none before the first step, then one for each row.
+  void forget_loops() { loop_guess_.clear(); }
+  void visit_memory(Memory& memory, std::size_t loop_rows) {
     for (auto* guess : {&friction_guess_, &mimic_guess_}) memory.visit_fixed(*guess);
-    memory.visit(loop_guess_);  // each step gives it its size
+    memory.visit(loop_guess_);
+    if (!loop_guess_.empty() && loop_guess_.size() != loop_rows)
+      throw std::runtime_error("the loops are not those of this simulation");
     solver_.visit_memory(memory);
   }
   // Loops: J qdd + gamma = 0, the forces of this instant, in place of g' = 0 after the step. A run

@@ -96,6 +96,7 @@ void Simulation::prescribe(int body, MotionLaw law) {
   if (body <= 0 || body >= model().body_count() || model().joint[i] != JointType::prescribed)
     throw std::invalid_argument("only the body of a prescribed joint moves by a law");
   const std::vector<Mechanism::Drive> before = m_.drives;
+  constrained_.forget_loops();
   std::erase_if(m_.drives, [&](const Mechanism::Drive& drive) { return drive.body == i; });
   m_.drives.push_back({i, std::move(law)});
   try {
@@ -175,7 +176,7 @@ void Simulation::visit_memory(Memory& memory) {
   if (memory.reads()) m_.resume(std::move(x));
   m_.dynamics.visit_memory(memory);
   dopri5_.visit_memory(memory);
-  constrained_.visit_memory(memory);
+  constrained_.visit_memory(memory, m_.dynamics.bilateral().loops().rows());
   if (located_) located_->visit_memory(memory);
   for (Rewindable* source : all) source->visit_memory(memory);
 }

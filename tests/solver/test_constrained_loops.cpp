@@ -1,0 +1,87 @@
+// Closed loops in steps under constraints: what a step reports of them, and what is left of them
+// once they are replaced.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "solver/dynamics/model_builder.h"
+#include "solver/impulses/joint_limits.h"
+#include "solver/stepping/simulation.h"
+#include "solver/support/state_archive.h"
+
+using namespace twinarm;
+
+namespace {
+
+// Two equal pendulums about y, 0.5 m apart, and limits far away: all steps are constrained.
+struct Pendulums {
+  explicit Pendulums(std::vector<LoopClosure> loops)
+      : model([] {
+          ModelBuilder builder;
+          const BodyInertia inertia{1, {0, 0, -0.5}, 0.1 * Matrix3::Identity()};
+          builder.add_body("a", 0, "ja", JointType::revolute, {}, Vector3::UnitY(), inertia);
+          builder.add_body("b", 0, "jb", JointType::revolute, {Matrix3::Identity(), {0.5, 0, 0}},
+                           Vector3::UnitY(), inertia);
+          return builder.build();
+        }()),
+        limits(model),
+        simulation(model, State<double>(model)) {
+    limits.add(1, -3, 3);
+    limits.add(2, -1e-4, 1e-4);
+    simulation.set_loops(std::move(loops));
+    simulation.add(limits);
+  }
+  Pendulums(const Pendulums&) = delete;
+  std::string memory() {
+    Memory memory;
+    simulation.visit_memory(memory);
+    return memory.bytes();
+  }
+
+  Model<double> model;
+  JointLimits limits;
+  Simulation simulation;
+};
+
+// Ties their tips, 0.5 m apart.
+LoopClosure ball() {
+  LoopClosure loop{"tips", LoopType::ball, 1, 2};
+  loop.X_LaC.p = {0.5, 0, -1}, loop.X_LbC.p = {0, 0, -1};
+  return loop;
+}
+LoopClosure rod() {
+  LoopClosure loop{"rod", LoopType::distance, 1, 2};
+  loop.X_LaC.p = loop.X_LbC.p = {0, 0, -1};
+  loop.length = 0.5;
+  return loop;
+}
+
+}  // namespace
+
+TEST_CASE("loops: once removed, steps under constraints are those without them") {
+  Pendulums opened({ball()}), free({});
+  State<double> x(opened.model);
+  x.qd[0] = x.qd[1] = 0.05;
+  opened.simulation.set_state(x);
+  CHECK(opened.simulation.step(1e-3).ok());
+  opened.simulation.set_loops({});
+  free.simulation.set_state(opened.simulation.state());
+  for (int n = 0; n < 10; ++n) {
+    CHECK(opened.simulation.step(1e-3).ok());
+    CHECK(free.simulation.step(1e-3).ok());
+    CHECK(opened.memory().size() == free.memory().size());
+    for (std::size_t dof = 0; dof < 2; ++dof)
+      CHECK(std::abs(opened.simulation.state().qd[dof] - free.simulation.state().qd[dof]) < 1e-12);
+  }
+}
+
+TEST_CASE("loops: memory of a simulation with other loops is refused") {
+  Pendulums one({ball()}), other({rod()});
+  for (Pendulums* each : {&one, &other}) CHECK(each->simulation.step(1e-3).ok());
+  Memory memory(one.memory()), own(other.memory());
+  CHECK_THROWS_AS(other.simulation.visit_memory(memory), std::runtime_error);
+  CHECK_NOTHROW(other.simulation.visit_memory(own));
+  CHECK(own.at_end());
+}
