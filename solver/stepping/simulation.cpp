@@ -224,6 +224,7 @@ StepReport Simulation::advance(double h, bool one_substep) {
   if (m_.account) m_.account->count_projection();
   report.h = m_.x.t - t;
   report.loops_open = m_.loops_open;
+  report.loops_open = m_.loops_open;
   look_for_bad_numbers(report);
   return report;
 }

@@ -85,3 +85,35 @@ TEST_CASE("loops: memory of a simulation with other loops is refused") {
   CHECK_NOTHROW(other.simulation.visit_memory(own));
   CHECK(own.at_end());
 }
+
+// A prescribed joint moves sideways, without saying so in its velocity, from a block on a rail that
+// it is tied to: nothing but the error of position shows that the loop opens.
+TEST_CASE("loops: a step under constraints reports by how much one is open") {
+  for (const bool located : {false, true}) {
+    CAPTURE(located);
+    ModelBuilder builder;
+    const BodyInertia inertia{1, Vector3::Zero(), Matrix3::Identity()};
+    builder.add_body("hand", 0, "held", JointType::prescribed, {}, Vector3::UnitZ(), inertia);
+    builder.add_body("block", 0, "rail", JointType::prismatic, {}, Vector3::UnitZ(), inertia);
+    const Model<double> model = builder.build();
+    LoopClosure tie{"tie", LoopType::ball, 1, 2};
+    JointLimits limits(model);
+    limits.add(2, -100, 100);
+    Simulation simulation(model, State<double>(model));
+    simulation.prescribe(1, [](double t) {
+      PrescribedMotion motion;
+      motion.X_JL.p.x() = t * t;
+      return motion;
+    });
+    simulation.set_loops({tie});
+    simulation.add(limits);
+    if (located) simulation.locate_events();
+    for (int n = 1; n <= 3; ++n) {
+      const StepReport report = simulation.step(1e-3);
+      const double t = simulation.state().t;
+      CHECK(report.loops_open == doctest::Approx(t * t).epsilon(1e-12));
+      CHECK(report.converged);
+      CHECK_FALSE(report.ok());
+    }
+  }
+}
