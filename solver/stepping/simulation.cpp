@@ -32,6 +32,14 @@ void check(const ForceSource& source, Integrator integrator) {
         integrator_name(integrator));
 }
 
+void check_located(Integrator integrator) {
+  if (integrator != Integrator::semi_implicit)
+    throw std::invalid_argument(
+        std::string("steps that locate their events go with the integrator 'semi-implicit' only, "
+                    "not with '") +
+        integrator_name(integrator) + "'");
+}
+
 // Its force would be that of the first round: a wrong one, and nobody would say so.
 constexpr const char* kOneRound =
     "a force that is found in rounds (ForceSource::refine) does not go with contacts, limits and "
@@ -79,6 +87,7 @@ void Simulation::set_integrator(Integrator integrator) {
   if (constrained_.any() && integrator != Integrator::semi_implicit)
     throw std::invalid_argument("contacts and limits go with the integrator 'semi-implicit' only");
   for (const ForceSource* source : m_.sources) check(*source, integrator);
+  check_located(integrator_);
   integrator_ = integrator;
   dopri5_.forget();
   if (facts_of(integrator).solves && !implicit_) implicit_.emplace(model().nv);
@@ -94,7 +103,8 @@ void Simulation::set_tolerance(double tolerance) {
 void Simulation::prescribe(int body, MotionLaw law) {
   const auto i = static_cast<std::size_t>(body);
   if (body <= 0 || body >= model().body_count() || model().joint[i] != JointType::prescribed)
-    throw std::invalid_argument("only the body of a prescribed joint moves by a law");
+    if (located_) check_located(integrator);
+  throw std::invalid_argument("only the body of a prescribed joint moves by a law");
   const std::vector<Mechanism::Drive> before = m_.drives;
   constrained_.forget_loops();
   std::erase_if(m_.drives, [&](const Mechanism::Drive& drive) { return drive.body == i; });

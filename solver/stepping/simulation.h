@@ -35,7 +35,8 @@ class Simulation {
   void add(ConstraintSource& source);
   // Constrained steps locate their events in time and are of high order between them
   // (solver/stepping/event_driven_step.h), to 1e-10. Throws std::invalid_argument where a source is
-  // implicit in the step, or is no EventSource.
+  // implicit in the step, or is no EventSource, or where the integrator is not semi-implicit; then
+  // so does set_integrator() with another one.
   void locate_events();
   // Asked within steps that locate their events, which may be long; true ends the step
   // (StepReport::interrupted), and the state stands before its end.

@@ -149,6 +149,24 @@ TEST_CASE("a source of constraints is refused where it cannot do what is asked o
   CHECK_THROWS_AS(located.add(plain), std::invalid_argument);
 }
 
+TEST_CASE("steps that locate their events go with semi-implicit only, whichever is chosen first") {
+  const Model<double> model = chain(2);
+  for (const IntegratorFacts& facts : all_integrators) {
+    CAPTURE(std::string(facts.name));
+    Simulation located_last(model, State<double>(model)), located_first = located_last;
+    located_last.set_integrator(facts.integrator);
+    located_first.locate_events();
+    if (facts.integrator == Integrator::semi_implicit) {
+      CHECK_NOTHROW(located_last.locate_events());
+      CHECK_NOTHROW(located_first.set_integrator(facts.integrator));
+    } else {
+      CHECK_THROWS_AS(located_last.locate_events(), std::invalid_argument);
+      CHECK_THROWS_AS(located_first.set_integrator(facts.integrator), std::invalid_argument);
+      CHECK(located_first.integrator() == Integrator::semi_implicit);
+    }
+  }
+}
+
 TEST_CASE("a law that would open a loop is refused, and the run goes on by the one before") {
   ModelBuilder builder;
   builder.add_body("hand", 0, "held", JointType::prescribed, {}, Vector3::UnitZ(),

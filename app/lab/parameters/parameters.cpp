@@ -61,13 +61,14 @@ Knob step_knob(const SimulatePlan& plan) {
 
 // Those that carry what the scene has: contacts, and treatments that see the end of the step.
 std::vector<std::string> integrators_for(const SceneModel* scene, Integrator now) {
-  const bool touches = scene && scene->may_touch();
+  const bool constrained =
+      scene && (scene->may_touch() || scene->description.contact == ContactMode::event);
   const bool implicit =
       scene && std::any_of(scene->couplings.begin(), scene->couplings.end(),
                            [](const SceneCoupling& c) { return c.needs_semi_implicit(); });
   std::vector<std::string> names;
   for (const IntegratorFacts& facts : all_integrators) {
-    const bool fits = (!touches || facts.integrator == Integrator::semi_implicit) &&
+    const bool fits = (!constrained || facts.integrator == Integrator::semi_implicit) &&
                       (!implicit || facts.implicit_force) &&
                       facts.integrator != Integrator::dopri5;  // its step is a tolerance
     if (fits || facts.integrator == now) names.emplace_back(facts.name);

@@ -50,6 +50,12 @@ void check_contacts(const SceneModel& scene, Integrator integrator, FaultList& f
                     integrator_name(integrator),
                 "give --integrator semi-implicit, or keep the bodies apart with groups",
                 "run.integrator"});
+  else if (locates_events(scene) && integrator != Integrator::semi_implicit)
+    faults.add(
+        {file, 0, "integrator",
+         std::string("contact = \"event\" goes with the semi-implicit integrator, not with ") +
+             integrator_name(integrator),
+         "give --integrator semi-implicit, or --contact rigid", "run.integrator"});
 }
 
 SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : scene_(scene) {
