@@ -45,6 +45,21 @@ constexpr const char* kOneRound =
     "a force that is found in rounds (ForceSource::refine) does not go with contacts, limits and "
     "locks: their step has one round; give the contact as a constraint, or leave them out";
 
+// Saves the internal state of sources, and restores it at the end of its scope.
+class SavedSources {
+ public:
+  explicit SavedSources(std::vector<Rewindable*> sources) : sources_(std::move(sources)) {
+    for (Rewindable* source : sources_) source->keep();
+  }
+  SavedSources(const SavedSources&) = delete;
+  ~SavedSources() {
+    for (Rewindable* source : sources_) source->go_back();
+  }
+
+ private:
+  std::vector<Rewindable*> sources_;
+};
+
 }  // namespace
 
 Simulation::Simulation(const Model<double>& model, State<double> start)
@@ -72,6 +87,7 @@ void Simulation::add(ConstraintSource& source) {
 }
 
 void Simulation::locate_events() {
+  check_located(integrator_);
   for (const ForceSource* source : m_.sources) check_located(*source);
   for (ConstraintSource* source : constrained_.sources()) check_located(*source);
   located_.emplace(model());
@@ -80,14 +96,15 @@ void Simulation::locate_events() {
 void Simulation::set_loops(std::vector<LoopClosure> loops) {
   check_loops(model(), loops, m_.x);
   m_.set_loops(LoopClosures(model(), std::move(loops)));
+  constrained_.forget_loops();
   dopri5_.forget();
 }
 
 void Simulation::set_integrator(Integrator integrator) {
   if (constrained_.any() && integrator != Integrator::semi_implicit)
     throw std::invalid_argument("contacts and limits go with the integrator 'semi-implicit' only");
+  if (located_) check_located(integrator);
   for (const ForceSource* source : m_.sources) check(*source, integrator);
-  check_located(integrator_);
   integrator_ = integrator;
   dopri5_.forget();
   if (facts_of(integrator).solves && !implicit_) implicit_.emplace(model().nv);
@@ -103,10 +120,8 @@ void Simulation::set_tolerance(double tolerance) {
 void Simulation::prescribe(int body, MotionLaw law) {
   const auto i = static_cast<std::size_t>(body);
   if (body <= 0 || body >= model().body_count() || model().joint[i] != JointType::prescribed)
-    if (located_) check_located(integrator);
-  throw std::invalid_argument("only the body of a prescribed joint moves by a law");
+    throw std::invalid_argument("only the body of a prescribed joint moves by a law");
   const std::vector<Mechanism::Drive> before = m_.drives;
-  constrained_.forget_loops();
   std::erase_if(m_.drives, [&](const Mechanism::Drive& drive) { return drive.body == i; });
   m_.drives.push_back({i, std::move(law)});
   try {
@@ -137,11 +152,9 @@ StepReport Simulation::substep(double h) {
 
 State<double> Simulation::side_step(double h, StepReport* report) const {
   check_step_size(h);
-  const std::vector<Rewindable*> all = memories();
-  for (Rewindable* memory : all) memory->keep();
+  const SavedSources saved(memories());
   Simulation aside(*this);
   const StepReport taken = aside.step(h);
-  for (Rewindable* memory : all) memory->go_back();
   if (report) *report = taken;
   return aside.state();
 }
@@ -149,15 +162,13 @@ State<double> Simulation::side_step(double h, StepReport* report) const {
 void Simulation::evaluate_at(const State<double>& x,
                              const std::function<void(const Simulation&)>& see) const {
   constexpr double kMoment = 1e-6;  // [s]; tells which side of a corner of a hand's motion is meant
-  const std::vector<Rewindable*> all = memories();
-  for (Rewindable* memory : all) memory->keep();
+  const SavedSources saved(memories());
   Simulation aside(*this);
   aside.m_.x = x;
   forward_kinematics(model(), aside.m_.x, aside.m_.k);
   aside.m_.begin_step(kMoment);
   aside.m_.accelerate();
   see(aside);
-  for (Rewindable* memory : all) memory->go_back();
 }
 
 std::vector<Rewindable*> Simulation::memories() const {
@@ -212,6 +223,7 @@ StepReport Simulation::advance(double h, bool one_substep) {
       if (m_.account) m_.account->count_projection();
     }
     report.h = m_.x.t - t;
+    report.loops_open = m_.loops_open;
     look_for_bad_numbers(report);
     return report;
   }
@@ -233,7 +245,6 @@ StepReport Simulation::advance(double h, bool one_substep) {
   m_.refresh();
   if (m_.account) m_.account->count_projection();
   report.h = m_.x.t - t;
-  report.loops_open = m_.loops_open;
   report.loops_open = m_.loops_open;
   look_for_bad_numbers(report);
   return report;

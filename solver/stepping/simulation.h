@@ -71,10 +71,12 @@ class Simulation {
   // take the whole of h. StepReport::h says how far it went.
   StepReport substep(double h);
   // Where a step of h would lead; the run is not changed, down to the last bit. For samples between
-  // the steps. Throws std::invalid_argument for a source that is not Rewindable. May allocate.
+  // the steps. Throws std::invalid_argument for a source that is not Rewindable. May allocate. It
+  // uses the sources, and restores them: not for several threads at once.
   State<double> side_step(double h, StepReport* report = nullptr) const;
   // `see` gets a copy that stands at x, after one evaluation of all forces there by no step's rule;
-  // contacts and limits take no part. Throws as side_step(). May allocate.
+  // contacts and limits take no part. Throws as side_step(), and what `see` throws. May allocate.
+  // Sources as in side_step().
   void evaluate_at(const State<double>& x, const std::function<void(const Simulation&)>& see) const;
   // All that the next step reads: the state, and what integrator, impulses and sources remember.
   // Taken back in a simulation that was built alike, the run goes on with the same bits. Throws

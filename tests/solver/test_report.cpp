@@ -231,3 +231,16 @@ TEST_CASE("what acts at another state is shown by a copy, and the run is left as
   CHECK(simulation.state().q == start.q);
   CHECK(simulation.state().qd == start.qd);
 }
+
+TEST_CASE("sources are as before where the function that sees another state throws") {
+  const Model<double> model = chain(3);
+  Counting source;
+  Simulation simulation(model, State<double>(model));
+  simulation.add(source);
+  simulation.step(1e-3);
+  CHECK_THROWS_AS(
+      simulation.evaluate_at(simulation.state(),
+                             [](const Simulation&) { throw std::runtime_error("seen"); }),
+      std::runtime_error);
+  CHECK(source.begun == 1);
+}
