@@ -5,15 +5,13 @@
 #include <cmath>
 #include <limits>
 
-#include "app/data/json_tree.h"
 #include "app/inspect/report/inspect_input.h"
 #include "app/inspect/report/inspect_output.h"
-#include "app/lab/inspector/body_inspector.h"
 #include "app/lab/run/lab_run.h"
-#include "app/run/run.h"
-#include "tests/import/helpers.h"
+#include "tests/lab/glass_messages.h"
 
 using namespace twinarm;
+using namespace twinarm::testing;
 
 namespace {
 
@@ -21,67 +19,6 @@ constexpr const char* kGlassScenes[] = {
     "hand_and_obstacles",     "box_stack", "four_bar", "incline",
     "robot_beside_obstacles", "turntable"};
 
-SimulatePlan plan_of_asset(const std::string& file, double duration) {
-  SimulateOptions options;
-  options.robot.model = std::string(TWINARM_SOURCE_DIR "/assets/") + file;
-  options.integrator = "semi-implicit";
-  options.contact = options.robot.model.extension() == ".toml" ? "rigid" : "";
-  options.duration = duration;
-  return prepare_simulation(options);
-}
-
-// A frame after so many steps, and what the next step found.
-struct Told {
-  LabFrame frame;
-  std::vector<std::string> ledger;
-  std::vector<double> qdd;     // of the next step
-  std::vector<Vector3> force;  // of its contacts
-};
-Told told_of(const std::string& file, long steps) {
-  SimulatePlan plan = plan_of_asset(file, 1);
-  Told told;
-  RunWatch watch;
-  watch.warn = [](const std::string&) {};
-  watch.sample = [](double, const State<double>&) {};
-  watch.look = [&](RunView& view) {
-    if (view.step() == steps) {
-      RecordedFrame& recorded = told.frame.recorded;
-      recorded.step = steps;
-      recorded.t = view.simulation().state().t;
-      recorded.memory = view.memory();
-      for (const LedgerRow& row : view.ledger()) {
-        recorded.rows.push_back(static_cast<std::uint32_t>(told.ledger.size()));
-        recorded.works.push_back(row.work);
-        told.ledger.push_back(row.name);
-      }
-    }
-    if (view.step() != steps + 1) return;
-    told.qdd = view.simulation().workspace().qdd;
-    if (view.contacts() && view.contacts()->contacts())
-      for (const ContactPoint& p : view.contacts()->contacts()->points())
-        if (!p.force_W.isZero(0)) told.force.push_back(p.force_W);
-  };
-  RunStart last;
-  plan.run.times.clear();
-  plan.run.duration = static_cast<double>(steps + 2) * plan.run.step;
-  run_plan(plan.input, plan.run, watch);
-  REQUIRE(!told.qdd.empty());
-  return told;
-}
-
-JsonValue parsed(const std::string& message) {
-  const TemporaryFolder folder;
-  return read_json(folder.write("glass.json", message));
-}
-const JsonValue& at(const JsonValue& value, const std::string& name) {
-  const JsonValue* found = value.find(name);
-  REQUIRE_MESSAGE(found, name);
-  return *found;
-}
-Vector3 vector_of(const JsonValue& list) {
-  REQUIRE(list.items.size() == 3);
-  return {list.items[0].number, list.items[1].number, list.items[2].number};
-}
 // Of the body's pass.
 const JsonValue* quantity_of(const JsonValue& passes, int pass, const std::string& name) {
   for (const JsonValue& step : passes.items)

@@ -128,6 +128,20 @@ class GlassPanel(unittest.TestCase):
             self.assertEqual(row, [term["value"][k] for term in v["terms"]] + [v["value"][k]])
             self.assertAlmostEqual(sum(row[:-1]), row[-1], delta=1e-9)
 
+    def test_the_table_of_pass_3_shows_classical_accelerations_of_the_origins(self):
+        self.go_to(3, self.names[-1])
+        self.give({**TOLD, "name": self.names[-1]})  # the last step of the pass: all rows are known
+        shown = self.browser.evaluate(
+            "[...document.querySelectorAll('.so-far tbody tr')].map("
+            "row => [row.querySelector('button').textContent, row.querySelector('td:last-child').title])")
+        rows = [row for row in TOLD["rows"] if row["pass"] == 3]
+        self.assertEqual([name for name, _ in shown], [row["body"] for row in rows])
+        for (name, length), row in zip(shown, rows):
+            values = {q["name"]: q["value"] for q in row["quantities"]}
+            self.assertAlmostEqual(float(length), math.hypot(*values["acceleration"]), delta=1e-12)
+        heads = self.browser.evaluate("document.querySelector('.so-far thead').textContent")
+        self.assertIn("|acceleration| [m/s²]", heads)
+
     def test_the_diagram_comes_back_to_where_it_began(self):
         self.give(TOLD)
         for plane in ("xz", "yz", "xy"):

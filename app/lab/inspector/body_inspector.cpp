@@ -14,6 +14,7 @@
 #include "app/robot/dynamics.h"
 #include "app/run/run.h"
 #include "coupling/device/device_motion.h"
+#include "solver/dynamics/world_kinematics.h"
 #include "solver/forces/spring.h"
 #include "solver/support/checkpointable.h"
 
@@ -146,6 +147,15 @@ void write_neighbours(JsonWriter& json, const Inspection& in, std::size_t body) 
   json.end_array();
 }
 
+// p'' = R (a_lin + w x v) + g, world axes: w.a is spatial, with gravity as a_0 = -g.
+Shown origin_acceleration(const Inspection& in, std::size_t body) {
+  const Vec3<double> a_B = classical_acceleration(in.w.v[body], in.w.a[body], {});
+  return {{"acceleration", 3, Quantity::By::body, "acceleration of the link's origin", "m/s^2",
+           "R (a_lin + w x v) + g, section 2.10"},
+          "world axes",
+          in.k.R_WB[body] * to_eigen(a_B) + to_eigen(in.model.gravity)};
+}
+
 // The whole call in its order: what a glance at each step tells.
 void write_call(JsonWriter& json, const Inspection& in) {
   json.begin_array();
@@ -153,7 +163,9 @@ void write_call(JsonWriter& json, const Inspection& in) {
     json.begin_object();
     json.key("pass").count(pass);
     json.key("body").text(in.model.body_name[body]);
-    write_quantities(json.key("quantities"), some_of(in, pass, body, names));
+    std::vector<Shown> results = some_of(in, pass, body, names);
+    if (pass == 3) results.push_back(origin_acceleration(in, body));
+    write_quantities(json.key("quantities"), results);
     json.end_object();
   };
   for (std::size_t i = 1; i < in.body_count(); ++i) step(1, i, {"v"});

@@ -104,7 +104,7 @@ const TOLD: Record<number, { of: string; heads: string[]; read: (value: never) =
   ],
   3: [
     { of: 'qdd', heads: ["q''"], read: (qdd: unknown) => [one(qdd)] },
-    { of: 'a', heads: ['|a| [m/s²]'], read: (a: number[]) => [length(a.slice(3))] },
+    { of: 'acceleration', heads: ['|acceleration| [m/s²]'], read: (a: number[]) => [length(a)] },
   ],
 };
 
