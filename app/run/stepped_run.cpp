@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "app/run/drift_warning.h"
 #include "app/run/run_end.h"
 #include "app/run/time_grid.h"
 #include "solver/dynamics/energy.h"
@@ -64,6 +65,7 @@ SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, cons
     if (contacts_->deepest_at_start() > kDeepStart)
       warn_of_deep_start(simulated.scene->description.contact);
   }
+  if (const std::string drift = drift_warning(sim_, plan); !drift.empty()) warn(drift);
   if (plan.is_adaptive()) sim_.set_tolerance(plan.tolerance);
   sim_.keep_account();
   momentum_.emplace(input_, wrenches_, simulated.couplings.get(), plan.integrator,
@@ -138,14 +140,17 @@ SimulateResult SteppedRun::finish() {
   return std::move(result_);
 }
 
-void SteppedRun::warn_of_deep_start(ContactMode mode) {
-  result_.warnings.push_back(
-      fmt::format("{} stand {} m deep in one another at the start, deeper than any others: {}",
-                  contacts_->deepest_pair(), short_number_text(contacts_->deepest_at_start()),
-                  mode == ContactMode::compliant
-                      ? "their springs throw them apart; place them apart, or give --contact rigid"
-                      : "what overlaps is moved apart, no faster than 0.5 m/s"));
+void SteppedRun::warn(std::string text) {
+  result_.warnings.push_back(std::move(text));
   if (watch_.warn) watch_.warn(result_.warnings.back());
+}
+
+void SteppedRun::warn_of_deep_start(ContactMode mode) {
+  warn(fmt::format("{} stand {} m deep in one another at the start, deeper than any others: {}",
+                   contacts_->deepest_pair(), short_number_text(contacts_->deepest_at_start()),
+                   mode == ContactMode::compliant
+                       ? "their springs throw them apart; place them apart, or give --contact rigid"
+                       : "what overlaps is moved apart, no faster than 0.5 m/s"));
 }
 
 void SteppedRun::warn_of_steps() {

@@ -50,6 +50,7 @@ class SteppedRun final : public RunView {
 
  private:
   void add_forces(const SimulateInput& simulated);
+  void warn(std::string text);
   void warn_of_deep_start(ContactMode mode);
   void warn_of_steps();
   void visit_memory(Memory& memory);
