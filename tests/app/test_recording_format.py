@@ -68,18 +68,6 @@ class Bytes(RecordingCommand):
             self.assertIn(result.returncode, (0, 2), f"{at}: {result.stderr}")
             self.assertTrue(result.stderr, f"byte {at} of {len(data)}")
 
-    def test_a_frame_with_fewer_coupling_forces_than_couplings_is_refused(self):
-        file = self.record(HELD % (50, 2, ""), "--duration", 0.02)
-        found = form.blocks(file.read_bytes())
-        at = next(n for n, b in enumerate(found) if b[0] == "F")
-        frame = form.decoded(form.FRAME, found[at][1])
-        self.assertEqual(len(frame[4]), 1)
-        frame[4] = []
-        found[at] = ("F", form.written(form.FRAME, frame))
-        file.write_bytes(form.file_of(found))
-        for kind in ("--csv", "--json"):
-            self.assertIn("do not fit the header", self.refused("export", file, kind))
-
     def test_what_lies_behind_a_right_checksum_but_makes_no_sense_is_told(self):
         """Sizes and numbers of names that are beyond all bounds, with checksums that fit."""
         file = self.record(BOXES % "", "--duration", 0.02)

@@ -36,7 +36,9 @@ TEST_CASE("uploads: the oldest files are removed beyond a number of files and of
   uploads.write("f.stl", "");
   CHECK(names() == "b/c/d.stl e.stl f.stl ");
   uploads.write("f.stl", std::string(90, 'x'));  // 5 + 10 + 90 bytes are too many
-  CHECK(names() == "e.stl f.stl ");
+  CHECK(names() == "b/c/d.stl f.stl ");
+  uploads.write("f.stl", std::string(96, 'x'));
+  CHECK(names() == "f.stl ");
   CHECK_FALSE(std::filesystem::exists(uploads.path() / "b"));
 }
 
