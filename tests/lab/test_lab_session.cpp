@@ -135,9 +135,9 @@ TEST_CASE("lab session: what is remembered of a run begins at its start, however
   const long before = lab.session.now().change_number;
   lab.session.push(parse_command(R"({"do": "step", "steps": 100000})"));
   lab.session.push(parse_command(R"({"do": "reset"})"));
-  REQUIRE(ToldSession::comes_true([&] { return lab.session.now().change_number > before; }));
+  REQUIRE(comes_true([&] { return lab.session.now().change_number > before; }));
   CHECK(lab.session.now().frame);
-  CHECK(ToldSession::comes_true([&] { return lab.session.now().status->time > 0.1; }));
+  CHECK(comes_true([&] { return lab.session.now().status->time > 0.1; }));
   REQUIRE_FALSE(lab.session.history(0).empty());
   CHECK(lab.session.history(0).front()->recorded.t == 0);
 }
@@ -154,7 +154,7 @@ TEST_CASE("lab session: whoever opens a file is answered, also where others do a
       order.done = [&](const std::string&) { ++answered; };
       lab.session.open(std::move(order));
     }
-    CHECK(ToldSession::comes_true([&] { return answered == 20; }));
+    CHECK(comes_true([&] { return answered == 20; }));
   }
   CHECK(answered == 20);
 }
