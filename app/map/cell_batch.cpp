@@ -23,8 +23,8 @@ bool varies_couplings(const std::string& path) {
 bool is_plain(const SimulatePlan& plan) {
   const SceneModel& scene = *plan.input.scene;
   return plan.run.integrator == Integrator::semi_implicit && !plan.run.locates_events &&
-         !scene.may_touch() && scene.constraints.empty() && scene.motions.empty() &&
-         !scene.couplings.empty() &&
+         !scene.may_touch() && !steps_for_flight(scene, plan.run.integrator) &&
+         scene.constraints.empty() && scene.motions.empty() && !scene.couplings.empty() &&
          std::all_of(scene.couplings.begin(), scene.couplings.end(), [](const SceneCoupling& c) {
            return c.rate == 0 && !c.printed && !c.outside &&
                   c.target != CouplingTarget::Kind::synthetic &&

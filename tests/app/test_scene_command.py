@@ -420,6 +420,29 @@ friction = 0
             self.assertIn(part, words)
 
 
+class Flight(Scenes):
+    def test_a_body_alone_in_its_scene_keeps_its_energy_and_angular_momentum_however_fast_it_spins(self):
+        spin = """gravity = [0, 0, 0]
+[[body]]
+name = "rod"
+shape = { box = { size = [0.02, 0.02, 0.2] } }
+mass = 1
+position = [0, 0, 1]
+angular_velocity = [20, 5, 130]
+"""
+        floor = """
+[[body]]
+name = "floor"
+fixed = true
+shape = { halfspace = { normal = [0, 0, 1], offset = -100 } }
+"""
+        samples = self.run_scene(spin, "--duration", 5, "--every", 1)["samples"]
+        beside = self.run_scene(spin + floor, "--duration", 5, "--every", 1)["samples"]
+        for alone, other in zip(samples, beside):
+            self.assertAlmostEqual(alone["kinetic_energy"], 1.27875, delta=1e-9)
+            self.assertEqual(alone["links"]["rod"], other["links"]["rod"])
+
+
 class Refused(Scenes):
     def test_contacts_take_the_semi_implicit_integrator_only(self):
         pair = BALL + BALL.replace("ball", "other")

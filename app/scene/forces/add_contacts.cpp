@@ -32,6 +32,19 @@ bool limits_act(const SceneModel& scene, Integrator integrator) {
   return integrator == Integrator::semi_implicit && has_limits(scene);
 }
 
+bool steps_for_flight(const SceneModel& scene, Integrator integrator) {
+  if (integrator != Integrator::semi_implicit) return false;
+  const Model<double>& model = scene.model;
+  for (int body = 1; body < model.body_count(); ++body) {
+    const auto i = static_cast<std::size_t>(body);
+    if (model.joint[i] == JointType::free && model.parent[i] == 0 && model.last_child[i] == 0 &&
+        std::none_of(scene.constraints.begin(), scene.constraints.end(),
+                     [&](const SceneConstraint& c) { return c.a == body || c.b == body; }))
+      return true;
+  }
+  return false;
+}
+
 bool locates_events(const SceneModel& scene) {
   return scene.description.contact == ContactMode::event;
 }
@@ -72,7 +85,10 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
     look_at_start(simulation);
     simulation.add(*contacts_);
   }
-  if (limits_act(scene, simulation.integrator())) {
+  // Without a source of constraints a step is an unconstrained one: limits are one, even if none.
+  const bool flight = !scene.may_touch() && !locates_events(scene) &&
+                      steps_for_flight(scene, simulation.integrator());
+  if (limits_act(scene, simulation.integrator()) || flight) {
     limits_.emplace(scene.model);
     add_limits();
     simulation.add(*limits_);
