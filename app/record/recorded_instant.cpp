@@ -50,7 +50,8 @@ RecordedInstant open_instant(const std::filesystem::path& file, std::optional<do
   }();
   RecordedInstant instant{std::move(prepared), simulation_memory(frame.memory), frame.t, {}, files};
   for (std::size_t i = 0; i < frame.rows.size(); ++i)
-    instant.ledger.push_back({recording.rows()[frame.rows[i]], frame.works[i]});
+    instant.ledger.push_back(
+        {LedgerKind::earlier, recording.rows()[frame.rows[i]], frame.works[i]});
   Memory memory = instant.memory;
   State<double> x(instant.prepared.input.robot.model);
   memory.visit(x.q);

@@ -117,7 +117,7 @@ struct DistantRobot {
     hand.before = hand.now;
     hand.now = place;
     hand.t = simulation.state().t;
-    operator_motion.h = h;
+    hand.h = h;
     simulation.step(h);
     return reaction.after_step(kvr.end(), simulation.state(), simulation.kinematics(), h)[0];
   }

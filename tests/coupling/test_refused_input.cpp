@@ -115,7 +115,7 @@ TEST_CASE("a tracking run and predictions refuse a step size that is not positiv
   const Eigen::MatrixXd one = Eigen::MatrixXd::Constant(1, 1, 1.0);
   for (const double h : kBadSteps) {
     CAPTURE(h);
-    tracking_run.h = h;
+    tracking.h = h;
     CHECK_THROWS_AS(TrackingSystem{tracking}, InputError);
     CHECK_THROWS_AS(growth_per_step(one, {{one, one, one}}, Integrator::rk4, h), InputError);
     CHECK_THROWS_AS(largest_stiffness_factor(one, one, one, Scheme::euler, h, Keep::damping_ratio),

@@ -195,14 +195,14 @@ TEST_CASE("lab painter: a failure while it draws is shown as an error, and frame
   Painted lab(kSlowlyDriven);
   for (int n = 0; n < 2; ++n)
     lab.painter.ask([](LabPainter&) { throw std::runtime_error("no such mesh"); });
-  REQUIRE(Painted::until([&] { return !lab.status().notes.empty(); }));
+  REQUIRE(comes_true([&] { return !lab.status().notes.empty(); }));
   lab.settle();
   const std::vector<LabNote> notes = lab.status().notes;
   CHECK(notes.front().level == "error");
   CHECK(notes.front().text == "the lab cannot draw this: no such mesh");
   CHECK(notes.size() == 2);  // the other one is that of settle()
   const std::size_t before = lab.frames().size();
-  CHECK(Painted::until([&] { return lab.frames().size() > before + 5; }));
+  CHECK(comes_true([&] { return lab.frames().size() > before + 5; }));
 }
 
 TEST_CASE("lab session: the status goes with news at once, else a few times a second") {

@@ -98,7 +98,7 @@ TEST_CASE("lab session: a failure in the run's thread pauses the run and is show
   CHECK(lab.has_note("the run is paused: nobody is there to answer"));
   CHECK_FALSE(lab.session.now().status->playing);
   lab.session.push(parse_command(R"({"do": "play", "on": true})"));
-  CHECK(ToldSession::waits_until([&] { return lab.session.now().status->playing; }));
+  CHECK(comes_true([&] { return lab.session.now().status->playing; }));
 }
 
 TEST_CASE("lab session: an order that is replaced may ask the session in its answer") {

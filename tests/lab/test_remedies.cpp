@@ -96,8 +96,9 @@ TEST_CASE("remedies: they follow from the kind and the place of a suspect, whate
     return changes;
   };
   for (const auto& [plan, kind, change] :
-       {std::tuple{&coupled, Suspect::Kind::coupling, "coupling[0].treatment=implicit"},
-        std::tuple{&damped, Suspect::Kind::joint_damper, "integrator=semi-implicit"}}) {
+       {std::tuple<const SimulatePlan*, Suspect::Kind, std::string>{
+            &coupled, Suspect::Kind::coupling, "coupling[0].treatment=implicit"},
+        {&damped, Suspect::Kind::joint_damper, "integrator=semi-implicit"}}) {
     std::vector<Suspect> suspects = find_suspects(*plan);
     REQUIRE(!suspects.empty());
     CHECK(suspects.front().kind == kind);

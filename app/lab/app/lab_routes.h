@@ -8,9 +8,9 @@
 
 #include "app/lab/app/message_streamer.h"
 #include "app/lab/app/task_queue.h"
+#include "app/lab/app/upload_folder.h"
 #include "app/lab/server/lab_server.h"
 #include "app/lab/session/lab_session.h"
-#include "app/lab/upload_folder.h"
 
 namespace twinarm {
 

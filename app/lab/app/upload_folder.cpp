@@ -1,4 +1,4 @@
-#include "app/lab/upload_folder.h"
+#include "app/lab/app/upload_folder.h"
 
 #include <algorithm>
 

@@ -226,7 +226,7 @@ struct Glass::Impl {
     const RecordedFrame& recorded = frame.recorded;
     for (std::size_t i = 0; i < std::min(recorded.rows.size(), recorded.works.size()); ++i)
       if (recorded.rows[i] < ledger.size())
-        view.ledger.push_back({ledger[recorded.rows[i]], recorded.works[i]});
+        view.ledger.push_back({LedgerKind::earlier, ledger[recorded.rows[i]], recorded.works[i]});
     return view;
   }
 

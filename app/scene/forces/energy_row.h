@@ -29,7 +29,7 @@ enum class LedgerKind {
   tree,  // impulse through the joint that carries a tree
   outside,
   numerical,
-  earlier  // of what ran before a change, and is there no more
+  earlier  // read from a recording, or of what ran before a change
 };
 
 // In recordings and JSON; always the last row.

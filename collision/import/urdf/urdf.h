@@ -16,7 +16,7 @@ struct UrdfOptions {
   Geometry geometry = Geometry::required;
   // An inertia that no rigid body can have is a fault, and not only a warning.
   bool strict = false;
-  FileRoots roots;  // of meshes and textures
+  FileRoots roots = {};  // of meshes and textures
 };
 
 // Throws InputError with ALL faults of the file, each with its line. What was read but is
