@@ -141,6 +141,18 @@ class Layers(unittest.TestCase):
                  if symbol in defined and defined[symbol] not in self.below[folder]}
         self.assertEqual(sorted(wrong), [])
 
+    def test_every_folder_has_a_readme_that_names_files_of_it(self):
+        missing = []
+        for folder in self.order:
+            readme = ROOT / folder / "README.md"
+            if not readme.is_file():
+                missing.append(f"{folder} has no README.md")
+                continue
+            for name in re.findall(r"`([a-z0-9_/]+\.(?:h|cpp|inl))`", readme.read_text(encoding="utf-8")):
+                if not (ROOT / name).is_file() and not list((ROOT / folder).rglob(name)):
+                    missing.append(f"{folder}/README.md names {name}")
+        self.assertEqual(missing, [])
+
     def test_folders_are_small(self):
         count = collections.Counter(path.rpartition("/")[0] for path in self.files)
         self.assertEqual({f: n for f, n in count.items() if n > LARGE.get(f, MAX_FILES)}, {})
