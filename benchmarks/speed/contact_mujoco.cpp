@@ -45,7 +45,7 @@ std::string boxes(const ContactScene& scene) {
 std::string mjcf(const ContactScene& scene) {
   std::ostringstream xml;
   xml << "<mujoco><compiler angle=\"radian\"/><size njmax=\"2400\" nconmax=\"800\"/>"
-      << "<option timestep=\"" << obstacle_scene.h << "\" gravity=\"0 0 " << -standard_gravity
+      << "<option timestep=\"" << scene.h << "\" gravity=\"0 0 " << -standard_gravity
       << "\" solver=\"Newton\" cone=\"elliptic\"/><default><geom friction=\"" << contact_friction
       << "\"/></default><worldbody>" << (scene.has_arm() ? arm() : boxes(scene))
       << "</worldbody></mujoco>";

@@ -219,10 +219,9 @@ class Planes(MapCommand):
         for option, value in (("--duration", 0.2), ("--step", 0.002), ("--integrator", "rk4"),
                               ("--of", "pull")):
             told = self.faults(scene, *axes, option, value, "--work", work)
-            self.assertIn("the file is of another map", told, option)
-        self.assertIn("the file is of another map: cells", self.faults(scene, *axes, "--alone",
-                                                                       "--work", work))
-        self.assertIn("no whole step", self.faults(scene, *axes[:2], "--y", "step:0.05:100:4"))
+            self.assertEqual([fault["code"] for fault in told], ["map.other-map"], option)
+        self.refused("map.other-map", "cells", scene, *axes, "--alone", "--work", work)
+        self.assertIn("no whole step", str(self.faults(scene, *axes[:2], "--y", "step:0.05:100:4")))
 
     def test_parts_that_contradict_each_other_are_not_joined(self):
         scene = self.scene(duration=0.1)
@@ -236,7 +235,7 @@ class Planes(MapCommand):
         block[-1] ^= 1
         b.write_bytes(data[:begin] + block + struct.pack("<Q", fnv1a(block)))
         self.twinarm("map", "--merge", b)
-        self.assertIn("another file has other values", self.faults("--merge", a, b))
+        self.refused("map.blocks", str(b), "--merge", a, b)
 
 
 if __name__ == "__main__":

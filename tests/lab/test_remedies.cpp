@@ -97,13 +97,17 @@ TEST_CASE("remedies: they follow from the kind and the place of a suspect, whate
   };
   for (const auto& [plan, kind, change] :
        {std::tuple<const SimulatePlan*, Suspect::Kind, std::string>{
-            &coupled, Suspect::Kind::coupling, "coupling[0].treatment=implicit"},
+            &coupled, Suspect::Kind::coupling, "coupling[1].treatment=implicit"},
         {&damped, Suspect::Kind::joint_damper, "integrator=semi-implicit"}}) {
     std::vector<Suspect> suspects = find_suspects(*plan);
     REQUIRE(!suspects.empty());
     CHECK(suspects.front().kind == kind);
     for (Suspect& suspect : suspects) suspect.name = "another name";
     const std::vector<std::string> changes = changes_by(*plan, suspects);
+    INFO(change);
+    std::string offered;
+    for (const std::string& c : changes) offered += c + " ";
+    CAPTURE(offered);
     CHECK(std::find(changes.begin(), changes.end(), change) != changes.end());
   }
 }

@@ -78,12 +78,13 @@ class DepthScan {
 }  // namespace
 
 std::string read_toml_text(const std::filesystem::path& file) {
-  const auto refuse = [&](int line, const std::string& rule, const std::string& remedy) {
-    throw InputError({{file.string(), line, "", rule, remedy}});
+  const auto refuse = [&](int line, const std::string& rule, const std::string& remedy,
+                          std::string_view code = "") {
+    throw InputError({{file.string(), line, "", rule, remedy, code}});
   };
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
-    refuse(0, "the file does not exist", "check the path");
+    refuse(0, "the file does not exist", "check the path", "file.missing");
   if (std::filesystem::file_size(file, ignored) > kMostTomlBytes)
     refuse(0, "the file has more than 4 MiB", "meshes and traces stand in files of their own");
   std::ifstream stream(file, std::ios::binary);
