@@ -160,7 +160,7 @@ class LabLeavesNothing(unittest.TestCase):
             del os.environ["TMPDIR"]
             lab = Lab(running.url)
             with lab.live() as live:
-                self.assertEqual(lab.upload("part.stl", "solid", live).status, 200)
+                self.assertEqual(lab.upload("part.stl", "solid", live).status, 202)
             self.assertEqual(len(list(pathlib.Path(folder).rglob("part.stl"))), 1)
             self.assertEqual(running.end(), (0, ""))
             self.assertEqual(os.listdir(folder), [])

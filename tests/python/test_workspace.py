@@ -13,7 +13,7 @@ class Workspace(InFolder):
         model = twinarm.load(DOUBLE_PENDULUM)
         twinarm.aba(model, [0, 0], [0, 0], [0, 0])
         ws = model.workspace()
-        text = (ROOT / "solver" / "workspace.h").read_text(encoding="utf-8")
+        text = (ROOT / "solver/model/workspace.h").read_text(encoding="utf-8")
         stated = re.findall(r'visit\(\{((?:[^{}]|\n)*?)\},\s*\w+\)', text)
         self.assertGreater(len(stated), 10)
         names = [re.match(r'"(\w+)"', words).group(1) for words in stated]
