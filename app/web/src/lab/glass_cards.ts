@@ -4,7 +4,7 @@ import type { Quantity } from '../data/inspection';
 import { element, unitText } from '../ui/dom';
 import { math, source, texNumber, texOf } from '../ui/formula';
 import { quantityCard, unitOfSix } from '../ui/quantity';
-import { equationBlock } from './glass_equation';
+import { equationBlock, equationLine } from './glass_equation';
 
 // Of a joint: the first where it turns, the second where it shifts.
 export function unitOf({ passes }: GlassNumbers, unit: string): string {
@@ -67,7 +67,7 @@ function block(equation: Equation, quantity: Quantity, numbers: GlassNumbers, un
   const minus = `${felt > 0 ? '+' : '-'} ${texNumber(Math.abs(felt))}`;
   const tex = `\\dfrac{${texNumber(u)} ${minus}}{${texNumber(D)}} = \\mathbf{${texNumber(quantity.value)}}`;
   return [
-    element('p', { class: 'set' }, math(texOf("qdd = D^-1 ( u - U^T a' )"))),
+    equationLine("qdd = D^-1 ( u - U^T a' )"),
     element(
       'p',
       { class: 'line', title: String(quantity.value) },

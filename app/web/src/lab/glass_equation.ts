@@ -111,6 +111,11 @@ function inLine(equation: Equation, unit: string): HTMLElement {
   );
 }
 
+// A browser lets the focus stop at an equation that is too wide for the panel: it needs a name.
+export function equationLine(text: string): HTMLElement {
+  return element('p', { class: 'set', role: 'math', 'aria-label': text }, math(texOf(text)));
+}
+
 // `unit` of the left side: of six "angular; linear", of a joint "turning; shifting".
 export function equationBlock(equation: Equation, body: string, unit: string): Node[] {
   const { value, residual, text } = equation;
@@ -123,7 +128,7 @@ export function equationBlock(equation: Equation, body: string, unit: string): N
   const words =
     residual === null ? 'not all numbers are finite' : `but for ${short(residual)} of the largest`;
   return [
-    element('p', { class: 'set' }, math(texOf(text))),
+    equationLine(text),
     ...numbers,
     ...(rest ? [element('p', { class: 'note' }, words)] : []),
   ];
