@@ -19,7 +19,7 @@ namespace {
 constexpr int max_rounds = 200;     // polytopes take 3-10, ellipsoids up to some 50
 constexpr double resolved = 1e-10;  // of the two bounds, curved shapes: they come ever nearer [m]
 constexpr double exact = 1e-15;     // the same of polytopes, which end at the very feature [m]
-constexpr double flat = 1e-13;      // sine: such a tetrahedron has no side where the origin is
+constexpr double kFlat = 1e-13;     // sine: such a tetrahedron has no side where the origin is
 
 struct Corner {
   Vector3 w, p_A, p_B;  // w = p_A - p_B
@@ -74,7 +74,7 @@ Simplex of_tetrahedron(const Corners& corners) {
     const Vector3 n = (corners[j].w - p).cross(corners[k].w - p);
     const Vector3 up = corners[top].w - p;
     const double of_top = n.dot(up), of_origin = -n.dot(p);
-    const bool is_flat = of_top * of_top <= flat * flat * n.squaredNorm() * up.squaredNorm();
+    const bool is_flat = of_top * of_top <= kFlat * kFlat * n.squaredNorm() * up.squaredNorm();
     if (is_flat || !(of_top * of_origin > 0)) take_nearer(of_triangle(corners, i, j, k), best);
   }
   return best.count == 0 ? Simplex{{0, 1, 2, 3}, {}, 4, Vector3::Zero()} : best;
