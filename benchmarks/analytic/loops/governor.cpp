@@ -16,7 +16,7 @@ namespace {
 
 using namespace loop_parts;
 
-constexpr double k_coupler = 8e5, b_coupler = 4e4, rest = 0.5;
+constexpr double k_coupler = 8e5, b_coupler = 4e4, rest_length = 0.5;
 const Vector3 kRodMiddle(0.5, 0, 0);  // of a rod, in its own axes
 constexpr double kSide = 0.05;        // of the slider and of the hinges, from the axis
 
@@ -34,7 +34,7 @@ struct CouplerForces final : ForceSource, Rewindable {
       const double length = line.norm();
       const Vector3 n = line / length;
       const double rate = n.dot(k.velocity(slider, to) - k.velocity(body, from));
-      const Vector3 f = (k_coupler * (length - rest) + b_coupler * rate) * n;
+      const Vector3 f = (k_coupler * (length - rest_length) + b_coupler * rate) * n;
       add_point_force(k, body, from, f, forces);
       add_point_force(k, slider, to, -f, forces);
     }
@@ -108,7 +108,7 @@ LoopCase governor(Couplers couplers) {
     LoopClosure end{"coupler" + n, LoopType::distance, rods[side], slider, {{}, kRodMiddle}, {}};
     end.X_LaC.R.setIdentity();
     end.X_LbC.p.x() = side == 0 ? kSide : -kSide;
-    end.length = rest;
+    end.length = rest_length;
     if (couplers == Couplers::implicit_struts) {
       // Turned on the rod so that its x points to the slider when both lie 30 degrees off the
       // horizontal, on either side of it.
@@ -116,7 +116,7 @@ LoopCase governor(Couplers couplers) {
       const int turn = builder.add_body("pin" + n, rods[side], "pin" + n, JointType::revolute,
                                         at(0.5, 0, 0), Vector3::UnitY(), light);
       const int tip = builder.add_body("strut" + n, turn, "strut" + n, JointType::prismatic,
-                                       at(-rest, 0, 0), -Vector3::UnitX(), light);
+                                       at(-rest_length, 0, 0), -Vector3::UnitX(), light);
       struts[side] = static_cast<std::size_t>(tip);
       end = {"end" + n, LoopType::ball, tip, slider, {}, end.X_LbC};
     }
