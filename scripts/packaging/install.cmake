@@ -21,6 +21,8 @@ foreach(library IN LISTS libraries)
   string(REPLACE twinarm_ "" name ${library})
   set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
 endforeach()
+add_custom_target(twinarm_development)  # all that libtwinarm-dev holds
+add_dependencies(twinarm_development ${libraries})
 target_include_directories(twinarm_solver_spatial
   INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/twinarm>)
 target_compile_features(twinarm_solver_spatial INTERFACE $<INSTALL_INTERFACE:cxx_std_20>)
