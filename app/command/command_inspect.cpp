@@ -62,8 +62,10 @@ int run_inspect(const InspectOptions& options) {
     SimulateInput& input = prepared->input;
     read_bodies(options, input.robot.model, view, faults);
     inspected = attempt(faults, [&] {
-      return input.scene ? inspect_scene(input, prepared->run.step, memory ? &*memory : nullptr)
-                         : inspect_robot(input.robot);
+      return input.scene
+                 ? inspect_scene(input, prepared->run.step, memory ? &*memory : nullptr,
+                                 memory ? prepared->run.integrator : Integrator::semi_implicit)
+                 : inspect_robot(input.robot);
     });
   }
   if (inspected) read_forces(options, inspected->actors, view, faults);

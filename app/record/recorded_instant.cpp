@@ -48,6 +48,8 @@ RecordedInstant open_instant(const std::filesystem::path& file, std::optional<do
       throw files->as_typed(error);
     }
   }();
+  prepared.run.integrator =
+      find_integrator(recording.header().integrator).value_or(Integrator::semi_implicit);
   RecordedInstant instant{std::move(prepared), simulation_memory(frame.memory), frame.t, {}, files};
   for (std::size_t i = 0; i < frame.rows.size(); ++i)
     instant.ledger.push_back(

@@ -27,8 +27,8 @@ struct RecordedInstant {
   std::shared_ptr<const UnpackedRun> files;
 };
 
-// The last frame at or before `at`; left out: the last of all. With semi-implicit steps. Throws
-// InputError.
+// The last frame at or before `at`; left out: the last of all. Prepared for semi-implicit steps;
+// `prepared.run.integrator` is that of the run. Throws InputError.
 RecordedInstant open_instant(const std::filesystem::path& file, std::optional<double> at);
 
 }  // namespace twinarm

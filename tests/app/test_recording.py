@@ -74,6 +74,16 @@ class Recordings(RecordingCommand):
         file = self.record(HELD % (50, 2, "rate = 100"), "--duration", 0.2, "--step", 0.001)
         self.goes_on_with_the_same_bits(file, (0, 0.033, 0.104))
 
+    def test_a_recording_of_any_integrator_can_be_inspected_with_a_free_body_and_with_limits(self):
+        free = '[[body]]\nname = "rod"\nshape = { box = { size = [0.02, 0.02, 0.2] } }\nmass = 1\n'
+        limited = '[[robot]]\nname = "arm"\nmodel = "test.urdf"\n'
+        urdf = robot(link("base"), link("arm"), joint("swing", "revolute", "base", "arm"))
+        for scene in (free, limited):
+            for integrator in ("semi-implicit", "rk4"):
+                file = self.record(scene, "--duration", 0.02, "--integrator", integrator, urdf=urdf)
+                inspected = json.loads(self.twinarm("inspect", file, "--at", 0.01, "--json").stdout)
+                self.assertTrue(inspected["passes"])
+
     def test_a_recording_stands_alone_where_its_files_have_changed_or_are_gone(self):
         file = self.record(HELD % (50, 2, ""), "--duration", 0.2)
         (self.folder / "test.urdf").unlink()

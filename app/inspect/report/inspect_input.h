@@ -10,6 +10,7 @@
 #include "app/inspect/inspection.h"
 #include "app/run/simulate_input.h"
 #include "solver/forces/force_source.h"
+#include "solver/integration/integrator.h"
 #include "solver/support/state_archive.h"
 
 namespace twinarm {
@@ -39,7 +40,10 @@ struct NamedSource {
 // for; the input and the sources must outlive it, and the input's state goes along.
 class SceneInspector {
  public:
-  SceneInspector(SimulateInput& input, double h, const std::vector<NamedSource>& others = {});
+  // `of_run`: the integrator of the run that the memory of look() is of. With it limits act or do
+  // not, and free bodies are stepped under constraints or are not.
+  SceneInspector(SimulateInput& input, double h, const std::vector<NamedSource>& others = {},
+                 Integrator of_run = Integrator::semi_implicit);
   ~SceneInspector();
   // From the state of the last call, or of the input; or from an instant within a run that was
   // built alike (Simulation::visit_memory; throws as that does).
@@ -51,7 +55,8 @@ class SceneInspector {
 };
 
 // The same of one instant.
-Inspected inspect_scene(SimulateInput& input, double h, Memory* memory = nullptr);
+Inspected inspect_scene(SimulateInput& input, double h, Memory* memory = nullptr,
+                        Integrator of_run = Integrator::semi_implicit);
 
 // Used by both: torques of the state file by joint, and its wrenches.
 std::vector<Actor> given_actors(const RobotInput& input);

@@ -23,7 +23,8 @@ Index index(std::size_t i) {
 
 class SceneInspector::FirstStep {
  public:
-  FirstStep(SimulateInput& input, double h, const std::vector<NamedSource>& others)
+  FirstStep(SimulateInput& input, double h, const std::vector<NamedSource>& others,
+            Integrator of_run)
       : input_(input),
         model_(input.robot.model),
         h_(h),
@@ -40,9 +41,10 @@ class SceneInspector::FirstStep {
       if (ForceSource* source = input.couplings->source(c)) sim_.add(*source);
     for (const NamedSource& other : others_) sim_.add(*other.source);
     for (const SceneMotion& motion : input.scene->motions) sim_.prescribe(motion.body, motion.law);
-    sim_.set_integrator(Integrator::semi_implicit);
+    sim_.set_integrator(of_run);
     sim_.constrain_accelerations();
     contacts_.emplace(*input.scene, sim_);
+    sim_.set_integrator(Integrator::semi_implicit);
   }
 
   Inspected look(Memory* memory) {
@@ -251,15 +253,15 @@ class SceneInspector::FirstStep {
 };
 
 SceneInspector::SceneInspector(SimulateInput& input, double h,
-                               const std::vector<NamedSource>& others)
-    : step_(std::make_unique<FirstStep>(input, h, others)) {}
+                               const std::vector<NamedSource>& others, Integrator of_run)
+    : step_(std::make_unique<FirstStep>(input, h, others, of_run)) {}
 SceneInspector::~SceneInspector() = default;
 Inspected SceneInspector::look(Memory* memory) {
   return step_->look(memory);
 }
 
-Inspected inspect_scene(SimulateInput& input, double h, Memory* memory) {
-  return SceneInspector(input, h).look(memory);
+Inspected inspect_scene(SimulateInput& input, double h, Memory* memory, Integrator of_run) {
+  return SceneInspector(input, h, {}, of_run).look(memory);
 }
 
 }  // namespace twinarm

@@ -193,7 +193,7 @@ struct Glass::Impl {
     lead.emplace(input.scene.get(), nobody, h);
     input.couplings =
         std::make_unique<SceneCouplings>(*input.scene, h, nullptr, in_place_of(*lead, hand));
-    scene.emplace(input, h, std::vector<NamedSource>{{"mouse", &pull}});
+    scene.emplace(input, h, std::vector<NamedSource>{{"mouse", &pull}}, plan.run.integrator);
   }
 
   Inspected look(const LabFrame& frame) {
