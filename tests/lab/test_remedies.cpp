@@ -104,7 +104,6 @@ TEST_CASE("remedies: they follow from the kind and the place of a suspect, whate
     CHECK(suspects.front().kind == kind);
     for (Suspect& suspect : suspects) suspect.name = "another name";
     const std::vector<std::string> changes = changes_by(*plan, suspects);
-    INFO(change);
     std::string offered;
     for (const std::string& c : changes) offered += c + " ";
     CAPTURE(offered);
