@@ -4,14 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 namespace {
 
 // A velocity that is the rate of change of a coordinate.
 bool is_rate(JointType type) {
-  return type != JointType::spherical && type != JointType::free;
+  return facts_of(type).quaternion < 0;
 }
 
 double dot(const Eigen::VectorXd& rows, const NamedJoint& joint,

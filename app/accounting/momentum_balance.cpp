@@ -12,7 +12,7 @@ MomentumLedger::MomentumLedger(const RobotInput& input, const std::vector<GivenW
       couplings_(couplings),
       integrator_(integrator),
       rule_(locates_events ? Rule::located
-            : simulation.constraints().any() || facts_of(integrator).implicit_force
+            : simulation.has_constrained_steps() || facts_of(integrator).implicit_force
                 ? Rule::at_start
                 : Rule::integral),
       coupling_count_(couplings ? couplings->size() : 0),
@@ -72,7 +72,7 @@ void MomentumLedger::add_step(double h, std::span<const double> weights,
     at.qd = now_.qd;
     add_given(h, at);
     add_pulls(h, at, end);
-    if (!after.constraints().any()) add_loops(h, after, now_.qd, h);
+    if (!after.has_constrained_steps()) add_loops(h, after, now_.qd, h);
     add_trees(h, after);
     add_impacts(after);
   } else if (rule_ == Rule::located) {
@@ -155,7 +155,8 @@ void add_pull(double part, const SceneCoupling& spec, const Vector3& pull, const
 void MomentumLedger::add_couplings(double part, const State<double>& x, SceneCouplings::Side side) {
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
-    if (spec.rate > 0 || spec.printed) {  // held from step to step
+    if (spec.rate > 0 || spec.printed || spec.third_row() == SceneCoupling::ThirdRow::drive) {
+      // held from step to step, or no spring-damper
       add_pull(part, spec, couplings_->pull(c), k_, sums_[coupling(c)]);
       continue;
     }
@@ -218,7 +219,7 @@ void MomentumLedger::add_trees(double part, const Simulation& at) {
 }
 
 void MomentumLedger::add_impacts(const Simulation& after) {
-  if (trees_.empty() || !after.constraints().any() || after.constraints().report().impacts == 0)
+  if (trees_.empty() || !after.has_constrained_steps() || after.constraints().report().impacts == 0)
     return;
   State<double> then = now_;
   then.qd = after.constraints().velocities_after_impacts();

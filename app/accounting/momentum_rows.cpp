@@ -86,7 +86,7 @@ std::vector<MomentumRow> MomentumLedger::rows(const Simulation& simulation,
   }
   const std::vector<LoopClosure>& loops = simulation.dynamics().bilateral().loops().loops();
   for (std::size_t l = 0; l < loop_count_; ++l)
-    if (loops[l].type != LoopType::gear && loops[l].type != LoopType::locked)
+    if (facts_of(loops[l].type).ends == LoopBetween::bodies)
       between(LedgerKind::constraint, "constraint/" + loops[l].name, sums_[loop(l)],
               loops[l].body_b, loops[l].body_a);
   for (std::size_t l = 0; l < loop_count_; ++l)

@@ -1,8 +1,8 @@
-// The analytic cases that were asked for, run two at a time; each by itself, so that their order
+// The analytic cases that were asked for, each run by itself, so that their order
 // changes no bit.
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,12 +40,6 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
 std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
                              const std::vector<double>& steps, FaultList& faults);
 std::string lane_name(const Lane& lane);  // "rk4 0.001"
-
-// Calls work(0) .. work(count - 1), two at a time where there are two processors. `tick` is called
-// every now and then with how many are done; it may throw, and so may work, after which no further
-// one begins.
-void two_at_a_time(std::size_t count, const std::function<void(std::size_t)>& work,
-                   const std::function<void(std::size_t)>& tick);
 
 // A case is judged in its own lane; the others are beside it.
 CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& lanes);

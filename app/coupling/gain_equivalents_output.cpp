@@ -69,10 +69,7 @@ std::string one_table(const Equivalents& e, double step) {
 }
 
 void write_gains(JsonWriter& json, const SpringGains& gains) {
-  json.begin_object();
-  json.key("stiffness").number(gains.k);
-  json.key("damping").number(gains.b);
-  json.end_object();
+  json.object({{"stiffness", gains.k}, {"damping", gains.b}});
 }
 
 void write_one(JsonWriter& json, const Equivalents& e) {
@@ -123,9 +120,7 @@ std::string equivalents_table(const std::vector<Equivalents>& all, double step) 
 std::string equivalents_json(const std::vector<Equivalents>& all) {
   JsonWriter json;
   json.begin_object();
-  json.key("couplings").begin_array();
-  for (const Equivalents& e : all) write_one(json, e);
-  json.end_array();
+  json.key("couplings").list(all, [&](const Equivalents& e) { write_one(json, e); });
   json.end_object();
   return json.str();
 }

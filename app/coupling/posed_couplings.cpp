@@ -114,8 +114,8 @@ PredictedCoupling PosedCouplings::about_zero(std::size_t c) {
   found.printed = spec.printed;
   found.is_linear = spec.type == CouplingDescription::Type::linear;
   const auto body = static_cast<std::size_t>(spec.spring.body);
-  found.is_length = found.is_linear ||
-                    (spec.measure == Measure::joint && model_.joint[body] == JointType::prismatic);
+  found.is_length =
+      found.is_linear || (spec.measure == Measure::joint && is_translational(model_.joint[body]));
   found.absolute_damper = spec.absolute_damper;
   found.rate = spec.rate;
   found.delay = spec.delay;
@@ -161,10 +161,11 @@ MatrixXd PosedCouplings::tangent(std::size_t c) {
 StepPart step_part(const PredictedCoupling& c, double h) {
   StepPart part{c.K, c.K_zero, c.B, c.treatment, 0};
   if (c.rate > 0) part.hold_steps = static_cast<int>(std::lround(1 / (c.rate * h)));
-  if (c.printed) part.law = StepLaw::printed;
-  if (c.law == CouplingSpec::Type::stable_pd) part.law = StepLaw::stable_pd;
-  if (c.landing.size() > 0) {
-    part.law = StepLaw::god_object;
+  const StepLaw law = facts_of(c.law, c.printed).step_law;
+  if (law != StepLaw::god_object) {
+    part.law = law;
+  } else if (c.landing.size() > 0) {
+    part.law = law;
     part.K = c.landing;
   }
   return part;

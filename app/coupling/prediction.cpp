@@ -183,7 +183,7 @@ std::string words_of_step(const Predicted& found) {
   for (const PredictedCoupling& c : found.couplings) {
     std::string word = c.is_own_treatment() ? facts_of(c.law, c.printed).name
                        : c.printed          ? "as printed"
-                                            : word_of(c.treatment);
+                                            : name_of(c.treatment);
     if (c.rate > 0) word += fmt::format(", held at {:g} Hz", c.rate);
     if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
   }
@@ -240,18 +240,6 @@ void add_warnings(const SceneModel& scene, Predicted& found) {
 }
 
 }  // namespace
-
-const char* word_of(Treatment treatment) {
-  switch (treatment) {
-    case Treatment::explicit_:
-      return "explicit";
-    case Treatment::semi_implicit:
-      return "semi-implicit";
-    case Treatment::implicit:
-      break;
-  }
-  return "implicit";
-}
 
 Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
   SimulateInput& input = prepared.input;

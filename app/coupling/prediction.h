@@ -14,6 +14,7 @@
 #include "app/run/simulate_input.h"
 #include "coupling/analysis/gain_conversion.h"
 #include "coupling/analysis/prediction.h"
+#include "coupling/laws/discretization.h"
 
 namespace twinarm {
 
@@ -112,7 +113,6 @@ struct Predicted {
 // Throws InputError where there is nothing to be predicted.
 Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task);
 
-const char* word_of(Treatment treatment);
 std::string predicted_table(const Predicted& found, const PredictTask& task);
 std::string predicted_json(const Predicted& found, const PredictTask& task);
 

@@ -11,31 +11,27 @@ constexpr std::array<const char*, 4> kSmoothNames{"cubic", "quintic", "cosine", 
 
 void write_coupling(JsonWriter& json, const PredictedCoupling& c) {
   json.begin_object();
-  json.key("name").text(c.name);
-  json.key("kind").text(c.kind);
-  json.key("treatment").text(c.is_own_treatment() ? "own" : word_of(c.treatment));
-  json.key("damper").text(c.absolute_damper ? "absolute" : "relative");
-  json.key("rate").number(c.rate);
-  json.key("delay").number(c.delay);
-  json.key("stiffness").number(c.gains.k);
-  json.key("damping").number(c.gains.b);
-  json.key("offset").number(c.offset);
-  json.key("K").matrix(c.K);
-  json.key("K_zero_offset").matrix(c.K_zero);
-  json.key("B").matrix(c.B);
-  json.key("frequency").number(c.alone.omega);
-  json.key("damping_ratio").number(c.alone.zeta);
-  json.key("arms").begin_array();
-  for (const SpringArm& arm : c.arms) {
-    json.begin_object();
-    json.key("joint").text(arm.joint);
-    json.key("radius").number(arm.radius);
-    json.key("target_radius").number(arm.target_radius);
-    json.key("largest_target_radius").number(arm.largest_target_radius);
-    json.key("largest_torque").number(arm.largest_torque);
-    json.end_object();
-  }
-  json.end_array();
+  json.members({{"name", c.name},
+                {"kind", c.kind},
+                {"treatment", c.is_own_treatment() ? "own" : name_of(c.treatment)},
+                {"damper", c.absolute_damper ? "absolute" : "relative"},
+                {"rate", c.rate},
+                {"delay", c.delay},
+                {"stiffness", c.gains.k},
+                {"damping", c.gains.b},
+                {"offset", c.offset},
+                {"K", c.K},
+                {"K_zero_offset", c.K_zero},
+                {"B", c.B},
+                {"frequency", c.alone.omega},
+                {"damping_ratio", c.alone.zeta}});
+  json.key("arms").list(c.arms, [&](const SpringArm& arm) {
+    json.object({{"joint", arm.joint},
+                 {"radius", arm.radius},
+                 {"target_radius", arm.target_radius},
+                 {"largest_target_radius", arm.largest_target_radius},
+                 {"largest_torque", arm.largest_torque}});
+  });
   json.key("through_wall");
   c.with_wall ? json.number(*c.with_wall) : json.null();
   json.end_object();
@@ -71,8 +67,7 @@ void write_mode(JsonWriter& json, const Predicted& found, const PredictedMode& m
   json.key("damping_ratio").number(mode.zeta);
   write_by_rows(json.key("shape"), found, mode.shape);
   json.key("errors").begin_object();
-  json.key("start").number(mode.errors.start);
-  json.key("reversal").number(mode.errors.reversal);
+  json.members({{"start", mode.errors.start}, {"reversal", mode.errors.reversal}});
   for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
     json.key(kSmoothNames[i]).number(mode.errors.smooth[i]);
   json.key("absolute_damper_lag").number(mode.errors.absolute_lag);
@@ -87,39 +82,27 @@ std::string predicted_json(const Predicted& found, const PredictTask& task) {
   JsonWriter json;
   json.begin_object();
   json.key("rows").texts(found.rows);
-  json.key("couplings").begin_array();
-  for (const PredictedCoupling& c : found.couplings) write_coupling(json, c);
-  json.end_array();
-  json.key("K").matrix(found.K);
-  json.key("B").matrix(found.B);
-  json.key("mass_matrix").matrix(found.M);
-  json.key("target").begin_object();
-  json.key("distance").number(task.distance);
-  json.key("time").number(task.time);
-  json.end_object();
-  json.key("modes").begin_array();
-  for (const PredictedMode& mode : found.modes) write_mode(json, found, mode);
-  json.end_array();
+  json.key("couplings").list(found.couplings, [&](const PredictedCoupling& c) {
+    write_coupling(json, c);
+  });
+  json.members({{"K", found.K}, {"B", found.B}, {"mass_matrix", found.M}});
+  json.key("target").object({{"distance", task.distance}, {"time", task.time}});
+  json.key("modes").list(found.modes,
+                         [&](const PredictedMode& mode) { write_mode(json, found, mode); });
   write_errors(json, found);
-  json.key("limits").begin_array();
-  for (const SchemeLimit& limit : found.limits) {
-    json.begin_object();
-    json.key("scheme").text(name_of(limit.scheme));
-    json.key("largest_step").number(limit.largest_step);
-    json.key("stiffness_factor_same_ratio").number(limit.by_ratio);
-    json.key("stiffness_factor_same_zeta").number(limit.by_zeta);
-    json.key("is_the_scenes").boolean(limit.is_the_scenes);
-    json.end_object();
-  }
-  json.end_array();
-  json.key("scene").begin_object();
-  json.key("stepped").text(found.stepped);
-  json.key("integrator").text(integrator_name(found.integrator));
-  json.key("step").number(found.step);
-  json.key("largest_step").number(found.largest_step);
-  json.key("growth_per_step").number(found.growth);
-  json.key("stable").boolean(found.growth <= 1 + 1e-9);
-  json.end_object();
+  json.key("limits").list(found.limits, [&](const SchemeLimit& limit) {
+    json.object({{"scheme", name_of(limit.scheme)},
+                 {"largest_step", limit.largest_step},
+                 {"stiffness_factor_same_ratio", limit.by_ratio},
+                 {"stiffness_factor_same_zeta", limit.by_zeta},
+                 {"is_the_scenes", limit.is_the_scenes}});
+  });
+  json.key("scene").object({{"stepped", found.stepped},
+                            {"integrator", integrator_name(found.integrator)},
+                            {"step", found.step},
+                            {"largest_step", found.largest_step},
+                            {"growth_per_step", found.growth},
+                            {"stable", found.growth <= 1 + 1e-9}});
   write_by_rows(json.key("sag"), found, found.sag);
   json.key("warnings").texts(found.warnings);
   json.end_object();

@@ -28,7 +28,7 @@ std::string limit_cell(double value, double unit = 1) {
 std::string couplings_part(const Predicted& found) {
   TextTable table({"coupling", "kind", "treatment", "k", "b", "target off by", "w [rad/s]", "z"});
   for (const PredictedCoupling& c : found.couplings) {
-    const char* word = c.is_own_treatment() ? "its own" : word_of(c.treatment);
+    const char* word = c.is_own_treatment() ? "its own" : name_of(c.treatment);
     table.add({c.name, c.kind, word, cell(c.gains.k) + (c.is_length ? " N/m" : " N m/rad"),
                cell(c.gains.b) + (c.is_length ? " N s/m" : " N m s/rad"),
                c.is_length ? cell(1e3 * c.offset) + " mm" : cell(kDegrees * c.offset) + " deg",

@@ -41,16 +41,6 @@ void JsonWriter::text(std::string_view value) {
   write(quoted(value));
 }
 
-void JsonWriter::numbers(const std::vector<double>& values) {
-  begin_array();
-  for (const double value : values) number(value);
-  end_array();
-}
-void JsonWriter::texts(const std::vector<std::string>& values) {
-  begin_array();
-  for (const std::string& value : values) text(value);
-  end_array();
-}
 void JsonWriter::number_or_list(const std::vector<double>& values) {
   if (values.size() == 1) return number(values[0]);
   numbers(values);

@@ -2,22 +2,91 @@
 //
 // Numbers have the fewest digits (17 at most) that read back as the same double, and a point or an
 // exponent, so that readers take them for floating-point numbers; what is not finite is null.
+//
+//   json.object({{"name", row.name}, {"work", row.work}});          {"name": "a", "work": 0.5}
+//   json.list(rows, [&](const Row& row) { json.vector(row.p); });   [[1.0, 2.0], [..]]
+//   json.key("rows").object([&] { for (..) json.put(row.name, row.work); });
 #pragma once
 
 #include <Eigen/Core>
+#include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace twinarm {
 
 class JsonWriter {
  public:
+  // A key and what to write as its value: see value(). Refers to it: for the arguments of object()
+  // and members() alone.
+  struct Member {
+    template <class T>
+    Member(std::string_view name, const T& value)
+        : key(name), what(&value), write([](JsonWriter& json, const void* one) {
+            json.value(*static_cast<const T*>(one));
+          }) {}
+    std::string_view key;
+    const void* what;
+    void (*write)(JsonWriter& json, const void* what);
+  };
+  using Members = std::initializer_list<Member>;
+
   JsonWriter& key(std::string_view name);
   void begin_object() { open('{'); }
   void end_object() { close('}'); }
   void begin_array() { open('['); }
   void end_array() { close(']'); }
+
+  void object(Members all) {
+    begin_object();
+    members(all);
+    end_object();
+  }
+  // `write` writes the members.
+  template <class Write>
+  void object(const Write& write) {
+    begin_object();
+    write();
+    end_object();
+  }
+  // Of the object that is open.
+  void members(Members all) {
+    for (const Member& member : all) member.write(key(member.key), member.what);
+  }
+  template <class T>
+  void put(std::string_view name, const T& what) {
+    key(name).value(what);
+  }
+  // `write` writes one value for each item.
+  template <class Range, class Write>
+  void list(const Range& range, const Write& write) {
+    begin_array();
+    for (const auto& item : range) write(item);
+    end_array();
+  }
+
+  // A number, count, truth or text; null for an empty optional; a list of a range; numbers of a
+  // vector, rows of a matrix; a function writes its one value itself.
+  template <class T>
+  void value(const T& what) {
+    if constexpr (std::is_same_v<T, bool>)
+      boolean(what);
+    else if constexpr (std::is_integral_v<T>)
+      count(static_cast<long>(what));
+    else if constexpr (std::is_arithmetic_v<T>)
+      number(what);
+    else if constexpr (std::is_convertible_v<const T&, std::string_view>)
+      text(what);
+    else if constexpr (std::is_invocable_v<const T&>)
+      what();
+    else if constexpr (std::is_base_of_v<Eigen::EigenBase<T>, T>)
+      numbers_of(what);
+    else
+      range_or_optional(what);
+  }
 
   void number(double value);
   void count(long value);
@@ -38,14 +107,30 @@ class JsonWriter {
     for (Eigen::Index i = 0; i < values.size(); ++i) number(values(i));
     end_array();
   }
-  void numbers(const std::vector<double>& values);
-  void texts(const std::vector<std::string>& values);
+  void numbers(const std::vector<double>& values) { value(values); }
+  void texts(const std::vector<std::string>& values) { value(values); }
   // As the command line has joint values: a number where there is one, else a list.
   void number_or_list(const std::vector<double>& values);
 
   const std::string& str() const { return text_; }
 
  private:
+  template <class Derived>
+  void numbers_of(const Eigen::MatrixBase<Derived>& values) {
+    if constexpr (Derived::IsVectorAtCompileTime)
+      vector(values);
+    else
+      matrix(values);
+  }
+  template <class T>
+  void range_or_optional(const std::optional<T>& what) {
+    what ? value(*what) : null();
+  }
+  template <class Range>
+  void range_or_optional(const Range& range) {
+    list(range, [&](const auto& item) { value(item); });
+  }
+
   void open(char bracket);
   void close(char bracket);
   void separate();  // the comma before an item that is not the first

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 #include <functional>
 #include <optional>
 
-#include "app/device/gesture_device.h"
-#include "app/device/vrpn_client.h"
+#include "app/device/device_spec.h"
 #include "app/support/nearest_name.h"
 #include "app/support/streams.h"
 #include "coupling/device/device_log.h"
@@ -30,27 +29,10 @@ OmniAngles turned_by(double angle) {
   return turned;
 }
 
-[[noreturn]] void refuse_spec(const std::string& spec, const std::string& rule,
-                              const std::string& remedy) {
-  throw InputError({{"", 0, "--device " + spec, rule, remedy}});
-}
-
-template <class Number>
-std::optional<Number> whole_number(const std::string& text) {
-  Number value{};
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc() || result.ptr != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-// One of a list, with how it is made from the text after its name.
+// With how it is made from the text after its name.
 struct HandEntry {
   ScriptedHand hand;
   std::function<std::shared_ptr<const HandSource>(const std::string&)> make;
-};
-struct DeviceEntry {
-  DeviceKind kind;
-  std::function<std::unique_ptr<HandDevice>(const std::string&, const VirtualOmniSettings&)> make;
 };
 
 std::shared_ptr<const HandSource> synthetic_hand_of(const std::string& seed) {
@@ -91,58 +73,6 @@ const std::vector<HandEntry>& hand_entries() {
   return entries;
 }
 
-VrpnAddress vrpn_address(const std::string& text) {
-  const auto at = text.rfind('@');
-  const std::string remedy = "give the device's name and its server: vrpn:Phantom0@localhost:3883";
-  if (at == std::string::npos || at == 0 || at + 1 == text.size())
-    refuse_spec("vrpn:" + text, "this is not NAME@HOST[:PORT]", remedy);
-  VrpnAddress address{text.substr(0, at), text.substr(at + 1)};
-  if (address.device.size() > 99)
-    refuse_spec("vrpn:" + text, "the name is longer than VRPN's 99 letters", remedy);
-  // A colon parts host and port, unless it is one of an IPv6 address without brackets.
-  std::string& host = address.host;
-  const auto colon = host.rfind(':');
-  const bool bracketed = host.front() == '[' && host.find(']') != std::string::npos;
-  if (colon != std::string::npos &&
-      (bracketed ? colon > host.find(']') : host.find(':') == colon)) {
-    const auto port = whole_number<int>(host.substr(colon + 1));
-    if (!port || *port < 1 || *port > 65535)
-      refuse_spec("vrpn:" + text, "the port is no number from 1 to 65535", remedy);
-    address.port = *port;
-    host.resize(colon);
-  }
-  if (bracketed) host = host.substr(1, host.find(']') - 1);
-  if (host.empty()) refuse_spec("vrpn:" + text, "there is no host", remedy);
-  return address;
-}
-
-const std::vector<DeviceEntry>& device_entries() {
-  using Settings = VirtualOmniSettings;
-  static const std::vector<DeviceEntry> entries{
-      {{"virtual", "[:HAND]", "a Phantom Omni in software, moved by a scripted hand", true, true},
-       [](const std::string& hand, const Settings& settings) {
-         return std::make_unique<VirtualOmni>(scripted_hand(hand.empty() ? "paper" : hand),
-                                              settings);
-       }},
-      {{"keyboard", "[:TERMINAL]", "a virtual Omni moved by the keys of the terminal", false},
-       [](const std::string& path, const Settings& settings) {
-         return std::make_unique<GestureDevice>(open_keyboard(path), settings);
-       }},
-      {{"gamepad", "[:/dev/input/jsN]", "a virtual Omni moved by a game controller", false},
-       [](const std::string& path, const Settings& settings) {
-         return std::make_unique<GestureDevice>(open_gamepad(path), settings);
-       }},
-      {{"spacemouse", "[:SOCKET]", "a virtual Omni moved by a space mouse, by spacenavd", false},
-       [](const std::string& path, const Settings& settings) {
-         return std::make_unique<GestureDevice>(open_space_mouse(path), settings);
-       }},
-      {{"vrpn", ":NAME@HOST[:PORT]", "a real device behind a VRPN server", true},
-       [](const std::string& address, const Settings& settings) {
-         return std::make_unique<VrpnDevice>(vrpn_address(address), settings.figures);
-       }}};
-  return entries;
-}
-
 // "name:rest" parted at the first colon.
 std::pair<std::string, std::string> parted(const std::string& spec) {
   const auto colon = spec.find(':');
@@ -162,13 +92,19 @@ auto& entry_named(const Entries& entries, const NameOf& name_of, const std::stri
               name_remedy(name, names, kind + "s"));
 }
 
+const DeviceKind& device_kind(const std::string& name) {
+  return entry_named(
+      device_kinds(), [](const DeviceKind& kind) { return kind.name; }, name, "device");
+}
+
 }  // namespace
 
 const std::vector<DeviceKind>& device_kinds() {
   static const std::vector<DeviceKind> kinds = [] {
-    std::vector<DeviceKind> made;
-    for (const DeviceEntry& entry : device_entries()) made.push_back(entry.kind);
-    return made;
+    std::vector<DeviceKind> sorted = device_kinds_of_files();
+    std::sort(sorted.begin(), sorted.end(),
+              [](const DeviceKind& a, const DeviceKind& b) { return a.place < b.place; });
+    return sorted;
   }();
   return kinds;
 }
@@ -204,9 +140,8 @@ std::shared_ptr<const HandSource> scripted_hand(const std::string& spec) {
 
 bool stays_inside(const std::string& spec) {
   const auto [name, argument] = parted(spec);
-  const auto& device = entry_named(
-      device_entries(), [](const DeviceEntry& e) { return e.kind.name; }, name, "device");
-  if (!device.kind.stays_inside || argument.empty()) return device.kind.stays_inside;
+  const auto& device = device_kind(name);
+  if (!device.stays_inside || argument.empty()) return device.stays_inside;
   const auto& entry = entry_named(
       hand_entries(), [](const HandEntry& e) { return e.hand.name; }, parted(argument).first,
       "hand");
@@ -216,9 +151,8 @@ bool stays_inside(const std::string& spec) {
 std::unique_ptr<HandDevice> open_device(const std::string& spec,
                                         const VirtualOmniSettings& settings) {
   const auto [name, argument] = parted(spec);
-  const auto& entry = entry_named(
-      device_entries(), [](const DeviceEntry& e) { return e.kind.name; }, name, "device");
-  return entry.make(argument, settings);
+  const auto& entry = device_kind(name);
+  return entry.open(argument, settings);
 }
 
 }  // namespace twinarm

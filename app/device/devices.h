@@ -1,6 +1,8 @@
-// All hand devices by name: what `--device` takes.
+// All hand devices by name: what `--device` takes. A file NAME_kind.cpp of this folder defines
+// `DeviceKind NAME_kind()` (docs/develop/extending_device.md).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,12 +13,16 @@
 namespace twinarm {
 
 struct DeviceKind {
-  std::string name, argument;  // as in "vrpn" and "NAME@HOST[:PORT]"; [..] may be left out
+  int place = 0;               // in the list, ascending
+  std::string name, argument;  // as in "vrpn" and ":NAME@HOST[:PORT]"; [..] may be left out
   std::string help;            // one line
-  bool has_motors;
+  // Of the text after name and colon. Throws InputError where it does not answer.
+  std::function<std::unique_ptr<HandDevice>(const std::string&, const VirtualOmniSettings&)> open;
+  bool has_motors = false;
   bool stays_inside = false;  // it opens no file, device or socket
 };
 const std::vector<DeviceKind>& device_kinds();
+const std::vector<DeviceKind>& device_kinds_of_files();  // not in their order
 
 // The hands that move a virtual device, as in virtual:NAME.
 struct ScriptedHand {

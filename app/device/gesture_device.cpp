@@ -1,4 +1,5 @@
 #include "app/device/gesture_device.h"
+#include "app/support/seconds.h"
 
 #include <poll.h>
 #include <sys/eventfd.h>
@@ -11,10 +12,6 @@ namespace {
 
 constexpr int kGestureTick = 20;   // keys that are not held any more are noticed [ms]
 constexpr int kGestureLook = 500;  // for a device that is gone [ms]
-
-double gesture_clock() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 }  // namespace
 
@@ -53,7 +50,7 @@ void GestureDevice::run() {
       source_.fd = source_.again();
       connected_ = source_.fd.get() >= 0;
     }
-    if (connected_) source_.decoder->pass(gesture_clock(), *hand_);
+    if (connected_) source_.decoder->pass(steady_seconds(), *hand_);
   }
 }
 
@@ -62,7 +59,7 @@ bool GestureDevice::read_some() {
   std::array<std::uint8_t, 512> bytes{};
   const auto count = read(source_.fd.get(), bytes.data(), bytes.size());
   if (count > 0)
-    source_.decoder->feed(bytes.data(), static_cast<std::size_t>(count), gesture_clock(), *hand_);
+    source_.decoder->feed(bytes.data(), static_cast<std::size_t>(count), steady_seconds(), *hand_);
   return count > 0 || (count < 0 && (errno == EAGAIN || errno == EINTR));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/device/vrpn_link.h"
+#include "app/support/seconds.h"
 
 namespace twinarm {
 namespace {

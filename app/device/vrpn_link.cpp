@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "app/support/nearest_name.h"
+#include "app/support/seconds.h"
 #include "app/support/streams.h"
 #include "solver/support/diagnostics.h"
 
@@ -29,10 +30,6 @@ double unwrapped(double angle, double last) {
 }
 
 }  // namespace
-
-double steady_seconds() noexcept {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 VrpnDevice::Link::Link(VrpnAddress address, const OmniFigures& figures, VrpnSettings settings)
     : address_(std::move(address)),

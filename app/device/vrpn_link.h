@@ -87,6 +87,4 @@ class VrpnDevice::Link {
   std::thread thread_;
 };
 
-double steady_seconds() noexcept;
-
 }  // namespace twinarm

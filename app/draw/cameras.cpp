@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/support/nearest_name.h"
+#include "app/support/text_fields.h"
 #include "solver/support/diagnostics.h"
 #include "solver/support/number_text.h"
 
@@ -23,17 +24,6 @@ Vector3 towards_eye(const CameraWish& wish) {
 [[noreturn]] void refuse(const std::string& text, const std::string& rule,
                          const std::string& remedy) {
   throw InputError({{"", 0, "--camera", "'" + text + "' " + rule, remedy}});
-}
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> words(1);
-  for (const char c : text) {
-    if (c == ',')
-      words.emplace_back();
-    else
-      words.back() += c;
-  }
-  return words;
 }
 
 CameraWish parse_orbit(const std::string& text) {

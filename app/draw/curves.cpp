@@ -7,6 +7,7 @@
 
 #include "app/draw/palette.h"
 #include "app/support/nearest_name.h"
+#include "app/support/text_fields.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -91,17 +92,11 @@ const std::vector<CurveKind>& all_curves() {
 }
 
 std::vector<const CurveKind*> parse_curves(const std::string& text) {
-  std::vector<std::string> known, words(1);
+  std::vector<std::string> known;
   for (const CurveKind& kind : all_curves()) known.emplace_back(kind.name);
-  for (const char c : text) {
-    if (c == ',')
-      words.emplace_back();
-    else
-      words.back() += c;
-  }
   std::vector<const CurveKind*> chosen;
   FaultList faults;
-  for (const std::string& word : words) {
+  for (const std::string& word : split(text)) {
     if (word == "none" || word.empty()) continue;
     const auto found = std::find(known.begin(), known.end(), word);
     if (found == known.end())

@@ -22,7 +22,7 @@ constexpr std::array<Color, 7> kLines{Color{0.00f, 0.45f, 0.70f, 1.0f},   // blu
                                       Color{0.90f, 0.62f, 0.00f, 1.0f},   // orange
                                       Color{0.34f, 0.71f, 0.91f, 1.0f}};  // sky blue
 
-// --c0 to --c6 of app/web/src/style.css.
+// --c0 to --c6 of app/web/src/ui/style.css.
 constexpr std::array<Color, 7> kLanes{Color{0.00f, 0.45f, 0.70f, 1.0f},   // blue
                                       Color{0.84f, 0.37f, 0.00f, 1.0f},   // vermilion
                                       Color{0.00f, 0.56f, 0.42f, 1.0f},   // bluish green

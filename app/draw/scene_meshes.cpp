@@ -142,7 +142,7 @@ void add_body(const SceneGeometry& geometry, const BodyDescription& body, std::s
     maker.lay_on(body.texture, "body '" + body.name + "'", *look);
     return maker.add(index, -1, *look, geometry.X_LG, color);
   }
-  const auto& half = std::get<HalfSpaceSpec>(geometry.shape);
+  const auto& half = std::get<HalfSpace>(geometry.shape);
   const Vector3 normal = geometry.X_LG.R * half.normal;
   cast.planes.push_back({index, normal, half.offset + normal.dot(geometry.X_LG.p), color});
 }

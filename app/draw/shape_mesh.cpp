@@ -2,13 +2,12 @@
 
 #include <cmath>
 #include <numbers>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
 #include "app/render/list/texture_places.h"
+#include "collision/geometry/convex_hull.h"
 #include "collision/import/robot/mesh_geometry.h"
-#include "collision/shapes/convex_hull.h"
 
 namespace twinarm {
 namespace {
@@ -50,9 +49,23 @@ DrawMesh capsule(double radius, double length) {
   return make_draw_mesh(mesh, places_around_z(mesh, down));
 }
 
-TriangleMesh hull_of(const MeshGeometry& geometry) {
-  const ConvexHull hull = convex_hull(load_mesh(geometry).vertices);
+TriangleMesh hull_of(const std::vector<Vector3>& points) {
+  const ConvexHull hull = convex_hull(points);
   return {hull.vertices, hull.triangles};
+}
+
+// Of any convex shape: what its farthest points in directions all round span.
+template <class S>
+TriangleMesh hull_of(const S& shape) {
+  constexpr int kRings = 24;
+  std::vector<Vector3> points;
+  for (int ring = 0; ring <= kRings; ++ring)
+    for (int k = 0; k < 2 * kRings; ++k) {
+      const double polar = std::numbers::pi * ring / kRings, turn = std::numbers::pi * k / kRings;
+      points.push_back(shape.support(Vector3(std::sin(polar) * std::cos(turn),
+                                             std::sin(polar) * std::sin(turn), std::cos(polar))));
+    }
+  return hull_of(points);
 }
 
 ShapeLook placed(const DrawList& list, MeshId mesh, const Vector3& scale = Vector3::Ones(),
@@ -83,27 +96,29 @@ ShapeLook hollow(ShapeLook look) {
 struct Look {
   DrawList& list;
   using Maybe = std::optional<ShapeLook>;
-  Maybe operator()(const BoxGeometry& box) const {
+  Maybe operator()(const Box& box) const {
     return placed(list, list.unit_mesh(UnitShape::box), box.size);
   }
-  Maybe operator()(const SphereGeometry& s) const {
-    return sphere(Vector3::Constant(s.radius), list);
-  }
-  Maybe operator()(const EllipsoidSpec& e) const { return sphere(e.semi_axes, list); }
-  Maybe operator()(const CylinderGeometry& c) const { return cylinder(c.radius, c.length, list); }
-  Maybe operator()(const CapsuleGeometry& c) const {
+  Maybe operator()(const Sphere& s) const { return sphere(Vector3::Constant(s.radius), list); }
+  Maybe operator()(const Ellipsoid& e) const { return sphere(e.semi_axes, list); }
+  Maybe operator()(const Cylinder& c) const { return cylinder(c.radius, c.length, list); }
+  Maybe operator()(const Capsule& c) const {
     return placed(list, list.register_mesh(capsule(c.radius, c.length)));
   }
-  Maybe operator()(const HollowSphereSpec& s) const {
+  Maybe operator()(const HollowSphere& s) const {
     return hollow(sphere(Vector3::Constant(s.radius), list));
   }
-  Maybe operator()(const HollowCylinderSpec& c) const {
+  Maybe operator()(const HollowCylinder& c) const {
     return hollow(cylinder(c.radius, c.length, list));
   }
-  Maybe operator()(const HalfSpaceSpec&) const { return std::nullopt; }
-  Maybe operator()(const MeshSpec& spec) const {
-    return placed(list,
-                  list.register_mesh(spec.convex ? hull_of(spec.mesh) : load_mesh(spec.mesh)));
+  Maybe operator()(const HalfSpace&) const { return std::nullopt; }
+  Maybe operator()(const MeshGeometry& mesh) const {
+    return placed(list, list.register_mesh(mesh.convex ? hull_of(load_mesh(mesh).vertices)
+                                                       : load_mesh(mesh)));
+  }
+  template <class S>
+  Maybe operator()(const S& shape) const {
+    return placed(list, list.register_mesh(hull_of(shape)));
   }
 };
 
@@ -123,20 +138,15 @@ std::vector<ShapeLook> parts_of(const MeshGeometry& geometry, DrawList& list, Ke
 
 }  // namespace
 
-std::optional<ShapeLook> look_of(const ShapeSpec& shape, DrawList& list) {
+std::optional<ShapeLook> look_of(const ShapeDescription& shape, DrawList& list) {
   return std::visit(Look{list}, shape);
 }
 
-std::vector<ShapeLook> looks_of(const PartGeometry& geometry, DrawList& list, KeepPlaces keep,
+std::vector<ShapeLook> looks_of(const ShapeDescription& geometry, DrawList& list, KeepPlaces keep,
                                 std::vector<std::string>& notes) {
-  return std::visit(
-      [&](const auto& shape) -> std::vector<ShapeLook> {
-        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, MeshGeometry>)
-          return parts_of(shape, list, keep, notes);
-        else
-          return {*Look{list}(shape)};
-      },
-      geometry);
+  if (const auto* mesh = std::get_if<MeshGeometry>(&geometry))
+    return parts_of(*mesh, list, keep, notes);
+  return {*look_of(geometry, list)};
 }
 
 }  // namespace twinarm

@@ -25,10 +25,10 @@ struct ShapeLook {
 // Nothing for a half-space, which has no extent of its own. A mesh of a scene is drawn as contacts
 // have it: its convex hull, unless it says otherwise. Throws InputError for a mesh that cannot be
 // read.
-std::optional<ShapeLook> look_of(const ShapeSpec& shape, DrawList& list);
+std::optional<ShapeLook> look_of(const ShapeDescription& shape, DrawList& list);
 // A collision shape or a visual of a robot's file. Of a mesh, all parts with their own colours and
 // textures; what was mended or left out of it is noted.
-std::vector<ShapeLook> looks_of(const PartGeometry& geometry, DrawList& list, KeepPlaces keep,
+std::vector<ShapeLook> looks_of(const ShapeDescription& geometry, DrawList& list, KeepPlaces keep,
                                 std::vector<std::string>& notes);
 
 }  // namespace twinarm

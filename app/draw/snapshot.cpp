@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 namespace {
@@ -77,7 +77,7 @@ ShownPull::Kind kind_of_pull(const SceneModel& scene, std::size_t coupling) {
   const SceneCoupling& spec = scene.couplings[coupling];
   const bool along_joint =
       spec.measure == Measure::joint &&
-      scene.model.joint[static_cast<std::size_t>(spec.spring.body)] == JointType::prismatic;
+      is_translational(scene.model.joint[static_cast<std::size_t>(spec.spring.body)]);
   return spec.type == CouplingDescription::Type::linear || along_joint ? ShownPull::Kind::force
                                                                        : ShownPull::Kind::couple;
 }

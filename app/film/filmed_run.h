@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "app/film/render_options.h"
 #include "app/film/shown_instant.h"
 #include "app/record/recording_reader.h"
 #include "app/record/unpack.h"

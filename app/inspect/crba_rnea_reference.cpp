@@ -26,9 +26,8 @@ SecondWay::SecondWay(const Inspection& in)
     : in_(in), weightless_(in.model), rest_(at_rest(in.model, in.x)), w_(in.model) {
   weightless_.gravity = {};
   const auto nv = static_cast<Eigen::Index>(in.model.nv);
-  crba(in.model, in.x, w_);
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  M_ = Eigen::Map<const RowMajor>(w_.M.data(), nv, nv);
+  M_.resize(nv, nv);
+  crba(in.model, in.x, w_, {M_.data(), in.model.nv * in.model.nv});
   add_implicit();
 }
 

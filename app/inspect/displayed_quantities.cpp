@@ -1,15 +1,13 @@
 #include "app/inspect/displayed_quantities.h"
 
+#include <algorithm>
+
 namespace twinarm {
 namespace {
 
 Matrix3 link_from_body(const Model<double>& model, std::size_t body) {
   return to_eigen(model.turn[body]).transpose();
 }
-
-constexpr const char* kLink = "link axes, about the link's origin";
-constexpr const char* kParentToLink = "from the parent's link axes to the link's";
-constexpr const char* kJoint = "joint";
 
 // Converts whatever a field holds.
 struct Shower {
@@ -23,53 +21,41 @@ struct Shower {
       case Quantity::By::velocity:
         return by_velocity(quantity, field);
       case Quantity::By::square:
-        if constexpr (std::is_same_v<T, double>) return {quantity, kJoint, axes.square(field)};
+        if constexpr (std::is_same_v<T, double>) return {quantity, kJointFrame, axes.square(field)};
         [[fallthrough]];
       case Quantity::By::body:
         break;
     }
     if constexpr (std::is_same_v<T, double>)
-      return {quantity, kJoint, axes.joint(field)};
+      return {quantity, kJointFrame, axes.joint(field)};
     else
-      return {quantity, std::is_same_v<T, Transform<double>> ? kParentToLink : kLink,
+      return {quantity, std::is_same_v<T, Transform<double>> ? kParentToLinkFrame : kLinkFrame,
               axes.show(field[body])};
   }
   template <class T>
   Shown by_velocity(const Quantity& quantity, const std::vector<T>& field) const {
     if constexpr (std::is_same_v<T, double>)
-      return {quantity, kJoint, axes.joint(field)};
+      return {quantity, kJointFrame, axes.joint(field)};
     else if constexpr (std::is_same_v<T, Motion<double>> || std::is_same_v<T, Force<double>>)
-      return {quantity, kLink, axes.columns(field)};
+      return {quantity, kLinkFrame, axes.columns(field)};
     else
-      return {quantity, kLink, {}};
+      return {quantity, kLinkFrame, {}};
   }
 };
 
 }  // namespace
 
-LinkAxes::LinkAxes(const Inspection& in, std::size_t body)
-    : in_(in),
-      body_(body),
-      iv_(in.model.iv[body]),
-      nv_(in.model.dofs(body)),
-      R_LB_(link_from_body(in.model, body)),
-      R_PB_(link_from_body(in.model, in.parent(body))) {
-  const auto nv = static_cast<Eigen::Index>(nv_);
-  T_ = Eigen::MatrixXd::Identity(nv, nv);
-  if (in.model.joint[body] == JointType::free) {
-    T_.setZero();
-    T_.topRightCorner<3, 3>() = to_eigen(quaternion_E(in.x.q.data() + in.model.iq[body] + 3));
-    T_.bottomLeftCorner<3, 3>().setIdentity();
-  }
-}
+LinkFrame::LinkFrame(const Model<double>& model, std::size_t body)
+    : R_LB_(link_from_body(model, body)),
+      R_PB_(link_from_body(model, static_cast<std::size_t>(std::max(model.parent[body], 0)))) {}
 
-Vector6 LinkAxes::show(const Motion<double>& m) const {
+Vector6 LinkFrame::show(const Motion<double>& m) const {
   return (Vector6() << R_LB_ * to_eigen(m.w), R_LB_ * to_eigen(m.v)).finished();
 }
-Vector6 LinkAxes::show(const Force<double>& f) const {
+Vector6 LinkFrame::show(const Force<double>& f) const {
   return (Vector6() << R_LB_ * to_eigen(f.n), R_LB_ * to_eigen(f.f)).finished();
 }
-Matrix6 LinkAxes::show(const ArticulatedInertia<double>& a) const {
+Matrix6 LinkFrame::show(const ArticulatedInertia<double>& a) const {
   const auto turned = [&](const Mat3<double>& block) {
     return Matrix3(R_LB_ * to_eigen(block) * R_LB_.transpose());
   };
@@ -82,21 +68,36 @@ Matrix6 LinkAxes::show(const ArticulatedInertia<double>& a) const {
   shown.bottomRightCorner<3, 3>() = symmetric(turned(full(a.M)));
   return shown;
 }
-Matrix6 LinkAxes::show(const Transform<double>&) const {
-  const Matrix3 E = turn_from_parent();
-  const Vector3 r = shift_from_parent();
+Matrix6 LinkFrame::show(const Transform<double>& X) const {
+  const Matrix3 E = turn_from_parent(X);
+  const Vector3 r = shift_from_parent(X);
   const Matrix3 cross =
       (Matrix3() << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0).finished();
-  Matrix6 X = Matrix6::Zero();
-  X.topLeftCorner<3, 3>() = X.bottomRightCorner<3, 3>() = E;
-  X.bottomLeftCorner<3, 3>() = -E * cross;
-  return X;
+  Matrix6 shown = Matrix6::Zero();
+  shown.topLeftCorner<3, 3>() = shown.bottomRightCorner<3, 3>() = E;
+  shown.bottomLeftCorner<3, 3>() = -E * cross;
+  return shown;
 }
-Matrix3 LinkAxes::turn_from_parent() const {
-  return R_LB_ * to_eigen(in_.w.Xup[body_].E) * R_PB_.transpose();
+Matrix3 LinkFrame::turn_from_parent(const Transform<double>& X) const {
+  return R_LB_ * to_eigen(X.E) * R_PB_.transpose();
 }
-Vector3 LinkAxes::shift_from_parent() const {
-  return R_PB_ * to_eigen(in_.w.Xup[body_].r);
+Vector3 LinkFrame::shift_from_parent(const Transform<double>& X) const {
+  return R_PB_ * to_eigen(X.r);
+}
+
+LinkAxes::LinkAxes(const Inspection& in, std::size_t body)
+    : LinkFrame(in.model, body),
+      in_(in),
+      body_(body),
+      iv_(in.model.iv[body]),
+      nv_(in.model.dofs(body)) {
+  const auto nv = static_cast<Eigen::Index>(nv_);
+  T_ = Eigen::MatrixXd::Identity(nv, nv);
+  if (in.model.joint[body] == JointType::free) {
+    T_.setZero();
+    T_.topRightCorner<3, 3>() = to_eigen(quaternion_E(in.x.q.data() + in.model.iq[body] + 3));
+    T_.bottomLeftCorner<3, 3>().setIdentity();
+  }
 }
 
 Eigen::VectorXd LinkAxes::joint(const std::vector<double>& by_velocity) const {
@@ -133,14 +134,14 @@ std::vector<Shown> shown_quantities(const Inspection& in, int pass, std::size_t 
   in.forces.describe(take);
   if (pass == 1) {
     using By = Quantity::By;
-    all.push_back({{"I", 1, By::body, "inertia of the body alone, rigid", "kg m^2, kg m, kg",
+    all.push_back({{"I", 1, By::body, "spatial inertia of the body alone", "kg m^2, kg m, kg",
                     "of the model; (2.63)"},
-                   kLink,
+                   kLinkFrame,
                    shower.axes.show(ArticulatedInertia<double>(in.model.I[body]))});
     in.w.describe(take);
-    all.push_back({{"p", 1, By::body, "force that the body alone takes for no acceleration",
-                    "N m; N", "p = v x* I v - f_ext, table 7.1; (2.32)"},
-                   kLink,
+    all.push_back({{"p", 1, By::body, "bias force of the body alone", "N m; N",
+                    "p = v x* I v - f_ext, table 7.1; (2.32)"},
+                   kLinkFrame,
                    shower.axes.show(own_force(in, body))});
     return all;
   }

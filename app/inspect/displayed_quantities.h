@@ -20,17 +20,32 @@ namespace twinarm {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// Of one body. Vectors of six are columns, angular part first.
-class LinkAxes {
+// Where the numbers of a quantity are to be read: Shown::frame.
+inline constexpr const char* kLinkFrame = "link axes, about the link's origin";
+inline constexpr const char* kParentToLinkFrame = "from the parent's link axes to the link's";
+inline constexpr const char* kJointFrame = "joint";
+
+// From the body axes of one body to its link's. Vectors of six are columns, angular part first.
+class LinkFrame {
  public:
-  LinkAxes(const Inspection& in, std::size_t body);
+  LinkFrame(const Model<double>& model, std::size_t body);
 
   Vector6 show(const Motion<double>& m) const;
   Vector6 show(const Force<double>& f) const;
   Matrix6 show(const ArticulatedInertia<double>& a) const;
-  Matrix6 show(const Transform<double>& X) const;  // from the parent
-  Matrix3 turn_from_parent() const;                // E of Xup
-  Vector3 shift_from_parent() const;               // r of Xup, parent's link axes [m]
+  Matrix6 show(const Transform<double>& X) const;               // Xup of the body
+  Matrix3 turn_from_parent(const Transform<double>& X) const;   // E of it
+  Vector3 shift_from_parent(const Transform<double>& X) const;  // r of it, parent's link axes [m]
+
+ private:
+  Matrix3 R_LB_, R_PB_;  // of the body, of its parent
+};
+
+// Also the values of its joint.
+class LinkAxes : public LinkFrame {
+ public:
+  LinkAxes(const Inspection& in, std::size_t body);
+
   // Joint values of the body's joint: a vector by velocity; columns by velocity.
   Eigen::VectorXd joint(const std::vector<double>& by_velocity) const;
   Eigen::MatrixXd square(const std::vector<double>& D) const;
@@ -46,8 +61,7 @@ class LinkAxes {
  private:
   const Inspection& in_;
   std::size_t body_, iv_, nv_;
-  Matrix3 R_LB_, R_PB_;  // of the body, of its parent
-  Eigen::MatrixXd T_;    // nv x nv: the solver's velocities of the command line's
+  Eigen::MatrixXd T_;  // nv x nv: the solver's velocities of the command line's
 };
 
 // One quantity of one body. A number is 1 x 1, what has six parts 6 x 1; S and U are 6 x nv.

@@ -65,7 +65,7 @@ class BodyEquations {
     if (has_joint() || is_driven_) {
       const Motion<double> turned = crm(in_.w.v[i_], vJ);
       const Vector6 cJ = axes_.show(in_.w.c[i_] - turned);
-      std::vector<EquationTerm> parts{{"v x S qd", "the joint's axis is carried along", i_,
+      std::vector<EquationTerm> parts{{"v x S qd", "the joint's axis moves with the body", i_,
                                        axes_.show(turned),
                                        size_of(axes_.show(in_.w.v[i_]), axes_.show(vJ))}};
       if (size_of(cJ) > 1e-12 * std::max(parts[0].size, size_of(parts[0].value)))
@@ -74,11 +74,10 @@ class BodyEquations {
     }
     const Force<double> gyroscopic = crf(in_.w.v[i_], in_.model.I[i_] * in_.w.v[i_]);
     std::vector<EquationTerm> own{
-        {"v x* I v", "its momentum turns along: gyroscopic", i_, axes_.show(gyroscopic),
+        {"v x* I v", "gyroscopic force", i_, axes_.show(gyroscopic),
          size_of(axes_.show(in_.w.v[i_]), axes_.show(in_.model.I[i_] * in_.w.v[i_]))}};
     const Vector6 f_ext = axes_.show(in_.forces.f_ext[i_]);
-    if (!f_ext.isZero(0))
-      own.push_back({"- f_ext", "what pushes it from outside, taken off", i_, -f_ext});
+    if (!f_ext.isZero(0)) own.push_back({"- f_ext", "external wrench, subtracted", i_, -f_ext});
     all.push_back(sum_of("p", std::move(own), axes_.show(own_force(in_, i_))));
     return all;
   }
@@ -94,11 +93,11 @@ class BodyEquations {
     for (const std::size_t child : in_.children(i_)) {
       const LinkAxes its(in_, child);
       const Matrix6 X = its.show(in_.w.Xup[child]);
-      const char* felt = "what hangs on it, felt through its joint";
-      inertias.push_back(product("X^T Ia X", felt, child, X.transpose(),
+      const char* apparent = "of a child, through its joint";
+      inertias.push_back(product("X^T Ia X", apparent, child, X.transpose(),
                                  Matrix6(its.show(in_.trace.Ia[child]) * X)));
       forces.push_back(
-          product("X^T pa", felt, child, X.transpose(), its.show(in_.trace.pa[child])));
+          product("X^T pa", apparent, child, X.transpose(), its.show(in_.trace.pa[child])));
     }
     all.push_back(sum_of("IA", std::move(inertias), axes_.show(in_.w.IA[i_])));
     all.push_back(sum_of("pA", std::move(forces), axes_.show(in_.w.pA[i_])));
@@ -114,8 +113,9 @@ class BodyEquations {
     const Vector6 given = axes_.show(before), a = axes_.show(in_.w.a[i_]);
     const char* whose = parent_ == 0 ? "gravity, as an upward acceleration of the base"
                                      : "acceleration of its parent, seen from here";
-    std::vector<EquationTerm> terms{product(Xa.c_str(), whose, parent_, X_, of(parent_, in_.w.a)),
-                                    {"c", "by the velocities alone", i_, axes_.show(in_.w.c[i_])}};
+    std::vector<EquationTerm> terms{
+        product(Xa.c_str(), whose, parent_, X_, of(parent_, in_.w.a)),
+        {"c", "velocity-product acceleration", i_, axes_.show(in_.w.c[i_])}};
     if (!has_joint()) {
       all.push_back(sum_of("a", std::move(terms), a));
       return all;
@@ -125,10 +125,10 @@ class BodyEquations {
     all.push_back(
         sum_of("D qdd",
                {{"u", "force left at the joint", i_, axes_.joint(in_.w.u)},
-                product("- U^T a'", "what a' takes of it already", i_, -U().transpose(), given)},
+                product("- U^T a'", "less what a' takes of it", i_, -U().transpose(), given)},
                D() * qdd));
     all.push_back(sum_of("a",
-                         {{"a'", "as if the joint kept still", i_, given},
+                         {{"a'", "with the joint held still", i_, given},
                           product("S qdd", "what its joint adds", i_, S_, qdd)},
                          a));
     return all;
@@ -154,10 +154,9 @@ class BodyEquations {
 
   void add_joint(std::vector<Equation>& all) const {
     const Matrix6 IA = axes_.show(in_.w.IA[i_]);
-    all.push_back(
-        equation("U", "U = IA S",
-                 {product("IA S", "what a unit acceleration of the joint takes", i_, IA, S_)}, U(),
-                 axes_.nv() > 1));
+    all.push_back(equation("U", "U = IA S",
+                           {product("IA S", "for a unit acceleration of the joint", i_, IA, S_)},
+                           U(), axes_.nv() > 1));
     std::vector<double> rotor(in_.w.D.size());
     for (std::size_t k = 0; k < axes_.nv(); ++k) {
       const std::size_t dof = in_.model.iv[i_] + k;
@@ -169,7 +168,7 @@ class BodyEquations {
     all.push_back(sum_of("D", std::move(parts), D()));
     all.push_back(sum_of("u",
                          {{"tau", "force at the joint", i_, axes_.joint(in_.forces.tau)},
-                          product("- S^T pA", "what it takes to hold still", i_, -S_.transpose(),
+                          product("- S^T pA", "bias force along the joint", i_, -S_.transpose(),
                                   axes_.show(in_.w.pA[i_]))},
                          axes_.joint(in_.w.u)));
   }
@@ -177,14 +176,14 @@ class BodyEquations {
   void add_handed_on(std::vector<Equation>& all) const {
     const Matrix6 IA = axes_.show(in_.w.IA[i_]), Ia = axes_.show(in_.trace.Ia[i_]);
     const Vector6 pA = axes_.show(in_.w.pA[i_]), pa = axes_.show(in_.trace.pa[i_]);
-    std::vector<EquationTerm> inertias{{"IA", "all that hangs on the joint", i_, IA}};
+    std::vector<EquationTerm> inertias{{"IA", "articulated-body inertia", i_, IA}};
     std::vector<EquationTerm> forces{
-        {"pA", "all that hangs on the joint", i_, pA},
-        product("Ia c", "by the velocities alone", i_, Ia, axes_.show(in_.w.c[i_]))};
+        {"pA", "articulated bias force", i_, pA},
+        product("Ia c", "of the velocity-product acceleration", i_, Ia, axes_.show(in_.w.c[i_]))};
     if (has_joint()) {
       const Matrix UD = D().ldlt().solve(U().transpose()).transpose();
       inertias.push_back(
-          product("- U D^-1 U^T", "where the joint gives way", i_, -UD, U().transpose()));
+          product("- U D^-1 U^T", "less what the joint leaves free", i_, -UD, U().transpose()));
       forces.push_back(product("U D^-1 u", "what drives the joint", i_, UD, axes_.joint(in_.w.u)));
     }
     all.push_back(sum_of("Ia", std::move(inertias), Ia));

@@ -21,7 +21,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 bool is_of_joints(const LoopClosure& loop) {
-  return loop.type == LoopType::gear || loop.type == LoopType::locked;
+  return facts_of(loop.type).ends != LoopBetween::bodies;
 }
 
 // Poses to the second order in s.
@@ -42,12 +42,35 @@ State<double> poses_on_the_way(const Inspection& in, double s) {
   return x;
 }
 
+// g between bodies, from poses alone; of a distance its square, which no root bends.
+VectorXd rows_of(LoopType type, const Pose& X_CaCb, double distance) {
+  VectorXd rows(static_cast<Index>(facts_of(type).rows));
+  const Matrix3& R = X_CaCb.R;
+  switch (type) {
+    case LoopType::ball:
+      rows << X_CaCb.p;
+      break;
+    case LoopType::hinge:
+      rows << X_CaCb.p, R(0, 2), R(1, 2);
+      break;
+    case LoopType::weld:
+      rows << X_CaCb.p, R(1, 2), R(2, 0), R(0, 1);
+      break;
+    case LoopType::distance:
+      rows << X_CaCb.p.squaredNorm() / (2 * distance);
+      break;
+    case LoopType::gear:
+    case LoopType::locked:
+      break;
+  }
+  return rows;
+}
+
 // g, then the places and the axes of both ends.
 VectorXd rows_and_ends(const Inspection& in, const LoopClosure& loop, double s, double distance,
                        Kinematics& k) {
   const State<double> x = poses_on_the_way(in, s);
   const auto a = static_cast<std::size_t>(loop.body_a), b = static_cast<std::size_t>(loop.body_b);
-  const auto rows = static_cast<Index>(facts_of(loop.type).rows);
   if (is_of_joints(loop)) {
     VectorXd all(3);
     all[1] = x.q[in.model.iq[a]];
@@ -58,15 +81,9 @@ VectorXd rows_and_ends(const Inspection& in, const LoopClosure& loop, double s, 
   forward_kinematics(in.model, x, k);
   const Pose X_WCa = k.X_WL[a] * loop.X_LaC, X_WCb = k.X_WL[b] * loop.X_LbC;
   const Pose X_CaCb = X_WCa.inverse() * X_WCb;
-  VectorXd all(rows + 24);
-  if (loop.type == LoopType::distance)
-    all[0] = X_CaCb.p.squaredNorm() / (2 * distance);
-  else
-    all.head<3>() = X_CaCb.p;
-  const Matrix3& R = X_CaCb.R;
-  if (loop.type == LoopType::hinge) all.segment<2>(3) << R(0, 2), R(1, 2);
-  if (loop.type == LoopType::weld) all.segment<3>(3) << R(1, 2), R(2, 0), R(0, 1);
-  all.tail<24>() << X_WCa.p, X_WCb.p, X_WCa.R.reshaped(), X_WCb.R.reshaped();
+  const VectorXd rows = rows_of(loop.type, X_CaCb, distance);
+  VectorXd all(rows.size() + 24);
+  all << rows, X_WCa.p, X_WCb.p, X_WCa.R.reshaped(), X_WCb.R.reshaped();
   return all;
 }
 

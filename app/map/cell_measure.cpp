@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/run/run_end.h"
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 namespace {
@@ -52,7 +52,7 @@ MeasuredJoints measured_joints(const SceneModel& scene, std::size_t coupling) {
     if (model.dofs(body) != 1) return;
     joints.iq.push_back(model.iq[body]);
     joints.names.push_back(model.joint_name[body]);
-    (model.joint[body] == JointType::prismatic ? joints.slide : joints.turn) = true;
+    (is_translational(model.joint[body]) ? joints.slide : joints.turn) = true;
   };
   for (const std::string& name : of.driven.turned)
     add(static_cast<std::size_t>(model.find_joint(name)));

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <exception>
 #include <map>
 #include <mutex>
-#include <thread>
 
 #include "app/map/cell_batch.h"
 #include "app/map/cell_run.h"
 #include "app/support/interrupt.h"
+#include "app/support/parallel_for.h"
 #include "app/support/progress.h"
 #include "solver/support/atomic_file.h"
 
@@ -45,52 +44,25 @@ class MapWork {
     for (auto& [number, task] : groups) tasks_.push_back(std::move(task));
   }
 
-  void work_off() {
-    std::unique_ptr<CellBatch> batch;
-    std::unique_lock held(lock_);
-    while (!stopped_ && next_ < tasks_.size()) {
-      const MapTask& task = tasks_[next_++];
-      held.unlock();
-      std::exception_ptr failure;
-      try {
-        if (job_.side_by_side && !batch) batch = CellBatch::of(job_);
-        compute(task, batch.get());
-      } catch (...) {
-        failure = std::current_exception();
-      }
-      held.lock();
-      if (failure && !failure_) failure_ = failure;
-      stopped_ = stopped_ || failure;
-      if (failure) break;
-      ++done_;
-      for (const std::size_t b : task.blocks)
-        if (--open_[b].tasks_left == 0)
-          finished_.emplace_back(open_[b].number, std::move(open_[b].values));
-    }
-    ++ended_;
-    news_.notify_one();
+  std::size_t tasks() const { return tasks_.size(); }
+
+  // In a thread of its own.
+  void work(std::size_t number) {
+    const MapTask& task = tasks_[number];
+    std::unique_ptr<CellBatch> batch = job_.side_by_side ? free_batch() : nullptr;
+    compute(task, batch.get());
+    const std::lock_guard held(lock_);
+    if (batch) free_.push_back(std::move(batch));
+    for (const std::size_t b : task.blocks)
+      if (--open_[b].tasks_left == 0)
+        finished_.emplace_back(open_[b].number, std::move(open_[b].values));
   }
 
-  // Waits a moment; takes over what is finished since the last call. False when all threads ended.
-  bool collect(unsigned threads, TileFile& file) {
-    std::unique_lock held(lock_);
-    news_.wait_for(held, std::chrono::milliseconds(100), [&] { return ended_ == threads; });
-    if (is_interrupted()) stopped_ = true;
+  // Takes over what is finished since the last call.
+  void collect(TileFile& file) {
+    const std::lock_guard held(lock_);
     for (auto& [number, values] : finished_) file.blocks[number] = std::move(values);
     finished_.clear();
-    return ended_ < threads;
-  }
-  void stop() {
-    const std::lock_guard held(lock_);
-    stopped_ = true;
-  }
-  double part_done() {
-    const std::lock_guard held(lock_);
-    return static_cast<double>(done_) / static_cast<double>(tasks_.size());
-  }
-  void check() const {
-    check_interrupt();
-    if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
@@ -102,6 +74,19 @@ class MapWork {
     CellBatch::Place place;
     double* out;
   };
+
+  // As many are made as threads work at once.
+  std::unique_ptr<CellBatch> free_batch() {
+    {
+      const std::lock_guard held(lock_);
+      if (!free_.empty()) {
+        std::unique_ptr<CellBatch> batch = std::move(free_.back());
+        free_.pop_back();
+        return batch;
+      }
+    }
+    return CellBatch::of(job_);
+  }
 
   int group_of(int b) const {
     if (job_.x.path == "step") return b % blocks_.columns();
@@ -144,15 +129,11 @@ class MapWork {
 
   const MapJob& job_;
   const MapBlocks blocks_;
-  std::mutex lock_{};
-  std::condition_variable news_{};
-  std::vector<OpenBlock> open_;
   std::vector<MapTask> tasks_;
+  std::mutex lock_{};  // of what follows
+  std::vector<OpenBlock> open_;
   std::vector<std::pair<int, std::vector<double>>> finished_;
-  std::size_t next_ = 0, done_ = 0;
-  unsigned ended_ = 0;
-  bool stopped_ = false;
-  std::exception_ptr failure_{};
+  std::vector<std::unique_ptr<CellBatch>> free_;
 };
 
 // Writes the file where something came in and the last time is a second ago, or at the end.
@@ -192,26 +173,24 @@ void compute_blocks(const MapJob& job, const std::vector<int>& wanted,
           ? fmt::format("map, {} blocks of cells", wanted.size())
           : fmt::format("map, {} of {} blocks of cells are left", missing.size(), wanted.size()),
       1);
-  unsigned threads = options.threads;
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
-  std::vector<std::thread> pool;
-  for (unsigned i = 0; i < threads; ++i) pool.emplace_back([&] { cells.work_off(); });
   std::exception_ptr failure;
-  while (cells.collect(threads, file)) {
-    progress.advance(cells.part_done());
-    try {
-      if (!failure) keeper.keep(false);
-    } catch (...) {  // the disk is full: the threads end first
-      failure = std::current_exception();
-      cells.stop();
-    }
+  try {
+    parallel_for(
+        cells.tasks(), [&](std::size_t task) { cells.work(task); },
+        [&](std::size_t done) {
+          check_interrupt();
+          cells.collect(file);
+          progress.advance(static_cast<double>(done) / static_cast<double>(cells.tasks()));
+          keeper.keep(false);
+        },
+        options.threads);
+  } catch (...) {  // what is finished is kept all the same
+    failure = std::current_exception();
   }
-  for (std::thread& thread : pool) thread.join();
-  cells.collect(threads, file);
+  cells.collect(file);
   progress.finish();
-  if (failure) std::rethrow_exception(failure);
   keeper.keep(true);
-  cells.check();
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace twinarm

@@ -15,8 +15,7 @@ void write_axis(JsonWriter& json, const char* name, const MapAxis& axis, const s
   json.key(name).begin_array();
   for (int i = 0; i < axis.count; ++i) json.number(axis.at(i));
   json.end_array();
-  json.key(std::string(name) + "_path").text(axis.path);
-  json.key(std::string(name) + "_unit").text(unit);
+  json.members({{std::string(name) + "_path", axis.path}, {std::string(name) + "_unit", unit}});
 }
 
 std::string or_empty(double value) {
@@ -44,8 +43,7 @@ std::string map_json(const MapJob& job, const TileFile& file, const std::vector<
   json.begin_object();
   write_axis(json, "x", job.x, job.x_unit);
   write_axis(json, "y", job.y, job.y_unit);
-  json.key("measure").text(name_of(job.measure));
-  json.key("unit").text(job.unit);
+  json.members({{"measure", name_of(job.measure)}, {"unit", job.unit}});
   const std::vector<double> values = values_of(job, file, job.measure);
   json.key("values").begin_array();
   for (std::size_t iy = 0; iy < static_cast<std::size_t>(job.ny()); ++iy) {
@@ -53,15 +51,9 @@ std::string map_json(const MapJob& job, const TileFile& file, const std::vector<
     json.numbers({row, row + job.x.count});
   }
   json.end_array();
-  json.key("curves").begin_array();
-  for (const MapCurve& curve : curves) {
-    json.begin_object();
-    json.key("name").text(curve.name);
-    json.key("x").numbers(curve.x);
-    json.key("y").numbers(curve.y);
-    json.end_object();
-  }
-  json.end_array();
+  json.key("curves").list(curves, [&](const MapCurve& curve) {
+    json.object({{"name", curve.name}, {"x", curve.x}, {"y", curve.y}});
+  });
   json.end_object();
   return json.str() + "\n";
 }

@@ -145,4 +145,45 @@ void add_blocks(const TileFile& from, const MapBlocks& blocks, const std::filesy
   }
 }
 
+TileFile resume_tile_file(const std::filesystem::path& work, const TileFile& empty,
+                          const MapBlocks& blocks, bool force) {
+  TileFile file = empty;
+  FaultList faults;
+  const auto found = attempt(faults, [&] { return read_tile_file(work); });
+  if (found) check_same_map(*found, empty, work, "name another --work, or give --force", faults);
+  if (found && faults.empty()) add_blocks(*found, blocks, work, file, faults);
+  if (force && !faults.empty()) return empty;
+  faults.check();
+  return file;
+}
+
+TileFile merge_tile_files(const std::vector<std::filesystem::path>& parts, const TileFile& empty,
+                          const MapBlocks& blocks) {
+  TileFile file = empty;
+  FaultList faults;
+  for (const std::filesystem::path& path : parts) {
+    const auto part = attempt(faults, [&] { return read_tile_file(path); });
+    if (!part) continue;
+    FaultList of_this;
+    check_same_map(*part, empty, path, "merge files of one map", of_this);
+    if (of_this.empty()) add_blocks(*part, blocks, path, file, of_this);
+    attempt(faults, [&] {
+      of_this.check();
+      return true;
+    });
+  }
+  std::string missing;
+  int count = 0;
+  for (int b = 0; b < blocks.count(); ++b)
+    if (!file.blocks.contains(b) && ++count <= 10) missing += " " + std::to_string(b);
+  if (count > 0)
+    faults.add({"", 0, "--merge",
+                fmt::format("{} of {} blocks are missing:{}{}", count, blocks.count(), missing,
+                            count > 10 ? " .." : ""),
+                "give the files of all parts; compute those that failed with --tile again",
+                "map.blocks-missing"});
+  faults.check();
+  return file;
+}
+
 }  // namespace twinarm

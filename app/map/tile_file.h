@@ -42,5 +42,11 @@ void check_same_map(const TileFile& found, const TileFile& wanted,
 // not the map's, or two files differ in a block.
 void add_blocks(const TileFile& from, const MapBlocks& blocks, const std::filesystem::path& path,
                 TileFile& into, FaultList& faults);
+// What an earlier call has left in `work`. `force`: nothing, where that is no file of this map.
+TileFile resume_tile_file(const std::filesystem::path& work, const TileFile& empty,
+                          const MapBlocks& blocks, bool force);
+// All blocks of a map, of the files of its parts. Throws InputError where some are missing.
+TileFile merge_tile_files(const std::vector<std::filesystem::path>& parts, const TileFile& empty,
+                          const MapBlocks& blocks);
 
 }  // namespace twinarm

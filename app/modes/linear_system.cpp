@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/dynamics/derivatives.h"
+#include "solver/dynamics/mass_matrix.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/model/mimic.h"
 
@@ -77,7 +78,7 @@ class ForceRates {
 // dq' = dqd - w x dq of joints that turn freely.
 void add_turning(const Model<double>& model, const State<double>& x, Eigen::MatrixXd& W) {
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
-    if (model.joint[i] != JointType::spherical && model.joint[i] != JointType::free) continue;
+    if (facts_of(model.joint[i]).quaternion < 0 || model.dofs(i) == 0) continue;
     const double* w = x.qd.data() + model.iv[i];
     const Index at = index(model.iv[i]);
     W.block<3, 3>(at, at) << 0, w[2], -w[1], -w[2], 0, w[0], w[1], -w[0], 0;
@@ -109,9 +110,7 @@ LinearSystem linearise(const Model<double>& model, const State<double>& x, const
     }
 
   // Without followers: y of qd = G y, with M_y = G^T M G.
-  crba(model, x, w);
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::MatrixXd M = Eigen::Map<const RowMajor>(w.M.data(), nv, nv);
+  const Eigen::MatrixXd M = mass_matrix(model, x);
   const Eigen::MatrixXd all_G = mimic_projection(model);
   LinearSystem system;
   for (const std::size_t dof : independent_dofs(model))

@@ -64,21 +64,18 @@ std::string shape_table(const SimulateInput& input, const ModesOf& found, std::s
 std::string modes_json(const SimulateInput& input, const ModesOf& found) {
   JsonWriter json;
   json.begin_object();
-  json.key("modes").begin_array();
-  for (const Mode& mode : found.modes) {
+  json.key("modes").list(found.modes, [&](const Mode& mode) {
     json.begin_object();
-    json.key("frequency").number(mode.frequency());
-    json.key("damping_ratio").number(mode.damping_ratio());
+    json.members({{"frequency", mode.frequency()}, {"damping_ratio", mode.damping_ratio()}});
     json.key("eigenvalue").numbers({mode.eigenvalue.real(), mode.eigenvalue.imag()});
     write_shape(json.key("shape"), input, found, mode.shape.real());
     write_shape(json.key("shape_imaginary"), input, found, mode.shape.imag());
     json.end_object();
-  }
-  json.end_array();
-  json.key("rows").texts(found.rows);
-  json.key("A").matrix(found.looped.system.A);
-  json.key("B").matrix(found.looped.system.B);
-  json.key("warnings").texts(found.warnings);
+  });
+  json.members({{"rows", found.rows},
+                {"A", found.looped.system.A},
+                {"B", found.looped.system.B},
+                {"warnings", found.warnings}});
   json.end_object();
   return json.str();
 }

@@ -77,34 +77,30 @@ void write_color(JsonWriter& json, const char* key, const Color& color) {
 }
 
 void write_legend(JsonWriter& json, const std::vector<LegendLine>& legend) {
-  json.begin_array();
-  for (const LegendLine& line : legend) {
+  json.list(legend, [&](const LegendLine& line) {
     json.begin_object();
     write_color(json, "color", line.color);
     json.key("text").text(line.words());
     json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 void write_view(JsonWriter& json, const Stage& stage) {
   const Camera& camera = stage.list.camera;
   const Ground& ground = stage.list.ground;
   json.key("view").begin_object();
-  json.key("eye").vector(camera.eye);
-  json.key("target").vector(camera.target);
-  json.key("up").vector(camera.up);
-  json.key("fieldOfView").number(camera.field_of_view);
-  json.key("light").vector(stage.list.light_W);
-  json.key("radius").number(stage.extent.radius());
+  json.members({{"eye", camera.eye},
+                {"target", camera.target},
+                {"up", camera.up},
+                {"fieldOfView", camera.field_of_view},
+                {"light", stage.list.light_W},
+                {"radius", stage.extent.radius()}});
   write_color(json, "bottom", stage.list.background.bottom);
   write_color(json, "top", stage.list.background.top);
-  json.key("ground").begin_object();
-  json.key("visible").boolean(ground.visible);
-  json.key("height").number(ground.height);
-  json.key("cell").number(ground.cell);
-  json.key("cellsPerMajor").count(ground.cells_per_major);
-  json.end_object();
+  json.key("ground").object({{"visible", ground.visible},
+                             {"height", ground.height},
+                             {"cell", ground.cell},
+                             {"cellsPerMajor", ground.cells_per_major}});
   json.end_object();
 }
 

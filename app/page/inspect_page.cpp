@@ -30,11 +30,11 @@ std::string inspect_page(const SimulateInput& input, const State<double>& x,
   JsonWriter json;
   PageBytes bytes;
   json.begin_object();
-  json.key("title").text(words.title);
-  json.key("state").text(words.state);
-  json.key("command").text(command_line(words.command));
-  json.key("version").text(kProgramVersion);
-  json.key("inspection").text(inspection);
+  json.members({{"title", words.title},
+                {"state", words.state},
+                {"command", command_line(words.command)},
+                {"version", kProgramVersion},
+                {"inspection", inspection}});
   layers.write(json, bytes);
   write_view(json, stage);
   json.end_object();

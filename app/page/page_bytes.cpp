@@ -4,33 +4,14 @@
 
 #include <stdexcept>
 
+#include "app/data/html_page.h"
+
 namespace twinarm {
-namespace {
-
-std::string base64_of(const std::string& bytes) {
-  static const char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(4 * ((bytes.size() + 2) / 3));
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? kDigits[three >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
-}  // namespace
 
 void PageBytes::write_place(JsonWriter& json, const void* data, std::size_t count, std::size_t size,
                             const char* type) {
   bytes_.resize((bytes_.size() + 7) / 8 * 8);
-  json.begin_object();
-  json.key("at").count(static_cast<long>(bytes_.size()));
-  json.key("count").count(static_cast<long>(count));
-  json.key("type").text(type);
-  json.end_object();
+  json.object({{"at", bytes_.size()}, {"count", count}, {"type", type}});
   bytes_.append(static_cast<const char*>(data), count * size);
 }
 

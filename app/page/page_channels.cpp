@@ -23,39 +23,29 @@ void PageChannels::add_frame(const RecordedFrame& frame, const Moment& moment) {
   times_.push_back(frame.t);
   channels_.values(frame, moment, run_.plan.input.couplings.get(), now_);
   for (std::size_t i = 0; i < now_.size(); ++i) values_[i].push_back(now_[i]);
-  add_ledgers(frame);
-}
-
-void PageChannels::add_ledgers(const RecordedFrame& frame) {
   end_ = works_by_row(frame, run_.recording->rows().size());
   works_.insert(works_.end(), end_.begin(), end_.end());
-  const std::size_t first = momenta_.size();
-  momenta_.resize(first + 6 * run_.recording->momentum_rows().size(), 0);
-  for (std::size_t i = 0; i < frame.momentum_rows.size(); ++i)
-    for (std::size_t c = 0; c < 6; ++c)
-      momenta_.at(first + 6 * frame.momentum_rows[i] + c) =
-          frame.momenta.at(2 * i + c / 3)[static_cast<Eigen::Index>(c % 3)];
+  const std::vector<double> momenta = momenta_by_row(frame, run_.recording->momentum_rows().size());
+  momenta_.insert(momenta_.end(), momenta.begin(), momenta.end());
 }
 
 void PageChannels::write(JsonWriter& json, PageBytes& bytes) const {
   bytes.add(json, "times", times_);
   json.key("channels").begin_array();
   for (std::size_t i = 0; i < channels_.all().size(); ++i) {
-    const RunChannel& channel = channels_.all()[i];
+    const RunColumn& channel = channels_.all()[i];
     json.begin_object();
-    json.key("name").text(channel.name);
-    json.key("unit").text(channel.unit);
-    json.key("kind").text(channel.kind);
-    json.key("of").text(channel.of);
+    json.members({{"name", channel.name},
+                  {"unit", channel.unit},
+                  {"kind", channel.kind},
+                  {"of", channel.of}});
     bytes.add(json, "values", values_[i]);
     json.end_object();
   }
   json.end_array();
   json.key("ledger").begin_object();
   json.key("rows").texts(run_.recording->rows());
-  json.key("end").begin_array();
-  for (const double work : end_) json.text(number_text(work));
-  json.end_array();
+  json.key("end").list(end_, [&](const double work) { json.text(number_text(work)); });
   bytes.add(json, "works", works_);
   json.end_object();
   json.key("momentum").begin_object();

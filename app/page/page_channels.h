@@ -19,8 +19,6 @@ class PageChannels {
   void write(JsonWriter& json, PageBytes& bytes) const;
 
  private:
-  void add_ledgers(const RecordedFrame& frame);
-
   const FilmedRun& run_;
   RunChannels channels_;
   std::vector<std::vector<double>> values_;  // by channel, by frame

@@ -34,15 +34,15 @@ void write_pairs(JsonWriter& json, const RecordingHeader& header, const FilmedRu
   };
   const SceneModel* scene = run.plan.input.scene.get();
   json.key("facts").begin_array();
-  fact("model", std::filesystem::path(header.options.robot.model).filename().string());
+  fact("model", std::filesystem::path(header.run.model).filename().string());
   fact("integrator", header.integrator);
   fact("step", number_text(1e3 * header.step) + " ms");
   fact("duration", number_text(header.duration) + " s");
   fact("gravity", three_numbers(to_eigen(run.model().gravity)) + " m/s²");
   if (scene)
-    fact("contact", header.options.contact.empty()
+    fact("contact", header.run.contact.empty()
                         ? kContactModes[static_cast<std::size_t>(scene->description.contact)]
-                        : header.options.contact);
+                        : header.run.contact);
   fact("seed", std::to_string(header.seed));
   fact("twinarm", header.program);
   fact("recorded frames", std::to_string(run.recording->size()));
@@ -55,11 +55,8 @@ void write_table(JsonWriter& json, const std::string& title, const Row& head,
                  const std::vector<Row>& rows) {
   if (rows.empty()) return;
   json.begin_object();
-  json.key("title").text(title);
-  json.key("head").texts(head);
-  json.key("rows").begin_array();
-  for (const Row& row : rows) json.texts(row);
-  json.end_array();
+  json.members({{"title", title}, {"head", head}});
+  json.key("rows").list(rows, [&](const Row& row) { json.texts(row); });
   json.end_object();
 }
 
@@ -131,10 +128,7 @@ void write_files(JsonWriter& json, const RecordingHeader& header) {
     const std::string end = path.extension().string();
     const bool is_text = end == ".toml" || end == ".urdf" || end == ".json" || end == ".csv";
     if (!is_text || file.bytes.size() > kLongestFile) continue;
-    json.begin_object();
-    json.key("name").text(path.filename().string());
-    json.key("text").text(file.bytes);
-    json.end_object();
+    json.object({{"name", path.filename().string()}, {"text", file.bytes}});
   }
   json.end_array();
 }
@@ -154,8 +148,8 @@ std::string command_line(const std::vector<std::string>& words) {
 
 void write_facts(JsonWriter& json, const FilmedRun& run, const Stage& stage, double rate) {
   const RecordingHeader& header = run.recording->header();
-  json.key("title").text(std::filesystem::path(header.options.robot.model).stem().string());
-  json.key("command").text(command_line(header.command));
+  json.members({{"title", std::filesystem::path(header.run.model).stem().string()},
+                {"command", command_line(header.command)}});
   write_pairs(json, header, run, rate);
   write_tables(json, run);
   write_files(json, header);

@@ -37,9 +37,7 @@ void write_mesh(JsonWriter& json, PageBytes& bytes, const DrawMesh& mesh) {
       last = vertex;
     }
   json.begin_object();
-  json.key("low").vector(low);
-  json.key("high").vector(high);
-  json.key("twoSided").boolean(mesh.two_sided);
+  json.members({{"low", low}, {"high", high}, {"twoSided", mesh.two_sided}});
   std::vector<float> uv;
   for (const auto& place : mesh.uv) uv.insert(uv.end(), place.begin(), place.end());
   bytes.add(json, "uv", uv);
@@ -62,9 +60,7 @@ void write_textures(JsonWriter& json, PageBytes& bytes, const DrawList& list) {
 
 void write_layer(JsonWriter& json, PageBytes& bytes, const PageLayer& layer) {
   json.begin_object();
-  json.key("name").text(layer.name);
-  json.key("what").text(layer.what);
-  json.key("shown").boolean(layer.shown);
+  json.members({{"name", layer.name}, {"what", layer.what}, {"shown", layer.shown}});
   json.key("legend");
   write_legend(json, layer.legend);
   json.key("instances").begin_object();
@@ -99,7 +95,9 @@ PageLayers::PageLayers(Stage& stage) : stage_(stage) {
     layer.name = overlay.name;
     layer.what = overlay.what;
   }
-  show_at_first({"bodies", "ghost", "couplings", "contacts"});
+  std::vector<std::string> usual = usual_overlays(Overlay::Shown::on_pages);
+  usual.emplace_back("bodies");
+  show_at_first(usual);
 }
 
 void PageLayers::show_at_first(const std::vector<std::string>& names) {
@@ -162,13 +160,11 @@ std::uint32_t PageLayers::number_of(const std::string& text) {
 }
 
 void PageLayers::write(JsonWriter& json, PageBytes& bytes) const {
-  json.key("meshes").begin_array();
-  for (const auto& mesh : stage_.list.meshes) write_mesh(json, bytes, *mesh);
-  json.end_array();
+  json.key("meshes").list(stage_.list.meshes,
+                          [&](const auto& mesh) { write_mesh(json, bytes, *mesh); });
   write_textures(json, bytes, stage_.list);
-  json.key("layers").begin_array();
-  for (const PageLayer& layer : layers_) write_layer(json, bytes, layer);
-  json.end_array();
+  json.key("layers").list(layers_,
+                          [&](const PageLayer& layer) { write_layer(json, bytes, layer); });
   json.key("texts").texts(texts_);
 }
 

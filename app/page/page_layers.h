@@ -1,5 +1,6 @@
 // The draw lists of a film, packed: layer by layer, each in columns over all frames, as
-// src/data/run.ts has them. The lists are those of the painter of pictures; nothing is drawn anew.
+// src/protocol/run.ts has them. The lists are those of the painter of pictures; nothing is drawn
+// anew.
 #pragma once
 
 #include <cstdint>

@@ -8,16 +8,6 @@
 namespace twinarm {
 namespace {
 
-// "links/arm1/x": what kind of quantity it is, and of what.
-std::pair<std::string, std::string> kind_and_owner(const std::string& column) {
-  const std::size_t slash = column.find('/');
-  if (slash == std::string::npos) return {"energy", column.substr(0, column.find("_energy"))};
-  const std::string head = column.substr(0, slash), rest = column.substr(slash + 1);
-  if (head == "q") return {"coordinate", rest};
-  if (head == "qd") return {"rate", rest};
-  return {"position", rest.substr(0, rest.rfind('/'))};
-}
-
 const char* unit_of_pull(const SimulateInput& input, std::size_t c) {
   const bool is_couple = input.scene && c < input.scene->couplings.size() &&
                          kind_of_pull(*input.scene, c) == ShownPull::Kind::couple;
@@ -27,13 +17,10 @@ const char* unit_of_pull(const SimulateInput& input, std::size_t c) {
 }  // namespace
 
 RunChannels::RunChannels(const SimulateInput& input, const RecordingHeader& header)
-    : geometries_(header.geometries),
-      columns_(header.columns.size()),
+    : all_(run_columns(input.robot)),
+      geometries_(header.geometries),
+      columns_(all_.size()),
       pulls_(header.couplings.size()) {
-  for (const RecordedColumn& column : header.columns) {
-    const auto [kind, of] = kind_and_owner(column.name);
-    add(column.name, column.unit, kind, of);
-  }
   elastic_ = all_.size();
   if (pulls_ > 0) add("elastic_energy", "J", "energy", "springs");
   first_pull_ = all_.size();
@@ -47,19 +34,14 @@ std::size_t RunChannels::add(const std::string& name, const std::string& unit,
   return all_.size() - 1;
 }
 
-std::string RunChannels::name_of_geometry(int id) const {
-  const auto i = static_cast<std::size_t>(id);
-  return i < geometries_.size() ? geometries_[i] : std::to_string(id);
-}
-
 std::size_t RunChannels::place_of(const std::string& name) const {
-  const auto is_it = [&](const RunChannel& channel) { return channel.name == name; };
+  const auto is_it = [&](const RunColumn& channel) { return channel.name == name; };
   return static_cast<std::size_t>(std::find_if(all_.begin(), all_.end(), is_it) - all_.begin());
 }
 
 bool RunChannels::add_pair(int a, int b) {
   if (!pairs_.try_emplace({a, b}, all_.size()).second) return false;
-  const std::string pair = name_of_geometry(a) + "-" + name_of_geometry(b);
+  const std::string pair = name_of_pair(geometries_, a, b);
   add("contact/" + pair, "N", "contact", pair);
   return true;
 }
@@ -101,13 +83,6 @@ void RunChannels::values(const RecordedFrame& frame, const Moment& moment,
     values[led.target] = coordinates_of(led.joint, kvr.x).front();
     values[led.error] = values[led.column] - values[led.target];
   }
-}
-
-std::vector<double> works_by_row(const RecordedFrame& frame, std::size_t rows) {
-  std::vector<double> works(rows, 0);
-  for (std::size_t i = 0; i < std::min(frame.rows.size(), frame.works.size()); ++i)
-    if (frame.rows[i] < rows) works[frame.rows[i]] = frame.works[i];
-  return works;
 }
 
 }  // namespace twinarm

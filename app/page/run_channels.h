@@ -9,17 +9,14 @@
 
 #include "app/draw/snapshot.h"
 #include "app/record/recording.h"
+#include "app/run/run_columns.h"
 #include "app/run/simulate_input.h"
 
 namespace twinarm {
 
-struct RunChannel {
-  std::string name, unit, kind, of;  // as in src/data/run.ts
-};
-
 class RunChannels {
  public:
-  // Coordinates, rates, positions, energies and couplings, in the order of the recording's header.
+  // The columns of a run, in their order, then couplings.
   // Of both arguments parts are copied.
   RunChannels(const SimulateInput& input, const RecordingHeader& header);
   // Two geometries that touch. True: it was not there yet.
@@ -30,7 +27,7 @@ class RunChannels {
   std::size_t add(const std::string& name, const std::string& unit, const std::string& kind,
                   const std::string& of);
 
-  const std::vector<RunChannel>& all() const { return all_; }
+  const std::vector<RunColumn>& all() const { return all_; }
   // By channel; NaN for those that are not known in this frame. `couplings`: those of the moment;
   // null for a robot alone.
   void values(const RecordedFrame& frame, const Moment& moment, SceneCouplings* couplings,
@@ -41,18 +38,13 @@ class RunChannels {
     std::size_t coupling, column, target, error;  // of all_: where they stand
     NamedJoint joint;
   };
-  std::string name_of_geometry(int id) const;
   std::size_t place_of(const std::string& name) const;
 
-  std::vector<RunChannel> all_;
+  std::vector<RunColumn> all_;
   std::vector<std::string> geometries_;
   std::size_t columns_ = 0, pulls_ = 0, elastic_ = 0, first_pull_ = 0;
   std::map<std::pair<int, int>, std::size_t> pairs_;  // places by geometries
   std::vector<Led> led_;
 };
-
-// By the numbers of rows in the frame; of those that it does not have, zero. Numbers beyond `rows`
-// are left out.
-std::vector<double> works_by_row(const RecordedFrame& frame, std::size_t rows);
 
 }  // namespace twinarm

@@ -108,8 +108,7 @@ PyObject* call_by_q(const char* function, PyObject* const* given, Py_ssize_t cou
 }
 PyObject* call_crba(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {
   return call_by_q("crba", given, count, keywords, [](Robot& robot, double* M) {
-    crba(robot.model, robot.x, robot.w);
-    std::copy(robot.w.M.begin(), robot.w.M.end(), M);
+    crba(robot.model, robot.x, robot.w, {M, robot.model.nv * robot.model.nv});
   });
 }
 PyObject* call_minv(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {

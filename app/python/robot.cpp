@@ -19,9 +19,8 @@ Robot::Robot(RobotInput read)
       qdd(input.model.nv),
       f_ext(input.model.parent.size()) {
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
-    if (model.joint[i] == JointType::spherical) quaternions.push_back(model.iq[i]);
-    if (model.joint[i] == JointType::free || model.joint[i] == JointType::prescribed)
-      quaternions.push_back(model.iq[i] + 3);
+    const int at = facts_of(model.joint[i]).quaternion;
+    if (at >= 0) quaternions.push_back(model.iq[i] + static_cast<std::size_t>(at));
   }
 }
 

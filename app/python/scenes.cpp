@@ -10,7 +10,7 @@
 #include "app/python/robot.h"
 #include "app/python/scene_change.h"
 #include "app/run/run.h"
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm::python {
 namespace {

@@ -7,7 +7,7 @@
 #include "app/python/bind.h"
 #include "app/python/robot.h"
 #include "app/support/nearest_name.h"
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 #include "solver/stepping/simulation.h"
 #include "solver/support/number_text.h"
 

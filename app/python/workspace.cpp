@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/inspect/displayed_quantities.h"
 #include "app/python/arrays.h"
 #include "app/python/bind.h"
 #include "app/python/robot.h"
@@ -13,10 +14,6 @@
 
 namespace twinarm::python {
 namespace {
-
-constexpr const char* kLink = "link axes, about the link's origin";
-constexpr const char* kFromParent = "from the parent's link axes to the link's";
-constexpr const char* kJoint = "joint";
 
 // A copy: later calls do not change it.
 struct Left {
@@ -39,47 +36,14 @@ Array value_of(const LeftByAba& left, const std::string& name) {
                       name_remedy(name, names_of(left), "quantities"));
 }
 
-void write(const Mat3<double>& block, double* at) {  // into six columns
-  store(block.r0, at), store(block.r1, at + 6), store(block.r2, at + 12);
-}
-Mat3<double> turned(const Mat3<double>& R_BL, const Mat3<double>& block) {
-  return transpose(R_BL) * (block * R_BL);
-}
-
-// From body axes to link axes, the numbers of one entry; L: of the link, P: of its parent.
-void write(const Mat3<double>& R_BL, const Mat3<double>&, const Motion<double>& m, double* at) {
-  store(transpose_times(R_BL, m.w), at);
-  store(transpose_times(R_BL, m.v), at + 3);
-}
-void write(const Mat3<double>& R_BL, const Mat3<double>&, const Force<double>& f, double* at) {
-  store(transpose_times(R_BL, f.n), at);
-  store(transpose_times(R_BL, f.f), at + 3);
-}
-void write(const Mat3<double>& R_BL, const Mat3<double>&, const ArticulatedInertia<double>& a,
-           double* at) {
-  const Mat3<double> H = turned(R_BL, a.H);
-  write(full(symmetric_part_of(turned(R_BL, full(a.I)))), at);
-  write(H, at + 3);
-  write(transpose(H), at + 18);
-  write(full(symmetric_part_of(turned(R_BL, full(a.M)))), at + 21);
-}
-void write(const Mat3<double>& R_BL, const Mat3<double>& R_BL_of_parent, const Transform<double>& X,
-           double* at) {  // [E 0; -E rx E]
-  const Mat3<double> E = transpose(R_BL) * (X.E * R_BL_of_parent);
-  const Mat3<double> r = skew(-transpose_times(R_BL_of_parent, X.r));
-  write(E, at);
-  write(E * r, at + 18);
-  write(E, at + 21);
-}
-
 class Collector {
  public:
   Collector(const Robot& robot, LeftByAba& left)
       : robot_(robot), model_(robot.model), left_(left) {}
 
   void operator()(const Quantity& quantity, const std::vector<double>& field) {
-    if (quantity.by == Quantity::By::square) return add(quantity, kJoint, square(field));
-    add(quantity, kJoint, array_of(field));
+    if (quantity.by == Quantity::By::square) return add(quantity, kJointFrame, square(field));
+    add(quantity, kJointFrame, array_of(field));
   }
   template <class T>
   void operator()(const Quantity& quantity, const std::vector<T>& field) {
@@ -98,14 +62,16 @@ class Collector {
           write_of(i, field[k], at + k * size);
       }
     }
-    add(quantity, std::is_same_v<T, Transform<double>> ? kFromParent : kLink, std::move(value));
+    add(quantity, std::is_same_v<T, Transform<double>> ? kParentToLinkFrame : kLinkFrame,
+        std::move(value));
   }
 
  private:
   template <class T>
   void write_of(std::size_t i, const T& entry, double* at) const {
-    const auto parent = static_cast<std::size_t>(std::max(model_.parent[i], 0));
-    write(model_.turn[i], model_.turn[parent], entry, at);
+    const auto shown = LinkFrame(model_, i).show(entry);
+    for (Eigen::Index r = 0; r < shown.rows(); ++r)
+      for (Eigen::Index c = 0; c < shown.cols(); ++c) *at++ = shown(r, c);
   }
   // nv x nv, the square of each joint on the diagonal.
   Array square(const std::vector<double>& field) const {

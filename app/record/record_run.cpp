@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <variant>
 
+#include "app/record/unpack.h"
 #include "app/render/list/image.h"
-#include "app/robot/robot_table.h"
+#include "app/run/run_columns.h"
 #include "app/support/find_assets.h"
 #include "app/support/output_file.h"
 #include "app/support/version.h"
 #include "collision/mesh_files/model_file.h"
-#include "solver/dynamics/energy.h"
 
 namespace twinarm {
 namespace {
@@ -83,8 +83,7 @@ void add_mesh_file(std::vector<RecordedFile>& files, const std::filesystem::path
   if (files.size() > before) add_companions(files, file);
 }
 
-template <class Geometry>
-void add_mesh(std::vector<RecordedFile>& files, const Geometry& geometry) {
+void add_mesh(std::vector<RecordedFile>& files, const ShapeDescription& geometry) {
   if (const auto* mesh = std::get_if<MeshGeometry>(&geometry)) add_mesh_file(files, mesh->file);
 }
 
@@ -106,53 +105,11 @@ void add_files_of(const SceneDescription& scene, std::vector<RecordedFile>& file
     add_meshes_of(robot.description, files);
   }
   for (const BodyDescription& body : scene.bodies) {
-    if (const auto* mesh = std::get_if<MeshSpec>(&body.shape))
-      add_mesh_file(files, mesh->mesh.file);
+    add_mesh(files, body.shape);
     add_picture(files, body.texture);
   }
   for (const CouplingDescription& coupling : scene.couplings)
     add_file(files, coupling.target.trace);
-}
-
-std::vector<RecordedColumn> columns_of(const RobotInput& input) {
-  std::vector<RecordedColumn> columns;
-  const Coordinates& coordinates = input.coordinates;
-  for (const NamedJoint& joint : coordinates.all())
-    for (const JointComponent& c : joint.components())
-      columns.push_back({"q/" + component_name(coordinates, joint, c), c.is_quaternion ? "1"
-                                                                       : c.is_angle    ? "rad"
-                                                                                       : "m"});
-  for (const NamedJoint& joint : coordinates.all())
-    for (const JointComponent& c : joint.components())
-      if (c.v >= 0)
-        columns.push_back(
-            {"qd/" + component_name(coordinates, joint, c), c.is_angle ? "rad/s" : "m/s"});
-  for (std::size_t i = 1; i < input.model.parent.size(); ++i)
-    for (const char* axis : {"x", "y", "z"})
-      columns.push_back({"links/" + input.model.body_name[i] + "/" + axis, "m"});
-  columns.push_back({"kinetic_energy", "J"});
-  columns.push_back({"potential_energy", "J"});
-  return columns;
-}
-
-// In the order of columns_of(); k belongs to x.
-std::vector<double> values_of(const RobotInput& input, const State<double>& x,
-                              const Kinematics& k) {
-  std::vector<double> values;
-  for (const NamedJoint& joint : input.coordinates.all()) {
-    const std::vector<double> q = coordinates_of(joint, x);
-    values.insert(values.end(), q.begin(), q.end());
-  }
-  for (const NamedJoint& joint : input.coordinates.all()) {
-    const std::vector<double> qd = from_solver(joint, x, x.qd);
-    for (const JointComponent& c : joint.components())
-      if (c.v >= 0) values.push_back(qd[static_cast<std::size_t>(c.v)]);
-  }
-  for (std::size_t i = 1; i < input.model.parent.size(); ++i)
-    for (const double p : k.X_WL[i].p) values.push_back(p);
-  values.push_back(kinetic_energy(input.model, x));
-  values.push_back(potential_energy(input.model, x));
-  return values;
 }
 
 void add_contacts_of(const SceneContacts* all, RecordedFrame& frame) {
@@ -164,6 +121,12 @@ void add_contacts_of(const SceneContacts* all, RecordedFrame& frame) {
   }
 }
 
+std::uint32_t number_in(std::vector<std::string>& names, const std::string& name) {
+  const auto place = std::find(names.begin(), names.end(), name) - names.begin();
+  if (static_cast<std::size_t>(place) == names.size()) names.push_back(name);
+  return static_cast<std::uint32_t>(place);
+}
+
 }  // namespace
 
 RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& prepared,
@@ -171,16 +134,14 @@ RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& pr
   RecordingHeader header;
   header.program = kProgramVersion;
   header.command = std::move(command);
-  header.options = options;
-  header.options.change_scene = nullptr;
-  for (auto* path : {&header.options.robot.model, &header.options.robot.state})
-    if (!path->empty()) *path = std::filesystem::absolute(*path).lexically_normal();
+  header.run = recorded_run(options);
   add_file(header.files, options.robot.model);
   add_file(header.files, options.robot.state);
   header.integrator = integrator_name(prepared.run.integrator);
   header.step = prepared.run.step;
   header.duration = prepared.run.duration;
-  header.columns = columns_of(prepared.input.robot);
+  for (const RunColumn& column : run_columns(prepared.input.robot))
+    header.columns.push_back({column.name, column.unit});
   add_meshes_of(prepared.input.robot.robot, header.files);
   if (!prepared.input.scene) return header;
   const SceneModel& scene = *prepared.input.scene;
@@ -195,13 +156,25 @@ RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared) {
   const State<double>& x = run.simulation().state();
   frame.step = run.step();
   frame.t = x.t;
-  frame.values = values_of(prepared.input.robot, x, run.simulation().kinematics());
+  frame.values = run_values(prepared.input.robot, x, run.simulation().kinematics());
   if (const SceneCouplings* couplings = prepared.input.couplings.get())
     for (std::size_t c = 0; c < couplings->size(); ++c) frame.pulls.push_back(couplings->pull(c));
   add_contacts_of(run.contacts(), frame);
   frame.memory = run.memory();
   frame.hash = hash_of(frame.memory);
   return frame;
+}
+
+void add_ledgers(const RunView& run, std::vector<std::string>& names,
+                 std::vector<std::string>& momentum_names, RecordedFrame& frame) {
+  for (const LedgerRow& row : run.ledger()) {
+    frame.rows.push_back(number_in(names, row.name));
+    frame.works.push_back(row.work);
+  }
+  for (const MomentumRow& row : run.momentum()) {
+    frame.momentum_rows.push_back(number_in(momentum_names, row.name));
+    frame.momenta.insert(frame.momenta.end(), {row.linear, row.angular});
+  }
 }
 
 RunRecorder::RunRecorder(const std::filesystem::path& file, RecordingHeader header,

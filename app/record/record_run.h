@@ -18,6 +18,10 @@ RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& pr
 // Without the numbers of the ledger's rows, which a file gives them.
 RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared);
 
+// Those rows, by the places of their names, to which new ones are added.
+void add_ledgers(const RunView& run, std::vector<std::string>& names,
+                 std::vector<std::string>& momentum_names, RecordedFrame& frame);
+
 // RunWatch::look of a run that is recorded.
 class RunRecorder {
  public:

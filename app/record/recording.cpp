@@ -2,6 +2,8 @@
 
 #include <zlib.h>
 
+#include <algorithm>
+
 namespace twinarm {
 namespace {
 
@@ -30,21 +32,42 @@ void visit_number(Memory& memory, std::optional<double>& number) {
     number.reset();
 }
 
-// What the run itself depends on; not what it printed.
-void visit_options(Memory& memory, SimulateOptions& options) {
-  visit_path(memory, options.robot.model);
-  visit_path(memory, options.robot.state);
-  memory.visit(options.robot.gravity);
-  for (bool* flag : {&options.robot.floating, &options.robot.friction, &options.robot.armature,
-                     &options.robot.strict})
-    memory.visit(*flag);
-  for (auto* number : {&options.duration, &options.step, &options.tolerance, &options.energy_bound})
+void visit_run(Memory& memory, RecordedRun& run) {
+  visit_path(memory, run.model);
+  visit_path(memory, run.state);
+  memory.visit(run.gravity);
+  for (bool* flag : {&run.floating, &run.friction, &run.armature, &run.strict}) memory.visit(*flag);
+  for (auto* number : {&run.duration, &run.step, &run.tolerance, &run.energy_bound})
     visit_number(memory, *number);
-  memory.visit(options.integrator);
-  memory.visit(options.contact);
+  memory.visit(run.integrator);
+  memory.visit(run.contact);
 }
 
 }  // namespace
+
+std::string name_of_pair(const std::vector<std::string>& geometries, int a, int b) {
+  const auto name = [&](int id) {
+    const auto i = static_cast<std::size_t>(id);
+    return i < geometries.size() ? geometries[i] : std::to_string(id);
+  };
+  return name(a) + "-" + name(b);
+}
+
+std::vector<double> works_by_row(const RecordedFrame& frame, std::size_t rows) {
+  std::vector<double> works(rows, 0);
+  for (std::size_t i = 0; i < std::min(frame.rows.size(), frame.works.size()); ++i)
+    if (frame.rows[i] < rows) works[frame.rows[i]] = frame.works[i];
+  return works;
+}
+
+std::vector<double> momenta_by_row(const RecordedFrame& frame, std::size_t rows) {
+  std::vector<double> momenta(6 * rows, 0);
+  for (std::size_t i = 0; i < frame.momentum_rows.size(); ++i)
+    for (std::size_t c = 0; c < 6; ++c)
+      momenta.at(6 * frame.momentum_rows[i] + c) =
+          frame.momenta.at(2 * i + c / 3)[static_cast<Eigen::Index>(c % 3)];
+  return momenta;
+}
 
 std::uint64_t hash_of(const std::string& bytes) {
   std::uint64_t hash = 14695981039346656037u;
@@ -57,14 +80,14 @@ std::uint32_t checksum(const char* bytes, std::size_t count) {
       crc32_z(0, reinterpret_cast<const unsigned char*>(bytes), count));
 }
 
-void visit(Memory& memory, RecordingHeader& header) {
+void visit_version_2(Memory& memory, RecordingHeader& header) {
   memory.visit(header.program);
   visit_all(memory, header.command, kLeastText, [&](std::string& word) { memory.visit(word); });
   visit_all(memory, header.files, 2 * kLeastText, [&](RecordedFile& file) {
     memory.visit(file.path);
     memory.visit(file.bytes);
   });
-  visit_options(memory, header.options);
+  visit_run(memory, header.run);
   memory.visit(header.integrator);
   memory.visit(header.step);
   memory.visit(header.duration);

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "app/run/simulate_options.h"
+#include "solver/spatial/pose.h"
 #include "solver/support/state_archive.h"
 
 namespace twinarm {
@@ -17,13 +20,24 @@ struct RecordedFile {
 
 struct RecordedColumn {
   std::string name, unit;
+
+  std::string with_unit() const { return name + "[" + unit + "]"; }
+};
+
+// What the run depends on besides its files, as it was given.
+struct RecordedRun {
+  std::filesystem::path model, state;  // absolute; state may be empty
+  std::string gravity;                 // "x,y,z"; empty: the model's
+  bool floating = false, friction = true, armature = true, strict = false;
+  std::optional<double> duration, step, tolerance, energy_bound;  // [s], [s], 1, [J]
+  std::string integrator, contact;                                // empty: the scene's
 };
 
 struct RecordingHeader {
   std::string program;  // its version
   std::vector<std::string> command;
   std::vector<RecordedFile> files;  // the model or scene first
-  SimulateOptions options;          // as given; paths absolute
+  RecordedRun run;
   std::string integrator;
   double step = 0, duration = 0;        // [s]
   long seed = 0;                        // of what is random; a run has nothing of that kind
@@ -54,18 +68,30 @@ struct RecordedFrame {
   std::string memory;  // state, and what the next step reads besides
 };
 
+// "A-B", of geometries that touch.
+std::string name_of_pair(const std::vector<std::string>& geometries, int a, int b);
+// By the numbers of rows in the frame; of those that it does not have, zero. Six numbers of each
+// row of the momentum.
+std::vector<double> works_by_row(const RecordedFrame& frame, std::size_t rows);
+std::vector<double> momenta_by_row(const RecordedFrame& frame, std::size_t rows);
+
 std::uint64_t hash_of(const std::string& bytes);  // FNV-1a, 64 bits
 
+// The header as JSON, which names all that it holds and the layout of frames; the bytes of its
+// files follow in blocks of their own. Parsing ignores keys that it does not know, and throws
+// std::runtime_error where one is missing or of another kind, or frames have another layout.
+std::string header_text(const RecordingHeader& header);
+RecordingHeader parse_header(std::string_view text);
+void visit_version_2(Memory& memory, RecordingHeader& header);  // what files of version 2 have
 // Both ways, as solver/support/state_archive.h.
-void visit(Memory& memory, RecordingHeader& header);
 void visit(Memory& memory, RecordedFrame& frame);
 
 // The blocks of the file: kind, length, payload, CRC-32 of all three. Little-endian.
 namespace recording_format {
 inline constexpr char kMagic[9] = "TWINREC\n";
-inline constexpr std::uint32_t kVersion = 2;
-inline constexpr char kHeader = 'H', kName = 'N', kMomentumName = 'M', kAlarm = 'A', kFrame = 'F',
-                      kEnd = 'E';
+inline constexpr std::uint32_t kVersion = 3;  // 2 is read
+inline constexpr char kHeader = 'H', kFile = 'D', kName = 'N', kMomentumName = 'M', kAlarm = 'A',
+                      kFrame = 'F', kEnd = 'E';
 inline constexpr std::size_t kStart = 12;              // magic and version
 inline constexpr std::size_t kBefore = 5, kAfter = 4;  // bytes of a block around its payload
 }  // namespace recording_format

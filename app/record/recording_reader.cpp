@@ -54,17 +54,18 @@ Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
            "recording.form");
   if (start.size() < kStart)
     refuse("it is cut short within its first bytes", "record it again", "recording.cut-short");
-  if (const std::uint32_t version = number_at(start, 8); version != kVersion)
-    refuse(
-        fmt::format("its format is version {}; this program reads version {}", version, kVersion),
-        version > kVersion ? "read it with the newer twinarm that wrote it" : "record it again",
-        "recording.version");
+  version_ = number_at(start, 8);
+  if (version_ != 2 && version_ != kVersion)
+    refuse(fmt::format("its format is version {}; this program reads versions 2 and {}", version_,
+                       kVersion),
+           version_ > kVersion ? "read it with the newer twinarm that wrote it" : "record it again",
+           "recording.version");
   try {
     read_blocks();
   } catch (const std::runtime_error& error) {  // whole by its checksum, yet not to be understood
     notes_.push_back(std::string("reading stopped: ") + error.what());
   }
-  if (!has_header_ || places_.empty())
+  if (!has_header_ || files_ != header_.files.size() || places_.empty())
     refuse("nothing of it is whole: it is cut short or damaged within its first frame",
            "record it again", "recording.cut-short");
 }
@@ -114,9 +115,10 @@ void Recording::take(char kind, std::size_t begin, std::string_view payload) {
   using namespace recording_format;
   if (kind == kHeader) {
     if (has_header_) throw std::runtime_error("there is a second header");
-    Memory memory{std::string(payload)};
-    visit(memory, header_);
-    has_header_ = true;
+    take_header(payload);
+  } else if (kind == kFile) {
+    if (files_ == header_.files.size()) throw std::runtime_error("there is a file without a name");
+    header_.files[files_++].bytes = payload;
   } else if (kind == kName) {
     take_text(payload, names_);
   } else if (kind == kMomentumName) {
@@ -128,6 +130,17 @@ void Recording::take(char kind, std::size_t begin, std::string_view payload) {
   } else if (kind == kFrame) {
     take_frame(begin, payload);
   }
+}
+
+void Recording::take_header(std::string_view payload) {
+  if (version_ == 2) {
+    Memory memory{std::string(payload)};
+    visit_version_2(memory, header_);
+    files_ = header_.files.size();
+  } else {
+    header_ = parse_header(payload);
+  }
+  has_header_ = true;
 }
 
 void Recording::take_text(std::string_view text, std::vector<std::string>& texts) {

@@ -18,6 +18,7 @@ class Recording {
   // newer format, or has nothing whole; what else is missing stands in notes().
   explicit Recording(const std::filesystem::path& file);
 
+  std::uint32_t version() const { return version_; }  // of its format
   const RecordingHeader& header() const { return header_; }
   const std::vector<std::string>& rows() const { return names_; }  // of the ledger
   const std::vector<std::string>& momentum_rows() const { return momentum_names_; }
@@ -38,6 +39,7 @@ class Recording {
   };
   void read_blocks();
   void take(char kind, std::size_t begin, std::string_view payload);
+  void take_header(std::string_view payload);
   void take_text(std::string_view text, std::vector<std::string>& texts);
   void take_frame(std::size_t begin, std::string_view payload);
 
@@ -45,7 +47,9 @@ class Recording {
   mutable std::ifstream stream_;
   std::size_t size_ = 0;  // of the file
   std::size_t text_ = 0;  // bytes of names and alarms
+  std::uint32_t version_ = 0;
   RecordingHeader header_;
+  std::size_t files_ = 0;  // of the header, that have come
   bool has_header_ = false;
   std::vector<std::string> names_, momentum_names_, alarms_, notes_;
   std::vector<Place> places_;

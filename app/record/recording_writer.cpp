@@ -37,9 +37,8 @@ RecordingWriter::RecordingWriter(std::filesystem::path file, RecordingHeader hea
       flushed_(std::chrono::steady_clock::now()) {
   if (!out_) fail();
   waiting_ = std::string(recording_format::kMagic, 8) + bytes_of(recording_format::kVersion);
-  Memory memory;
-  visit(memory, header);
-  block(recording_format::kHeader, memory.bytes());
+  block(recording_format::kHeader, header_text(header));
+  for (const RecordedFile& read : header.files) block(recording_format::kFile, read.bytes);
   flush();
 }
 

@@ -9,24 +9,6 @@
 namespace twinarm {
 namespace {
 
-std::uint32_t number_in(std::vector<std::string>& names, const std::string& name) {
-  const auto place = std::find(names.begin(), names.end(), name) - names.begin();
-  if (static_cast<std::size_t>(place) == names.size()) names.push_back(name);
-  return static_cast<std::uint32_t>(place);
-}
-
-// As RunRecorder::write() has them, numbered for this branch.
-void add_ledgers(const RunView& run, Replay& branch, RecordedFrame& frame) {
-  for (const LedgerRow& row : run.ledger()) {
-    frame.rows.push_back(number_in(branch.rows, row.name));
-    frame.works.push_back(row.work);
-  }
-  for (const MomentumRow& row : run.momentum()) {
-    frame.momentum_rows.push_back(number_in(branch.momentum_rows, row.name));
-    frame.momenta.insert(frame.momenta.end(), {row.linear, row.angular});
-  }
-}
-
 Replay run_on(const Recording& recording, std::size_t first, const SimulatePlan& prepared) {
   const RecordedFrame begin = recording.frame(first);
   const RecordedFrame last = recording.frame(recording.size() - 1);
@@ -56,7 +38,7 @@ Replay run_on(const Recording& recording, std::size_t first, const SimulatePlan&
       if (!same && found.first_different < 0) found.first_different = frame.t;
     }
     frame.memory.clear();
-    add_ledgers(run, found, frame);
+    add_ledgers(run, found.rows, found.momentum_rows, frame);
     found.frames.push_back(std::move(frame));
     ++next;
   };

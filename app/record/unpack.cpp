@@ -18,6 +18,35 @@ int line_of_change(std::size_t change) {
 
 }  // namespace
 
+SimulateOptions options_of(const RecordedRun& run) {
+  SimulateOptions options;
+  options.robot.model = run.model;
+  options.robot.state = run.state;
+  options.robot.gravity = run.gravity;
+  options.robot.floating = run.floating;
+  options.robot.friction = run.friction;
+  options.robot.armature = run.armature;
+  options.robot.strict = run.strict;
+  options.duration = run.duration;
+  options.step = run.step;
+  options.tolerance = run.tolerance;
+  options.energy_bound = run.energy_bound;
+  options.integrator = run.integrator;
+  options.contact = run.contact;
+  return options;
+}
+
+RecordedRun recorded_run(const SimulateOptions& options) {
+  const auto absolute = [](const std::filesystem::path& path) {
+    return path.empty() ? path : std::filesystem::absolute(path).lexically_normal();
+  };
+  const RobotOptions& robot = options.robot;
+  return {absolute(robot.model), absolute(robot.state), robot.gravity,        robot.floating,
+          robot.friction,        robot.armature,        robot.strict,         options.duration,
+          options.step,          options.tolerance,     options.energy_bound, options.integrator,
+          options.contact};
+}
+
 UnpackedRun::Folder::Folder() : path(make_temporary_folder("twinarm-replay")) {}
 
 UnpackedRun::Folder::~Folder() {
@@ -66,7 +95,7 @@ void UnpackedRun::lead_to_copies(TomlValue& value) const {
 
 SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
   write_missing();
-  SimulateOptions options = header_.options;
+  SimulateOptions options = options_of(header_.run);
   options.robot.model = copy_of(options.robot.model);
   if (!options.robot.state.empty()) options.robot.state = copy_of(options.robot.state);
   const bool is_scene = options.robot.model.extension() == ".toml";

@@ -13,6 +13,11 @@
 
 namespace twinarm {
 
+// A recorded run as options of a new one, and the other way round. The paths of the latter are made
+// absolute.
+SimulateOptions options_of(const RecordedRun& run);
+RecordedRun recorded_run(const SimulateOptions& options);
+
 // The recording's files in a temporary folder, which goes with it.
 class UnpackedRun {
  public:

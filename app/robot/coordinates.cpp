@@ -18,29 +18,17 @@ Mat3<double> turn_of(const NamedJoint& joint, const State<double>& x) {
 
 }  // namespace
 
+// In the order of here: what a quaternion leads, its x, y, z have the velocities after it.
 std::vector<JointComponent> NamedJoint::components() const {
-  switch (type) {
-    case JointType::prismatic:
-      return {{"", 0, 0, false}};
-    case JointType::cylindrical:
-      return {{"angle", 0, 0}, {"shift", 1, 1, false}};
-    case JointType::universal:
-      return {{"first", 0, 0}, {"second", 1, 1}};
-    case JointType::spherical:
-      return {{"w", 0, -1, true, true},
-              {"x", 1, 0, true, true},
-              {"y", 2, 1, true, true},
-              {"z", 3, 2, true, true}};
-    case JointType::planar:
-      return {{"x", 0, 0, false}, {"y", 1, 1, false}, {"angle", 2, 2}};
-    case JointType::free:
-      return {{"x", 0, 0, false},           {"y", 1, 1, false},
-              {"z", 2, 2, false},           {"turn_w", 3, -1, true, true},
-              {"turn_x", 4, 3, true, true}, {"turn_y", 5, 4, true, true},
-              {"turn_z", 6, 5, true, true}};
-    default:
-      return {{"", 0, 0}};
+  const JointFacts facts = facts_of(type);
+  std::vector<JointComponent> components;
+  for (const Coordinate& coordinate : facts.coordinates) {
+    const int q = static_cast<int>(components.size());
+    const bool is_quaternion = facts.quaternion >= 0 && q >= facts.quaternion;
+    const int v = !is_quaternion ? q : q == facts.quaternion ? -1 : q - 1;
+    components.push_back({coordinate.label, q, v, coordinate.is_angle, is_quaternion});
   }
+  return components;
 }
 
 Coordinates::Coordinates(const Model<double>& model, bool floating, int last)
@@ -51,9 +39,8 @@ Coordinates::Coordinates(const Model<double>& model, bool floating, int last)
     const bool follows = std::any_of(model.mimics.begin(), model.mimics.end(),
                                      [&](const Mimic& m) { return nv == 1 && m.follower == iv; });
     if (nv == 0 || follows) continue;
-    NamedJoint joint{model.joint_name[i], i, model.joint[i], 0, nv, model.iq[i], iv, row};
-    visit_joint(model, i, [&](auto of_type) { joint.nq = of_type.nq; });
-    all_.push_back(std::move(joint));
+    const std::size_t nq = facts_of(model.joint[i]).nq;
+    all_.push_back({model.joint_name[i], i, model.joint[i], nq, nv, model.iq[i], iv, row});
     row += nv;
   }
   rows_ = static_cast<Eigen::Index>(row);

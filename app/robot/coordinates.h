@@ -25,6 +25,8 @@ struct JointComponent {
   int q = -1, v = -1;  // which of the joint's coordinates and velocities; -1: none
   bool is_angle = true;
   bool is_quaternion = false;
+
+  const char* unit() const { return is_quaternion ? "1" : is_angle ? "rad" : "m"; }
 };
 
 struct NamedJoint {

@@ -1,6 +1,7 @@
 #include "app/robot/dynamics.h"
 
 #include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/mass_matrix.h"
 #include "solver/dynamics/world_kinematics.h"
 #include "solver/loops/constrained_dynamics.h"
 #include "solver/model/non_finite.h"
@@ -101,13 +102,13 @@ Dynamics compute_dynamics(const RobotInput& input) {
   forward(input, f_ext, d);
   inverse(input, f_ext, k, P, d);
 
-  Workspace<double> w(model);
-  crba(model, x, w);
-  const auto nv = static_cast<Eigen::Index>(model.nv);
+  const Eigen::MatrixXd of_tree = mass_matrix(model, x);
+  const auto nv = of_tree.rows();
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::MatrixXd M = P.transpose() * Eigen::Map<const RowMajor>(w.M.data(), nv, nv) * P;
+  const Eigen::MatrixXd M = P.transpose() * Eigen::Map<const RowMajor>(of_tree.data(), nv, nv) * P;
   d.mass_matrix = 0.5 * (M + M.transpose());  // products round; both triangles have the same digits
 
+  Workspace<double> w(model);
   kinematics(model, x, w);
   d.kinetic_energy = kinetic_energy(model, x, w);
   d.potential_energy = potential_energy(model, w);

@@ -3,8 +3,9 @@
 #include <optional>
 
 #include "app/data/json_tree.h"
+#include "app/support/text_fields.h"
+#include "collision/import/formats/robot_formats.h"
 #include "collision/import/robot/robot_model.h"
-#include "collision/import/urdf/urdf.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/support/number_text.h"
 
@@ -30,9 +31,9 @@ std::optional<RobotDescription> read_model_file(const RobotOptions& options, Fau
     return std::nullopt;
   }
   return attempt(faults, [&] {
-    return read_urdf(file, {.geometry = UrdfOptions::Geometry::optional,
-                            .strict = options.strict,
-                            .roots = options.roots});
+    return read_robot_file(file, {.geometry = RobotFileOptions::Geometry::optional,
+                                  .strict = options.strict,
+                                  .roots = options.roots});
   });
 }
 
@@ -41,9 +42,7 @@ std::optional<RobotDescription> read_model_file(const RobotOptions& options, Fau
 std::vector<double> parse_list(const std::string& option, const std::string& text,
                                FaultList& faults) {
   std::vector<double> values;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    std::string item = text.substr(begin, end - begin);
+  for (std::string item : split(text)) {
     item.erase(0, item.find_first_not_of(' '));
     if (const auto space = item.find_last_not_of(' '); space != std::string::npos)
       item.erase(space + 1);
@@ -54,7 +53,6 @@ std::vector<double> parse_list(const std::string& option, const std::string& tex
                   "write numbers separated by commas", "option.number"});
       return {};
     }
-    begin = end + 1;
   }
   return values;
 }

@@ -8,8 +8,8 @@
 
 #include "app/robot/coordinates.h"
 #include "app/robot/state_file.h"
+#include "collision/import/robot/file_search.h"
 #include "collision/import/robot/robot_description.h"
-#include "collision/import/urdf/mesh_search.h"
 #include "solver/model/model.h"
 #include "solver/support/diagnostics.h"
 

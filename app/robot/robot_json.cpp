@@ -43,15 +43,13 @@ void write_base(JsonWriter& json, const Coordinates& coordinates, const State<do
 
 void write_links(JsonWriter& json, const Model<double>& model, const Kinematics& k) {
   json.begin_object();
-  for (std::size_t i = 1; i < model.parent.size(); ++i) {
-    json.key(model.body_name[i]).begin_object();
-    json.key("position").vector(k.X_WL[i].p);
-    json.key("orientation").vector(quaternion_of(k.X_WL[i].R));
-    json.key("rotation").matrix(k.X_WL[i].R);
-    json.key("linear_velocity").vector(k.v_WLo[i]);
-    json.key("angular_velocity").vector(k.w_WL[i]);
-    json.end_object();
-  }
+  for (std::size_t i = 1; i < model.parent.size(); ++i)
+    json.key(model.body_name[i])
+        .object({{"position", k.X_WL[i].p},
+                 {"orientation", quaternion_of(k.X_WL[i].R)},
+                 {"rotation", k.X_WL[i].R},
+                 {"linear_velocity", k.v_WLo[i]},
+                 {"angular_velocity", k.w_WL[i]}});
   json.end_object();
 }
 

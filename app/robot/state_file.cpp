@@ -154,8 +154,8 @@ class StateReader {
     double* q = state_.x.q.data() + joint.iq;
     std::copy(values.begin(), values.end(), q);
     const std::string where = "q of joint '" + joint.name + "'";
-    if (joint.type == JointType::spherical) normalise({q, 4}, line, where);
-    if (joint.type == JointType::free) normalise({q + 3, 4}, line, where);
+    if (const int at = facts_of(joint.type).quaternion; at >= 0)
+      normalise({q + at, 4}, line, where);
   }
   static void set_rows(const NamedJoint& joint, const Numbers& values, Eigen::VectorXd& rows) {
     for (std::size_t k = 0; k < joint.nv; ++k)

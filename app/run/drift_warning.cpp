@@ -20,7 +20,7 @@ std::size_t floating_base(const Model<double>& model) {
 
 std::string drift_warning(const Simulation& simulation, const RunPlan& plan) {
   const Model<double>& model = simulation.model();
-  const bool has_constraints = simulation.constraints().any();
+  const bool has_constraints = simulation.has_constrained_steps();
   const bool is_semi_implicit = plan.integrator == Integrator::semi_implicit ||
                                 plan.integrator == Integrator::semi_implicit_xv;
   if (!is_semi_implicit || plan.locates_events) return "";

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/model/non_finite.h"
 

@@ -28,7 +28,6 @@ struct SimulateOptions {
   std::filesystem::path record;        // a recording; empty: none is written
   std::optional<double> record_every;  // [s]; left out: each step
   std::optional<double> energy_bound;  // of kinetic energy [J]; left out: kGrowth times the start's
-  std::vector<std::string> command;    // as it was typed
   std::filesystem::path post_mortem;   // of a run that stops; empty: beside others in out/
   // What a fork changes in a scene before it is read; may be empty.
   std::function<void(TomlValue&, FaultList&)> change_scene;

@@ -9,7 +9,7 @@
 #include "app/run/drift_warning.h"
 #include "app/run/run_end.h"
 #include "app/run/time_grid.h"
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {

@@ -8,7 +8,7 @@
 #include "collision/import/robot/robot_description.h"
 #include "collision/import/robot/robot_model.h"
 #include "coupling/analysis/tracking_run.h"
-#include "coupling/laws/joint_stops.h"
+#include "solver/forces/joint_stops.h"
 
 namespace twinarm {
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/laws/discretization.h"
+
 namespace twinarm {
 namespace {
 
@@ -24,7 +26,7 @@ TrackingSeries track(const StudyRobot& robot, const HandSource& hand, const RunS
   setup.couplings = {main};
   for (const CouplingSpec& held : robot.auxiliary()) setup.couplings.push_back(held);
   TrackingSystem system(setup);
-  JointStops stops("stops", *setup.dvr_model, system.kvr(), robot.stops());
+  JointStops stops("stops", *setup.dvr_model, robot.stops());
   if (!robot.stops().empty()) system.simulation().add(stops);
   return system.run();
 }
@@ -118,15 +120,7 @@ ProtocolErrors run_protocol(const StudyRobot& robot, const RunSpec& spec,
 
 const char* treatment_name(const CouplingSpec& spec) {
   if (spec.printed) return "as printed";
-  switch (spec.treatment) {
-    case Treatment::explicit_:
-      return "explicit";
-    case Treatment::semi_implicit:
-      return "semi-implicit";
-    case Treatment::implicit:
-      return "implicit";
-  }
-  return "";
+  return name_of(spec.treatment);
 }
 
 std::string coupling_words(const CouplingSpec& spec) {

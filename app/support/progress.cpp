@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/support/seconds.h"
 #include "app/support/streams.h"
 
 namespace twinarm {
 
-Progress::Progress(bool quiet)
-    : quiet_(quiet),
-      terminal_(isatty(STDERR_FILENO) == 1),
+Progress::Progress(bool quiet, double after)
+    : terminal_(isatty(STDERR_FILENO) == 1),
+      quiet_(quiet || (after > 0 && !terminal_)),
+      after_(after),
       start_(std::chrono::steady_clock::now()),
       drawn_(start_) {}
 
@@ -39,16 +41,27 @@ void Progress::advance(double fraction_of_stage) {
     draw();
 }
 
+void Progress::at(const std::string& name, double share) {
+  name_ = name;
+  done_ = share;
+  advance(0);
+}
+
+double Progress::seconds() const {
+  return as_seconds(std::chrono::steady_clock::now() - start_);
+}
+
 void Progress::finish() {
-  if (!quiet_ && terminal_ && !name_.empty()) say("\r\033[K");
+  if (!quiet_ && terminal_ && !name_.empty() && seconds() >= after_) say("\r\033[K");
   std::fflush(stderr);
   name_.clear();
 }
 
 void Progress::draw() {
+  const double elapsed = seconds();
+  if (elapsed < after_) return;
   drawn_ = std::chrono::steady_clock::now();
   const double done = std::clamp(done_ + weight_ * fraction_, 0.0, 1.0);
-  const double elapsed = std::chrono::duration<double>(drawn_ - start_).count();
   constexpr int width = 28;
   const int full = static_cast<int>(done * width);
   std::string left = "";

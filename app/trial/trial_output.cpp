@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "app/data/csv_text.h"
 #include "app/data/json_writer.h"
 #include "app/data/text_table.h"
 #include "app/support/output_file.h"
@@ -17,14 +18,6 @@ namespace {
 const std::string kTrialHeader =
     "subject,order,condition,task,device,mapping,done,seconds,picks,drops,off[mm],joint1_max[deg],"
     "joint1_mean[deg],joint2_max[deg],joint2_mean[deg]\n";
-
-// In quotes where a comma or a quote stands in it.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::string csv_row(const TrialReport& report, std::size_t order) {
   const TrialResult& r = report.results[order];
@@ -71,27 +64,22 @@ std::string trial_table(const TrialReport& report) {
 std::string trial_json(const TrialReport& report) {
   JsonWriter json;
   json.begin_object();
-  json.key("subject").text(report.subject);
-  json.key("device").text(report.device);
-  json.key("mapping").text(report.mapping);
-  json.key("results").begin_array();
-  for (const TrialResult& r : report.results) {
+  json.members(
+      {{"subject", report.subject}, {"device", report.device}, {"mapping", report.mapping}});
+  json.key("results").list(report.results, [&](const TrialResult& r) {
     json.begin_object();
-    json.key("condition").text(r.condition);
-    json.key("task").text(r.task);
-    json.key("done").boolean(r.is_done);
-    json.key("seconds").number(r.seconds);
-    json.key("picks").count(r.picks);
-    json.key("drops").count(r.drops);
+    json.members({{"condition", r.condition},
+                  {"task", r.task},
+                  {"done", r.is_done},
+                  {"seconds", r.seconds},
+                  {"picks", r.picks},
+                  {"drops", r.drops}});
     json.key("picked_at");
     r.picked_at < 0 ? json.null() : json.number(r.picked_at);
-    json.key("off_mm").number(r.off_mm);
-    json.key("max_deg").numbers(r.max_deg);
-    json.key("mean_deg").numbers(r.mean_deg);
-    json.key("log").text(r.log);
+    json.members(
+        {{"off_mm", r.off_mm}, {"max_deg", r.max_deg}, {"mean_deg", r.mean_deg}, {"log", r.log}});
     json.end_object();
-  }
-  json.end_array();
+  });
   json.key("csv").text(report.csv);
   json.end_object();
   return json.str();

@@ -11,7 +11,7 @@ const esbuild = createRequire(pathToFileURL(join(modules, 'any.js')))('esbuild')
 
 async function bundle(name) {
   const built = await esbuild.build({
-    entryPoints: [join(here, 'src', `${name}.ts`)],
+    entryPoints: [join(here, 'src', 'pages', `${name}.ts`)],
     outfile: `${name}.js`,
     nodePaths: [modules],
     bundle: true,
@@ -28,7 +28,7 @@ async function bundle(name) {
 
 // What is in the bundle, and on which terms: all of them ask for their text to be kept.
 function licences() {
-  return ['katex', 'three', 'uplot']
+  return ['three', 'uplot']
     .map((name) => {
       const { version, license } = JSON.parse(
         readFileSync(join(modules, name, 'package.json'), 'utf8'),
@@ -39,9 +39,6 @@ function licences() {
     .join('\n\n');
 }
 
-// Characters that turn the direction of text (KaTeX has some in a pattern) look like a trick in C++.
-const turning = /[\u200e\u200f\u202a-\u202e\u2066-\u2069]/g; // bidi controls
-const escaped = (mark) => `\\u${mark.charCodeAt(0).toString(16)}`;
 const inScript = (text) => text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
 const form = readFileSync(join(here, 'page.html'), 'utf8');
 const POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
@@ -54,7 +51,7 @@ const CARRIES = {
 const ASKS = { POLICY: `${POLICY} blob: 'self'; connect-src 'self'`, TITLE: 'twinarm lab', DATA: '' };
 async function page(name, own) {
   const { script, style } = await bundle(name);
-  const parts = { STYLE: style, LICENCES: licences(), SCRIPT: inScript(script).replace(turning, escaped), ...own };
+  const parts = { STYLE: style, LICENCES: licences(), SCRIPT: inScript(script), ...own };
   return form.replace(/@([A-Z]+)@/g, (mark, part) => parts[part]?.trim() ?? mark);
 }
 const raw = async (name, own) => `R"=twinarm=(${await page(name, own)})=twinarm="`;

@@ -53,7 +53,7 @@ void follow(const FollowCase& what, const Model<double>& model, const HandSource
     rows.push_back(
         {what.name, hand_name, spring.name,
          std::find(what.driven.begin(), what.driven.end(), spring.name) != what.driven.end(),
-         model.joint[static_cast<std::size_t>(spring.body)] == JointType::prismatic});
+         is_translational(model.joint[static_cast<std::size_t>(spring.body)])});
   long samples = 0;
   system.run([&](double t) {
     if (++samples % 256 == 0) look();

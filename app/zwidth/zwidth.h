@@ -2,11 +2,11 @@
 // coupling, and what a delay between hand and robot does. Each measure is a run; laws stand beside.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "app/zwidth/zwidth_options.h"
 #include "coupling/device/sampled_wall.h"
 
 namespace twinarm {

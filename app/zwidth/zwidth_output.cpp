@@ -69,68 +69,56 @@ std::string follows_text(const std::vector<FollowRow>& follows) {
 }
 
 void write(JsonWriter& json, const WallRow& row) {
-  json.begin_object();
-  json.key("rate").number(row.device.rate);
-  json.key("delay_ticks").count(row.device.delay);
-  json.key("mass").number(row.device.mass);
-  json.key("damping").number(row.device.damping);
-  json.key("friction").number(row.device.friction);
-  json.key("resolution").number(row.device.resolution);
-  json.key("wall_damping").number(row.wall_damping);
-  json.key("stable_stiffness").number(row.stable);
-  json.key("stable_stiffness_law").number(row.stable_law);
-  json.key("passive_stiffness").number(row.passive);
-  json.key("passive_stiffness_law").number(row.passive_law);
-  json.key("passive_damping").number(row.passive_damping);
-  json.key("stepped_stiffness").number(row.stepped);
-  json.key("stepped_stiffness_law").number(row.stepped_law);
-  json.end_object();
+  json.object({{"rate", row.device.rate},
+               {"delay_ticks", row.device.delay},
+               {"mass", row.device.mass},
+               {"damping", row.device.damping},
+               {"friction", row.device.friction},
+               {"resolution", row.device.resolution},
+               {"wall_damping", row.wall_damping},
+               {"stable_stiffness", row.stable},
+               {"stable_stiffness_law", row.stable_law},
+               {"passive_stiffness", row.passive},
+               {"passive_stiffness_law", row.passive_law},
+               {"passive_damping", row.passive_damping},
+               {"stepped_stiffness", row.stepped},
+               {"stepped_stiffness_law", row.stepped_law}});
 }
 
 void write(JsonWriter& json, const SeriesRow& row) {
-  json.begin_object();
-  json.key("coupling").number(row.coupling);
-  json.key("wall").number(row.wall);
-  json.key("felt").number(row.felt);
-  json.key("law").number(row.law);
-  json.end_object();
+  json.object(
+      {{"coupling", row.coupling}, {"wall", row.wall}, {"felt", row.felt}, {"law", row.law}});
 }
 
 void write(JsonWriter& json, const DelayRow& row) {
-  json.begin_object();
-  json.key("name").text(row.name);
-  json.key("delay").number(row.delay);
-  json.key("jitter").number(row.jitter);
-  json.key("loss").number(row.loss);
-  json.key("control").boolean(row.control);
-  json.key("lowest_energy").number(row.lowest);
-  json.key("end_energy").number(row.end);
-  json.key("tick_work").number(row.tick_work);
-  json.key("passive").boolean(row.is_passive());
-  json.key("swing").number(row.swing);
-  json.key("force").number(row.felt);
-  json.key("t").numbers(row.t);
-  json.key("energy").numbers(row.energy);
-  json.key("place").numbers(row.place);
-  json.end_object();
+  json.object({{"name", row.name},
+               {"delay", row.delay},
+               {"jitter", row.jitter},
+               {"loss", row.loss},
+               {"control", row.control},
+               {"lowest_energy", row.lowest},
+               {"end_energy", row.end},
+               {"tick_work", row.tick_work},
+               {"passive", row.is_passive()},
+               {"swing", row.swing},
+               {"force", row.felt},
+               {"t", row.t},
+               {"energy", row.energy},
+               {"place", row.place}});
 }
 
 void write(JsonWriter& json, const FollowRow& row) {
-  json.begin_object();
-  json.key("robot").text(row.robot);
-  json.key("hand").text(row.hand);
-  json.key("joint").text(row.joint);
-  json.key("driven").boolean(row.driven);
-  json.key("max").number(row.max);
-  json.key("mean").number(row.mean);
-  json.end_object();
+  json.object({{"robot", row.robot},
+               {"hand", row.hand},
+               {"joint", row.joint},
+               {"driven", row.driven},
+               {"max", row.max},
+               {"mean", row.mean}});
 }
 
 template <class Row>
 void write_all(JsonWriter& json, const char* key, const std::vector<Row>& rows) {
-  json.key(key).begin_array();
-  for (const Row& row : rows) write(json, row);
-  json.end_array();
+  json.key(key).list(rows, [&](const Row& row) { write(json, row); });
 }
 
 }  // namespace
@@ -144,12 +132,10 @@ std::string zwidth_json(const ZwidthResult& result) {
   JsonWriter json;
   json.begin_object();
   write_all(json, "walls", result.walls);
-  json.key("plane").begin_object();
-  json.key("stable_B").numbers(result.plane.stable_B);
-  json.key("stable_K").numbers(result.plane.stable_K);
-  json.key("passive_B").numbers(result.plane.passive_B);
-  json.key("passive_K").numbers(result.plane.passive_K);
-  json.end_object();
+  json.key("plane").object({{"stable_B", result.plane.stable_B},
+                            {"stable_K", result.plane.stable_K},
+                            {"passive_B", result.plane.passive_B},
+                            {"passive_K", result.plane.passive_K}});
   write_all(json, "series", result.series);
   write_all(json, "delays", result.delays);
   write_all(json, "following", result.follows);

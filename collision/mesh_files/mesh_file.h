@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "collision/shapes/mesh.h"
+#include "collision/geometry/mesh.h"
 
 namespace twinarm {
 

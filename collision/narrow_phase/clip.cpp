@@ -232,7 +232,7 @@ void support_feature(const Placed& body, const Vector3& n_W, Feature& feature) {
   feature.roundness = 0;
   if (const auto* cylinder = std::get_if<Cylinder>(&body.solid.shape)) {
     cylinder_feature(*cylinder, body, n_W, feature);
-  } else if (std::holds_alternative<Ellipsoid>(body.solid.shape)) {
+  } else if (!body.solid.core.exists) {
     feature.points = {body.support_W(n_W)};
     feature.labels = {0};
   } else {

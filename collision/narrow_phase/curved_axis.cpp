@@ -53,41 +53,13 @@ bool meets(const Range& range, const Vector3& low, const Vector3& high) {
   return (low.array() <= range.high.array()).all() && (high.array() >= range.low.array()).all();
 }
 
-// Least radius of curvature, or half a thickness, of a curved body [m].
-double sharpest(const Placed& body) {
-  if (const auto* c = std::get_if<Cylinder>(&body.solid.shape)) {
-    return std::min(c->radius, c->length / 2);
-  }
-  if (const auto* e = std::get_if<Ellipsoid>(&body.solid.shape)) {
-    return e->semi_axes.minCoeff() * e->semi_axes.minCoeff() / e->semi_axes.maxCoeff();
-  }
-  return 1e300;
-}
-
-// Directions from which the sphere is searched.
-struct Starts {
-  std::array<Vector3, 42> n;
-  std::size_t count = 0;
-  void add(const Vector3& direction) {
-    const double length = direction.norm();
-    if (length > parallel) n[count++] = direction / length;
-  }
-};
-
-void add_axes(const Matrix3& R, Starts& starts) {
-  for (int i = 0; i < 3; ++i) {
-    starts.add(R.col(i));
-    starts.add(-R.col(i));
-  }
-}
-
 // Along the axis of a cylinder the height of its rim has a kink, which may be a minimum and hide
 // others next to it: begin round it as well, and between two of them.
 void add_round_kinks(const Placed& a, const Placed& b, Starts& starts) {
   constexpr double aside = 0.12;  // [rad]
   bool any = false;
   for (const Placed* body : {&a, &b}) {
-    if (!std::holds_alternative<Cylinder>(body->solid.shape)) continue;
+    if (body->solid.core.exists || body->solid.patches.flats.empty()) continue;
     any = true;
     for (int k = 0; k < 12; ++k) {
       const double angle = std::numbers::pi / 3 * k, side = k < 6 ? 1 : -1;
@@ -239,8 +211,8 @@ void CurvedAxis::search_sphere(const SupportSum& f, const Patches::Round& round,
   };
   if (!overlaps_) return descend(seed_.axis.n_W);
   Starts starts;
-  add_axes(body_a_->X_WG.R, starts);
-  add_axes(body_b_->X_WG.R, starts);
+  starts.add_axes(body_a_->X_WG.R);
+  starts.add_axes(body_b_->X_WG.R);
   if (is_deep_) add_round_kinks(*body_a_, *body_b_, starts);
   if (f.c.norm() > 0) starts.add(-f.c);
   starts.add(seed_.axis.n_W);
@@ -305,7 +277,8 @@ bool CurvedAxis::nearest(const Placed& a, const Placed& b, double margin, Neares
   // Beyond a part of the least radius of curvature minima may lie close together: look closer, now
   // that the depth is nearly known and leaves fewer patches.
   const double depth = std::min(seed_.axis.overlap, best_.axis.overlap) - radii;
-  is_deep_ = overlaps_ && depth > deep_share * std::min(sharpest(a), sharpest(b));
+  is_deep_ = overlaps_ &&
+             depth > deep_share * std::min(a.solid.patches.sharpest, b.solid.patches.sharpest);
   if (is_deep_) try_patches(depth * (1 + 1e-6) + 1e-9);
   // A first guess is right to its own tolerance only; it wins if the patches were missed.
   if (seed_.axis.overlap < best_.axis.overlap - missed) best_ = seed_;

@@ -5,38 +5,9 @@
 // O(vertices).
 #include "collision/narrow_phase/half_space_contact.h"
 
-#include <cmath>
-
 #include "collision/narrow_phase/manifold.h"
 
 namespace twinarm {
-namespace {
-
-// A cap that is tilted less than this lies flat: its points are then fixed in the body.
-constexpr double sine_of_flat_cap = 1e-6;
-
-// Points of a cylinder that may lie on the plane below it. `d` is down, in the body. Standing: the
-// lowest point of the lower rim and three more, at quarter turns from it. Lying: the lowest points
-// of both rims. All on the true rims, and smooth functions of the pose.
-template <class Add>
-void add_rim_points(const Cylinder& c, const Vector3& d, Add add) {
-  const double sine = std::hypot(d.x(), d.y()), z = std::copysign(c.length / 2, d.z());
-  const bool lies_flat = sine < sine_of_flat_cap;
-  const double x = lies_flat ? c.radius : c.radius * d.x() / sine;
-  const double y = lies_flat ? 0 : c.radius * d.y() / sine;
-  const int name = z > 0 ? 0 : 4;
-  add(Vector3(x, y, z), name);
-  if (sine > std::abs(d.z())) {
-    add(Vector3(x, y, -z), 4 - name);
-  } else {
-    add(Vector3(-y, x, z), name + 1);
-    add(Vector3(-x, -y, z), name + 2);
-    add(Vector3(y, -x, z), name + 3);
-  }
-}
-
-}  // namespace
-
 Vector3 outward_W(const Placed& half_space) {
   return half_space.X_WG.R * std::get<HalfSpace>(half_space.solid.shape).normal;
 }
@@ -69,11 +40,17 @@ void half_space_contacts(const Placed& half_space, const Placed& body, double ma
     for (std::size_t i = 0; i < core.hull.vertices.size(); ++i) {
       add(body.X_WG * core.hull.vertices[i] - core.radius * n, static_cast<int>(i));
     }
-  } else if (const auto* cylinder = std::get_if<Cylinder>(&body.solid.shape)) {
-    add_rim_points(*cylinder, -(body.X_WG.R.transpose() * n),
-                   [&](const Vector3& p_G, int name) { add(body.X_WG * p_G, name); });
   } else {
-    add(body.support_W(-n), 0);
+    std::visit(
+        [&](const auto& shape) {
+          if constexpr (requires { shape.farthest_points(n, add); })
+            shape.farthest_points(
+                -(body.X_WG.R.transpose() * n),
+                [&](const Vector3& p_G, int name) { add(body.X_WG * p_G, name); });
+          else
+            add(body.support_W(-n), 0);
+        },
+        body.solid.shape);
   }
   reduce_to_four(n, out);
 }

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "collision/shapes/boundary_features.h"
-#include "collision/shapes/polytope.h"
+#include "collision/geometry/boundary_features.h"
+#include "collision/geometry/polytope.h"
 #include "collision/shapes/shape.h"
 #include "solver/spatial/pose.h"
 

@@ -1,5 +1,5 @@
 // Closed forms: nearest points of two segments (C. Ericson, Real-Time Collision Detection, 2005,
-// 5.1.9), and signed distance of a point from a box and a cylinder in their own frames.  < 0.1 us.
+// 5.1.9), and signed distance of a point from shapes that know it (box, cylinder).  < 0.1 us.
 #include "collision/narrow_phase/round_contact.h"
 
 #include <Eigen/Geometry>
@@ -8,8 +8,6 @@
 
 namespace twinarm {
 namespace {
-
-constexpr double touching = 1e-12;  // cores nearer than this have no direction of their own [m]
 
 struct Segment {
   Vector3 start, along;
@@ -41,7 +39,7 @@ NearestPair segments(const Placed& a, const Placed& b) {
   const Vector3 p_a = u.start + s * u.along, p_b = w.start + t * w.along;
   const double distance = (p_b - p_a).norm();
   Vector3 n = p_b - p_a;
-  if (distance < touching) {  // crossing centre lines: out across both
+  if (distance < SignedPoint::touching) {  // crossing centre lines: out across both
     n = u.along.cross(w.along);
     const double scale = u.along.norm() * w.along.norm();
     if (!(n.norm() > 1e-9 * scale)) {
@@ -55,48 +53,26 @@ NearestPair segments(const Placed& a, const Placed& b) {
   return {{n, r_a + r_b - distance}, middle};
 }
 
-struct SignedPoint {
-  double distance;  // negative inside
-  Vector3 normal;   // outward, unit
-};
-
-SignedPoint from_box(const Box& box, const Vector3& p) {
-  const Vector3 half = box.size / 2;
-  const Vector3 outside = p - p.cwiseMax(-half).cwiseMin(half);
-  if (outside.norm() > touching) return {outside.norm(), outside.normalized()};
-  int axis = 0;
-  const double inside = (half - p.cwiseAbs()).minCoeff(&axis);
-  return {-inside, std::copysign(1.0, p[axis]) * Vector3::Unit(axis)};
-}
-
-SignedPoint from_cylinder(const Cylinder& c, const Vector3& p) {
-  const double rho = std::hypot(p.x(), p.y()), half = c.length / 2;
-  const Vector3 radial = rho > touching ? Vector3(p.x() / rho, p.y() / rho, 0) : Vector3::UnitX();
-  const Vector3 axial(0, 0, std::copysign(1.0, p.z()));
-  const double side = rho - c.radius, cap = std::abs(p.z()) - half;
-  if (side > touching && cap > touching) {
-    const Vector3 n = side * radial + cap * axial;
-    return {n.norm(), n.normalized()};
-  }
-  return side > cap ? SignedPoint{side, radial} : SignedPoint{cap, axial};
-}
-
-// The sphere is B.
-NearestPair sphere_at(const Placed& a, const Placed& b) {
+// The sphere is B. Empty if A has no closed form of its distance from a point.
+std::optional<NearestPair> sphere_at(const Placed& a, const Placed& b) {
   const Vector3 p = a.X_WG.inverse() * b.X_WG.p;
-  const Box* const box = std::get_if<Box>(&a.solid.shape);
-  const SignedPoint at =
-      box != nullptr ? from_box(*box, p) : from_cylinder(std::get<Cylinder>(a.solid.shape), p);
+  SignedPoint at{};
+  const bool is_known = std::visit(
+      [&](const auto& shape) {
+        if constexpr (requires { shape.nearest(p); }) at = shape.nearest(p);
+        return requires {
+          shape.nearest(p);
+        };
+      },
+      a.solid.shape);
+  if (!is_known) return std::nullopt;
   const Vector3 n = a.X_WG.R * at.normal;
   const double r = b.solid.core.radius;
-  return {{n, r - at.distance}, b.X_WG.p - n * (0.5 * (at.distance + r))};
+  return NearestPair{{n, r - at.distance}, b.X_WG.p - n * (0.5 * (at.distance + r))};
 }
 
 bool is_round(const Shape& s) {
   return std::holds_alternative<Sphere>(s) || std::holds_alternative<Capsule>(s);
-}
-bool has_point_distance(const Shape& s) {
-  return std::holds_alternative<Box>(s) || std::holds_alternative<Cylinder>(s);
 }
 
 }  // namespace
@@ -105,13 +81,11 @@ std::optional<NearestPair> round_contact(const Placed& a, const Placed& b) {
   const Shape& sa = a.solid.shape;
   const Shape& sb = b.solid.shape;
   if (is_round(sa) && is_round(sb)) return segments(a, b);
-  if (has_point_distance(sa) && std::holds_alternative<Sphere>(sb)) return sphere_at(a, b);
-  if (std::holds_alternative<Sphere>(sa) && has_point_distance(sb)) {
-    NearestPair pair = sphere_at(b, a);
-    pair.axis.n_W = -pair.axis.n_W;
-    return pair;
-  }
-  return std::nullopt;
+  if (std::holds_alternative<Sphere>(sb)) return sphere_at(a, b);
+  if (!std::holds_alternative<Sphere>(sa)) return std::nullopt;
+  std::optional<NearestPair> pair = sphere_at(b, a);
+  if (pair) pair->axis.n_W = -pair->axis.n_W;
+  return pair;
 }
 
 }  // namespace twinarm

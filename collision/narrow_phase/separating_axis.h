@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "collision/geometry/polytope.h"
 #include "collision/narrow_phase/posed_shape.h"
-#include "collision/shapes/polytope.h"
 #include "solver/spatial/pose.h"
 
 namespace twinarm {

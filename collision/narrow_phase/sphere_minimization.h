@@ -5,6 +5,8 @@
 // apart: minus their distance); minima above zero (bodies overlap) are local.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "solver/spatial/pose.h"
@@ -25,5 +27,22 @@ Vector3 minimise_on_sphere(const SupportSum& f, const Vector3& n);
 // close together. About 0.5 us, deep 2 us.
 void minimise_on_circle(const SupportSum& f, const Vector3& axis, bool is_deep,
                         std::vector<Vector3>& out);
+
+// Directions from which the sphere is searched.
+struct Starts {
+  std::array<Vector3, 42> n;
+  std::size_t count = 0;
+  void add(const Vector3& direction) {
+    constexpr double none = 1e-9;
+    const double length = direction.norm();
+    if (length > none) n[count++] = direction / length;
+  }
+  void add_axes(const Matrix3& R) {
+    for (int i = 0; i < 3; ++i) {
+      add(R.col(i));
+      add(-R.col(i));
+    }
+  }
+};
 
 }  // namespace twinarm

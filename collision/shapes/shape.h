@@ -1,59 +1,56 @@
-// Collision shapes, each in its own geometry frame G (its pose is X_WG), and their supports.
+// Shapes, each in its own geometry frame G (its pose is X_WG), and what is asked of all of them.
 //
-// Adding one: a struct here, its place in the variant, its support below, and, in polytope.cpp, the
-// polytope-with-radius that it is. tests/collision/test_narrow_phase.cpp loops over all pairs.
+// Adding one that is stated by a few numbers: a file such as cylinder.h, included here, and its
+// name in AnyShape. It must have
+//   name, key            in messages, and in files: "hollow sphere", "hollow_sphere"
+//   lengths()            what files state of it: doubles and Vector3, all > 0
+//   support(d)           its point that lies farthest along d (any length but zero):
+//                        h(d) = max over x of d . x is attained there
+// and either polytope(), a polyhedron with a radius, or patches(), its surface in smooth pieces. It
+// may have
+//   solid(density)       mass properties; without it, it encloses nothing
+//   is_in_urdf           URDF has it, as <key length_1 ..>
+//   nearest(p)           closed form of its distance from a point: exact contacts with spheres
+//   farthest_points(d)   the points that may lie on a plane, where it is curved
+// Then robots and scenes read and write it, it is drawn as its hull, and it is collided with all
+// convex shapes, half-spaces and meshes; a polyhedron also within hollow shapes.
 #pragma once
 
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <variant>
 
-#include "collision/shapes/convex_hull.h"
-#include "collision/shapes/mesh.h"
-#include "solver/spatial/pose.h"
+#include "collision/geometry/boundary_features.h"
+#include "collision/geometry/convex_hull.h"
+#include "collision/geometry/mass_properties.h"
+#include "collision/geometry/polytope.h"
+#include "collision/shapes/box.h"
+#include "collision/shapes/capsule.h"
+#include "collision/shapes/cylinder.h"
+#include "collision/shapes/ellipsoid.h"
+#include "collision/shapes/half_space.h"
+#include "collision/shapes/hollow_cylinder.h"
+#include "collision/shapes/hollow_sphere.h"
+#include "collision/shapes/mesh_shape.h"
+#include "collision/shapes/sphere.h"
 
 namespace twinarm {
 
-struct Sphere {
-  double radius;  // [m], centred
-};
-struct Box {
-  Vector3 size;  // full edge lengths [m], centred, along the axes
-};
-struct Capsule {
-  double radius;  // [m]
-  double length;  // between the centres of the two end spheres [m], along z, centred
-};
-struct Cylinder {
-  double radius;  // [m]
-  double length;  // [m], along z, centred
-};
-struct Ellipsoid {
-  Vector3 semi_axes;  // half the extents along the axes [m], centred
-};
-struct HalfSpace {
-  Vector3 normal = Vector3::UnitZ();  // outward, unit
-  double offset = 0;                  // solid where normal . x <= offset [m]
-};
-struct HollowSphere {  // the inside: bodies move within
-  double radius;       // [m], centred
-};
-struct HollowCylinder {  // the inside of a tube with open ends
-  double radius;         // [m]
-  double length;         // [m], along z, centred
-};
-struct MeshShape {
-  TriangleMesh mesh;            // closed, outward; its inside is solid
-  bool is_open = false;         // said to have borders: then touched from both sides
-  double largest_extent = 100;  // a wider mesh is taken for one in millimetres [m]
-};
+// Those that are stated by a few numbers, and others.
+template <class... Others>
+using AnyShape = std::variant<HalfSpace,       //
+                              Box,             //
+                              Sphere,          //
+                              Capsule,         //
+                              Cylinder,        //
+                              Ellipsoid,       //
+                              HollowSphere,    //
+                              HollowCylinder,  //
+                              Others...>;
+using Shape = AnyShape<ConvexHull, MeshShape>;
 
-using Shape = std::variant<Sphere, Box, Capsule, Cylinder, HalfSpace, ConvexHull, Ellipsoid,
-                           HollowSphere, HollowCylinder, MeshShape>;
-
-// The point of the shape that lies farthest along `direction` (any length but zero), in G.
-// h(d) = max over x of d . x is attained there. Box: 3 comparisons; hull: a scan of the vertices.
-// A half-space has none, and gives infinity, except along its own normal. A hollow shape gives that
-// of the solid that would fill it.
+// Of a hollow shape, that of the solid that would fill it.
 Vector3 support(const Shape& shape, const Vector3& direction);
 
 // What is wrong with the numbers of a shape, empty if nothing: "radius is -1 m, must be positive".
@@ -61,5 +58,29 @@ std::string shape_fault(const Shape& shape);
 
 // "box", "convex hull", ...
 std::string shape_name(const Shape& shape);
+
+// `exists` is false for curved shapes and half-spaces.
+Polytope make_polytope(const Shape& shape);
+
+// Of any convex bounded shape, in its frame; empty for the others.
+Patches make_patches(const Shape& shape, const Polytope& core);
+
+// Of a shape filled with constant `density` [kg/m^3]. Throws InputError for a bad shape, and for
+// one that encloses no solid: half-spaces, hollows.
+MassProperties mass_properties(const Shape& shape, double density);
+
+// Calls f(name, value) for each double or Vector3 that a file states of a shape. [m]
+template <class S, class F>
+void for_each_length(S& shape, F f) {
+  std::apply([&](const auto&... of) { (f(of.first, shape.*of.second), ...); },
+             std::remove_const_t<S>::lengths());
+}
+
+// Calls f(shape) for each of AnyShape as it is by default, in their order.
+template <class F>
+void for_each_shape(F f) {
+  const auto each = [&]<class... S>(const std::variant<S...>*) { (f(S{}), ...); };
+  each(static_cast<const AnyShape<>*>(nullptr));
+}
 
 }  // namespace twinarm

@@ -17,9 +17,6 @@ SpringResponse response_of(const SpringGains& gains, double inertia) {
 SpringGains torsional_of_linear(const SpringGains& linear, double r) {
   return {linear.k * r * r, linear.b * r * r};
 }
-SpringGains linear_of_torsional(const SpringGains& torsional, double r) {
-  return {torsional.k / (r * r), torsional.b / (r * r)};
-}
 
 double joint_inertia(const Eigen::MatrixXd& M, Eigen::Index velocity) {
   return 1 / inverse_of(M)(velocity, velocity);

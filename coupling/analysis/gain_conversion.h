@@ -20,9 +20,8 @@ SpringResponse response_of(const SpringGains& gains, double inertia);  // k > 0
 
 // One link, small errors, the spring's point at distance r from the axis: k_T = k_L r^2 and b
 // likewise. For a chain this is no match: the outer spring holds the inner joint too. There the
-// full matrices K_q and B_q must be the same (coupling/laws/equivalent_torsional.h).
+// full matrices K_q and B_q must be the same (coupling/laws/equivalent_torsional_coupling.cpp).
 SpringGains torsional_of_linear(const SpringGains& linear, double r);
-SpringGains linear_of_torsional(const SpringGains& torsional, double r);
 
 // What a single spring feels, all else free to move (the operational-space inertia): of a joint's
 // coordinate 1/(M^-1)_jj; of a point or a link's orientation the principal values of

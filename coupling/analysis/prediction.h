@@ -4,7 +4,7 @@
 //   step_matrix.h       the same of several couplings as an integrator really steps them
 //   tracking_error.h   the error behind a target that moves
 //   multi_joint_tracking.h      the same of each joint of a chain
-//   static_deflection.h    sag, the torque of a point spring, series stiffness against a wall
+//   static_deflection.h    sag, series stiffness against a wall
 //
 // About a pose, with e = q_K - q_D:  M e'' + B_q e' + K_q e = M q_K''.
 #pragma once

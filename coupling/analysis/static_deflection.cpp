@@ -18,20 +18,6 @@ double largest_target_radius(double I, double r, double k, double b, double h) {
   return (4 * I + 2 * r * r * (h * h * k + h * b)) / (h * h * k * r);
 }
 
-double point_spring_torque(double k, double r, double e) {
-  return k * r * r * std::sin(e);
-}
-
-double torsional_sag(double torque, double k) {
-  return torque / k;
-}
-
-std::optional<double> linear_sag(double torque, double k, double r) {
-  const double sine = torque / (k * r * r);
-  if (!(std::abs(sine) <= 1)) return {};
-  return std::asin(sine);
-}
-
 VectorXd chain_sag(const MatrixXd& K, const VectorXd& G) {
   constexpr double kNothing = 1e-12;
   const double largest = K.cwiseAbs().maxCoeff();

@@ -1,9 +1,7 @@
-// What a coupling carries: sag under a load, the torque of a point spring at large angles, and what
-// a wall feels like through it.
+// What a coupling carries: sag under a load, and what a wall feels like through it.
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
 namespace twinarm {
 
@@ -12,16 +10,8 @@ namespace twinarm {
 //   h^2 k r R_K < 4 I + 2 r^2 (h^2 k + h b).
 double largest_target_radius(double I, double r, double k, double b, double h);
 
-// The torque of a point spring at radius r, its target at the same radius, turned by e [rad]:
-// k r^2 sin e. Most at pi/2; nothing at pi; beyond, the wrong way.
-double point_spring_torque(double k, double r, double e);
-
-// Where a joint rests under a torque [N m], below its target [rad].
-double torsional_sag(double torque, double k);  // torque / k
-// sin e = torque / (k r^2); nothing where that is more than the spring can hold at any angle.
-std::optional<double> linear_sag(double torque, double k, double r);
-// Of a chain under the generalised forces G, small angles: K_q^-1 G. Coordinates that no spring
-// holds are not a number.
+// Where a chain rests below its target [rad, m] under the generalised forces G, small angles:
+// K_q^-1 G. Coordinates that no spring holds are not a number.
 Eigen::VectorXd chain_sag(const Eigen::MatrixXd& K, const Eigen::VectorXd& G);
 
 // Two springs in series: what a wall k_e feels like through a coupling k_c (Colgate, Stanley and

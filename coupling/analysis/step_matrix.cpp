@@ -18,7 +18,8 @@ using Eigen::MatrixXd;
 constexpr int kLongestPeriod = 100000;  // of steps between evaluations, where several are held
 
 // Rows of the state (e; h v; f_1 ..; e_1 ..) that a step leaves, from the state before it. f: the
-// held forces; e_1 ..: of those that see differences, e at their last evaluation.
+// held forces; e_1 ..: of those that see differences, e at their last evaluation, and where they
+// see an older one that difference.
 class PartsStep {
  public:
   PartsStep(const std::vector<StepPart>& parts, double h, Index n) : n_(n) {
@@ -33,7 +34,8 @@ class PartsStep {
       const MatrixXd a = h * h * part.K, b = h * part.B;
       const bool printed = part.law == StepLaw::printed, pd = part.law == StepLaw::stable_pd;
       if (part.hold_steps > 0 || printed) {
-        held_.push_back({a, b, std::max(1, part.hold_steps), printed ? ++pasts_ : 0});
+        held_.push_back({a, b, std::max(1, part.hold_steps), printed ? pasts_ + 1 : 0, part.older});
+        pasts_ += printed + (printed && part.older);
         continue;
       }
       alpha += a;
@@ -70,6 +72,7 @@ class PartsStep {
     MatrixXd alpha, beta;
     int steps;
     Index past;  // which of the e_1 ..; 0: it sees the true rate
+    bool older;  // it sees the difference that stands behind it
   };
 
   MatrixXd with(const MatrixXd& e, const MatrixXd& v) const {
@@ -90,8 +93,10 @@ class PartsStep {
         continue;
       }
       const Index past = n_ * (1 + static_cast<Index>(held_.size()) + held_[g].past);
-      f.leftCols(n_) -= held_[g].beta / held_[g].steps;
-      f.middleCols(past, n_) = held_[g].beta / held_[g].steps;
+      const MatrixXd difference = one_.topRows(n_) - one_.middleRows(past, n_);
+      f -= held_[g].beta / held_[g].steps *
+           (held_[g].older ? MatrixXd(one_.middleRows(past + n_, n_)) : difference);
+      if (held_[g].older) y.middleRows(past + n_, n_) = difference;
       y.middleRows(past, n_) = one_.topRows(n_);
     }
     return y;
@@ -155,25 +160,25 @@ Reduced reduced(const MatrixXd& M, const std::vector<StepPart>& parts) {
   };
   for (const StepPart& part : parts)
     found.parts.push_back({by_modes(part.K), by_modes(part.K_zero), by_modes(part.B),
-                           part.treatment, part.hold_steps, part.law});
+                           part.treatment, part.hold_steps, part.law, part.older});
   found.rate =
       std::max(std::sqrt(modes.squares.cwiseAbs().maxCoeff()), modes.damping.cwiseAbs().maxCoeff());
   return found;
 }
 
-double growth(const Reduced& system, Integrator integrator, double h) {
+}  // namespace
+
+double growth_of_modes(const std::vector<StepPart>& parts, Integrator integrator, double h) {
   int steps = 1;
-  const MatrixXd all = PartsStep(system.parts, h, system.n).period(integrator, steps);
+  const MatrixXd all = PartsStep(parts, h, parts.front().K.rows()).period(integrator, steps);
   return std::pow(eigenvalues_of(all).cwiseAbs().maxCoeff(), 1.0 / steps);
 }
-
-}  // namespace
 
 double growth_per_step(const MatrixXd& M, const std::vector<StepPart>& parts, Integrator integrator,
                        double h) {
   check_step_size(h);
   const Reduced system = reduced(M, parts);
-  return system.n == 0 ? 1 : growth(system, integrator, h);
+  return system.n == 0 ? 1 : growth_of_modes(system.parts, integrator, h);
 }
 
 double largest_stable_step(const MatrixXd& M, const std::vector<StepPart>& parts,
@@ -181,8 +186,9 @@ double largest_stable_step(const MatrixXd& M, const std::vector<StepPart>& parts
   constexpr double kRounding = 1e-9;
   const Reduced system = reduced(M, parts);
   if (system.n == 0 || integrator == Integrator::dopri5) return kNoLimit;
-  return largest_stable([&](double h) { return growth(system, integrator, h) <= 1 + kRounding; },
-                        1e-4 / system.rate, 1e4 / system.rate);
+  return largest_stable(
+      [&](double h) { return growth_of_modes(system.parts, integrator, h) <= 1 + kRounding; },
+      1e-4 / system.rate, 1e4 / system.rate);
 }
 
 }  // namespace twinarm

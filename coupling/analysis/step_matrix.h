@@ -13,18 +13,17 @@
 // Laws that are no such spring-damper (docs/coupling.md, 7, 10, 11): as printed, the rate that a
 // held force sees is (e - e at the evaluation before)/n, n steps between the two; stable PD has
 // `ahead`, and felt = 1 + h B alone; a god object has a_u = -(e + h v)/h^2, so what it adds is
-// -M_r (e + h v), with M_r the rows of M that belong to its robot.
+// -M_r (e + h v), with M_r the rows of M that belong to its robot. As printed with a difference one
+// frame older, it is (e at the evaluation before - e at the one before that)/n.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "solver/forces/force_source.h"
+#include "coupling/laws/coupling_spec.h"
 #include "solver/integration/integrator.h"
 
 namespace twinarm {
-
-enum class StepLaw { spring_damper, printed, stable_pd, god_object };
 
 struct StepPart {
   Eigen::MatrixXd K, K_zero, B;                // as it is about the pose; J^T k J alone; J^T b J
@@ -32,11 +31,15 @@ struct StepPart {
   // The force is computed every so many steps, and held; 0: at each stage (as printed: each step).
   int hold_steps = 0;
   StepLaw law = StepLaw::spring_damper;  // a god object has M_r for K, and nothing else
+  bool older = false;                    // as printed: the difference is one frame older
 };
 
-// By how much the error grows in a step of h, in the long run: the spectral radius (of all steps
-// between two evaluations, for held forces, its root). At most 1: stable. Not for dopri5, which
-// chooses its step.
+// Of parts in coordinates with M = 1 that all count: the spectral radius of a step of h (of all
+// steps between two evaluations, for held forces, its root).
+double growth_of_modes(const std::vector<StepPart>& parts, Integrator integrator, double h);
+
+// By how much the error grows in a step of h, in the long run. At most 1: stable. Not for dopri5,
+// which chooses its step.
 double growth_per_step(const Eigen::MatrixXd& M, const std::vector<StepPart>& parts,
                        Integrator integrator, double h);
 

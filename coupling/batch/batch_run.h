@@ -2,14 +2,14 @@
 // a step and a motion of its own, and a register of the processor holds as many of them as it has
 // doubles.
 //
-// A run is that of Simulation with TorsionalCoupling and LinearCoupling (coupling/laws/torsional.h,
-// linear.h) and the semi-implicit integrator: same forces, same order in time, same sampling of the
-// hand; results differ by rounding. Cells of equal step, motion and levers share the table of the
-// KVR's motion and fill the lanes of a batch together: give many of those in one call. A lane whose
-// cell has left all bounds stands still; a batch ends when all its lanes do.
+// A run is that of Simulation with linear and torsional couplings (coupling/laws/spring_damper.h)
+// and the semi-implicit integrator: same forces, same order in time, same sampling of the hand;
+// results differ by rounding. Cells of equal step, motion and levers share the table of the KVR's
+// motion and fill the lanes of a batch together: give many of those in one call. A lane whose cell
+// has left all bounds stands still; a batch ends when all its lanes do.
 //
 // Units are SI and radians; of a prismatic joint the error is in metres. Cost of a step of the
-// S-103: benchmarks/speed/bench_map.cpp.
+// S-103: benchmarks/drivers/bench_map.cpp.
 #pragma once
 
 #include <array>

@@ -103,12 +103,13 @@ void BatchMotion::find_corners(const BatchSetup& setup, double h) {
   is_corner.assign(steps + 1, 0);
   is_corner.front() = is_corner.back() = 1;
   if (last_step != h) is_corner[steps - 1] = 1;
-  for (std::size_t n = 1; n < steps; ++n)
-    for (std::size_t s = 0; s < places.size(); ++s) {
-      const RowSizes size = row_sizes(kind_of(setup.springs[s]));
+  for (std::size_t s = 0; s < places.size(); ++s) {
+    const RowSizes size = row_sizes(kind_of(setup.springs[s]));
+    for (std::size_t n = 1; n < steps; ++n) {
       const double* before = &energy[n * energy_stride + places[s].energy + size.pose];
       if (!std::equal(before, before + size.velocity, before + size.velocity)) is_corner[n] = 1;
     }
+  }
 }
 
 void BatchMotion::fill_step(std::size_t n, const BatchSetup& setup,

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <vector>
 
@@ -22,17 +20,8 @@ constexpr std::size_t kLogColumns = 15;                      // t, h, six angles
 // All numbers of the line; empty where it is torn or holds something else.
 std::vector<double> log_numbers(const std::string& line) {
   std::vector<double> values;
-  const char* at = line.data();
-  const char* const end = at + line.size();
-  while (at < end) {
-    double value = 0;
-    const auto [next, error] = std::from_chars(at, end, value);
-    if (error != std::errc() || !std::isfinite(value)) return {};
-    values.push_back(value);
-    if (next == end) break;
-    if (*next != ',') return {};
-    at = next + 1;
-  }
+  for (const std::string_view cell : csv_cells(line))
+    if (!csv_number(cell, values.emplace_back())) return {};
   return values;
 }
 

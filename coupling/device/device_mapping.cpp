@@ -9,9 +9,6 @@
 namespace twinarm {
 namespace {
 
-// Which device joints turn joints 1, 2, 3 of the robot.
-constexpr std::array<std::size_t, 3> kPaper{0, 3, 5}, kArm{0, 1, 2};
-
 bool holds(const DeviceState& device) {
   bool numbers = device.stylus.p.allFinite();
   for (const double angle : device.theta) numbers = numbers && std::isfinite(angle);
@@ -73,18 +70,15 @@ class ClutchedMapping : public DeviceMapping {
 class JointMapping final : public ClutchedMapping {
  public:
   JointMapping(const MappingSpec& spec, const MappedRobot& robot)
-      : ClutchedMapping(robot),
-        spec_(spec),
-        joint_(spec.kind == MappingKind::paper ? kPaper : kArm),
-        offset_(spec.offset),
-        lower_(robot.lower),
-        upper_(robot.upper) {}
+      : ClutchedMapping(robot), spec_(spec), lower_(robot.lower), upper_(robot.upper) {
+    if (spec.kind == MappingKind::arm) spec_.device_joint = {0, 1, 2};
+  }
 
   DeviceForce feel(const DeviceState&, const std::vector<double>& tau) noexcept override {
     DeviceForce force;
     for (std::size_t j = 0; engaged_ && j < target_.q.size(); ++j)
-      if (joint_[j] < 3 && follows_[j])
-        force.torque[joint_[j]] = spec_.force_scale * spec_.gain[j] * tau[j];
+      if (spec_.device_joint[j] < 3 && follows_[j])
+        force.torque[spec_.device_joint[j]] = spec_.force_scale * spec_.gain[j] * tau[j];
     return force;
   }
   std::string what_is_felt() const override {
@@ -96,12 +90,12 @@ class JointMapping final : public ClutchedMapping {
  private:
   void engage(const DeviceState& device) override {
     for (std::size_t j = 0; j < target_.q.size(); ++j)
-      offset_[j] = target_.q[j] - spec_.gain[j] * device.theta[joint_[j]];
+      spec_.offset[j] = target_.q[j] - spec_.gain[j] * device.theta[spec_.device_joint[j]];
   }
   void engage_first(const DeviceState&) override {}
   void follow(const DeviceState& device, double) override {
     for (std::size_t j = 0; j < target_.q.size(); ++j) {
-      const double q = offset_[j] + spec_.gain[j] * device.theta[joint_[j]];
+      const double q = spec_.offset[j] + spec_.gain[j] * device.theta[spec_.device_joint[j]];
       target_.q[j] = q;
       if (!lower_.empty()) target_.q[j] = std::max(target_.q[j], lower_[j]);
       if (!upper_.empty()) target_.q[j] = std::min(target_.q[j], upper_[j]);
@@ -109,9 +103,7 @@ class JointMapping final : public ClutchedMapping {
     }
   }
 
-  MappingSpec spec_;
-  std::array<std::size_t, 3> joint_;
-  std::array<double, 3> offset_;
+  MappingSpec spec_;               // its offsets are those of the last engage()
   std::array<bool, 3> follows_{};  // false: at the end of its range
   std::vector<double> lower_, upper_;
 };

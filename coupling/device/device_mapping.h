@@ -20,17 +20,18 @@
 #include <vector>
 
 #include "coupling/device/input_device.h"
+#include "coupling/target/paper_mapping.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/model/model.h"
 
 namespace twinarm {
 
 enum class MappingKind { paper, arm, cartesian };
+inline constexpr std::array<const char*, 3> kMappingNames{"paper", "arm", "cartesian"};
 
-struct MappingSpec {
+// The HandMapping is of joint mappings; `arm` has device joints of its own.
+struct MappingSpec : HandMapping {
   MappingKind kind = MappingKind::paper;
-  std::array<double, 3> gain{2.0, 1.0, 1.0};    // of joint mappings
-  std::array<double, 3> offset{0.0, 0.0, 0.0};  // robot's joints at theta = 0 [rad]
   // Of cartesian: the robot's point follows p_start + scale (stylus - stylus at the start), in
   // world axes. A workspace of 16 cm against a reach of 60: scale 4.
   double scale = 4.0;

@@ -24,12 +24,10 @@ CouplingReaction::CouplingReaction(const Model<double>& model, const std::vector
 }
 
 void CouplingReaction::add(const CouplingSpec& spec, const Coupling& coupling) {
-  using Type = CouplingSpec::Type;
-  const bool at_joints = spec.type == Type::stable_pd || spec.type == Type::god_object ||
-                         (spec.type == Type::torsional && spec.measure == Measure::joint);
-  const Kind kind = at_joints                                    ? Kind::joint
-                    : facts_of(spec.type, spec.printed).at_point ? Kind::point
-                                                                 : Kind::turn;
+  const CouplingFacts& facts = facts_of(spec.type, spec.printed);
+  const Kind kind = facts.acts_at_joint(spec.measure) ? Kind::joint
+                    : facts.at_point                  ? Kind::point
+                                                      : Kind::turn;
   const std::size_t n = coupling.springs().size();
   for (std::size_t r = 0; r < coupling.readings().size(); ++r)  // forces, then couples
     parts_.push_back({&coupling, r, r % n, r < n ? kind : Kind::turn, Vector3::Zero(), false});

@@ -143,12 +143,6 @@ Matrix3 omni_jacobian(const OmniFigures& omni, const OmniAngles& theta) {
   return J;
 }
 
-std::array<double, 3> omni_torque(const OmniFigures& omni, const OmniAngles& theta,
-                                  const Vector3& force) {
-  const Vector3 tau = omni_jacobian(omni, theta).transpose() * force;
-  return {tau.x(), tau.y(), tau.z()};
-}
-
 Vector3 omni_force(const OmniFigures& omni, const OmniAngles& theta,
                    const std::array<double, 3>& torque) {
   const Vector3 tau(torque[0], torque[1], torque[2]);

@@ -41,11 +41,8 @@ Vector3 omni_elbow(const OmniFigures& omni, const OmniAngles& theta);
 // the point is on the waist's axis (R = 0) and where the arm is stretched or folded.
 Matrix3 omni_jacobian(const OmniFigures& omni, const OmniAngles& theta);
 
-// The motors' torques that hold a force on the stylus' point, J^T F, and the force [N] that torques
-// [N m] make there, J^-T tau. A motor that has no hold there (R below 1 um, a stretched arm) gives
-// no force.
-std::array<double, 3> omni_torque(const OmniFigures& omni, const OmniAngles& theta,
-                                  const Vector3& force);
+// The force [N] that the motors' torques [N m] make at the stylus' point, J^-T tau. A motor that
+// has no hold there (R below 1 um, a stretched arm) gives no force.
 Vector3 omni_force(const OmniFigures& omni, const OmniAngles& theta,
                    const std::array<double, 3>& torque);
 // What the motors can do of it: all torques in proportion, so that the force is at most peak_force.

@@ -135,9 +135,6 @@ double largest_stable_stiffness(const SampledDevice& device, double B) {
 double largest_passive_stiffness(const SampledDevice& device, double B) {
   return bisect([&](double K) { return is_passive(device, K, B); });
 }
-double largest_stable_damping(const SampledDevice& device, double K) {
-  return bisect([&](double B) { return is_stable(device, K, B); });
-}
 double largest_passive_damping(const SampledDevice& device, double K) {
   return bisect([&](double B) { return is_passive(device, K, B); });
 }

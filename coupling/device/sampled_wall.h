@@ -41,7 +41,6 @@ bool is_passive(const SampledDevice& device, double K, double B);
 // By bisection to one part in 10^5; 0 where there is none.
 double largest_stable_stiffness(const SampledDevice& device, double B);
 double largest_passive_stiffness(const SampledDevice& device, double B);
-double largest_stable_damping(const SampledDevice& device, double K);
 double largest_passive_damping(const SampledDevice& device, double K);
 
 }  // namespace twinarm

@@ -13,6 +13,8 @@
 // Linear, per added mass: F = k (T_K - T_D) - b (T'_D - T'_K).
 #pragma once
 
+#include <algorithm>
+
 #include "coupling/laws/coupling.h"
 
 namespace twinarm {
@@ -38,47 +40,59 @@ struct PrintedOptions {
   int hold_steps = 1;  // 0: as 1, at every step
 };
 
-class PrintedTorsional final : public Coupling {
+// What both share. A pose is what the springs measure of each robot: a position, or an orientation.
+// The law has, without virtual calls,
+//   Pose pose(spring, k) const
+//   static Vector3 step_between(before, now)   of two poses
+//   void evaluate(s, k, K, D, step_K, step_D, interval)
+// where the last one fills the spring's reading from the poses and their steps, an interval [s]
+// apart.
+template <class Law, class Pose>
+class AsPublished : public Coupling {
  public:
-  PrintedTorsional(std::string name, const Model<double>& model, KinematicRobot& kvr,
-                   std::vector<Spring> springs, PrintedOptions options);
-  void begin_step(const Kinematics& k, double t, double h) noexcept override;
-  void add_forces(const State<double>& x, const Kinematics& k,
-                  Forces<double>& forces) noexcept override;
-  // Of the vector damper. The folded and the unsigned one have no linear part: B_q = 0.
-  JointSpace joint_space(const Kinematics& k) const override;
-  void visit_memory(Memory& memory) override;
+  AsPublished(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr,
+              const PrintedOptions& options, const Pose& none)
+      : Coupling(spec, model, kvr), options_(options), past_(springs_.size(), {none, none}) {
+    options_.hold_steps = std::max(1, options_.hold_steps);
+  }
 
- private:
-  struct Past {  // of one spring: orientations (or joint turns) at the last evaluations
-    Matrix3 R_K = Matrix3::Identity(), R_D = Matrix3::Identity();
-    Vector3 step_K = Vector3::Zero(), step_D = Vector3::Zero();  // last step rotations, world
-  };
-  Matrix3 orientation(const Spring& spring, const Kinematics& k) const;
-  Vector3 damping(const Spring& spring, const Vector3& step_K, const Vector3& step_D,
-                  double interval) const;
+  void begin_step(const Kinematics& k, double t, double h) noexcept final {
+    kvr_.begin_step(t, h);
+    const bool first = steps_ == 0, due = steps_ % options_.hold_steps == 0;
+    ++steps_;
+    if (!due) return;
+    Law& law = static_cast<Law&>(*this);
+    for (std::size_t s = 0; s < springs_.size(); ++s) {
+      Past& past = past_[s];
+      const Pose K = law.pose(springs_[s], kvr_.start().k), D = law.pose(springs_[s], k);
+      const Vector3 old_step_K = past.step_K, old_step_D = past.step_D;
+      past.step_K = first ? Vector3(Vector3::Zero()) : Law::step_between(past.K, K);
+      past.step_D = first ? Vector3(Vector3::Zero()) : Law::step_between(past.D, D);
+      past.K = K;
+      past.D = D;
+      const bool older = options_.difference == Difference::older;
+      law.evaluate(s, k, K, D, older ? old_step_K : past.step_K, older ? old_step_D : past.step_D,
+                   h * options_.hold_steps);
+    }
+  }
+  void visit_memory(Memory& memory) final {
+    Coupling::visit_memory(memory);
+    memory.visit(steps_);
+    for (Past& past : past_) {
+      for (Pose* pose : {&past.K, &past.D})
+        for (Eigen::Index c = 0; c < pose->size(); ++c) memory.visit((*pose)(c));
+      for (Vector3* v : {&past.step_K, &past.step_D}) memory.visit(*v);
+    }
+  }
 
+ protected:
   PrintedOptions options_;
-  std::vector<Past> past_;
-  int steps_ = 0;
-};
-
-class PrintedLinear final : public Coupling {
- public:
-  PrintedLinear(std::string name, const Model<double>& model, KinematicRobot& kvr,
-                std::vector<Spring> springs, PrintedOptions options);
-  void begin_step(const Kinematics& k, double t, double h) noexcept override;
-  void add_forces(const State<double>& x, const Kinematics& k,
-                  Forces<double>& forces) noexcept override;
-  JointSpace joint_space(const Kinematics& k) const override;
-  void visit_memory(Memory& memory) override;
 
  private:
-  struct Past {  // of one spring: mass positions at the last evaluation, and their last steps
-    Vector3 p_K = Vector3::Zero(), p_D = Vector3::Zero();
+  struct Past {  // of one spring: poses at the last evaluation, and their last steps
+    Pose K, D;
     Vector3 step_K = Vector3::Zero(), step_D = Vector3::Zero();
   };
-  PrintedOptions options_;
   std::vector<Past> past_;
   int steps_ = 0;
 };

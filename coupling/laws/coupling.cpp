@@ -1,19 +1,15 @@
 #include "coupling/laws/coupling.h"
 
 #include <Eigen/Geometry>
-#include <utility>
 
+#include "coupling/laws/coupling_spec.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
 
-Coupling::Coupling(std::string name, const Model<double>& model, KinematicRobot& kvr,
-                   std::vector<Spring> springs)
-    : name_(std::move(name)),
-      model_(model),
-      kvr_(kvr),
-      springs_(std::move(springs)),
-      readings_(springs_.size()) {
+Coupling::Coupling(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr)
+    : name_(spec.name), model_(model), kvr_(kvr), springs_(spec.springs) {
+  readings_.resize(springs_.size());
   FaultList faults;
   for (const Spring& spring : springs_) {
     const std::string where = "coupling '" + name_ + "', spring '" + spring.name + "'";
@@ -32,12 +28,9 @@ Coupling::Coupling(std::string name, const Model<double>& model, KinematicRobot&
   faults.check();
 }
 
-void Coupling::visit_memory(Memory& memory) {
-  for (SpringReading& reading : readings_) {
-    for (Vector3* v : {&reading.p_K, &reading.p_D, &reading.pull}) memory.visit(*v);
-    memory.visit(reading.size);
-    memory.visit(reading.m_star);
-  }
+void Coupling::begin_step(const Kinematics&, double t, double h) noexcept {
+  h_ = h;
+  kvr_.begin_step(t, h);
 }
 
 Eigen::MatrixXd Coupling::joint_row(int body) const {

@@ -1,5 +1,7 @@
 // What every coupling has: springs that pull links of the DVR after the KVR, readings of their
-// forces, and the joint-space stiffness and damping that its predictions are made of.
+// forces, and the joint-space stiffness and damping that its predictions are made of. The kinematic
+// robot is a function of time, unless its rates are differences: what a coupling remembers leaves
+// it out.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +10,7 @@
 #include <vector>
 
 #include "coupling/target/target_robot.h"
-#include "solver/forces/force_source.h"
-#include "solver/support/state_archive.h"
+#include "solver/forces/spring_source.h"
 
 namespace twinarm {
 
@@ -30,28 +31,16 @@ enum class Measure {
   joint   // coordinate of the joint that carries the link: acts between the link and its parent
 };
 
-// A spring's pull on the DVR at the last evaluation, for plots and pictures.
-struct SpringReading {
-  Vector3 p_K = Vector3::Zero(), p_D = Vector3::Zero();  // ends in the KVR and the DVR, world [m]
-  Vector3 pull = Vector3::Zero();  // force [N] or couple [N m] on the DVR, world axes
-  double size = 0;                 // |pull|; of a joint spring the torque, or force, with its sign
-  double m_star = 0;  // over a step the pull lessens by m* times the acceleration of the measured
-                      // quantity: the weightless inertia [kg, kg m^2]
-};
+struct CouplingSpec;
 
-class Coupling : public ForceSource {
+class Coupling : public SpringSource {
  public:
-  Coupling(std::string name, const Model<double>& model, KinematicRobot& kvr,
-           std::vector<Spring> springs);
+  // Throws InputError with all springs that name no moving link or have a gain below zero.
+  Coupling(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr);
 
+  void begin_step(const Kinematics& k, double t, double h) noexcept override;
   const std::string& name() const { return name_; }
   const std::vector<Spring>& springs() const { return springs_; }
-  // By spring. In six dimensions the forces of all springs, and then the couples of all.
-  const std::vector<SpringReading>& readings() const { return readings_; }
-  // The pulls, which may be held over many steps. The kinematic robot is a function of time, unless
-  // its rates are differences: that is not remembered here.
-  virtual void visit_memory(Memory& memory);
-
   // K_q and B_q about zero offset at a pose: tau = K_q (q_K - q_D) + B_q (qd_K - qd_D).
   struct JointSpace {
     Eigen::MatrixXd K, B;
@@ -71,7 +60,6 @@ class Coupling : public ForceSource {
   const Model<double>& model_;
   KinematicRobot& kvr_;
   std::vector<Spring> springs_;
-  std::vector<SpringReading> readings_;
   double h_ = 0;  // step [s]
 };
 

@@ -1,9 +1,13 @@
 // A coupling as plain data, and the list of all that there are.
+//
+// A coupling is one file NAME_coupling.cpp of this folder: its class, and `CouplingFacts
+// NAME_coupling()`, which is registered by being there (coupling/laws/CMakeLists.txt). Scenes, the
+// lab, maps, predictions and the tests of all couplings find it there.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "coupling/laws/as_published.h"
@@ -14,7 +18,11 @@ namespace twinarm {
 
 // What a calibration file, a report and a scene can hold.
 struct CouplingSpec {
-  enum class Type { torsional, linear, matched, bushing, weld_like, stable_pd, god_object };
+  struct Type {  // its name; couplings that other code asks for have a constant
+    std::string_view name;
+    friend constexpr bool operator==(const Type&, const Type&) = default;
+    static const Type torsional, linear, matched, bushing, weld_like, stable_pd, god_object;
+  };
   std::string name;
   Type type = Type::torsional;
   bool printed = false;  // the paper's own equations (PrintedOptions), or the consistent form
@@ -25,35 +33,52 @@ struct CouplingSpec {
   WeldReference reference;  // weld-like
   std::vector<Spring> springs;
 };
-std::unique_ptr<Coupling> make_coupling(const CouplingSpec& spec, const Model<double>& model,
-                                        KinematicRobot& kvr);
+inline constexpr CouplingSpec::Type CouplingSpec::Type::torsional{"torsional"},
+    CouplingSpec::Type::linear{"linear"}, CouplingSpec::Type::matched{"matched"},
+    CouplingSpec::Type::bushing{"bushing"}, CouplingSpec::Type::weld_like{"weld"},
+    CouplingSpec::Type::stable_pd{"stable-pd"}, CouplingSpec::Type::god_object{"god-object"};
+
+// How linear theory steps it (coupling/analysis/step_matrix.h).
+enum class StepLaw { spring_damper, printed, stable_pd, god_object };
 
 struct CouplingFacts {
   enum class Treatments { all, explicit_only, own };
-  const char* name;  // in scenes and tables
-  CouplingSpec::Type type;
-  bool printed;
-  Treatments treatments;  // own: it is a treatment itself, and goes with semi-implicit Euler only
-  bool at_point;          // Spring::p_L counts
-  bool can_hold;          // CouplingSpec::hold_steps, or PrintedOptions::hold_steps
+  const char* name;           // in scenes and tables
+  CouplingSpec::Type type{};  // left out: as its name
+  bool printed = false;
+  int order = 100;                                    // among all, where they are listed
+  Treatments treatments = Treatments::explicit_only;  // own: it is a treatment itself, and goes
+                                                      // with semi-implicit Euler only
+  // What it acts on: a point (Spring::p_L counts), a joint's coordinate, or what
+  // CouplingSpec::measure says; none of these: the orientation of a link.
+  bool at_point = false, at_joint = false, has_measure = false;
+  bool can_hold = false;  // CouplingSpec::hold_steps, or PrintedOptions::hold_steps
+  // Its force is k e + b e' of its springs, at some moments of the step. False: the ledger of a
+  // scene books what it does besides as `drive`.
+  bool is_spring_damper = true;
+  StepLaw step_law = StepLaw::spring_damper;
+  std::unique_ptr<Coupling> (*make)(const CouplingSpec& spec, const Model<double>& model,
+                                    KinematicRobot& kvr);
+
+  bool acts_at_joint(Measure measure) const {
+    return at_joint || (has_measure && measure == Measure::joint);
+  }
 };
-inline constexpr std::array<CouplingFacts, 9> all_couplings{{
-    {"linear", CouplingSpec::Type::linear, false, CouplingFacts::Treatments::all, true, true},
-    {"torsional", CouplingSpec::Type::torsional, false, CouplingFacts::Treatments::all, false,
-     true},
-    {"bushing", CouplingSpec::Type::bushing, false, CouplingFacts::Treatments::all, true, true},
-    {"weld", CouplingSpec::Type::weld_like, false, CouplingFacts::Treatments::all, true, false},
-    {"matched", CouplingSpec::Type::matched, false, CouplingFacts::Treatments::explicit_only, true,
-     false},
-    {"stable-pd", CouplingSpec::Type::stable_pd, false, CouplingFacts::Treatments::own, false,
-     false},
-    {"god-object", CouplingSpec::Type::god_object, false, CouplingFacts::Treatments::own, false,
-     false},
-    {"printed-linear", CouplingSpec::Type::linear, true, CouplingFacts::Treatments::explicit_only,
-     true, true},
-    {"printed-torsional", CouplingSpec::Type::torsional, true,
-     CouplingFacts::Treatments::explicit_only, false, true},
-}};
+// As CouplingFacts::make, of a class that is made of a CouplingSpec.
+template <class Law>
+std::unique_ptr<Coupling> make_law(const CouplingSpec& spec, const Model<double>& model,
+                                   KinematicRobot& kvr) {
+  return std::make_unique<Law>(spec, model, kvr);
+}
+
+const std::vector<CouplingFacts>& registered_couplings();  // by the names of their files
+const std::vector<CouplingFacts>& couplings_in_order();
+inline const std::vector<CouplingFacts>& all_couplings = couplings_in_order();
 const CouplingFacts& facts_of(CouplingSpec::Type type, bool printed);
+
+inline std::unique_ptr<Coupling> make_coupling(const CouplingSpec& spec, const Model<double>& model,
+                                               KinematicRobot& kvr) {
+  return facts_of(spec.type, spec.printed).make(spec, model, kvr);
+}
 
 }  // namespace twinarm

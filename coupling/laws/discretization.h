@@ -1,10 +1,16 @@
-// Which target a treatment looks at, and the m* that it adds (solver/forces/spring.h).
+// What a treatment is called, which target it looks at, and the m* that it adds
+// (solver/forces/spring.h).
 #pragma once
 
 #include "coupling/target/target_robot.h"
 #include "solver/forces/force_source.h"
 
 namespace twinarm {
+
+inline const char* name_of(Treatment treatment) {
+  constexpr const char* kNames[] = {"explicit", "semi-implicit", "implicit"};
+  return kNames[static_cast<std::size_t>(treatment)];
+}
 
 struct TreatmentTerms {
   const KvrSample* spring_target;  // pose of the KVR that the spring pulls to

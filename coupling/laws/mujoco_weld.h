@@ -49,22 +49,4 @@ struct WeldReference {
 Spring weld_spring(std::string name, const Model<double>& model, const State<double>& x, int body,
                    const Vector3& p_L, const WeldReference& reference);
 
-class WeldLike final : public Coupling {
- public:
-  // Of the springs, m_R = b/b_ref. Throws InputError for a reference out of bounds.
-  WeldLike(std::string name, const Model<double>& model, KinematicRobot& kvr,
-           std::vector<Spring> springs, const WeldReference& reference, Treatment treatment);
-
-  void begin_step(const Kinematics& k, double t, double h) noexcept override;
-  void add_forces(const State<double>& x, const Kinematics& k,
-                  Forces<double>& forces) noexcept override;
-  bool needs_semi_implicit() const override { return true; }
-  // Of spring and damper. With e = q_K - q_D: (M + m_R J^T J) e'' + B e' + K e = ...
-  JointSpace joint_space(const Kinematics& k) const override;
-
- private:
-  Treatment treatment_;
-  double damping_;  // b_ref
-};
-
 }  // namespace twinarm

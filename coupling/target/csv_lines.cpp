@@ -1,6 +1,9 @@
 #include "coupling/target/csv_lines.h"
 
+#include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 
 #include "solver/support/diagnostics.h"
 
@@ -16,6 +19,24 @@ bool next_line(std::istream& stream, std::string& line, const std::string& file,
   const bool has_end = !stream.eof();
   line.assign(buffer.data(), count - (has_end && count > 0 ? 1 : 0));
   return !stream.fail();
+}
+
+std::vector<std::string_view> csv_cells(std::string_view line) {
+  std::vector<std::string_view> cells;
+  while (!line.empty()) {
+    const std::size_t end = std::min(line.find(','), line.size());
+    const std::string_view cell = line.substr(0, end);
+    const auto first = cell.find_first_not_of(" \t\r"), last = cell.find_last_not_of(" \t\r");
+    cells.push_back(first == cell.npos ? cell.substr(0, 0) : cell.substr(first, last - first + 1));
+    line.remove_prefix(std::min(end + 1, line.size()));
+  }
+  return cells;
+}
+
+bool csv_number(std::string_view cell, double& value) {
+  const char* const end = cell.data() + cell.size();
+  const auto [next, error] = std::from_chars(cell.data(), end, value);
+  return error == std::errc() && next == end && std::isfinite(value);
 }
 
 }  // namespace twinarm

@@ -12,7 +12,7 @@
 namespace twinarm {
 
 struct HandMapping {
-  static constexpr std::array<std::size_t, 3> device_joint{0, 3, 5};  // theta1, theta4, theta6
+  std::array<std::size_t, 3> device_joint{0, 3, 5};  // theta1, theta4, theta6
   std::array<double, 3> gain{2.0, 1.0, 1.0};
   std::array<double, 3> offset{0.0, 0.0, 0.0};  // robot angle at theta = 0 [rad]
 

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "coupling/target/csv_lines.h"
 #include "solver/support/atomic_file.h"
@@ -31,22 +29,6 @@ constexpr double kFullTurn = 2 * std::numbers::pi;  // no joint of a hand device
 constexpr double kFewRadians = 3.5;                 // degrees that small are more likely radians
 constexpr double kGapIntervals = 3, kJitterShare = 0.25;  // of the median interval: said beyond it
 
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::stringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) {
-    const auto first = cell.find_first_not_of(" \t\r"), last = cell.find_last_not_of(" \t\r");
-    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
-  }
-  return cells;
-}
-
-bool to_number(const std::string& cell, double& value) {
-  const auto result = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return result.ec == std::errc() && result.ptr == cell.data() + cell.size() &&
-         std::isfinite(value);
-}
-
 std::string degree_column(std::size_t joint) {
   return fmt::format("theta{}[deg]", joint + 1);
 }
@@ -60,7 +42,7 @@ class TraceReader {
   void read(std::istream& stream);
 
  private:
-  using Cells = std::vector<std::string>;
+  using Cells = std::vector<std::string_view>;
   void add(int line, const std::string& where, const std::string& rule, const std::string& remedy) {
     if (++fault_count_ <= kMostTraceFaults) faults_.add({trace_.file_, line, where, rule, remedy});
   }
@@ -86,7 +68,7 @@ void TraceReader::read(std::istream& stream) {
   int line_number = 0;
   for (std::string line; next_line(stream, line, trace_.file_, line_number + 1);) {
     ++line_number;
-    const Cells cells = split(line);
+    const Cells cells = csv_cells(line);
     const bool blank = cells.empty() || (cells.size() == 1 && cells[0].empty());
     if (blank || cells[0].starts_with("#")) continue;
     if (header_line_ == 0)
@@ -133,8 +115,8 @@ void TraceReader::read_sample(int line, const Cells& cells) {
   bool good = true;
   for (std::size_t c = 0; c < (have_button_ ? 8u : 7u); ++c) {
     double& value = c == 0 ? sample.t : c == 7 ? button : sample.theta[c - 1];
-    const std::string cell = column_[c] < cells.size() ? cells[column_[c]] : "";
-    if (to_number(cell, value)) {
+    const std::string_view cell = column_[c] < cells.size() ? cells[column_[c]] : "";
+    if (csv_number(cell, value)) {
       if (c > 0 && c < 7 && in_degrees_[c - 1]) value *= kDegree;
       continue;
     }

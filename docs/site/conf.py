@@ -1,4 +1,4 @@
-"""Sphinx makes docs/ a site that needs no network: scripts/site.
+"""Sphinx makes docs/ a site that needs no network: scripts/generate/site.
 
 Formulas are set by KaTeX while the site is built (katex_lines.js, one process for all of them), so a page
 carries them as HTML and MathML, and no script has to run for them.
@@ -102,13 +102,13 @@ def set_the_commands(app, docname, source):
         made = subprocess.run([program, "help", "--man"], capture_output=True, text=True, check=True, timeout=60)
         text = commands.markdown_of(made.stdout)
     except (OSError, subprocess.SubprocessError):
-        text = "**Not here: the program was not built when this site was made.** `scripts/build`, then `scripts/site`."
-        print(f"scripts/site: {program} is not built: the site is made without the list of commands", file=sys.stderr)
+        text = "**Not here: the program was not built when this site was made.** `scripts/build`, then `scripts/generate/site`."
+        print(f"scripts/generate/site: {program} is not built: the site is made without the list of commands", file=sys.stderr)
     source[0] = source[0].replace("<!-- commands -->", text)
 
 
 def link_the_headers(app, docname, source):
-    """To the pages that Doxygen makes of the headers, where scripts/site has them made."""
+    """To the pages that Doxygen makes of the headers, where scripts/generate/site has them made."""
     if docname == "headers" and os.environ.get("TWINARM_HEADERS"):
         source[0] = source[0].replace("<!-- headers -->", '<p><a href="headers/index.html">To the headers</a></p>')
 

@@ -36,6 +36,43 @@ function(twinarm_library_of_objects)
   target_link_libraries(${name} PUBLIC $<BUILD_INTERFACE:twinarm_flags> Eigen3::Eigen ${uses})
 endfunction()
 
+# twinarm_registry(HEADER FILE TYPE TYPE FUNCTION NAME SUFFIX TEXT [FILES GLOB ..])
+# One file, one entry: each file of this folder that matches FILES (*.cpp) defines `TYPE STEM_SUFFIX()`,
+# and the made function `const std::vector<TYPE>& NAME()`, declared in HEADER, lists them in the order of
+# their names. So a new file of the folder is registered by being there. Called after twinarm_library().
+function(twinarm_registry)
+  cmake_parse_arguments(R "" "HEADER;TYPE;FUNCTION;SUFFIX" "FILES" ${ARGN})
+  if(NOT R_FILES)
+    set(R_FILES *.cpp)
+  endif()
+  file(GLOB files CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${R_FILES})
+  list(SORT files)
+  set(declarations "")
+  set(calls "")
+  foreach(file ${files})
+    string(REGEX REPLACE "\\.cpp$" "" stem ${file})
+    string(APPEND declarations "${R_TYPE} ${stem}${R_SUFFIX}();\n")
+    string(APPEND calls "${stem}${R_SUFFIX}(), ")
+  endforeach()
+  set(made ${CMAKE_CURRENT_BINARY_DIR}/${R_FUNCTION}.cpp)
+  file(CONFIGURE OUTPUT ${made} CONTENT "// Made by twinarm_registry() from the files of a folder.
+#include \"${R_HEADER}\"
+
+namespace twinarm {
+
+${declarations}
+const std::vector<${R_TYPE}>& ${R_FUNCTION}() {
+  static const std::vector<${R_TYPE}> all{${calls}};
+  return all;
+}
+
+}  // namespace twinarm
+")
+  file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  string(REPLACE / _ name twinarm_${folder})
+  target_sources(${name} PRIVATE ${made})
+endfunction()
+
 # Lists this folder among the layers. NAME and LINKED are set to its target and those of USES.
 function(twinarm_layer NAME LINKED)
   cmake_parse_arguments(L "" "" "USES;LIBRARIES" ${ARGN})

@@ -1,4 +1,4 @@
-# The two Debian packages: `scripts/package`, or `cpack -G DEB` in the build folder.
+# The two Debian packages: `scripts/generate/package`, or `cpack -G DEB` in the build folder.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME twinarm)
 set(CPACK_PACKAGE_CONTACT "The twinarm authors <twinarm@packages.invalid>")

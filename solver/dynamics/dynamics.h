@@ -8,7 +8,9 @@
 // have no inertia about a joint, numbers become non-finite (ModelBuilder refuses such models).
 #pragma once
 
+#include <span>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "solver/model/trace.h"
@@ -43,10 +45,11 @@ void rnea(const Model<S>& model, const State<S>& x, const std::vector<S>& qdd,
           const std::vector<Force<S>>& f_ext, Workspace<S>& w) {
   passes<S>().rnea(model, x, qdd, f_ext, w);
 }
-// The mass matrix, solver/passes/crba.h: w.M.
+// The mass matrix, solver/passes/crba.h: M, nv x nv row by row.
 template <class S>
-void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w) {
-  passes<S>().crba(model, x, w);
+void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w,
+          std::type_identity_t<std::span<S>> M) {
+  passes<S>().crba(model, x, w, M);
 }
 // M^-1 (b + J^T f), solver/passes/minv.h: w.y, after aba() at the same q.
 template <class S>

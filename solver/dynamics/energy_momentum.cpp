@@ -23,4 +23,16 @@ Exchange contents_of(const Model<double>& model, const std::vector<char>& of,
           to_eigen(sum.n)};
 }
 
+double kinetic_energy(const Model<double>& model, const State<double>& x) {
+  Workspace<double> w(model);
+  kinematics(model, x, w);
+  return kinetic_energy(model, x, w);
+}
+
+double potential_energy(const Model<double>& model, const State<double>& x) {
+  Workspace<double> w(model);
+  kinematics(model, x, w);
+  return potential_energy(model, w);
+}
+
 }  // namespace twinarm

@@ -1,5 +1,5 @@
-// What something does to all bodies together: joules, and momentum about the world's origin. The
-// rows of the ledgers are made of it.
+// Energy of a mechanism, and what something does to all bodies together: joules, and momentum about
+// the world's origin. The rows of the ledgers are made of it.
 //
 // contents_of() is what the bodies have: kinetic energy and potential of gravity, and the linear
 // and angular momentum of all that forces can move (a body of prescribed motion has any momentum
@@ -51,5 +51,10 @@ std::vector<char> bodies_that_forces_move(const Model<double>& model);
 // `of` as bodies_that_forces_move(), or of a part of them; w is written.
 Exchange contents_of(const Model<double>& model, const std::vector<char>& of,
                      const State<double>& x, Workspace<double>& w);
+
+// Of those who have no workspace at hand (world_kinematics.h): allocates, in O(n).
+double kinetic_energy(const Model<double>& model, const State<double>& x);  // with rotors [J]
+// In the field of gravity, 0 at the world's origin [J].
+double potential_energy(const Model<double>& model, const State<double>& x);
 
 }  // namespace twinarm

@@ -1,6 +1,6 @@
 #include "solver/dynamics/kinematics.h"
 
-#include "solver/model/workspace.h"
+#include "solver/passes/kinematics_pass.h"
 
 namespace twinarm {
 
@@ -10,8 +10,7 @@ Kinematics::Kinematics(const Model<double>& model)
       v_WLo(model.parent.size(), Vector3::Zero()),
       R_WB(model.parent.size(), Matrix3::Identity()),
       a_bias(model.parent.size()),
-      v_(model.parent.size()),
-      subspace_(Workspace<double>(model).S_),
+      in_body_axes_(model),
       columns_(model.nv, {Vector3::Zero(), Vector3::Zero()}) {}
 
 Vector3 Kinematics::position(int body, const Vector3& p_L) const {
@@ -24,29 +23,20 @@ Vector3 Kinematics::velocity(int body, const Vector3& p_W) const {
 }
 
 void forward_kinematics(const Model<double>& model, const State<double>& x, Kinematics& k) {
+  const BodyVelocities<double>& w = k.in_body_axes_;
+  generic::kinematics(model, x, k.in_body_axes_);
   k.a_bias[0] = {{}, -model.gravity};
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
-    visit_joint(model, i, [&](auto joint) {
-      const auto p = static_cast<std::size_t>(model.parent[i]);
-      const double *q = x.q.data() + model.iq[i], *qd = x.qd.data() + model.iv[i];
-      const auto S_i = joint.subspace(q);
-      const auto vJ = joint_velocity(joint, S_i, q, qd);
-      const Transform<double> Xup = joint.XJ(q) * model.Xtree[i];
-      k.v_[i] = Xup * k.v_[p] + vJ;
-      k.a_bias[i] = Xup * k.a_bias[p] + (crm(k.v_[i], vJ) + joint.cJ(q, qd));
-      remember(S_i, k.subspace_.data() + model.iv[i]);
-
-      k.R_WB[i] = k.R_WB[p] * to_eigen(Xup.E).transpose();
-      k.X_WL[i].p = k.X_WL[p].p + k.R_WB[p] * to_eigen(Xup.r);
-      k.X_WL[i].R = k.R_WB[i] * to_eigen(model.turn[i]);
-      k.w_WL[i] = k.R_WB[i] * to_eigen(k.v_[i].w);
-      k.v_WLo[i] = k.R_WB[i] * to_eigen(k.v_[i].v);
-      for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof) {
-        const Motion<double>& s = k.subspace_[dof];
-        k.columns_[dof] = {k.R_WB[i].lazyProduct(to_eigen(s.w)),
-                           k.R_WB[i].lazyProduct(to_eigen(s.v))};
-      }
-    });
+    const auto p = static_cast<std::size_t>(model.parent[i]);
+    k.a_bias[i] = w.Xup[i] * k.a_bias[p] + w.c[i];
+    k.R_WB[i] = k.R_WB[p] * to_eigen(w.Xup[i].E).transpose();
+    k.X_WL[i].p = k.X_WL[p].p + k.R_WB[p] * to_eigen(w.Xup[i].r);
+    k.X_WL[i].R = k.R_WB[i] * to_eigen(model.turn[i]);
+    k.w_WL[i] = k.R_WB[i] * to_eigen(w.v[i].w);
+    k.v_WLo[i] = k.R_WB[i] * to_eigen(w.v[i].v);
+    for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof)
+      k.columns_[dof] = {k.R_WB[i].lazyProduct(to_eigen(w.S_[dof].w)),
+                         k.R_WB[i].lazyProduct(to_eigen(w.S_[dof].v))};
   }
 }
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solver/model/model.h"
+#include "solver/model/workspace.h"
 #include "solver/spatial/pose.h"
 
 namespace twinarm {
@@ -28,8 +28,7 @@ struct Kinematics {
   friend void forward_kinematics(const Model<double>&, const State<double>&, Kinematics&);
   template <class F>
   friend void for_each_dof_below(const Model<double>&, const Kinematics&, int, F&&);
-  std::vector<Motion<double>> v_;         // spatial velocities, body axes
-  std::vector<Motion<double>> subspace_;  // columns of S by velocity, body axes
+  BodyVelocities<double> in_body_axes_;
   struct Column {
     Vector3 w, v;
   };

@@ -6,9 +6,10 @@ namespace twinarm {
 
 Eigen::MatrixXd mass_matrix(const Model<double>& model, const State<double>& x) {
   Workspace<double> w(model);
-  crba(model, x, w);
   const auto n = static_cast<Eigen::Index>(model.nv);
-  return Eigen::Map<const Eigen::MatrixXd>(w.M.data(), n, n);  // symmetric
+  Eigen::MatrixXd M(n, n);
+  crba(model, x, w, {M.data(), model.nv * model.nv});  // symmetric: by rows is by columns
+  return M;
 }
 
 }  // namespace twinarm

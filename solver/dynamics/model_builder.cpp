@@ -6,6 +6,7 @@
 #include "solver/dynamics/dynamics.h"
 #include "solver/spatial/rotation_to_axis.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -25,8 +26,7 @@ bool is_direction(const Vector3& axis) {
   return axis.norm() > 0 && axis.allFinite();
 }
 bool has_axis(JointType type) {
-  return type != JointType::fixed && type != JointType::spherical && type != JointType::free &&
-         type != JointType::prescribed;
+  return facts_of(type).axis != AxisUse::none;
 }
 
 void check_inertia(const std::string& where, const BodyInertia& body, FaultList& faults) {
@@ -34,7 +34,8 @@ void check_inertia(const std::string& where, const BodyInertia& body, FaultList&
     faults.add({"", 0, where, "mass, centre of mass or inertia is not a finite number", "",
                 "model.not-finite"});
   else if (body.mass < 0)
-    faults.add({"", 0, where, "mass is " + std::to_string(body.mass) + " kg, must not be negative",
+    faults.add({"", 0, where,
+                "mass is " + short_number_text(body.mass) + " kg, must not be negative",
                 "give the link its mass", "model.negative"});
 }
 void check_properties(const std::string& joint, const JointProperties& p, FaultList& faults) {
@@ -44,7 +45,7 @@ void check_properties(const std::string& joint, const JointProperties& p, FaultL
                                     {"Coulomb friction", p.coulomb_minus}})
     if (!(value >= 0 && std::isfinite(value)))
       faults.add({"", 0, joint_called(joint),
-                  std::string(what) + " is " + std::to_string(value) + ", must not be negative",
+                  std::string(what) + " is " + short_number_text(value) + ", must not be negative",
                   "give zero or a positive number", "model.negative"});
   if (!std::isfinite(p.pitch))
     faults.add(
@@ -74,15 +75,17 @@ std::vector<double> felt_inertia_by_dof(const Model<double>& model) {
           shift[k] = std::sin(1.0 + static_cast<double>(3 * i + k) + posture);
         if (joint.nv > 0) joint.integrate(&x.q[model.iq[i]], shift.data(), &x.q[model.iq[i]]);
       });
-    crba(model, x, w);
-    const std::vector<double> M = w.M;
     aba(model, x, none, w);
-    for (std::size_t i = 1; i < model.parent.size(); ++i)
+    w.Ic = model.I;  // becomes what crba() makes of it, without all of M
+    for (std::size_t i = model.parent.size(); i-- > 1;) {
       for (std::size_t k = 0; k < model.dofs(i); ++k) {
         const std::size_t dof = model.iv[i] + k;
-        const double d = 1 / w.D_factors[w.iD[i] + k], scale = M[dof * model.nv + dof];
+        const double d = 1 / w.D_factors[w.iD[i] + k];
+        const double scale = dot(w.S_[dof], w.Ic[i] * w.S_[dof]) + model.armature[dof];
         if (d > 1e-13 * scale && std::isfinite(d)) largest[dof] = std::max(largest[dof], d);
       }
+      add_congruence(w.Xup[i], w.Ic[i], w.Ic[static_cast<std::size_t>(model.parent[i])]);
+    }
   }
   return largest;
 }
@@ -136,15 +139,15 @@ void ModelBuilder::add_mimic(const std::string& follower, const std::string& lea
   mimics_.push_back({follower, leader, ratio, offset});
 }
 
-void ModelBuilder::check(const Body& body, const Model<double>& so_far, FaultList& faults) {
+void ModelBuilder::check(const Body& body, int index, Names& taken, FaultList& faults) {
   const std::string where = link_called(body.name);
-  if (body.parent < 0 || body.parent >= so_far.body_count())
+  if (body.parent < 0 || body.parent >= index)
     faults.add(
         {"", 0, where, "its parent is not a body that was added before it", "", "model.parent"});
-  if (so_far.find_body(body.name) > 0)
+  if (!taken.links.insert(body.name).second)
     faults.add({"", 0, where, "the name is taken already", "give each link its own name",
                 "model.name-taken"});
-  if (so_far.find_joint(body.joint_name) > 0)
+  if (!taken.joints.insert(body.joint_name).second)
     faults.add({"", 0, joint_called(body.joint_name), "the name is taken already",
                 "give each joint its own name", "model.name-taken"});
   if (has_axis(body.type) && !is_direction(body.axis))
@@ -198,8 +201,9 @@ Model<double> ModelBuilder::build() const {
   model.turn = {Mat3<double>::identity()};
   std::vector<Matrix3> R_LB = {Matrix3::Identity()};
 
+  Names taken;
   for (const Body& body : bodies_) {
-    check(body, model, faults);
+    check(body, model.body_count(), taken, faults);
     append(body, model, R_LB);
   }
   faults.check();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "solver/model/model.h"
@@ -64,7 +65,10 @@ class ModelBuilder {
     std::string follower, leader;
     double ratio, offset;
   };
-  static void check(const Body& body, const Model<double>& so_far, FaultList& faults);
+  struct Names {
+    std::unordered_set<std::string> links, joints;
+  };
+  static void check(const Body& body, int index, Names& taken, FaultList& faults);
   static void append(const Body& body, Model<double>& model, std::vector<Matrix3>& R_LB);
   void add_mimics_to(Model<double>& model, FaultList& faults) const;
 

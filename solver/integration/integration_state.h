@@ -29,7 +29,7 @@ struct PrescribedMotion {
 // The motion at a time. Must not throw; whether a step allocates is then the law's affair.
 using MotionLaw = std::function<PrescribedMotion(double t)>;
 
-// The 19 numbers of a prescribed joint's q (solver/model/joint.h).
+// The 19 numbers of a prescribed joint's q (solver/model/joints.h).
 void store_motion(const PrescribedMotion& motion, double* q);
 
 struct Mechanism {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "solver/loops/loop_types.h"
+
 namespace twinarm {
 namespace {
 
@@ -20,14 +22,13 @@ bool is_frame(const Pose& X) {
 bool same_pose(const Pose& a, const Pose& b) {
   return a.R == b.R && a.p == b.p;
 }
-bool between_joints(LoopType type) {
-  return type == LoopType::gear || type == LoopType::locked;
-}
 bool same(const LoopClosure& a, const LoopClosure& b) {
   if (a.type != b.type || a.body_a != b.body_a) return false;
-  if (a.type == LoopType::locked) return true;
+  const LoopBetween ends = facts_of(a.type).ends;
+  if (ends == LoopBetween::one_joint) return true;
   if (a.body_b != b.body_b) return false;
-  return a.type == LoopType::gear || (same_pose(a.X_LaC, b.X_LaC) && same_pose(a.X_LbC, b.X_LbC));
+  return ends == LoopBetween::joints ||
+         (same_pose(a.X_LaC, b.X_LaC) && same_pose(a.X_LbC, b.X_LbC));
 }
 bool moves_between(const Model<double>& model, int a, int b) {
   std::size_t dofs = 0;
@@ -47,17 +48,15 @@ class OneLoop {
       : model_(model), loop_(loop), faults_(faults) {}
 
   void check() {
-    const bool joints = between_joints(loop_.type);
     bool bodies = is_body(loop_.body_a, "a");
-    if (loop_.type != LoopType::locked) bodies = is_body(loop_.body_b, "b") && bodies;
-    if (joints) return check_joints(bodies);
-    if (!is_frame(loop_.X_LaC) || !is_frame(loop_.X_LbC))
+    if (ends_ != LoopBetween::one_joint) bodies = is_body(loop_.body_b, "b") && bodies;
+    if (ends_ == LoopBetween::bodies && (!is_frame(loop_.X_LaC) || !is_frame(loop_.X_LbC)))
       add("its frames C are not finite, or not turned by rotations",
           "give R and p of X_LaC, X_LbC");
-    if (loop_.type == LoopType::distance && !(loop_.length > 0 && std::isfinite(loop_.length)))
-      add(text("its length is ", loop_.length, " m, must be positive"),
-          "give the length of the rod, or a ball");
+    const LoopProblem own = visit_loop(loop_.type, [&](auto type) { return type.problem(loop_); });
+    if (!own.problem.empty()) add(own.problem, own.fix);
     if (!bodies) return;
+    if (ends_ != LoopBetween::bodies) return check_joints();
     if (!moves_between(model_, loop_.body_a, loop_.body_b))
       add("no joint lets its ends move against each other", "close the loop between other bodies");
   }
@@ -80,19 +79,16 @@ class OneLoop {
         "weld the link instead, or take another joint");
     return false;
   }
-  void check_joints(bool bodies) {
-    const bool gear = loop_.type == LoopType::gear;
-    if (!std::isfinite(loop_.offset) || (gear && !std::isfinite(loop_.ratio)))
-      add("ratio and offset must be finite", "give numbers");
-    if (!bodies) return;
+  void check_joints() {
     has_one_dof(loop_.body_a);
-    if (!gear) return;
+    if (ends_ == LoopBetween::one_joint) return;
     has_one_dof(loop_.body_b);
     if (loop_.body_a == loop_.body_b) add("it gears a joint to itself", "give two joints");
   }
 
   const Model<double>& model_;
   const LoopClosure& loop_;
+  const LoopBetween ends_ = facts_of(loop_.type).ends;
   std::vector<Fault>& faults_;
 };
 
@@ -112,10 +108,9 @@ std::vector<std::vector<Fault>> faults_by_loop(const Model<double>& model,
 
 // A hinge or weld is also met where axes point in opposite directions.
 bool is_turned_over(const LoopClosure& loop, const Kinematics& k) {
-  if (loop.type != LoopType::hinge && loop.type != LoopType::weld) return false;
   const Matrix3 R = (k.X_WL[static_cast<std::size_t>(loop.body_a)].R * loop.X_LaC.R).transpose() *
                     k.X_WL[static_cast<std::size_t>(loop.body_b)].R * loop.X_LbC.R;
-  return R(2, 2) < 0 || (loop.type == LoopType::weld && (R(0, 0) < 0 || R(1, 1) < 0));
+  return visit_loop(loop.type, [&](auto type) { return type.is_turned_over(R); });
 }
 
 void add_open(const Model<double>& model, const LoopClosure& loop, const State<double>& x,

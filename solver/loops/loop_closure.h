@@ -3,9 +3,9 @@
 // A Model is a tree. What closes a loop in it is a condition g(q, t) = 0 of m rows (RBDA
 // section 8.2),
 //   g' = J qd + (what prescribed joints do) = 0,      g'' = J qdd + gamma = 0,
-// gamma = J' qd, with the accelerations of prescribed joints, is g'' at qdd = 0. This file computes
-// g, g', J and gamma from kinematics alone; who solves with them is another matter (acceleration:
-// loop_forces.h, position and velocity: loop_projection.h).
+// gamma = J' qd, with the accelerations of prescribed joints, is g'' at qdd = 0. Here g, g', J and
+// gamma come from kinematics alone (loop_types.h); loop_forces.h solves with them for
+// accelerations, loop_projection.h for positions and velocities.
 //
 // C is a frame on link a and another one on link b; where the loop is closed the two agree, in
 // what the type asks for. Rows and their multipliers lambda, J^T lambda being the force:
@@ -20,6 +20,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,20 +32,29 @@
 
 namespace twinarm {
 
-enum class LoopType : unsigned char { weld, ball, hinge, distance, gear, locked };
+// The list of the types. A new one is a line here and its struct in loop_types.h.
+#define TWINARM_LOOPS(LOOP)    \
+  LOOP(weld, WeldLoop)         \
+  LOOP(ball, BallLoop)         \
+  LOOP(hinge, HingeLoop)       \
+  LOOP(distance, DistanceLoop) \
+  LOOP(gear, GearLoop)         \
+  LOOP(locked, LockedLoop)
+
+#define TWINARM_LOOP_NAME(name, Loop) name,
+enum class LoopType : unsigned char { TWINARM_LOOPS(TWINARM_LOOP_NAME) };
+#undef TWINARM_LOOP_NAME
+enum class LoopBetween : unsigned char { bodies, joints, one_joint };  // the last: a's alone
+// The constants of a type's struct, for those who have its type at run time.
 struct LoopTypeFacts {
   LoopType type;
   const char* name;
   std::size_t rows;
+  LoopBetween ends;
 };
-inline constexpr std::array<LoopTypeFacts, 6> all_loop_types{{{LoopType::weld, "weld", 6},
-                                                              {LoopType::ball, "ball", 3},
-                                                              {LoopType::hinge, "hinge", 5},
-                                                              {LoopType::distance, "distance", 1},
-                                                              {LoopType::gear, "gear", 1},
-                                                              {LoopType::locked, "locked", 1}}};
-constexpr const LoopTypeFacts& facts_of(LoopType type) {
-  return all_loop_types[static_cast<std::size_t>(type)];
+std::span<const LoopTypeFacts> all_loop_types();
+inline const LoopTypeFacts& facts_of(LoopType type) {
+  return all_loop_types()[static_cast<std::size_t>(type)];
 }
 
 struct LoopClosure {
@@ -61,6 +72,17 @@ struct LoopWrench {
   Vector3 couple = Vector3::Zero();  // [N m]
   Vector3 force = Vector3::Zero();   // [N]
 };
+
+// What a loop keeps from one evaluation to the next.
+struct LoopEnds {
+  std::size_t first_row = 0;
+  std::size_t shared = 0;              // velocities below this move both ends
+  std::vector<std::size_t> dofs;       // of the others, on either side
+  Matrix3 R_WC = Matrix3::Identity();  // axes of C_a
+  Vector3 p_WC = Vector3::Zero();      // origin of C_b
+  std::array<Vector3, 3> n;            // of the rotational rows, or the distance
+};
+using LoopJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 class LoopClosures {
  public:
@@ -83,39 +105,19 @@ class LoopClosures {
   const Eigen::VectorXd& g() const { return g_; }
   const Eigen::VectorXd& rate() const { return rate_; }    // g'
   const Eigen::VectorXd& gamma() const { return gamma_; }  // g'' at qdd = 0
-  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& J() const {
-    return J_;
-  }
+  const LoopJacobian& J() const { return J_; }
   // Where the force of a loop acts; of a distance any point of its line will do.
   const Vector3& point(std::size_t loop) const { return ends_[loop].p_WC; }
   // For lambda of all rows, where evaluate() was last.
   LoopWrench wrench(std::size_t loop, const Eigen::VectorXd& lambda) const;
 
  private:
-  struct Ends {
-    std::size_t first_row = 0;
-    std::size_t shared = 0;              // velocities below this move both ends
-    std::vector<std::size_t> dofs;       // of the others, on either side
-    Matrix3 R_WC = Matrix3::Identity();  // axes of C_a
-    Vector3 p_WC = Vector3::Zero();      // origin of C_b
-    std::array<Vector3, 3> n;            // of the rotational rows, or the distance
-  };
-  struct Side;
-  Side side(const Kinematics& k, int body, const Pose& X_LC) const;
-  void evaluate_points(const Kinematics& k, Ends& e, const LoopClosure& loop, const Side& a,
-                       const Side& b);
-  void evaluate_axes(const Kinematics& k, Ends& e, const LoopClosure& loop, const Side& a,
-                     const Side& b);
-  void evaluate_distance(const Kinematics& k, Ends& e, const LoopClosure& loop, const Side& a,
-                         const Side& b);
-  void evaluate_joints(const State<double>& x, const Ends& e, const LoopClosure& loop);
-
   const Model<double>* model_ = nullptr;
   std::vector<LoopClosure> loops_;
-  std::vector<Ends> ends_;
+  std::vector<LoopEnds> ends_;
   std::vector<std::size_t> loop_of_row_;
   Eigen::VectorXd g_, rate_, gamma_;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J_;
+  LoopJacobian J_;
 };
 
 }  // namespace twinarm

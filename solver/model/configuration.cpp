@@ -29,11 +29,10 @@ void coordinate_sizes(const Model<double>& model, const std::vector<double>& q,
   for (std::size_t i = 1; i < model.parent.size(); ++i)
     visit_joint(model, i, [&](auto joint) {
       const std::size_t iq = model.iq[i], iv = model.iv[i];
-      const bool rotation_first = joint.nq == joint.nv + 1;  // spherical; free: x, y, z after it
       for (std::size_t c = 0; c < joint.nv; ++c)
-        size[iv + c] = !rotation_first ? std::abs(q[iq + c])
-                       : c < 3         ? 0.0
-                                       : std::abs(q[iq + c - 3]);
+        size[iv + c] = joint.quaternion < 0 ? std::abs(q[iq + c])
+                       : c < 3              ? 0.0
+                                            : std::abs(q[iq + c - 3]);
     });
 }
 

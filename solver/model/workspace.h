@@ -68,16 +68,33 @@ void forget([[maybe_unused]] std::vector<T>& field) {
 #endif
 }
 
+// What the velocities of the bodies are made of: the first pass of every algorithm.
 template <class S>
-struct Workspace {
-  // ahead of pass 1, in aba() of doubles alone (solver/spatial/sincos_batch.h)
-  std::vector<S> sin, cos;  // by coordinate
-  // pass 1 (base to tips)
+struct BodyVelocities {
   std::vector<Motion<S>> S_;      // columns of the motion subspaces, by velocity
   std::vector<Transform<S>> Xup;  // XJ Xtree: from the parent's frame to the body's
   std::vector<Motion<S>> v;       // spatial velocity [rad/s, m/s]
   std::vector<Motion<S>> c;       // velocity-product acceleration cJ + v x vJ
-  std::vector<Transform<S>> X0;   // from the world's frame to the body's; kinematics() alone
+
+  explicit BodyVelocities(const Model<S>& model)
+      : S_(model.nv), Xup(model.parent.size()), v(Xup.size()), c(Xup.size()) {
+    const State<S> home(model);
+    for (std::size_t i = 0; i < Xup.size(); ++i)
+      visit_joint(model, i, [&](auto joint) {
+        const auto subspace = joint.subspace(home.q.data() + model.iq[i]);
+        for (std::size_t k = 0; k < joint.nv; ++k)
+          S_[model.iv[i] + k] = Motion<S>(times(subspace, unit_vector<S, joint.nv>(k)));
+      });
+  }
+};
+
+template <class S>
+struct Workspace : BodyVelocities<S> {
+  // pass 1 (base to tips) leaves BodyVelocities, and before it, in aba() of doubles alone
+  // (solver/spatial/sincos_batch.h)
+  std::vector<S> sin, cos;  // by coordinate
+  // kinematics
+  std::vector<Transform<S>> X0;  // from the world's frame to the body's
   // pass 2 (tips to base)
   std::vector<ArticulatedInertia<S>> IA;  // articulated-body inertia
   std::vector<Force<S>> pA;               // articulated bias force [N m, N]
@@ -93,7 +110,6 @@ struct Workspace {
   std::vector<S> tau;       // by velocity
   // mass matrix
   std::vector<Inertia<S>> Ic;  // composite inertia of the subtree
-  std::vector<S> M;            // nv x nv, row by row, both triangles [kg m^2, kg]
   // M^-1 times a vector
   std::vector<Force<S>> p;    // bias force of the vector alone
   std::vector<Motion<S>> dv;  // acceleration that it causes
@@ -102,12 +118,9 @@ struct Workspace {
   std::vector<std::size_t> iD;  // where D of body i begins
 
   explicit Workspace(const Model<S>& model)
-      : sin(model.nq),
+      : BodyVelocities<S>(model),
+        sin(model.nq),
         cos(model.nq),
-        S_(model.nv),
-        Xup(n(model)),
-        v(n(model)),
-        c(n(model)),
         X0(n(model)),
         IA(n(model)),
         pA(n(model)),
@@ -118,20 +131,13 @@ struct Workspace {
         f(n(model)),
         tau(model.nv),
         Ic(n(model)),
-        M(model.nv * model.nv),
         p(n(model)),
         dv(n(model)),
         y(model.nv) {
     std::size_t size = 0;
-    const State<S> home(model);
     for (std::size_t i = 0; i < n(model); ++i) {
       iD.push_back(size);
-      visit_joint(model, i, [&](auto joint) {
-        size += joint.nv * joint.nv;
-        const auto subspace = joint.subspace(home.q.data() + model.iq[i]);
-        for (std::size_t k = 0; k < joint.nv; ++k)
-          S_[model.iv[i] + k] = Motion<S>(times(subspace, unit_vector<S, joint.nv>(k)));
-      });
+      size += model.dofs(i) * model.dofs(i);
     }
     D.resize(size);
     D_factors.resize(size);
@@ -158,16 +164,16 @@ struct Workspace {
     using By = Quantity::By;
     visit({"S", 1, By::velocity, "motion subspace: how the joint lets the body move", "1",
            "section 3.5, table 4.1"},
-          S_);
+          this->S_);
     visit({"Xup", 1, By::body, "transform from the parent's axes and origin to the body's", "1; m",
            "Xup = XJ Xtree, table 7.1; (2.24)"},
-          Xup);
+          this->Xup);
     visit({"v", 1, By::body, "spatial velocity: turn, and velocity of the origin", "rad/s; m/s",
            "v = Xup v_p + S qd, table 7.1"},
-          v);
+          this->v);
     visit({"c", 1, By::body, "acceleration that the velocities alone cause", "rad/s^2; m/s^2",
            "c = cJ + v x S qd, table 7.1"},
-          c);
+          this->c);
   }
   template <class Visitor>
   void describe_inertias(Visitor& visit) const {

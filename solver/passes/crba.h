@@ -1,10 +1,12 @@
 // The mass matrix by the composite-rigid-body algorithm, RBDA section 6.2, table 6.2.
 //
-// Writes w.M, nv x nv, both triangles, the armature of the rotors on its diagonal. O(n depth).
+// Writes M, nv x nv row by row [kg m^2, kg], both triangles, the armature of the rotors on its
+// diagonal. O(n depth).
 // Callers include solver/dynamics/dynamics.h.
 #pragma once
 
 #include <algorithm>
+#include <span>
 
 #include "solver/model/joint_slice.h"
 #include "solver/model/workspace.h"
@@ -13,10 +15,11 @@
 namespace twinarm::TWINARM_ISA {
 
 template <class S>
-[[gnu::flatten]] void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w) {
+[[gnu::flatten]] void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w,
+                           std::span<S> M) {
   const std::size_t n_bodies = model.parent.size(), nv = model.nv;
   forget(w.Ic);
-  for (std::size_t k = 0; k < nv * nv; ++k) w.M[k] = S(0);
+  for (std::size_t k = 0; k < nv * nv; ++k) M[k] = S(0);
 
   for (std::size_t i = 1; i < n_bodies; ++i) {
     visit_joint(model, i, [&](auto joint) TWINARM_KERNEL {
@@ -37,13 +40,13 @@ template <class S>
       for (std::size_t j = i; j > 0; j = static_cast<std::size_t>(model.parent[j])) {
         const std::size_t jv = model.iv[j];
         if (model.joint[j] == JointType::revolute)
-          w.M[jv * nv + col] = w.M[col * nv + jv] = F.n.z;
+          M[jv * nv + col] = M[col * nv + jv] = F.n.z;
         else
           for (std::size_t row = jv; row < jv + model.dofs(j); ++row)
-            w.M[row * nv + col] = w.M[col * nv + row] = dot(w.S_[row], F);
+            M[row * nv + col] = M[col * nv + row] = dot(w.S_[row], F);
         F = transpose_times(w.Xup[j], F);
       }
-      w.M[col * nv + col] = w.M[col * nv + col] + model.armature[col];
+      M[col * nv + col] = M[col * nv + col] + model.armature[col];
     }
   }
 }

@@ -1,6 +1,7 @@
 // The passes of one scalar at one level of the instruction set, as function pointers.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solver/model/workspace.h"
@@ -12,7 +13,7 @@ struct Passes {
   void (*aba)(const Model<S>&, const State<S>&, const Forces<S>&, Workspace<S>&);
   void (*rnea)(const Model<S>&, const State<S>&, const std::vector<S>&,
                const std::vector<Force<S>>&, Workspace<S>&);
-  void (*crba)(const Model<S>&, const State<S>&, Workspace<S>&);
+  void (*crba)(const Model<S>&, const State<S>&, Workspace<S>&, std::span<S>);
   void (*minv_times)(const Model<S>&, const std::vector<S>&, const std::vector<Force<S>>&,
                      Workspace<S>&);
   void (*kinematics)(const Model<S>&, const State<S>&, Workspace<S>&);

@@ -1,46 +1,62 @@
-// Mimics and closed loops, as laws of a step under constraints (constrained_step.h): g' = 0 of
-// each.
-#include "solver/stepping/constrained_step.h"
+#include "solver/stepping/bilateral_constraints.h"
+
+#include <stdexcept>
 
 namespace twinarm {
 
-void ConstrainedStep::add_mimics() {
+void BilateralConstraints::visit_memory(Memory& memory, std::size_t loop_rows) {
+  memory.visit_fixed(mimic_guess_);
+  memory.visit(loop_guess_);
+  if (!loop_guess_.empty() && loop_guess_.size() != loop_rows)
+    throw std::runtime_error("the loops are not those of this simulation");
+}
+
+void BilateralConstraints::add_to(ImpulseProblem& problem, const ModelTrees& trees, Mechanism& m,
+                                  Phase phase, double h) {
+  first_ = problem.constraints().size();
+  add_mimics(problem, trees);
+  if (m.has_loops()) add_loops(problem, trees, m, phase, h);
+}
+
+void BilateralConstraints::add_mimics(ImpulseProblem& problem, const ModelTrees& trees) {
   for (std::size_t i = 0; i < model_->mimics.size(); ++i) {
     const Mimic& mimic = model_->mimics[i];
-    const int a = trees_.tree_of_dof(mimic.follower), b = trees_.tree_of_dof(mimic.leader);
+    const int a = trees.tree_of_dof(mimic.follower), b = trees.tree_of_dof(mimic.leader);
     ImpulseConstraint& c =
-        problem_.add(ImpulseLaw::equal, 1, a, a == b ? ImpulseConstraint::no_tree : b);
-    problem_.J(c, 0)[trees_.place(mimic.follower)] = 1;
-    problem_.J(c, a == b ? 0 : 1)[trees_.place(mimic.leader)] -= mimic.ratio;
+        problem.add(ImpulseLaw::equal, 1, a, a == b ? ImpulseConstraint::no_tree : b);
+    problem.J(c, 0)[trees.place(mimic.follower)] = 1;
+    problem.J(c, a == b ? 0 : 1)[trees.place(mimic.leader)] -= mimic.ratio;
     c.p[0] = mimic_guess_[i];
   }
 }
 
-void ConstrainedStep::add_bilateral(Mechanism& m, Phase phase, double h) {
-  first_bilateral_ = problem_.constraints().size();
-  add_mimics();
-  if (m.has_loops()) add_loops(m, phase, h);
+void BilateralConstraints::keep_guesses(const ImpulseProblem& problem) {
+  std::size_t next = first_;
+  for (double& guess : mimic_guess_) guess = problem.constraints()[next++].p[0];
+  for (std::size_t row = 0; row < loop_guess_.size(); ++next)
+    for (int r = 0; r < problem.constraints()[next].rows; ++r)
+      loop_guess_[row++] = problem.constraints()[next].p[static_cast<std::size_t>(r)];
 }
 
-// Works and momenta of what add_bilateral() added (constraint_work.h).
-void ConstrainedStep::count_bilateral(Mechanism& m, Phase phase) {
+void BilateralConstraints::count(const ImpulseProblem& problem, const double* velocity_before,
+                                 Mechanism& m, Phase phase) {
   if (!m.account) return;
   const bool in_flow = phase == Phase::flow;
   const auto work_of = [&](const ImpulseConstraint& c) {
     std::array<double, 3> before, after;
-    problem_.velocity(c, velocity_.data(), before);
-    problem_.velocity(c, problem_.v(0), after);
+    problem.velocity(c, velocity_before, before);
+    problem.velocity(c, problem.v(0), after);
     double work = 0;
     for (std::size_t r = 0; r < 3; ++r) work += 0.5 * c.p[r] * (before[r] + after[r]);
     return work;
   };
-  std::size_t next = first_bilateral_;
+  std::size_t next = first_;
   for (std::size_t i = 0; i < model_->mimics.size(); ++i)
-    m.account->add_mimic(i, work_of(problem_.constraints()[next++]), in_flow);
+    m.account->add_mimic(i, work_of(problem.constraints()[next++]), in_flow);
   const LoopClosures& loops = m.dynamics.bilateral().loops();
   lambda_.resize(static_cast<Eigen::Index>(loops.rows()));
   for (std::size_t row = 0; row < loops.rows(); ++next) {
-    const ImpulseConstraint& c = problem_.constraints()[next];
+    const ImpulseConstraint& c = problem.constraints()[next];
     Exchange on_both;
     on_both.work = work_of(c);
     m.account->add_loop(loops.loop_of(row), on_both, in_flow);
@@ -56,7 +72,8 @@ void ConstrainedStep::count_bilateral(Mechanism& m, Phase phase) {
 }
 
 // g' = 0; what is left of g = 0 is for Mechanism::refresh().
-void ConstrainedStep::add_loops(Mechanism& m, Phase phase, double h) {
+void BilateralConstraints::add_loops(ImpulseProblem& problem, const ModelTrees& trees, Mechanism& m,
+                                     Phase phase, double h) {
   LoopClosures& loops = m.dynamics.bilateral().loops();
   loops.evaluate(m.x, m.k);
   loop_guess_.resize(loops.rows());
@@ -67,11 +84,11 @@ void ConstrainedStep::add_loops(Mechanism& m, Phase phase, double h) {
     const std::vector<std::size_t>& dofs = loops.dofs_of(row);
     int a = ImpulseConstraint::no_tree, b = ImpulseConstraint::no_tree;
     for (const std::size_t dof : dofs) {
-      const int tree = trees_.tree_of_dof(dof);
+      const int tree = trees.tree_of_dof(dof);
       if (a == ImpulseConstraint::no_tree) a = tree;
       if (tree != a) b = tree;
     }
-    ImpulseConstraint& c = problem_.add(ImpulseLaw::equal, static_cast<int>(count), a, b);
+    ImpulseConstraint& c = problem.add(ImpulseLaw::equal, static_cast<int>(count), a, b);
     for (std::size_t r = 0; r < count; ++r) {
       const auto from = static_cast<Eigen::Index>(row + r);
       c.b[r] = phase == Phase::separate ? 0 : loops.rate()[from];
@@ -79,9 +96,9 @@ void ConstrainedStep::add_loops(Mechanism& m, Phase phase, double h) {
       if (phase == Phase::step || phase == Phase::flow) c.p[r] = loop_guess_[row + r];
       for (const std::size_t dof : dofs) {
         const double entry = loops.J()(from, static_cast<Eigen::Index>(dof));
-        const int tree = trees_.tree_of_dof(dof);
-        const std::size_t n = static_cast<std::size_t>(problem_.size(tree));
-        problem_.J(c, tree == a ? 0 : 1)[r * n + trees_.place(dof)] = entry;
+        const int tree = trees.tree_of_dof(dof);
+        const std::size_t n = static_cast<std::size_t>(problem.size(tree));
+        problem.J(c, tree == a ? 0 : 1)[r * n + trees.place(dof)] = entry;
         // what prescribed joints do is in g' and not in J qd
         if (phase != Phase::separate) c.b[r] -= entry * m.x.qd[dof];
       }

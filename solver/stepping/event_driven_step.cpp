@@ -7,6 +7,22 @@
 #include "solver/model/configuration.h"
 
 namespace twinarm {
+
+// T_n,k+1 = T_n,k + (T_n,k - T_n-1,k) / (n / (n - k) - 1), the row before in columns_.
+void ExtrapolationTable::add_row(std::vector<double>& values) {
+  const std::size_t n = count_ + 1;
+  for (std::size_t k = 0; k < count_; ++k) {
+    std::vector<double>& before = columns_[k];
+    const double part = static_cast<double>(n - k - 1) / static_cast<double>(k + 1);
+    spare_.resize(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      spare_[i] = values[i] + part * (values[i] - before[i]);
+    std::swap(before, values);
+    std::swap(values, spare_);
+  }
+  std::swap(columns_[count_++], values);
+}
+
 namespace {
 
 constexpr double kShortest = 1e-11;  // of a piece that must be good [s]
@@ -21,9 +37,9 @@ constexpr double kFar = 1;  // stands for a gap that is not there [m]
 void EventStep::step(ConstrainedStep& constrained, Mechanism& m, double h, Interrupted interrupted,
                      StepReport& report) {
   sources_.clear();
-  for (ConstraintSource* source : constrained.sources())
+  for (ConstraintSource* source : constrained.system().sources)
     sources_.push_back(static_cast<EventSource*>(source));
-  constrained.set_accuracy(kGoodGuess, kAccepted, kAim);
+  constrained.system().set_accuracy(kGoodGuess, kAccepted, kAim);
   constrained.start_report();
   m.begin_step(h);
   const double t_end = m.x.t + h;
@@ -67,11 +83,11 @@ void EventStep::go_back(Mechanism& m) {
 void EventStep::finish(ConstrainedStep& constrained, Mechanism& m, double t_end,
                        StepReport& report) {
   const bool is_converged = report.converged;
-  constrained.set_usual_accuracy();
+  constrained.system().set_usual_accuracy();
   constrained.step(m, t_end - m.x.t, report);
   m.x.t = t_end;
   m.refresh();
-  constrained.begin_sources(m, 0);
+  constrained.system().begin_step(m, 0);
   for (EventSource* source : sources_) source->hold(frame(constrained, m), true);
   report.converged = report.converged && is_converged;
   report.located = false;
@@ -80,7 +96,7 @@ void EventStep::finish(ConstrainedStep& constrained, Mechanism& m, double t_end,
 
 // What has come together is struck; the rest is held or free.
 void EventStep::begin(ConstrainedStep& constrained, Mechanism& m, double s) {
-  constrained.begin_sources(m, s);
+  constrained.system().begin_step(m, s);
   const bool struck = constrained.hit(m);
   for (EventSource* source : sources_) source->hold(frame(constrained, m), struck);
   start_ = m.x;
@@ -117,7 +133,7 @@ double EventStep::piece(ConstrainedStep& constrained, Mechanism& m, double longe
       s *= std::clamp(0.9 * std::pow(error_, -1.0 / kColumns), 0.1, 0.7);
       continue;
     }
-    constrained.begin_sources(m, s);
+    constrained.system().begin_step(m, s);
     const EventSource::Nearest end = look(constrained, m);
     if (end.gap >= 0) break;
     if (ahead.closes && ahead.gap > 0 && ahead.gap < kFar) {
@@ -140,7 +156,7 @@ double EventStep::shorten(ConstrainedStep& constrained, Mechanism& m, double s, 
     m.x = start_;
     forward_kinematics(*model_, m.x, m.k);
     if (cross(constrained, m, trial) == Piece::stopped) return 0.0;  // ends the search
-    constrained.begin_sources(m, trial);
+    constrained.system().begin_step(m, trial);
     return look(constrained, m).gap;
   });
   return stops() ? 0 : length;
@@ -158,16 +174,17 @@ void EventStep::force_through(ConstrainedStep& constrained, Mechanism& m, double
 EventStep::Piece EventStep::cross(ConstrainedStep& constrained, Mechanism& m, double s) {
   modes_.clear();
   is_solved_ = true;
+  table_.clear();
   for (int n = 1; n <= kColumns; ++n) {
     if (!run_column(constrained, m, s, n, Uneven::refused))
       return stops() ? Piece::stopped : Piece::uneven;
-    extrapolate(n);
+    table_.add_row(values_);
   }
   const std::size_t nv = model_->nv;
   size_.resize(nv);
   coordinate_sizes(*model_, start_.q, size_);
   error_ = 0;
-  const std::vector<double>&best = row_[kColumns - 1], &next = row_[kColumns - 2];
+  const std::vector<double>&best = table_.best(), &next = table_.next_best();
   for (std::size_t i = 0; i < nv; ++i) {
     const double place = std::abs(best[i] - next[i]) / (1 + size_[i]);
     const double speed = std::abs(best[nv + i] - next[nv + i]) / (1 + std::abs(best[nv + i]));
@@ -196,9 +213,9 @@ bool EventStep::run_column(ConstrainedStep& constrained, Mechanism& m, double s,
     integrate_coordinates(*model_, start_.q, theta_, m.x.q);
     m.x.t = start_.t + i * step;
     m.place_and_look();
-    constrained.begin_sources(m, 0);
+    constrained.system().begin_step(m, 0);
     constrained.flow(m, step);
-    laws_ += 1 + static_cast<long>(constrained.law_count());
+    laws_ += 1 + static_cast<long>(constrained.system().problem.constraints().size());
     is_solved_ = is_solved_ && constrained.report().step.converged;
     modes_now_.clear();
     for (EventSource* source : sources_) source->modes(modes_now_);
@@ -213,21 +230,6 @@ bool EventStep::run_column(ConstrainedStep& constrained, Mechanism& m, double s,
     values_.insert(values_.end(), source->works().begin(), source->works().end());
   if (m.account) values_.insert(values_.end(), m.account->flow().begin(), m.account->flow().end());
   return true;
-}
-
-// T_n,1 is values_; T_n,k+1 = T_n,k + (T_n,k - T_n-1,k) / (n / (n - k) - 1), the row before in
-// row_.
-void EventStep::extrapolate(int n) {
-  for (int k = 0; k + 1 < n; ++k) {
-    std::vector<double>& before = row_[static_cast<std::size_t>(k)];
-    const double part = (n - k - 1.0) / (k + 1.0);
-    spare_.resize(values_.size());
-    for (std::size_t i = 0; i < values_.size(); ++i)
-      spare_[i] = values_[i] + part * (values_[i] - before[i]);
-    std::swap(before, values_);
-    std::swap(values_, spare_);
-  }
-  row_[static_cast<std::size_t>(n - 1)] = values_;
 }
 
 void EventStep::go_to(Mechanism& m, const std::vector<double>& row, double s) {

@@ -33,6 +33,22 @@
 
 namespace twinarm {
 
+// Aitken and Neville's table, its last row.
+class ExtrapolationTable {
+ public:
+  static constexpr std::size_t kColumns = 7;
+  void clear() { count_ = 0; }
+  // Of n steps, n = 1 after clear(), and so on; leaves nothing of use in `values`.
+  void add_row(std::vector<double>& values);
+  const std::vector<double>& best() const { return columns_[count_ - 1]; }
+  const std::vector<double>& next_best() const { return columns_[count_ - 2]; }
+
+ private:
+  std::array<std::vector<double>, kColumns> columns_;
+  std::vector<double> spare_;
+  std::size_t count_ = 0;
+};
+
 class EventStep {
  public:
   explicit EventStep(const Model<double>& model) : model_(&model) {}
@@ -46,7 +62,7 @@ class EventStep {
   static constexpr long kMostLaws = 500'000;  // in one step; a second or two
 
  private:
-  static constexpr int kColumns = 7;
+  static constexpr int kColumns = ExtrapolationTable::kColumns;
   enum class Piece { good, inexact, uneven, stopped };
 
   Piece cross(ConstrainedStep& constrained, Mechanism& m, double s);
@@ -61,10 +77,9 @@ class EventStep {
   void finish(ConstrainedStep& constrained, Mechanism& m, double t_end, StepReport& report);
   bool stops();
   EventSource::Nearest look(ConstrainedStep& constrained, const Mechanism& m) const;
-  void extrapolate(int n);
   void go_to(Mechanism& m, const std::vector<double>& row, double s);
   ConstraintFrame frame(const ConstrainedStep& constrained, const Mechanism& m) const {
-    return {m.k, constrained.trees(), m.x, Phase::flow, 0};
+    return {m.k, constrained.system().trees, m.x, Phase::flow, 0};
   }
 
   const Model<double>* model_;
@@ -72,13 +87,11 @@ class EventStep {
   double length_ = 0;  // of the next piece
   State<double> start_;
   std::vector<double> theta_, rate_, size_;
-  // Aitken and Neville's table, its last row: theta, v, works. error_: by how much the last two
-  // columns differ, over kTolerance.
-  std::array<std::vector<double>, kColumns> row_;
-  std::vector<double> values_, spare_;
-  double error_ = 0;
-  bool is_solved_ = true;  // all steps of the piece
-  long laws_ = 0;          // solved in this step
+  ExtrapolationTable table_;    // of theta, v, works
+  std::vector<double> values_;  // of one column
+  double error_ = 0;            // by how much the last two columns differ, over kTolerance
+  bool is_solved_ = true;       // all steps of the piece
+  long laws_ = 0;               // solved in this step
   Interrupted interrupted_ = nullptr;
   bool is_interrupted_ = false;
   std::vector<char> modes_, modes_now_;

@@ -1,14 +1,7 @@
-// The impacts of a step under constraints (constrained_step.h).
-//
-// Newton's law may ask for what cannot be: a body that is wedged between two surfaces, by friction
-// beyond the angle between them, cannot leave one of them without being pressed into the other.
-// Then no velocities obey the law, however small the restitution, and impulses grow without bound
-// where they are sought. What touches such a body is taken without restitution: that has a
-// solution, since not to move obeys u >= 0, and it gains no energy.
+#include "solver/stepping/impacts.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "solver/stepping/constrained_step.h"
 
 namespace twinarm {
 namespace {
@@ -22,70 +15,73 @@ void note(const ImpulseReport& pass, bool first, ImpulseReport& worst) {
   worst.converged = converged;
 }
 
-}  // namespace
-
 // 1/2 v^T M v
-double ConstrainedStep::kinetic_energy(const double* v) const {
+double kinetic_energy(const ImpulseProblem& problem, const double* v) {
   double twice = 0;
-  for (int t = 0; t < problem_.tree_count(); ++t) {
-    const int n = problem_.size(t);
-    const double *M = problem_.M(t), *v_t = v + problem_.first(t);
+  for (int t = 0; t < problem.tree_count(); ++t) {
+    const int n = problem.size(t);
+    const double *M = problem.M(t), *v_t = v + problem.first(t);
     for (int r = 0; r < n; ++r)
       for (int k = 0; k < n; ++k) twice += v_t[r] * M[r * n + k] * v_t[k];
   }
   return 0.5 * twice;
 }
 
-int ConstrainedStep::resolve_impacts(Mechanism& m, double h, Phase phase) {
+}  // namespace
+
+ImpulseReport Impacts::solve(ConstraintSystem& system, Mechanism& m, ConstraintFrame& frame) {
+  ImpulseProblem& problem = system.problem;
+  system.begin_problem(nullptr, m.w);
+  system.trees.gather(acceleration_, problem);
+  by_tree_.assign(problem.v0(0), problem.v0(0) + problem.nv());
+  frame.acceleration = by_tree_.data();
+  system.trees.gather(m.x.qd, problem);
+  system.keep_velocities(frame);
+  system.add_sources(frame);
+  system.bilateral.add_to(problem, system.trees, m, frame.phase);
+  return system.solver.solve(problem);
+}
+
+int Impacts::resolve(ConstraintSystem& system, Mechanism& m, double h, Phase phase,
+                     ConstraintReport& report) {
+  ImpulseProblem& problem = system.problem;
   int passes = 0;
-  for (; passes < most_impacts; ++passes, ++report_.impacts) {
-    ConstraintFrame frame{m.k, trees_, m.x, phase, h};
+  for (; passes < most_impacts; ++passes, ++report.impacts) {
+    ConstraintFrame frame{m.k, system.trees, m.x, phase, h};
     bool closes = false;
-    for (ConstraintSource* source : sources_) closes = source->closes(frame) || closes;
+    for (ConstraintSource* source : system.sources) closes = source->closes(frame) || closes;
     if (!closes) break;
     if (passes == 0) {
-      accelerate(m, h);
+      system.accelerate(m, h);
       acceleration_ = m.w.qdd;
     }
-    plastic_.assign(static_cast<std::size_t>(trees_.count()), 0);
+    plastic_.assign(static_cast<std::size_t>(system.trees.count()), 0);
     frame.plastic = &plastic_;
-    const auto solve = [&] {
-      problem_.clear();
-      trees_.add_to(problem_, nullptr, m.w);
-      trees_.gather(acceleration_, problem_);
-      sum_.assign(problem_.v0(0), problem_.v0(0) + problem_.nv());
-      frame.acceleration = sum_.data();
-      trees_.gather(m.x.qd, problem_);
-      keep_velocities(frame);
-      add_sources(frame);
-      add_bilateral(m, frame.phase);
-      return solver_.solve(problem_);
-    };
-    ImpulseReport pass = solve();
+    ImpulseReport pass = solve(system, m, frame);
     if (!(pass.residual <= obeyed)) {
-      for (int t = 0; t < trees_.count(); ++t)
-        plastic_[static_cast<std::size_t>(t)] = !(solver_.residual_of(t) <= obeyed);
-      ++report_.wedged;
-      pass = solve();
+      for (std::size_t t = 0; t < plastic_.size(); ++t)
+        plastic_[t] = !(system.solver.residual_of(static_cast<int>(t)) <= obeyed);
+      ++report.wedged;
+      pass = solve(system, m, frame);
     }
-    const double before = kinetic_energy(problem_.v0(0));
-    double after = kinetic_energy(problem_.v(0));
+    const double before = kinetic_energy(problem, problem.v0(0));
+    double after = kinetic_energy(problem, problem.v(0));
     if (after > before) {
-      elastic_.assign(problem_.v(0), problem_.v(0) + problem_.nv());
+      elastic_.assign(problem.v(0), problem.v(0) + problem.nv());
       elastic_p_.clear();
-      for (const ImpulseConstraint& c : problem_.constraints())
+      for (const ImpulseConstraint& c : problem.constraints())
         elastic_p_.insert(elastic_p_.end(), c.p.begin(), c.p.end());
       plastic_.assign(plastic_.size(), 1);
-      pass = solve();
-      after = bounce();
+      pass = solve(system, m, frame);
+      after = bounce(problem);
     }
-    note(pass, report_.impacts == 0, report_.impact);
-    report_.impact_loss += before - after;
-    hand_out(frame);  // with the kinematics before
-    count_bilateral(m, phase);
-    trees_.scatter(problem_, m.x.qd);
-    forward_kinematics(*model_, m.x, m.k);
-    for (ConstraintSource* source : sources_) source->look_farther(m.k, h);
+    note(pass, report.impacts == 0, report.impact);
+    report.impact_loss += before - after;
+    system.hand_out(frame);  // with the kinematics before
+    system.bilateral.count(problem, system.velocity.data(), m, phase);
+    system.trees.scatter(problem, m.x.qd);
+    forward_kinematics(m.model, m.x, m.k);
+    for (ConstraintSource* source : system.sources) source->look_farther(m.k, h);
   }
   return passes;
 }
@@ -93,16 +89,17 @@ int ConstrainedStep::resolve_impacts(Mechanism& m, double h, Phase phase) {
 // From the plastic solution, which the problem holds, towards the elastic one (elastic_ its
 // velocities, elastic_p_ its impulses) as far as the energy before allows. Impulses of both lie in
 // convex cones, so the mixture does. Returns the energy after.
-double ConstrainedStep::bounce() {
-  double* v = problem_.v(0);
-  const std::size_t nv = problem_.nv();
-  const double before = kinetic_energy(problem_.v0(0)), plastic = kinetic_energy(v);
+double Impacts::bounce(ImpulseProblem& problem) {
+  double* v = problem.v(0);
+  const std::size_t nv = problem.nv();
+  const double before = kinetic_energy(problem, problem.v0(0)),
+               plastic = kinetic_energy(problem, v);
   for (std::size_t k = 0; k < nv; ++k) elastic_[k] -= v[k];
-  const double square = kinetic_energy(elastic_.data());
+  const double square = kinetic_energy(problem, elastic_.data());
   double cross = 0;  // d/ds of the energy at s = 0
-  for (int t = 0; t < problem_.tree_count(); ++t) {
-    const int n = problem_.size(t);
-    const double *M = problem_.M(t), *a = problem_.v(t), *b = elastic_.data() + problem_.first(t);
+  for (int t = 0; t < problem.tree_count(); ++t) {
+    const int n = problem.size(t);
+    const double *M = problem.M(t), *a = problem.v(t), *b = elastic_.data() + problem.first(t);
     for (int r = 0; r < n; ++r)
       for (int k = 0; k < n; ++k) cross += a[r] * M[r * n + k] * b[k];
   }
@@ -111,12 +108,12 @@ double ConstrainedStep::bounce() {
   const double root = std::sqrt(cross * cross + 4 * square * room);
   const double s = std::clamp(2 * room / (cross + root), 0.0, 1.0);
   for (std::size_t k = 0; k < nv; ++k) v[k] += s * elastic_[k];
-  for (std::size_t i = 0; i < problem_.constraints().size(); ++i)
+  for (std::size_t i = 0; i < problem.constraints().size(); ++i)
     for (std::size_t r = 0; r < 3; ++r) {
-      double& p = problem_.constraints()[i].p[r];
+      double& p = problem.constraints()[i].p[r];
       p += s * (elastic_p_[3 * i + r] - p);
     }
-  return kinetic_energy(v);
+  return kinetic_energy(problem, v);
 }
 
 }  // namespace twinarm

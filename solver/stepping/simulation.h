@@ -10,13 +10,7 @@
 #include <vector>
 
 #include "solver/forces/force_source.h"
-#include "solver/integration/dopri5.h"
-#include "solver/integration/explicit_integrators.h"
-#include "solver/integration/friction_events.h"
-#include "solver/integration/implicit_integrators.h"
-#include "solver/integration/integration_state.h"
-#include "solver/integration/integrator.h"
-#include "solver/integration/step_report.h"
+#include "solver/integration/integrator_step.h"
 #include "solver/stepping/constrained_step.h"
 #include "solver/stepping/event_driven_step.h"
 #include "solver/support/checkpointable.h"
@@ -33,6 +27,12 @@ class Simulation {
   // Contacts, limits, locks: from now on a step is one of solver/stepping/constrained_step.h, which
   // goes with the semi-implicit integrator alone and has one round of forces. Throws likewise.
   void add(ConstraintSource& source);
+  // Such steps without any source too: they keep the energy and the angular momentum of free bodies
+  // in flight.
+  void set_constrained_steps(bool on);
+  bool has_constrained_steps() const {
+    return always_constrained_ || !constraint_sources().empty();
+  }
   // Constrained steps locate their events in time and are of high order between them
   // (solver/stepping/event_driven_step.h), to 1e-10. Throws std::invalid_argument where a source is
   // implicit in the step, or is no EventSource, or where the integrator is not semi-implicit; then
@@ -47,7 +47,8 @@ class Simulation {
   // on set_state and prescribe throw likewise where they would open a loop.
   void set_loops(std::vector<LoopClosure> loops);
   void set_integrator(Integrator integrator);
-  void set_tolerance(double tolerance);  // of dopri5, relative and absolute
+  // Of dopri5, relative and absolute.
+  void set_tolerance(double tolerance) { integrator_step_.set_tolerance(tolerance); }
   // The prescribed joint that carries the body moves by this law, from now on.
   void prescribe(int body, MotionLaw law);
   // From now on account() says what constraints did in the last step. After set_loops().
@@ -59,7 +60,7 @@ class Simulation {
   // Off: as if no joint had damping or Coulomb friction.
   void set_joint_friction(bool on) {
     m_.dynamics.set_friction(on);
-    constrained_.set_friction(on);
+    constrained_.system().friction.set_on(on);
   }
   // Elsewhere, at another time; followers go to their leaders. What sources remember is left alone.
   void set_state(State<double> x);
@@ -93,26 +94,21 @@ class Simulation {
   // Where there are constraints: of the last step.
   void constrain_accelerations() { constrained_.constrain_accelerations(); }
   const ConstrainedStep& constraints() const { return constrained_; }
-  Integrator integrator() const { return integrator_; }
+  Integrator integrator() const { return integrator_step_.integrator(); }
 
  private:
   StepReport advance(double h, bool one_substep);
   std::vector<Rewindable*> memories() const;
-  void move(double h, StepReport& report);  // one step of fixed size that is not semi-implicit
-  void solve_sources(double h,
-                     StepReport& report);  // forces and ABA, in rounds where a source asks for them
-  void look_for_bad_numbers(StepReport& report) const;
+  const std::vector<ConstraintSource*>& constraint_sources() const {
+    return constrained_.system().sources;
+  }
 
   Mechanism m_;
-  Integrator integrator_ = Integrator::semi_implicit;
-  std::vector<double> shift_;
-  RungeKutta rk_;
-  Dopri5 dopri5_;
-  FrictionEvents events_;
+  IntegratorStep integrator_step_;
   ConstrainedStep constrained_;
+  bool always_constrained_ = false;
   std::optional<EventStep> located_;
   EventStep::Interrupted interrupted_ = nullptr;
-  std::optional<ImplicitStep> implicit_;  // nv x nv numbers: only where the integrator needs it
 };
 
 }  // namespace twinarm

@@ -1,6 +1,9 @@
 // Sources and the steps that are thrown away (Simulation::side_step).
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "solver/support/state_archive.h"
 
 namespace twinarm {
@@ -17,6 +20,21 @@ class Rewindable {
   // The same fields, written down or taken back, for a restart elsewhere
   // (solver/support/state_archive.h).
   virtual void visit_memory(Memory&) {}
+};
+
+// Keeps what sources remember, and takes it back at the end of its scope.
+class SavedSources {
+ public:
+  explicit SavedSources(std::vector<Rewindable*> sources) : sources_(std::move(sources)) {
+    for (Rewindable* source : sources_) source->keep();
+  }
+  SavedSources(const SavedSources&) = delete;
+  ~SavedSources() {
+    for (Rewindable* source : sources_) source->go_back();
+  }
+
+ private:
+  std::vector<Rewindable*> sources_;
 };
 
 }  // namespace twinarm

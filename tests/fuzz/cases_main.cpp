@@ -1,6 +1,7 @@
 // Without libFuzzer: a target over all of its cases.
 //
-//   test_fuzz FOLDER TARGET...     FOLDER/seeds/TARGET/*, FOLDER/found/TARGET/*
+//   test_fuzz FOLDER TARGET...     FOLDER/seeds/TARGET/*, FOLDER/found/TARGET/*, and the files and
+//                                  folders of the repository that FOLDER/seeds/elsewhere.txt names
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,12 +20,15 @@ namespace fs = std::filesystem;
 constexpr unsigned kCaseSeconds = 60;  // of one case [s]; a sanitized build is slow
 
 std::vector<fs::path> cases_of(const fs::path& folder, const std::string& target) {
-  std::vector<fs::path> files;
-  for (const char* kind : {"seeds", "found"}) {
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folder / kind / target, ignored))
+  std::vector<fs::path> files, folders{folder / "seeds" / target, folder / "found" / target};
+  std::ifstream elsewhere(folder / "seeds" / "elsewhere.txt");
+  for (std::string name, place; elsewhere >> name >> place;)
+    if (const fs::path path = folder.parent_path().parent_path() / place; name == target)
+      (fs::is_directory(path) ? folders : files).push_back(path);
+  std::error_code ignored;
+  for (const fs::path& seeds : folders)
+    for (const auto& entry : fs::directory_iterator(seeds, ignored))
       if (entry.is_regular_file()) files.push_back(entry.path());
-  }
   std::sort(files.begin(), files.end());
   return files;
 }

@@ -1,6 +1,6 @@
 // What comes in at the lab's socket: requests, and the frames of a WebSocket. @HOST@ and @COOKIE@
 // stand for the server's name and the line with its token. The server lives on through all of it.
-#include "tests/lab/lab_host.h"
+#include "tests/app/lab/server/lab_host.h"
 
 #include "app/lab/server/http_text.h"
 #include "tests/fuzz/fuzz_input.h"

@@ -2,11 +2,11 @@
 // what becomes of it then.
 #include <array>
 
+#include "collision/geometry/convex_hull.h"
 #include "collision/mesh_files/mesh_file.h"
 #include "collision/mesh_files/model_file.h"
-#include "collision/shapes/convex_hull.h"
-#include "collision/shapes/mass_properties.h"
-#include "collision/shapes/mesh_checks.h"
+#include "collision/shapes/mesh_shape.h"
+#include "collision/shapes/shape.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {
@@ -20,7 +20,7 @@ void mesh_file(Bytes bytes) {
   goes_through([&] {
     read_model(file, {.cpu_seconds = 2, .bytes = std::size_t{1} << 30});
     const TriangleMesh mesh = load_mesh(file, 1);
-    mesh_fault(MeshShape{mesh});
+    MeshShape{mesh}.fault();
     goes_through([&] { mass_properties(mesh, 1000); });
     goes_through([&] { convex_hull(mesh.vertices); });
   });

@@ -5,8 +5,8 @@
 
 #include "collision/mesh_files/mesh_file.h"
 #include "collision/narrow_phase/narrow_phase.h"
-#include "collision/shapes/mass_properties.h"
-#include "collision/shapes/mesh_checks.h"
+#include "collision/shapes/mesh_shape.h"
+#include "collision/shapes/shape.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {
@@ -50,7 +50,7 @@ void mesh_shape(Bytes bytes) {
     goes_through([&] { mass_properties(Shape(hull), 1000); });
     const Solid solid((Shape(hull)));
   });
-  if (mesh_fault(MeshShape{mesh}).empty()) const Solid solid((Shape(MeshShape{mesh})));
+  if (MeshShape{mesh}.fault().empty()) const Solid solid((Shape(MeshShape{mesh})));
 }
 
 }  // namespace twinarm::fuzz

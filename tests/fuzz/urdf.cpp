@@ -8,7 +8,7 @@
 namespace twinarm::fuzz {
 
 void urdf(Bytes bytes) {
-  const UrdfOptions options{.geometry = UrdfOptions::Geometry::optional};
+  const RobotFileOptions options{.geometry = RobotFileOptions::Geometry::optional};
   goes_through([&] {
     const RobotDescription robot = read_urdf(folder().write("robot.urdf", bytes), options);
     ModelOptions how;

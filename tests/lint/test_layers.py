@@ -16,11 +16,9 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = None
 PRODUCT = ("solver", "collision", "coupling", "benchmarks", "app")
-MAX_FILES = 27  # of a folder, but for
-LARGE = {"app/command": 54, "benchmarks/speed": 34}
+MAX_FILES = 25
 # Programs: folders without a library, and what they may include besides their own files.
-PROGRAMS = {"app/command/main": "app/command", "benchmarks/peers": "benchmarks/analytic/registry",
-            "benchmarks": "solver/stepping"}
+PROGRAMS = {"app/command/main": "app/command", "benchmarks": "solver/stepping"}
 
 # Outside libraries: how their headers are spelled, and the target that a folder links to see them.
 OUTSIDE = {
@@ -82,11 +80,26 @@ class Layers(unittest.TestCase):
             for bracket, name in includes:
                 folder = path.rpartition("/")[0]
                 below = self.below[PROGRAMS.get(folder, folder)] | {folder}
-                if folder == "benchmarks/peers":  # they share the engines' headers
-                    below = below | self.below["benchmarks/speed"]
                 if bracket == '"' and self.folder(name) not in below:
                     wrong.append(f'{path} includes "{name}"')
         self.assertEqual(wrong, [])
+
+    def test_tests_include_nothing_above_the_folder_that_they_mirror(self):
+        wrong = []
+        for path in sorted((ROOT / "tests").rglob("*.*")):
+            folder = path.parent.relative_to(ROOT / "tests").as_posix()
+            if path.suffix not in (".h", ".cpp") or folder not in self.order:
+                continue
+            for bracket, name in INCLUDE.findall(path.read_text(encoding="utf-8")):
+                used = self.folder(name).removeprefix("tests/")
+                if bracket == '"' and used in self.order and self.order.index(used) > self.order.index(folder):
+                    wrong.append(f'{path.relative_to(ROOT)} includes "{name}"')
+        self.assertEqual(wrong, [])
+
+    def test_every_folder_of_tests_mirrors_one_of_the_product(self):
+        own = ("tests", "fuzz", "package", "soak", "support")  # of no single library
+        folders = {path.parent.relative_to(ROOT / "tests").as_posix() for path in (ROOT / "tests").rglob("*.cpp")}
+        self.assertEqual(sorted(f for f in folders if f not in self.order and f.split("/")[0] not in own + (".",)), [])
 
     def test_every_quoted_include_is_a_file_named_from_the_root(self):
         wrong = [f'{path} includes "{name}"' for path, includes in self.files.items()
@@ -155,7 +168,7 @@ class Layers(unittest.TestCase):
 
     def test_folders_are_small(self):
         count = collections.Counter(path.rpartition("/")[0] for path in self.files)
-        self.assertEqual({f: n for f, n in count.items() if n > LARGE.get(f, MAX_FILES)}, {})
+        self.assertEqual({f: n for f, n in count.items() if n > MAX_FILES}, {})
 
 
 if __name__ == "__main__":

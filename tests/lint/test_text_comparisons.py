@@ -26,24 +26,25 @@ ALLOWED = {
     # What users and other programs write.
     "app/data/json_tree.cpp": "messages of the JSON parser, of which the place is cut off",
     "app/device/vrpn_stream.cpp": "VRPN's own sender",
-    "app/command/command_lab.cpp": "values of the lab's messages",
+    "app/command/lab.cpp": "values of the lab's messages",
     "app/lab/app/lab_routes.cpp": "names of files that pages send",
     "app/scene/read/parameter_path.cpp": "keys of scenes",
-    "app/command/command_map.cpp": "keys of tile files",
+    "app/command/map.cpp": "keys of tile files",
     "app/command/": "types and names of options, by CLI11",
     "app/scene/read/change_scene.cpp": "values and keys of scenes",
     "app/record/output/branch_view.cpp": "names of columns of recordings",
     "app/scene/": "keys, names and values of scenes",
-    "app/command/command_trial.cpp": "values of --conditions and --mapping",
+    "app/command/trial.cpp": "values of --conditions and --mapping",
     "collision/import/": "elements and attributes of XML files",
     "solver/support/diagnostics.cpp": "options as they are typed",
     # Symbols of equations, whose sign stands in front.
     "app/inspect/equations.cpp": "the sign of a term",
-    "app/web/src/lab/glass_": "the sign of a term, and which equation it is",
-    "app/web/src/ui/formula.ts": "the sign of equality",
+    "app/web/src/inspector/": "the sign of a term, and which equation it is",
+    "app/web/src/inspector/math.ts": "the sign of equality",
+    "app/inspect/report/pass_pages.cpp": "symbols of quantities, and the sign of a term",
     "app/web/src/ui/dom.ts": "typeof",
     # Text that this program takes apart to draw it.
-    "app/compare/": "the code of cases, formulas and SVG",
+    "app/compare/": "the names of cases and SVG",
     "app/study/": "names of the paper's rows and of laws in the files of the study, and SVG",
 }
 

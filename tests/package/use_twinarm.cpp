@@ -6,7 +6,7 @@
 #include "collision/detection/collision_world.h"
 #include "collision/import/robot/robot_model.h"
 #include "collision/import/urdf/urdf.h"
-#include "coupling/laws/linear.h"
+#include "coupling/laws/coupling_spec.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/stepping/simulation.h"
@@ -86,13 +86,15 @@ void rod_under_a_spring(const char* urdf) {
   KinematicRobot twin(model, hand, {}, {});
   twin.stand_at(target);
   const int rod = model.find_body("rod");
-  LinearCoupling pull("pull", model, twin, {{"tip", rod, {0, 0, -l}, k, 0}}, Treatment::explicit_);
+  CouplingSpec spec{.name = "pull", .type = CouplingSpec::Type::linear};
+  spec.springs = {{"tip", rod, {0, 0, -l}, k, 0}};
+  const auto pull = make_coupling(spec, model, twin);
 
   Simulation simulation(model, start);
-  simulation.add(pull);
+  simulation.add(*pull);
   simulation.step(h);
-  check("the spring pulls to the twin", pull.readings().at(0).pull.y(), k * l);
-  check("and up", pull.readings().at(0).pull.z(), k * l);
+  check("the spring pulls to the twin", pull->readings().at(0).pull.y(), k * l);
+  check("and up", pull->readings().at(0).pull.z(), k * l);
   check("the rod follows", simulation.state().qd[0], h * k * l * l / I);
 }
 

@@ -24,8 +24,8 @@ def printed(*command, cwd=ROOT):
 
 
 def runner_of_lessons():
-    """scripts/lessons as a module: it knows how a lesson is written."""
-    loader = importlib.machinery.SourceFileLoader("lessons", str(ROOT / "scripts" / "lessons"))
+    """scripts/check/lessons as a module: it knows how a lesson is written."""
+    loader = importlib.machinery.SourceFileLoader("lessons", str(ROOT / "scripts/check/lessons"))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader("lessons", loader))
     loader.exec_module(module)
     return module

@@ -14,7 +14,7 @@ class Workspace(InFolder):
         twinarm.aba(model, [0, 0], [0, 0], [0, 0])
         ws = model.workspace()
         text = (ROOT / "solver/model/workspace.h").read_text(encoding="utf-8")
-        stated = re.findall(r'visit\(\{((?:[^{}]|\n)*?)\},\s*\w+\)', text)
+        stated = re.findall(r'visit\(\{((?:[^{}]|\n)*?)\},\s*(?:this->)?\w+\)', text)
         self.assertGreater(len(stated), 10)
         names = [re.match(r'"(\w+)"', words).group(1) for words in stated]
         self.assertEqual(sorted(ws.keys()), sorted(names))

@@ -38,7 +38,8 @@ class Main(unittest.TestProgram):
 
 if __name__ == "__main__":
     sys.argv.pop(0)
-    sys.path[0] = str(pathlib.Path(sys.argv[0]).resolve().parent)  # as Python does for a file of its own
+    here = sys.path[0]  # what tests share
+    sys.path[:1] = [str(pathlib.Path(sys.argv[0]).resolve().parent), here]
     unittest.main = Main
     runpy.run_path(sys.argv[0], run_name="__main__")
     sys.exit(f"{sys.argv[0]} did not call unittest.main()")

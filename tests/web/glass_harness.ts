@@ -1,8 +1,9 @@
-// The glass without the lab around it: messages are given by hand, commands kept.
-import '../../app/web/src/style.css';
-import { glassOf } from '../../app/web/src/lab/glass';
-import type { Command, GlassMessage, SceneMessage } from '../../app/web/src/lab/link';
-import type { LabPage } from '../../app/web/src/lab/panel';
+// The inspector without the lab around it: messages are given by hand, commands kept.
+import '../../app/web/src/ui/style.css';
+import { Inspector } from '../../app/web/src/inspector/inspector';
+import type { BodyInspection } from '../../app/web/src/protocol/body_inspection';
+import type { Command, SceneMessage } from '../../app/web/src/source/link';
+import type { LabPage } from '../../app/web/src/panels/panel';
 
 const sent: Command[] = [];
 let arrows: unknown[] = [];
@@ -28,7 +29,7 @@ const page = {
     arrows = given;
   },
 };
-const panel = glassOf(page as unknown as LabPage);
+const panel = new Inspector(page as unknown as LabPage);
 document.body.className = 'harness';
 document.body.append(panel.root);
 Object.assign(window, {
@@ -38,7 +39,7 @@ Object.assign(window, {
     get arrows() {
       return arrows;
     },
-    give: (message: unknown) => panel.onGlass?.(message as GlassMessage),
+    give: (message: unknown) => panel.onGlass?.(message as BodyInspection),
     theme: (dark: boolean) => (document.documentElement.dataset.theme = dark ? 'dark' : 'light'),
   },
 });

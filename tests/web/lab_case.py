@@ -11,7 +11,7 @@ import unittest
 from browser import NO_BROWSER, Browser, find_browser
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests/lab"))
+sys.path.insert(0, str(ROOT / "tests/support"))
 from live_socket import Lab  # noqa: E402
 from waiting import TIMEOUT, wait_for  # noqa: E402
 

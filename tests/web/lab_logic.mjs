@@ -7,7 +7,7 @@ import { pathToFileURL } from 'node:url';
 const page = await import(pathToFileURL(process.env.MODULES).href);
 const { placeOf, valueAt, stepped, niceStep, numberText, parseNumber } = page;
 const { Store, bucketsOf, outline, samples, timesOf, csvText, fileName } = page;
-const { RunRecord, decodeHistory, LiveSpecs } = page;
+const { RunRecord, decodeHistory, PlotSpecs } = page;
 const { chosen, post } = page;
 
 // The same numbers each time.
@@ -344,7 +344,7 @@ test('pairs that begin to touch get a column, and nothing is forgotten', () => {
 test('plots show what moves and acts, in colours that stay', () => {
   const pairs = ['x', 'y', 'z'].map((of) => ({ name: `contact/${of}`, unit: 'N', kind: 'contact', of }));
   const record = new RunRecord(scene(pairs));
-  const specs = new LiveSpecs(record);
+  const specs = new PlotSpecs(record);
   const named = (id) => specs.all(1e-3).find((spec) => spec.id === id);
   record.addFrame(frame(0, 0.1, 0, 1, [0, 0, 0]));
   assert.equal(named('contacts'), undefined);
@@ -371,7 +371,7 @@ test('lanes have a plot for each quantity, with a curve each in the lane’s own
     const channels = Float64Array.from({ length: 7 }, (_, i) => time * (i + 1));
     record.addFrame({ scene: 7, time, number: time, lookedBack: false, channels, works: new Float64Array() });
   }
-  const all = new LiveSpecs(record).all(1e-3);
+  const all = new PlotSpecs(record).all(1e-3);
   assert.deepEqual(all.slice(0, 3).map(({ unit }) => unit), ['rad', 'J', 'J']);
   assert.equal(all[0].title, 'Angle: hinge');
   for (const spec of all.slice(0, 3)) {

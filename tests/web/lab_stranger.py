@@ -67,7 +67,7 @@ class Stranger:
             })(document.querySelector('button.grip'))"""))
 
     def act_drag_a_body_or_a_joint(self):
-        self.drag_from(self.value("""((u) => { const {grab, frame, scene} = twinarm.page, seen = grab.seen();
+        self.drag_from(self.value("""((u) => { const {drag, frame, scene} = twinarm.page, seen = drag.seen();
             if (!seen) return null;
             const moving = scene.bodies.flatMap(({moves}, i) => moves ? [i] : []);
             const body = moving[Math.floor(u * moving.length)];

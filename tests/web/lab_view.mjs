@@ -6,7 +6,7 @@ import { pathToFileURL } from 'node:url';
 
 const page = await import(pathToFileURL(process.env.MODULES).href);
 const { decodeFrame, labelText, placeOf, decodeMesh, inWorld, inLink, THREE } = page;
-const { Leash, JointLeash, Pace } = page;
+const { PointDrag, JointDrag, Pace } = page;
 
 // A frame by the protocol's table, written down here once more.
 const ORDER = [
@@ -111,18 +111,18 @@ function stageAt(eye) {
 const EYES = [[2, -1, 1], [0.3, 2, 0.2], [-1.5, -1.5, 2.5], [0.1, 0.05, 3]];
 const START = [0.3, -0.1, 0.35];
 
-test('a point on the leash stays as far from the pointer as it was taken, in the plane of the view', () => {
+test('a point on the drag stays as far from the pointer as it was taken, in the plane of the view', () => {
   for (const eye of EYES) {
     const stage = stageAt(eye);
     const goal = new THREE.Vector3(...START);
     const begin = stage.project(...START);
-    const leash = new Leash(stage, goal.clone(), { x: begin.x + 4, y: begin.y - 3 });
-    leash.move({ x: begin.x + 84, y: begin.y - 53 }, false);
-    const end = stage.project(...leash.goal.toArray());
+    const drag = new PointDrag(stage, goal.clone(), { x: begin.x + 4, y: begin.y - 3 });
+    drag.move({ x: begin.x + 84, y: begin.y - 53 }, false);
+    const end = stage.project(...drag.goal.toArray());
     near(end.x, begin.x + 80, 0.7);
     near(end.y, begin.y - 50, 0.7);
     const sight = stage.camera.getWorldDirection(new THREE.Vector3());
-    near(leash.goal.clone().sub(goal).dot(sight), 0, 1e-9);
+    near(drag.goal.clone().sub(goal).dot(sight), 0, 1e-9);
   }
 });
 
@@ -130,24 +130,24 @@ test('with shift only the height changes; back without it, nothing jumps', () =>
   for (const eye of EYES) {
     const stage = stageAt(eye);
     const begin = stage.project(...START);
-    const leash = new Leash(stage, new THREE.Vector3(...START), begin);
-    leash.move({ x: begin.x + 40, y: begin.y - 60 }, true);
-    const [x, y, z] = leash.goal.toArray();
+    const drag = new PointDrag(stage, new THREE.Vector3(...START), begin);
+    drag.move({ x: begin.x + 40, y: begin.y - 60 }, true);
+    const [x, y, z] = drag.goal.toArray();
     assert.deepEqual([x, y], START.slice(0, 2));
     if (eye !== EYES[3]) assert.ok(z > START[2] + 0.01, `${z}`);
-    leash.move({ x: begin.x + 40, y: begin.y - 60 }, false);
-    [x, y, z].forEach((value, i) => near(leash.goal.toArray()[i], value, 1e-9));
+    drag.move({ x: begin.x + 40, y: begin.y - 60 }, false);
+    [x, y, z].forEach((value, i) => near(drag.goal.toArray()[i], value, 1e-9));
   }
 });
 
 test('the wheel leads along the line of sight', () => {
   const stage = stageAt(EYES[0]);
   const begin = stage.project(...START);
-  const leash = new Leash(stage, new THREE.Vector3(...START), begin);
-  const far = stage.camera.position.distanceTo(leash.goal);
-  leash.deepen(0.2);
-  near(stage.camera.position.distanceTo(leash.goal), 1.2 * far, 1e-9);
-  const end = stage.project(...leash.goal.toArray());
+  const drag = new PointDrag(stage, new THREE.Vector3(...START), begin);
+  const far = stage.camera.position.distanceTo(drag.goal);
+  drag.deepen(0.2);
+  near(stage.camera.position.distanceTo(drag.goal), 1.2 * far, 1e-9);
+  const end = stage.project(...drag.goal.toArray());
   near(end.x, begin.x, 1e-6);
   near(end.y, begin.y, 1e-6);
 });
@@ -164,7 +164,7 @@ test('a joint goes to where the grabbed point is under the pointer, from sides t
       const along = new THREE.Vector3(...direction);
       const origin = new THREE.Vector3(0, 0, 0.1);
       const grabbed = new THREE.Vector3(...START);
-      const leash = new JointLeash(stage, { origin, direction: along, slides }, grabbed, 0.2, {});
+      const drag = new JointDrag(stage, { origin, direction: along, slides }, grabbed, 0.2, {});
       let value = 0.2;
       const step = slides ? 0.01 : 0.04;
       for (let i = 0; i < 12; ++i) {
@@ -172,7 +172,7 @@ test('a joint goes to where the grabbed point is under the pointer, from sides t
         const turned = grabbed.clone();
         if (slides) turned.addScaledVector(along, value - 0.2);
         else turned.sub(origin).applyAxisAngle(along, value - 0.2).add(origin);
-        near(leash.move(stage.project(...turned.toArray())), value, 0.02 * Math.abs(value), `${eye}`);
+        near(drag.move(stage.project(...turned.toArray())), value, 0.02 * Math.abs(value), `${eye}`);
       }
     }
 });
@@ -180,10 +180,10 @@ test('a joint goes to where the grabbed point is under the pointer, from sides t
 test('a joint stops at its limits and needs none', () => {
   const stage = stageAt(EYES[0]);
   const axis = { origin: new THREE.Vector3(), direction: new THREE.Vector3(0, 0, 1), slides: false };
-  const leash = new JointLeash(stage, axis, new THREE.Vector3(...START), 0, { low: -0.1, high: 0.1 });
+  const drag = new JointDrag(stage, axis, new THREE.Vector3(...START), 0, { low: -0.1, high: 0.1 });
   const { x, y } = stage.project(...START);
-  assert.equal(Math.abs(leash.move({ x: x + 300, y })), 0.1);
-  assert.equal(Math.abs(leash.move({ x: x - 300, y })), 0.1);
+  assert.equal(Math.abs(drag.move({ x: x + 300, y })), 0.1);
+  assert.equal(Math.abs(drag.move({ x: x - 300, y })), 0.1);
 });
 
 test('pictures that come slowly for a while ask for coarser ones; a pause does not', () => {

@@ -42,7 +42,7 @@ def flat(value):
 
 
 @unittest.skipUnless(find_browser(), NO_BROWSER)
-@unittest.skipUnless(NODE and (MODULES / "katex").is_dir(),
+@unittest.skipUnless(NODE and (MODULES / "esbuild").is_dir(),
                      "the program was built without its pages: scripts/setup --web, then build")
 class GlassPanel(unittest.TestCase):
     @classmethod

@@ -15,13 +15,15 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from waiting import TIMEOUT  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
-LAB = HERE.parents[1] / "app" / "web" / "src" / "lab"
+SOURCE = HERE.parents[1] / "app" / "web" / "src"
 MODULES = pathlib.Path(sys.argv.pop(1)).resolve()
 NODE = shutil.which("node") or shutil.which("nodejs")
 # What is tested, and of which modules.
 PARTS = {
-    "lab_logic": ("scale", "store", "export", "run_record", "live_specs", "hand_bar", "gallery"),
-    "lab_view": ("frame", "meshes", "handles", "leash", "joint_leash", "pace"),
+    "lab_logic": ("ui/scale", "source/store", "source/run_record", "plot/export", "plot/specs",
+                  "panels/input_bar", "panels/gallery"),
+    "lab_view": ("protocol/frame", "source/meshes", "input/handles", "input/point_drag",
+                 "input/joint_drag", "view/pace"),
 }
 BUNDLE = """
 import { createRequire } from 'node:module';
@@ -44,7 +46,7 @@ class LabLogic(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             (folder / "bundle.mjs").write_text(BUNDLE, encoding="utf-8")
-            entry = "".join(f"export * from '{LAB / part}.ts';\n" for part in parts)
+            entry = "".join(f"export * from '{SOURCE / part}.ts';\n" for part in parts)
             entry += "export * as THREE from 'three';\n"
             (folder / "entry.ts").write_text(entry, encoding="utf-8")
             out = folder / "lab.mjs"

@@ -196,7 +196,7 @@ class LabPage(LabCase):
             for name in times * names:
                 self.value(f"twinarm.page.send({json.dumps({'do': 'scene', 'name': name})})")
                 self.until(f"{STATE}.name === {name!r} && twinarm.page.frame?.scene === twinarm.page.scene.scene")
-                self.until("document.querySelectorAll('.live-plots canvas').length > 2")
+                self.until("document.querySelectorAll('.plots canvas').length > 2")
                 self.page.frames(12)
             return self.page.heap()
 

@@ -12,10 +12,10 @@ CAMERA = """(({camera, controls: {target}}) => { const d = camera.position.clone
   return [Math.atan2(d.y, d.x), d.z / d.length(), d.length()]; })(twinarm.page.live.stage)"""
 CANVAS = "document.querySelector('.stage canvas')"
 BODY = """(() => {
-  const {x, y, width, height} = %s.getBoundingClientRect(), {grab} = twinarm.page;
+  const {x, y, width, height} = %s.getBoundingClientRect(), {drag} = twinarm.page;
   for (let v = .1; v < .9; v += .01) for (let u = .2; u < .8; u += .01) {
     const at = {x: u * width, y: v * height};
-    const found = grab.find(grab.seen(), at);
+    const found = drag.find(drag.seen(), at);
     if (found.kind === 'body' && twinarm.page.scene.bodies[found.hit?.body]?.moves &&
         document.elementFromPoint(x + at.x, y + at.y) instanceof HTMLCanvasElement)
       return [x + at.x, y + at.y];
@@ -93,7 +93,7 @@ class Touch(LabCase):
                 self.assertAlmostEqual(now[1], rise, places=6)
                 self.assertLess(now[2], 0.8 * far)
                 self.assertEqual(self.value("twinarm.page.selected"), selected)
-                self.assertIsNone(self.value("twinarm.page.grab.held"))
+                self.assertIsNone(self.value("twinarm.page.drag.held"))
                 self.assertTrue(self.value("twinarm.page.live.stage.controls.enabled"))
                 self.value("twinarm.page.live.stage.look('start')")
 
@@ -112,10 +112,10 @@ class Touch(LabCase):
         for i in range(1, 9):
             self.page.touch("touchMove", [(at[0] + 5 * i, at[1])])
             time.sleep(0.03)
-        self.until("twinarm.page.grab.held?.kind === 'pull'")
+        self.until("twinarm.page.drag.held?.kind === 'pull'")
         self.page.touch("touchEnd", [])
         self.page.frames(2)
-        self.assertIsNone(self.value("twinarm.page.grab.held"))
+        self.assertIsNone(self.value("twinarm.page.drag.held"))
 
     def test_whatever_is_touched_is_44_pixels_high_and_wide(self):
         self.assertTrue(self.value("matchMedia('(pointer: coarse)').matches"))

@@ -63,7 +63,7 @@ class Site(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.site = pathlib.Path(cls.temporary.name) / "site"
-        # As scripts/site does it, but for the look at the packages.
+        # As scripts/generate/site does it, but for the look at the packages.
         made = subprocess.run(["sphinx-build", "-q", "-W", "--keep-going", "-c", ROOT / "docs/site", "-d",
                                cls.site.parent / "doctrees", "-b", "html", ROOT / "docs", cls.site],
                               capture_output=True, text=True, timeout=TIMEOUT)

@@ -6,7 +6,7 @@ import pathlib
 import re
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2] / "app/web/src"
-STYLES = ("style.css", "lab.css", "lab/lab_panels.css")
+STYLES = ("ui/style.css",)
 
 # Severity 1, of linear RGB: table 1 of Machado, Oliveira and Fernandes, IEEE TVCG 15 (2009) 1291.
 EYES = {

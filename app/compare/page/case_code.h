@@ -1,18 +1,19 @@
-// How a case is written: the parts of its file that it is made of, and nothing else.
-//
-// Files of benchmarks/analytic/ are formatted alike, so that a definition begins where a line
-// begins in the first column. From the line that registers the case all definitions are followed
-// by name.
+// Where a case is written, of the files as they were compiled.
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace twinarm::compare_page {
 
-struct CaseCode {
-  std::string file;  // "benchmarks/analytic/joints/pendulum.cpp"; empty where the case is not found
-  std::string text;
+struct CasePlace {
+  std::string file;  // "joints/pendulum.cpp", of benchmarks/analytic/; empty: not found
+  std::size_t line = 0;
 };
-CaseCode code_of(const std::string& case_name);
+CasePlace place_of(const std::string& case_name);
+
+// A link to it, and what it leads to: each file once, whole, to be unfolded.
+std::string link_to_code(const std::string& case_name);
+std::string code_of(const std::vector<std::string>& case_names);
 
 }  // namespace twinarm::compare_page

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/compare/page/contact_plots.h"
 #include "app/compare/page/curves.h"
 #include "app/support/interrupt.h"
+#include "benchmarks/analytic/support/contact_look.h"
 
 namespace twinarm::compare_page {
 namespace {
@@ -114,7 +114,7 @@ void add_errors(const ContactLook& look, const ErrorCurve& curve, CaseCurves& al
 }  // namespace
 
 std::optional<CaseCurves> contact_curves_of(const AnalyticCase& c) {
-  const ContactLook* look = look_of(c.name);
+  const ContactLook* look = c.look.get();
   if (!look) return {};
   ContactRecorder recorder;
   recorder.look = look->read;

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <utility>
 
-#include "app/compare/page/formulas.h"
+#include "app/compare/page/case_code.h"
 #include "app/compare/page/page_style.h"
+#include "app/data/html_page.h"
 #include "app/data/html_text.h"
-#include "app/data/page_style.h"
 #include "app/plot/gnuplot.h"
 #include "app/support/output_file.h"
 
@@ -35,7 +36,7 @@ std::string index_row(const CompareRow& row) {
   const AnalyticCase& c = *row.test;
   return fmt::format(
              "<tr data-case=\"{0}\"><td><a href=\"#{0}\">{0}</a></td><td class=text>{1}</td>",
-             escaped(c.name), typeset_words(c.reference)) +
+             escaped(c.name), in_unicode(c.reference)) +
          cell(row.result.error, "{:.3g}") + cell(c.tolerance, "{:.3g}") + "<td>" +
          yes_no(passes(c, row.result), "pass", "short") + "</td>" +
          cell(row.result.order, "{:.2f}") + cell(row.result.energy_drift, "{:.1e}") +
@@ -94,11 +95,20 @@ constexpr const char* kHowToRead =
     "energy, "
     "which rk4 has in the fifth order, or its largest terms cancel. Where an error is as large as "
     "the motion itself, or is rounding, a slope tells nothing.</p>\n"
-    "<p><b>The code</b> of a case unfolds, and is quoted from the file that was compiled. A case "
-    "of "
-    "your own is one file: docs/adding_a_case.md. What is measured, and how: docs/cases.md.</p>\n";
+    "<p><b>The code</b> of all cases stands at the end, as it was compiled. A case of your own is "
+    "one file: docs/adding_a_case.md. What is measured, and how: docs/cases.md.</p>\n";
 
 }  // namespace
+
+std::string in_unicode(std::string words) {
+  constexpr std::pair<const char*, const char*> kSigns[] = {
+      {"^2", "²"},  {"m2", "m²"},   {"s2", "s²"},  {"J2", "J²"},   {"w2", "ω₂"},
+      {"w3", "ω₃"}, {"alpha", "α"}, {"beta", "β"}, {" mu ", " μ "}};
+  for (const auto& [plain, sign] : kSigns)
+    for (std::size_t at = 0; (at = words.find(plain, at)) != std::string::npos;)
+      words.replace(at, std::string_view(plain).size(), sign);
+  return escaped(words);
+}
 
 std::filesystem::path page_file(const std::filesystem::path& asked) {
   return asked.extension() == ".html" ? asked : asked / "compare.html";
@@ -120,32 +130,33 @@ void check_page(const std::filesystem::path& file, FaultList& faults) {
 std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std::string>& sections,
                       const std::vector<const SkippedCase*>& skipped, const std::string& command,
                       double seconds) {
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
-      "<meta name=viewport content=\"width=device-width, initial-scale=1\">\n"
-      "<title>twinarm against what is known</title>\n<style>";
-  html += std::string(kReportStyle) + kPageStyle + "</style></head><body>\n<header>";
-  html +=
+  HtmlPage page;
+  page.title = "twinarm against what is known";
+  page.style = kPageStyle;
+  page.header =
       "<h1>How far the solver is from the truth</h1>\n<p class=lead>Motions, impacts and states "
       "whose outcome is known, by closed form or by an independent computation, run by twinarm: " +
-      sums(rows, skipped.size()) +
-      ".</p>\n</header>\n<nav aria-label=Contents><div>"
-      "<a href=\"#index\">Index</a><a href=\"#reading\">How to read this</a>";
-  std::string body, group;
+      sums(rows, skipped.size()) + ".</p>\n";
+  page.contents = {{"index", "Index"}, {"reading", "How to read this"}};
+  page.main = "<h2 id=index>Index</h2>\n<div class=scroll>" + index_table(rows, skipped) +
+              "</div>\n" + kHowToRead;
+  std::string group;
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (group != rows[i].test->group) {
       group = rows[i].test->group;
-      html += fmt::format("<a href=\"#group-{}\">{}</a>", escaped(group), group_title(group));
-      body += fmt::format("<h2 id=\"group-{}\">{}</h2>\n", escaped(group), group_title(group));
+      page.contents.emplace_back("group-" + escaped(group), group_title(group));
+      page.main += fmt::format("<h2 id=\"group-{}\">{}</h2>\n", escaped(group), group_title(group));
     }
-    body += sections[i];
+    page.main += sections[i];
+    names.emplace_back(rows[i].test->name);
   }
-  html += "</div></nav>\n<main>\n<h2 id=index>Index</h2>\n<div class=scroll>" +
-          index_table(rows, skipped) + "</div>\n" + kHowToRead + body + "</main>\n";
-  return html + fmt::format(
-                    "<footer>Made by <code>{}</code> in {:.0f} s. Every number on this page was "
-                    "computed in that run.</footer>\n</body></html>\n",
-                    escaped(command), seconds);
+  page.contents.emplace_back("code", "Code");
+  page.main += "<h2 id=code>Code</h2>\n" + code_of(names);
+  page.footer = fmt::format(
+      "Made by <code>{}</code> in {:.0f} s. Every number on this page was computed in that run.",
+      escaped(command), seconds);
+  return page.html();
 }
 
 }  // namespace twinarm::compare_page

@@ -16,8 +16,11 @@ std::filesystem::path page_file(const std::filesystem::path& asked);
 // Whether the file could be written, and gnuplot is there: before anything is run. Adds to faults.
 void check_page(const std::filesystem::path& file, FaultList& faults);
 
-// The section of one case: statement, figures, code. Runs it again to be looked at, and all
-// integrators beside; takes a temporary folder.
+// What a terminal shows as "mu" or "rad/s^2"; escaped.
+std::string in_unicode(std::string words);
+
+// The section of one case: statement, figures, place of its code. Runs it again to be looked at,
+// and all integrators beside; takes a temporary folder.
 std::string case_section(const CompareRow& row, const std::vector<Lane>& lanes);
 
 // The whole page, from the sections in the order of rows. `command` made it.

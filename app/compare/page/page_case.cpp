@@ -3,10 +3,10 @@
 
 #include "app/compare/page/case_code.h"
 #include "app/compare/page/curves.h"
-#include "app/compare/page/formulas.h"
 #include "app/compare/page/page.h"
 #include "app/compare/page/plots.h"
 #include "app/compare/page/small_svg.h"
+#include "app/data/html_page.h"
 #include "app/data/html_text.h"
 #include "benchmarks/analytic/registry/analytic_cases.h"
 
@@ -14,11 +14,16 @@ namespace twinarm::compare_page {
 namespace {
 
 std::string figure(const std::string& drawn, const std::string& caption, const char* kind = "") {
-  const std::string svg = small_svg(drawn);
-  const std::size_t begin = svg.find("<svg");  // without the XML declaration
-  if (svg.empty() || begin == std::string::npos) return "";
-  return fmt::format("<figure{}><svg role=img{}<figcaption>{}</figcaption></figure>\n", kind,
-                     svg.substr(begin + 4), caption);
+  return drawn.empty() ? "" : html_figure(small_svg(drawn), caption, kind);
+}
+
+// HTML; formulas stand in paragraphs of their own.
+std::string statement_html(const AnalyticCase& c) {
+  const char* statement = c.statement;
+  std::string html = statement ? statement : "";
+  for (std::size_t at = 0; (at = html.find("<p>", at)) != std::string::npos;)
+    html.replace(at, 3, "<p class=formula>");
+  return "<div class=statement>" + html + "</div>\n";
 }
 
 std::string lane_words(const Lane& lane) {
@@ -62,7 +67,7 @@ std::string readings_table(const TrajectoryCase& c) {
       "<tbody>\n";
   for (const Reading& r : readings_of(c)) {
     const double off = r.seen - r.exact;
-    html += fmt::format("<tr><td>{}<td>{:.15g}<td>{:.15g}<td>{}\n", typeset_words(r.name), r.seen,
+    html += fmt::format("<tr><td>{}<td>{:.15g}<td>{:.15g}<td>{}\n", in_unicode(r.name), r.seen,
                         r.exact + 0.0, off == 0 ? "0" : fmt::format("{:.1e}", off));
   }
   return html + "</tbody></table>\n";
@@ -124,20 +129,12 @@ std::string case_section(const CompareRow& row, const std::vector<Lane>& lanes) 
   const bool pass = passes(c, row.result);
   std::string html =
       fmt::format("<section class=case id=\"{0}\"><h3>{0}{1}<span class=what>{2}</span></h3>\n",
-                  escaped(c.name), yes_no(pass, "pass", "short"), typeset_words(c.reference));
-  const char* statement = statement_of(c);
+                  escaped(c.name), yes_no(pass, "pass", "short"), in_unicode(c.reference));
   const TrajectoryCase* motion = c.trajectory.get();
-  html +=
-      typeset_statement(statement ? statement : "") + facts_of_case(row, motion) + lanes_table(row);
+  html += statement_html(c) + facts_of_case(row, motion) + lanes_table(row);
   if (motion) html += motion->has_steps() ? figures_of(row, *motion) : readings_table(*motion);
   if (!motion) html += contact_figures(row);
-  html += command_of(row, lanes);
-  const CaseCode code = code_of(c.name);
-  if (!code.file.empty())
-    html +=
-        fmt::format("<details><summary>The code to write: {}</summary>\n<pre>{}</pre></details>\n",
-                    code.file, escaped(code.text));
-  return html + "</section>\n";
+  return html + command_of(row, lanes) + link_to_code(c.name) + "</section>\n";
 }
 
 }  // namespace twinarm::compare_page

@@ -20,9 +20,7 @@ section.case figure { margin: .7rem 0; }
 .formula { margin: .55rem 0 .55rem 1.6rem; max-width: 76ch; font: 1.09rem/1.65 "STIX Two Text",
   "Cambria Math", Cambria, "Latin Modern Roman", "Liberation Serif", "DejaVu Serif", Georgia, serif; }
 .formula sub, .formula sup { font-size: .72em; line-height: 0; }
-.formula i { padding-right: .04em; }
-.eq { display: inline-block; }
-.root { border-top: 1px solid currentColor; padding: .05em .1em 0; margin-left: -.05em; }
+.statement { max-width: 74ch; }
 .facts { display: flex; flex-wrap: wrap; gap: .1rem 1.7rem; font-size: .9rem; margin: .5rem 0; }
 .facts b { font-weight: 600; font-variant-numeric: tabular-nums; }
 .facts span { color: var(--soft); }

@@ -8,50 +8,48 @@
 #include <numbers>
 
 #include "app/support/nearest_name.h"
+#include "app/support/text_fields.h"
 #include "solver/spatial/rotation_to_axis.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
 
-const std::vector<Overlay>& all_overlays() {
-  static const std::vector<Overlay> all{
-      {"ghost", "the kinematic twin of a robot, that couplings follow", show_twins, false},
-      {"device", "the hand device that moves the twin", show_device, false},
-      {"trails", "where bodies came from", show_trails, false},
-      {"couplings", "spring-dampers, coloured by their force", show_couplings},
-      {"contacts", "points, normals, friction cones", show_contacts, false},
-      {"forces", "of contacts, by pair of bodies, with values", show_forces},
-      {"gravity", "weights", show_gravity},
-      {"joints", "axes of joints", show_joints},
-      {"frames", "axes of links and bodies", show_frames},
-      {"com", "centres of mass", show_com},
-      {"momentum", "of the whole, linear and angular", show_momentum},
-      {"inertia", "of each body, as an ellipsoid", show_inertia},
-      {"articulated", "apparent mass of each body with what hangs on it", show_articulated},
-      {"labels", "names of bodies", show_labels},
-      {"energy", "bars of energies", show_energy}};
+namespace {
+
+Overlays in_order(bool is_live) {
+  Overlays found;
+  for (const Overlays& of_file : overlays_of_files())
+    for (const Overlay& overlay : of_file)
+      if (overlay.is_live == is_live) found.push_back(overlay);
+  std::sort(found.begin(), found.end(),
+            [](const Overlay& a, const Overlay& b) { return a.place < b.place; });
+  return found;
+}
+
+}  // namespace
+
+const Overlays& all_overlays() {
+  static const Overlays all = in_order(false);
   return all;
 }
 
-const std::vector<Overlay>& live_overlays() {
-  static const std::vector<Overlay> all{
-      {"felt", "the force that the hand device puts on the hand", show_felt},
-      {"pull", "the spring by which the mouse pulls at a body", show_pull},
-      {"before", "the bodies of the run that was left for this one", show_before, false}};
+const Overlays& live_overlays() {
+  static const Overlays all = in_order(true);
   return all;
+}
+
+std::vector<std::string> usual_overlays(Overlay::Shown least) {
+  std::vector<std::string> names;
+  for (const Overlay& overlay : all_overlays())
+    if (overlay.shown >= least) names.emplace_back(overlay.name);
+  return names;
 }
 
 std::vector<std::string> parse_overlays(const std::string& text) {
-  std::vector<std::string> known, words(1), chosen;
+  std::vector<std::string> known, chosen;
   for (const Overlay& overlay : all_overlays()) known.emplace_back(overlay.name);
-  for (const char c : text) {
-    if (c == ',')
-      words.emplace_back();
-    else
-      words.back() += c;
-  }
   FaultList faults;
-  for (const std::string& word : words) {
+  for (const std::string& word : split(text)) {
     if (word == "none" || word.empty()) continue;
     if (word == "all") return known;
     if (std::find(known.begin(), known.end(), word) == known.end())

@@ -1,5 +1,6 @@
-// Overlays: what can be laid over the bodies, by name, as entries of the DrawList. A new one is a
-// file with one function, its declaration here, and its line in overlays.cpp.
+// Overlays: what can be laid over the bodies, by name, as entries of the DrawList. A file
+// NAME_overlay.cpp of this folder defines `Overlays NAME_overlay()`, one or those that are alike;
+// --show, the legend, the lab and pages list them (docs/develop/extending_overlay.md).
 #pragma once
 
 #include <string>
@@ -10,16 +11,24 @@
 namespace twinarm {
 
 struct Overlay {
-  const char* name;  // of --show
-  const char* what;  // in the help
-  void (*add)(Stage& stage, const Moment& moment);
+  enum class Shown { no, on_pages, everywhere };
+  int place = 0;          // in which they are drawn and stand in the legend, ascending
+  const char* name = "";  // of --show
+  const char* what = "";  // in the help
+  void (*add)(Stage& stage, const Moment& moment) = nullptr;
   bool seen_through = true;  // faintly where bodies hide it
+  Shown shown = Shown::no;   // where nobody has chosen
+  bool is_live = false;      // of a run that somebody works on: no recording has what it shows
 };
+using Overlays = std::vector<Overlay>;
+const std::vector<Overlays>& overlays_of_files();
 
-// In the order in which they are drawn and stand in the legend.
-const std::vector<Overlay>& all_overlays();
-// After those, of a run that somebody works on: no recording has what they show.
-const std::vector<Overlay>& live_overlays();
+// In their order; after them those of a run that somebody works on.
+const Overlays& all_overlays();
+const Overlays& live_overlays();
+
+// Names of those that are shown where nobody has chosen, in their order.
+std::vector<std::string> usual_overlays(Overlay::Shown least);
 
 // "forces,contacts"; "none"; "all". Throws InputError with all faults.
 std::vector<std::string> parse_overlays(const std::string& text);
@@ -32,25 +41,6 @@ struct Drawn {
 // Names of overlays. Fills stage.list: the bodies first, then the overlays in the order above.
 std::vector<Drawn> draw(Stage& stage, const Moment& moment,
                         const std::vector<std::string>& overlays);
-
-void show_twins(Stage& stage, const Moment& moment);
-void show_device(Stage& stage, const Moment& moment);
-void show_couplings(Stage& stage, const Moment& moment);
-void show_contacts(Stage& stage, const Moment& moment);
-void show_forces(Stage& stage, const Moment& moment);
-void show_gravity(Stage& stage, const Moment& moment);
-void show_joints(Stage& stage, const Moment& moment);
-void show_frames(Stage& stage, const Moment& moment);
-void show_com(Stage& stage, const Moment& moment);
-void show_momentum(Stage& stage, const Moment& moment);
-void show_inertia(Stage& stage, const Moment& moment);
-void show_articulated(Stage& stage, const Moment& moment);
-void show_trails(Stage& stage, const Moment& moment);
-void show_labels(Stage& stage, const Moment& moment);
-void show_energy(Stage& stage, const Moment& moment);
-void show_felt(Stage& stage, const Moment& moment);
-void show_pull(Stage& stage, const Moment& moment);
-void show_before(Stage& stage, const Moment& moment);
 
 // "12.3 N", "4.57 kN": three digits.
 std::string with_unit(double value, const std::string& unit);

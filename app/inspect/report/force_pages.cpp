@@ -28,7 +28,7 @@ void write_joint_balance(const Inspection& in, const JointBalance& joint, Sheet&
   if (pull <= kNoPull * joint.largest) return;
   std::string text = fmt::format("      along {}", joint_label(in, joint.body, joint.dof));
   if (in.model.dofs(joint.body) == 1)
-    text += in.model.joint[joint.body] == JointType::prismatic ? " [N]" : " [N m]";
+    text += is_translational(in.model.joint[joint.body]) ? " [N]" : " [N m]";
   for (std::size_t k = 0; k < joint.torques.size(); ++k)
     text += fmt::format("{} {} {}", k ? "," : ":", joint.torques[k].source,
                         short_number(joint.torques[k].value, joint.largest));
@@ -113,9 +113,9 @@ void write_named_forces(const Inspection& in, const InspectView& view, Sheet& sh
     for (const NamedForce::OnJoint& on : named.joints)
       sheet.line(fmt::format("      along {}: {} {}", joint_label(in, on.body, on.dof),
                              short_number(on.value),
-                             in.model.dofs(on.body) > 1                        ? ""
-                             : in.model.joint[on.body] == JointType::prismatic ? "N"
-                                                                               : "N m"));
+                             in.model.dofs(on.body) > 1                  ? ""
+                             : is_translational(in.model.joint[on.body]) ? "N"
+                                                                         : "N m"));
   }
 }
 

@@ -23,61 +23,39 @@ void write_value(JsonWriter& json, const Shown& shown) {
 }
 
 void write_balances(JsonWriter& json, const Inspection& in, const InspectView& view) {
-  json.begin_array();
-  for (const std::size_t body : view.bodies) {
+  json.list(view.bodies, [&](const std::size_t body) {
     const BodyBalance balance = balance_of(in, body, view.from);
     json.begin_object();
-    json.key("body").text(in.model.body_name[body]);
-    json.key("about").vector(view.from.p_WV(in, body));
-    json.key("wrenches").begin_array();
-    for (const NamedWrench& wrench : balance.wrenches) {
-      json.begin_object();
-      json.key("source").text(wrench.source);
-      json.key("force").vector(wrench.force);
-      json.key("torque").vector(wrench.torque);
-      json.end_object();
-    }
-    json.end_array();
-    json.key("largest").number(balance.largest);
-    json.key("residual").number(balance.residual);
+    json.members({{"body", in.model.body_name[body]}, {"about", view.from.p_WV(in, body)}});
+    json.key("wrenches").list(balance.wrenches, [&](const NamedWrench& wrench) {
+      json.object({{"source", wrench.source}, {"force", wrench.force}, {"torque", wrench.torque}});
+    });
+    json.members({{"largest", balance.largest}, {"residual", balance.residual}});
     json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 void write_forces(JsonWriter& json, const Inspection& in, const InspectView& view) {
-  json.begin_array();
-  for (const NamedForce& named : forces_in_view(in, view)) {
+  json.list(forces_in_view(in, view), [&](const NamedForce& named) {
     json.begin_object();
     json.key("source").text(named.source);
     if (named.point) json.key("point").vector(*named.point);
     if (named.normal) json.key("axis").vector(*named.normal);
-    if (named.parts) {
-      json.key("normal").number(named.parts->normal);
-      json.key("friction").number(named.parts->friction);
-    }
-    json.key("on").begin_array();
-    for (const NamedForce::End& end : named.ends) {
-      json.begin_object();
-      json.key("body").text(in.model.body_name[end.body]);
-      json.key("force").vector(end.wrench.force);
-      json.key("torque").vector(end.wrench.torque);
-      json.key("about").vector(end.about);
-      json.end_object();
-    }
-    json.end_array();
-    json.key("joints").begin_array();
-    for (const NamedForce::OnJoint& on : named.joints) {
-      json.begin_object();
-      json.key("joint").text(in.model.joint_name[on.body]);
-      json.key("component").count(static_cast<long>(on.dof - in.model.iv[on.body]));
-      json.key("value").number(on.value);
-      json.end_object();
-    }
-    json.end_array();
+    if (named.parts)
+      json.members({{"normal", named.parts->normal}, {"friction", named.parts->friction}});
+    json.key("on").list(named.ends, [&](const NamedForce::End& end) {
+      json.object({{"body", in.model.body_name[end.body]},
+                   {"force", end.wrench.force},
+                   {"torque", end.wrench.torque},
+                   {"about", end.about}});
+    });
+    json.key("joints").list(named.joints, [&](const NamedForce::OnJoint& on) {
+      json.object({{"joint", in.model.joint_name[on.body]},
+                   {"component", on.dof - in.model.iv[on.body]},
+                   {"value", on.value}});
+    });
     json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 void write_joints(JsonWriter& json, const Inspection& in, const InspectView& view) {
@@ -86,16 +64,11 @@ void write_joints(JsonWriter& json, const Inspection& in, const InspectView& vie
     if (std::find(view.bodies.begin(), view.bodies.end(), joint.body) == view.bodies.end())
       continue;
     json.begin_object();
-    json.key("joint").text(in.model.joint_name[joint.body]);
-    json.key("component").count(static_cast<long>(joint.dof - in.model.iv[joint.body]));
-    json.key("torques").begin_array();
-    for (const JointBalance::Torque& torque : joint.torques) {
-      json.begin_object();
-      json.key("source").text(torque.source);
-      json.key("value").number(torque.value);
-      json.end_object();
-    }
-    json.end_array();
+    json.members({{"joint", in.model.joint_name[joint.body]},
+                  {"component", joint.dof - in.model.iv[joint.body]}});
+    json.key("torques").list(joint.torques, [&](const JointBalance::Torque& torque) {
+      json.object({{"source", torque.source}, {"value", torque.value}});
+    });
     json.key("residual").number(joint.residual);
     json.end_object();
   }
@@ -103,54 +76,42 @@ void write_joints(JsonWriter& json, const Inspection& in, const InspectView& vie
 }
 
 void write_checks(JsonWriter& json, const std::vector<Check>& checks) {
-  json.begin_array();
-  for (const Check& check : checks) {
-    json.begin_object();
-    json.key("name").text(check.name);
-    json.key("meaning").text(check.meaning);
-    json.key("error").number(check.error);
-    json.key("tolerance").number(check.tolerance);
-    json.key("body").text(check.worst);
-    json.key("pass");
-    json.boolean(check.pass());
-    json.end_object();
-  }
-  json.end_array();
+  json.list(checks, [&](const Check& check) {
+    json.object({{"name", check.name},
+                 {"meaning", check.meaning},
+                 {"error", check.error},
+                 {"tolerance", check.tolerance},
+                 {"body", check.worst},
+                 {"pass", check.pass()}});
+  });
 }
 
 }  // namespace
 
 void write_quantities(JsonWriter& json, const std::vector<Shown>& quantities) {
-  json.begin_array();
-  for (const Shown& shown : quantities) {
-    json.begin_object();
-    json.key("name").text(shown.quantity.name);
-    json.key("meaning").text(shown.quantity.meaning);
-    json.key("unit").text(shown.quantity.unit);
-    json.key("frame").text(shown.frame);
-    json.key("equation").text(shown.quantity.equation);
-    write_value(json.key("value"), shown);
-    json.end_object();
-  }
-  json.end_array();
+  json.list(quantities, [&](const Shown& shown) {
+    json.object({{"name", shown.quantity.name},
+                 {"meaning", shown.quantity.meaning},
+                 {"unit", shown.quantity.unit},
+                 {"frame", shown.frame},
+                 {"equation", shown.quantity.equation},
+                 {"value", [&] { write_value(json, shown); }}});
+  });
 }
 
 void write_passes(JsonWriter& json, const Inspection& in, const std::vector<int>& passes,
                   const std::vector<std::size_t>& bodies) {
-  json.begin_array();
-  for (const int pass : passes) {
+  json.list(passes, [&](const int pass) {
     std::vector<std::size_t> order = bodies;
     if (pass == 2) order.assign(bodies.rbegin(), bodies.rend());
     for (const std::size_t body : order) {
-      json.begin_object();
-      json.key("pass").count(pass);
-      json.key("body").text(in.model.body_name[body]);
-      json.key("joint").text(in.model.joint_name[body]);
-      write_quantities(json.key("quantities"), shown_quantities(in, pass, body));
-      json.end_object();
+      json.object(
+          {{"pass", pass},
+           {"body", in.model.body_name[body]},
+           {"joint", in.model.joint_name[body]},
+           {"quantities", [&] { write_quantities(json, shown_quantities(in, pass, body)); }}});
     }
-  }
-  json.end_array();
+  });
 }
 
 void write_inspection(JsonWriter& json, const Inspection& in, const InspectView& view,
@@ -165,9 +126,7 @@ void write_inspection(JsonWriter& json, const Inspection& in, const InspectView&
     for (const LedgerRow& row : view.ledger) json.key(row.name).number(row.work);
     json.end_object();
   }
-  json.key("axes").text(view.axes);
-  json.key("about").text(view.about);
-  json.key("warnings").texts(view.warnings);
+  json.members({{"axes", view.axes}, {"about", view.about}, {"warnings", view.warnings}});
 }
 
 std::string inspect_json(const Inspection& in, const InspectView& view,

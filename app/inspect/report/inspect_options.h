@@ -11,8 +11,7 @@
 namespace twinarm {
 
 struct InspectOptions {
-  std::filesystem::path html;        // a page; empty: text on stdout
-  std::vector<std::string> command;  // as it was typed
+  std::filesystem::path html;  // a page; empty: text on stdout
   RobotOptions robot;
   std::vector<std::string> passes, bodies;  // none: all
   std::string axes = "world";               // of the wrenches: world, link, or a body's name

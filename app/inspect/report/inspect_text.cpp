@@ -14,30 +14,28 @@
 namespace twinarm {
 namespace {
 
-void write_pass(const Inspection& in, const InspectView& view, int pass,
-                const SubtreeErrors& second, Sheet& sheet) {
+void write_bodies(const Inspection& in, const InspectView& view, int pass,
+                  const SubtreeErrors& errors, Sheet& sheet) {
   static constexpr std::array titles{
-      "PASS 1, base to tips: how each body moves, and what it takes by itself",
-      "PASS 2, tips to base: what each body is with all that hangs on it",
-      "PASS 3, base to tips: the accelerations"};
+      "PASS 1, base to tips: velocities, and bias forces of the bodies alone",
+      "PASS 2, tips to base: articulated-body inertias and bias forces",
+      "PASS 3, base to tips: accelerations"};
   sheet.title(titles[static_cast<std::size_t>(pass - 1)], "RBDA table 7.1");
   std::vector<std::size_t> order = view.bodies;
   if (pass == 2) order.assign(view.bodies.rbegin(), view.bodies.rend());
   for (const std::size_t body : order) {
     write_body_head(in, body, sheet);
-    if (pass == 1) write_first_pass(in, body, sheet);
-    if (pass == 2) write_second_pass(in, body, second.D[body], sheet);
-    if (pass == 3) write_third_pass(in, body, sheet);
+    write_pass(in, pass, body, errors.D[body], sheet);
   }
 }
 
 void write_checks(const std::vector<Check>& checks, Sheet& sheet) {
-  sheet.title("CHECKS by second ways, that share no pass with the first", "of all bodies");
+  sheet.title("CHECKS by independent algorithms", "of all bodies");
   TextTable table({"check", "worst error", "allowed", "at", ""});
   for (const Check& check : checks)
     table.add({fmt::format("{:<9} {}", check.name, check.meaning),
                fmt::format("{:.1e}", check.error), fmt::format("{:.0e}", check.tolerance),
-               check.worst, check.pass() ? "ok" : "FALLS SHORT"});
+               check.worst, check.pass() ? "ok" : "FAIL"});
   sheet.line(table.str());
 }
 
@@ -67,11 +65,9 @@ std::string inspect_text(const Inspection& in, const InspectView& view,
   Sheet sheet;
   sheet.line(view.title);
   if (!view.forces_alone) {
-    sheet.line(
-        "Vectors of six: turning part | shifting part, in the link's axes, about the link's "
-        "origin.");
-    const SubtreeErrors second = subtree_errors(in);
-    for (const int pass : view.passes) write_pass(in, view, pass, second, sheet);
+    sheet.line("Spatial vectors: angular | linear, in the link's axes, about the link's origin.");
+    const SubtreeErrors errors = subtree_errors(in);
+    for (const int pass : view.passes) write_bodies(in, view, pass, errors, sheet);
     write_balances(in, view, sheet);
   }
   write_named_forces(in, view, sheet);

@@ -64,7 +64,7 @@ class SceneInspector::FirstStep {
     x_ = sim_.state();
     const StepReport report = sim_.step(h_);
     inspected.qdd_of_step = sim_.workspace().qdd;
-    if (sim_.constraints().any() && sim_.constraints().report().impacts > 0) {
+    if (sim_.has_constrained_steps() && sim_.constraints().report().impacts > 0) {
       for (std::size_t dof = 0; dof < model_.nv; ++dof)
         x_.qd[dof] = sim_.state().qd[dof] - h_ * inspected.qdd_of_step[dof];
       inspected.warnings.emplace_back(
@@ -78,7 +78,7 @@ class SceneInspector::FirstStep {
     add_couplings();
     add_others();
     add_damping();
-    const bool constrained = sim_.constraints().any();
+    const bool constrained = sim_.has_constrained_steps();
     add_by_joint(
         model_,
         constrained ? sim_.constraints().coulomb_torque() : sim_.dynamics().coulomb_torque(),
@@ -220,7 +220,7 @@ class SceneInspector::FirstStep {
     const LoopClosure& loop = loops.loops()[l];
     Actor actor{"constraint/" + loop.name, {}, {}};
     actor.is_tie = true;
-    if (loop.type == LoopType::gear || loop.type == LoopType::locked) {
+    if (facts_of(loop.type).ends != LoopBetween::bodies) {
       const std::size_t row = loops.first_row(l);
       for (const std::size_t dof : loops.dofs_of(row))
         actor.joints.push_back({dof, loops.J()(index(row), index(dof)) * lambda[index(row)], 0});

@@ -17,10 +17,6 @@ namespace {
 
 constexpr double kMostPixels = 1920;
 
-Bytes shared_bytes(std::string text) {
-  return std::make_shared<const std::string>(std::move(text));
-}
-
 HttpReply reply_of(int status, const std::string& text) {
   HttpReply reply;
   reply.status = status;
@@ -160,7 +156,7 @@ void LabRoutes::do_errand(const Answer& answer, std::function<void()> errand) {
 
 HttpReply LabRoutes::run_errand(const HttpRequest& request) const {
   if (request.path == "/frame.png") return picture(request);
-  const LabNow now = session_.now();
+  const LabNow now = session_.shown().now();
   if (request.path == "/scene") {
     HttpReply reply = file_of("application/toml; charset=utf-8",
                               shared_bytes(now.scene->scene->text(now.status->changes)), false);
@@ -168,7 +164,7 @@ HttpReply LabRoutes::run_errand(const HttpRequest& request) const {
     return reply;
   }
   const std::filesystem::path file = folder_ / "lab.twinrec";
-  session_.save(file);
+  session_.timeline().save(file);
   const bool is_page = request.path == "/share";
   HttpReply reply =
       is_page ? file_of("text/html; charset=utf-8", shared_bytes(replay_page(file).html), false)
@@ -204,7 +200,7 @@ void LabRoutes::open(const std::string& name, const std::string& bytes, const An
   if (!brought.opens) return answer(reply_of(202, "kept"));
   Order order;
   order.file = file;
-  if (session_.now().scene->order.is_shared) order.roots = {uploads_.path(), find_assets()};
+  if (session_.shown().now().scene->order.is_shared) order.roots = {uploads_.path(), find_assets()};
   order.name = file.stem().string();
   order.words.title = order.name;
   order.words.file = name;

@@ -7,6 +7,7 @@
 
 #include "app/film/shown_instant.h"
 #include "app/lab/app/state_message.h"
+#include "app/support/seconds.h"
 
 namespace twinarm {
 namespace {
@@ -17,14 +18,6 @@ constexpr double kRate = 60, kSlowRate = 30;  // frames a second, to few clients
 constexpr std::size_t kManyClients = 2;
 // A run whose frames cannot stand so evenly, by its step, may send so much more of them.
 constexpr double kMore = 1.05;
-
-double as_seconds(std::chrono::steady_clock::duration time) {
-  return std::chrono::duration<double>(time).count();
-}
-
-Bytes shared(std::string message) {
-  return std::make_shared<const std::string>(std::move(message));
-}
 
 }  // namespace
 
@@ -65,7 +58,7 @@ void LabPainter::welcome(ClientId client) {
 void LabPainter::work() {
   pthread_setname_np(pthread_self(), "lab painter");
   for (;;) {
-    const LabNow now = session_.now();
+    const LabNow now = session_.shown().now();
     double left = kIdle;
     try {
       take_scene(now);
@@ -78,7 +71,7 @@ void LabPainter::work() {
       const std::lock_guard lock(mutex_);
       if (stop_) return;
     }
-    session_.wait(now, std::min(left, kIdle));
+    session_.shown().wait(now, std::min(left, kIdle));
   }
 }
 
@@ -111,7 +104,7 @@ void LabPainter::do_jobs() {
   for (const auto& job : jobs) job(*this);
   if (newcomers.empty()) return;
   state_.clear();  // told anew, to all: who has the hand may have changed
-  const Bytes scene = shared(view_->scene_message());
+  const Bytes scene = shared_bytes(view_->scene_message());
   for (const ClientId client : newcomers) {
     post_(client, scene_channel, scene, false);
     if (last_frame_) post_(client, frame_channel, last_frame_, true);
@@ -172,7 +165,7 @@ void LabPainter::tell_state(const LabNow& now) {
   if (state == state_) return;
   state_ = std::move(state);
   for (const ClientId client : audience.clients)
-    post_(client, state_channel, shared(addressed(state_, client, audience_.secret(client))),
+    post_(client, state_channel, shared_bytes(addressed(state_, client, audience_.secret(client))),
           false);
 }
 
@@ -202,7 +195,7 @@ double LabPainter::tell_frame(const LabNow& now, double per_second) {
   std::string frame = view_->frame(*now.frame, now.before.get(), told_frame_.layers, facts);
   drawing.unlock();
   if (view_->revision() != revision_) tell_scene();
-  last_frame_ = shared(std::move(frame));
+  last_frame_ = shared_bytes(std::move(frame));
   for (const ClientId client : audience_.view().clients)
     post_(client, frame_channel, last_frame_, true);
   return kIdle;
@@ -231,20 +224,20 @@ void LabPainter::tell_glass(const LabNow& now) {
     question.stands = stands;
     question.scene = static_cast<unsigned>(now.scene_number);
     question.ledger = now.rows.get();
-    post_(client, glass_channel, shared(glass_->message(*now.frame, question)), false);
+    post_(client, glass_channel, shared_bytes(glass_->message(*now.frame, question)), false);
   }
   told_glass_ = std::move(wanted);
 }
 
 std::string LabPainter::history(double from) {
-  const auto frames = session_.history(from);
+  const auto frames = session_.timeline().frames(from);
   std::vector<const LabFrame*> all;
   for (const auto& frame : frames) all.push_back(frame.get());
   return view_->history(all);
 }
 
 void LabPainter::to_all(Channel channel, const std::string& message, bool is_binary) {
-  const Bytes bytes = shared(message);
+  const Bytes bytes = shared_bytes(message);
   for (const ClientId client : audience_.view().clients) post_(client, channel, bytes, is_binary);
 }
 

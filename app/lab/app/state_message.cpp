@@ -14,9 +14,8 @@ long as_long(ClientId client) {
 }
 
 void write_changes(JsonWriter& json, const std::vector<Change>& changes) {
-  json.key("changes").begin_array();
-  for (const Change& change : changes) json.text(change.path + "=" + change.value);
-  json.end_array();
+  json.key("changes").list(
+      changes, [&](const Change& change) { json.text(change.path + "=" + change.value); });
 }
 
 void write_audience(JsonWriter& json, const Audience::View& audience) {
@@ -26,17 +25,16 @@ void write_audience(JsonWriter& json, const Audience::View& audience) {
   else
     json.null();
   json.key("clients").count(static_cast<long>(audience.clients.size()));
-  json.key("asked").begin_array();
-  for (const ClientId client : audience.asked) json.count(as_long(client));
-  json.end_array();
+  json.key("asked").list(audience.asked,
+                         [&](const ClientId client) { json.count(as_long(client)); });
 }
 
 void write_time(JsonWriter& json, const LabStatus& status) {
-  json.key("playing").boolean(status.playing);
-  json.key("speed").number(status.speed);
-  json.key("time").number(status.time);
-  json.key("first").number(status.first);
-  json.key("last").number(status.last);
+  json.members({{"playing", status.playing},
+                {"speed", status.speed},
+                {"time", status.time},
+                {"first", status.first},
+                {"last", status.last}});
   json.key("at");
   if (status.at)
     json.number(*status.at);
@@ -52,9 +50,7 @@ void write_time(JsonWriter& json, const LabStatus& status) {
   } else {
     json.null();
   }
-  json.key("pace").number(status.pace);
-  json.key("step").number(status.step);
-  json.key("step_us").number(1e6 * status.step_time);
+  json.members({{"pace", status.pace}, {"step", status.step}, {"step_us", 1e6 * status.step_time}});
 }
 
 // A recorded hand to begin with; empty where the assets are not there.
@@ -74,8 +70,7 @@ void write_lanes(JsonWriter& json, const LabStatus& status) {
   json.key("lanes");
   if (status.lanes.empty()) return json.null();
   json.begin_object();
-  json.key("path").text(status.lanes.path);
-  json.key("values").texts(status.lanes.values);
+  json.members({{"path", status.lanes.path}, {"values", status.lanes.values}});
   json.key("stopped").begin_array();
   json.null();  // the first, of which `dead` tells
   for (const std::optional<double>& end : status.lane_ends)
@@ -89,13 +84,13 @@ void write_lanes(JsonWriter& json, const LabStatus& status) {
 
 void write_hand(JsonWriter& json, const LabHandStatus& hand) {
   json.key("hand").begin_object();
-  json.key("source").text(hand.source);
-  json.key("spec").text(hand.spec);
-  json.key("mapping").text(hand.mapping);
-  json.key("q").numbers(hand.q);
-  json.key("felt").text(hand.felt);
-  json.key("mode").text(hand.mode);
-  json.key("gripper").boolean(hand.gripper_closed);
+  json.members({{"source", hand.source},
+                {"spec", hand.spec},
+                {"mapping", hand.mapping},
+                {"q", hand.q},
+                {"felt", hand.felt},
+                {"mode", hand.mode},
+                {"gripper", hand.gripper_closed}});
   if (!recorded_hand().empty()) json.key("trace").text(recorded_hand());
   json.end_object();
 }
@@ -105,27 +100,21 @@ void write_end(JsonWriter& json, const LabStatus& status) {
   if (!status.dead) return json.null();
   const LabEnd& dead = *status.dead;
   json.begin_object();
-  json.key("words").texts(dead.words);
-  json.key("time").number(dead.time);
-  json.key("from").number(dead.from);
-  json.key("quantity").text(dead.quantity);
-  json.key("body").text(dead.body);
-  json.key("spring").text(dead.spring);
+  json.members({{"words", dead.words},
+                {"time", dead.time},
+                {"from", dead.from},
+                {"quantity", dead.quantity},
+                {"body", dead.body},
+                {"spring", dead.spring}});
   json.key("remedies");
   write_remedies(dead.remedies, json);
   json.end_object();
 }
 
 void write_notes(JsonWriter& json, const std::vector<LabNote>& notes) {
-  json.key("notes").begin_array();
-  for (const LabNote& note : notes) {
-    json.begin_object();
-    json.key("n").count(note.number);
-    json.key("level").text(note.level);
-    json.key("text").text(note.text);
-    json.end_object();
-  }
-  json.end_array();
+  json.key("notes").list(notes, [&](const LabNote& note) {
+    json.object({{"n", note.number}, {"level", note.level}, {"text", note.text}});
+  });
 }
 
 }  // namespace
@@ -135,10 +124,10 @@ std::string state_message(const LabStatus& status, const Audience::View& audienc
                           const std::vector<GalleryScene>& gallery) {
   JsonWriter json;
   json.begin_object();
-  json.key("kind").text("state");
-  json.key("scene").count(status.scene);
-  json.key("name").text(status.scene_name);
-  json.key("building").text(status.building);
+  json.members({{"kind", "state"},
+                {"scene", status.scene},
+                {"name", status.scene_name},
+                {"building", status.building}});
   write_changes(json, status.changes);
   write_lanes(json, status);
   write_audience(json, audience);

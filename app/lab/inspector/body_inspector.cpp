@@ -96,19 +96,13 @@ void write_equations(JsonWriter& json, const Inspection& in, std::size_t body) {
   for (const int pass : {1, 2, 3})
     for (const Equation& equation : equations_of(in, pass, body)) {
       json.begin_object();
-      json.key("pass").count(pass);
-      json.key("name").text(equation.name);
-      json.key("text").text(equation.text);
-      json.key("terms").begin_array();
-      for (const EquationTerm& term : equation.terms) {
-        json.begin_object();
-        json.key("symbol").text(term.symbol);
-        json.key("words").text(term.words);
-        json.key("of").text(in.model.body_name[term.of]);
-        write_terms(json.key("value"), term.value, equation.by_columns);
-        json.end_object();
-      }
-      json.end_array();
+      json.members({{"pass", pass}, {"name", equation.name}, {"text", equation.text}});
+      json.key("terms").list(equation.terms, [&](const EquationTerm& term) {
+        json.object({{"symbol", term.symbol},
+                     {"words", term.words},
+                     {"of", in.model.body_name[term.of]},
+                     {"value", [&] { write_terms(json, term.value, equation.by_columns); }}});
+      });
       write_terms(json.key("value"), equation.value, equation.by_columns);
       json.key("residual").number(equation.residual);
       json.end_object();
@@ -132,11 +126,8 @@ void write_neighbour(JsonWriter& json, const Inspection& in, std::size_t body, c
   std::vector<Shown> taken;
   for (const int pass : {1, 2, 3})
     for (Shown& shown : some_of(in, pass, body, names)) taken.push_back(std::move(shown));
-  json.begin_object();
-  json.key("body").text(in.model.body_name[body]);
-  json.key("is").text(is);
-  write_quantities(json.key("quantities"), taken);
-  json.end_object();
+  const auto quantities = [&] { write_quantities(json, taken); };
+  json.object({{"body", in.model.body_name[body]}, {"is", is}, {"quantities", quantities}});
 }
 
 void write_neighbours(JsonWriter& json, const Inspection& in, std::size_t body) {
@@ -161,8 +152,7 @@ void write_call(JsonWriter& json, const Inspection& in) {
   json.begin_array();
   const auto step = [&](int pass, std::size_t body, Names names) {
     json.begin_object();
-    json.key("pass").count(pass);
-    json.key("body").text(in.model.body_name[body]);
+    json.members({{"pass", pass}, {"body", in.model.body_name[body]}});
     std::vector<Shown> results = some_of(in, pass, body, names);
     if (pass == 3) results.push_back(origin_acceleration(in, body));
     write_quantities(json.key("quantities"), results);
@@ -246,8 +236,7 @@ struct Glass::Impl {
       checks = run_checks(in);
       if (scene) checks.push_back(step_check(in, found.qdd_of_step));
     }
-    json.key("body").count(static_cast<long>(body));
-    json.key("name").text(model.body_name[body]);
+    json.members({{"body", body}, {"name", model.body_name[body]}});
     write_inspection(json, in, view, checks);
     write_equations(json.key("equations"), in, body);
     write_neighbours(json.key("neighbours"), in, body);
@@ -263,12 +252,11 @@ Glass& Glass::operator=(Glass&&) noexcept = default;
 std::string Glass::message(const LabFrame& frame, const GlassQuestion& question) {
   const auto begin = [&](JsonWriter& json) {
     json.begin_object();
-    json.key("kind").text("glass");
-    json.key("scene").count(static_cast<long>(question.scene));
-    json.key("t").number(frame.recorded.t);
-    json.key("step").count(frame.recorded.step);
-    json.key("stands");
-    json.boolean(question.stands);
+    json.members({{"kind", "glass"},
+                  {"scene", question.scene},
+                  {"t", frame.recorded.t},
+                  {"step", frame.recorded.step},
+                  {"stands", question.stands}});
   };
   try {
     JsonWriter json;

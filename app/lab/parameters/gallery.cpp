@@ -87,15 +87,12 @@ const GalleryScene* find_scene(const std::vector<GalleryScene>& gallery, const s
 }
 
 void write_gallery(const std::vector<GalleryScene>& gallery, JsonWriter& json) {
-  json.begin_array();
-  for (const GalleryScene& scene : gallery) {
+  json.list(gallery, [&](const GalleryScene& scene) {
     json.begin_object();
-    json.key("name").text(scene.name);
-    json.key("title").text(scene.title);
+    json.members({{"name", scene.name}, {"title", scene.title}});
     json.key("look").texts({scene.look.begin(), scene.look.end()});
     json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 }  // namespace twinarm

@@ -223,7 +223,7 @@ class Lags {
   }
 
  private:
-  bool is_slide(const NamedJoint& joint) const { return joint.type == JointType::prismatic; }
+  bool is_slide(const NamedJoint& joint) const { return is_translational(joint.type); }
   std::string words(const NamedJoint& joint) const {
     const auto row = static_cast<Eigen::Index>(joint.row);
     const double start = std::abs(lag_.start[row]), later = std::abs(lag_.later[row]);

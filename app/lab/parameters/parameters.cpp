@@ -153,37 +153,32 @@ std::vector<Knob> knobs_of(const SimulatePlan& plan) {
 }
 
 void write_knobs(const std::vector<Knob>& knobs, JsonWriter& json) {
-  json.begin_array();
-  for (const Knob& knob : knobs) {
+  json.list(knobs, [&](const Knob& knob) {
     json.begin_object();
-    json.key("path").text(knob.path);
-    json.key("label").text(knob.label);
-    json.key("group").text(knob.group);
+    json.members({{"path", knob.path}, {"label", knob.label}, {"group", knob.group}});
     json.key("value");
     if (knob.form == Knob::Form::choice)
       json.text(knob.text);
     else
       write_value(knob.number, json);
     if (knob.start) json.key("start").text(*knob.start);
-    json.key("unit").text(knob.unit);
-    json.key("form").text(word_of(knob.form));
-    json.key("low").number(knob.low);
-    json.key("high").number(knob.high);
-    json.key("choices").texts(knob.choices);
-    json.key("meaning").text(knob.meaning);
+    json.members({{"unit", knob.unit},
+                  {"form", word_of(knob.form)},
+                  {"low", knob.low},
+                  {"high", knob.high},
+                  {"choices", knob.choices},
+                  {"meaning", knob.meaning}});
     if (knob.limit) {
       json.key("limit").begin_object();
       json.key("value");
       write_value(knob.limit->value, json);
-      json.key("words").text(knob.limit->words);
-      json.key("state").text(word_of(knob.limit->state));
+      json.members({{"words", knob.limit->words}, {"state", word_of(knob.limit->state)}});
       json.end_object();
     }
     if (!knob.lag.empty()) json.key("lag").text(knob.lag);
     json.key("restarts").boolean(knob.restarts);
     json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 }  // namespace twinarm

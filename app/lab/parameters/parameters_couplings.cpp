@@ -5,17 +5,13 @@
 #include "app/lab/parameters/parameter_makers.h"
 #include "app/scene/read/scene_names.h"
 #include "coupling/laws/coupling_spec.h"
+#include "coupling/laws/discretization.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm::knob_makers {
 namespace {
 
 using CouplingKind = CouplingSpec::Type;
-
-const char* treatment_word(Treatment treatment) {
-  constexpr const char* kWords[] = {"explicit", "semi-implicit", "implicit"};
-  return kWords[static_cast<std::size_t>(treatment)];
-}
 
 // A joint of one degree of freedom of its own carries the link: what acts at joints needs that.
 const JointDescription* own_joint(const SceneDescription& scene, const CouplingDescription& c) {
@@ -42,8 +38,7 @@ std::vector<std::string> types_for(const SceneDescription& scene, const Coupling
     const bool sees_end =
         facts.treatments == CouplingFacts::Treatments::own || facts.type == CouplingKind::weld_like;
     const bool fits = facts.type != CouplingKind::god_object && (now.at_point || !facts.at_point) &&
-                      (facts.type != CouplingKind::stable_pd || own_joint(scene, c)) &&
-                      (implicit_fits || !sees_end);
+                      (!facts.at_joint || own_joint(scene, c)) && (implicit_fits || !sees_end);
     if (is_now || fits) names.emplace_back(facts.name);
   }
   return names;
@@ -116,7 +111,7 @@ class CouplingKnobs {
   void add_treatment() {
     if (c_.outside || c_.rate > 0 || facts_.treatments != CouplingFacts::Treatments::all) return;
     if (!implicit_fits_) return;
-    put(choice(path("treatment"), "treatment", treatment_word(c_.treatment),
+    put(choice(path("treatment"), "treatment", name_of(c_.treatment),
                {"explicit", "semi-implicit", "implicit"},
                "explicit: the force of the start of the step; semi-implicit: the damper sees its "
                "end; implicit: the spring too, and any stiffness holds."))

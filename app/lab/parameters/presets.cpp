@@ -23,14 +23,9 @@ const Preset* find_preset(const std::string& name) {
 }
 
 void write_presets(JsonWriter& json) {
-  json.begin_array();
-  for (const Preset& preset : all_presets()) {
-    json.begin_object();
-    json.key("name").text(preset.name);
-    json.key("what").text(preset.what);
-    json.end_object();
-  }
-  json.end_array();
+  json.list(all_presets(), [&](const Preset& preset) {
+    json.object({{"name", preset.name}, {"what", preset.what}});
+  });
 }
 
 }  // namespace twinarm

@@ -148,7 +148,7 @@ LabHistory::Saved LabHistory::save(const LabScene& scene, const LabNames& names,
   RecordingHeader header = scene.header(segments_.back().changes, {led, log_of_hand()});
   // Beyond the last step, so that this one ends on the grid of the run and not where the run ends.
   header.duration = newest()->recorded.t + 0.5 * header.step;
-  header.options.duration = header.duration;
+  header.run.duration = header.duration;
   RecordingWriter writer(file, std::move(header));
   Saved saved;
   for (const Frame& one : frames_) {

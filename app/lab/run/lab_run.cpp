@@ -9,7 +9,7 @@
 #include "app/lab/run/mouse_spring.h"
 #include "app/record/record_run.h"
 #include "app/run/run_end.h"
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 namespace {
@@ -18,13 +18,6 @@ namespace {
 // at the start, and the weight over 1 m: sooner than in `simulate` (RunPlan::kGrowth), for at such
 // speeds contacts and limits take a second a step, and somebody waits.
 constexpr double kMostGrowth = 1e3;
-
-std::uint32_t number_of_row(std::vector<std::string>& names, const std::string& name) {
-  const auto place = std::find(names.begin(), names.end(), name);
-  const auto number = static_cast<std::uint32_t>(place - names.begin());
-  if (place == names.end()) names.push_back(name);
-  return number;
-}
 
 // The state in the bytes of a run's memory: they begin with its head, then q, qd, t.
 State<double> state_in(const std::string& bytes) {
@@ -167,14 +160,7 @@ void LabRun::drop() {
 LabFrame LabRun::frame(LabNames& names) {
   LabFrame frame;
   frame.recorded = frame_of(*run_, plan_->prepared);
-  for (const LedgerRow& row : run_->ledger()) {
-    frame.recorded.rows.push_back(number_of_row(names.rows, row.name));
-    frame.recorded.works.push_back(row.work);
-  }
-  for (const MomentumRow& row : run_->momentum()) {
-    frame.recorded.momentum_rows.push_back(number_of_row(names.momentum_rows, row.name));
-    frame.recorded.momenta.insert(frame.recorded.momenta.end(), {row.linear, row.angular});
-  }
+  add_ledgers(*run_, names.rows, names.momentum_rows, frame.recorded);
   frame.hand = hand_frame();
   if (const auto& pull = input_.pull)
     frame.pull = LabPull{pull->body, pull->p_L, pull->goal_W, pull_->force()};

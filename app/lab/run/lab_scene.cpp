@@ -79,25 +79,24 @@ void put_scene_number(TomlValue& scene, const std::string& key, double number) {
 
 LabScene::LabScene(const SimulateOptions& given, FileRoots roots) : roots_(std::move(roots)) {
   const SimulateOptions options = without_end(given);
-  files_ = std::make_shared<const UnpackedRun>(
-      header_of(options, prepare_simulation(options), given.command));
+  files_ = std::make_shared<const UnpackedRun>(header_of(options, prepare_simulation(options), {}));
   if (!roots_) return;
   roots_->push_back(files_->folder());
   for (const RecordedFile& file : files_->header().files) roots_->push_back(file.path);
 }
 
 LabScene::LabScene(RecordingHeader header, FileRoots roots) : roots_(std::move(roots)) {
-  header.options = without_end(std::move(header.options));
+  if (!header.run.duration) header.run.duration = 1;
   files_ = std::make_shared<const UnpackedRun>(std::move(header));
   if (roots_) roots_->push_back(files_->folder());
 }
 
 bool LabScene::is_scene() const {
-  return files_->header().options.robot.model.extension() == ".toml";
+  return files_->header().run.model.extension() == ".toml";
 }
 
 std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& changes) const {
-  SimulateOptions beside = files_->header().options;
+  SimulateOptions beside = options_of(files_->header().run);
   FaultList faults;
   const std::vector<Change> others = of_the_scene(changes, beside, faults);
   faults.check();
@@ -121,7 +120,7 @@ std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& change
 }
 
 TomlValue LabScene::tree(const std::vector<Change>& changes) const {
-  SimulateOptions beside = files_->header().options;
+  SimulateOptions beside = options_of(files_->header().run);
   FaultList faults;
   const std::vector<Change> others = of_the_scene(changes, beside, faults);
   TomlValue scene = read_toml(files_->options().robot.model);
@@ -155,20 +154,22 @@ RecordingHeader LabScene::header(const std::vector<Change>& changes, const Hand&
   const std::unique_ptr<Plan> planned = plan(changes);
   RecordingHeader header = files_->header();
   FaultList faults;
-  for (const Change& change : of_the_scene(changes, header.options, faults))
-    if (change.path == "gravity") header.options.robot.gravity = change.value;
+  SimulateOptions options = options_of(header.run);
+  for (const Change& change : of_the_scene(changes, options, faults))
+    if (change.path == "gravity") options.robot.gravity = change.value;
+  header.run = recorded_run(options);
   header.integrator = integrator_name(planned->prepared.run.integrator);
   header.step = planned->prepared.run.step;
-  header.options.step = header.step;
+  header.run.step = header.step;
   if (!is_scene()) return header;
-  const std::filesystem::path log = header.options.robot.model.parent_path() / "lab_hand.csv";
+  const std::filesystem::path log = header.run.model.parent_path() / "lab_hand.csv";
   TomlValue scene = tree(changes);
   for (TomlValue& list : scene.members)
     for (const std::size_t place : hand.couplings)
       if (list.key == "coupling" && place < list.items.size() && !hand.log.empty())
         put_scene_text(list.items[place], "target", log.string());
   for (RecordedFile& file : header.files)
-    if (file.path == header.options.robot.model) file.bytes = to_toml(scene);
+    if (file.path == header.run.model) file.bytes = to_toml(scene);
   if (!hand.log.empty()) header.files.push_back({log.string(), hand.log});
   return header;
 }

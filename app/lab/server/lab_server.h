@@ -18,11 +18,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace twinarm {
 
 using ClientId = std::uint64_t;
 using Bytes = std::shared_ptr<const std::string>;
+inline Bytes shared_bytes(std::string text) {
+  return std::make_shared<const std::string>(std::move(text));
+}
 
 struct HttpRequest {
   std::string method, path;  // decoded, without query

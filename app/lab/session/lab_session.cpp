@@ -3,43 +3,31 @@
 #include <pthread.h>
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
+#include <utility>
 
-#include "app/servo/servo_clock.h"
+#include "app/diagnose/remedies.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {
 
 constexpr auto kTick = std::chrono::milliseconds(1);
-constexpr double kLongestBurst = 0.004;  // of steps between two looks at commands [s]
-constexpr double kForgiven = 0.05;       // what is further behind is not made up for [s]
-constexpr double kStatusEvery = 0.25;    // [s]
-constexpr std::size_t kMostCommands = 4096;
-
-double seconds(std::chrono::steady_clock::duration time) {
-  return std::chrono::duration<double>(time).count();
-}
+constexpr auto kIdle = std::chrono::milliseconds(200);
 
 }  // namespace
 
 LabSession::LabSession(Built scene, const std::vector<GalleryScene>& gallery,
                        std::size_t most_bytes)
-    : gallery_(gallery), history_(most_bytes), before_(most_bytes) {
-  adopt(std::move(scene));
+    : state_(most_bytes),
+      commands_(state_, gallery, [this](Order order) { open(std::move(order)); }) {
+  commands_.adopt(std::move(scene));
   publish();  // from now on there is something to be seen
-  workshop_ = std::make_unique<Workshop>(
-      Workshop::Out{[this](Built built) {
-                      {
-                        const std::lock_guard lock(mutex_);
-                        built_.push_back(std::move(built));
-                      }
-                      told_.notify_all();
-                    },
+  builder_ = std::make_unique<Workshop>(
+      Workshop::Out{[this](Built built) { state_.inbox.push(std::move(built)); },
                     [this](const Order& order) {
-                      const std::lock_guard lock(mutex_);
-                      if (!order.asked.empty()) failed_ = order.asked.back().number;
-                      told_.notify_all();
+                      if (!order.asked.empty())
+                        state_.inbox.push_refused(order.asked.back().number);
                     },
                     [this](const std::string& why) { note("error", why); }});
   thread_ = std::thread([this] { work(); });
@@ -50,37 +38,24 @@ LabSession::~LabSession() {
 }
 
 void LabSession::end() {
-  {
-    const std::lock_guard lock(mutex_);
-    if (stop_) return;
-    stop_ = true;
-  }
-  told_.notify_all();
+  if (!state_.inbox.stop()) return;
   thread_.join();
   // Pages may still drop files: taken away under the lock, and waited for without it.
-  std::unique_ptr<Workshop> workshop;
+  std::unique_ptr<Workshop> builder;
   {
-    const std::lock_guard lock(mutex_);
-    workshop = std::move(workshop_);
+    const std::lock_guard lock(builder_mutex_);
+    builder = std::move(builder_);
   }
-}
-
-void LabSession::push(LabCommand command) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (commands_.size() < kMostCommands) commands_.push_back(std::move(command));
-  }
-  told_.notify_all();
 }
 
 void LabSession::open(Order order) {
   std::optional<Order> left;
   const char* why = "something else was asked for before this was begun; try again";
+  order.is_shared = state_.timeline.scene()->order.is_shared;
   {
-    const std::lock_guard lock(mutex_);
-    order.is_shared = scene_->order.is_shared;
-    if (workshop_) {
-      left = workshop_->order(std::move(order));
+    const std::lock_guard lock(builder_mutex_);
+    if (builder_) {
+      left = builder_->order(std::move(order));
     } else {
       left = std::move(order);
       why = "the lab is ending";
@@ -89,200 +64,98 @@ void LabSession::open(Order order) {
   if (left && left->done) left->done(why);  // it may ask the session something
 }
 
-LabNow LabSession::now() const {
-  const std::lock_guard lock(mutex_);
-  LabNow now = now_;
-  now.wakes = wakes_;
-  return now;
-}
-
-void LabSession::wait(const LabNow& seen, double longest) const {
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, std::chrono::duration<double>(longest),
-                    [&] { return now_.number != seen.number || wakes_ != seen.wakes; });
-}
-
-void LabSession::wake() {
-  {
-    const std::lock_guard lock(mutex_);
-    ++wakes_;
-  }
-  changed_.notify_all();
-}
-
-void LabSession::set_rate(double frames_per_second) {
-  const std::lock_guard lock(mutex_);
-  frame_interval_ = 1 / frames_per_second;
-}
-
 // The run's thread.
 void LabSession::work() {
   pthread_setname_np(pthread_self(), "lab run");
   next_tick_ = Clock::now();
-  pace_.begin(next_tick_, run_->time(), status_.speed);
+  state_.loop.set_pace(state_.status.speed);
   for (;;) {
     try {
-      take_commands();
-      {
-        const std::lock_guard lock(mutex_);
-        if (stop_) return;
-      }
+      take_inbox();
+      if (state_.inbox.is_stopped()) return;
       advance();
     } catch (const std::exception& error) {
-      show_failure(error.what());
+      pause_for(error.what());
     }
-    rest();
+    sleep();
+  }
+}
+
+void LabSession::take_inbox() {
+  Inbox::Contents contents = state_.inbox.take();
+  for (const LabCommand& command : contents.commands) try {
+      commands_.act(command);
+    } catch (const InputError& error) {
+      for (const Fault& fault : error.faults()) note("error", to_string(fault));
+    } catch (const std::exception& error) {
+      note("error", error.what());
+    }
+  if (contents.refused) state_.pending.finish(*contents.refused);
+  for (Built& one : contents.built) {
+    const auto done = one.order.done;
+    try {
+      commands_.adopt(std::move(one));
+      publish();  // its start is seen and remembered, however soon steps follow
+      if (done) done("");
+    } catch (const std::exception& error) {
+      note("error", error.what());
+      if (done) done(error.what());
+    }
   }
 }
 
 void LabSession::advance() {
-  const Clock::time_point now = Clock::now();
-  if (steps_left_ > 0)
-    take_steps(now, HUGE_VAL);
-  else if (status_.playing)
-    take_steps(now, pace_.due(now));
-  else
-    pace_.begin(now, run_->time(), status_.speed);
+  RunLoop& loop = state_.loop;
+  if (loop.has_single_steps() || state_.status.playing) {
+    const auto after = [this] {
+      state_.is_stale = true;
+      for (const std::string& words : state_.loop.take_warnings()) note("warning", words);
+      if (is_frame_due()) publish();
+    };
+    if (!loop.take_steps(after)) show_end();
+  } else {
+    loop.set_pace(state_.status.speed);
+  }
   publish();
 }
 
 // The run pauses. A failure that comes again at once is shown once.
-void LabSession::show_failure(const std::string& why) {
-  status_.playing = false;
-  steps_left_ = 0;
-  is_news_ = true;
+void LabSession::pause_for(const std::string& why) {
+  state_.status.playing = false;
+  state_.loop.step_once(0);
+  state_.has_news = true;
   const std::string text = "the run is paused: " + why;
-  if (status_.notes.empty() || status_.notes.back().text != text) note("error", text);
+  const std::vector<LabNote>& notes = state_.status.notes;
+  if (notes.empty() || notes.back().text != text) note("error", text);
+}
+
+void LabSession::show_end() {
+  state_.status.playing = false;
+  state_.loop.step_once(0);
+  state_.is_stale = state_.has_news = true;
+  const PostMortem* found = state_.loop.run().post_mortem();
+  if (!found) return note("note", "the run has come to its end");
+  LabEnd end;
+  end.time = found->time;
+  end.from = state_.changed_at;
+  end.words = found->words;
+  end.quantity = found->field;
+  end.body = found->body;
+  if (!found->suspects.empty()) end.spring = found->suspects.front().name;
+  end.remedies = remedies_of(state_.loop.run().prepared(), *found);
+  std::erase_if(end.remedies, [this](const Remedy& remedy) {
+    return std::any_of(
+        remedy.changes.begin(), remedy.changes.end(),
+        [this](const std::string& text) { return is_of_lanes(state_.status, parse_change(text)); });
+  });
+  state_.status.dead = std::move(end);
 }
 
 // Until the next step is due, or a command comes.
-void LabSession::rest() {
-  std::unique_lock lock(mutex_);
-  const auto is_told = [this] {
-    return stop_ || failed_ || !commands_.empty() || !built_.empty() || !new_notes_.empty();
-  };
-  if (steps_left_ > 0) return;
-  if (status_.playing)
-    told_.wait_until(lock, next_tick_, is_told);
-  else
-    told_.wait_for(lock, std::chrono::milliseconds(200), is_told);
+void LabSession::sleep() {
+  if (state_.loop.has_single_steps()) return;
+  state_.inbox.sleep_until(state_.status.playing ? next_tick_ : Clock::now() + kIdle);
   next_tick_ = std::max(next_tick_ + kTick, Clock::now());
-}
-
-// Up to the run time `due`, but no longer than a burst.
-void LabSession::take_steps(Clock::time_point begin, double due) {
-  const double h = run_->step_length();
-  while (run_->time() + 0.5 * h < due) {
-    const double cpu = thread_cpu_time();
-    if (!take_step()) return die();
-    const double taken = thread_cpu_time() - cpu;
-    cpu_ += taken;
-    longest_cpu_ = std::max(longest_cpu_, taken);
-    ++steps_;
-    is_stale_ = true;
-    if (is_frame_due()) publish();
-    if (steps_left_ > 0 && --steps_left_ == 0) return;
-    if (seconds(Clock::now() - begin) > kLongestBurst) break;
-  }
-  pace_.forgive(Clock::now(), run_->time(), kForgiven);
-}
-
-// Frames stand at multiples of as many steps as fit between two of them: evenly, and in a branch at
-// the same steps as before. Of a run that does not keep up, more often.
-bool LabSession::is_frame_due() const {
-  const double steps = status_.speed * frame_interval_ / run_->step_length();
-  long apart = std::max(1L, static_cast<long>(steps));
-  while (apart > 1 && status_.pace < 0.75 * static_cast<double>(apart) / steps) apart /= 2;
-  return run_->step_count() % apart == 0;
-}
-
-// By the hand as it is now; in a branch, as long as it is known, by what the hand did then.
-bool LabSession::take_step() {
-  bool went_on = false;
-  if (does_again_) {
-    LabInput again;
-    again.step = run_->step_count() + 1;
-    const std::lock_guard lock(mutex_);
-    if (const LabInput* known = before_.input(again.step)) again = *known;
-    does_again_ = again.step < before_.newest()->recorded.step;
-    went_on = run_->step(again);
-  } else {
-    went_on = run_->step();
-  }
-  if (!went_on) return false;
-  lanes_.follow(*run_);
-  for (const std::string& words : lanes_.take_words()) note("warning", words);
-  const LabInput& input = run_->input();
-  if (!input.hand && !input.pull) return true;
-  const std::lock_guard lock(mutex_);
-  history_.add(input);
-  return true;
-}
-
-// The newest frame is remembered, and handed over with whatever else is new. The status goes with
-// news at once; its times and measures alone, now and then.
-void LabSession::publish() {
-  const Clock::time_point now = Clock::now();
-  const bool is_due = is_stale_ && is_frame_due();
-  const bool is_last = is_stale_ && (!status_.playing && steps_left_ == 0);
-  const bool has_notes = take_notes();
-  const bool is_time = status_.playing && seconds(now - last_told_) >= kStatusEvery;
-  const bool says_status = has_notes || is_time || is_news_ || is_last;
-  if (!is_due && !says_status) return;
-  if (is_due || is_last) {
-    remember();
-    is_stale_ = false;
-  }
-  if (says_status) last_told_ = now;
-  is_news_ = false;
-  tell(says_status);
-}
-
-void LabSession::remember() {
-  LabFrame frame = frame_of_run();
-  if (!rows_ || rows_->size() != names_.rows.size())
-    rows_ = std::make_shared<const std::vector<std::string>>(names_.rows);
-  frame.pace = status_.pace = pace_.factor(Clock::now(), run_->time());
-  frame.longest_step = longest_cpu_;
-  frame.step_time = steps_ > 0 ? cpu_ / static_cast<double>(steps_) : 0;
-  status_.step_time = frame.step_time;
-  cpu_ = longest_cpu_ = 0;
-  steps_ = 0;
-  shown_input_came_ = input_came_;
-  const std::lock_guard lock(mutex_);
-  history_.add(std::move(frame));
-}
-
-// Names of new rows are looked at by whoever saves.
-LabFrame LabSession::frame_of_run() {
-  const std::lock_guard lock(mutex_);
-  LabFrame frame = run_->frame(names_);
-  lanes_.add_to(frame, names_);
-  return frame;
-}
-
-std::vector<std::shared_ptr<const LabFrame>> LabSession::history(double from) const {
-  const std::lock_guard lock(mutex_);
-  std::vector<std::shared_ptr<const LabFrame>> frames;
-  if (history_.empty()) return frames;
-  for (std::size_t n = history_.at(from); n < history_.size(); ++n)
-    frames.push_back(history_.frame(n));
-  return frames;
-}
-
-void LabSession::save(const std::filesystem::path& file) const {
-  LabHistory history;
-  std::shared_ptr<const Built> scene;
-  LabNames names;
-  std::vector<std::size_t> led;
-  {
-    const std::lock_guard lock(mutex_);
-    history = history_;
-    scene = scene_;
-    names = names_;
-    led = run_->led();
-  }
-  history.save(*scene->scene, names, led, file);
 }
 
 }  // namespace twinarm

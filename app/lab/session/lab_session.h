@@ -7,39 +7,18 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <cstdint>
-#include <deque>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "app/lab/parameters/gallery.h"
-#include "app/lab/run/history.h"
-#include "app/lab/run/lab_run.h"
-#include "app/lab/run/variants.h"
-#include "app/lab/session/lab_command.h"
-#include "app/lab/session/lab_status.h"
-#include "app/lab/session/pace.h"
-#include "app/lab/session/scene_builder_thread.h"
+#include "app/lab/session/publisher.h"
+#include "app/lab/session/session_commands.h"
+#include "app/lab/session/session_state.h"
 
 namespace twinarm {
-
-// What there is to be seen. Nothing in it changes any more.
-struct LabNow {
-  std::uint64_t number = 0;  // counts up with whatever changes here
-  std::shared_ptr<const Built> scene;
-  long scene_number = 0, change_number = 0;
-  std::shared_ptr<const LabFrame> frame;   // the newest, or the one that is looked back at
-  std::shared_ptr<const LabFrame> before;  // at the same time, of the branch that was left
-  std::shared_ptr<const LabStatus> status;
-  std::shared_ptr<const std::vector<std::string>> rows;  // of the ledger, by their numbers
-  std::chrono::steady_clock::time_point input_came{};    // the newest input in the frame
-  std::uint64_t wakes = 0;  // of LabSession::wake() until it was looked at
-};
 
 class LabSession {
  public:
@@ -50,91 +29,42 @@ class LabSession {
   void end();  // no thread of its own is left; now() stays as it was
 
   // From any thread.
-  void push(LabCommand command);
-  void note(const std::string& level, const std::string& text);
+  void push(LabCommand command) { state_.inbox.push(std::move(command)); }
+  void note(const std::string& level, const std::string& text) { state_.inbox.note(level, text); }
   void open(Order order);
-  LabNow now() const;
-  // Until there is something newer than what was seen, or wake() was called since, or the time is
-  // over.
-  void wait(const LabNow& seen, double longest) const;
-  void wake();
-  std::vector<std::shared_ptr<const LabFrame>> history(double from) const;
-  void set_rate(double frames_per_second);
-  // The run as it is remembered, as a recording. Throws InputError.
-  void save(const std::filesystem::path& file) const;
+  const Publisher& shown() const { return shown_; }
+  void wake() { shown_.wake(); }
+  const Timeline& timeline() const { return state_.timeline; }
+  void set_rate(double frames_per_second) { frame_interval_ = 1 / frames_per_second; }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  // The loop: lab_session.cpp.
   void work();
+  void take_inbox();
   void advance();
-  void show_failure(const std::string& why);
-  void rest();
-  void take_steps(Clock::time_point begin, double due);
-  bool take_step();
-  bool is_frame_due() const;
+  void pause_for(const std::string& why);
+  void show_end();
+  void sleep();
+  // What is shown: session_status.cpp.
+  bool is_frame_due();
   void publish();
-  void remember();
-  LabFrame frame_of_run();
-  bool is_of_lanes(const Change& change) const;
-  // What it tells: session_status.cpp.
-  LabHandStatus status_of_hand() const;
-  void tell(bool says_status);
+  void add_frame();
   bool take_notes();
-  void die();
-  // What it is told: session_commands.cpp.
-  void take_commands();
-  void act(const LabCommand& command);
-  void act_on_hand(const LabCommand& command);
-  void lead_by(LabHand::Source source);
-  void choose_hand(const std::string& source, const std::string& spec);
-  void change(const std::vector<std::string>& texts, std::optional<double> at);
-  void preset(const std::string& name);
-  void open_from_gallery(const std::string& name);
-  void ask(Asked asked);
-  void order(Order::What what, double at);
-  void done_with(long number);
-  void adopt(Built built);
-  LabHistory::Frame start_of(const Order& order);
-  void forget();
+  LabHandStatus status_of_hand();
+  void show(bool with_status);
 
-  const std::vector<GalleryScene>& gallery_;
-  std::unique_ptr<Workshop> workshop_;
-
-  mutable std::mutex mutex_;  // of what follows, up to the run's own
-  mutable std::condition_variable changed_, told_;
-  std::deque<LabCommand> commands_;
-  std::deque<Built> built_;
-  std::deque<LabNote> new_notes_;
-  std::optional<long> failed_;  // what was asked for up to this number
-  LabNow now_;
-  LabHistory history_, before_;  // before_: of the branch that was left, from where it was left
-  std::uint64_t wakes_ = 0;
-  bool stop_ = false;
-
+  SessionState state_;
+  SessionCommands commands_;
+  Publisher shown_;
+  std::mutex builder_mutex_;
+  std::unique_ptr<Workshop> builder_;              // null: the session has ended
   std::atomic<double> frame_interval_ = 1.0 / 60;  // [s]
 
   // Of the run's thread alone.
-  std::shared_ptr<const Built> scene_;
-  LabHand hand_;
-  std::unique_ptr<LabRun> run_;
-  LabLanes lanes_;
-  LabNames names_;
-  LabStatus status_;
-  std::deque<Asked> asked_;  // and not yet built or refused
-  long asked_count_ = 0;
-  long change_number_ = 0, notes_ = 0;
-  double changed_at_ = 0;             // time of the run [s]
-  long steps_left_ = 0;               // of single steps
-  bool does_again_ = false;           // what came in the steps of before_ comes again
-  bool is_stale_ = true;              // the newest frame is not the run's
-  bool is_news_ = true;               // something else is to be told
-  double cpu_ = 0, longest_cpu_ = 0;  // since the frame before [s]
-  long steps_ = 0;                    // likewise
-  Pace pace_;
-  Clock::time_point input_came_{}, shown_input_came_{};  // the newest; the newest in a frame
-  Clock::time_point last_told_{}, next_tick_{};          // last_told_: the status
+  long notes_ = 0;
+  Clock::time_point shown_input_came_{};  // the newest input in a frame
+  Clock::time_point last_status_{}, next_tick_{};
   std::shared_ptr<const std::vector<std::string>> rows_;
 
   std::thread thread_;

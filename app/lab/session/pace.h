@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "app/support/seconds.h"
+
 namespace twinarm {
 
 class Pace {
@@ -17,7 +19,7 @@ class Pace {
     speed_ = speed;
   }
   // Where the run is to be [s].
-  double due(Time wall) const { return run_ + speed_ * seconds(wall - wall_); }
+  double due(Time wall) const { return run_ + speed_ * as_seconds(wall - wall_); }
   // What is further behind than that is not made up for [s of wall time].
   void forgive(Time wall, double run, double most) {
     const double behind = due(wall) - run;
@@ -25,7 +27,7 @@ class Pace {
   }
   // Run time over what was asked for, of the last second; 1: it keeps up.
   double factor(Time wall, double run) {
-    const double passed = seconds(wall - measured_wall_);
+    const double passed = as_seconds(wall - measured_wall_);
     if (passed >= 1) {
       factor_ = (run - measured_run_) / (speed_ * passed);
       measured_wall_ = wall;
@@ -35,9 +37,6 @@ class Pace {
   }
 
  private:
-  static double seconds(std::chrono::steady_clock::duration time) {
-    return std::chrono::duration<double>(time).count();
-  }
   Time wall_{}, measured_wall_{};
   double run_ = 0, measured_run_ = 0, speed_ = 1, factor_ = 1;
 };

@@ -1,8 +1,6 @@
-// What the session does when it is told something.
-#include <algorithm>
+#include "app/lab/session/session_commands.h"
 
 #include "app/lab/parameters/presets.h"
-#include "app/lab/session/lab_session.h"
 #include "app/support/find_assets.h"
 #include "solver/support/diagnostics.h"
 
@@ -18,106 +16,75 @@ bool is_movement(LabCommand::Do what) {
 
 }  // namespace
 
-void LabSession::take_commands() {
-  std::deque<LabCommand> commands;
-  std::deque<Built> built;
-  std::optional<long> failed;
-  {
-    const std::lock_guard lock(mutex_);
-    commands.swap(commands_);
-    built.swap(built_);
-    std::swap(failed, failed_);
-  }
-  for (const LabCommand& command : commands) try {
-      act(command);
-    } catch (const InputError& error) {
-      for (const Fault& fault : error.faults()) note("error", to_string(fault));
-    } catch (const std::exception& error) {
-      note("error", error.what());
-    }
-  if (failed) done_with(*failed);
-  for (Built& one : built) {
-    const auto done = one.order.done;
-    try {
-      adopt(std::move(one));
-      publish();  // its start is seen and remembered, however soon steps follow
-      if (done) done("");
-    } catch (const std::exception& error) {
-      note("error", error.what());
-      if (done) done(error.what());
-    }
-  }
-}
-
-void LabSession::act(const LabCommand& command) {
+void SessionCommands::act(const LabCommand& command) {
   using Do = LabCommand::Do;
-  is_news_ = is_news_ || !is_movement(command.what);
+  s_.has_news = s_.has_news || !is_movement(command.what);
   switch (command.what) {
     case Do::play:
-      if (command.on && status_.dead) return;
-      status_.playing = command.on;
-      if (command.on) status_.at.reset();
+      if (command.on && s_.status.dead) return;
+      s_.status.playing = command.on;
+      if (command.on) s_.status.at.reset();
       return;
     case Do::step:
-      status_.playing = false;
-      status_.at.reset();
-      if (!status_.dead) steps_left_ = command.count;
+      s_.status.playing = false;
+      s_.status.at.reset();
+      if (!s_.status.dead) s_.loop.step_once(command.count);
       return;
     case Do::speed:
-      status_.speed = command.value;
-      pace_.begin(Clock::now(), run_->time(), status_.speed);
+      s_.status.speed = command.value;
+      s_.loop.set_pace(command.value);
       return;
     case Do::look:
-      status_.at = command.at;
-      if (command.at) status_.playing = false;
+      s_.status.at = command.at;
+      if (command.at) s_.status.playing = false;
       return;
     case Do::set:
       return change(command.names, {});
     case Do::branch:
-      return change(command.names, command.at ? command.at : std::optional(run_->time()));
+      return change(command.names, command.at ? command.at : std::optional(s_.loop.run().time()));
     case Do::preset:
-      return preset(command.name);
+      return open_preset(command.name);
     case Do::scene:
       return open_from_gallery(command.name);
     case Do::reset:
-      return order(Order::What::reset, 0);
+      return order(Order::What::reset);
     case Do::restore:
-      ask({0, true, {}});
-      return order(Order::What::change, 0);
+      s_.pending.add({0, true, {}});
+      return order(Order::What::change);
     default:
       return act_on_hand(command);
   }
 }
 
-void LabSession::act_on_hand(const LabCommand& command) {
+void SessionCommands::act_on_hand(const LabCommand& command) {
   using Do = LabCommand::Do;
   const double stamp = command.stamp;
   const auto index = static_cast<std::size_t>(command.count);
   if (command.what == Do::drop) {
-    hand_.release();
-    return run_->drop();
+    s_.hand.release();
+    return s_.loop.run().drop();
   }
-  does_again_ = false;  // who moves it now outranks who did
+  s_.loop.repeat_inputs(false);  // who moves it now outranks who did
   if (command.what == Do::hand) return choose_hand(command.name, command.spec);
-  input_came_ = command.came;
+  s_.input_came = command.came;
   switch (command.what) {
     case Do::tip:
       lead_by(LabHand::Source::drag);
-      return hand_.tip(command.goal, stamp);
+      return s_.hand.tip(command.goal, stamp);
     case Do::joint:
       lead_by(LabHand::Source::joints);
-      return hand_.joint(index, command.value, stamp);
+      return s_.hand.joint(index, command.value, stamp);
     case Do::turn:
       lead_by(LabHand::Source::drag);
-      return hand_.turn(command.point.x(), command.point.y(), command.point.z(), stamp);
+      return s_.hand.turn(command.point.x(), command.point.y(), command.point.z(), stamp);
     case Do::axes:
       lead_by(LabHand::Source::drag);
-      return hand_.axes(command.rates, stamp);
+      return s_.hand.axes(command.rates, stamp);
     case Do::button:
-      return hand_.button(index, command.on, stamp);
+      return s_.hand.button(index, command.on, stamp);
     case Do::pull:
-      if (!run_->pull(static_cast<int>(command.count), command.point, command.goal, stamp))
-        note("note", "no force moves that body");
+      if (!s_.loop.run().pull(static_cast<int>(command.count), command.point, command.goal, stamp))
+        s_.inbox.note("note", "no force moves that body");
       return;
     default:
       return;
@@ -125,45 +92,41 @@ void LabSession::act_on_hand(const LabCommand& command) {
 }
 
 // Who grabs the robot leads it from then on.
-void LabSession::lead_by(LabHand::Source source) {
-  if (hand_.source() == source) return;
-  hand_.choose(source);
-  is_news_ = true;
+void SessionCommands::lead_by(LabHand::Source source) {
+  if (s_.hand.source() == source) return;
+  s_.hand.choose(source);
+  s_.has_news = true;
 }
 
-void LabSession::choose_hand(const std::string& source, const std::string& spec) {
+void SessionCommands::choose_hand(const std::string& source, const std::string& spec) {
   using Source = LabHand::Source;
   static const std::vector<std::pair<std::string, Source>> all{{"scene", Source::scene},
                                                                {"drag", Source::drag},
                                                                {"joints", Source::joints},
                                                                {"device", Source::device}};
   for (const auto& [name, kind] : all)
-    if (name == source) return hand_.choose(kind, spec);
+    if (name == source) return s_.hand.choose(kind, spec);
   throw InputError({{"command", 0, "hand, source", "there is no '" + source + "'",
                      "give scene, drag, joints or device"}});
 }
 
 // From now on, or from an instant that is remembered.
-void LabSession::change(const std::vector<std::string>& texts, std::optional<double> at) {
+void SessionCommands::change(const std::vector<std::string>& texts, std::optional<double> at) {
   Asked asked;
   for (const std::string& text : texts) {
     const Change change = parse_change(text);
-    if (is_of_lanes(change))
+    if (is_of_lanes(s_.status, change))
       throw InputError({{"command", 0, text, "it is what the lanes differ by",
                          "turn another knob, or open the scene without lanes"}});
     asked.changes.push_back(change);
   }
-  ask(std::move(asked));
-  if (!at) return order(Order::What::change, 0);
-  status_.playing = false;
+  s_.pending.add(std::move(asked));
+  if (!at) return order(Order::What::change);
+  s_.status.playing = false;
   order(Order::What::branch, *at);
 }
 
-bool LabSession::is_of_lanes(const Change& change) const {
-  return !status_.lanes.empty() && change.path == status_.lanes.path;
-}
-
-void LabSession::preset(const std::string& name) {
+void SessionCommands::open_preset(const std::string& name) {
   const Preset* preset = find_preset(name);
   if (!preset)
     throw InputError({{"command", 0, "preset", "there is no '" + name + "'",
@@ -175,105 +138,86 @@ void LabSession::preset(const std::string& name) {
   order.words.file = preset->scene;
   order.hand = preset->hand;
   for (const std::string& text : preset->changes) put(order.changes, parse_change(text));
-  open(std::move(order));
+  open_(std::move(order));
 }
 
-void LabSession::open_from_gallery(const std::string& name) {
+void SessionCommands::open_from_gallery(const std::string& name) {
   const GalleryScene* scene = find_scene(gallery_, name);
   if (!scene)
     throw InputError({{"command", 0, "scene", "there is no '" + name + "'",
                        "the state lists them under gallery"}});
-  open(order_to_open(*scene));
+  open_(order_to_open(*scene));
 }
 
-void LabSession::ask(Asked asked) {
-  asked.number = ++asked_count_;
-  asked_.push_back(std::move(asked));
-}
-
-void LabSession::done_with(long number) {
-  while (!asked_.empty() && asked_.front().number <= number) asked_.pop_front();
-}
-
-void LabSession::order(Order::What what, double at) {
+void SessionCommands::order(Order::What what, double at) {
+  const std::shared_ptr<const Built> now = s_.timeline.scene();
   Order order;
   order.what = what;
-  order.scene = scene_->scene;
-  order.name = scene_->order.name;
-  order.words = scene_->order.words;
-  order.changes = status_.changes;
-  order.asked.assign(asked_.begin(), asked_.end());
-  order.lanes = scene_->order.lanes;
+  order.scene = now->scene;
+  order.name = now->order.name;
+  order.words = now->order.words;
+  order.changes = s_.status.changes;
+  order.asked = s_.pending.all();
+  order.lanes = now->order.lanes;
   order.at = at;
-  open(std::move(order));
+  open_(std::move(order));
 }
 
 // Where a run that goes on begins; null where that is no longer remembered.
-LabHistory::Frame LabSession::start_of(const Order& order) {
-  if (order.what == Order::What::change) return std::make_shared<const LabFrame>(frame_of_run());
-  const std::lock_guard lock(mutex_);
-  if (history_.empty() || order.at < history_.frame(0)->recorded.t - 1e-9) return nullptr;
-  const std::size_t n = history_.at(order.at);
-  LabHistory::Frame from = history_.frame(n);
-  before_ = history_.cut(n);
-  does_again_ = before_.size() > 1;
+Timeline::Frame SessionCommands::start_of(const Order& order) {
+  if (order.what == Order::What::change) return std::make_shared<const LabFrame>(s_.loop.frame());
+  Timeline::Frame from = s_.timeline.branch(order.at);
+  if (!from) return nullptr;
+  s_.loop.repeat_inputs(s_.timeline.known_input(from->recorded.step).goes_on);
   LabBranch branch;
   branch.from = from->recorded.t;
   branch.changes = order.changes;
-  branch.number = status_.branch ? status_.branch->number + 1 : 1;
-  status_.branch = std::move(branch);
-  status_.at.reset();
-  status_.playing = true;
+  branch.number = s_.status.branch ? s_.status.branch->number + 1 : 1;
+  s_.status.branch = std::move(branch);
+  s_.status.at.reset();
+  s_.status.playing = true;
   return from;
 }
 
-// Between two steps: the run goes on as it was ordered.
-void LabSession::adopt(Built built) {
+void SessionCommands::adopt(Built built) {
   const Order order = built.order;
-  if (!order.asked.empty()) done_with(order.asked.back().number);
+  if (!order.asked.empty()) s_.pending.finish(order.asked.back().number);
   const bool goes_on = order.what == Order::What::change || order.what == Order::What::branch;
-  if (goes_on && built.scene != scene_->scene) return;  // meanwhile another one was opened
-  LabHistory::Frame from;
+  if (goes_on && built.scene != s_.timeline.scene()->scene) return;  // another one was opened
+  Timeline::Frame from;
   if (goes_on && !(from = start_of(order)))
-    return note("error", "that instant is not remembered any more");
-  auto run = std::make_unique<LabRun>(std::move(built.run), hand_, from.get());
-  LabLanes lanes(order.lanes, std::move(built.lanes), from.get(), names_);
-  if (from) run->keep_books(*from, names_);
+    return s_.inbox.note("error", "that instant is not remembered any more");
+  auto run = std::make_unique<LabRun>(std::move(built.run), s_.hand, from.get());
+  LabLanes lanes(order.lanes, std::move(built.lanes), from.get(), s_.loop.names());
+  if (from) run->keep_books(*from, s_.loop.names());
   for (const std::string& warning : run->warnings())
-    if (!goes_on) note("warning", warning);
-  if (!run->begun_anew().empty()) note("note", run->begun_anew());
+    if (!goes_on) s_.inbox.note("warning", warning);
+  if (!run->begun_anew().empty()) s_.inbox.note("note", run->begun_anew());
   if (!goes_on) forget();
   if (order.what == Order::What::open) {
-    asked_.clear();
-    ++status_.scene;
-    status_.scene_name = order.name;
+    s_.pending.clear();
+    ++s_.status.scene;
+    s_.status.scene_name = order.name;
     if (!order.hand.empty()) choose_hand(order.hand, "");
   }
-  {
-    const std::lock_guard lock(mutex_);
-    status_.changes = order.changes;
-    status_.lanes = order.lanes;
-    scene_ = std::make_shared<const Built>(std::move(built));
-    run_ = std::move(run);
-    lanes_ = std::move(lanes);
-    history_.begin_segment(order.changes);
-  }
-  ++change_number_;
-  changed_at_ = run_->time();
-  status_.dead.reset();
-  is_stale_ = is_news_ = true;
-  pace_.begin(Clock::now(), run_->time(), status_.speed);
+  s_.status.changes = order.changes;
+  s_.status.lanes = order.lanes;
+  s_.timeline.begin(std::make_shared<const Built>(std::move(built)), run->led());
+  s_.loop.begin(std::move(run), std::move(lanes));
+  ++s_.change_number;
+  s_.changed_at = s_.loop.run().time();
+  s_.status.dead.reset();
+  s_.is_stale = s_.has_news = true;
+  s_.loop.set_pace(s_.status.speed);
 }
 
-void LabSession::forget() {
-  const std::lock_guard lock(mutex_);
-  history_ = before_ = LabHistory(history_.most_bytes());
-  names_ = {};
-  rows_.reset();
-  does_again_ = false;
-  status_.branch.reset();
-  status_.at.reset();
-  status_.playing = true;
+void SessionCommands::forget() {
+  s_.timeline.forget();
+  s_.loop.names() = {};
+  s_.loop.repeat_inputs(false);
+  s_.status.branch.reset();
+  s_.status.at.reset();
+  s_.status.playing = true;
 }
 
 }  // namespace twinarm

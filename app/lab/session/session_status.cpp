@@ -1,109 +1,115 @@
-// What the session tells of itself: the newest instant, its status, notes, why it ended.
+// What the session shows: the newest instant, its status, notes.
 #include <algorithm>
 
-#include "app/diagnose/remedies.h"
 #include "app/lab/session/lab_session.h"
 
 namespace twinarm {
 namespace {
 
-constexpr std::size_t kMostNotes = 20;
+constexpr auto kStatusEvery = std::chrono::milliseconds(250);
 
 }  // namespace
 
-void LabSession::note(const std::string& level, const std::string& text) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (new_notes_.size() == kMostNotes) new_notes_.pop_front();  // the last are told, as of all
-    new_notes_.push_back({0, level, text});
-  }
-  told_.notify_all();
+// Frames stand at multiples of as many steps as fit between two of them: evenly, and in a branch at
+// the same steps as before. Of a run that does not keep up, more often.
+bool LabSession::is_frame_due() {
+  const LabStatus& status = state_.status;
+  const double steps = status.speed * frame_interval_ / state_.loop.run().step_length();
+  long apart = std::max(1L, static_cast<long>(steps));
+  while (apart > 1 && status.pace < 0.75 * static_cast<double>(apart) / steps) apart /= 2;
+  return state_.loop.run().step_count() % apart == 0;
 }
 
-// The hand as it is told to pages: one that is opened later finds it so.
-LabHandStatus LabSession::status_of_hand() const {
-  using Source = LabHand::Source;
-  static const char* const kSources[] = {"scene", "drag", "joints", "device"};
-  static const char* const kMappings[] = {"paper", "arm", "cartesian"};
-  static const char* const kModes[] = {"live", "held", "released"};
-  LabHandStatus told;
-  const Source source = hand_.source();
-  if (!run_->driven().empty()) told.source = kSources[static_cast<int>(source)];
-  told.spec = hand_.spec();
-  told.mapping = kMappings[static_cast<int>(hand_.mapping().kind)];
-  told.felt = hand_.description();
-  told.q = run_->driven_q();
-  const std::optional<LabHandFrame> now = run_->hand_frame();
-  if (now && hand_.device()) told.mode = kModes[now->mode];
-  const bool is_users = source == Source::drag || source == Source::joints;
-  told.gripper_closed = is_users ? hand_.gripper_closed() : now && now->gripper_closed;
-  return told;
+// The newest frame is remembered, and handed over with whatever else is new. The status goes with
+// news at once; its times and measures alone, now and then.
+void LabSession::publish() {
+  const Clock::time_point now = Clock::now();
+  const bool is_playing = state_.status.playing;
+  const bool is_due = state_.is_stale && is_frame_due();
+  const bool is_last = state_.is_stale && !is_playing && !state_.loop.has_single_steps();
+  const bool has_notes = take_notes();
+  const bool is_time = is_playing && now - last_status_ >= kStatusEvery;
+  const bool with_status = has_notes || is_time || state_.has_news || is_last;
+  if (!is_due && !with_status) return;
+  if (is_due || is_last) {
+    add_frame();
+    state_.is_stale = false;
+  }
+  if (with_status) last_status_ = now;
+  state_.has_news = false;
+  show(with_status);
 }
 
-void LabSession::tell(bool says_status) {
-  status_.time = run_->time();
-  status_.step = run_->step_length();
-  if (says_status) status_.hand = status_of_hand();
-  {
-    const std::lock_guard lock(mutex_);
-    LabNow now;
-    now.number = now_.number + 1;
-    now.scene = scene_;
-    now.scene_number = status_.scene;
-    now.change_number = change_number_;
-    if (!history_.empty()) {
-      status_.first = history_.frame(0)->recorded.t;
-      status_.last = history_.newest()->recorded.t;
-      now.frame = status_.at ? history_.frame(history_.at(*status_.at)) : history_.newest();
-    }
-    status_.lane_ends.clear();
-    if (now.frame)
-      for (const LaneFrame& lane : now.frame->lanes)
-        status_.lane_ends.push_back(lane.stopped ? std::optional(lane.frame->recorded.t)
-                                                 : std::nullopt);
-    if (now.frame && !before_.empty() && now.frame->recorded.t <= before_.newest()->recorded.t)
-      now.before = before_.frame(before_.at(now.frame->recorded.t));
-    now.status = says_status ? std::make_shared<const LabStatus>(status_) : now_.status;
-    now.rows = rows_;
-    now.input_came = shown_input_came_;
-    now_ = std::move(now);
-  }
-  changed_.notify_all();
+void LabSession::add_frame() {
+  LabStatus& status = state_.status;
+  LabFrame frame = state_.loop.frame();
+  const LabNames& names = state_.loop.names();
+  if (!rows_ || *rows_ != names.rows)
+    rows_ = std::make_shared<const std::vector<std::string>>(names.rows);
+  const RunLoop::Cost cost = state_.loop.take_cost();
+  frame.pace = status.pace = state_.loop.pace_factor();
+  frame.longest_step = cost.longest;
+  frame.step_time = status.step_time = cost.mean;
+  shown_input_came_ = state_.input_came;
+  state_.timeline.add(std::move(frame), names);
 }
 
 bool LabSession::take_notes() {
-  const std::lock_guard lock(mutex_);
-  if (new_notes_.empty()) return false;
-  for (LabNote& note : new_notes_) {
+  std::deque<LabNote> came = state_.inbox.take_notes();
+  std::vector<LabNote>& notes = state_.status.notes;
+  for (LabNote& note : came) {
     note.number = ++notes_;
-    status_.notes.push_back(std::move(note));
+    notes.push_back(std::move(note));
   }
-  new_notes_.clear();
-  if (status_.notes.size() > kMostNotes)
-    status_.notes.erase(status_.notes.begin(),
-                        status_.notes.end() - static_cast<std::ptrdiff_t>(kMostNotes));
-  return true;
+  if (notes.size() > Inbox::kMaxNotes)
+    notes.erase(notes.begin(), notes.end() - static_cast<std::ptrdiff_t>(Inbox::kMaxNotes));
+  return !came.empty();
 }
 
-void LabSession::die() {
-  status_.playing = false;
-  steps_left_ = 0;
-  is_stale_ = is_news_ = true;
-  const PostMortem* found = run_->post_mortem();
-  if (!found) return note("note", "the run has come to its end");
-  LabEnd end;
-  end.time = found->time;
-  end.from = changed_at_;
-  end.words = found->words;
-  end.quantity = found->field;
-  end.body = found->body;
-  if (!found->suspects.empty()) end.spring = found->suspects.front().name;
-  end.remedies = remedies_of(run_->prepared(), *found);
-  std::erase_if(end.remedies, [this](const Remedy& remedy) {
-    return std::any_of(remedy.changes.begin(), remedy.changes.end(),
-                       [this](const std::string& text) { return is_of_lanes(parse_change(text)); });
-  });
-  status_.dead = std::move(end);
+// The hand as pages see it: one that is opened later finds it so.
+LabHandStatus LabSession::status_of_hand() {
+  using Source = LabHand::Source;
+  static const char* const kSources[] = {"scene", "drag", "joints", "device"};
+  static const char* const kModes[] = {"live", "held", "released"};
+  const LabHand& hand = state_.hand;
+  const LabRun& run = state_.loop.run();
+  LabHandStatus shown;
+  const Source source = hand.source();
+  if (!run.driven().empty()) shown.source = kSources[static_cast<int>(source)];
+  shown.spec = hand.spec();
+  shown.mapping = kMappingNames[static_cast<std::size_t>(hand.mapping().kind)];
+  shown.felt = hand.description();
+  shown.q = run.driven_q();
+  const std::optional<LabHandFrame> now = run.hand_frame();
+  if (now && hand.device()) shown.mode = kModes[now->mode];
+  const bool is_users = source == Source::drag || source == Source::joints;
+  shown.gripper_closed = is_users ? hand.gripper_closed() : now && now->gripper_closed;
+  return shown;
+}
+
+void LabSession::show(bool with_status) {
+  LabStatus& status = state_.status;
+  status.time = state_.loop.run().time();
+  status.step = state_.loop.run().step_length();
+  if (with_status) status.hand = status_of_hand();
+  Timeline::View view = state_.timeline.view(status.at);
+  status.first = view.first;
+  status.last = view.last;
+  status.lane_ends.clear();
+  if (view.frame)
+    for (const LaneFrame& lane : view.frame->lanes)
+      status.lane_ends.push_back(lane.stopped ? std::optional(lane.frame->recorded.t)
+                                              : std::nullopt);
+  LabNow now;
+  now.scene = std::move(view.scene);
+  now.scene_number = status.scene;
+  now.change_number = state_.change_number;
+  now.frame = std::move(view.frame);
+  now.before = std::move(view.before);
+  if (with_status) now.status = std::make_shared<const LabStatus>(status);
+  now.rows = rows_;
+  now.input_came = shown_input_came_;
+  shown_.publish(std::move(now));
 }
 
 }  // namespace twinarm

@@ -22,7 +22,7 @@ class LabChannels {
                   const std::string& of) {
     return channels_.add(name, unit, kind, of);
   }
-  const std::vector<RunChannel>& all() const { return channels_.all(); }
+  const std::vector<RunColumn>& all() const { return channels_.all(); }
   void values(const LabFrame& frame, const Moment& moment, SceneCouplings* couplings,
               std::vector<double>& values) const;
 

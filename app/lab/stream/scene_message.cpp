@@ -28,8 +28,7 @@ void write_layers(JsonWriter& json, const std::vector<std::vector<LegendLine>>& 
   json.key("layers").begin_array();
   for (std::size_t i = 0; i < layer_words().size(); ++i) {
     json.begin_object();
-    json.key("name").text(layer_words()[i].name);
-    json.key("what").text(layer_words()[i].what);
+    json.members({{"name", layer_words()[i].name}, {"what", layer_words()[i].what}});
     json.key("legend");
     write_legend(json, legends[i]);
     json.end_object();
@@ -37,17 +36,13 @@ void write_layers(JsonWriter& json, const std::vector<std::vector<LegendLine>>& 
   json.end_array();
 }
 
-void write_channels(JsonWriter& json, const std::vector<RunChannel>& channels) {
-  json.key("channels").begin_array();
-  for (const RunChannel& channel : channels) {
-    json.begin_object();
-    json.key("name").text(channel.name);
-    json.key("unit").text(channel.unit);
-    json.key("kind").text(channel.kind);
-    json.key("of").text(channel.of);
-    json.end_object();
-  }
-  json.end_array();
+void write_channels(JsonWriter& json, const std::vector<RunColumn>& channels) {
+  json.key("channels").list(channels, [&](const RunColumn& channel) {
+    json.object({{"name", channel.name},
+                 {"unit", channel.unit},
+                 {"kind", channel.kind},
+                 {"of", channel.of}});
+  });
 }
 
 // Whether forces move it, and whether it is a robot's link.
@@ -55,13 +50,10 @@ void write_bodies(JsonWriter& json, const SimulatePlan& plan) {
   const Model<double>& model = plan.input.robot.model;
   const int links = plan.input.scene ? plan.input.scene->robot_bodies : model.body_count() - 1;
   json.key("bodies").begin_array();
-  for (std::size_t i = 0; i < model.parent.size(); ++i) {
-    json.begin_object();
-    json.key("name").text(i == 0 ? "world" : model.body_name[i]);
-    json.key("moves").boolean(moves_by_forces(model, i));
-    json.key("robot").boolean(i > 0 && static_cast<int>(i) <= links);
-    json.end_object();
-  }
+  for (std::size_t i = 0; i < model.parent.size(); ++i)
+    json.object({{"name", i == 0 ? "world" : model.body_name[i]},
+                 {"moves", moves_by_forces(model, i)},
+                 {"robot", i > 0 && static_cast<int>(i) <= links}});
   json.end_array();
 }
 
@@ -75,8 +67,7 @@ void write_joints(JsonWriter& json, const RobotInput& robots, const std::vector<
   for (const NamedJoint& joint : robots.coordinates.all()) {
     if (joint.components().size() != 1) continue;
     json.begin_object();
-    json.key("name").text(joint.name);
-    json.key("body").count(static_cast<long>(joint.body));
+    json.members({{"name", joint.name}, {"body", joint.body}});
     const auto& all = robots.robot.joints;
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const auto& j) { return j.name == joint.name; });
@@ -84,10 +75,9 @@ void write_joints(JsonWriter& json, const RobotInput& robots, const std::vector<
       if (std::isfinite(found->lower)) json.key("low").number(found->lower);
       if (std::isfinite(found->upper)) json.key("high").number(found->upper);
     }
-    if (found != all.end() && turns_or_slides(found->type)) {
-      json.key("axis").vector(found->axis);
-      json.key("slides").boolean(found->type == JointDescription::Type::prismatic);
-    }
+    if (found != all.end() && turns_or_slides(found->type))
+      json.members(
+          {{"axis", found->axis}, {"slides", found->type == JointDescription::Type::prismatic}});
     const auto place = std::find(driven.begin(), driven.end(), static_cast<int>(joint.body));
     if (place != driven.end()) json.key("driven").count(place - driven.begin());
     json.end_object();
@@ -109,24 +99,20 @@ const std::vector<std::string>& layer_names() {
 std::string scene_message(const SceneFacts& facts) {
   JsonWriter json;
   json.begin_object();
-  json.key("kind").text("scene");
-  json.key("scene").count(facts.number);
-  json.key("title").text(facts.words.title.empty() ? facts.stage.name : facts.words.title);
-  json.key("file").text(facts.words.file);
-  json.key("look").texts(facts.words.look);
-  json.key("meshes").texts(facts.store.meshes());
-  json.key("textures").texts(facts.store.textures());
+  json.members({{"kind", "scene"},
+                {"scene", facts.number},
+                {"title", facts.words.title.empty() ? facts.stage.name : facts.words.title},
+                {"file", facts.words.file},
+                {"look", facts.words.look},
+                {"meshes", facts.store.meshes()},
+                {"textures", facts.store.textures()}});
   write_layers(json, facts.legends);
   write_channels(json, facts.channels);
   json.key("ledger").texts(facts.rows);
   write_bodies(json, facts.plan);
   write_joints(json, facts.plan.input.robot, facts.moments.driven());
-  if (const auto tip = facts.moments.tip()) {
-    json.key("tip").begin_object();
-    json.key("body").count(tip->first);
-    json.key("p").vector(tip->second);
-    json.end_object();
-  }
+  if (const auto tip = facts.moments.tip())
+    json.key("tip").object({{"body", tip->first}, {"p", tip->second}});
   write_view(json, facts.stage);
   json.end_object();
   return json.str();

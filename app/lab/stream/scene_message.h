@@ -24,7 +24,7 @@ struct SceneFacts {
   const Stage& stage;
   const MeshStore& store;
   const std::vector<std::vector<LegendLine>>& legends;  // by layer
-  const std::vector<RunChannel>& channels;
+  const std::vector<RunColumn>& channels;
   const std::vector<std::string>& rows;
 };
 std::string scene_message(const SceneFacts& facts);

@@ -42,7 +42,7 @@ LaneViews::LaneViews(ViewLanes lanes, const SimulateInput& input, LabChannels& c
     };
     for (const NamedJoint& joint : joints_) {
       const JointComponent component = joint.components().front();
-      add("q/" + component_name(coordinates, joint, component), component.is_angle ? "rad" : "m");
+      add("q/" + component_name(coordinates, joint, component), component.unit());
     }
     add("total_energy", "J");
     add("numerical", "J");

@@ -186,10 +186,6 @@ void check_plot(const std::filesystem::path& file) {
   make_folder(folder_of(file), "--plot");
 }
 
-std::string with_unit(const RecordedColumn& column) {
-  return column.name + "[" + column.unit + "]";
-}
-
 ComparedLedgers compared_ledgers(const Replay& recorded, const Replay& fork) {
   ComparedLedgers found;
   if (recorded.frames.empty() || fork.frames.empty()) return found;

@@ -10,8 +10,6 @@
 
 namespace twinarm {
 
-std::string with_unit(const RecordedColumn& column);
-
 // Of both branches since the fork: there the springs of the fork may hold another energy, but what
 // rows have gained since then can be compared.
 struct ComparedWork {

@@ -18,7 +18,7 @@
 
 #include "app/render/list/draw_mesh.h"
 #include "app/render/list/image.h"
-#include "collision/shapes/mesh.h"
+#include "collision/geometry/mesh.h"
 #include "solver/spatial/pose.h"
 
 namespace twinarm {

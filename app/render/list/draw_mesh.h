@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision/shapes/mesh.h"
+#include "collision/geometry/mesh.h"
 #include "solver/spatial/pose.h"
 
 namespace twinarm {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "collision/shapes/mesh.h"
+#include "collision/geometry/mesh.h"
 
 namespace twinarm {
 

@@ -2,7 +2,7 @@
 
 #include "app/robot/robot_json.h"
 #include "app/run/output/simulate_output.h"
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 namespace {
@@ -12,8 +12,8 @@ class JsonOutput : public RunOutput {
   JsonOutput(const SimulateInput& simulated, const RunPlan& plan)
       : input_(simulated.robot), simulated_(simulated), k_(input_.model) {
     json_.begin_object();
-    json_.key("joints").texts(input_.coordinates.names());
-    json_.key("integrator").text(integrator_name(plan.integrator));
+    json_.members(
+        {{"joints", input_.coordinates.names()}, {"integrator", integrator_name(plan.integrator)}});
     if (plan.is_adaptive()) {
       plan.step_is_given ? json_.key("step").number(plan.step) : json_.key("step").null();
       json_.key("tolerance").number(plan.tolerance);
@@ -33,8 +33,8 @@ class JsonOutput : public RunOutput {
     if (coordinates.floating()) write_base(json_.key("base"), coordinates, x);
     write_links(json_.key("links"), input_.model, k_);
     if (simulated_.couplings) write_targets(t);
-    json_.key("kinetic_energy").number(kinetic_energy(input_.model, x));
-    json_.key("potential_energy").number(potential_energy(input_.model, x));
+    json_.members({{"kinetic_energy", kinetic_energy(input_.model, x)},
+                   {"potential_energy", potential_energy(input_.model, x)}});
     json_.end_object();
   }
 
@@ -45,12 +45,8 @@ class JsonOutput : public RunOutput {
     for (const LedgerRow& row : result.ledger) json_.key(row.name).number(row.work);
     json_.end_object();
     json_.key("momentum").begin_object();
-    for (const MomentumRow& row : result.momentum) {
-      json_.key(row.name).begin_object();
-      json_.key("linear").vector(row.linear);
-      json_.key("angular").vector(row.angular);
-      json_.end_object();
-    }
+    for (const MomentumRow& row : result.momentum)
+      json_.key(row.name).object({{"linear", row.linear}, {"angular", row.angular}});
     json_.end_object();
     if (simulated_.couplings) {
       json_.key("hand").begin_object();
@@ -58,15 +54,12 @@ class JsonOutput : public RunOutput {
       json_.end_object();
     }
     json_.key("steps").count(result.steps);
-    if (result.alarm) {
-      json_.key("alarm").begin_object();
-      json_.key("row").text(result.alarm->row);
-      json_.key("time").number(result.alarm->t);
-      json_.key("since").number(result.alarm->since);
-      json_.key("work").number(result.alarm->work);
-      json_.key("words").text(result.alarm_words);
-      json_.end_object();
-    }
+    if (result.alarm)
+      json_.key("alarm").object({{"row", result.alarm->row},
+                                 {"time", result.alarm->t},
+                                 {"since", result.alarm->since},
+                                 {"work", result.alarm->work},
+                                 {"words", result.alarm_words}});
     if (result.post_mortem) write(*result.post_mortem);
     std::vector<std::string> warnings = input_.warnings;
     warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
@@ -88,10 +81,10 @@ class JsonOutput : public RunOutput {
       write_joints("qd", spec,
                    [&](const NamedJoint& j) { return from_solver(j, kvr.x, kvr.x.qd); });
       const Vector3 p = kvr.k.position(spec.spring.body, spec.spring.p_L);
-      json_.key("position").vector(p);
-      json_.key("orientation").vector(quaternion_of(kvr.k.X_WL[body].R));
-      json_.key("linear_velocity").vector(kvr.k.velocity(spec.spring.body, p));
-      json_.key("angular_velocity").vector(kvr.k.w_WL[body]);
+      json_.members({{"position", p},
+                     {"orientation", quaternion_of(kvr.k.X_WL[body].R)},
+                     {"linear_velocity", kvr.k.velocity(spec.spring.body, p)},
+                     {"angular_velocity", kvr.k.w_WL[body]}});
       json_.end_object();
     }
     json_.end_object();
@@ -111,37 +104,31 @@ class JsonOutput : public RunOutput {
 
   void write(const PostMortem& found) {
     json_.key("post_mortem").begin_object();
-    json_.key("time").number(found.time);
-    json_.key("step").count(found.step);
-    json_.key("body").text(found.body);
-    json_.key("joint").text(found.joint);
-    json_.key("field").text(found.field);
-    json_.key("fastest_joint").text(found.fastest_joint);
-    json_.key("reason").text(found.reason);
-    json_.key("pass").count(found.pass);
-    json_.key("kinetic_energy").number(found.kinetic_energy);
+    json_.members({{"time", found.time},
+                   {"step", found.step},
+                   {"body", found.body},
+                   {"joint", found.joint},
+                   {"field", found.field},
+                   {"fastest_joint", found.fastest_joint},
+                   {"reason", found.reason},
+                   {"pass", found.pass},
+                   {"kinetic_energy", found.kinetic_energy}});
     if (found.by_energy) json_.key("energy_bound").number(found.energy_bound);
-    json_.key("ledger_row").text(found.row);
-    json_.key("ledger_growth").number(found.row_growth);
-    json_.key("suspects").begin_array();
-    for (const Suspect& suspect : found.suspects) write(suspect);
-    json_.end_array();
-    json_.key("recording").text(found.recording);
-    json_.key("words").texts(found.words);
+    json_.members({{"ledger_row", found.row}, {"ledger_growth", found.row_growth}});
+    json_.key("suspects").list(found.suspects, [&](const Suspect& suspect) { write(suspect); });
+    json_.members({{"recording", found.recording}, {"words", found.words}});
     json_.end_object();
   }
 
   void write(const Suspect& suspect) {
-    json_.begin_object();
-    json_.key("name").text(suspect.name);
-    json_.key("scheme").text(suspect.scheme);
-    json_.key("w_h").number(suspect.product);
-    json_.key("limit").number(suspect.limit);
-    json_.key("step").number(suspect.step);
-    json_.key("largest_step").number(suspect.largest_step);
-    json_.key("gain").text(suspect.gain);
-    json_.key("largest_gain").number(suspect.largest_gain);
-    json_.end_object();
+    json_.object({{"name", suspect.name},
+                  {"scheme", suspect.scheme},
+                  {"w_h", suspect.product},
+                  {"limit", suspect.limit},
+                  {"step", suspect.step},
+                  {"largest_step", suspect.largest_step},
+                  {"gain", suspect.gain},
+                  {"largest_gain", suspect.largest_gain}});
   }
 
   const RobotInput& input_;

@@ -5,10 +5,8 @@
 #include <vector>
 
 #include "app/data/text_table.h"
-#include "app/robot/robot_table.h"
 #include "app/run/output/simulate_output.h"
-#include "solver/dynamics/energy.h"
-#include "solver/dynamics/kinematics.h"
+#include "app/run/run_columns.h"
 
 namespace twinarm {
 namespace {
@@ -85,23 +83,14 @@ std::string momentum_table(const SimulateResult& result) {
 class TableOutput : public RunOutput {
  public:
   TableOutput(const SimulateInput& input, const RunPlan& plan)
-      : input_(input.robot),
-        plan_(plan),
-        first_body_(input.scene ? input.scene->robot_bodies + 1 : input_.model.body_count()),
-        samples_(headings()),
-        k_(input_.model) {}
+      : input_(input.robot), plan_(plan), samples_(headings(input)), k_(input_.model) {}
 
   void sample(double t, const State<double>& x) override {
-    std::vector<std::string> row{cell(t)};
-    for (const NamedJoint& joint : input_.coordinates.all())
-      for (const double q : coordinates_of(joint, x)) row.push_back(cell(q));
     forward_kinematics(input_.model, x, k_);
-    for (int body = first_body_; body < end_of_bodies(); ++body)
-      for (const double p : k_.X_WL[static_cast<std::size_t>(body)].p) row.push_back(cell(p));
-    const double kinetic = kinetic_energy(input_.model, x);
-    const double potential = potential_energy(input_.model, x);
-    for (const double energy : {kinetic, potential, kinetic + potential})
-      row.push_back(cell(energy));
+    const std::vector<double> values = run_values(input_, x, k_);
+    std::vector<std::string> row{cell(t)};
+    for (const std::size_t column : shown_) row.push_back(cell(values[column]));
+    row.push_back(cell(values[values.size() - 2] + values.back()));
     samples_.add(std::move(row));
   }
 
@@ -133,34 +122,40 @@ class TableOutput : public RunOutput {
   }
 
  private:
-  // Of the bodies of a scene the first few have columns.
-  int end_of_bodies() const { return std::min(input_.model.body_count(), first_body_ + 3); }
   std::string left_out() const {
-    const int bodies = input_.model.body_count() - first_body_,
-              shown = end_of_bodies() - first_body_;
-    if (bodies <= shown) return "";
+    if (bodies_ <= kShownBodies) return "";
     return fmt::format("({} of {} bodies are not shown: --csv and --json have them all)\n",
-                       bodies - shown, bodies);
+                       bodies_ - kShownBodies, bodies_);
   }
 
-  std::vector<std::string> headings() const {
-    const Coordinates& coordinates = input_.coordinates;
+  // Coordinates, the first few of a scene's own bodies, energies.
+  std::vector<std::string> headings(const SimulateInput& input) {
+    const int bodies = input.robot.model.body_count();
+    const int first = input.scene ? input.scene->robot_bodies + 1 : bodies;
+    bodies_ = bodies - first;
     std::vector<std::string> names{"t [s]"};
-    for (const NamedJoint& joint : coordinates.all())
-      for (const JointComponent& c : joint.components())
-        names.push_back(component_name(coordinates, joint, c) + (c.is_quaternion ? " [1]"
-                                                                 : c.is_angle    ? " [rad]"
-                                                                                 : " [m]"));
-    for (int body = first_body_; body < end_of_bodies(); ++body)
-      for (const char* axis : {"/x [m]", "/y [m]", "/z [m]"})
-        names.push_back(input_.model.body_name[static_cast<std::size_t>(body)] + axis);
-    names.insert(names.end(), {"kinetic [J]", "potential [J]", "sum [J]"});
+    const std::vector<RunColumn> columns = run_columns(input.robot);
+    int positions = 0;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const auto& [name, unit, kind, of] = columns[i];
+      if (kind == "rate") continue;
+      if (kind == "position") {
+        const int body = 1 + positions++ / 3;
+        if (body < first || body >= first + kShownBodies) continue;
+      }
+      shown_.push_back(i);
+      names.push_back((kind == "energy" ? of : name.substr(name.find('/') + 1)) + " [" + unit +
+                      "]");
+    }
+    names.push_back("sum [J]");
     return names;
   }
 
+  static constexpr int kShownBodies = 3;
   const RobotInput& input_;
   const RunPlan& plan_;
-  int first_body_;  // of the scene's own, after its robots
+  int bodies_ = 0;                  // of the scene's own, after its robots
+  std::vector<std::size_t> shown_;  // of run_columns()
   TextTable samples_;
   Kinematics k_;
 };

@@ -85,13 +85,12 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
     look_at_start(simulation);
     simulation.add(*contacts_);
   }
-  // Without a source of constraints a step is an unconstrained one: limits are one, even if none.
-  const bool flight = !scene.may_touch() && !locates_events(scene) &&
-                      steps_for_flight(scene, simulation.integrator());
-  if (limits_act(scene, simulation.integrator()) || flight) {
+  if (limits_act(scene, simulation.integrator())) {
     limits_.emplace(scene.model);
     add_limits();
     simulation.add(*limits_);
+  } else if (!scene.may_touch() && !locates_events(scene)) {
+    simulation.set_constrained_steps(steps_for_flight(scene, simulation.integrator()));
   }
   if (!locates_events(scene)) return;
   if (deepest_at_start_ > ContactConstraints::kSlop)

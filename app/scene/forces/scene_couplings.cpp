@@ -5,42 +5,12 @@
 #include <utility>
 
 #include "app/scene/forces/scene_inputs.h"
-#include "coupling/laws/joint_stops.h"
+#include "solver/forces/joint_stops.h"
 #include "solver/forces/spring.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
-
-// A coupling whose memory can be put aside. The kinematic robot is a function of time alone, and
-// needs none of that.
-class Kept final : public ForceSource, public Rewindable {
- public:
-  explicit Kept(std::unique_ptr<Coupling> coupling) : coupling_(std::move(coupling)) {}
-  void begin_step(const Kinematics& k, double t, double h) noexcept override {
-    coupling_->begin_step(k, t, h);
-  }
-  void add_forces(const State<double>& x, const Kinematics& k,
-                  Forces<double>& forces) noexcept override {
-    coupling_->add_forces(x, k, forces);
-  }
-  bool needs_semi_implicit() const override { return coupling_->needs_semi_implicit(); }
-  void keep() override {
-    Memory memory;
-    coupling_->visit_memory(memory);
-    kept_ = memory.bytes();
-  }
-  void go_back() noexcept override {
-    Memory memory(kept_);
-    coupling_->visit_memory(memory);
-  }
-  void visit_memory(Memory& memory) override { coupling_->visit_memory(memory); }
-  const Coupling& coupling() const { return *coupling_; }
-
- private:
-  std::unique_ptr<Coupling> coupling_;
-  std::string kept_;
-};
 
 // Steps between two evaluations of a force that is held; 0: none is held.
 int hold_steps(const SceneModel& scene, const SceneCoupling& coupling, double h,
@@ -120,12 +90,12 @@ struct SceneCouplings::Tie {
     law.reference = spec.reference;
     law.springs = spec.springs;
     if (spec.outside) {
-      source = std::make_unique<Kept>(std::make_unique<JointStops>(
-          spec.coupling, scene.model, twin->kvr, std::vector<JointStops::Stop>{stop_of(spec)}));
+      source = std::make_unique<JointStops>(spec.coupling, scene.model,
+                                            std::vector<JointStops::Stop>{stop_of(spec)});
       return;
     }
     try {
-      source = std::make_unique<Kept>(make_coupling(law, scene.model, twin->kvr));
+      source = make_coupling(law, scene.model, twin->kvr);
     } catch (const InputError& error) {
       for (Fault fault : error.faults()) {
         fault.file = scene.description.file.string();
@@ -137,7 +107,7 @@ struct SceneCouplings::Tie {
 
   std::shared_ptr<Twin> twin;
   CouplingSpec law;
-  std::unique_ptr<Kept> source;
+  std::unique_ptr<SpringSource> source;  // a Coupling, or of a soft stop JointStops
 };
 
 SceneCouplings::SceneCouplings(const SceneModel& scene, double h, const HandSource* device,
@@ -174,7 +144,7 @@ const HandSource& SceneCouplings::hand(std::size_t c) const {
 }
 
 const Coupling& SceneCouplings::coupling(std::size_t c) const {
-  return ties_[c]->source->coupling();
+  return dynamic_cast<const Coupling&>(*ties_[c]->source);
 }
 
 const KvrSample& SceneCouplings::target(std::size_t c, double t, Side side) {
@@ -212,7 +182,7 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
 
 Vector3 SceneCouplings::pull(std::size_t c) const {
   const SceneCoupling& spec = scene_.couplings[c];
-  const SpringReading& reading = coupling(c).readings()[spec.reading(c)];
+  const SpringReading& reading = ties_[c]->source->readings()[spec.reading(c)];
   const bool at_joint =
       spec.type == CouplingDescription::Type::torsional && spec.measure == Measure::joint;
   return at_joint ? Vector3(reading.size, 0, 0) : reading.pull;
@@ -227,7 +197,7 @@ const KinematicRobot& SceneCouplings::kvr(std::size_t c) const {
 }
 
 double SceneCouplings::m_star(std::size_t c) const {
-  return coupling(c).readings()[scene_.couplings[c].reading(c)].m_star;
+  return ties_[c]->source->readings()[scene_.couplings[c].reading(c)].m_star;
 }
 
 void SceneCouplings::hold_still(std::size_t c, const State<double>& x, const Kinematics& k,

@@ -38,7 +38,7 @@ class SceneCouplings {
   std::size_t size() const { return ties_.size(); }
   // For Simulation::add; Rewindable. nullptr where an earlier pull has it already.
   ForceSource* source(std::size_t c);
-  const Coupling& coupling(std::size_t c) const;   // its readings are of the last evaluation
+  const Coupling& coupling(std::size_t c) const;   // not of a soft stop
   const CouplingSpec& law(std::size_t c) const;    // what it was made of
   const KinematicRobot& kvr(std::size_t c) const;  // as the last step saw it
   // The kinematic side at a time, with the velocity of the motion after or before it: they differ

@@ -47,22 +47,11 @@ class GeometryBuilder {
     for (const LinkDescription& link : robot.description.links)
       for (const CollisionPart& part : link.collisions) {
         const SceneReference owner{-1, static_cast<int>(r), link.name};
-        SceneGeometry geometry{robot.surface,
-                               name_in_scene(description(), r, link.name),
-                               body_of(scene_, owner),
-                               part.X_LG(),
-                               {},
-                               0};
-        if (const auto* mesh = std::get_if<MeshGeometry>(&part.geometry))
-          geometry.shape = MeshSpec{*mesh, true};
-        else
-          std::visit([&](const auto& shape) { set(geometry.shape, shape); }, part.geometry);
+        SceneGeometry geometry{robot.surface,          name_in_scene(description(), r, link.name),
+                               body_of(scene_, owner), part.X_LG(),
+                               part.geometry,          0};
         add(std::move(geometry), owner);
       }
-  }
-  template <class Shape>
-  static void set(ShapeSpec& spec, const Shape& shape) {
-    if constexpr (std::is_constructible_v<ShapeSpec, Shape>) spec = shape;
   }
 
   void add(SceneGeometry geometry, SceneReference owner) {

@@ -7,7 +7,7 @@
 #include "app/scene/model/scene_shapes.h"
 #include "collision/import/robot/mesh_geometry.h"
 #include "collision/import/robot/robot_model.h"
-#include "collision/shapes/mesh_checks.h"
+#include "collision/shapes/mesh_shape.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/model/mimic.h"
 #include "solver/support/number_text.h"
@@ -35,9 +35,9 @@ constexpr double kWideMesh = 10;
 // Looks at a mesh before anything touches it. Of a convex one the hull counts, and the surface may
 // be what it likes.
 void check_mesh(const BodyDescription& body, SceneDescription& scene) {
-  const MeshSpec* spec = std::get_if<MeshSpec>(&body.shape);
-  if (!spec) return;
-  TriangleMesh mesh = load_mesh(spec->mesh);
+  const auto* file = std::get_if<MeshGeometry>(&body.shape);
+  if (!file) return;
+  TriangleMesh mesh = load_mesh(*file);
   Vector3 low = mesh.vertices[0], high = low;
   for (const Vector3& v : mesh.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
   const double width = (high - low).maxCoeff();
@@ -45,13 +45,13 @@ void check_mesh(const BodyDescription& body, SceneDescription& scene) {
     scene.warnings.push_back(scene.file.string() + ":" + std::to_string(body.line) + ": body '" +
                              body.name + "': its mesh is " + short_number_text(width) +
                              " m wide; if the file is in millimetres, give scale = 0.001");
-  if (spec->convex) {
+  if (file->convex) {
     collision_shape(body.shape);  // throws where there is no volume
     return;
   }
-  const std::string fault = mesh_fault(MeshShape{std::move(mesh)});
+  const std::string fault = MeshShape{std::move(mesh)}.fault();
   if (!fault.empty())
-    throw InputError({{"", 0, "", "mesh '" + spec->mesh.name + "': " + fault,
+    throw InputError({{"", 0, "", "mesh '" + file->name + "': " + fault,
                        "mend the mesh, or give convex = true: its hull"}});
 }
 
@@ -206,7 +206,7 @@ class SceneBuilder {
     }
   }
 
-  // A free joint: solver/model/joint.h has its angular velocity in the body's axes.
+  // A free joint: solver/model/joints.h has its angular velocity in the body's axes.
   void place(int body, const Pose& X_WB, const Vector3& v_W, const Vector3& w_W) {
     const auto i = static_cast<std::size_t>(body);
     double* q = scene_.start.q.data() + scene_.model.iq[i];

@@ -8,7 +8,7 @@ bool SceneCoupling::needs_semi_implicit() const {
 }
 
 SceneCoupling::ThirdRow SceneCoupling::third_row() const {
-  if (law == CouplingSpec::Type::god_object) return ThirdRow::drive;
+  if (!facts_of(law, printed).is_spring_damper) return ThirdRow::drive;
   if (needs_semi_implicit()) return ThirdRow::implicit;
   return printed ? ThirdRow::as_printed : ThirdRow::none;
 }

@@ -24,7 +24,7 @@ struct SceneGeometry : Surface {
   std::string name;  // of the link or body that it belongs to, as in samples
   int body = 0;      // of the model
   Pose X_LG;         // in the link's frame; of a fixed obstacle in the world
-  ShapeSpec shape;
+  ShapeDescription shape;
   int group = 0;
 };
 

@@ -21,13 +21,12 @@ const CouplingFacts* facts_by_name(const std::string& name) {
 std::vector<std::string> keys_that_are_not_of(const CouplingFacts& facts) {
   const CouplingLaw law = facts.type;
   const bool is_weld = law == CouplingLaw::weld_like, is_god = law == CouplingLaw::god_object;
-  const bool has_measure = law == CouplingLaw::torsional && !facts.printed;
   std::vector<std::string> keys;
   const auto leave_out = [&](bool is_of_law, std::vector<std::string> names) {
     if (!is_of_law) keys.insert(keys.end(), names.begin(), names.end());
   };
   leave_out(facts.at_point, {"point"});
-  leave_out(has_measure, {"measure", "outside"});
+  leave_out(facts.has_measure, {"measure", "outside"});
   leave_out(!is_weld && !is_god, {"stiffness", "damping"});
   leave_out(law == CouplingLaw::bushing, {"turn_stiffness", "turn_damping"});
   leave_out(is_weld, {"time_constant", "damping_ratio", "impedance"});

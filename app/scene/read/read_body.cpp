@@ -6,12 +6,11 @@ namespace twinarm {
 namespace {
 
 // What has no inside has no inertia of its own either.
-const char* why_not_free(const ShapeSpec& shape) {
-  if (std::holds_alternative<HalfSpaceSpec>(shape)) return "a half-space has no end";
-  if (std::holds_alternative<HollowSphereSpec>(shape) ||
-      std::holds_alternative<HollowCylinderSpec>(shape))
+const char* why_not_free(const ShapeDescription& shape) {
+  if (std::holds_alternative<HalfSpace>(shape)) return "a half-space has no end";
+  if (std::holds_alternative<HollowSphere>(shape) || std::holds_alternative<HollowCylinder>(shape))
     return "a hollow shape is the world around something";
-  const MeshSpec* mesh = std::get_if<MeshSpec>(&shape);
+  const auto* mesh = std::get_if<MeshGeometry>(&shape);
   return mesh && !mesh->convex ? "contacts of a moving mesh need convex = true" : nullptr;
 }
 
@@ -77,7 +76,7 @@ void read_looks(SceneReader& reader, SceneTable& table, BodyDescription& body) {
     table.fault("color", "red, green and blue must lie from 0 to 1", "", "scene.range");
   if (const auto name = table.text("texture"))
     body.texture = reader.find_file(table, "texture", *name).value_or("");
-  if (!body.texture.empty() && std::holds_alternative<HalfSpaceSpec>(body.shape))
+  if (!body.texture.empty() && std::holds_alternative<HalfSpace>(body.shape))
     table.fault("texture", "a half-space has none", "leave it out", "scene.key-useless");
 }
 

@@ -111,10 +111,8 @@ void read_gains(SceneTable& table, CouplingDescription& coupling) {
 void read_pull(SceneTable& table, const CouplingFacts& facts, CouplingDescription& coupling) {
   coupling.type =
       facts.at_point ? CouplingDescription::Type::linear : CouplingDescription::Type::torsional;
-  const bool has_measure = facts.type == Law::torsional && !facts.printed;
-  if (!has_measure && facts.type != Law::torsional && !facts.at_point)
-    coupling.measure = Measure::joint;
-  if (fits(table, "measure", has_measure, "is of a torsional coupling"))
+  if (facts.at_joint) coupling.measure = Measure::joint;
+  if (fits(table, "measure", facts.has_measure, "is of a torsional coupling"))
     if (const auto measure = table.choice("measure", {"world", "joint"}))
       coupling.measure = static_cast<Measure>(*measure);
   if (fits(table, "point", facts.at_point, "this type of coupling turns the link: it has no point"))

@@ -4,22 +4,11 @@
 
 #include "app/scene/read/scene_reader.h"
 #include "app/support/nearest_name.h"
-#include "collision/import/urdf/urdf.h"
+#include "collision/import/formats/robot_formats.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
-
-// The first of the four numbers of a quaternion among a joint's coordinates; -1: it has none.
-int first_of_quaternion(JointDescription::Type type) {
-  return type == JointDescription::Type::spherical  ? 0
-         : type == JointDescription::Type::floating ? 3
-                                                    : -1;
-}
-
-std::size_t coordinate_count(const JointDescription& joint) {
-  return static_cast<std::size_t>(joint.dofs()) + (first_of_quaternion(joint.type) < 0 ? 0 : 1);
-}
 
 std::vector<std::string> moving_joints(const RobotDescription& robot) {
   std::vector<std::string> names;
@@ -94,15 +83,14 @@ JointValueMap SceneReader::read_joints(SceneTable& table, const char* key,
                                 : "it is fixed, and has no coordinate",
                    "leave it out", "scene.no-coordinate");
     } else {
-      const std::size_t count =
-          velocities ? static_cast<std::size_t>(joint->dofs()) : coordinate_count(*joint);
+      const std::size_t count = velocities ? joint->facts().nv : joint->facts().nq;
       std::optional<std::vector<double>> numbers;
       if (count > 1)
         numbers = joints.numbers(name, count);
       else if (const auto number = joints.number(name))
         numbers = {*number};
       if (!numbers) continue;
-      const int first = velocities ? -1 : first_of_quaternion(joint->type);
+      const int first = velocities ? -1 : joint->facts().quaternion;
       if (first >= 0 && !normalise(numbers->data() + first))
         joints.fault(name, "a quaternion (w, x, y, z) has length 1", "divide it by its length",
                      "scene.length");
@@ -133,11 +121,11 @@ void SceneReader::read_robot(const TomlValue& value) {
   bool readable = false;
   if (const auto model = table.text("model"))
     if (const auto urdf = find_file(table, "model", *model)) {
-      UrdfOptions options;
+      RobotFileOptions options;
       options.roots = roots;
-      if (!robot.collide) options.geometry = UrdfOptions::Geometry::optional;
+      if (!robot.collide) options.geometry = RobotFileOptions::Geometry::optional;
       try {
-        robot.description = read_urdf(*urdf, options);
+        robot.description = read_robot_file(*urdf, options);
         readable = true;
         for (const Fault& warning : robot.description.warnings)
           scene.warnings.push_back(to_string(warning));

@@ -5,7 +5,7 @@
 
 #include "app/data/toml_tree.h"
 #include "app/scene/read/scene_description.h"
-#include "collision/import/urdf/mesh_search.h"
+#include "collision/import/robot/file_search.h"
 
 namespace twinarm {
 

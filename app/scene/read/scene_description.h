@@ -22,29 +22,6 @@
 
 namespace twinarm {
 
-// Shapes in their own frame G, centred; lengths along z. The four that URDF has are its structs.
-struct HalfSpaceSpec {
-  Vector3 normal = Vector3::UnitZ();  // outward, unit
-  double offset = 0;                  // solid where normal . x <= offset [m]
-};
-struct EllipsoidSpec {
-  Vector3 semi_axes = Vector3::Ones();
-};
-struct HollowSphereSpec {  // touched from inside
-  double radius = 1;
-};
-struct HollowCylinderSpec {  // touched from inside, open at both ends
-  double radius = 1;
-  double length = 1;
-};
-struct MeshSpec {
-  MeshGeometry mesh;
-  bool convex = true;  // its convex hull is meant
-};
-using ShapeSpec =
-    std::variant<BoxGeometry, SphereGeometry, CapsuleGeometry, CylinderGeometry, HalfSpaceSpec,
-                 EllipsoidSpec, HollowSphereSpec, HollowCylinderSpec, MeshSpec>;
-
 struct Surface {
   double friction = 0.5;          // Coulomb; a pair takes the geometric mean
   double restitution = 0;         // 0 to 1; a pair takes the product
@@ -65,7 +42,7 @@ struct BodyDescription {
   int line = 0;
   bool fixed = false;
   std::optional<BodyMotion> motion;  // it moves so, whatever pushes
-  ShapeSpec shape;
+  ShapeDescription shape;
   std::optional<double> mass, density;  // of a free body exactly one [kg, kg/m^3]
   std::optional<Vector3> com;           // body axes; left out: the centre of the solid shape
   std::optional<Matrix3> inertia;       // about the com, body axes; left out: of the solid shape

@@ -7,7 +7,7 @@
 
 #include "app/data/table_reader.h"
 #include "app/scene/read/scene_description.h"
-#include "collision/import/urdf/mesh_search.h"
+#include "collision/import/robot/file_search.h"
 
 namespace twinarm {
 
@@ -48,7 +48,7 @@ struct SceneReader {
   JointValueMap read_joints(SceneTable& table, const char* key, const RobotDescription& robot,
                             bool velocities);
   void lock_joints(SceneTable& table, RobotInScene& robot);
-  std::optional<ShapeSpec> read_shape(SceneTable& body);
+  std::optional<ShapeDescription> read_shape(SceneTable& body);
   // Absolute, relative to the scene, or below assets/; a fault where it is nowhere.
   std::optional<std::filesystem::path> find_file(SceneTable& table, const std::string& key,
                                                  const std::string& name);

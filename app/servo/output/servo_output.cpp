@@ -44,13 +44,11 @@ std::string timing_table(const ServoResult& servo) {
 }
 
 void write_times(JsonWriter& json, const char* name, const TickTimes& times) {
-  json.key(name).begin_object();
-  json.key("median").number(times.quantile(0.5));
-  json.key("p99").number(times.quantile(0.99));
-  json.key("p999").number(times.quantile(0.999));
-  json.key("largest").number(times.largest());
-  json.key("mean").number(times.mean());
-  json.end_object();
+  json.key(name).object({{"median", times.quantile(0.5)},
+                         {"p99", times.quantile(0.99)},
+                         {"p999", times.quantile(0.999)},
+                         {"largest", times.largest()},
+                         {"mean", times.mean()}});
 }
 
 void write_figures(JsonWriter& json, const char* name, const TickFigures& figures) {
@@ -60,16 +58,14 @@ void write_figures(JsonWriter& json, const char* name, const TickFigures& figure
   write_times(json, "wall", figures.wall);
   write_times(json, "late", figures.late);
   write_times(json, "interval", figures.interval);
-  json.key("overruns").count(figures.overruns);
-  json.key("slipped").count(figures.slipped);
+  json.members({{"overruns", figures.overruns}, {"slipped", figures.slipped}});
   json.end_object();
 }
 
 void write_files(JsonWriter& json, const LiveSummary& summary) {
   json.key("log").text(summary.log);
   if (summary.recording.empty()) return;
-  json.key("recording").text(summary.recording);
-  json.key("same_bits").boolean(summary.same_bits);
+  json.members({{"recording", summary.recording}, {"same_bits", summary.same_bits}});
 }
 
 }  // namespace
@@ -107,23 +103,21 @@ std::string live_table(const LiveSummary& summary) {
 std::string live_json(const LiveSummary& summary) {
   JsonWriter json;
   json.begin_object();
-  json.key("scene").text(summary.scene);
-  json.key("device").text(summary.device);
-  json.key("mapping").text(summary.mapping);
-  json.key("step").number(summary.step);
-  json.key("duration").number(summary.duration);
-  json.key("ticks").count(summary.ticks);
-  json.key("silences").count(summary.silences);
-  json.key("held").count(summary.held);
-  json.key("released").count(summary.released);
+  json.members({{"scene", summary.scene},
+                {"device", summary.device},
+                {"mapping", summary.mapping},
+                {"step", summary.step},
+                {"duration", summary.duration},
+                {"ticks", summary.ticks},
+                {"silences", summary.silences},
+                {"held", summary.held},
+                {"released", summary.released}});
   json.key("tracking").begin_object();
-  for (std::size_t j = 0; j < summary.joints.size(); ++j) {
-    json.key(summary.joints[j]).begin_object();
-    json.key("max").number(summary.largest_error[j]);
-    json.key("mean").number(summary.sum_error[j] /
-                            static_cast<double>(std::max(1L, summary.ticks)));
-    json.end_object();
-  }
+  for (std::size_t j = 0; j < summary.joints.size(); ++j)
+    json.key(summary.joints[j])
+        .object(
+            {{"max", summary.largest_error[j]},
+             {"mean", summary.sum_error[j] / static_cast<double>(std::max(1L, summary.ticks))}});
   json.end_object();
   json.key("largest_torque")
       .numbers({summary.largest_torque.begin(), summary.largest_torque.end()});

@@ -7,8 +7,8 @@
 
 #include "app/study/findings/variants.h"
 #include "collision/contact/contact_force.h"
+#include "collision/geometry/convex_hull.h"
 #include "collision/import/robot/mesh_geometry.h"
-#include "collision/shapes/convex_hull.h"
 
 namespace twinarm {
 namespace {
@@ -109,7 +109,7 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
   for (const CouplingSpec& held : robot.auxiliary()) setup.couplings.push_back(held);
   setup.h = 1 / o.rate_hz;
   TrackingSystem system(setup);
-  JointStops stops("stops", model, system.kvr(), robot.stops());
+  JointStops stops("stops", model, robot.stops());
   system.simulation().add(stops);
   ContactForce contact(model, {o.contact_stiffness, o.contact_dissipation, o.friction, 1e-3});
   add_geometry(inputs, model, contact);

@@ -5,32 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/data/page_style.h"
+#include "app/data/html_page.h"
 #include "app/study/report/report_sections.h"
 #include "app/support/output_file.h"
 #include "solver/support/atomic_file.h"
 
 namespace twinarm {
 namespace {
-
-std::string base64(const std::string& bytes) {
-  constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned group = 0;
-    for (std::size_t j = 0; j < 3; ++j)
-      group = group << 8 | (j < count ? static_cast<unsigned char>(bytes[i + j]) : 0U);
-    for (std::size_t j = 0; j < 4; ++j)
-      text += j <= count ? letters[group >> (18 - 6 * j) & 63] : '=';
-  }
-  return text;
-}
-
-std::string framed(const std::string& content, const std::string& caption) {
-  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", content, caption);
-}
 
 // What the paper's question is, from its own table.
 std::string introduction() {
@@ -62,24 +43,19 @@ struct Section {
 };
 
 std::string page(const StudyResults& results, const std::vector<Section>& sections) {
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
-      "<meta name=viewport content=\"width=device-width, initial-scale=1\">\n"
-      "<title>Linear or torsional? The study of the coupled S-103</title>\n<style>";
-  html += kReportStyle;
-  html +=
-      "</style></head><body>\n<header><h1>Linear or torsional? The coupled S-103, run again</h1>\n";
-  html += introduction() + "</header>\n<nav aria-label=Contents><div>";
-  for (const Section& section : sections)
-    if (!section.html.empty())
-      html += fmt::format("<a href=\"#{}\">{}</a>", section.id, section.name);
-  html += "</div></nav>\n<main>\n";
-  for (const Section& section : sections) html += section.html;
-  html += "</main>\n<footer>Made by <code>" + escaped(results.command) + "</code>";
-  if (results.seconds > 0) html += fmt::format(" in {:.0f} s", results.seconds);
-  return html +
-         ". Every number on this page was computed in that run, except where it says "
-         "published or calibrated.</footer>\n</body></html>\n";
+  HtmlPage page;
+  page.title = "Linear or torsional? The study of the coupled S-103";
+  page.header = "<h1>Linear or torsional? The coupled S-103, run again</h1>\n" + introduction();
+  page.footer = "Made by <code>" + escaped(results.command) + "</code>";
+  for (const auto& [id, name, html] : sections) {
+    if (!html.empty()) page.contents.emplace_back(id, name);
+    page.main += html;
+  }
+  if (results.seconds > 0) page.footer += fmt::format(" in {:.0f} s", results.seconds);
+  page.footer +=
+      ". Every number on this page was computed in that run, except where it says "
+      "published or calibrated.";
+  return page.html();
 }
 
 }  // namespace
@@ -111,9 +87,7 @@ std::string Gallery::figure(const std::string& name, const std::string& caption)
   for (const auto& file : {folder_ / "figures" / (name + ".svg"), folder_ / (name + ".svg")}) {
     if (!std::filesystem::exists(file)) continue;
     const std::string svg = read_whole_file(file);
-    const std::size_t begin = svg.find("<svg");  // without the XML declaration
-    if (begin == std::string::npos) continue;
-    return framed("<svg role=img" + svg.substr(begin + 4), caption);
+    if (svg.find("<svg") != std::string::npos) return html_figure(svg, caption);
   }
   return "";
 }
@@ -121,9 +95,9 @@ std::string Gallery::figure(const std::string& name, const std::string& caption)
 std::string Gallery::picture(const std::string& name, const std::string& caption) const {
   const auto file = folder_ / "pictures" / (name + ".png");
   if (!std::filesystem::exists(file)) return "";
-  return framed(fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", escaped(name),
-                            base64(read_whole_file(file))),
-                caption);
+  return html_figure(fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", escaped(name),
+                                 base64_of(read_whole_file(file))),
+                     caption);
 }
 
 std::vector<std::string> Gallery::pictures() const {

@@ -1,26 +1,24 @@
-// The cases of rigid contact, group E of docs/cases.md, by what they are about.
+// The cases of rigid contact, group E of docs/cases.md, one file for each kind; and the tasks of
+// other engines (H1).
 //
 // Steps are 1 ms where nothing else is said. Event times shall be met within one step, velocities
 // to 1e-3 of themselves; a place is measured by the time that its error is worth, at the speed
 // there.
 #pragma once
 
+#include <numbers>
 #include <vector>
 
-#include "benchmarks/analytic/support/analytic_case.h"
+#include "benchmarks/analytic/support/contact_scene.h"
 
-namespace twinarm::contact_cases {
+namespace twinarm {
 
-std::vector<AnalyticCase> impacts();      // E1, E6, E16
-std::vector<AnalyticCase> sliding();      // E2, E5
-std::vector<AnalyticCase> toppling();     // E3
-std::vector<AnalyticCase> rolling();      // E4
-std::vector<AnalyticCase> hollows();      // E12
-std::vector<AnalyticCase> painleve();     // E7
-std::vector<AnalyticCase> spinning();     // E8, E9, E10
-std::vector<AnalyticCase> stacks();       // E11
-std::vector<AnalyticCase> arches();       // E13
-std::vector<AnalyticCase> wedges();       // E14
-std::vector<AnalyticCase> rod_impacts();  // E17
+const std::vector<CaseFamily>& contact_cases();  // made by twinarm_registry()
 
-}  // namespace twinarm::contact_cases
+inline constexpr double kBallRadius = 0.1;  // of the balls of several cases [m]
+
+inline Matrix3 axis_along_y() {  // of a cylinder that rolls along x
+  return turn_about(Vector3::UnitX(), std::numbers::pi / 2);
+}
+
+}  // namespace twinarm

@@ -7,12 +7,16 @@
 #include <numbers>
 
 #include "benchmarks/analytic/contact/contact_cases.h"
+#include "benchmarks/analytic/support/contact_look.h"
 #include "benchmarks/analytic/support/contact_scene.h"
 #include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/mass_matrix.h"
 #include "solver/linear_algebra/dense_algebra.h"
 
-namespace twinarm::contact_cases {
+namespace twinarm {
 namespace {
+
+using namespace contact_looks;
 
 constexpr double kLength = 1, kRodRadius = 1e-3;
 constexpr double kSteep = 1.107148717794090;  // cos^2 = 1/5 [rad]
@@ -37,10 +41,7 @@ double critical_friction(double angle, double inertia) {
   const int rod = add_rod(scene, angle, 0, 0, inertia);
   const Model<double>& model = scene.model();
   const State<double>& x = scene.simulation().state();
-  Workspace<double> w(model);
-  crba(model, x, w);
-  const auto nv = static_cast<Eigen::Index>(model.nv);
-  const Eigen::MatrixXd M = Eigen::Map<const Eigen::MatrixXd>(w.M.data(), nv, nv);
+  const Eigen::MatrixXd M = mass_matrix(model, x);
   Kinematics k(model);
   forward_kinematics(model, x, k);
   const Vector3 end = k.X_WL[static_cast<std::size_t>(rod)] * Vector3(0, 0, -0.5 * kLength);
@@ -81,13 +82,25 @@ CaseResult slides_or_jams(double off) {  // mu
 
 }  // namespace
 
-std::vector<AnalyticCase> painleve() {
-  return {
+CaseFamily painleve_cases() {
+  const std::vector<AnalyticCase> cases = {
       contact_case<threshold_of_sign, 1>(
-          "E7-sign", "Painleve's rod: mu where the normal force changes sign [relative]", 1e-12),
+          "E7-sign", "Painleve's rod: mu where the normal force changes sign [relative]", 1e-12,
+          "A rod that slides on its lower end, at θ to it (Painlevé 1895). A normal force on the "
+          "end presses it away from the floor only below <p>μ = (1/3 + cos<sup>2</sup>θ)/(sin θ "
+          "cos θ)</p>"),
       contact_case<slides_or_jams, 100>(
-          "E7-rod", "Painleve's rod, mu 0.3 to 5: finite, solved, losing energy [faults]", 0),
+          "E7-rod", "Painleve's rod, mu 0.3 to 5: finite, solved, losing energy [faults]", 0,
+          "The same rod with μ from 0.3 to 5. Below 4/3 it slides on; above, no force solves the "
+          "equations, and an impulse must (impact without collision). In all cases: finite, "
+          "solved, no energy won, no sinking. <p>μ<sub>crit</sub> = 4/3 at cos<sup>2</sup>θ = "
+          "1/5</p>",
+          ContactLook{.readings = {"v along the floor [m/s]"},
+                      .read = velocity<1, 0>,
+                      .runs = {"μ = 0.3", "0.8", "1.2", "1.3", "1.4", "2"},
+                      .no_steps = kCounted}),
   };
+  return {250, cases};
 }
 
-}  // namespace twinarm::contact_cases
+}  // namespace twinarm

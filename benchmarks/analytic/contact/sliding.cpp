@@ -1,14 +1,17 @@
-// Sliding and sticking: a block on an incline and on the flat (E2), a billiard ball (E5).
+// Sliding and sticking: a block on an incline and on the flat (E2).
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "benchmarks/analytic/contact/contact_cases.h"
+#include "benchmarks/analytic/support/contact_look.h"
 #include "benchmarks/analytic/support/contact_scene.h"
 
-namespace twinarm::contact_cases {
+namespace twinarm {
 namespace {
+
+using namespace contact_looks;
 
 constexpr double kIncline = std::numbers::pi / 6;
 constexpr double kSlide = 0.6571453944373284;  // g (sin 30 - 0.5 cos 30) [m/s^2]
@@ -140,68 +143,116 @@ CaseResult least_friction_to_hold(double off) {  // mu
   return {std::abs(limit - 0.5773502691896258)};
 }
 
-// Billiards: R = 0.0286 m, mu = 0.2, 2 m/s, without and with top spin (R w = 4 m/s).
-struct Roll {
-  double time = 0, x = 0, v = 0, rim = 0, loss = 0;
-};
-Roll billiard(double rim, double mu, double inertia = 1) {
-  constexpr double R = 0.0286;
-  ContactScene scene;
-  scene.add_floor(surface(mu));
-  ContactScene::Body body{Sphere{R}, surface(mu), 0.17, {0, 0, R}, {2, 0, 0}, {0, rim / R, 0}};
-  body.inertia = inertia * 0.4 * 0.17 * R * R * Matrix3::Identity();
-  const int ball = scene.add(body);
-  scene.start();
-  const double before = scene.energy() - 0.17 * kGravity * R;
-  Roll roll;
-  while (scene.t() < 1) {
-    scene.step(kStep);
-    const double slip = scene.v(ball).x() - R * scene.w(ball).y();
-    if (roll.time == 0 && std::abs(slip) < 1e-9) roll.time = scene.t(), roll.x = scene.p(ball).x();
-  }
-  roll.v = scene.v(ball).x();
-  roll.rim = R * scene.w(ball).y();
-  roll.loss = 1 - (scene.energy() - 0.17 * kGravity * R) / before;
-  return roll;
+// ---- what a page draws of them ----
+
+constexpr double kSlope = 30 * kDegree;
+// None before the first step.
+Values seen_forces(Scene s) {
+  if (s.t() == 0) return {NAN, NAN};
+  return {-s.force(1).x(), s.force(1).z()};
 }
-CaseResult billiard_time(double off) {  // mu
-  const Roll roll = billiard(0, off * 0.2);
-  return {std::max(std::abs(roll.time - 0.291247997670016),
-                   std::abs(roll.x - 0.4992822817200275) / roll.v)};
+Values seen_way(Scene s) {
+  return {std::hypot(s.p(1).x(), s.p(1).y())};
 }
-CaseResult billiard_speed(double off) {  // inertia
-  const Roll roll = billiard(0, 0.2, off), top = billiard(4, 0.2, off);
-  return {std::max({relative(roll.v, 10 / 7.0), relative(roll.rim, 10 / 7.0),
-                    relative(roll.loss, 2 / 7.0), relative(top.v, 18 / 7.0)})};
+// Constant deceleration until it stops, and what comes then.
+double known_uphill(std::size_t, double t) {
+  const double up = kGravity * (std::sin(kSlope) + 0.5 * std::cos(kSlope));
+  const double down = kGravity * (std::sin(kSlope) - 0.5 * std::cos(kSlope));
+  const double turn = 3 / up;
+  return t < turn ? 3 * t - up * t * t / 2 : 1.5 * turn - down * (t - turn) * (t - turn) / 2;
 }
+double known_stop(std::size_t, double t) {
+  const double a = 0.4 * kGravity, end = std::min(t, 3 / a);
+  return 3 * end - a * end * end / 2;
+}
+double known_slide(std::size_t, double t) {
+  return kGravity * (std::sin(kSlope) - 0.5 * std::cos(kSlope)) * t * t / 2;
+}
+double known_slide_speed(std::size_t, double t) {
+  return kGravity * (std::sin(kSlope) - 0.5 * std::cos(kSlope)) * t;
+}
+Values seen_up(Scene s) {
+  return {-s.p(1).x()};
+}
+
+constexpr const char* kStatementE2 =
+    "A block of 2 kg on an incline of 30° with a friction of μ = 0.5 slides, for tan 30° = 0.577 "
+    "is more than that: <p>x″ = g (sin α − μ cos α)</p>";
 
 }  // namespace
 
-std::vector<AnalyticCase> sliding() {
-  return {
-      contact_case<creep, -50>("E2-creep", "block on 30 degrees, mu = 0.6: creep in 10 s [m]",
-                               1e-6),
+CaseFamily sliding_cases() {
+  const std::vector<AnalyticCase> cases = {
+      contact_case<creep, -50>(
+          "E2-creep", "block on 30 degrees, mu = 0.6: creep in 10 s [m]", 1e-6,
+          "A block of 2 kg on an incline of 30° with μ = 0.6 &gt; tan 30° is at rest, and stays "
+          "there: exact Coulomb friction does not creep. <p>x(t) = x(0)</p>",
+          ContactLook{.readings = {"x downhill [m]"},
+                      .read = place<1, 0>,
+                      .exact = zero,
+                      .no_steps = kResting}),
       contact_case<holding_forces, 1>(
-          "E2-forces", "block held on 30 degrees: 9.81 N and 16.9914 N [relative]", 1e-6),
+          "E2-forces", "block held on 30 degrees: 9.81 N and 16.9914 N [relative]", 1e-6,
+          "The block at rest on 30°: what carries it is its weight. <p>F = m g sin α = "
+          "9.81&nbsp;N, N = m g cos α = 16.991&nbsp;N</p>",
+          ContactLook{.readings = {"friction [N]", "normal force [N]"},
+                      .read = seen_forces,
+                      .exact =
+                          [](std::size_t k, double) {
+                            return 2 * kGravity * (k == 0 ? std::sin(kSlope) : std::cos(kSlope));
+                          },
+                      .no_steps = kResting}),
       contact_case<slide_speed, 1>(
-          "E2-slide", "block on 30 degrees, mu = 0.5: speed after 1 s [relative]", 1e-3),
-      contact_case<slide_place, 1>("E2-place", "block on 30 degrees, mu = 0.5: place after 1 s [s]",
-                                   kStep),
+          "E2-slide", "block on 30 degrees, mu = 0.5: speed after 1 s [relative]", 1e-3,
+          kStatementE2,
+          ContactLook{
+              .readings = {"speed [m/s]"}, .read = velocity<1, 0>, .exact = known_slide_speed}),
+      contact_case<slide_place, 1>(
+          "E2-place", "block on 30 degrees, mu = 0.5: place after 1 s [s]", kStep, kStatementE2,
+          ContactLook{.readings = {"x downhill [m]"}, .read = place<1, 0>, .exact = known_slide}),
       contact_case<turn_time, 10>(
-          "E2-up", "block pushed uphill at 3 m/s: when and where it turns [s]", kStep),
+          "E2-up", "block pushed uphill at 3 m/s: when and where it turns [s]", kStep,
+          "The block is pushed uphill at 3 m/s, μ = 0.5: friction and weight slow it down "
+          "together. <p>t = v/(g (sin α + μ cos α)), s = v<sup>2</sup>/(2g (sin α + μ cos α))</p>",
+          ContactLook{.readings = {"way uphill [m]"},
+                      .read = seen_up,
+                      .exact = known_uphill,
+                      .about_steps = kPartOfStep}),
       contact_case<return_speed, 1>(
-          "E2-return", "block pushed uphill, events located: how fast it is back [relative]", 1e-9),
+          "E2-return", "block pushed uphill, events located: how fast it is back [relative]", 1e-9,
+          "The block is pushed uphill at 3 m/s, and comes back to where it was: friction has taken "
+          "energy on both ways. <p>v<sub>back</sub> = v √((sin α − μ cos α)/(sin α + μ cos α))</p>",
+          ContactLook{.readings = {"way uphill [m]"},
+                      .read = seen_up,
+                      .exact = known_uphill,
+                      .no_steps = kLocated}),
       contact_case<stopping, 5>(
-          "E2-stop", "block on the flat, 3 m/s, mu = 0.4: when and where it stops [s]", kStep),
-      contact_case<headings, 5>(
-          "E2-headings", "stops alike at headings of 0, 15, 30, 45 degrees [relative]", 1e-3),
+          "E2-stop", "block on the flat, 3 m/s, mu = 0.4: when and where it stops [s]", kStep,
+          "A block on the flat starts at 3 m/s, μ = 0.4, in four directions: <p>t = v/(μ g), s = "
+          "v<sup>2</sup>/(2 μ g)</p>",
+          ContactLook{.readings = {"way [m]"},
+                      .read = seen_way,
+                      .exact = known_stop,
+                      .runs = {"0°", "15°", "30°", "45°"},
+                      .about_steps = kPartOfStep}),
+      contact_case<headings, 5>("E2-headings",
+                                "stops alike at headings of 0, 15, 30, 45 degrees [relative]", 1e-3,
+                                "The same in four directions: a cone of friction knows none, a "
+                                "pyramid does. <p>s(0°) = s(15°) = s(30°) = s(45°)</p>",
+                                ContactLook{.readings = {"way [m]"},
+                                            .read = seen_way,
+                                            .exact = known_stop,
+                                            .runs = {"0°", "0° again", "15°", "30°", "45°"}}),
       contact_case<least_friction_to_hold, 5>("E2-threshold",
-                                              "least mu that holds on 30 degrees: tan 30", 1e-3),
-      contact_case<billiard_time, 10>("E5-time", "billiard ball: end of sliding [s]; closed form",
-                                      kStep),
-      contact_case<billiard_speed, 10>(
-          "E5-speed", "billiard ball: speed, spin, loss; with top spin [relative]", 1e-3),
+                                              "least mu that holds on 30 degrees: tan 30", 1e-3,
+                                              "The least friction that holds a block on 30°, by "
+                                              "bisection: <p>μ = tan 30° = 0.57735</p>",
+                                              ContactLook{.readings = {"speed [m/s]"},
+                                                          .read = velocity<1, 0>,
+                                                          .search = "μ",
+                                                          .no_steps = kSearch}),
   };
+  return {210, cases};
 }
 
-}  // namespace twinarm::contact_cases
+}  // namespace twinarm

@@ -1,13 +1,12 @@
-// The cases of couplings, group F.
+// The cases of couplings, group F, one file for each kind.
 #pragma once
 
 #include <vector>
 
 #include "benchmarks/analytic/support/analytic_case.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 
-std::vector<AnalyticCase> coupling_tracking();   // F3
-std::vector<AnalyticCase> coupling_stability();  // F4
+const std::vector<CaseFamily>& coupling_cases();  // made by twinarm_registry()
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

@@ -6,7 +6,8 @@
 //   linear  tau = sum_i J_i^T (k (p_K - p)_i + b (v_K - v)_i)  at the centres of mass
 // The motion: M qdd + C = tau, solved in extended precision sweep by sweep, as the target's speed
 // jumps at their ends. The largest and the mean errors come from an independent code, and so does
-// the state at 3 s, which this solution meets (tests/analytic/test_reference_digits.cpp).
+// the state at 3 s, which this solution meets
+// (tests/benchmarks/analytic/registry/test_reference_digits.cpp).
 #include <array>
 #include <cmath>
 #include <map>
@@ -14,12 +15,12 @@
 #include <numbers>
 
 #include "benchmarks/analytic/coupling/coupling_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/joints/planar_arm.h"
-#include "benchmarks/analytic/joints/smooth_cases.h"
 #include "coupling/analysis/tracking_run.h"
 #include "coupling/target/automatic_motion.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -171,9 +172,9 @@ template <std::size_t i>
 TrajectoryCase following() {
   return {.statement =
               "Two links follow a target that turns to and fro at constant speed, drawn by "
-              "spring-dampers on their angles, their directions or their centres of mass: "
-              "<p>M q'' + C q' = &Sigma; J<sup>T</sup> (k (x<sub>K</sub> &minus; x) + b "
-              "(x<sub>K</sub>' &minus; x'))</p>",
+              "spring-dampers on their angles, their directions or their centres of mass: <p>M q'' "
+              "+ C q' = &Sigma; J<sup>T</sup> (k (x<sub>K</sub> &minus; x) + b (x<sub>K</sub>' "
+              "&minus; x'))</p>",
           .scene =
               [] {
                 const auto leader = std::make_shared<Leader>(kTracked[i]);
@@ -219,30 +220,24 @@ CaseResult mean_error() {
   return {largest_miss(tracked(kTracked[i], mistaken).mean, kTracked[i].mean_deg)};
 }
 
+constexpr const char* kFollowing =
+    "The same arm follows its target for 3 s; the error of a joint is that of its angle. <p>max "
+    "|q<sub>K</sub> &minus; q|, (1/T) &int; |q<sub>K</sub> &minus; q| dt</p>";
+
 template <std::size_t i>
 void add_coupling(const std::array<const char*, 3>& names, const char* what,
                   std::vector<AnalyticCase>& all) {
   const char* group = "couplings";
   all.push_back(trajectory_case(names[0], group, what, 1e-8, following<i>()));
-  all.push_back({names[1],
-                 group,
-                 "the same: largest errors of the joints [deg]",
-                 1e-4,
-                 largest_error<i, false>,
-                 {},
-                 largest_error<i, true>});
-  all.push_back({names[2],
-                 group,
-                 "the same: mean errors of the joints [deg]",
-                 1e-5,
-                 mean_error<i, false>,
-                 {},
-                 mean_error<i, true>});
+  all.push_back(experiment_case(names[1], group, "the same: largest errors of the joints [deg]",
+                                1e-4, largest_error<i, false>, largest_error<i, true>, kFollowing));
+  all.push_back(experiment_case(names[2], group, "the same: mean errors of the joints [deg]", 1e-5,
+                                mean_error<i, false>, mean_error<i, true>, kFollowing));
 }
 
 }  // namespace
 
-std::vector<AnalyticCase> coupling_tracking() {
+CaseFamily tracking_cases() {
   std::vector<AnalyticCase> all;
   add_coupling<0>({"F3-world", "F3-world-largest", "F3-world-mean"},
                   "two links follow, springs on their directions: state [rad, rad/s], 3 s", all);
@@ -252,7 +247,7 @@ std::vector<AnalyticCase> coupling_tracking() {
                   "two links follow, springs on their centres: state [rad, rad/s], 3 s", all);
   add_coupling<3>({"F3-undamped", "F3-undamped-largest", "F3-undamped-mean"},
                   "two links follow, soft undamped springs: state [rad, rad/s], 3 s", all);
-  return all;
+  return {340, all};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

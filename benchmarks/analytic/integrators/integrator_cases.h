@@ -1,12 +1,12 @@
-// The cases of integrators, group G.
+// The cases of integrators, group G, one file for each kind.
 #pragma once
 
 #include <vector>
 
 #include "benchmarks/analytic/support/analytic_case.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 
-std::vector<AnalyticCase> integrators();  // G2, G3, G4
+const std::vector<CaseFamily>& integrator_cases();  // made by twinarm_registry()
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

@@ -8,13 +8,13 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/derivatives.h"
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -23,11 +23,11 @@ using Real = long double;
 constexpr Real I[] = {1, 2, 3};
 
 // u0 is 0 for a start on the plane w2 = 0, and the quarter period for one on w_cn = 0.
-struct Motion {
+struct AsymmetricMotion {
   Real H2, T2, A[3], n, m, u0 = 0;  // |H|^2, 2T, amplitudes, rate of u, parameter
   bool round_e3;                    // dn belongs to e3
 
-  Motion(Real w1, Real w2, Real w3) {
+  AsymmetricMotion(Real w1, Real w2, Real w3) {
     const Real w[] = {w1, w2, w3};
     H2 = T2 = 0;
     for (int k = 0; k < 3; ++k) H2 += I[k] * I[k] * w[k] * w[k], T2 += I[k] * w[k] * w[k];
@@ -76,7 +76,7 @@ CaseScene spinning(double w1, double w2, double w3) {
 }
 
 TrajectoryCase tumbling() {
-  static const Motion motion(1, 0, 1);
+  static const AsymmetricMotion motion(1, 0, 1);
   return {.statement =
               "A free body with moments of inertia 1, 2 and 3 kg m<sup>2</sup> starts with "
               "(1, 0, 1) rad/s. Its rate in body axes: <p>&omega; = (cn t, sn t, dn t), "
@@ -106,7 +106,7 @@ TrajectoryCase tumbling_invariants() {
 }
 
 TrajectoryCase flip() {
-  static const Motion motion(1e-3L, 1, 0);
+  static const AsymmetricMotion motion(1e-3L, 1, 0);
   TrajectoryCase c = tumbling();
   c.statement =
       "The same body spins about its intermediate axis, (0.001, 1, 0) rad/s: the spin turns over "
@@ -120,7 +120,7 @@ TrajectoryCase flip() {
 
 // w2 is zero at odd multiples of K / n.
 TrajectoryCase flip_time() {
-  static const Motion motion(1e-3L, 1, 0);
+  static const AsymmetricMotion motion(1e-3L, 1, 0);
   TrajectoryCase c = flip();
   c.times = {};
   c.readings = {};
@@ -154,9 +154,9 @@ TrajectoryCase flip_growth() {
 
 }  // namespace
 
-std::vector<AnalyticCase> asymmetric_body() {
+CaseFamily asymmetric_body_cases() {
   const char* group = "free-body";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("A2", group,
                       "asymmetric body: attitude [rad], rate [rad/s], 10 s; elliptic functions",
                       1e-8, tumbling()),
@@ -173,6 +173,7 @@ std::vector<AnalyticCase> asymmetric_body() {
       trajectory_case("A3-growth", group, "rate of growth about that spin: 1/sqrt(3) [relative]",
                       1e-12, flip_growth()),
   };
+  return {20, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

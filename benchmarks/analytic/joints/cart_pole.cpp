@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/chain_parts.h"
 #include "solver/dynamics/kinematics.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -148,9 +148,9 @@ TrajectoryCase chrono_slider() {
 
 }  // namespace
 
-std::vector<AnalyticCase> cart_pole() {
+CaseFamily cart_pole_cases() {
   const char* group = "chains";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("C6", group, "cart-pole from 2 rad: place [m], angle [rad], rates, 5 s", 1e-8,
                       cart_pole_motion()),
       trajectory_case("C6-centre", group, "the same: x of the centre of mass, 5 s [m]", 1e-12,
@@ -163,6 +163,7 @@ std::vector<AnalyticCase> cart_pole() {
                       "Chrono's pendulum on a sprung slider: place, angle, rates, 5 s", 1e-8,
                       chrono_slider()),
   };
+  return {130, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/chain_parts.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -195,9 +195,9 @@ TrajectoryCase babyboot_rates_at_end() {
 
 }  // namespace
 
-std::vector<AnalyticCase> crossed_hinges() {
+CaseFamily crossed_hinges_cases() {
   const char* group = "chains";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("C8", group, "Furuta's pendulum from 2 rad: angles, rates, 5 s", 1e-7,
                       furuta_motion()),
       trajectory_case("C8-start", group,
@@ -211,6 +211,7 @@ std::vector<AnalyticCase> crossed_hinges() {
       trajectory_case("C9-end", group, "the same: rates and accelerations at 10 s, dopri5", 1e-5,
                       babyboot_rates_at_end()),
   };
+  return {150, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/chain_parts.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -148,9 +148,9 @@ TrajectoryCase two_plates() {
 
 }  // namespace
 
-std::vector<AnalyticCase> double_pendulum() {
+CaseFamily double_pendulum_cases() {
   const char* group = "chains";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("C1-90-90", group,
                       "two point masses from 90, 90 degrees: angles [rad], rates [rad/s], 10 s",
                       1e-8, two_points<90, 90>()),
@@ -169,6 +169,7 @@ std::vector<AnalyticCase> double_pendulum() {
                       "Chrono's double pendulum: angles, rates, place of its end, 5 s", 1e-8,
                       two_plates()),
   };
+  return {110, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

@@ -4,14 +4,14 @@
 //   start,
 // and energy stays where no joint takes any. A body that falls under semi-implicit steps of h is
 // off the parabola by -g h t / 2, and its energy by -m g^2 h t / 2: its own recurrence, exactly.
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/dynamics/world_kinematics.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -155,9 +155,9 @@ TrajectoryCase ballistic() {
 
 }  // namespace
 
-std::vector<AnalyticCase> floating_tree() {
+CaseFamily floating_tree_cases() {
   const char* group = "free-body";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("A5-momentum", group,
                       "floating tree, torques within: momenta kept, 10 s [relative]", 1e-9,
                       momenta()),
@@ -169,6 +169,7 @@ std::vector<AnalyticCase> floating_tree() {
                       "semi-implicit fall: energy error -m g^2 h t / 2 [J]; its own recurrence",
                       1e-9, ballistic()),
   };
+  return {40, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 
@@ -71,7 +71,6 @@ const char* name_of_case(const char* prefix, Integrator integrator) {
   return all.back()->c_str();
 }
 
-namespace smooth_cases {
 namespace {
 
 using namespace smooth_parts;
@@ -113,7 +112,7 @@ TrajectoryCase golden_energy(const GoldenSteps& row) {
 
 }  // namespace
 
-std::vector<AnalyticCase> golden_pendulum() {
+CaseFamily golden_steps_cases() {
   const char* group = "integrators";
   std::vector<AnalyticCase> all;
   for (const GoldenSteps& row : golden_steps())
@@ -125,8 +124,7 @@ std::vector<AnalyticCase> golden_pendulum() {
     all.push_back(trajectory_case(name_of_case("G2-energy-", row.integrator), group,
                                   "pendulum, 100 s in steps of 10 ms: energy [relative]", 5e-4,
                                   golden_energy(row)));
-  return all;
+  return {360, all};
 }
 
-}  // namespace smooth_cases
 }  // namespace twinarm

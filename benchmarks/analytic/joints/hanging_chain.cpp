@@ -8,14 +8,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/chain_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -135,9 +135,6 @@ TrajectoryCase folded_fall() {
               "A chain of 1 m hangs from both ends side by side; one is let go, and falls faster "
               "than a stone: <p>v<sup>2</sup> = 2 g x (1 &minus; x/2L)/(1 &minus; x/L)</p>",
           .scene = folded_chain,
-          .times = {},
-          .readings = {},
-          .observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; },
           .reference =
               [](double) { return CaseReadings{static_cast<double>(folded_fall_time(kDeep))}; },
           .measure = relative_each,
@@ -168,9 +165,9 @@ TrajectoryCase folded_energy() {
 
 }  // namespace
 
-std::vector<AnalyticCase> hanging_chain() {
+CaseFamily hanging_chain_cases() {
   const char* group = "chains";
-  return {
+  const std::vector<AnalyticCase> cases = {
       point_chain_case("C3-1", 1),
       point_chain_case("C3-2", 2),
       point_chain_case("C3-3", 3),
@@ -193,6 +190,7 @@ std::vector<AnalyticCase> hanging_chain() {
       trajectory_case("C5-energy", group, "the same: its energy, 0.35 s [J]", 1e-8,
                       folded_energy()),
   };
+  return {120, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

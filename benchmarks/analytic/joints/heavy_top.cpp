@@ -7,16 +7,16 @@
 //   phi' = a (u0 - u) / (1 - u^2),  psi' = w3 - phi' u        (precession, spin; z-x-z angles).
 #include <cmath>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/derivatives.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/dynamics/world_kinematics.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -93,7 +93,7 @@ CaseReadings observe_axis(const Model<double>&, const State<double>& x) {
   return {e.x(), e.y(), e.z()};
 }
 
-TrajectoryCase motion(double step) {
+TrajectoryCase top_motion(double step) {
   return {
       .statement =
           "A top of 1 kg, its centre 0.2 m from the fixed point, I<sub>1</sub> = 0.05 and "
@@ -119,7 +119,7 @@ TrajectoryCase motion(double step) {
 
 // The rate in body axes, of which two components turn with the spin.
 TrajectoryCase rates() {
-  TrajectoryCase c = motion(1e-4);
+  TrajectoryCase c = top_motion(1e-4);
   c.readings = {"w1 [rad/s]", "w2 [rad/s]", "w3 [rad/s]"};
   c.observe = [](const Model<double>&, const State<double>& x) { return x.qd; };
   c.reference = [](double t) {
@@ -130,8 +130,8 @@ TrajectoryCase rates() {
 }
 
 // The axis is lowest at half a period and at rest again at a whole one, further round.
-TrajectoryCase bounds() {
-  TrajectoryCase c = motion(1e-4);
+TrajectoryCase top_bounds() {
+  TrajectoryCase c = top_motion(1e-4);
   c.times = {};
   c.readings = {"tilt [rad]", "azimuth [rad]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
@@ -151,7 +151,7 @@ TrajectoryCase bounds() {
 }
 
 TrajectoryCase invariants() {
-  TrajectoryCase c = motion(1e-3);
+  TrajectoryCase c = top_motion(1e-3);
   c.lane = dopri5_lane(1e-12);
   c.readings = {"Lz [N m s]", "w3 [rad/s]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
@@ -179,7 +179,7 @@ double residual(const Model<double>& model, double W) {
 }
 
 TrajectoryCase steady() {
-  TrajectoryCase c = motion(1e-3);
+  TrajectoryCase c = top_motion(1e-3);
   c.statement =
       "Steady precession of that top at 30&deg;: <p>I<sub>1</sub> cos &theta; W<sup>2</sup> "
       "&minus; I<sub>3</sub>&omega;<sub>3</sub> W + m g l = 0</p> has a slow and a fast root, and "
@@ -205,10 +205,10 @@ TrajectoryCase steady() {
 //   z' = -i w3 z + i w,   w' = -i D w - i F z,   D = (1 - I3 / I1) w3,  F = m g l / I1,
 // stable where (w3 - D)^2 >= 4 F. F and D are read off the derivatives of the accelerations.
 TrajectoryCase sleeping() {
-  TrajectoryCase c = motion(1e-3);
+  TrajectoryCase c = top_motion(1e-3);
   c.statement =
       "Upright, the top sleeps where its spin is above <p>&omega;<sub>3</sub> = 2 "
-      "&radic;(m g l I<sub>1</sub>)/I<sub>3</sub></p>.";
+      "&radic;(m g l I<sub>1</sub>)/I<sub>3</sub></p>";
   c.scene = [] { return start_at(top(), {1, 0, 0, 0}, {0, 0, kSpin}); };
   c.times = {0};
   c.readings = {"least spin [rad/s]"};
@@ -223,18 +223,18 @@ TrajectoryCase sleeping() {
 
 }  // namespace
 
-std::vector<AnalyticCase> heavy_top() {
+CaseFamily heavy_top_cases() {
   const char* group = "free-body";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("A4", group, "heavy top: its axis, 1 s, rk4 1 ms; elliptic functions", 1e-5,
-                      motion(1e-3)),
-      trajectory_case("A4-fine", group, "the same, rk4 0.1 ms", 1e-9, motion(1e-4)),
+                      top_motion(1e-3)),
+      trajectory_case("A4-fine", group, "the same, rk4 0.1 ms", 1e-9, top_motion(1e-4)),
       trajectory_case("A4-rates", group, "the same: rates in body axes [rad/s], rk4 0.1 ms", 1e-8,
                       rates()),
       trajectory_case("A4-nutation", group,
                       "tilt from 30 to 37.505163885493036 degrees, 0.81621178130406342 rad round "
                       "in 0.38054140391335806 s [s, rad]",
-                      1e-6, bounds()),
+                      1e-6, top_bounds()),
       trajectory_case("A4-invariants", group,
                       "Lz [N m s] and w3 [rad/s] over 1 s; dopri5, tolerance 1e-12", 1e-10,
                       invariants()),
@@ -247,6 +247,7 @@ std::vector<AnalyticCase> heavy_top() {
                       "least spin of the upright top: 62.641839053463301 rad/s [relative]", 1e-12,
                       sleeping()),
   };
+  return {30, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/chain_parts.h"
 #include "solver/stepping/simulation.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -139,9 +139,9 @@ TrajectoryCase floquet() {
 
 }  // namespace
 
-std::vector<AnalyticCase> kapitza() {
+CaseFamily kapitza_cases() {
   const char* group = "chains";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("C7", group, "Kapitza's pendulum, 160 rad/s: angle, 2 s [rad]; its equation",
                       1e-8, shaken_motion(160, 2)),
       trajectory_case("C7-157.5", group, "the same, 157.5 rad/s: largest angle in 20 s [rad]",
@@ -156,6 +156,7 @@ std::vector<AnalyticCase> kapitza() {
                       "on the limit 156.65935736181 rad/s a period brings it back [relative]", 1e-8,
                       floquet()),
   };
+  return {140, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

@@ -8,10 +8,10 @@
 #include <complex>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -121,9 +121,9 @@ TrajectoryCase stick() {
 
 }  // namespace
 
-std::vector<AnalyticCase> oscillators() {
+CaseFamily oscillators_cases() {
   const char* group = "joints";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("B6-light", group, "spring, c = 2 N s/m: x [m], v [m/s], 2 s", 1e-8,
                       fading(2)),
       trajectory_case("B6-critical", group, "the same, c = 20 N s/m", 1e-8, fading(20)),
@@ -139,6 +139,7 @@ std::vector<AnalyticCase> oscillators() {
       trajectory_case("B6-stick", group, "the same: at -0.003 m from pi s on [m, m/s]", 1e-6,
                       stick()),
   };
+  return {80, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -36,9 +36,6 @@ TrajectoryCase swing_time() {
               "odd quarters of its period <p>T = 2&pi; / (&omega;<sub>0</sub> "
               "agm(1, cos(&theta;<sub>0</sub>/2)))</p>",
           .scene = [] { return released(static_cast<double>(amplitude), 0); },
-          .times = {},
-          .readings = {},
-          .observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; },
           .reference =
               [](double k) {
                 static const Real quarter = period(amplitude) / 4;
@@ -48,7 +45,7 @@ TrajectoryCase swing_time() {
 }
 
 TrajectoryCase small_swings() {
-  return {.statement = "Small swings of a pendulum of 1 m take <p>2&pi; &radic;(l/g)</p>.",
+  return {.statement = "Small swings of a pendulum of 1 m take <p>2&pi; &radic;(l/g)</p>",
           .scene = [] { return released(0, 0); },
           .times = {0},
           .readings = {"period [s]"},
@@ -145,10 +142,10 @@ TrajectoryCase separatrix() {
 
 }  // namespace
 
-std::vector<AnalyticCase> pendulum() {
+CaseFamily pendulum_cases() {
   const char* group = "joints";
   const char* time = "swing: three passages of the bottom [s]; agm";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("B1-1", group, time, 1e-9, swing_time<1>()),
       trajectory_case("B1-10", group, time, 1e-9, swing_time<10>()),
       trajectory_case("B1-45", group, time, 1e-9, swing_time<45>()),
@@ -171,6 +168,7 @@ std::vector<AnalyticCase> pendulum() {
       trajectory_case("B2-separatrix", group, "pendulum to the top: angle [rad], rate [rad/s], 1 s",
                       1e-6, separatrix()),
   };
+  return {50, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/mass_matrix.h"
 
 namespace twinarm::smooth_parts {
 
@@ -35,7 +36,7 @@ PlanarArmTerms terms_of(const PlanarArm& arm, long double q2, long double qd1, l
 
 }  // namespace twinarm::smooth_parts
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -93,9 +94,8 @@ TrajectoryCase mass_matrix() {
           .observe =
               [](const Model<double>& model, const State<double>&) {
                 return in_all_states([&](const ArmState& s) {
-                  Workspace<double> w(model);
-                  crba(model, state_of(model, s), w);
-                  return doubles({w.M[0], w.M[1], w.M[3]});
+                  const Eigen::MatrixXd M = twinarm::mass_matrix(model, state_of(model, s));
+                  return doubles({M(0, 0), M(0, 1), M(1, 1)});
                 });
               },
           .reference =
@@ -171,9 +171,9 @@ TrajectoryCase no_weight() {
 
 }  // namespace
 
-std::vector<AnalyticCase> planar_arm() {
+CaseFamily planar_arm_cases() {
   const char* group = "robots";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("F2", group, "planar two-link arm: mass matrix in ten states [relative]",
                       1e-12, mass_matrix()),
       trajectory_case("F2-velocity", group, "the same: velocity terms C qd [relative]", 1e-12,
@@ -183,6 +183,7 @@ std::vector<AnalyticCase> planar_arm() {
       trajectory_case("F2-weight", group, "the same: gravity along its axes does nothing [N m]",
                       1e-12, no_weight()),
   };
+  return {330, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

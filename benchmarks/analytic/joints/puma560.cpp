@@ -8,13 +8,14 @@
 #include <limits>
 #include <string>
 
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/joints/puma560_values.h"
-#include "benchmarks/analytic/joints/smooth_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/mass_matrix.h"
 #include "solver/loops/constrained_dynamics.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -61,9 +62,9 @@ Model<double> puma() {
     const double s = row.alpha, c = row.alpha == 0 ? 1 : 0, G = motor.gear;
     Pose rest{Matrix3::Identity(), {row.a, 0, row.d}};
     rest.R << 1, 0, 0, 0, c, -s, 0, s, c;
-    const Matrix3 I = Vector3(row.I.data()).asDiagonal();
+    const Matrix3 moments = Vector3(row.I.data()).asDiagonal();
     const BodyInertia inertia{row.mass, rest * Vector3(row.com.data()),
-                              rest.R * I * rest.R.transpose()};
+                              rest.R * moments * rest.R.transpose()};
     const JointProperties properties{.armature = G * G * motor.inertia,
                                      .damping = G * G * motor.viscous,
                                      .coulomb_plus = G * motor.plus,
@@ -176,10 +177,9 @@ TrajectoryCase puma_mass() {
     c.readings.push_back(std::string(entry) + " [kg m^2]");
   c.observe = [](const Model<double>& model, const State<double>&) {
     CaseReadings all = model.armature;
-    Workspace<double> w(model);
-    crba(model, puma_state(model, puma560::kNominal), w);
-    for (std::size_t k = 0; k < 6; ++k) all.push_back(w.M[7 * k]);
-    for (const std::size_t entry : {1, 2, 8}) all.push_back(w.M[entry]);
+    const Eigen::MatrixXd M = mass_matrix(model, puma_state(model, puma560::kNominal));
+    for (Eigen::Index k = 0; k < 6; ++k) all.push_back(M(k, k));
+    for (const double entry : {M(0, 1), M(0, 2), M(1, 2)}) all.push_back(entry);
     return all;
   };
   c.reference = [](double) {
@@ -272,9 +272,9 @@ TrajectoryCase puma_published() {
 
 }  // namespace
 
-std::vector<AnalyticCase> puma560_robot() {
+CaseFamily puma560_cases() {
   const char* group = "robots";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("F1", group, "PUMA 560: gravity load in four postures [relative]", 1e-12,
                       puma_weight()),
       trajectory_case("F1-mass", group, "PUMA 560: armature and mass matrix at qn [relative]",
@@ -287,6 +287,7 @@ std::vector<AnalyticCase> puma560_robot() {
                       "PUMA 560: published torques, accelerations [of the last digit]", 0.5,
                       puma_published()),
   };
+  return {320, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

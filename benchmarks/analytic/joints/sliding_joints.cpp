@@ -7,11 +7,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/world_kinematics.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -50,7 +50,7 @@ TrajectoryCase screw_at_rest() {
 // With damping: the rate at which nothing accelerates, and how it is come near.
 TrajectoryCase screw_terminal() {
   TrajectoryCase c = screw_at_rest();
-  c.statement = "The same screw with 0.01 N m s/rad tends to <p>m g p / b</p>.";
+  c.statement = "The same screw with 0.01 N m s/rad tends to <p>m g p / b</p>";
   c.scene = [] { return screw(0.01); };
   c.readings = {"terminal rate [rad/s]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
@@ -200,10 +200,10 @@ TrajectoryCase by(Lane lane, TrajectoryCase c) {
 
 }  // namespace
 
-std::vector<AnalyticCase> sliding_joints() {
+CaseFamily sliding_joints_cases() {
   const char* group = "joints";
   const Lane verlet{Integrator::verlet, 1e-2, 0};
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("B4", group,
                       "screw: 6.1825971606954312, 0.098399089927059503, torque "
                       "0.31226199834629865 [relative]",
@@ -226,6 +226,7 @@ std::vector<AnalyticCase> sliding_joints() {
       trajectory_case("B9-verlet", group, "the planar one by verlet, 10 ms: exact [relative]",
                       1e-12, by(verlet, planar())),
   };
+  return {70, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

@@ -6,12 +6,12 @@
 // W^2 = g / cos a, small swings have w^2 = W^2 (1 + 3 cos^2 a).
 #include <cmath>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/kinematics.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -38,9 +38,9 @@ CaseScene start(JointType type, double tilt, double turning) {
   return start_at(on(type), {R.w(), R.x(), R.y(), R.z()}, {w_B.x(), w_B.y(), w_B.z()});
 }
 
-struct Motion {
+struct ConeMotion {
   Real g = 9.81L, L, z1, z2, z3, k, m;
-  Motion(Real tilt, Real turning) {
+  ConeMotion(Real tilt, Real turning) {
     const Real s = std::sin(tilt), v2 = turning * turning * s * s;
     z2 = -std::cos(tilt);
     L = turning * s * s;
@@ -79,12 +79,12 @@ CaseReadings observe_place(const Model<double>& model, const State<double>& x) {
   const Vector3 p = k.position(1, kRod), v = k.velocity(1, p);
   return {p.x(), p.y(), p.z(), v.x(), v.y(), v.z()};
 }
-const Motion& wide() {
-  static const Motion motion(std::acos(-1.0L) / 3, 2);
+const ConeMotion& wide() {
+  static const ConeMotion motion(std::acos(-1.0L) / 3, 2);
   return motion;
 }
 
-TrajectoryCase swing(JointType type) {
+TrajectoryCase cone_swing(JointType type) {
   return {.statement =
               "A spherical pendulum of 1 m starts 60&deg; from hanging and goes round at 2 "
               "rad/s: <p>z = z<sub>1</sub> + (z<sub>2</sub> &minus; z<sub>1</sub>) "
@@ -97,8 +97,8 @@ TrajectoryCase swing(JointType type) {
 }
 
 // Lowest at half a period, at the height of the start after a whole one, further round.
-TrajectoryCase bounds() {
-  TrajectoryCase c = swing(JointType::spherical);
+TrajectoryCase cone_bounds() {
+  TrajectoryCase c = cone_swing(JointType::spherical);
   c.times = {};
   c.readings = {"x [m]", "y [m]", "z [m]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
@@ -117,7 +117,7 @@ TrajectoryCase bounds() {
 }
 
 TrajectoryCase momentum_kept() {
-  TrajectoryCase c = swing(JointType::spherical);
+  TrajectoryCase c = cone_swing(JointType::spherical);
   c.statement =
       "The same: its angular momentum about the vertical stays. <p>L = m (x y' &minus; y x') = 1.5 "
       "N m s</p>";
@@ -137,8 +137,8 @@ const double kCone = 30 * kDegree, kRound = std::sqrt(kGravity / std::cos(kCone)
 constexpr double kAside = 1e-5;  // its square is beyond the tolerance
 
 TrajectoryCase conical() {
-  TrajectoryCase c = swing(JointType::spherical);
-  c.statement = "A conical pendulum at 30&deg; goes round at <p>W = &radic;(g/(l cos a))</p>.";
+  TrajectoryCase c = cone_swing(JointType::spherical);
+  c.statement = "A conical pendulum at 30&deg; goes round at <p>W = &radic;(g/(l cos a))</p>";
   c.scene = [] { return start(JointType::spherical, kCone, kRound); };
   c.reference = [](double t) {
     const double r = std::sin(kCone), z = -std::cos(kCone), C = std::cos(kRound * t);
@@ -162,8 +162,8 @@ TrajectoryCase near_conical() {
   c.readings = {};
   c.observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
   c.reference = [](double n) {
-    const double swing = kRound * std::sqrt(1 + 3 * std::cos(kCone) * std::cos(kCone));
-    return CaseReadings{n * std::acos(-1.0) / swing};
+    const double cone_swing = kRound * std::sqrt(1 + 3 * std::cos(kCone) * std::cos(kCone));
+    return CaseReadings{n * std::acos(-1.0) / cone_swing};
   };
   c.events = {
       [](const Model<double>& model, const State<double>& x) { return observe_place(model, x)[5]; },
@@ -173,19 +173,19 @@ TrajectoryCase near_conical() {
 
 }  // namespace
 
-std::vector<AnalyticCase> spherical_pendulum() {
+CaseFamily spherical_pendulum_cases() {
   const char* group = "joints";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("B7", group,
                       "spherical pendulum on a ball: place [m], velocity [m/s], 5 s; elliptic "
                       "functions",
-                      1e-8, swing(JointType::spherical)),
+                      1e-8, cone_swing(JointType::spherical)),
       trajectory_case("B7-universal", group, "the same on a universal joint", 1e-8,
-                      swing(JointType::universal)),
+                      cone_swing(JointType::universal)),
       trajectory_case("B7-bounds", group,
                       "the same: z from -0.5 to -0.88759739960796994 m, 3.8311623896149764 rad "
                       "round in 1.0796691626572801 s [s, m]",
-                      1e-8, bounds()),
+                      1e-8, cone_bounds()),
       trajectory_case("B7-momentum", group, "the same: Lz [N m s]; dopri5, tolerance 1e-13", 1e-11,
                       momentum_kept()),
       trajectory_case("B7-conical", group,
@@ -195,6 +195,7 @@ std::vector<AnalyticCase> spherical_pendulum() {
                       "1e-5 rad from it: swings at 6.0675151351172159 rad/s, four half swings [s]",
                       1e-8, near_conical()),
   };
+  return {90, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

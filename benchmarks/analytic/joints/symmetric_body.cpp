@@ -4,37 +4,37 @@
 // Kane, Likins, Levinson, Spacecraft Dynamics (1983), 3.1.
 #include <cmath>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/world_kinematics.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
 
-constexpr double I1 = 0.04, I3 = 0.02;
+constexpr double kAcross = 0.04, kAxial = 0.02;
 const Vector3 kRate(2, 0, 5);
 
 CaseScene scene() {
   CaseScene s;
-  s.model = free_body(1, {I1, I1, I3});
+  s.model = free_body(1, {kAcross, kAcross, kAxial});
   s.start = State<double>(s.model);
   for (int k = 0; k < 3; ++k) s.start.qd[static_cast<std::size_t>(k)] = kRate[k];
   return s;
 }
 
 CaseReadings reference(double t) {
-  const Vector3 H(I1 * kRate.x(), I1 * kRate.y(), I3 * kRate.z());
-  const double nutation = kRate.z() * (I1 - I3) / I1 * t;
-  const Eigen::Quaterniond attitude(Eigen::AngleAxisd(H.norm() / I1 * t, H.normalized()) *
+  const Vector3 H(kAcross * kRate.x(), kAcross * kRate.y(), kAxial * kRate.z());
+  const double nutation = kRate.z() * (kAcross - kAxial) / kAcross * t;
+  const Eigen::Quaterniond attitude(Eigen::AngleAxisd(H.norm() / kAcross * t, H.normalized()) *
                                     Eigen::AngleAxisd(nutation, Vector3::UnitZ()));
   return attitude_and_rate(attitude, Eigen::AngleAxisd(-nutation, Vector3::UnitZ()) * kRate);
 }
 
-TrajectoryCase motion() {
+TrajectoryCase symmetric_motion() {
   return {.statement =
               "A free body with moments of inertia 0.04, 0.04 and 0.02 kg m<sup>2</sup> starts "
               "with (2, 0, 5) rad/s. Its axis e<sub>3</sub> goes round the angular momentum H: "
@@ -51,7 +51,7 @@ TrajectoryCase motion() {
 
 // In one state: kinetic energy, |H|, and the angle between the axis and H.
 TrajectoryCase at_start() {
-  TrajectoryCase c = motion();
+  TrajectoryCase c = symmetric_motion();
   c.times = {0};
   c.readings = {"kinetic energy [J]", "|H| [N m s]", "angle of e3 to H [rad]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
@@ -62,7 +62,7 @@ TrajectoryCase at_start() {
                         std::atan2(std::hypot(H.x, H.y), H.z)};
   };
   c.reference = [](double) {
-    const double across = I1 * kRate.x(), along = I3 * kRate.z();
+    const double across = kAcross * kRate.x(), along = kAxial * kRate.z();
     return CaseReadings{(across * kRate.x() + along * kRate.z()) / 2, std::hypot(across, along),
                         std::atan2(across, along)};
   };
@@ -72,13 +72,13 @@ TrajectoryCase at_start() {
 
 }  // namespace
 
-std::vector<AnalyticCase> symmetric_body() {
-  TrajectoryCase adaptive = motion();
+CaseFamily symmetric_body_cases() {
+  TrajectoryCase adaptive = symmetric_motion();
   adaptive.lane = dopri5_lane(1e-12);
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("A1", "free-body",
                       "symmetric body: attitude [rad], rate [rad/s], 10 s; closed form", 1e-8,
-                      motion()),
+                      symmetric_motion()),
       trajectory_case(
           "A1-start", "free-body",
           "0.33 J, |H| = 0.12806248474865697 N m s, 38.659808254090091 degrees from the "
@@ -87,6 +87,7 @@ std::vector<AnalyticCase> symmetric_body() {
       trajectory_case("A1-adaptive", "free-body", "the same, dopri5 with a tolerance of 1e-12",
                       1e-10, adaptive),
   };
+  return {10, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

@@ -4,13 +4,13 @@
 // kg, hung by the middle of its short edge: w^2 = m g (1/2) / I about either axis of the joint.
 #include <cmath>
 
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/loops/loop_assembly.h"
 
-namespace twinarm::smooth_cases {
+namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
@@ -98,9 +98,9 @@ TrajectoryCase plate() {
 
 }  // namespace
 
-std::vector<AnalyticCase> universal_joint() {
+CaseFamily universal_joint_cases() {
   const char* group = "joints";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("B8", group,
                       "Hooke's joint at 30 degrees: 33.690067525979787 degrees, ratio "
                       "1.065877420042386, from 0.86602540378443865 to its inverse [relative]",
@@ -109,6 +109,7 @@ std::vector<AnalyticCase> universal_joint() {
                       "plate on a universal joint: 3.6742346141747671, 3.8360135557633265 rad/s",
                       1e-6, plate()),
   };
+  return {100, cases};
 }
 
-}  // namespace twinarm::smooth_cases
+}  // namespace twinarm

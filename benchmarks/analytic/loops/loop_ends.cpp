@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/loops/loop_cases.h"
 #include "benchmarks/analytic/loops/loop_runs.h"
-#include "solver/dynamics/energy.h"
+#include "benchmarks/analytic/mechanisms/loop_cases.h"
+#include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/loops/loop_assembly.h"
 #include "solver/stepping/simulation.h"
@@ -149,30 +149,31 @@ TrajectoryCase crank_energy() {
 
 }  // namespace
 
-std::vector<AnalyticCase> loop_ends() {
+CaseFamily loop_ends_cases() {
   const char* group = "loops";
-  return {
+  const std::vector<AnalyticCase> cases = {
       trajectory_case("D3-rates", group, "Andrews' squeezer: rates at 0.03 s [relative]", 1e-8,
                       squeezer_rates()),
       trajectory_case("D4-velocity", group, "Bricard's 6R: velocity of the corner at 10 s [m/s]",
                       1e-6, bricard_velocity()),
       trajectory_case("D5-end", group, "governor with stiff couplers at 10 s [rad, rad/s]", 1e-8,
                       governor_end()),
-      {"D5-implicit",
-       group,
-       "governor, 5 ms: what implicit couplers change of its swing in 10 s [relative]",
-       0.01,
-       governor_swings,
-       {},
-       governor_damped,
-       "The governor's couplers have an eigenvalue of &minus;8117/s, its slow motion one of 7.35 "
-       "rad/s. In steps of 5 ms implicit struts leave the slow one the swing that it has with "
-       "rods, and the implicit midpoint rule keeps it; implicit Euler damps it by <p>e<sup>&minus;"
-       "w<sup>2</sup>h t/2</sup>, w<sup>2</sup>h/2 = 0.13/s</p>"},
+      experiment_case(
+          "D5-implicit", group,
+          "governor, 5 ms: what implicit couplers change of its swing in 10 s [relative]", 0.01,
+          governor_swings, governor_damped,
+          "The governor's couplers have an eigenvalue of &minus;8117/s, its slow motion "
+          "one of 7.35 "
+          "rad/s. In steps of 5 ms implicit struts leave the slow one the swing that it "
+          "has with "
+          "rods, and the implicit midpoint rule keeps it; implicit Euler damps it by "
+          "<p>e<sup>&minus;"
+          "w<sup>2</sup>h t/2</sup>, w<sup>2</sup>h/2 = 0.13/s</p>"),
       trajectory_case("D6-place", group, "slider-crank at 60 degrees: piston [m]", 1e-12,
                       piston_place()),
       trajectory_case("D6-energy", group, "slider-crank: energy, 10 s [J]", 1e-8, crank_energy()),
   };
+  return {170, cases};
 }
 
 }  // namespace twinarm

@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-#include "benchmarks/analytic/loops/loop_cases.h"
+#include "benchmarks/analytic/mechanisms/loop_cases.h"
 #include "benchmarks/analytic/support/case_constants.h"
 #include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/kinematics.h"
@@ -160,7 +160,7 @@ TrajectoryCase loop_motion(LoopCase (*make)(), const char* statement) {
   return motion;
 }
 
-std::vector<AnalyticCase> loop_runs() {
+CaseFamily loop_runs_cases() {
   const char* group = "loops";
   const auto add = [&](const char* name, const char* reference, double tolerance,
                        TrajectoryCase motion) {
@@ -172,7 +172,7 @@ std::vector<AnalyticCase> loop_runs() {
   const char* flyball =
       "A flyball governor: a shaft that turns freely, two rods with balls, couplers to a slider. "
       "<p>With rigid couplers s = 1&nbsp;m (1 &minus; sin &alpha;)</p>";
-  return {
+  const std::vector<AnalyticCase> cases = {
       add("D1-hinge", "pendulum, a free body on a hinge: place, rate; elliptic functions",
           pendulum_on_hinge().tolerance, swing_of(pendulum_on_hinge, pendulum)),
       add("D1-circle", "pendulum, a particle at a distance: the same",
@@ -202,6 +202,7 @@ std::vector<AnalyticCase> loop_runs() {
       add("D7", "four-bar at one place: angles and rates [rad, rad/s]", four_bar().tolerance,
           four_bar_place()),
   };
+  return {160, cases};
 }
 
 }  // namespace twinarm

@@ -12,7 +12,6 @@ struct LoopCase;
 // What a mechanism of loop_cases.h does in time. Its references are known at its times alone.
 TrajectoryCase loop_motion(LoopCase (*make)(), const char* statement);
 
-std::vector<AnalyticCase> loop_runs();  // D1 to D7
-std::vector<AnalyticCase> loop_ends();  // what D3 to D6 know beside
+const std::vector<CaseFamily>& loop_cases();  // made by twinarm_registry()
 
 }  // namespace twinarm

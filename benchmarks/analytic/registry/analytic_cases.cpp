@@ -1,58 +1,27 @@
 #include "benchmarks/analytic/registry/analytic_cases.h"
+
+#include <algorithm>
+
 #include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/coupling/coupling_cases.h"
 #include "benchmarks/analytic/integrators/integrator_cases.h"
-#include "benchmarks/analytic/joints/smooth_cases.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/loops/loop_runs.h"
-#include "benchmarks/analytic/registry/engine_tasks.h"
 #include "benchmarks/analytic/support/run_trajectory.h"
 
 namespace twinarm {
 
-// A new family of cases is one more line here.
 const std::vector<AnalyticCase>& analytic_cases() {
   static const std::vector<AnalyticCase> all = [] {
-    using namespace contact_cases;
-    using namespace smooth_cases;
+    std::vector<CaseFamily> families;
+    for (const auto* folder :
+         {&joint_cases(), &loop_cases(), &contact_cases(), &coupling_cases(), &integrator_cases()})
+      families.insert(families.end(), folder->begin(), folder->end());
+    std::stable_sort(families.begin(), families.end(),
+                     [](const CaseFamily& a, const CaseFamily& b) { return a.order < b.order; });
     std::vector<AnalyticCase> cases;
-    for (const auto& family : {
-             symmetric_body(),
-             asymmetric_body(),
-             heavy_top(),
-             floating_tree(),
-             pendulum(),
-             compound_pendulum(),
-             sliding_joints(),
-             oscillators(),
-             spherical_pendulum(),
-             universal_joint(),
-             double_pendulum(),
-             hanging_chain(),
-             cart_pole(),
-             kapitza(),
-             crossed_hinges(),
-             loop_runs(),
-             loop_ends(),
-             impacts(),
-             sliding(),
-             toppling(),
-             rolling(),
-             painleve(),
-             spinning(),
-             stacks(),
-             hollows(),
-             arches(),
-             wedges(),
-             rod_impacts(),
-             puma560_robot(),
-             planar_arm(),
-             coupling_tracking(),
-             coupling_stability(),
-             golden_pendulum(),
-             integrators(),
-             engine_tasks::cases(),
-         })
-      cases.insert(cases.end(), family.begin(), family.end());
+    for (const CaseFamily& family : families)
+      cases.insert(cases.end(), family.cases.begin(), family.cases.end());
     return cases;
   }();
   return all;

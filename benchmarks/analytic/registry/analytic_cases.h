@@ -19,8 +19,4 @@ const std::vector<SkippedCase>& skipped_cases();
 // The case as it is judged: a trajectory in its own lane, and with its order of convergence.
 CaseResult run_case(const AnalyticCase& c);
 
-// What is known, for people: one paragraph, formulas in <p>, HTML without a stylesheet. That of the
-// trajectory, of the case itself, or of case_statements.cpp; null where there is none.
-const char* statement_of(const AnalyticCase& c);
-
 }  // namespace twinarm

@@ -21,6 +21,8 @@ struct CaseResult {
   std::optional<double> order{};  // of convergence, where it is measured
 };
 
+struct ContactLook;
+
 struct AnalyticCase {
   const char* name;       // "E1-times"
   const char* group;      // "contact", "loops"
@@ -28,15 +30,28 @@ struct AnalyticCase {
   double tolerance;       // the case passes where error <= tolerance; 0: nothing may be broken
   CaseResult (*run)();    // null: a trajectory
   std::shared_ptr<const TrajectoryCase> trajectory{};
-  CaseResult (*mistaken)() = nullptr;  // run() with a mistake in it, which must fail; may be null
-  const char* statement = nullptr;     // asked for by statement_of(); null where told elsewhere
+  CaseResult (*mistaken)() = nullptr;  // run() with a mistake in it, which must fail
+  // What is known, for people: one paragraph, formulas in <p>, HTML without a stylesheet.
+  const char* statement = nullptr;
+  std::shared_ptr<const ContactLook> look{};  // what a page draws; null: nothing
 };
 
 inline AnalyticCase trajectory_case(const char* name, const char* group, const char* reference,
                                     double tolerance, TrajectoryCase trajectory) {
-  return {name,      group,   reference,
-          tolerance, nullptr, std::make_shared<const TrajectoryCase>(std::move(trajectory))};
+  const auto motion = std::make_shared<const TrajectoryCase>(std::move(trajectory));
+  return {name, group, reference, tolerance, nullptr, motion, nullptr, motion->statement};
 }
+inline AnalyticCase experiment_case(const char* name, const char* group, const char* reference,
+                                    double tolerance, CaseResult (*run)(), CaseResult (*mistaken)(),
+                                    const char* statement) {
+  return {name, group, reference, tolerance, run, {}, mistaken, statement};
+}
+
+// The cases of one file, and their place among the families: they are shown in ascending order.
+struct CaseFamily {
+  int order;
+  std::vector<AnalyticCase> cases;
+};
 
 inline bool passes(const AnalyticCase& c, const CaseResult& result) {
   return result.error <= c.tolerance;

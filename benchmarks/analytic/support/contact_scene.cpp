@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "collision/shapes/mass_properties.h"
-#include "solver/dynamics/energy.h"
+#include "collision/shapes/shape.h"
+#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 namespace {

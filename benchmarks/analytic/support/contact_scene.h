@@ -113,19 +113,6 @@ class ContactScene {
   bool ok_ = true;
 };
 
-// A case with its mistake: the experiment multiplies one thing in it by `off`, which is 1 in the
-// case; in the mistake it is some thousandths more or less, and the case must fail.
-template <CaseResult (*experiment)(double off), int thousandths>
-AnalyticCase contact_case(const char* name, const char* reference, double tolerance) {
-  return {name,
-          "contact",
-          reference,
-          tolerance,
-          [] { return experiment(1); },
-          {},
-          [] { return experiment(1 + 1e-3 * thousandths); }};
-}
-
 // The value between `low`, where the outcome is false, and `high`, where it is true, to `within`.
 template <class Outcome>
 double threshold(double low, double high, double within, Outcome&& outcome) {

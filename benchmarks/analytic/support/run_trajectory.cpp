@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/dynamics/energy.h"
+#include "solver/dynamics/energy_momentum.h"
 #include "solver/stepping/simulation.h"
 
 namespace twinarm {

@@ -69,9 +69,9 @@ struct CaseEvents {
 struct TrajectoryCase {
   const char* statement;  // for people: one paragraph and the formula, HTML without a stylesheet
   std::function<CaseScene()> scene;
-  std::vector<double> times;          // ascending [s]; with events, none
-  std::vector<std::string> readings;  // what observe() gives, in order, with unit: "angle [rad]"
-  CaseObserver observe;
+  std::vector<double> times{};          // ascending [s]; with events, none
+  std::vector<std::string> readings{};  // what observe() gives, in order, with unit: "angle [rad]"
+  CaseObserver observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
   // Computed in the case at every time; with events, for the number of the event, from 1 on.
   std::function<CaseReadings(double)> reference;
   Lane lane{};  // in which it is judged

@@ -93,7 +93,7 @@ JointDescription read_joint(const toml::table& table, const toml::table* paper,
   const std::string type = source.text(table, "type", where);
   if (!type.empty() && !joint_type_from(type, joint.type))
     source.fault(TomlSource::line_of(*table.get("type")), where,
-                 "joint type '" + type + "' is not supported", kSupportedJoints);
+                 "joint type '" + type + "' is not supported", supported_joints());
   joint.parent = source.text(table, "parent", where);
   joint.child = source.text(table, "child", where);
   joint.origin.xyz = read_origin(table, where, joint.name, paper, source);

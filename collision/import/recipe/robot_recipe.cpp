@@ -1,21 +1,21 @@
 // Recipe -> meshes -> mass properties and hulls -> robot.
 //
 // Per part: mass, com and inertia of the solid inside its mesh
-// (collision/shapes/mass_properties.h). Per link: their sum, about the common centre of mass. Cost:
-// linear in the triangles, but n log n for the hulls.
+// (collision/geometry/mass_properties.h). Per link: their sum, about the common centre of mass.
+// Cost: linear in the triangles, but n log n for the hulls.
 #include "collision/import/recipe/robot_recipe.h"
 
 #include <map>
 #include <optional>
 #include <set>
 
+#include "collision/geometry/convex_hull.h"
 #include "collision/import/recipe/recipe_file.h"
 #include "collision/import/recipe/stl_writer.h"
 #include "collision/import/robot/robot_check.h"
 #include "collision/import/urdf/urdf_writer.h"
 #include "collision/mesh_files/mesh_file.h"
-#include "collision/shapes/convex_hull.h"
-#include "collision/shapes/mass_properties.h"
+#include "collision/shapes/shape.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/number_text.h"
 

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "collision/geometry/mesh.h"
 #include "collision/import/robot/robot_description.h"
-#include "collision/shapes/mesh.h"
 
 namespace twinarm {
 

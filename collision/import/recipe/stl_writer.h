@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "collision/shapes/mesh.h"
+#include "collision/geometry/mesh.h"
 
 namespace twinarm {
 

@@ -1,8 +1,8 @@
 // The triangles of a MeshGeometry.
 #pragma once
 
+#include "collision/geometry/mesh.h"
 #include "collision/import/robot/robot_description.h"
-#include "collision/shapes/mesh.h"
 
 namespace twinarm {
 

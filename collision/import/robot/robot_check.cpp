@@ -1,34 +1,39 @@
-// The rules that every robot must keep: names here, the others in robot_*_rules.cpp.
+// The rules that every robot must keep: names and numbers here, the tree and mimics in
+// tree_checks.cpp.
 #include "collision/import/robot/robot_check.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "collision/import/robot/robot_validation.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
 
 using Type = JointDescription::Type;
 
-// The one list of the joint types. A new one needs its name here, `true` if URDF has it.
-struct TypeName {
-  Type type;
-  const char* name;
-  bool in_urdf;
-};
-constexpr std::array<TypeName, 10> kTypes{{{Type::fixed, "fixed", true},
-                                           {Type::revolute, "revolute", true},
-                                           {Type::continuous, "continuous", true},
-                                           {Type::prismatic, "prismatic", true},
-                                           {Type::floating, "floating", true},
-                                           {Type::planar, "planar", true},
-                                           {Type::screw, "screw", false},
-                                           {Type::cylindrical, "cylindrical", false},
-                                           {Type::universal, "universal", false},
-                                           {Type::spherical, "spherical", false}}};
+constexpr std::array kUrdfTypes{Type::fixed,     Type::revolute, Type::continuous,
+                                Type::prismatic, Type::floating, Type::planar};
+
+// All that files may name, URDF's first. What is prescribed is no matter of files.
+std::vector<Type> file_types() {
+  std::vector<Type> types(kUrdfTypes.begin(), kUrdfTypes.end());
+  for (const JointType joint : all_joint_types)
+    if (const auto type = static_cast<Type>(joint); facts_of(joint).nv > 0 && !is_urdf_type(type))
+      types.push_back(type);
+  return types;
+}
+std::string names_of(std::span<const Type> types) {
+  std::string text;
+  for (const Type type : types) text += (text.empty() ? "" : ", ") + std::string(to_string(type));
+  return text;
+}
 
 template <class Item>
 void unique_names(RuleBook& book, const std::vector<Item>& items, const std::string& kind) {
@@ -48,32 +53,123 @@ void unique_names(RuleBook& book, const std::vector<Item>& items, const std::str
   }
 }
 
+// How far A + B may fall below C, relative to C: a thin plate has A + B = C, and files round their
+// numbers to six digits or so.
+constexpr double kTriangleSlack = 1e-6;
+// A moment that is 0 but for the turning of the axes.
+constexpr double kRounding = 1e-12;
+
+// A <= B <= C are those of a body of positive density only if A > 0 and A + B >= C: each moment is
+// an integral of two of x^2, y^2, z^2.
+void physical_moments(RuleBook& book, const LinkDescription& link, bool strict) {
+  const Vector3 moments = symmetric_eigenvalues(link.inertia);  // ascending
+  std::string rule;
+  if (!(moments[0] > kRounding * moments.cwiseAbs().maxCoeff()))
+    rule = "its inertia is not positive definite";
+  else if (moments[0] + moments[1] < moments[2] * (1 - kTriangleSlack))
+    rule = "its inertia breaks the triangle inequality A + B >= C";
+  else
+    return;
+  rule += ": principal moments " + short_number_text(moments[0]) + ", " +
+          short_number_text(moments[1]) + ", " + short_number_text(moments[2]) + " kg m^2";
+  const int line = line_of(link.inertia_line, link.line);
+  if (strict)
+    book.fault(line, of(link), rule,
+               "no rigid body of positive density has it; check units, signs and the order ixx ixy "
+               "ixz iyy iyz izz, about the centre of mass",
+               "robot.inertia-not-physical");
+  else
+    book.warn(line, of(link), rule,
+              "no rigid body of positive density has it; forward dynamics may still work, MuJoCo "
+              "and Drake refuse it");
+}
+
+void inertia(RuleBook& book, const LinkDescription& link, bool strict) {
+  if (!link.has_inertia) return;
+  const int mass_line = line_of(link.mass_line, link.line);
+  if (!std::isfinite(link.mass) || !link.com.allFinite() || !link.inertia.allFinite())
+    return book.fault(mass_line, of(link), "its mass, centre or inertia is not a finite number",
+                      "give finite numbers in SI units", "robot.not-finite");
+  if (link.mass < 0)
+    book.fault(mass_line, of(link),
+               "its mass is " + number_text(link.mass) + " kg, must not be negative",
+               "give the mass in kg", "robot.negative");
+  if (link.inertia.isZero(0)) {
+    if (link.mass > 0)
+      book.warn(line_of(link.inertia_line, link.line), of(link),
+                "its inertia is zero: a point mass of " + number_text(link.mass) + " kg",
+                "give its inertia; a joint whose axis goes through the point has none else");
+    return;  // without mass it is a frame
+  }
+  if (link.mass == 0)
+    book.warn(mass_line, of(link), "its mass is 0, but its inertia is not",
+              "such a body turns with inertia and is moved without; a rotor is better told by "
+              "<twinarm armature>");
+  physical_moments(book, link, strict);
+}
+
+void values(RuleBook& book, const JointDescription& joint) {
+  const JointDescription::Lines& lines = joint.lines;
+  if (joint.has_axis() && !(joint.axis.norm() >= 1e-9))
+    book.fault(line_of(lines.axis, joint.line), of(joint), "its axis is zero",
+               "give a direction such as 0 0 1", "robot.axis-zero");
+  if (joint.is_limited() && !(joint.lower <= joint.upper))
+    book.fault(line_of(lines.limits, joint.line), of(joint),
+               "its lower limit " + number_text(joint.lower) + " lies above its upper limit " +
+                   number_text(joint.upper),
+               "exchange them, or make the joint continuous", "robot.limits");
+  if (joint.type == JointDescription::Type::screw && joint.pitch == 0)
+    book.warn(line_of(lines.extension, joint.line), of(joint), "its pitch is 0",
+              "then it is a plain hinge: make it continuous");
+  const auto not_negative = [&](const char* name, double value, int line) {
+    if (!(value >= 0) || std::isinf(value))
+      book.fault(
+          line_of(line, joint.line), of(joint),
+          std::string("its ") + name + " is " + number_text(value) + ", must not be negative",
+          "a negative value would feed energy into the joint", "robot.negative");
+  };
+  not_negative("damping", joint.damping, lines.dynamics);
+  not_negative("friction", joint.friction, lines.dynamics);
+  not_negative("armature", joint.armature, lines.extension);
+  // They are equal to the friction where they are not stated: that is told once.
+  const double plus = joint.coulomb_plus, minus = joint.coulomb_minus;
+  if (plus != joint.friction) not_negative("coulomb_plus", plus, lines.extension);
+  if (minus != joint.friction) not_negative("coulomb_minus", minus, lines.extension);
+}
+
 }  // namespace
 
 const char* to_string(Type type) {
-  for (const TypeName& entry : kTypes)
-    if (entry.type == type) return entry.name;
-  return "";
+  return type == Type::continuous ? "continuous"
+         : type == Type::floating ? "floating"
+                                  : name_of(JointDescription::joint_type(type));
 }
 
 bool joint_type_from(const std::string& text, Type& type) {
-  for (const TypeName& entry : kTypes)
-    if (text == entry.name) {
-      type = entry.type;
+  for (const Type known : file_types())
+    if (text == to_string(known)) {
+      type = known;
       return true;
     }
   return false;
 }
 
+std::string supported_joints() {
+  return "types: " + names_of(kUrdfTypes) + ", and beyond URDF " + joint_types_beyond_urdf();
+}
+
+std::string joint_types_beyond_urdf() {
+  const std::vector<Type> types = file_types();
+  return names_of(std::span(types).subspan(kUrdfTypes.size()));
+}
+
 bool is_urdf_type(Type type) {
-  for (const TypeName& entry : kTypes)
-    if (entry.type == type) return entry.in_urdf;
-  return false;
+  return std::find(kUrdfTypes.begin(), kUrdfTypes.end(), type) != kUrdfTypes.end();
 }
 
 Type urdf_type_of(Type type, bool limited) {
   if (is_urdf_type(type)) return type;
-  if (type == Type::spherical) return Type::floating;
+  if (facts_of(JointDescription::joint_type(type)).axis == AxisUse::none) return Type::floating;
   return limited ? Type::revolute : Type::continuous;
 }
 
@@ -84,7 +180,8 @@ RobotCheck check_robot(const RobotDescription& robot, bool strict) {
                "robot.empty");
   unique_names(book, robot.links, "link");
   unique_names(book, robot.joints, "joint");
-  check_values(book, strict);
+  for (const LinkDescription& link : robot.links) inertia(book, link, strict);
+  for (const JointDescription& joint : robot.joints) values(book, joint);
   check_mimics(book);
   check_tree(book);
   return std::move(book.found);

@@ -13,9 +13,8 @@ namespace twinarm {
 // The names of the joint types as files spell them.
 const char* to_string(JointDescription::Type type);
 bool joint_type_from(const std::string& text, JointDescription::Type& type);
-inline constexpr const char* kSupportedJoints =
-    "types: fixed, revolute, continuous, prismatic, floating, planar, and beyond URDF screw, "
-    "cylindrical, universal, spherical";
+std::string supported_joints();         // all of them, as a remedy
+std::string joint_types_beyond_urdf();  // "screw, ..."
 // Those that URDF itself has; and the one by which other programs shall know the type.
 bool is_urdf_type(JointDescription::Type type);
 JointDescription::Type urdf_type_of(JointDescription::Type type, bool limited);

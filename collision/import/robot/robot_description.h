@@ -15,6 +15,8 @@
 #include <variant>
 #include <vector>
 
+#include "collision/shapes/shape.h"
+#include "solver/model/joint.h"
 #include "solver/spatial/pose.h"
 #include "solver/support/diagnostics.h"
 
@@ -42,33 +44,19 @@ struct Origin {
   }
 };
 
-struct BoxGeometry {
-  Vector3 size = Vector3::Ones();  // full edges [m]
-};
-struct SphereGeometry {
-  double radius = 1;
-};
-struct CylinderGeometry {  // axis z, centre at the origin
-  double radius = 1;
-  double length = 1;
-};
-struct CapsuleGeometry {  // axis z, centre at the origin
-  double radius = 1;
-  double length = 1;  // of the cylinder between the two half balls
-};
 struct MeshGeometry {               // collision/import/robot/mesh_geometry.h loads it
   std::filesystem::path file;       // absolute; empty where it was not found
   Vector3 scale = Vector3::Ones();  // metres per unit of the file, along its axes; < 0 mirrors
   std::string name;                 // as the robot's file calls it; may be empty
+  bool convex = true;               // where it collides, its convex hull is meant
 };
-using PartGeometry =
-    std::variant<BoxGeometry, SphereGeometry, CylinderGeometry, CapsuleGeometry, MeshGeometry>;
+using ShapeDescription = AnyShape<MeshGeometry>;
 
 struct VisualPart {
   std::string name;
   int line = 0;
   Origin origin;
-  PartGeometry geometry;
+  ShapeDescription geometry;
   std::string material;               // its name; may be empty
   Vector4 color{0.7, 0.7, 0.7, 1.0};  // red, green, blue, opacity in [0, 1]; times the texture
   std::string texture_name;           // as the file calls it; may be empty
@@ -76,11 +64,11 @@ struct VisualPart {
   Pose X_LG() const { return origin.pose(); }
 };
 
-struct CollisionPart {  // a mesh here means its convex hull
+struct CollisionPart {
   std::string name;
   int line = 0;
   Origin origin;
-  PartGeometry geometry;
+  ShapeDescription geometry;
   Pose X_LG() const { return origin.pose(); }
 };
 
@@ -98,17 +86,10 @@ struct LinkDescription {
 };
 
 struct JointDescription {
-  enum class Type {
-    fixed,
-    revolute,
-    continuous,
-    prismatic,
-    screw,
-    cylindrical,
-    universal,
-    spherical,
-    planar,
-    floating
+  // The solver's, with URDF's word for free; continuous: revolute, and never limited.
+  enum class Type : unsigned char {
+    TWINARM_JOINTS(TWINARM_JOINT_NAME) continuous,
+    floating = free
   };
 
   struct Mimic {  // q = multiplier * (q of `joint`) + offset, at all times
@@ -151,24 +132,12 @@ struct JointDescription {
     return ((type == Type::revolute || type == Type::prismatic) && !nowhere) ||
            (type == Type::screw && lower < upper);
   }
-  bool has_axis() const {
-    return type != Type::fixed && type != Type::floating && type != Type::spherical;
-  }
-  int dofs() const {
-    switch (type) {
-      case Type::fixed:
-        return 0;
-      case Type::cylindrical:
-      case Type::universal:
-        return 2;
-      case Type::spherical:
-      case Type::planar:
-        return 3;
-      case Type::floating:
-        return 6;
-      default:
-        return 1;
-    }
+  bool has_axis() const { return facts().axis != AxisUse::none; }
+  int dofs() const { return static_cast<int>(facts().nv); }
+  JointFacts facts() const { return facts_of(joint_type()); }
+  JointType joint_type() const { return joint_type(type); }
+  static constexpr JointType joint_type(Type of) {
+    return of == Type::continuous ? JointType::revolute : static_cast<JointType>(of);
   }
 };
 

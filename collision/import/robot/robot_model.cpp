@@ -9,31 +9,6 @@
 namespace twinarm {
 namespace {
 
-JointType type_of(const JointDescription& joint) {
-  switch (joint.type) {
-    case JointDescription::Type::fixed:
-      return JointType::fixed;
-    case JointDescription::Type::revolute:
-    case JointDescription::Type::continuous:
-      return JointType::revolute;
-    case JointDescription::Type::prismatic:
-      return JointType::prismatic;
-    case JointDescription::Type::screw:
-      return JointType::screw;
-    case JointDescription::Type::cylindrical:
-      return JointType::cylindrical;
-    case JointDescription::Type::universal:
-      return JointType::universal;
-    case JointDescription::Type::spherical:
-      return JointType::spherical;
-    case JointDescription::Type::planar:
-      return JointType::planar;
-    case JointDescription::Type::floating:
-      return JointType::free;
-  }
-  return JointType::fixed;
-}
-
 JointProperties properties_of(const JointDescription& joint) {
   JointProperties properties;
   properties.pitch = joint.pitch / (2 * std::numbers::pi);
@@ -158,8 +133,8 @@ void add_robot(ModelBuilder& builder, const RobotDescription& description,
   for (const std::size_t j : joints_from_root(robot)) {
     const JointDescription& joint = robot.joints[j];
     body[joint.child] = builder.add_body(
-        prefix + joint.child, body[joint.parent], prefix + joint.name, type_of(joint), joint.X_PJ(),
-        joint.axis, weighted.inertia(joint.child), properties_of(joint));
+        prefix + joint.child, body[joint.parent], prefix + joint.name, joint.joint_type(),
+        joint.X_PJ(), joint.axis, weighted.inertia(joint.child), properties_of(joint));
   }
   for (const JointDescription& joint : robot.joints)
     if (joint.mimic)

@@ -1,4 +1,4 @@
-// What the files of the robot's check share. Only robot_check.cpp and robot_*_rules.cpp include it.
+// What robot_check.cpp and tree_checks.cpp share, which alone include it.
 #pragma once
 
 #include <string>
@@ -34,7 +34,6 @@ inline int line_of(int element, int owner) {
   return element > 0 ? element : owner;
 }
 
-void check_values(RuleBook& book, bool strict);  // of links and joints, one by one
 void check_mimics(RuleBook& book);
 void check_tree(RuleBook& book);
 

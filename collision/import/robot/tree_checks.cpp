@@ -1,5 +1,7 @@
-// The links and joints form one tree. Every walk is linear in the number of joints.
+// The links and joints form one tree, and joints that follow others (mimics) come to one that
+// leads. Every walk is linear in the number of joints.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -10,9 +12,34 @@
 namespace twinarm {
 namespace {
 
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+// By child link, the joint that carries it: the first that claims it.
+std::map<std::string, std::size_t> carriers(const RobotDescription& robot) {
+  std::map<std::string, std::size_t> carrier;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) carrier.emplace(robot.joints[j].child, j);
+  return carrier;
+}
+
+// The loops of walks from each item to the next, each once, from where it was met first. A walk
+// stops where an earlier one has been; where it meets itself, there is a loop.
+std::vector<std::vector<std::size_t>> loops_of(const std::vector<std::size_t>& next) {
+  std::vector<std::vector<std::size_t>> loops;
+  std::vector<std::size_t> walk(next.size(), kNone);  // which walk came by
+  for (std::size_t start = 0; start < next.size(); ++start) {
+    std::size_t at = start;
+    for (; at != kNone && walk[at] == kNone; at = next[at]) walk[at] = start;
+    if (at == kNone || walk[at] != start) continue;
+    loops.emplace_back(1, at);
+    for (std::size_t i = next[at]; i != at; i = next[i]) loops.back().push_back(i);
+  }
+  return loops;
+}
+
 class TreeRules {
  public:
-  explicit TreeRules(RuleBook& book) : book_(book), robot_(book.robot) {}
+  explicit TreeRules(RuleBook& book)
+      : book_(book), robot_(book.robot), carrier_(carriers(book.robot)) {}
 
   void run() {
     const bool children_known = references();
@@ -44,58 +71,49 @@ class TreeRules {
     return children_known;
   }
 
-  // Fills parent_joint_ as it goes; the first joint that claims a link keeps it.
   void single_parents() {
-    for (const JointDescription& joint : robot_.joints) {
-      const auto [first, is_new] = parent_joint_.emplace(joint.child, &joint);
-      if (!is_new)
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+      const JointDescription& joint = robot_.joints[j];
+      const JointDescription& first = robot_.joints[carrier_.at(joint.child)];
+      if (&first != &joint)
         book_.fault(joint.line, of(joint),
-                    "its child link '" + joint.child + "' has a parent already, by " +
-                        of(*first->second) + " of line " + std::to_string(first->second->line),
+                    "its child link '" + joint.child + "' has a parent already, by " + of(first) +
+                        " of line " + std::to_string(first.line),
                     "a robot is a tree: give each link one parent, and close loops by a constraint",
                     "robot.two-parents");
     }
   }
 
-  // Each loop is told once, at that joint of it that stands first in the file. A walk upwards stops
-  // where an earlier one has been; where it meets itself, there is a loop.
+  // Each loop is reported once, at that joint of it that stands first in the file.
   bool no_loops() {
-    bool acyclic = true;
-    std::map<std::string, std::size_t> walk;  // which walk came by this link
-    for (std::size_t start = 0; start < robot_.joints.size(); ++start) {
-      std::vector<std::string> path;  // from the child upwards
-      std::string link = robot_.joints[start].child;
-      auto up = parent_joint_.end();
-      while (walk.emplace(link, start).second) {
-        path.push_back(link);
-        up = parent_joint_.find(link);
-        if (up == parent_joint_.end()) break;  // the root
-        link = up->second->parent;
+    std::vector<std::size_t> inward;  // by joint, the one that carries its parent
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+      const JointDescription& joint = robot_.joints[j];
+      const std::size_t first = carrier_.at(joint.child);
+      const auto up = carrier_.find(joint.parent);
+      inward.push_back(first != j ? first : up == carrier_.end() ? kNone : up->second);
+    }
+    const auto loops = loops_of(inward);
+    for (const std::vector<std::size_t>& loop : loops) {
+      const JointDescription* first = &robot_.joints[loop.front()];
+      std::string text;
+      for (auto j = loop.rbegin(); j != loop.rend(); ++j) {
+        const JointDescription& joint = robot_.joints[*j];
+        if (joint.line < first->line) first = &joint;
+        text += joint.parent + " -> ";
       }
-      if (path.empty() || up == parent_joint_.end() || walk.at(link) != start) continue;
-      acyclic = false;
-      tell_loop({std::find(path.begin(), path.end(), link), path.end()});
+      book_.fault(first->line, of(*first),
+                  "its links form a loop: " + text + robot_.joints[loop.front()].child,
+                  "a robot is a tree: leave one joint out, and close the loop by a constraint",
+                  "robot.loop");
     }
-    return acyclic;
-  }
-
-  void tell_loop(const std::vector<std::string>& loop) {  // each link's parent is the next one
-    const JointDescription* first = parent_joint_.at(loop.front());
-    std::string text;
-    for (auto link = loop.rbegin(); link != loop.rend(); ++link) {
-      const JointDescription* up = parent_joint_.at(*link);
-      if (up->line < first->line) first = up;
-      text += up->parent + " -> ";
-    }
-    book_.fault(first->line, of(*first), "its links form a loop: " + text + loop.front(),
-                "a robot is a tree: leave one joint out, and close the loop by a constraint",
-                "robot.loop");
+    return loops.empty();
   }
 
   void one_root() {
     const LinkDescription* first = nullptr;
     for (const LinkDescription& link : robot_.links) {
-      if (parent_joint_.count(link.name) || link.name.empty()) continue;
+      if (carrier_.count(link.name) || link.name.empty()) continue;
       if (first && first->name != link.name)
         book_.fault(link.line, of(link),
                     "it has no parent, and '" + first->name + "' of line " +
@@ -118,20 +136,81 @@ class TreeRules {
 
   RuleBook& book_;
   const RobotDescription& robot_;
-  std::map<std::string, const JointDescription*> parent_joint_;  // by the name of the child
+  const std::map<std::string, std::size_t> carrier_;
 };
 
-// By child link, the joint that carries it.
-std::map<std::string, std::size_t> carriers(const RobotDescription& robot) {
-  std::map<std::string, std::size_t> carrier;
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) carrier.emplace(robot.joints[j].child, j);
-  return carrier;
-}
+constexpr const char* kOneCoordinate =
+    "only joints of one coordinate follow and lead: revolute, continuous, prismatic, screw";
+
+// A joint that follows another one: both have one coordinate, and the one that leads does not
+// follow in turn the one that it leads.
+class MimicRules {
+ public:
+  explicit MimicRules(RuleBook& book) : book_(book), leader_(book.robot.joints.size(), kNone) {}
+
+  void run() {
+    const auto& joints = book_.robot.joints;
+    std::map<std::string, std::size_t> index;
+    for (std::size_t j = 0; j < joints.size(); ++j) index.emplace(joints[j].name, j);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (!joints[j].mimic) continue;
+      const auto found = index.find(joints[j].mimic->joint);
+      pair(j, found == index.end() ? kNone : found->second);
+    }
+    // Each loop is reported once, at that joint of it that stands first in the file.
+    for (const std::vector<std::size_t>& loop : loops_of(leader_)) {
+      std::string text;
+      for (const std::size_t j : loop) text += joints[j].name + " -> ";
+      fault(*std::min_element(loop.begin(), loop.end()),
+            "joints mimic each other in a loop: " + text + joints[loop.front()].name,
+            "let one of them lead", "robot.mimic-loop");
+    }
+  }
+
+ private:
+  void fault(std::size_t follower, const std::string& rule, const std::string& remedy,
+             std::string_view code) {
+    const JointDescription& joint = book_.robot.joints[follower];
+    book_.fault(line_of(joint.lines.mimic, joint.line), of(joint), rule, remedy, code);
+  }
+
+  void pair(std::size_t follower, std::size_t leader) {
+    const JointDescription& joint = book_.robot.joints[follower];
+    if (!std::isfinite(joint.mimic->multiplier) || !std::isfinite(joint.mimic->offset))
+      fault(follower, "its mimic has a number that is not finite", "give finite numbers",
+            "robot.not-finite");
+    if (leader == kNone)
+      return fault(follower, "it mimics joint '" + joint.mimic->joint + "', which does not exist",
+                   "name a joint of this robot", "robot.mimic-unknown");
+    if (leader == follower)
+      return fault(follower, "it mimics itself", "name the joint that it follows",
+                   "robot.mimic-itself");
+    const JointDescription& other = book_.robot.joints[leader];
+    for (const JointDescription* j : {&joint, &other})
+      if (j->dofs() != 1)
+        return fault(follower,
+                     "it mimics " + of(other) + ", but " + of(*j) + " (" + to_string(j->type) +
+                         ") has " + std::to_string(j->dofs()) + " coordinates",
+                     kOneCoordinate, "robot.mimic-coordinates");
+    if (joint.mimic->multiplier == 0)
+      book_.warn(line_of(joint.lines.mimic, joint.line), of(joint),
+                 "its mimic has multiplier 0: it stands still at the offset",
+                 "make it a fixed joint");
+    leader_[follower] = leader;
+  }
+
+  RuleBook& book_;
+  std::vector<std::size_t> leader_;
+};
 
 }  // namespace
 
 void check_tree(RuleBook& book) {
   TreeRules(book).run();
+}
+
+void check_mimics(RuleBook& book) {
+  MimicRules(book).run();
 }
 
 std::string find_root(const RobotDescription& robot) {
@@ -150,13 +229,12 @@ std::string find_root(const RobotDescription& robot) {
 // before it in the file, and in the next sweep if not.
 std::vector<std::size_t> joints_from_root(const RobotDescription& robot) {
   const auto carrier = carriers(robot);
-  constexpr std::size_t kUnknown = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> sweep(robot.joints.size(), kUnknown), order, path;
+  std::vector<std::size_t> sweep(robot.joints.size(), kNone), order, path;
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     path = {j};
     for (;;) {
       const auto inward = carrier.find(robot.joints[path.back()].parent);
-      if (inward == carrier.end() || sweep[path.back()] != kUnknown) break;
+      if (inward == carrier.end() || sweep[path.back()] != kNone) break;
       path.push_back(inward->second);
     }
     for (; !path.empty(); path.pop_back()) {

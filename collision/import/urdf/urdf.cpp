@@ -120,7 +120,7 @@ const XMLElement& open_robot(tinyxml2::XMLDocument& document, UrdfSource& source
 
 }  // namespace
 
-RobotDescription read_urdf(const std::filesystem::path& file, const UrdfOptions& options) {
+RobotDescription read_urdf(const std::filesystem::path& file, const RobotFileOptions& options) {
   UrdfSource source(file, options);
   tinyxml2::XMLDocument document;
   const XMLElement& element = open_robot(document, source);

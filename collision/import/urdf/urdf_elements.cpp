@@ -22,9 +22,24 @@ struct Word {
   Names without_effect;  // known children that mean nothing here
 };
 
+// <geometry>, and each shape with its lengths.
+void add_shapes(std::vector<Word>& words) {
+  Word geometry{"geometry", {}, {"mesh"}, {}};
+  for_each_shape([&](const auto& shape) {
+    if constexpr (requires { shape.is_in_urdf; }) {
+      Word word{shape.key, {}, {}, {}};
+      for_each_length(shape,
+                      [&](const char* name, const auto&) { word.attributes.push_back(name); });
+      words.push_back(word);
+      geometry.children.push_back(shape.key);
+    }
+  });
+  words.push_back(geometry);
+}
+
 // The same element has the same attributes and children wherever it stands.
-const std::vector<Word>& vocabulary() {
-  static const std::vector<Word> words = {
+std::vector<Word> vocabulary() {
+  std::vector<Word> words = {
       {"robot",
        {"name", "version"},
        {"link", "joint", "material"},
@@ -39,11 +54,6 @@ const std::vector<Word>& vocabulary() {
       {"inertia", {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {}, {}},
       {"visual", {"name"}, {"origin", "geometry", "material"}, {}},
       {"collision", {"name"}, {"origin", "geometry"}, {"verbose", "contact_coefficients"}},
-      {"geometry", {}, {"box", "sphere", "cylinder", "capsule", "mesh"}, {}},
-      {"box", {"size"}, {}, {}},
-      {"sphere", {"radius"}, {}, {}},
-      {"cylinder", {"radius", "length"}, {}, {}},
-      {"capsule", {"radius", "length"}, {}, {}},
       {"mesh", {"filename", "scale"}, {}, {}},
       {"joint",
        {"name", "type"},
@@ -57,6 +67,7 @@ const std::vector<Word>& vocabulary() {
       {"mimic", {"joint", "multiplier", "offset"}, {}, {}},
       {"twinarm", {"type", "pitch", "armature", "coulomb_plus", "coulomb_minus"}, {}, {}},
   };
+  add_shapes(words);
   return words;
 }
 
@@ -65,7 +76,8 @@ bool contains(const Names& names, std::string_view name) {
 }
 
 const Word& word_of(std::string_view element) {
-  return *std::find_if(vocabulary().begin(), vocabulary().end(),
+  static const std::vector<Word> words = vocabulary();
+  return *std::find_if(words.begin(), words.end(),
                        [&](const Word& word) { return word.element == element; });
 }
 

@@ -30,7 +30,7 @@ void read_type(const XMLElement& element, const std::string& where, JointDescrip
                  "urdf.joint-type");
   else if (!known && !type.empty())
     source.fault(element.GetLineNum(), where, "joint type '" + type + "' is not supported",
-                 kSupportedJoints, "urdf.joint-type");
+                 supported_joints(), "urdf.joint-type");
   joint.type = plain;
 
   const XMLElement* extension = element.FirstChildElement("twinarm");
@@ -41,8 +41,8 @@ void read_type(const XMLElement& element, const std::string& where, JointDescrip
     joint.type = extended;
   else
     source.fault(extension->GetLineNum(), where,
-                 std::string("<twinarm type=\"...\"> is '") + name +
-                     "', must be spherical, screw, cylindrical or universal",
+                 std::string("<twinarm type=\"...\"> is '") + name + "', must be one of " +
+                     joint_types_beyond_urdf(),
                  "give other types as <joint type=\"...\">", "urdf.joint-type");
 }
 

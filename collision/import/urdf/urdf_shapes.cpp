@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "collision/import/urdf/mesh_search.h"
+#include "collision/import/robot/file_search.h"
 
 namespace twinarm {
 
@@ -29,33 +29,44 @@ MeshGeometry read_mesh(const XMLElement& element, const std::string& where, Urdf
       find_named_file("mesh", mesh.name, source.folder(), source.options().roots);
   mesh.file = place.file;
   if (place.rule.empty()) return mesh;
-  if (source.options().geometry == UrdfOptions::Geometry::required)
+  if (source.options().geometry == RobotFileOptions::Geometry::required)
     source.fault(element.GetLineNum(), where, place.rule, place.remedy, place.code);
   else
     source.warn_once("mesh", element.GetLineNum(), where, place.rule, place.remedy);
   return mesh;
 }
 
-PartGeometry read_geometry(const XMLElement& part, const std::string& where, UrdfSource& source) {
+void read_length(const XMLElement& shape, const char* name, const std::string& where,
+                 UrdfSource& source, double& length) {
+  length = source.positive(shape, name, where).value_or(1.0);
+}
+void read_length(const XMLElement& shape, const char* name, const std::string& where,
+                 UrdfSource& source, Vector3& lengths) {
+  lengths = source.vector3(shape, name, where).value_or(Vector3::Ones());
+  if (!(lengths.minCoeff() > 0))
+    source.fault(shape.GetLineNum(), where,
+                 std::string(shape.Name()) + " " + name + " is '" + shape.Attribute(name) +
+                     "', must be three positive numbers",
+                 "give full edges in metres", "urdf.number");
+}
+
+ShapeDescription read_geometry(const XMLElement& part, const std::string& where,
+                               UrdfSource& source) {
   const XMLElement* geometry = part.FirstChildElement("geometry");
   const XMLElement* shape = geometry ? geometry->FirstChildElement() : nullptr;
   const std::string kind = shape ? shape->Name() : "";
-  const auto length = [&](const char* attribute) {
-    return source.positive(*shape, attribute, where).value_or(1.0);
-  };
-  if (kind == "sphere") return SphereGeometry{length("radius")};
-  if (kind == "cylinder") return CylinderGeometry{length("radius"), length("length")};
-  if (kind == "capsule") return CapsuleGeometry{length("radius"), length("length")};
   if (kind == "mesh") return read_mesh(*shape, where, source);
-  if (kind == "box") {
-    const Vector3 size = source.vector3(*shape, "size", where).value_or(Vector3::Ones());
-    if (!(size.minCoeff() > 0))
-      source.fault(shape->GetLineNum(), where,
-                   std::string("box size is '") + shape->Attribute("size") +
-                       "', must be three positive numbers",
-                   "give full edges in metres", "urdf.number");
-    return BoxGeometry{size};
-  }
+  std::optional<ShapeDescription> found;
+  for_each_shape([&](auto known) {
+    if constexpr (requires { known.is_in_urdf; }) {
+      if (kind != known.key) return;
+      for_each_length(known, [&](const char* name, auto& value) {
+        read_length(*shape, name, where, source, value);
+      });
+      found = known;
+    }
+  });
+  if (found) return *found;
   source.fault((shape      ? shape
                 : geometry ? geometry
                            : &part)
@@ -157,8 +168,8 @@ UrdfMaterials read_materials(const XMLElement& robot, UrdfSource& source) {
 
 void read_shapes(const XMLElement& link_element, const UrdfMaterials& materials,
                  LinkDescription& link, UrdfSource& source) {
-  const UrdfSource::Softly softly(source,
-                                  source.options().geometry == UrdfOptions::Geometry::optional);
+  const UrdfSource::Softly softly(
+      source, source.options().geometry == RobotFileOptions::Geometry::optional);
   const auto read = [&](const XMLElement& element, auto& part) {
     if (const char* name = element.Attribute("name")) part.name = name;
     part.line = element.GetLineNum();

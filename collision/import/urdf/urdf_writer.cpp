@@ -97,16 +97,13 @@ class Writer {
          << attribute<3>("rpy", origin.rpy) << "/>\n";
   }
 
-  std::string shape(const BoxGeometry& box) { return "<box" + attribute<3>("size", box.size); }
-  std::string shape(const SphereGeometry& sphere) {
-    return "<sphere" + attribute("radius", sphere.radius);
-  }
-  std::string shape(const CylinderGeometry& cylinder) {
-    return "<cylinder" + attribute("radius", cylinder.radius) +
-           attribute("length", cylinder.length);
-  }
-  std::string shape(const CapsuleGeometry& capsule) {
-    return "<capsule" + attribute("radius", capsule.radius) + attribute("length", capsule.length);
+  template <class S>
+  std::string shape(const S& shape) {
+    std::string text = std::string("<") + shape.key;
+    if constexpr (requires { shape.is_in_urdf; })
+      for_each_length(shape,
+                      [&](const char* name, const auto& value) { text += attribute(name, value); });
+    return text;
   }
   std::string shape(const MeshGeometry& mesh) {
     return "<mesh" + attribute("filename", file_text(mesh.file, mesh.name)) +

@@ -51,7 +51,7 @@ std::string shortened(const std::string& value) {
 
 }  // namespace
 
-UrdfSource::UrdfSource(const std::filesystem::path& file, const UrdfOptions& options)
+UrdfSource::UrdfSource(const std::filesystem::path& file, const RobotFileOptions& options)
     : file_(std::filesystem::absolute(file).lexically_normal()), options_(options) {}
 
 void UrdfSource::fault(int line, std::string where, std::string rule, std::string remedy,

@@ -23,11 +23,11 @@ namespace twinarm {
 
 class UrdfSource {
  public:
-  UrdfSource(const std::filesystem::path& file, const UrdfOptions& options);
+  UrdfSource(const std::filesystem::path& file, const RobotFileOptions& options);
 
   const std::filesystem::path& file() const { return file_; }  // absolute
   std::filesystem::path folder() const { return file_.parent_path(); }
-  const UrdfOptions& options() const { return options_; }
+  const RobotFileOptions& options() const { return options_; }
 
   void fault(int line, std::string where, std::string rule, std::string remedy,
              std::string_view code = {});
@@ -91,7 +91,7 @@ class UrdfSource {
   };
 
   std::filesystem::path file_;
-  UrdfOptions options_;
+  RobotFileOptions options_;
   std::vector<Fault> faults_, warnings_;
   std::map<std::string, Kind> kinds_;
   bool soft_ = false;

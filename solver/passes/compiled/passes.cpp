@@ -21,7 +21,7 @@ const Passes<TWINARM_SCALAR>& table() {
       [](const Model<S>& model, const State<S>& x, const Forces<S>& forces, Workspace<S>& w) {
         aba(model, x, forces, w, NoTrace{});
       },
-      &rnea<S>, &crba<S>, &minv_times<S>, &kinematics<S>};
+      &rnea<S>, &crba<S>, &minv_times<S>, &kinematics<S, Workspace<S>>};
   return all;
 }
 

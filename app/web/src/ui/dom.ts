@@ -40,14 +40,22 @@ const ICONS = {
 };
 
 export function icon(name: keyof typeof ICONS): SVGSVGElement {
-  const space = 'http://www.w3.org/2000/svg';
-  const made = document.createElementNS(space, 'svg');
-  made.setAttribute('viewBox', '0 0 16 16');
-  made.setAttribute('class', 'icon');
-  made.setAttribute('aria-hidden', 'true');
-  const path = document.createElementNS(space, 'path');
-  path.setAttribute('d', ICONS[name]);
-  made.append(path);
+  return drawing(ICONS[name], { class: 'icon', 'aria-hidden': 'true' });
+}
+
+// One path in a square of 16.
+export function drawing(path: string, attributes: Record<string, string>): SVGSVGElement {
+  const made = svg('svg', { viewBox: '0 0 16 16', ...attributes });
+  made.append(svg('path', { d: path }));
+  return made;
+}
+
+export function svg<K extends keyof SVGElementTagNameMap>(
+  tag: K,
+  attributes: Record<string, string | number> = {},
+): SVGElementTagNameMap[K] {
+  const made = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
   return made;
 }
 
@@ -62,7 +70,7 @@ export function short(value: number | null | undefined, scale = 0): string {
 
 // "kg m^2" as print has it.
 export function unitText(unit: string): string {
-  return unit.replaceAll('^2', '²').replace(/^1$/, '');
+  return unit === '1' ? '' : unit.replaceAll('^2', '²').replaceAll('^3', '³');
 }
 
 export function largestOf(values: (number | null)[]): number {

@@ -15,6 +15,10 @@ export class Theme {
     });
   }
 
+  toggle(): void {
+    this.set(!this.dark);
+  }
+
   set(dark: boolean): void {
     this.dark = dark;
     document.documentElement.dataset.theme = dark ? 'dark' : 'light';

@@ -1,7 +1,7 @@
 // The floor: a metric grid that fades with the distance, and the shadows on it. The floor itself
 // takes the colour of what lies behind, so that no horizon is seen, as in the painter's studio.
 import * as THREE from 'three';
-import type { View } from '../data/run';
+import type { View } from '../protocol/run';
 
 const VERTEX = `
 varying vec2 place;

@@ -1,10 +1,10 @@
 // Texts at points of the world: over the picture, in the page's own letters, never hidden by
 // bodies. They step aside from one another and from what lies on the picture, by whole lines or to
 // the other side of their point; a thin line leads to it. What finds no room is left out.
-import type { LabelColumns } from '../data/run';
+import type { LabelColumns } from '../protocol/run';
+import { element, svg } from '../ui/dom';
 import type { Stage } from './stage';
 
-const SVG = 'http://www.w3.org/2000/svg';
 const LINE = 17; // pixels from one line to the next
 const LOOK_AGAIN = 300; // [ms]: asking for places makes the browser lay out the page
 
@@ -22,12 +22,11 @@ interface Item {
 
 export class Labels {
   private readonly items: Item[] = [];
-  private readonly leaders: SVGSVGElement;
+  private readonly leaders = svg('svg');
   private others: Box[] = []; // as they were a moment ago
   private lookedAt = -Infinity;
 
   constructor(private readonly host: HTMLElement) {
-    this.leaders = document.createElementNS(SVG, 'svg');
     host.append(this.leaders);
   }
 
@@ -88,8 +87,8 @@ export class Labels {
 
   private item(i: number): Item {
     if (!this.items[i]) {
-      const text = document.createElement('span');
-      const leader = document.createElementNS(SVG, 'line');
+      const text = element('span');
+      const leader = svg('line');
       this.host.append(text);
       this.leaders.append(leader);
       this.items[i] = { text, leader };

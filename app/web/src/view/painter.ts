@@ -1,7 +1,7 @@
 // A draw list painted by three.js: entries with the same mesh and surface are one instanced mesh.
 // A live frame is a part too: its columns, with layers in the place of frames.
 import * as THREE from 'three';
-import type { InstanceColumns, MeshData } from '../data/run';
+import type { InstanceColumns, MeshData } from '../protocol/run';
 import { Batch } from './batch';
 import {
   ORDER,

@@ -1,7 +1,8 @@
 // The 3-D view: light, floor, camera, and the draw list of the moment.
+import './stage.css';
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import type { MeshData, View } from '../data/run';
+import type { MeshData, View } from '../protocol/run';
 import { Arrows } from './arrows';
 import { Ground } from './ground';
 import { Painter, type Part } from './painter';

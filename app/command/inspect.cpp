@@ -1,0 +1,134 @@
+// `twinarm inspect`.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <optional>
+
+#include "app/command/command.h"
+#include "app/command/parser/shared_options.h"
+#include "app/inspect/report/inspect_input.h"
+#include "app/inspect/report/inspect_options.h"
+#include "app/inspect/report/inspect_output.h"
+#include "app/inspect/report/inspect_view.h"
+#include "app/page/inspect_page.h"
+#include "app/record/recorded_instant.h"
+#include "app/support/output_file.h"
+#include "solver/support/atomic_file.h"
+
+namespace twinarm {
+namespace {
+
+void add_options(CLI::App& command, InspectOptions& options) {
+  add_robot_options(command, options.robot, "the robot's URDF, a scene in TOML, or a recording");
+  command.add_option("--pass", options.passes, "1, 2 or 3; all if not given");
+  command.add_option("--body", options.bodies, "names of links and bodies; all if not given");
+  command
+      .add_option("--axes", options.axes,
+                  "of the wrenches: world, link (each body its own), or the name of a body")
+      ->capture_default_str();
+  command
+      .add_option("--about", options.about,
+                  "where torques are taken: origin or com (each body its own), the name of a "
+                  "body, or a point x,y,z of the world")
+      ->capture_default_str();
+  command.add_option("--force", options.forces,
+                     "read out these alone: coupling/NAME, contact/A-B, constraint/NAME ..");
+  command.add_option("--at", options.at, "seconds; of a recording; its end if not given");
+  command.add_option("--step", options.step, "of a scene: seconds; the scene's if not given");
+  add_file_option(command, "--html", options.html, "write a page that steps through the passes");
+  add_json_option(command, options.json);
+}
+
+constexpr int kFellShort = 1;
+
+std::string title_of(const RobotInput& input, const Inspection& in, const std::string& state) {
+  const Vec3<double>& g = in.model.gravity;
+  return fmt::format(
+      "{}: {} bodies that move, {} degrees of freedom; gravity ({:g}, {:g}, {:g}) m/s^2\n{}",
+      input.robot.name, in.body_count() - 1, in.model.nv, g.x, g.y, g.z, state);
+}
+
+int run_inspect(const InspectOptions& options, const Words& typed) {
+  FaultList faults;
+  InspectView view;
+  read_passes(options, view, faults);
+  if (!options.html.empty()) check_place(options.html, faults);
+  SimulateOptions simulate;
+  simulate.robot = options.robot;
+  simulate.duration = 1;
+  simulate.step = options.step;
+  simulate.integrator = "semi-implicit";
+  std::optional<Memory> memory;
+  const bool is_recorded = is_recording(options.robot.model);
+  if (options.at && !is_recorded)
+    faults.add({"", 0, "--at", "is for a recording", "give one, or --state"});
+  if (options.step && is_recorded)
+    faults.add({"", 0, "--step", "a recording has its own step", "leave it out"});
+  else if (options.step && options.robot.model.extension() != ".toml")
+    faults.add({"", 0, "--step", "a robot alone takes no step: what is told is of one instant",
+                "leave it out, or give a scene"});
+  if (is_recorded) check_recorded(options.robot, faults);
+  std::shared_ptr<const UnpackedRun> files;
+  double t = 0;
+  auto prepared = attempt(faults, [&] {
+    if (!is_recorded) return prepare_simulation(simulate);
+    RecordedInstant instant = open_instant(options.robot.model, options.at);
+    memory = std::move(instant.memory);
+    files = std::move(instant.files);
+    t = instant.t;
+    view.ledger = std::move(instant.ledger);
+    return std::move(instant.prepared);
+  });
+  std::optional<Inspected> inspected;
+  if (prepared) {
+    SimulateInput& input = prepared->input;
+    read_bodies(options, input.robot.model, view, faults);
+    inspected = attempt(faults, [&] {
+      return input.scene
+                 ? inspect_scene(input, prepared->run.step, memory ? &*memory : nullptr,
+                                 memory ? prepared->run.integrator : Integrator::semi_implicit)
+                 : inspect_robot(input.robot);
+    });
+  }
+  if (inspected) read_forces(options, inspected->actors, view, faults);
+  faults.check();
+
+  const SimulateInput& input = prepared->input;
+  const bool is_scene = input.scene != nullptr;
+  if (is_scene && input.scene->description.integrator.value_or(Integrator::semi_implicit) !=
+                      Integrator::semi_implicit)
+    inspected->warnings.emplace_back(
+        "the forces are those of a semi-implicit step, not of the scene's integrator");
+  const Inspection in(input.robot.model, inspected->x, inspected->actors, inspected->loops);
+  std::vector<Check> checks = run_checks(in);
+  if (is_scene) checks.push_back(step_check(in, inspected->qdd_of_step));
+
+  view.warnings = inspected->warnings;
+  warn_of_bad_numbers(in, view.warnings);
+  const std::string file = options.robot.state.string();
+  view.title = title_of(input.robot, in,
+                        is_recorded    ? fmt::format("recorded, t = {:.9g} s", t)
+                        : file.empty() ? "at its start, no state file"
+                                       : "state " + file);
+  if (!options.html.empty()) {
+    const InspectedWords words{input.robot.robot.name, view.title, typed};
+    write_whole_file(options.html,
+                     inspect_page(input, inspected->x, inspect_json(in, view, checks), words));
+  }
+  fmt::print("{}\n",
+             options.json ? inspect_json(in, view, checks) : inspect_text(in, view, checks));
+  const bool all_pass =
+      std::all_of(checks.begin(), checks.end(), [](const Check& check) { return check.pass(); });
+  return all_pass ? 0 : kFellShort;
+}
+
+}  // namespace
+
+Command inspect_command() {
+  return {30, "inspect",
+          "The passes of the articulated-body algorithm with their numbers, every wrench on every "
+          "body, and checks by second ways\n\n"
+          "Example:  twinarm inspect assets/robots/s103/s103.urdf --body arm2",
+          add_options, run_inspect};
+}
+
+}  // namespace twinarm

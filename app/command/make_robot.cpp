@@ -1,0 +1,36 @@
+// `twinarm make-robot`.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "app/command/command.h"
+#include "app/command/parser/shared_options.h"
+#include "collision/import/recipe/robot_recipe.h"
+
+namespace twinarm {
+namespace {
+
+struct MakeRobotOptions {
+  std::filesystem::path recipe;
+};
+
+void add_options(CLI::App& command, MakeRobotOptions& options) {
+  add_file_option(command, "recipe", options.recipe, "the robot's TOML recipe")->required();
+}
+
+int run_make_robot(const MakeRobotOptions& options) {
+  make_robot(options.recipe);
+  fmt::print("made {} from {}\n", read_recipe(options.recipe).robot.name, options.recipe.string());
+  return 0;
+}
+
+}  // namespace
+
+Command make_robot_command() {
+  return {150, "make-robot",
+          "Make a robot's URDF and collision hulls from its CAD meshes and densities\n\n"
+          "Example:  twinarm make-robot assets/robots/s103/robot.toml",
+          add_options, run_make_robot};
+}
+
+}  // namespace twinarm

@@ -1,0 +1,286 @@
+// `twinarm map`: a plane of two numbers of a scene, computed cell by cell (docs/map.md).
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <numeric>
+
+#include "app/command/command.h"
+#include "app/command/parser/shared_options.h"
+#include "app/data/json_writer.h"
+#include "app/map/compute_map.h"
+#include "app/map/map_options.h"
+#include "app/map/map_output.h"
+#include "app/map/open_cell.h"
+#include "app/plot/gnuplot.h"
+#include "app/record/recording.h"
+#include "app/support/interrupt.h"
+#include "app/support/nearest_name.h"
+#include "app/support/output_file.h"
+#include "app/support/streams.h"
+#include "solver/support/atomic_file.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace {
+
+void add_options(CLI::App& command, MapOptions& options) {
+  add_input_option(command, "scene", options.scene,
+                   "a scene in TOML; with --merge it may be left out");
+  command.add_option(
+      "--x", options.x,
+      "PATH:FROM:TO:N[:log]: a number of the scene file, its range, and how many cells");
+  command.add_option("--y", options.y, "likewise, upward");
+  command.add_option("--measure", options.measure, "stable max_error mean_error energy passivity")
+      ->capture_default_str();
+  command.add_option("--of", options.of,
+                     "the coupling whose joints' errors are measured; the first");
+  command.add_option("--duration", options.duration,
+                     "seconds; if not given, as long as the scene says");
+  add_scene_step_options(command, options.step, options.integrator);
+  add_file_option(command, "--svg", options.svg,
+                  "write a picture with the limits of theory on top");
+  add_file_option(command, "--png", options.png, "likewise, in pixels");
+  add_file_option(command, "--csv", options.csv, "write a row for each cell, with all measures");
+  add_file_option(command, "--work", options.work,
+                  "the file that keeps what is finished, and from which a killed map goes on; "
+                  "below out/map if not given");
+  command.add_option("--tiles", options.tiles, "how many machines share the map");
+  command.add_option("--tile", options.tile, "which part this one computes, from 0; no picture");
+  add_file_option(command, "--merge", options.merge, "join these files of --tile");
+  command.add_option("--cell", options.cell, "IX,IY: open a cell, from 0");
+  add_file_option(command, "--record", options.record,
+                  "of that cell: its recording; its scene goes beside");
+  command.add_flag("--alone", options.alone,
+                   "run each cell by itself, as simulate does, where cells could run side by side");
+  command.add_option("--threads", options.threads, "all processors if not given");
+  command.add_flag("--force", options.force, "write over files that are there");
+  add_json_option(command, options.json);
+}
+
+bool is_there(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return !file.empty() && std::filesystem::exists(file, ignored);
+}
+
+// Before anything is computed: nothing is overwritten, and all can be written.
+void check_output(const char* option, const std::filesystem::path& file, const char* extension,
+                  bool force, FaultList& faults) {
+  if (file.empty()) return;
+  if (*extension && file.extension() != extension)
+    faults.add({file.string(), 0, option, std::string("writes a file that ends in ") + extension,
+                "give it that name", "file.ending"});
+  if (is_there(file) && !force)
+    faults.add({file.string(), 0, option, "the file is there already",
+                "choose another name, or give --force", "file.exists"});
+  attempt(faults, [&] {
+    require_writable_folder(file.has_parent_path() ? file.parent_path() : ".", option);
+    return true;
+  });
+}
+
+bool is_part(const MapOptions& options) {
+  return options.tiles != 0 || options.tile != -1;
+}
+
+void check_modes(const MapOptions& options, FaultList& faults) {
+  const bool part = is_part(options);
+  if (part && (options.tiles < 1 || options.tile < 0 || options.tile >= options.tiles))
+    faults.add({"", 0, "--tiles, --tile",
+                fmt::format("there is no part {} of {}", options.tile, options.tiles),
+                "give --tiles N with N at least 1, and --tile I with I from 0 to N - 1",
+                "map.part"});
+  if (part && !(options.svg.empty() && options.png.empty() && options.csv.empty()))
+    faults.add({"", 0, "--tile", "a part of a map has no picture and no table",
+                "leave --svg, --png and --csv to --merge", "map.part-output"});
+  if (!options.merge.empty() && (part || !options.cell.empty()))
+    faults.add({"", 0, "--merge", "joins finished parts", "leave --tiles, --tile and --cell out",
+                "map.merge-options"});
+  if (!options.cell.empty() && part)
+    faults.add({"", 0, "--cell", "opens a cell of the map as a whole", "leave --tile out",
+                "map.cell-options"});
+  if (options.cell.empty() != options.record.empty())
+    faults.add({"", 0, options.cell.empty() ? "--record" : "--cell",
+                options.cell.empty() ? "of which cell" : "where should its recording go",
+                "give --cell IX,IY --record FILE together", "map.cell-options"});
+}
+
+void check_outputs(const MapOptions& options, FaultList& faults) {
+  check_output("--svg", options.svg, ".svg", options.force, faults);
+  check_output("--png", options.png, ".png", options.force, faults);
+  check_output("--csv", options.csv, ".csv", options.force, faults);
+  if (!options.svg.empty() || !options.png.empty())
+    attempt(faults, [] { return require_gnuplot(), true; });
+  if (!options.merge.empty()) check_output("--work", options.work, "", options.force, faults);
+  if (!options.record.empty()) {
+    std::filesystem::path scene = options.record;
+    scene.replace_extension(".toml");
+    if (scene == options.record)
+      return faults.add({options.record.string(), 0, "--record", "is the name of a scene",
+                         "end it in .twinrec", "file.ending"});
+    check_output("--record", options.record, "", options.force, faults);
+    check_output("--record", scene, "", options.force, faults);
+  }
+}
+
+// Below out/map, with a name of its own for each map.
+std::filesystem::path work_file(const MapOptions& options, const TileFile& empty) {
+  if (!options.work.empty()) return options.work;
+  std::string all;
+  for (const std::string& line : empty.head)
+    if (!line.starts_with("scene ")) all += line + "\n";
+  const std::string part =
+      is_part(options) ? fmt::format("-{}-of-{}", options.tile, options.tiles) : "";
+  return std::filesystem::path("out") / "map" /
+         fmt::format("{}-{:08x}{}.twinmap", options.scene.stem().string(),
+                     hash_of(all) & 0xffffffffU, part);
+}
+
+// The n-th blocks of each N: their work is alike.
+std::vector<int> wanted_blocks(const MapOptions& options, const MapBlocks& blocks) {
+  std::vector<int> wanted;
+  const int step = is_part(options) ? options.tiles : 1;
+  for (int b = is_part(options) ? options.tile : 0; b < blocks.count(); b += step)
+    wanted.push_back(b);
+  if (wanted.empty())
+    throw InputError({{"", 0, "--tiles",
+                       fmt::format("the map has {} blocks of 16 x 16 cells, fewer than {} parts",
+                                   blocks.count(), options.tiles),
+                       "give fewer --tiles", "map.part"}});
+  return wanted;
+}
+
+void make_folder_of(const std::filesystem::path& file, const char* option) {
+  if (file.has_parent_path()) make_folder(file.parent_path(), option);
+}
+
+void write_result(const char* option, const std::filesystem::path& file, const std::string& bytes) {
+  make_folder_of(file, option);
+  write_whole_file(file, bytes);
+}
+
+void put_out(const MapOptions& options, const MapJob& job, const TileFile& file) {
+  const bool wants_curves = options.json || !options.svg.empty() || !options.png.empty();
+  const std::vector<MapCurve> curves = wants_curves ? theory_curves(job) : std::vector<MapCurve>{};
+  if (!options.csv.empty()) write_result("--csv", options.csv, map_csv(job, file));
+  if (!options.svg.empty()) write_result("--svg", options.svg, map_svg(job, file, curves));
+  if (!options.png.empty()) write_result("--png", options.png, map_png(job, file, curves));
+  if (options.json)
+    fmt::print("{}", map_json(job, file, curves));
+  else
+    fmt::print("{}", map_words(job, file));
+}
+
+int open_it(const MapOptions& options, const MapJob& job) {
+  const auto [ix, iy] = parse_cell(options.cell, job);
+  make_folder_of(options.record, "--record");
+  const OpenedCell cell = open_cell(job, ix, iy, options.record);
+  if (!options.json) {
+    fmt::print("{} = {} {}, {} = {} {}\n", job.x.path, number_text(cell.x), job.x_unit, job.y.path,
+               number_text(cell.y), job.y_unit);
+    for (std::size_t m = 0; m < kMapMeasures.size(); ++m)
+      fmt::print("{}: {}\n", kMapMeasures[m], short_number_text(cell.values[m]));
+    fmt::print("recording: {}\nthe same run: {}\n", options.record.string(), cell.command);
+    return 0;
+  }
+  JsonWriter json;
+  json.begin_object();
+  json.key("cell").begin_array();
+  json.count(ix);
+  json.count(iy);
+  json.end_array();
+  json.key("x").number(cell.x);
+  json.key("y").number(cell.y);
+  for (std::size_t m = 0; m < kMapMeasures.size(); ++m)
+    json.key(kMapMeasures[m]).number(cell.values[m]);
+  json.key("recording").text(options.record.string());
+  json.key("scene").text(cell.scene.string());
+  json.key("command").text(cell.command);
+  json.end_object();
+  fmt::print("{}\n", json.str());
+  return 0;
+}
+
+// Left out with --merge: as the first file says.
+MapOptions as_merged(MapOptions options) {
+  if (options.merge.empty()) return options;
+  const TileFile first = read_tile_file(options.merge.front());
+  const auto take = [&](std::string& option, const char* key) {
+    if (option.empty()) option = first.value_of(key);
+    if (option == identity::kAsScene || option == identity::kFirstCoupling) option.clear();
+  };
+  const auto take_number = [&](std::optional<double>& option, const char* key) {
+    if (!option) option = parse_number(first.value_of(key));
+  };
+  if (options.scene.empty()) options.scene = first.value_of("scene");
+  take(options.x, "x");
+  take(options.y, "y");
+  take(options.of, "of");
+  take(options.integrator, "integrator");
+  options.alone = first.value_of("cells") == identity::kOneByOne;
+  take_number(options.duration, "duration");
+  take_number(options.step, "step");
+  return options;
+}
+
+int compute(const MapOptions& options, const MapJob& job) {
+  const TileFile empty = empty_tile_file(job);
+  const MapBlocks blocks = blocks_of(job);
+  const std::filesystem::path work = work_file(options, empty);
+  if (!options.merge.empty()) {
+    const TileFile file = merge_tile_files(options.merge, empty, blocks);
+    if (!options.work.empty()) write_result("--work", work, to_bytes(file));
+    put_out(options, job, file);
+    return 0;
+  }
+  const std::vector<int> wanted = wanted_blocks(options, blocks);
+  TileFile file = is_there(work) ? resume_tile_file(work, empty, blocks, options.force) : empty;
+  make_folder_of(work, "--work");
+  const auto is_missing = [&](int block) { return !file.blocks.contains(block); };
+  if (std::any_of(wanted.begin(), wanted.end(), is_missing))
+    require_writable_folder(work.has_parent_path() ? work.parent_path() : ".", "--work");
+  try {
+    compute_blocks(job, wanted, work, {options.threads, false}, file);
+  } catch (const Interrupted&) {
+    say("twinarm: {} of {} blocks of cells are finished, in {}; the same command goes on "
+        "from there\n",
+        file.blocks.size(), wanted.size(), work.string());
+    throw;
+  }
+  if (!is_part(options)) {
+    put_out(options, job, file);
+  } else if (options.json) {
+    JsonWriter json;
+    json.begin_object();
+    json.key("tile").count(options.tile);
+    json.key("tiles").count(options.tiles);
+    json.key("blocks").count(static_cast<long>(wanted.size()));
+    json.key("file").text(work.string());
+    json.end_object();
+    fmt::print("{}\n", json.str());
+  } else {
+    fmt::print("{}\n", work.string());
+  }
+  return 0;
+}
+
+int run_map(const MapOptions& given) {
+  FaultList faults;
+  check_modes(given, faults);
+  check_outputs(given, faults);
+  faults.check();
+  const MapOptions options = as_merged(given);
+  const MapJob job = read_map_job(options);
+  return options.cell.empty() ? compute(options, job) : open_it(options, job);
+}
+
+}  // namespace
+
+Command map_command() {
+  return {130, "map",
+          "A plane of two numbers of a scene: stable or not, errors, energy; each cell is a run\n\n"
+          "Example:  twinarm map assets/scenes/tracking_map.toml --x "
+          "coupling.stiffness:1e4:1e6:64:log --y step:1e-3:1e-2:64:log --svg map.svg",
+          add_options, run_map};
+}
+
+}  // namespace twinarm

@@ -1,0 +1,252 @@
+// twinarm render: a picture or a film of a recording, a scene or a robot.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "app/command/command.h"
+#include "app/command/parser/shared_options.h"
+#include "app/data/json_writer.h"
+#include "app/draw/overlays/overlays.h"
+#include "app/film/film.h"
+#include "app/film/filmed_run.h"
+#include "app/film/rendering.h"
+#include "app/robot/robot_input.h"
+#include "app/support/interrupt.h"
+#include "app/support/nearest_name.h"
+#include "app/support/output_file.h"
+#include "app/support/progress.h"
+#include "app/support/streams.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace {
+
+struct RenderOptions {
+  RobotOptions robot;                           // its model: a recording, a scene or a URDF
+  std::filesystem::path png, frames, mp4, gif;  // exactly one is given
+  std::optional<double> at, from, to;           // [s]
+  std::string size = "1280x720", camera = "auto",
+              show = fmt::format("{}", fmt::join(usual_overlays(Overlay::Shown::everywhere), ","));
+  std::string plot = "none", quality = "normal", background = "studio", gl = "osmesa";
+  std::filesystem::path beside;  // a second recording; empty: none
+  double slow = 1;               // times slower than life
+  std::optional<double> fps;     // left out: 30, of a GIF 25
+  bool json = false;
+};
+
+void add_options(CLI::App& command, RenderOptions& options) {
+  add_robot_options(command, options.robot, "a recording, a scene in TOML, or a robot's URDF");
+  add_file_option(command, "--png", options.png, "write one picture to this file");
+  add_file_option(command, "--frames", options.frames,
+                  "write a film as numbered PNG into this folder");
+  add_file_option(command, "--mp4", options.mp4, "write a film (needs the program ffmpeg)");
+  add_file_option(command, "--gif", options.gif, "likewise, as GIF");
+  command.add_option(
+      "--at", options.at,
+      "seconds, of the picture; if not given the end of a recording, else the start");
+  command.add_option("--from", options.from, "seconds, where the film begins");
+  command.add_option("--to", options.to, "seconds, where it ends");
+  command.add_option("--slow", options.slow, "times slower than life")->capture_default_str();
+  command.add_option("--fps", options.fps, "pictures per second; 30 if not given, of a GIF 25");
+  command.add_option("--size", options.size, "in pixels")->capture_default_str();
+  command
+      .add_option("--camera", options.camera,
+                  "auto, front, side, top, iso, follow:BODY, or AZIMUTH,ELEVATION[,DISTANCE] in "
+                  "degrees and metres")
+      ->capture_default_str();
+  std::string overlays;
+  for (const Overlay& overlay : all_overlays()) overlays += std::string(" ") + overlay.name;
+  command.add_option("--show", options.show, "none, all, or some of:" + overlays)
+      ->capture_default_str();
+  command
+      .add_option("--plot", options.plot,
+                  "curves under the picture: none, or some of energy forces couples contacts lag")
+      ->capture_default_str();
+  add_file_option(command, "--beside", options.beside,
+                  "a second recording, in sync at the right of the first");
+  command.add_option("--quality", options.quality, "draft, normal or studio")
+      ->capture_default_str();
+  command.add_option("--background", options.background, "studio, sky or white")
+      ->capture_default_str();
+  command.add_option("--gl", options.gl, "what paints: osmesa or egl")->capture_default_str();
+  add_json_option(command, options.json);
+}
+
+struct RenderPlan {
+  PictureWish picture;
+  FilmTimes times;
+  double rate = 30;  // pictures per second of the film
+};
+
+constexpr int kMostPixels = 8192;  // along a side
+
+bool parse_size(const std::string& text, RenderPlan& plan) {
+  const auto cross = text.find('x');
+  if (cross == std::string::npos) return false;
+  const auto width = parse_number(text.substr(0, cross));
+  const auto height = parse_number(text.substr(cross + 1));
+  const auto fits = [](const std::optional<double>& n) {
+    return n && *n >= 16 && *n <= kMostPixels && *n == std::floor(*n);
+  };
+  if (!fits(width) || !fits(height)) return false;
+  plan.picture.width = static_cast<int>(*width);
+  plan.picture.height = static_cast<int>(*height);
+  return true;
+}
+
+template <class T>
+void choose_word(const char* option, const std::string& word, const std::vector<std::string>& names,
+                 const std::vector<T>& values, T& chosen, FaultList& faults) {
+  const auto found = std::find(names.begin(), names.end(), word);
+  if (found != names.end())
+    chosen = values[static_cast<std::size_t>(found - names.begin())];
+  else
+    faults.add({"", 0, option, "there is no '" + word + "'", name_remedy(word, names, "possible")});
+}
+
+// A film under the name of a picture, or the other way about, is a slip.
+void check_kind(const char* option, const std::filesystem::path& file, const std::string& own,
+                FaultList& faults) {
+  static const std::vector<std::string> others{".png", ".jpg", ".jpeg", ".svg", ".pdf",
+                                               ".gif", ".mp4", ".webm", ".avi", ".html"};
+  const std::string kind = file.extension().string();
+  if (kind != own && std::find(others.begin(), others.end(), kind) != others.end())
+    faults.add({file.string(), 0, option, "is named as a file of another kind",
+                "let its name end in " + own});
+}
+
+void check_outputs(const RenderOptions& options, RenderPlan& plan, FaultList& faults) {
+  int outputs = 0;
+  for (const auto* file : {&options.png, &options.frames, &options.mp4, &options.gif})
+    outputs += file->empty() ? 0 : 1;
+  if (outputs != 1)
+    faults.add({"", 0, "output", outputs == 0 ? "none is named" : "more than one is named",
+                "give one of --png FILE, --frames DIR, --mp4 FILE, --gif FILE"});
+  for (const auto* file : {&options.png, &options.mp4, &options.gif})
+    if (!file->empty()) check_place(*file, faults);
+  check_kind("--png", options.png, ".png", faults);
+  check_kind("--mp4", options.mp4, ".mp4", faults);
+  check_kind("--gif", options.gif, ".gif", faults);
+  if (!options.frames.empty())
+    attempt(faults, [&] { return require_writable_folder(options.frames, "--frames"), true; });
+  plan.times.is_film = outputs == 1 && options.png.empty();
+  if (plan.times.is_film && options.at)
+    faults.add({"", 0, "--at", "is for a still", "give --from and --to, or --png FILE"});
+  if (!plan.times.is_film && (options.from || options.to))
+    faults.add({"", 0, "--from", "is for a film", "give --at for a still"});
+  for (const auto& [file, option] :
+       {std::pair{&options.mp4, "--mp4"}, std::pair{&options.gif, "--gif"}})
+    if (!file->empty()) attempt(faults, [&, name = option] { return find_ffmpeg(name); });
+}
+
+RenderPlan read_render_options(const RenderOptions& options) {
+  FaultList faults;
+  RenderPlan plan;
+  check_outputs(options, plan, faults);
+  if (!parse_size(options.size, plan))
+    faults.add({"", 0, "--size", "'" + options.size + "' is no size",
+                fmt::format("give WIDTHxHEIGHT, each from 16 to {} pixels", kMostPixels)});
+  choose_word<Quality>("--quality", options.quality, {"draft", "normal", "studio"},
+                       {Quality::draft, Quality::normal, Quality::studio}, plan.picture.quality,
+                       faults);
+  choose_word<Background>("--background", options.background, {"studio", "sky", "white"},
+                          {studio_background(), sky_background(), white_background()},
+                          plan.picture.background, faults);
+  choose_word<Backend>("--gl", options.gl, {"osmesa", "egl"}, {Backend::osmesa, Backend::egl},
+                       plan.picture.backend, faults);
+  if (auto overlays = attempt(faults, [&] { return parse_overlays(options.show); }))
+    plan.picture.overlays = *overlays;
+  if (auto curves = attempt(faults, [&] { return parse_curves(options.plot); }))
+    plan.picture.curves = *curves;
+  plan.picture.camera = options.camera;
+  plan.rate = options.fps.value_or(options.gif.empty() ? 30 : 25);  // GIF counts in 1/100 s
+  if (!(options.slow > 0) || !std::isfinite(options.slow))
+    faults.add({"", 0, "--slow", "must be positive", "4 is four times slower than life"});
+  if (!(plan.rate > 0 && plan.rate <= 1000))
+    faults.add({"", 0, "--fps", "must be from above 0 to 1000", ""});
+  if (!options.beside.empty() && plan.picture.width < 64)
+    faults.add({"", 0, "--size", "is too narrow for two runs", "give a width from 64 on"});
+  if (options.at && !(*options.at >= 0 && std::isfinite(*options.at)))
+    faults.add({"", 0, "--at", "must be seconds from 0 on", ""});
+  faults.check();
+  plan.times.at = options.at;
+  plan.times.from = options.from;
+  plan.times.to = options.to;
+  plan.times.interval = 1 / (plan.rate * options.slow);
+  return plan;
+}
+
+std::unique_ptr<Film> make_film(const RenderOptions& options, const RenderPlan& plan) {
+  if (!options.frames.empty()) return png_film(options.frames);
+  const FilmKind kind = options.mp4.empty() ? FilmKind::gif : FilmKind::mp4;
+  return ffmpeg_film(options.mp4.empty() ? options.gif : options.mp4,
+                     {kind, plan.picture.width, plan.picture.height, plan.rate});
+}
+
+void print_render_json(const std::string& file, const RenderPlan& plan, const FilmedRun& run,
+                       const std::vector<std::string>& notes) {
+  JsonWriter json;
+  json.begin_object();
+  json.key("file").text(file);
+  json.key("width").count(plan.picture.width);
+  json.key("height").count(plan.picture.height);
+  json.key("pictures").count(static_cast<long>(run.shown.size()));
+  json.key("from").number(run.shown.front().x.t);
+  json.key("to").number(run.shown.back().x.t);
+  json.key("warnings").texts(notes);
+  json.end_object();
+  fmt::print("{}\n", json.str());
+}
+
+int run_render(const RenderOptions& options) {
+  const RenderPlan plan = read_render_options(options);
+  Progress progress(options.json || !plan.times.is_film);
+  progress.stage("run", 0.3);
+  std::vector<FilmedRun> runs;
+  if (options.beside.empty())
+    runs.push_back(film_run(options.robot, plan.times, options.camera, progress));
+  else
+    runs = film_pair(options.robot.model, options.beside, plan.times);
+  progress.stage("paint", 0.7);
+  std::vector<const FilmedRun*> shown;
+  for (const FilmedRun& run : runs) shown.push_back(&run);
+  Rendering rendering(plan.picture, shown);
+  const std::size_t count = runs.front().shown.size();
+  const std::string file = (plan.times.is_film ? (!options.frames.empty() ? options.frames
+                                                  : !options.mp4.empty()  ? options.mp4
+                                                                          : options.gif)
+                                               : options.png)
+                               .string();
+  if (!plan.times.is_film) {
+    write_png(file, rendering.paint(0));
+  } else {
+    const std::unique_ptr<Film> film = make_film(options, plan);
+    for (std::size_t i = 0; i < count; ++i) {
+      check_interrupt();
+      film->add(rendering.paint(i));
+      progress.advance(static_cast<double>(i + 1) / static_cast<double>(count));
+    }
+    film->finish();
+  }
+  progress.finish();
+  for (const std::string& note : rendering.notes()) say("twinarm: {}\n", note);
+  if (options.json)
+    print_render_json(file, plan, runs.front(), rendering.notes());
+  else
+    fmt::print("wrote {}: {} picture{}, {} x {}\n", file, count, count == 1 ? "" : "s",
+               plan.picture.width, plan.picture.height);
+  return 0;
+}
+
+}  // namespace
+
+Command render_command() {
+  return {110, "render",
+          "A picture or a film of a recording, a scene or a robot, without display or GPU\n\n"
+          "Example:  twinarm render assets/scenes/incline.toml --png incline.png --show "
+          "forces,contacts",
+          add_options, run_render};
+}
+
+}  // namespace twinarm

@@ -1,0 +1,138 @@
+// `twinarm replay`: the same bits from a recorded step on, or a fork beside its recording.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "app/command/command.h"
+#include "app/command/parser/shared_options.h"
+#include "app/data/json_writer.h"
+#include "app/record/output/branch_view.h"
+#include "app/support/streams.h"
+
+namespace twinarm {
+namespace {
+
+struct ReplayOptions {
+  std::filesystem::path recording;
+  std::optional<double> from;  // [s]; left out: the first that is recorded
+  std::vector<std::string> changes;
+  std::filesystem::path plot;  // SVG; empty: none
+  bool json = false;
+};
+
+void add_options(CLI::App& command, ReplayOptions& options) {
+  add_file_option(command, "recording", options.recording, "of `twinarm simulate --record`")
+      ->required();
+  command.add_option("--from", options.from, "seconds; the start if not given");
+  command.add_option("--set", options.changes, "PATH=VALUE of the scene, for a fork")
+      ->allow_extra_args(false);
+  add_file_option(command, "--plot", options.plot, "an SVG of both branches");
+  add_json_option(command, options.json);
+}
+
+constexpr int kDiffers = 1;
+
+void write_branch(JsonWriter& json, const char* name, const Recording& recording,
+                  const Replay& replay, bool forked) {
+  json.begin_object();
+  json.key("name").text(name);
+  json.key("t").begin_array();
+  for (const RecordedFrame& frame : replay.frames) json.number(frame.t);
+  json.end_array();
+  json.key("values").begin_object();
+  const auto& columns = recording.header().columns;
+  std::vector<std::vector<double>> values(columns.size());
+  for (std::size_t n = 0; n < replay.frames.size(); ++n) {
+    const RecordedFrame frame = forked ? replay.frames[n] : recording.frame(replay.first + n);
+    for (std::size_t c = 0; c < columns.size(); ++c) values[c].push_back(frame.values[c]);
+  }
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    json.key(columns[c].with_unit()).numbers(values[c]);
+  json.end_object();
+  json.end_object();
+}
+
+void write_ledgers(JsonWriter& json, const ComparedLedgers& ledgers) {
+  json.key("ledger").begin_object();
+  for (const ComparedWork& row : ledgers.works) {
+    json.key(row.name).begin_object();
+    json.key("recorded").number(row.recorded);
+    json.key("fork").number(row.fork);
+    json.end_object();
+  }
+  json.end_object();
+  json.key("momentum").begin_object();
+  for (const ComparedMomentum& row : ledgers.momenta) {
+    json.key(row.name).begin_object();
+    json.key("recorded").vector(row.recorded);
+    json.key("fork").vector(row.fork);
+    json.end_object();
+  }
+  json.end_object();
+}
+
+void print_replay_json(const Recording& recording, const Replay& exact, const Replay* fork,
+                       const std::vector<std::string>& changes) {
+  JsonWriter json;
+  json.begin_object();
+  json.key("from").number(exact.from);
+  json.key("to").number(exact.to);
+  json.key("step").count(exact.step);
+  json.key("hash").text(fmt::format("{:016x}", exact.hash));
+  json.key("hash_again").text(fmt::format("{:016x}", exact.hash_again));
+  json.key("compared").count(static_cast<long>(exact.compared));
+  json.key("equal").count(static_cast<long>(exact.equal));
+  json.key("bit_exact").boolean(exact.hash == exact.hash_again && exact.equal == exact.compared);
+  if (exact.first_different >= 0) json.key("first_different").number(exact.first_different);
+  json.key("set").texts(changes);
+  json.key("notes").texts(recording.notes());
+  if (fork) {
+    json.key("branches").begin_array();
+    write_branch(json, "recorded", recording, *fork, false);
+    write_branch(json, "fork", recording, *fork, true);
+    json.end_array();
+    write_ledgers(json, compared_ledgers(exact, *fork));
+  }
+  json.end_object();
+  fmt::print("{}\n", json.str());
+}
+
+int run_replay(const ReplayOptions& options) {
+  std::vector<Change> changes;
+  for (const std::string& text : options.changes) changes.push_back(parse_change(text));
+  if (!options.plot.empty() && changes.empty())
+    throw InputError(
+        {{"", 0, "--plot", "there is one branch only", "give --set too", "option.conflict"}});
+  if (!options.plot.empty()) check_plot(options.plot);
+  const Recording recording(options.recording);
+  for (const std::string& note : recording.notes()) say("twinarm: {}\n", note);
+  const std::size_t first = options.from ? recording.at(*options.from, "--from") : 0;
+  const Replay exact = replay(recording, first, {});
+  std::optional<Replay> fork;
+  if (!changes.empty()) fork = replay(recording, first, changes);
+  const bool same = exact.hash == exact.hash_again && exact.equal == exact.compared;
+  if (options.json) {
+    print_replay_json(recording, exact, fork ? &*fork : nullptr, options.changes);
+  } else {
+    fmt::print("taken up at t = {:.9g} s, step {}: hash {:016x}, again {:016x}\n", exact.from,
+               exact.step, exact.hash, exact.hash_again);
+    fmt::print(
+        "{} of {} recorded frames after it have the same bits{}\n", exact.equal, exact.compared,
+        same ? ""
+             : fmt::format("; the first that differs is at t = {:.9g} s", exact.first_different));
+    if (fork) print_fork(recording, exact, *fork);
+  }
+  if (fork && !options.plot.empty())
+    draw_fork(recording, exact, *fork, options.changes, options.plot);
+  return same ? 0 : kDiffers;
+}
+
+}  // namespace
+
+Command replay_command() {
+  return {100, "replay",
+          "Run on from a recorded step: the same bits; or, with --set, a fork\n\n"
+          "Example:  twinarm replay out/run.twinrec --from 0.5 --set coupling.stiffness=800",
+          add_options, run_replay};
+}
+
+}  // namespace twinarm

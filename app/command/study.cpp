@@ -1,0 +1,259 @@
+// twinarm study: the paper's experiments from robot to report (docs/study.md).
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "app/command/command.h"
+#include "app/command/parser/shared_options.h"
+#include "app/device/devices.h"
+#include "app/plot/gnuplot.h"
+#include "app/servo/record_device.h"
+#include "app/study/calibration/calibrate.h"
+#include "app/study/findings/findings.h"
+#include "app/study/findings/variants.h"
+#include "app/study/report/figures.h"
+#include "app/study/report/output_csv.h"
+#include "app/study/report/output_json.h"
+#include "app/study/report/pictures.h"
+#include "app/study/report/recordings.h"
+#include "app/study/report/report.h"
+#include "app/support/find_assets.h"
+#include "app/support/interrupt.h"
+#include "app/support/output_file.h"
+#include "app/support/seconds.h"
+#include "app/support/streams.h"
+#include "coupling/device/device_log.h"
+#include "coupling/target/recorded_trace.h"
+#include "coupling/target/synthetic_operator.h"
+#include "solver/support/atomic_file.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+struct StudyOptions {
+  std::filesystem::path out = "out/study";
+  // "synthetic", "trace", or a device (app/device/devices.h); empty: a trace if one is given
+  std::string device;
+  std::optional<unsigned> seed;  // left out: the settings' seed
+  std::filesystem::path trace;
+  bool recalibrate = false, identify = false, paper_view = false, json = false;
+  std::filesystem::path assets;  // empty: found beside the program
+  std::string ask;               // "ROW/LAW/RATE": only this question of Table 2, and no study
+};
+
+void add_options(CLI::App& command, StudyOptions& options) {
+  add_file_option(command, "--out", options.out, "folder for report, figures, CSV")
+      ->capture_default_str();
+  command.add_option(
+      "--device", options.device,
+      "hand of E1 and E2: synthetic, trace (the default if one is given), or a device "
+      "as `twinarm hand --device list` has them");
+  command.add_option("--seed", options.seed, "of the synthetic operator");
+  add_input_option(command, "--trace", options.trace, "CSV of a recorded hand, for E1 and E2");
+  command.add_flag("--recalibrate", options.recalibrate,
+                   "search the unpublished gains again and write them to the assets (minutes)");
+  command.add_flag("--identify", options.identify,
+                   "ask again what the paper's Table 2 leaves open, and write it to the assets "
+                   "(some ten minutes)");
+  command.add_option("--ask", options.ask,
+                     "ROW/LAW/RATE, as E4/linear/60: one question of --identify, answered on "
+                     "stdout as JSON; nothing is written");
+  command.add_flag("--paper-view", options.paper_view,
+                   "hide the ghost in pictures, as the paper does");
+  add_json_option(command, options.json);
+  add_assets_option(command, options.assets);
+}
+
+// What a device does for as long as the synthetic hand would; kept as OUT/hand.csv, which can be
+// given as a trace from then on.
+std::unique_ptr<HandSource> hand_of_device(const StudyOptions& options,
+                                           const StudySettings& settings) {
+  const std::unique_ptr<HandDevice> device = open_device(options.device);
+  const bool real_time = !options.device.starts_with("virtual");
+  make_folder(options.out);
+  Progress progress(options.json);
+  progress.stage("the hand: " + device->description(), 1);
+  auto hand = record_hand(*device, settings.operator_duration, real_time, [&](double t) {
+    check_interrupt();
+    progress.advance(t / settings.operator_duration);
+  });
+  progress.finish();
+  write_hand_log(*hand, options.out / "hand.csv");
+  return hand;
+}
+
+bool is_device(const StudyOptions& options) {
+  return !options.device.empty() && options.device != "synthetic" && options.device != "trace";
+}
+
+std::unique_ptr<HandSource> make_hand(const StudyOptions& options, const StudySettings& settings) {
+  if (options.device == "trace" && options.trace.empty())
+    throw InputError({{"", 0, "--device trace", "no trace is given", "add --trace FILE.csv"}});
+  if (!options.device.empty() && options.device != "trace" && !options.trace.empty())
+    throw InputError({{"", 0, "--trace", "a trace is given, but --device says " + options.device,
+                       "leave --device out, or give --device trace"}});
+  if (is_device(options)) return hand_of_device(options, settings);
+  if (is_hand_log(options.trace)) return read_hand_log(options.trace);
+  if (!options.trace.empty()) {
+    auto trace = std::make_unique<RecordedTrace>(options.trace);
+    for (const std::string& warning : trace->quality().warnings)
+      say("twinarm: warning: {}: {}\n", options.trace.string(), warning);
+    return trace;
+  }
+  return std::make_unique<SyntheticOperator>(options.seed.value_or(settings.seed),
+                                             settings.operator_duration);
+}
+
+SceneHand scene_hand(const StudyOptions& options, const StudySettings& settings,
+                     const HandSource& hand) {
+  if (!options.trace.empty()) return traced_hand(hand, options.trace);
+  if (is_device(options)) return traced_hand(hand, options.out / "hand.csv");
+  return synthetic_hand(hand, options.seed.value_or(settings.seed));
+}
+
+std::string command_of(const StudyOptions& options) {
+  std::string command = "twinarm study --out " + options.out.string();
+  if (!options.trace.empty()) command += " --trace " + options.trace.string();
+  if (is_device(options)) command += " --device " + options.device;
+  if (options.seed) command += fmt::format(" --seed {}", *options.seed);
+  if (options.paper_view) command += " --paper-view";
+  return command;
+}
+
+void fill_search_table(const StudySettings& settings, StudyResults& results) {
+  for (double rate : settings.search_rates_hz) {
+    SearchRow row;
+    row.rate = rate;
+    for (const std::string& law : e3_laws())
+      row.e3[law] = &results.calibration.entry(fmt::format("E3/{:g}/{}", rate, law));
+    row.e4 = &results.calibration.entry(fmt::format("E4/{:g}", rate));
+    results.search.push_back(row);
+  }
+}
+
+StudyResults compute(const StudyOptions& options, const StudyInputs& inputs, const HandSource& hand,
+                     const Calibration& calibration, Progress& progress) {
+  StudyResults results;
+  results.calibration = calibration;
+  results.hand_description = hand.description();
+  results.command = command_of(options);
+  results.settings_text = read_whole_file(inputs.settings.assets / "study" / "settings.toml");
+  results.arm2_mass_scale = calibration.entry("chosen").numbers.at("arm2_mass_scale");
+  for (const LinkDescription& link : inputs.s103.links)
+    results.link_masses.emplace_back(link.name, link.mass);
+  fill_search_table(inputs.settings, results);
+  results.identifications =
+      read_identifications(inputs.settings.assets / "study" / "identification.json");
+
+  const StudyRobot robot = StudyRobot::s103(inputs.settings, inputs.s103, results.arm2_mass_scale);
+  progress.stage("E1 to E4", 0.02);
+  results.reproduction = run_reproduction(robot, calibration, hand);
+  progress.stage("variants: gains by trial, matched, implicit, held, ablations", 0.18);
+  results.variants = run_variants(inputs, robot, calibration, progress);
+  progress.stage("findings", 0.15);
+  derive_findings(inputs, results, progress);
+  results.answer = answer_in_words(results);
+  progress.stage("the obstacle, and pictures", 0.4);
+  run_obstacles_and_paint(inputs, robot, results, options.out, options.paper_view, progress);
+  progress.stage("recordings", 0.1);
+  results.recordings = write_recordings(inputs, robot, scene_hand(options, inputs.settings, hand),
+                                        results, options.out / "recordings", progress);
+  return results;
+}
+
+void tell_people(const StudyResults& results, const std::filesystem::path& report) {
+  fmt::print("\nTable 2, in degrees: measured (published)\n\n");
+  fmt::print("{:24}", "");
+  for (const RunResult& result : results.reproduction) fmt::print("{:>18}", result.spec.name);
+  const auto line = [&](const char* title, auto measured, auto published) {
+    fmt::print("\n  {:22}", title);
+    for (const RunResult& result : results.reproduction)
+      fmt::print("{:>18}", fmt::format("{:.2f} ({:.1f})", measured(result),
+                                       published(paper_table().at(result.spec.name))));
+  };
+  for (std::size_t j = 0; j < 2; ++j)
+    line(
+        j == 0 ? "maximum, joint 1" : "maximum, joint 2",
+        [j](const RunResult& r) { return r.max_deg[j]; },
+        [j](const PaperRow& p) { return p.max_deg[j]; });
+  for (std::size_t j = 0; j < 2; ++j)
+    line(
+        j == 0 ? "mean, joint 1" : "mean, joint 2",
+        [j](const RunResult& r) { return r.mean_deg[j]; },
+        [j](const PaperRow& p) { return p.mean_deg[j]; });
+  fmt::print(
+      "\n\n  E3, E4: gains calibrated. E1, E2: the same gains on a hand that is not the "
+      "paper's ({}).\n\n",
+      results.hand_description);
+  for (const std::string& sentence : results.answer) fmt::print("{}\n", sentence);
+  fmt::print("\nReport: {}  ({:.0f} s)\n", report.string(), results.seconds);
+}
+
+int run_study(const StudyOptions& options) {
+  const double start = steady_seconds();
+  const std::filesystem::path assets = find_assets(options.assets);
+  if (!options.ask.empty()) {
+    fmt::print("{}\n", answer_json(ask(load_inputs(assets), options.ask)));
+    return 0;
+  }
+  const std::filesystem::path calibration_file = assets / "study" / "calibration.json";
+  StudyInputs inputs;
+  std::unique_ptr<HandSource> hand;
+  Calibration calibration;
+  FaultList faults;  // of all inputs, told together, before anything is made
+  const auto attempt = [&](const auto& load) {
+    try {
+      load();
+    } catch (const InputError& error) {
+      faults.add(error.faults());
+    }
+  };
+  attempt([&] { inputs = load_inputs(assets); });
+  attempt([&] { hand = make_hand(options, inputs.settings); });
+  if (!options.recalibrate) attempt([&] { calibration = read_calibration(calibration_file); });
+  attempt([&] { require_writable_folder(options.out); });
+  attempt(require_gnuplot);
+  faults.check();
+  if (options.recalibrate) {
+    Progress progress(false);
+    calibration = calibrate(inputs, progress);
+    write_calibration(calibration, calibration_file);
+  }
+  if (options.identify) {
+    Progress progress(false);
+    const std::vector<Identification> found = identify(inputs, progress);
+    write_identifications(found, assets / "study" / "identification.json");
+    progress.finish();
+  }
+  for (const char* part : {"figures", "csv", "pictures", "recordings"})
+    make_folder(options.out / part);
+
+  Progress progress(false);
+  StudyResults results = compute(options, inputs, *hand, calibration, progress);
+  progress.stage("figures and report", 0.15);
+  write_figures(results, options.out / "figures");
+  progress.advance(0.6);
+  write_csv(results, options.out / "csv");
+  results.seconds = steady_seconds() - start;
+  write_report(results, options.out);
+  const std::filesystem::path report = options.out / "report.html";
+  const std::string as_json = study_json(results, report.string());
+  write_whole_file(options.out / "study.json", as_json + "\n");
+  progress.finish();
+  if (options.json)
+    fmt::print("{}\n", as_json);
+  else
+    tell_people(results, report);
+  return 0;
+}
+
+}  // namespace
+
+Command study_command() {
+  return {140, "study",
+          "The paper's study: E1 to E4, what explains them, and a report\n\n"
+          "Example:  twinarm study --out out/study",
+          add_options, run_study};
+}
+
+}  // namespace twinarm

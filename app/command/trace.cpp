@@ -1,0 +1,46 @@
+// `twinarm trace`.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "app/command/command.h"
+#include "app/command/parser/shared_options.h"
+#include "coupling/target/recorded_trace.h"
+#include "coupling/target/synthetic_operator.h"
+
+namespace twinarm {
+namespace {
+
+struct TraceOptions {
+  unsigned seed = 1;
+  double duration = 20, rate = 200;  // [s], [Hz]
+  std::filesystem::path out;
+};
+
+void add_options(CLI::App& command, TraceOptions& options) {
+  command.add_option("--seed", options.seed, "of the synthetic operator")->capture_default_str();
+  command.add_option("--duration", options.duration, "seconds")
+      ->check(above_zero())
+      ->capture_default_str();
+  command.add_option("--rate", options.rate, "samples per second")
+      ->check(above_zero())
+      ->capture_default_str();
+  add_file_option(command, "--out", options.out, "CSV file")->required();
+}
+
+int run_trace(const TraceOptions& options) {
+  const SyntheticOperator hand(options.seed, options.duration);
+  write_trace(hand, options.rate, options.out);
+  fmt::print("wrote {}: {}\n", options.out.string(), hand.description());
+  return 0;
+}
+
+}  // namespace
+
+Command trace_command() {
+  return {160, "trace",
+          "Write the synthetic operator's hand as a CSV trace\n\n"
+          "Example:  twinarm trace --seed 1 --rate 200 --out hand.csv",
+          add_options, run_trace};
+}
+
+}  // namespace twinarm

@@ -1,0 +1,253 @@
+// twinarm trial: a protocol with a person (docs/trial.md).
+#include <fmt/format.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <random>
+#include <thread>
+
+#include "app/command/command.h"
+#include "app/command/parser/shared_options.h"
+#include "app/device/devices.h"
+#include "app/study/calibration/calibration.h"
+#include "app/study/findings/variants.h"
+#include "app/study/study_scene.h"
+#include "app/support/find_assets.h"
+#include "app/support/interrupt.h"
+#include "app/support/output_file.h"
+#include "app/support/streams.h"
+#include "app/trial/trial_output.h"
+#include "solver/support/atomic_file.h"
+
+namespace twinarm {
+namespace {
+
+struct TrialOptions {
+  std::string device = "keyboard", mapping = "paper";
+  std::string conditions = "torsional,linear,kinematic", tasks = "free,pick-and-place";
+  std::string subject;             // empty: the next free code
+  std::optional<unsigned> seed;    // of the order; left out: as given
+  double seconds = 20, most = 60;  // of free motion; of a pick-and-place [s]
+  bool feel = false;               // the force on the hand; the paper has none
+  bool yes = false, simulated = false, json = false;
+  std::filesystem::path out = "out/trial", assets;
+};
+
+void add_options(CLI::App& command, TrialOptions& options) {
+  command.add_option("--device", options.device, "as `twinarm hand --device list` has them")
+      ->capture_default_str();
+  command.add_option("--mapping", options.mapping, "paper (theta1, 4, 6) or arm (theta1, 2, 3)")
+      ->capture_default_str();
+  command.add_option("--conditions", options.conditions, "which robots, in this order")
+      ->capture_default_str();
+  command.add_option("--tasks", options.tasks, "what is done with each")->capture_default_str();
+  command.add_option("--seed", options.seed, "draws the order of the conditions");
+  command.add_option("--subject", options.subject, "a code, not a name; left out: S1, S2, ...");
+  command.add_option("--seconds", options.seconds, "of free motion")
+      ->check(above_zero())
+      ->capture_default_str();
+  command.add_option("--most", options.most, "seconds that a pick-and-place may take")
+      ->check(above_zero())
+      ->capture_default_str();
+  command.add_flag("--feel", options.feel,
+                   "let the hand feel the springs, on a device with motors (the paper does not)");
+  command.add_flag("--yes", options.yes, "begin without waiting for Enter");
+  command.add_flag("--simulated", options.simulated,
+                   "no countdown, no waiting: for a virtual device");
+  add_file_option(command, "--out", options.out, "folder of results.csv and of the logs")
+      ->capture_default_str();
+  add_json_option(command, options.json);
+  add_assets_option(command, options.assets);
+}
+
+const std::vector<std::string> kConditions{"torsional", "linear", "kinematic"};
+const std::vector<std::string> kTasks{"free", "pick-and-place"};
+
+std::vector<std::string> chosen(const std::string& text, const std::vector<std::string>& known,
+                                const char* option, FaultList& faults) {
+  std::vector<std::string> all;
+  std::stringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      faults.add({"", 0, option, "'" + word + "' is none",
+                  fmt::format("give some of {}", fmt::join(known, ","))});
+    all.push_back(word);
+  }
+  if (all.empty())
+    faults.add({"", 0, option, "it names nothing", fmt::format("give {}", fmt::join(known, ","))});
+  return all;
+}
+
+MappingKind mapping_kind(const std::string& name, FaultList& faults) {
+  if (name == "paper") return MappingKind::paper;
+  if (name == "arm") return MappingKind::arm;
+  faults.add({"", 0, "--mapping", "'" + name + "' is none for a trial", "give paper or arm"});
+  return MappingKind::paper;
+}
+
+// The scenes of the paper's experiments by a user, with the device in place of the hand. The
+// kinematic robot alone is that of the first, whose springs nobody looks at.
+std::vector<TrialCondition> write_conditions(const std::vector<std::string>& names,
+                                             const std::filesystem::path& assets,
+                                             const std::filesystem::path& folder) {
+  const StudyInputs inputs = load_inputs(assets);
+  const Calibration calibration = read_calibration(assets / "study" / "calibration.json");
+  const StudyRobot robot = StudyRobot::s103(
+      inputs.settings, inputs.s103, calibration.entry("chosen").numbers.at("arm2_mass_scale"));
+  const std::vector<RunSpec> specs = reproduction_specs(calibration);
+  std::vector<TrialCondition> conditions;
+  for (const std::string& name : names) {
+    const RunSpec& spec = specs[name == "linear" ? 1 : 0];
+    TrialCondition condition;
+    condition.name = name;
+    condition.is_kinematic = name == "kinematic";
+    condition.title = condition.is_kinematic ? "the robot is where your hand is"
+                      : name == "linear"     ? "linear springs pull the robot after your hand"
+                                             : "torsional springs pull the robot after your hand";
+    condition.scene = folder / (name + ".toml");
+    write_whole_file(condition.scene,
+                     scene_text({&inputs.settings, &robot, spec, device_hand(), false}));
+    conditions.push_back(std::move(condition));
+  }
+  return conditions;
+}
+
+// Who comes first is drawn anew for each seed, so that practice does not favour one condition.
+template <class T>
+void shuffle(std::vector<T>& items, unsigned seed) {
+  std::mt19937 engine(seed);
+  for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[engine() % i]);
+}
+
+const char* instructions(bool pick) {
+  return pick ? "Bring the object (o) into the brackets [ ]: go to it, press the button and hold "
+                "it, "
+                "let go at the goal. As fast as you can."
+              : "Move freely, in all directions, slowly and fast.";
+}
+
+// Waits for Enter; false where nobody is there to press it.
+bool wait_for_enter() {
+  std::string line;
+  if (std::getline(std::cin, line)) return true;
+  check_interrupt();  // Ctrl-C ends the reading too
+  return false;
+}
+
+void count_down() {
+  for (int n = 3; n > 0; --n) {
+    say("{} ", n);
+    for (int i = 0; i < 10; ++i) {
+      check_interrupt();
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
+  say("go!\n");
+}
+
+// A picture on the place of the last one.
+class TerminalShow {
+ public:
+  explicit TerminalShow(double seconds) : seconds_(seconds) {}
+  void operator()(const std::string& picture, double t) {
+    if (lines_ > 0) say("\x1b[{}A", lines_);
+    say("{}{:5.1f} s of {:.0f}   # robot  . your hand  o object  [ ] goal\n", picture, t, seconds_);
+    lines_ = static_cast<int>(std::count(picture.begin(), picture.end(), '\n')) + 1;
+  }
+
+ private:
+  double seconds_;
+  int lines_ = 0;
+};
+
+struct Step {
+  const TrialCondition* condition;
+  bool pick;
+};
+
+TrialResult run_step(const TrialOptions& options, const MappingSpec& mapping, const Step& step,
+                     const std::filesystem::path& folder) {
+  TrialTask task;
+  task.is_pick_and_place = step.pick;
+  task.seconds = step.pick ? options.most : options.seconds;
+  task.real_time = !options.simulated;
+  const bool has_eyes = !options.simulated && isatty(STDERR_FILENO) != 0;
+  if (!options.simulated) {
+    say("\n{}: {}.\n{}\n", step.condition->name, step.condition->title, instructions(step.pick));
+    if (!options.yes) {
+      say("Press Enter when you are ready. ");
+      if (!wait_for_enter())
+        throw InputError({{"", 0, "trial", "nobody pressed Enter: there is no terminal",
+                           "run it in a terminal, or give --yes"}});
+    }
+    count_down();
+  }
+  if (has_eyes) task.show = TerminalShow(task.seconds);
+  const std::unique_ptr<HandDevice> device = open_device(options.device);
+  task.is_stopped = is_interrupted;
+  const std::string name = step.condition->name + (step.pick ? "_pick" : "_free");
+  return run_task(*step.condition, *device, mapping, task, folder / (name + ".csv"));
+}
+
+int run_trial(const TrialOptions& options) {
+  FaultList faults;
+  const auto names = chosen(options.conditions, kConditions, "--conditions", faults);
+  const auto tasks = chosen(options.tasks, kTasks, "--tasks", faults);
+  MappingSpec mapping;
+  mapping.kind = mapping_kind(options.mapping, faults);
+  mapping.force_scale = options.feel ? 1 : 0;
+  if (options.simulated && !options.device.starts_with("virtual"))
+    faults.add({"", 0, "--simulated", "a person has no simulated time",
+                "leave it out, or give --device virtual:HAND"});
+  if (!std::all_of(options.subject.begin(), options.subject.end(),
+                   [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; }))
+    faults.add({"", 0, "--subject",
+                "'" + options.subject + "' has characters other than letters, digits, - and _",
+                "it names a folder below --out: give a code such as S7"});
+  faults.check();
+
+  open_device(options.device);  // what is wrong with it is said before anyone waits
+  TrialReport report;
+  report.csv = (options.out / "results.csv").string();
+  const std::string next = next_subject(report.csv);
+  report.subject = options.subject.empty() ? next : options.subject;
+  report.mapping = options.mapping;
+  report.device = options.device;
+  const std::filesystem::path folder = options.out / report.subject;
+  make_folder(folder);
+  const std::vector<TrialCondition> conditions =
+      write_conditions(names, find_assets(options.assets), folder);
+  std::vector<Step> steps;
+  for (const std::string& task : tasks) {
+    std::vector<Step> round;
+    for (const TrialCondition& condition : conditions)
+      round.push_back({&condition, task == "pick-and-place"});
+    if (options.seed) shuffle(round, *options.seed);
+    steps.insert(steps.end(), round.begin(), round.end());
+  }
+  for (const Step& step : steps) {
+    report.results.push_back(run_step(options, mapping, step, folder));
+    add_last_to_csv(report, report.csv);  // it stays, whatever happens to the next task
+    if (is_interrupted()) break;
+  }
+  fmt::print("{}", options.json
+                       ? trial_json(report) + "\n"
+                       : "\n" + trial_table(report) + "\nall subjects: " + report.csv + "\n");
+  check_interrupt();
+  return 0;
+}
+
+}  // namespace
+
+Command trial_command() {
+  return {
+      80, "trial",
+      "A protocol with a person: free motion and pick-and-place under torsional springs, linear "
+      "springs, and the kinematic robot alone; a table at the end, and an anonymous CSV\n\n"
+      "Example:  twinarm trial --device gamepad --seed 7",
+      add_options, run_trial};
+}
+
+}  // namespace twinarm

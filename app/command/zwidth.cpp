@@ -1,0 +1,129 @@
+// `twinarm zwidth`: checks its options, measures, writes (docs/hand_force.md).
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <optional>
+
+#include "app/command/command.h"
+#include "app/command/parser/shared_options.h"
+#include "app/plot/gnuplot.h"
+#include "app/support/find_assets.h"
+#include "app/support/interrupt.h"
+#include "app/support/output_file.h"
+#include "app/support/progress.h"
+#include "app/zwidth/zwidth.h"
+#include "solver/support/atomic_file.h"
+
+namespace twinarm {
+namespace {
+
+struct ZwidthOptions {
+  double mass = 0.045, damping = 0.1;           // of the device [kg], [N s/m]
+  double friction = 0.26, resolution = 5.5e-5;  // [N], [m]
+  double rate = 1000;                           // [Hz]
+  int delay = 0;                                // [ticks]
+  double wall_damping = 1;                      // [N s/m]
+  unsigned seed = 1;
+  std::filesystem::path svg, png;  // empty: none
+  bool csv = false, json = false;
+};
+
+void add_options(CLI::App& command, ZwidthOptions& options) {
+  command.add_option("--mass", options.mass, "of the device at the hand [kg]")
+      ->capture_default_str();
+  command.add_option("--damping", options.damping, "of the device [N s/m]")->capture_default_str();
+  command.add_option("--friction", options.friction, "of the device, Coulomb [N]")
+      ->capture_default_str();
+  command.add_option("--resolution", options.resolution, "steps of its encoder [m]")
+      ->capture_default_str();
+  command.add_option("--rate", options.rate, "of its loop [Hz]")->capture_default_str();
+  command.add_option("--delay", options.delay, "from sensor to motor [ticks]")
+      ->capture_default_str();
+  command
+      .add_option("--wall-damping", options.wall_damping,
+                  "of the wall whose largest stable stiffness is told [N s/m]")
+      ->capture_default_str();
+  command.add_option("--seed", options.seed, "of the network and the synthetic hand")
+      ->capture_default_str();
+  add_file_option(command, "--svg", options.svg, "write the plane of K and B, and energies");
+  add_file_option(command, "--png", options.png, "likewise, in pixels");
+  command.add_flag("--csv", options.csv, "print the walls as CSV on stdout");
+  add_json_option(command, options.json);
+}
+
+void check(const ZwidthOptions& options, FaultList& faults) {
+  const auto number = [&](const char* name, double value, bool positive) {
+    if (std::isfinite(value) && (positive ? value > 0 : value >= 0)) return;
+    faults.add({"", 0, name,
+                fmt::format("is {}, must be {}", value, positive ? "positive" : "0 or positive"),
+                positive ? "give a positive number" : "give a number of at least 0"});
+  };
+  number("--mass", options.mass, true);
+  number("--damping", options.damping, false);
+  number("--friction", options.friction, false);
+  number("--resolution", options.resolution, false);
+  number("--rate", options.rate, true);
+  number("--wall-damping", options.wall_damping, false);
+  if (options.delay < 0 || options.delay > 1000)
+    faults.add({"", 0, "--delay", fmt::format("is {} ticks", options.delay),
+                "give a number from 0 to 1000"});
+  for (const auto* file : {&options.svg, &options.png})
+    if (!file->empty()) check_place(*file, faults);
+  const auto ends = [&](const char* option, const std::filesystem::path& file, const char* with) {
+    if (!file.empty() && file.extension() != with)
+      faults.add({file.string(), 0, option, std::string("writes a file that ends in ") + with,
+                  "give it that name"});
+  };
+  ends("--svg", options.svg, ".svg");
+  ends("--png", options.png, ".png");
+  if (options.json && options.csv)
+    faults.add({"", 0, "--csv", "goes not with --json", "leave one of them out"});
+}
+
+int run_zwidth(const ZwidthOptions& options) {
+  FaultList faults;
+  check(options, faults);
+  faults.check();
+  if (!options.svg.empty() || !options.png.empty()) require_gnuplot();
+  SampledDevice device;
+  device.mass = options.mass;
+  device.damping = options.damping;
+  device.friction = options.friction;
+  device.resolution = options.resolution;
+  device.rate = options.rate;
+  device.delay = options.delay;
+  const std::filesystem::path assets = find_assets();
+  Progress progress(false, Progress::kPatience);
+  const Tell tell = [&](double part) {
+    check_interrupt();
+    progress.advance(part);
+  };
+  ZwidthResult result;
+  progress.stage("walls", 0.5);
+  result.walls = measure_walls(device, options.wall_damping, tell);
+  progress.stage("plane of K and B", 0.2);
+  result.plane = measure_plane(device, tell);
+  progress.stage("walls through a coupling", 0.05);
+  result.series = measure_series(tell);
+  progress.stage("delays", 0.15);
+  result.delays = measure_delays(device, options.seed, tell);
+  progress.stage("robots under the hand", 0.1);
+  result.follows = measure_follows(assets, options.seed, tell);
+  if (!options.svg.empty()) write_whole_file(options.svg, zwidth_svg(result));
+  if (!options.png.empty()) write_whole_file(options.png, zwidth_png(result));
+  fmt::print("{}", options.json  ? zwidth_json(result)
+                   : options.csv ? zwidth_csv(result)
+                                 : zwidth_table(result));
+  return 0;
+}
+
+}  // namespace
+
+Command zwidth_command() {
+  return {170, "zwidth",
+          "Walls that a hand device can render, alone, through a coupling and behind a delay\n\n"
+          "Example:  twinarm zwidth --rate 1000 --damping 0.1 --svg zwidth.svg",
+          add_options, run_zwidth};
+}
+
+}  // namespace twinarm

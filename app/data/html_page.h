@@ -1,0 +1,26 @@
+// Pages that are one file: with the style sheet (page_style.h), and nothing from outside.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace twinarm {
+
+struct HtmlPage {
+  std::string title, style;                                   // what it adds to the style sheet
+  std::string header;                                         // this and all below in HTML
+  std::vector<std::pair<std::string, std::string>> contents;  // ids and names
+  std::string main, footer;
+
+  std::string html() const;
+};
+
+// `content`: an image, or an SVG file, which is put into the page. `attributes` of the frame:
+// " class=wide".
+std::string html_figure(const std::string& content, const std::string& caption,
+                        const std::string& attributes = "");
+
+std::string base64_of(const std::string& bytes);
+
+}  // namespace twinarm

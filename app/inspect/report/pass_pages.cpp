@@ -1,0 +1,200 @@
+#include "app/inspect/report/pass_pages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/inspect/displayed_quantities.h"
+#include "app/inspect/equations.h"
+
+namespace twinarm {
+namespace {
+
+// Where several act at the joint, or one that is not its motor: which.
+void write_tau(const Inspection& in, std::size_t i, Sheet& sheet) {
+  std::string who;
+  for (std::size_t dof = in.model.iv[i]; dof < in.model.iv[i] + in.model.dofs(i); ++dof)
+    for (const Actor& actor : in.actors)
+      for (const Actor::OnJoint& on : actor.joints)
+        if (on.dof == dof && on.tau != 0)
+          who +=
+              fmt::format("{}{} {}", who.empty() ? "" : ", ", actor.source, short_number(on.tau));
+  if (!who.empty()) sheet.line(wrapped("      of tau: " + who, 14));
+}
+
+std::string three(const Vector3& v) {
+  return fmt::format("({}, {}, {})", short_number(v.x()), short_number(v.y()), short_number(v.z()));
+}
+
+class PassPage {
+ public:
+  PassPage(const Inspection& in, std::size_t body, double D_error, Sheet& sheet)
+      : in_(in), i_(body), D_error_(D_error), axes_(in, body), sheet_(sheet) {}
+
+  // What no equation makes comes before the next quantity that one makes.
+  void write(int pass) {
+    const std::vector<Shown> all = shown_quantities(in_, pass, i_);
+    const std::vector<Equation> equations = equations_of(in_, pass, i_);
+    auto next = all.begin();
+    for (const Equation& equation : equations) {
+      const auto made = std::find_if(next, all.end(), [&](const Shown& shown) {
+        return equation.name == shown.quantity.name;
+      });
+      if (made != all.end()) {
+        for (; next != made; ++next) write(*next);
+        ++next;
+      }
+      write(equation, made == all.end() ? nullptr : &made->quantity);
+    }
+    for (; next != all.end(); ++next) write(*next);
+  }
+
+ private:
+  std::string unit_of(const Quantity& quantity) const {
+    return quantity.by == Quantity::By::body ? quantity.unit
+                                             : unit_at_joint(in_, i_, quantity.unit);
+  }
+  void heading(const std::string& text, const Quantity* quantity) {
+    if (quantity)
+      sheet_.heading(text, quantity->meaning, unit_of(*quantity));
+    else
+      sheet_.line("  " + text);
+  }
+
+  void write(const Shown& shown) {
+    const std::string name = shown.quantity.name;
+    if (shown.value.size() == 1)
+      return heading(name + " = " + name_of_number(shown.value), &shown.quantity);
+    heading(name, &shown.quantity);
+    if (name == "Xup") {
+      sheet_.line("      r = " + three(axes_.shift_from_parent(in_.w.Xup[i_])) + ",  E =");
+      return sheet_.matrix(axes_.turn_from_parent(in_.w.Xup[i_]));
+    }
+    if (name == "I") write_mass();
+    write_value(name, shown.value, shown.quantity.by == Quantity::By::velocity,
+                shown.value.cwiseAbs());
+  }
+  void write_mass() {
+    const Inertia<double>& I = in_.model.I[i_];
+    const Vector6 h = axes_.show(Force<double>{{}, I.h});
+    const Vector3 com = I.m > 0 ? Vector3(h.tail<3>() / I.m) : Vector3::Zero();
+    sheet_.line(
+        fmt::format("      mass {} kg, centre of mass {} m", short_number(I.m), three(com)));
+  }
+  // `size`: beside which rounding is 0; of six numbers.
+  void write_value(const std::string& name, const Eigen::MatrixXd& value, bool by_columns,
+                   const Eigen::MatrixXd& size) {
+    if (value.rows() != 6 || (value.cols() > 1 && !by_columns))
+      return value.cols() > 1 ? sheet_.matrix(value) : write_numbers(name, value);
+    for (Eigen::Index k = 0; k < value.cols(); ++k)
+      sheet_.row(value.cols() == 1 ? name : fmt::format("{}[{}]", name, k + 1), value.col(k),
+                 size.col(k));
+  }
+  void write_numbers(const std::string& name, const Eigen::VectorXd& values) {
+    sheet_.line(fmt::format("      {:<22}{}", name, name_of_number(values)));
+  }
+
+  void write(const Equation& equation, const Quantity* quantity) {
+    if (equation.value.size() == 1) {
+      heading(equation.text + " = " + sum_of_numbers(equation), quantity);
+    } else {
+      heading(text_of(equation), quantity);
+      write_terms(equation, quantity && quantity->by == Quantity::By::velocity);
+    }
+    if (equation.name == "D")
+      sheet_.line(
+          fmt::format("      the same by the mass matrix (CRBA), but for {:.1e} of it", D_error_));
+    if (equation.name == "u") write_tau(in_, i_, sheet_);
+  }
+  // With the names of other bodies whose numbers come in.
+  std::string text_of(const Equation& equation) const {
+    std::string others;
+    for (const EquationTerm& term : equation.terms)
+      if (term.of != i_ && term.of != in_.parent(i_))
+        others += (others.empty() ? "  of " : ", ") + in_.model.body_name[term.of];
+    return equation.text + others;
+  }
+  static std::string sum_of_numbers(const Equation& equation) {
+    double size = std::abs(equation.value(0, 0));
+    for (const EquationTerm& term : equation.terms)
+      size = std::max({size, std::abs(term.value(0, 0)), term.size});
+    std::string text;
+    for (const EquationTerm& term : equation.terms) {
+      const bool is_minus = term.symbol.starts_with("- ");
+      const std::string number =
+          short_number(is_minus ? -term.value(0, 0) : term.value(0, 0), size);
+      text += text.empty() ? "" : is_minus ? " - " : " + ";
+      text += !text.empty() && number[0] == '-' ? "(" + number + ")" : number;
+    }
+    const std::string sum = short_number(equation.value(0, 0), size);
+    return equation.terms.size() > 1 ? text + " = " + sum : sum;
+  }
+  // Of sums of matrices the sum alone, but for what the body has of them by itself.
+  void write_terms(const Equation& equation, bool by_columns) {
+    if (equation.value.cols() == 1 && equation.value.rows() == 6) return write_sum(equation);
+    if (equation.value.cols() == 1)
+      for (const EquationTerm& term : equation.terms) write_numbers(term.symbol, term.value);
+    Eigen::MatrixXd size = equation.value.cwiseAbs();
+    for (const EquationTerm& term : equation.terms) size = size.cwiseMax(term.size);
+    write_value(equation.name, equation.value, by_columns, size);
+    for (const EquationTerm& term : equation.terms)
+      if (term.symbol == "impedance") {
+        sheet_.heading("of it impedance", term.words, "");
+        sheet_.matrix(term.value);
+      }
+  }
+  void write_sum(const Equation& equation) {
+    std::vector<std::pair<std::string, Vector6>> terms;
+    double made_of = 0;
+    for (const EquationTerm& term : equation.terms) {
+      const bool is_own = term.of == i_ || term.of == in_.parent(i_);
+      terms.emplace_back(is_own ? term.symbol : "of " + in_.model.body_name[term.of], term.value);
+      made_of = std::max(made_of, term.size);
+    }
+    sheet_.sum(terms, equation.name, equation.value, Vector6::Constant(made_of));
+  }
+
+  const Inspection& in_;
+  std::size_t i_;
+  double D_error_;
+  LinkAxes axes_;
+  Sheet& sheet_;
+};
+
+}  // namespace
+
+std::string name_of_number(const Eigen::VectorXd& v) {
+  if (v.size() == 1) return short_number(v[0], std::abs(v[0]));
+  std::string text = "(";
+  for (Eigen::Index k = 0; k < v.size(); ++k)
+    text += (k ? ", " : "") + short_number(v[k], v.lpNorm<Eigen::Infinity>());
+  return text + ")";
+}
+
+std::string unit_at_joint(const Inspection& in, std::size_t body, std::string_view unit) {
+  if (in.model.dofs(body) > 1) return "";
+  const std::size_t end = unit.find("; ");
+  if (end == std::string_view::npos) return std::string(unit);
+  return std::string(in.model.joint[body] == JointType::prismatic ? unit.substr(end + 2)
+                                                                  : unit.substr(0, end));
+}
+
+void write_body_head(const Inspection& in, std::size_t i, Sheet& sheet) {
+  const std::string& joint = in.model.joint_name[i];
+  std::string text = "\n" + in.model.body_name[i];
+  text += fmt::format(", carried by {} ({}) on {}", joint.empty() ? "the base" : joint,
+                      name_of(in.model.joint[i]), in.model.body_name[in.parent(i)]);
+  if (in.model.dofs(i) == 1) {
+    const std::string unit = unit_at_joint(in, i, "rad; m");
+    text += fmt::format("    q = {} {}, qd = {} {}/s", short_number(in.x.q[in.model.iq[i]]), unit,
+                        short_number(in.x.qd[in.model.iv[i]]), unit);
+  }
+  sheet.line(text);
+}
+
+void write_pass(const Inspection& in, int pass, std::size_t body, double D_error, Sheet& sheet) {
+  PassPage(in, body, D_error, sheet).write(pass);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,58 @@
+// The run and its variants, stepped by wall time in bursts, by the hand as it is then; in a branch,
+// as long as it is known, by what the hand did then. Of the run's thread.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "app/lab/run/lab_run.h"
+#include "app/lab/run/variants.h"
+#include "app/lab/session/pace.h"
+#include "app/lab/session/timeline.h"
+
+namespace twinarm {
+
+class RunLoop {
+ public:
+  using Clock = std::chrono::steady_clock;
+  explicit RunLoop(Timeline& timeline) : timeline_(timeline) {}
+
+  // From now on this run, which goes on from `from` (null: from the scene's start).
+  void begin(std::unique_ptr<LabRun> run, LabLanes lanes);
+  LabRun& run() { return *run_; }
+  LabNames& names() { return names_; }
+  LabFrame frame();  // of the run and its variants
+  std::vector<std::string> take_warnings() { return lanes_.take_words(); }
+
+  void set_pace(double speed) { pace_.begin(Clock::now(), run_->time(), speed); }
+  double pace_factor() { return pace_.factor(Clock::now(), run_->time()); }
+  void step_once(long times) { steps_left_ = times; }
+  bool has_single_steps() const { return steps_left_ > 0; }
+  // The inputs of the branch that was left come again, while they are known, or no longer.
+  void repeat_inputs(bool on) { repeats_ = on; }
+  // The single steps, or those that are due, but no longer than a burst; `after` is called after
+  // each. False: the run goes on no more.
+  bool take_steps(const std::function<void()>& after);
+
+  struct Cost {                    // processor time since this was asked last [s]
+    double mean = 0, longest = 0;  // of a step
+  };
+  Cost take_cost();
+
+ private:
+  bool take_step();
+
+  Timeline& timeline_;
+  std::unique_ptr<LabRun> run_;
+  LabLanes lanes_;
+  LabNames names_;
+  Pace pace_;
+  long steps_left_ = 0;
+  bool repeats_ = false;
+  double cpu_ = 0, longest_cpu_ = 0;  // [s]
+  long steps_ = 0;                    // that took cpu_
+};
+
+}  // namespace twinarm

@@ -1,0 +1,128 @@
+// What else acts on the body: along its joint, in contacts, in joules; and what a pass has found so
+// far.
+import type { CallStep, Neighbour } from '../protocol/body_inspection';
+import type { JointBalance, NamedForce, Quantity } from '../protocol/inspection';
+import { NUMERICAL } from '../protocol/run';
+import { EnergyTable, inOrder } from '../panels/energy';
+import { element, largestOf, short, unitText } from '../ui/dom';
+import { numberCell, row, table } from '../ui/table';
+import { math, source } from './math';
+import { quantityCard } from './quantity';
+
+function numbers(values: number[], scale = 0): HTMLElement[] {
+  return values.map((value) => numberCell(value, scale));
+}
+
+export function jointTables(balances: JointBalance[], unit: string): HTMLElement[] {
+  return balances.map(({ joint, component, torques, residual }) => {
+    const name = balances.length > 1 ? `${joint}, ${component + 1}` : joint;
+    const most = largestOf(torques.map(({ value }) => value));
+    const rows = torques.map(({ source: who, value }) => row(who, numberCell(value, most)));
+    return element(
+      'div',
+      {},
+      table([`along ${name || 'its joint'}`, `[${unitText(unit)}]`], rows),
+      element('p', { class: 'hint' }, `They add up to ${short(residual)} of the largest.`),
+    );
+  });
+}
+
+// The normal as it comes out of the other body: what presses goes along it.
+export function contactTables(forces: NamedForce[], body: string): HTMLElement[] {
+  return forces
+    .filter((force) => force.axis && force.on.some((on) => on.body === body))
+    .map(({ source: name, point, axis, normal, friction, on }) => {
+      const { force } = on.find((end) => end.body === body)!;
+      const along = force.reduce((sum, part, k) => sum + part * axis![k], 0);
+      const outward = axis!.map((part) => (along < 0 ? -part : part) + 0);
+      const line = (what: string, values: number[]) => row(what, ...numbers(values, largestOf(values)));
+      const share = normal ? `, ${short((friction ?? 0) / normal)} of it` : '';
+      return element(
+        'div',
+        { class: 'contact', 'data-contact': name },
+        element('h4', {}, name.replace('contact/', '')),
+        element('p', {}, `presses with ${short(normal)} N, rubs with ${short(friction)} N${share}`),
+        table(
+          ['world axes', 'x', 'y', 'z'],
+          [line('point [m]', point ?? []), line('normal', outward), line('force [N]', force)],
+        ),
+      );
+    });
+}
+
+// The largest first; what did no work is only counted.
+export function energyTable(ledger: Record<string, number>): HTMLElement {
+  const all = Object.entries(ledger);
+  const rows = inOrder(all.filter(([name, work]) => work !== 0 || name === NUMERICAL));
+  const made = new EnergyTable(rows.map(([name]) => name));
+  const works = rows.map(([, work]) => work);
+  made.show(works, largestOf(works));
+  const idle = all.length - rows.length;
+  const words = idle > 0 ? `${idle} more did no work.` : '';
+  return element('div', {}, made.root, element('p', { class: 'hint' }, words));
+}
+
+const length = (values: number[]) => Math.hypot(...values);
+// Of several velocities the units differ.
+const one = (value: unknown) => (typeof value === 'number' ? value : NaN);
+// Of each pass, what a glance at a body tells.
+const TOLD: Record<number, { of: string; heads: string[]; read: (value: never) => number[] }[]> = {
+  1: [
+    {
+      of: 'v',
+      heads: ['|w| [rad/s]', '|v| [m/s]'],
+      read: (v: number[]) => [length(v.slice(0, 3)), length(v.slice(3))],
+    },
+  ],
+  2: [
+    { of: 'D', heads: ['D'], read: (D: unknown) => [one(D)] },
+    { of: 'u', heads: ['u'], read: (u: unknown) => [one(u)] },
+  ],
+  3: [
+    { of: 'qdd', heads: ["q''"], read: (qdd: unknown) => [one(qdd)] },
+    { of: 'acceleration', heads: ['|acceleration| [m/s²]'], read: (a: number[]) => [length(a)] },
+  ],
+};
+
+// Row by row as the call goes on: what comes later is not known yet.
+export function soFar(rows: CallStep[], body: string): HTMLElement {
+  const { pass } = rows[0];
+  const at = rows.findIndex((step) => step.body === body);
+  const told = TOLD[pass];
+  const lines = rows.map((step, i) => {
+    const cells = told.flatMap(({ of, heads, read }) => {
+      const found = step.quantities.find(({ name }) => name === of);
+      if (i > at) return heads.map(() => element('td', { class: 'number later' }, '·'));
+      return numbers(found ? read(found.value as never) : heads.map(() => NaN));
+    });
+    const name = element('button', { type: 'button', 'data-body': step.body }, step.body);
+    const line = row([name], ...cells);
+    if (i === at) line.setAttribute('aria-current', 'step');
+    return line;
+  });
+  return table(['', ...told.flatMap(({ heads }) => heads)], lines);
+}
+
+// What the pass takes from the bodies beside this one, in their own axes.
+const TAKEN: Record<number, string[]> = { 1: ['v'], 2: ['Xup', 'Ia', 'pa'], 3: ['a'] };
+export function neighbourCards(neighbours: Neighbour[], pass: number): HTMLElement[] {
+  return neighbours
+    .map(({ body, is, quantities }): [string, Quantity[]] => [
+      `${is} ${body}`,
+      quantities.filter(({ name }) => TAKEN[pass].includes(name)),
+    ])
+    .filter(([, quantities]) => quantities.length > 0)
+    .map(([title, quantities]) =>
+      element(
+        'div',
+        { class: 'neighbour' },
+        element('h4', {}, title, element('span', {}, ' in its own axes')),
+        ...quantities.map((quantity) =>
+          quantityCard(quantity, {
+            symbol: math(quantity.name),
+            equation: source(quantity.equation),
+          }),
+        ),
+      ),
+    );
+}

@@ -1,0 +1,293 @@
+// The lab's page: a run that goes on elsewhere, seen and moved from here. This file holds together
+// the connection, the view, the hand and the panels; once a picture it takes the newest of
+// everything that has come, and nothing older.
+import '../ui/style.css';
+import { Inspector } from '../inspector/inspector';
+import { Controller } from '../input/gamepad';
+import { Drag, type Seen } from '../input/drag';
+import { Operator } from '../input/operator';
+import { Handles } from '../input/handles';
+import { KeyInput } from '../input/key_input';
+import { isKept, labKeys, MOUSE } from './lab_keys';
+import * as wire from '../source/link';
+import { LiveStage } from '../view/live_stage';
+import { remember, remembered } from '../ui/memory';
+import { Overlays } from '../view/overlays';
+import type { LabPage, Listener, Panel, PanelSet } from '../panels/panel';
+import { panelsOf } from '../panels/panels';
+import { Picture } from '../view/picture';
+import { Pace } from '../view/pace';
+import { Views } from '../view/views';
+import { Hints } from '../panels/hints';
+import { button, element, icon } from '../ui/dom';
+import { LiveRun } from '../source/live_run';
+import { help, listen, pageHeader, PLOTS } from '../ui/keys';
+import { Tabs } from '../ui/tabs';
+import { Theme } from '../ui/theme';
+import type { Arrow } from '../view/arrows';
+import type { ViewName } from '../view/stage';
+import './lab.css'; // last: it changes what parts look like under fingers
+
+const TABS = ['Knobs', 'Plots', 'Glass', 'Ledger'];
+// Commands that need no hand.
+const FREE = new Set(['layers', 'glass', 'look', 'take']);
+
+class Page implements LabPage {
+  scene: wire.SceneMessage | null = null;
+  state: wire.StateMessage | null = null;
+  frame: wire.Frame | null = null;
+  selected: number | null = null;
+  readonly link: wire.Link;
+  readonly hand: Operator;
+  readonly live: LiveStage;
+  readonly overlays = new Overlays(() => this.sendLayers());
+  readonly views = new Views((name) => this.look(name), () => this.touch());
+  readonly pace = new Pace();
+  private readonly run = new LiveRun(this);
+  private readonly words = new Hints();
+  private readonly host = element('div', { class: 'stage' });
+  private readonly handles: Handles;
+  readonly drag: Drag;
+  private readonly keys: KeyInput;
+  private readonly controller: Controller;
+  private readonly picture: Picture | null;
+  private readonly tabs = new Tabs();
+  private readonly theme: Theme;
+  private readonly set: PanelSet;
+  private readonly panels: Panel[];
+  private readonly listeners: Listener[]; // the run first: panels read it
+  private readonly title = element('h1', {}, 'twinarm lab');
+  private readonly file = element('p', {});
+  private readonly arrowsOf = new Map<string, Arrow[]>();
+  private stale = true;
+
+  constructor() {
+    const over = element('div', { class: 'handles' });
+    const labels = element('div', { class: 'labels', 'aria-hidden': 'true' });
+    this.host.append(labels, over);
+    this.theme = new Theme(() => this.recolor());
+    this.live = new LiveStage(this.host, { labels, handles: over }, () => this.touch());
+    this.handles = new Handles(over);
+    this.link = new wire.Link(socketAddress(), (open) => this.connected(open));
+    this.hand = new Operator(this.link, () => this.state, (words) => this.say(words));
+    this.drag = new Drag(this.host, () => this.seen(), this.hand, this.handles, {
+      select: (body) => this.select(body),
+      changed: () => this.touch(),
+    });
+    this.keys = new KeyInput(() => this.known(), this.hand, this.handles, this.drag, () => this.touch());
+    this.controller = new Controller(this.hand, (words) => this.say(words));
+    this.picture = this.live.canDraw ? null : new Picture();
+    this.set = panelsOf(this, this.run);
+    const inspector = new Inspector(this);
+    const { knobs, plots, ledger, time, hand, gallery, dead } = this.set;
+    this.panels = [knobs, plots, inspector, ledger, time, hand, gallery, dead];
+    this.listeners = [this.run, ...this.panels];
+    [knobs, plots, inspector, ledger].forEach((panel, i) => this.tabs.add(TABS[i], panel.root));
+    this.build();
+    const theme = remembered<boolean | null>('dark', null);
+    if (theme !== null) this.theme.set(theme);
+    this.recolor();
+    requestAnimationFrame((now) => this.tick(now));
+  }
+
+  get holds(): boolean {
+    return this.hand.holds;
+  }
+
+  send(command: wire.Command): boolean {
+    if (!FREE.has(command.do) && !this.hand.claim()) return false;
+    return this.link.send(command);
+  }
+
+  select(body: number | null): void {
+    if (body === this.selected) return;
+    this.selected = body;
+    this.host.dataset.selected = body === null ? '' : (this.scene?.bodies[body]?.name ?? '');
+    for (const panel of this.panels) panel.onSelect?.(body);
+    this.touch();
+  }
+
+  say(words: string): void {
+    this.words.say(words);
+  }
+
+  arrows(owner: string, arrows: Arrow[]): void {
+    this.arrowsOf.set(owner, arrows);
+    this.live.stage?.arrows.set([...this.arrowsOf.values()].flat());
+    this.touch();
+  }
+
+  showTab(title: string): void {
+    this.fold(false);
+    this.tabs.show(Math.max(0, TABS.indexOf(title)));
+    for (const panel of this.panels) panel.onTheme?.();
+  }
+
+  private build(): void {
+    const { knobs: _, ...set } = this.set;
+    const gallery = set.gallery.root as HTMLDialogElement;
+    const keys = labKeys({
+      page: this,
+      panels: this.set,
+      live: this.live,
+      overlays: this.overlays,
+      hand: this.hand,
+      keys: this.keys,
+      look: (name) => this.look(name),
+      followNext: () => this.views.next(this.selected),
+      isTab: (title) => !this.folded && this.tabs.current === TABS.indexOf(title),
+      togglePanel: () => this.fold(!this.folded),
+      toggleTheme: () => this.toggleTheme(),
+    });
+    const dialog = help(keys, `${MOUSE} ${PLOTS}`);
+    const scenes = button(icon('gallery'), 'scenes (e)', () => gallery.showModal(), 'words');
+    scenes.append('Scenes');
+    const header = pageHeader([this.title, this.file, scenes], dialog, () => this.toggleTheme());
+    header.append(button(icon('panel'), 'the panel (\\)', () => this.fold(!this.folded)));
+    this.host.append(
+      ...(this.picture ? [this.picture.root] : []),
+      element('div', { class: 'corner' }, this.overlays.root, this.overlays.legend),
+      this.views.root,
+      element('div', { class: 'foot' }, this.words.look, this.words.again, this.words.hint, this.words.spoken),
+      element('div', { class: 'hand-corner' }, set.hand.root),
+      this.words.banner,
+      set.dead.root,
+    );
+    this.host.addEventListener('pointerdown', ({ target }) => {
+      if (target instanceof HTMLCanvasElement || target === this.handles.tip) this.words.fold(true);
+    });
+    document.body.classList.add('lab');
+    document.body.append(
+      header,
+      element('main', {}, this.host, set.time.root, this.tabs.root),
+      gallery,
+      dialog,
+    );
+    listen(keys, isKept);
+    this.fold(remembered('folded', false));
+  }
+
+  private get folded(): boolean {
+    return document.body.classList.contains('folded');
+  }
+  private fold(folded: boolean): void {
+    document.body.classList.toggle('folded', folded);
+    remember('folded', folded);
+  }
+
+  private toggleTheme(): void {
+    this.theme.toggle();
+    remember('dark', this.theme.dark);
+  }
+
+  private recolor(): void {
+    this.live?.setTheme(this.theme.dark);
+    for (const panel of this.panels ?? []) panel.onTheme?.();
+    this.touch();
+  }
+
+  private look(name: ViewName): void {
+    this.views.body = null;
+    this.live.stage?.look(name);
+  }
+
+  private touch(): void {
+    this.stale = true;
+  }
+
+  private known() {
+    const { scene, frame } = this;
+    return scene && frame ? { scene, frame, stage: this.live.stage } : null;
+  }
+  private seen(): Seen | null {
+    const known = this.known();
+    return known?.stage ? { ...known, stage: known.stage } : null;
+  }
+
+  private connected(open: boolean): void {
+    this.words.connection(open);
+    if (!open) return;
+    this.sendLayers();
+  }
+
+  private sendLayers(): void {
+    this.link.send({ do: 'layers', names: this.overlays.names });
+    this.touch();
+  }
+
+  private tick(now: number): void {
+    requestAnimationFrame((next) => this.tick(next));
+    this.controller.poll();
+    this.drag.tick();
+    this.hand.flush();
+    this.takeNews(this.link.take());
+    if (this.stale && this.frame) this.paint(this.frame, now);
+    this.picture?.tick(now);
+    this.words.tick(now, (!this.drag.held && this.keys.hint) || this.drag.hint);
+    for (const panel of this.panels)
+      if (panel.draw && !(panel.root.closest('[hidden]') || (this.folded && panel.root.closest('aside'))))
+        panel.draw();
+  }
+
+  private takeNews({ scene, state, glass, frame }: wire.News): void {
+    if (scene) this.takeScene(scene);
+    if (state) {
+      const asked = this.state?.asked.includes(this.state.you);
+      this.state = state;
+      if (asked && this.holds) this.say('The hand is yours now.');
+      for (const listener of this.listeners) listener.onState?.(state);
+    }
+    if (glass) for (const panel of this.panels) panel.onGlass?.(glass);
+    if (frame && frame.scene === this.scene?.scene) this.takeFrame(frame);
+  }
+
+  private takeScene(scene: wire.SceneMessage): void {
+    if (scene.scene !== this.scene?.scene) {
+      this.frame = null;
+      this.select(null);
+      this.keys.leave();
+    }
+    if (!this.scene) performance.mark('scene is here');
+    this.scene = scene;
+    document.title = `${scene.title} · twinarm lab`;
+    this.title.textContent = scene.title;
+    this.file.textContent = scene.file;
+    this.views.show(scene.bodies);
+    this.overlays.show(scene);
+    this.words.show(scene);
+    void this.live.show(scene);
+    for (const listener of this.listeners) listener.onScene?.(scene);
+  }
+
+  private takeFrame(frame: wire.Frame): void {
+    this.frame = frame;
+    this.stale = true;
+    for (const listener of this.listeners) listener.onFrame?.(frame);
+  }
+
+  private paint(frame: wire.Frame, now: number): void {
+    this.stale = false;
+    const { selected } = this;
+    this.live.paint(frame, this.overlays.shown, { selected, followed: this.views.body });
+    if (this.views.body !== null) this.stale = false; // that moved the camera, and is drawn now
+    const seen = this.seen();
+    if (seen) this.drag.draw(seen, this.keys);
+    this.hand.painted(frame);
+    if (this.pace.painted(now) && !frame.stands) this.live.coarsen();
+    if (this.live.isReady && document.documentElement.dataset.ready !== 'true') {
+      document.documentElement.dataset.ready = 'true';
+      performance.mark('first frame');
+    }
+  }
+}
+
+function socketAddress(): string {
+  const address = new URL('/live', location.href);
+  address.protocol = address.protocol.replace('http', 'ws');
+  return address.href;
+}
+
+// Marks on the way to the first frame: scripts/measure/lab_first_frame.
+performance.mark('script runs');
+Object.assign(window, { twinarm: { page: new Page() } });
+performance.mark('page is built');

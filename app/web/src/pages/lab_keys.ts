@@ -1,0 +1,129 @@
+// The keyboard of the lab: everything that a mouse can do.
+import { clockKeys, key, viewKeys, type Key } from '../ui/keys';
+import type { ViewName } from '../view/stage';
+import type { Operator } from '../input/operator';
+import type { KeyInput } from '../input/key_input';
+import type { LabPage, PanelSet } from '../panels/panel';
+import type { Overlays } from '../view/overlays';
+import type { LiveStage } from '../view/live_stage';
+
+export interface KeyTargets {
+  page: LabPage;
+  panels: PanelSet;
+  live: LiveStage;
+  overlays: Overlays;
+  hand: Operator;
+  keys: KeyInput;
+  look(name: ViewName): void;
+  followNext(): void;
+  isTab(title: string): boolean;
+  togglePanel(): void;
+  toggleTheme(): void;
+}
+
+const FRAME = 1 / 60; // [s]
+
+export function labKeys(at: KeyTargets): Key[] {
+  return [...runKeys(at), ...handKeys(at), ...pictureKeys(at), ...pageKeys(at)];
+}
+
+function runKeys({ page, panels, isTab }: KeyTargets): Key[] {
+  const step = () => {
+    if (!isTab('Glass')) page.send({ do: 'step', steps: 1 }); // else a step of the call
+  };
+  return [
+    ...clockKeys(panels.time),
+    key(['.'], '.', 'one step of the run (beside the Glass: of the call; , back)', step),
+    key(['End'], 'End', 'back to now', () => panels.time.seek(Infinity)),
+    key(['b'], 'b', 'branch from this instant', () => panels.time.askBranch()),
+  ];
+}
+
+// Arrows move what the hand has; without it they look back in time.
+function handKeys({ page, panels, hand, keys }: KeyTargets): Key[] {
+  const move = (right: number, up: number, away: number) => (event: KeyboardEvent) => {
+    if (keys.isOn) return keys.move(right, up, away, event.shiftKey);
+    const { state } = page;
+    if (!state || right === 0) return;
+    panels.time.seek((state.at ?? state.last) + right * (event.shiftKey ? 0.5 : FRAME));
+  };
+  return [
+    key(['h'], 'h', 'the hand: arrows move the tip, page up and down away and toward', () =>
+      keys.focusTip(),
+    ),
+    key(['j'], 'j', 'the next joint: arrows turn it', () => keys.nextJoint()),
+    key(['x'], 'x', 'a spring at the selected body: arrows pull; x lets go', () =>
+      keys.togglePull(page.selected),
+    ),
+    key(['ArrowLeft'], '← →', 'else: back and on in time; with shift half a second', move(-1, 0, 0)),
+    key(['ArrowRight'], '', '', move(1, 0, 0)),
+    key(['ArrowUp'], '', '', move(0, 1, 0)),
+    key(['ArrowDown'], '', '', move(0, -1, 0)),
+    key(['PageUp'], '', '', move(0, 0, 1)),
+    key(['PageDown'], '', '', move(0, 0, -1)),
+    key(['g'], 'g', 'gripper', () => {
+      if (hand.button(0, !hand.grip)) page.say(hand.grip ? 'The gripper is closed.' : 'The gripper is open.');
+    }),
+    key(['c'], 'c', 'clutch', () => {
+      if (hand.button(1, !hand.clutch)) page.say(hand.clutch ? 'The clutch is pressed.' : 'The clutch is released.');
+    }),
+  ];
+}
+
+function pictureKeys({ page, live, overlays, look, followNext, toggleTheme }: KeyTargets): Key[] {
+  const selectNext = (by: number) => () => {
+    const { scene } = page;
+    if (!scene) return;
+    const moving = scene.bodies.flatMap(({ moves }, i) => (moves ? [i] : []));
+    const at = page.selected === null ? -1 : moving.indexOf(page.selected);
+    page.select(moving[(at + by + moving.length) % moving.length] ?? null);
+  };
+  return [
+    key(['m'], 'm', 'select the next body; with shift the one before', selectNext(1)),
+    key(['M'], '', '', selectNext(-1)),
+    ...viewKeys({
+      orbit: (...by) => live.stage?.orbit(...by),
+      look,
+      followNext,
+      toggleLayer: (number) => overlays.toggleNumber(number),
+      toggleTheme,
+    }),
+    key(['o'], 'o', 'what is shown', () => overlays.fold(!overlays.folded)),
+  ];
+}
+
+function pageKeys({ page, panels, keys, overlays, togglePanel }: KeyTargets): Key[] {
+  const tabs: [string, string][] = [['n', 'Knobs'], ['p', 'Plots'], ['i', 'Glass'], ['l', 'Ledger']];
+  const leave = () => {
+    if (!overlays.folded) overlays.fold(true);
+    else if (keys.isOn) keys.leave();
+    else page.select(null);
+  };
+  return [
+    ...tabs.map(([letter, title], i) =>
+      key([letter], i === 0 ? 'n p i l' : '', 'knobs, plots, glass, ledger', () => page.showTab(title)),
+    ),
+    key(['\\'], '\\', 'fold the panel away', togglePanel),
+    key(['e'], 'e', 'scenes', () => (panels.gallery.root as HTMLDialogElement).showModal()),
+    key(['Escape'], 'Esc', 'lets go of the hand, of the selection', leave),
+  ];
+}
+
+// Sliders, tabs and dialogs keep the keys that they know.
+export function isKept(event: KeyboardEvent): boolean {
+  const at = event.target;
+  if (!(at instanceof Element)) return false;
+  if (at.closest('dialog[open]') || document.querySelector('dialog:modal')) return true;
+  const moves = /^(Arrow|Page|Home|End)/.test(event.key);
+  if (at instanceof HTMLInputElement && at.type === 'range') return moves;
+  if (at.closest('[role=radiogroup], [role=tablist], [role=slider], details[open]'))
+    return moves || event.key === 'Escape';
+  return at.closest('summary') !== null && (event.key === ' ' || event.key === 'Enter');
+}
+
+export const MOUSE =
+  'Mouse: the ring at the tip leads the robot, its ghost turns joint by joint, a solid body is ' +
+  'pulled by a spring; a click selects it. Elsewhere dragging turns the view, the right button ' +
+  'moves it, the wheel zooms; with Alt, everywhere. While dragging, shift goes straight up and ' +
+  'down, the wheel nearer and farther. One finger is a mouse, two move and zoom the view. A game ' +
+  'controller moves the hand: left stick right and toward, right stick up and yaw, first button grips.';

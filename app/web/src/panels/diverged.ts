@@ -1,0 +1,112 @@
+// When the run has stopped by itself: what, where, why, and what would have held.
+import './diverged.css';
+import { button, element } from '../ui/dom';
+import { watches, type Death, type StateMessage } from '../source/link';
+import type { LabPage, Panel } from './panel';
+import { sign } from '../ui/sign';
+import type { Rewind } from '../source/rewind';
+
+const BEFORE = 1; // a remedy goes back so far [s]
+const SLOW = 0.1; // of the last second, when it is looked at
+
+export class Diverged implements Panel {
+  readonly root = element('section', {
+    class: 'post-mortem',
+    role: 'alertdialog',
+    'aria-label': 'the run has stopped',
+  });
+  private shown = '';
+  private away = false; // put aside
+  private before: Element | null = null; // had the focus
+
+  constructor(
+    private readonly page: LabPage,
+    private readonly rewind: Rewind,
+  ) {
+    this.root.hidden = true;
+    this.root.tabIndex = -1;
+    this.root.addEventListener('keydown', (event) => {
+      if (event.key !== 'Escape') return;
+      this.hide();
+      event.stopPropagation();
+    });
+  }
+
+  onState(state: StateMessage): void {
+    const { dead, first, at } = state;
+    // While the past is seen, the card makes room.
+    this.root.classList.toggle('small', at !== null);
+    const isWatching = watches(state);
+    const wanted = JSON.stringify([dead, isWatching]);
+    if (wanted === this.shown) return;
+    const isNew = dead !== null && this.root.hidden;
+    if (!dead) this.giveBack();
+    if (this.shown === '' || JSON.parse(this.shown)[0]?.time !== dead?.time) this.away = false;
+    this.shown = wanted;
+    this.root.hidden = dead === null || this.away;
+    if (!dead) return;
+    this.root.replaceChildren(...this.content(dead, first, isWatching));
+    if (!isNew || this.away) return;
+    this.before = document.activeElement;
+    this.root.focus({ preventScroll: true });
+  }
+
+  // The focus, to where it was.
+  private giveBack(): void {
+    const { before } = this;
+    if (!this.root.contains(document.activeElement)) return;
+    const play = document.querySelector<HTMLElement>('.transport .play');
+    (before instanceof HTMLElement && before !== document.body ? before : play)?.focus();
+  }
+
+  private hide(): void {
+    this.away = true;
+    this.giveBack();
+    this.root.hidden = true;
+  }
+
+  private content(dead: Death, first: number, isWatching: boolean): Node[] {
+    const [headline, ...rest] = dead.words;
+    const facts = element('dl');
+    const fact = (name: string, value: string | undefined) => {
+      if (value) facts.append(element('div', {}, element('dt', {}, name), element('dd', {}, value)));
+    };
+    fact('when', `${dead.time.toFixed(3)} s`);
+    fact('quantity', dead.quantity);
+    fact('body', dead.body);
+    fact('spring', dead.spring);
+    const back = Math.max(first, Math.min(dead.from, dead.time - BEFORE));
+    const remedies = dead.remedies.map(({ words, changes }, i) => {
+      const made = element('button', { type: 'button', class: i === 0 ? 'main' : '' }, words);
+      made.title = `goes back ${(dead.time - back).toFixed(1)} s with ${changes.join(', ')}`;
+      made.disabled = isWatching;
+      made.addEventListener('click', () => this.mend(back, changes));
+      return made;
+    });
+    const look = button('Look at the last second, slowly', 'at a tenth of the speed', () =>
+      this.rewind.play(back, SLOW, dead.time),
+    );
+    const again = button('Begin anew', 'from the start, as it is', () =>
+      this.page.send({ do: 'reset' }),
+    );
+    again.disabled = isWatching;
+    const close = button('×', 'put aside (Escape)', () => this.hide(), 'close');
+    const title = element('h2', {}, headline ?? 'The run has stopped');
+    const parts: Node[] = [
+      element('header', {}, sign('beyond'), title, close),
+      ...rest.map((line) => element('p', {}, line)),
+      facts,
+    ];
+    if (remedies.length > 0)
+      parts.push(
+        element('h3', {}, `What holds, from ${(dead.time - back).toFixed(1)} s before`),
+        element('div', { class: 'remedies' }, ...remedies),
+      );
+    return [...parts, element('div', { class: 'ends' }, look, again)];
+  }
+
+  private mend(at: number, changes: string[]): void {
+    this.rewind.seek(null);
+    this.page.send({ do: 'branch', at, changes }); // which goes on by itself
+  }
+}

@@ -1,0 +1,92 @@
+// The energy balance: the work of each row since the start, at the instant that is shown.
+import { NUMERICAL } from '../protocol/run';
+import type { RunRecord } from '../source/run_record';
+import type { RunSource } from '../source/run_source';
+import { element } from '../ui/dom';
+import { numberCell, putNumber, row, table } from '../ui/table';
+import type { Panel } from './panel';
+
+const DRAW = 60; // numbers that run faster cannot be read [ms]
+const rank = (name: string) => (name === NUMERICAL ? 1 : 0);
+
+// In the order in which they stand in a table: the remainder is last.
+export function inOrder(works: [string, number][]): [string, number][] {
+  return [...works].sort(
+    ([a, x], [b, y]) => rank(a) - rank(b) || (Math.abs(y) || 0) - (Math.abs(x) || 0),
+  );
+}
+
+export class EnergyTable {
+  readonly root: HTMLTableElement;
+  private readonly cells: { now: HTMLElement; bar: HTMLElement }[];
+  private readonly sum = numberCell(0);
+
+  // `digits`: below the names.
+  constructor(names: string[], head = 'work since the start', digits?: string[]) {
+    this.cells = names.map(() => ({ now: numberCell(0), bar: element('i') }));
+    const rows = this.cells.map(({ now, bar }, i) => {
+      const below = digits ? [element('small', { 'data-row': names[i], title: 'at the end' }, digits[i])] : [];
+      return row([names[i], ...below], now, element('td', { class: 'bar' }, bar));
+    });
+    const foot = row('their sum: rise of kinetic energy', this.sum, element('td'));
+    this.root = table([head, 'now [J]', ''], rows, { class: 'energy' }, foot);
+  }
+
+  show(works: number[], largest: number): void {
+    works.forEach((work, i) => {
+      const { now, bar } = this.cells[i];
+      putNumber(now, work, largest);
+      bar.className = work < 0 ? 'minus' : 'plus';
+      bar.style.width = `${(50 * Math.abs(work)) / Math.max(largest, 1e-300)}%`;
+    });
+    putNumber(this.sum, works.reduce((sum, work) => sum + work, 0), largest);
+  }
+}
+
+export class EnergyPanel implements Panel {
+  readonly root = element('section', { class: 'ledger' });
+  private readonly host = element('div');
+  private table: EnergyTable | null = null;
+  private record: RunRecord | null = null;
+  private columns: number[] = [];
+  private drawn = '';
+  private drawnAt = -Infinity;
+
+  constructor(private readonly source: RunSource) {
+    const hint =
+      'Each row is the work that something has done. The rows add up to the rise of kinetic ' +
+      'energy; “numerical” is what is left over, the integrator’s error. All digits stand at ' +
+      'the pointer.';
+    this.root.append(element('h3', {}, 'Energy'), element('p', { class: 'hint' }, hint), this.host);
+    if (source.record) this.take(source.record);
+  }
+
+  draw(): void {
+    const { record, at } = this.source;
+    const now = performance.now();
+    if (!record || record.store.length === 0 || now - this.drawnAt < DRAW) return;
+    if (record !== this.record) this.take(record);
+    const wanted = `${record.version} ${at}`;
+    if (wanted === this.drawn) return;
+    this.drawn = wanted;
+    this.drawnAt = now;
+    const { store, low, high } = record;
+    const shown = Math.max(0, at === null ? store.length - 1 : store.after(at + 1e-9) - 1);
+    const largest = Math.max(...this.columns.map((column) => Math.max(high[column], -low[column])));
+    this.table!.show(this.columns.map((column) => store.value(column, shown)), largest);
+  }
+
+  // Of a run that goes on the rows stay where they are, else the largest at the end is first.
+  private take(record: RunRecord): void {
+    this.record = record;
+    const { store, scene, works } = record;
+    const { isLive } = this.source;
+    const end = (i: number) => store.value(works + i, store.length - 1);
+    const rows = inOrder(scene.ledger.map((name, i) => [name, isLive ? 0 : end(i)]));
+    this.columns = rows.map(([name]) => works + scene.ledger.indexOf(name));
+    const head = isLive ? undefined : 'work, and below it all digits of the end [J]';
+    const digits = isLive ? undefined : rows.map(([, work]) => String(work));
+    this.table = new EnergyTable(rows.map(([name]) => name), head, digits);
+    this.host.replaceChildren(this.table.root);
+  }
+}

@@ -1,0 +1,162 @@
+// The time bar of a run that goes on: single steps, going back, branches, files.
+import { button, element, icon } from '../ui/dom';
+import { BranchDialog } from './branch_dialog';
+import { watches, type Frame, type StateMessage } from '../source/link';
+import type { LabPage, Panel } from './panel';
+import { Rewind } from '../source/rewind';
+import { SaveMenu } from './save_menu';
+import { speedText, TimeBar, type Clock } from './time_bar';
+
+const REAL_TIME = 0.015; // nearer to 1 is real time
+const STEP = 1 / 60; // of arrows [s]
+
+export class LabTimeBar implements Panel, Clock {
+  readonly root: HTMLElement;
+  readonly rewind: Rewind;
+  private readonly bar: TimeBar;
+  private readonly step = button(icon('step'), 'one step', () => this.single());
+  private readonly again = button(icon('again'), 'to the start: the run begins anew', () =>
+    this.page.send({ do: 'reset' }),
+  );
+  private readonly branch = button('branch …', 'go on from this instant, with other knobs', () =>
+    this.askBranch(),
+  );
+  private readonly present = button('to now', 'to the newest instant', () => this.rewind.seek(null));
+  private readonly fork = element('i', { class: 'fork', 'aria-hidden': 'true' });
+  private readonly end = element('i', { class: 'end', 'aria-hidden': 'true' });
+  private readonly dialog: BranchDialog;
+  private readonly added: Panel[] = [];
+  private time: number | null = null; // of the newest frame
+  private shown = '';
+
+  constructor(
+    private readonly page: LabPage,
+    changes: () => string[],
+  ) {
+    this.rewind = new Rewind(page);
+    this.dialog = new BranchDialog(page, this.rewind, changes);
+    const label = 'instant of the run, back over what is remembered';
+    this.bar = new TimeBar(this, label, [], [this.step, this.again]);
+    this.root = this.bar.root;
+    this.root.append(this.dialog.root);
+    this.bar.track.append(this.fork, this.end);
+    this.bar.ends.append(this.branch, this.present, new SaveMenu().root);
+    this.bar.slider.addEventListener('keydown', (event) => {
+      const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
+      const { state } = page;
+      if (!way || !state) return;
+      this.seek((this.rewind.at ?? state.last) + way * (event.shiftKey ? 0.5 : STEP));
+      event.preventDefault();
+      event.stopPropagation();
+    });
+  }
+
+  // Stands at the end of the bar, and hears what the lab says.
+  add(panel: Panel): void {
+    this.added.push(panel);
+    this.bar.ends.append(panel.root);
+  }
+
+  get speed(): number {
+    return this.page.state?.speed ?? 1;
+  }
+  setSpeed(factor: number): void {
+    this.page.send({ do: 'speed', factor });
+  }
+
+  onState(state: StateMessage): void {
+    for (const panel of this.added) panel.onState?.(state);
+    this.rewind.follow(state.at);
+  }
+
+  onFrame(frame: Frame): void {
+    this.time = frame.time;
+  }
+
+  draw(): void {
+    this.rewind.tick();
+    if (this.page.state) this.show(this.page.state);
+  }
+
+  // While the past is seen, what is remembered is played again.
+  toggle(): void {
+    const { state } = this.page;
+    if (!state) return;
+    const { rewind } = this;
+    if (rewind.at === null) this.page.send({ do: 'play', on: !state.playing });
+    else if (rewind.playing) rewind.pause();
+    else rewind.play(rewind.at, state.speed);
+  }
+
+  askBranch(): void {
+    const { state } = this.page;
+    if (state) this.dialog.ask(this.rewind.at ?? state.last);
+  }
+
+  seekShare(share: number): void {
+    const { state } = this.page;
+    if (state) this.seek(state.first + share * (state.last - state.first));
+  }
+
+  // The present is at the end. A run that goes on stands first: an instant that moves away under
+  // the pointer cannot be found.
+  seek(time: number): void {
+    const { state, holds } = this.page;
+    if (!state) return;
+    const isNow = time >= state.last - 0.0005 * (state.last - state.first);
+    if (!isNow && state.playing && holds) this.page.send({ do: 'play', on: false });
+    this.rewind.seek(isNow ? null : Math.max(state.first, time));
+  }
+
+  private single(): void {
+    const { state } = this.page;
+    if (!state) return;
+    if (this.rewind.at === null) this.page.send({ do: 'step', steps: 1 });
+    else this.rewind.seek(Math.min(state.last, this.rewind.at + STEP));
+  }
+
+  private show(state: StateMessage): void {
+    const { first, last, branch, dead, speed } = state;
+    const { at } = this.rewind;
+    const goes = at === null ? state.playing && !dead : this.rewind.playing;
+    const span = Math.max(1e-9, last - first);
+    const share = at === null ? 1 : Math.min(1, Math.max(0, (at - first) / span));
+    const words = at === null ? 'now' : `${at.toFixed(3)} seconds`;
+    this.bar.show({ time: this.time, share, goes, speed, words });
+    const isWatching = watches(state);
+    const pace = state.pace > 0 ? state.pace : 1;
+    const wanted = [goes, first, last, branch, dead?.time, at, speed, isWatching, pace.toFixed(2)];
+    const text = JSON.stringify([...wanted, state.building]);
+    if (text === this.shown) return;
+    this.shown = text;
+    this.root.dataset.past = String(at !== null);
+    mark(this.fork, branch ? (branch.from - first) / span : -1);
+    if (branch)
+      this.fork.title = `branch at ${branch.from.toFixed(3)} s: ${branch.changes.join(', ')}`;
+    mark(this.end, dead ? (dead.time - first) / span : -1);
+    this.present.disabled = at === null;
+    this.bar.play.disabled = at === null && (isWatching || dead !== null);
+    this.step.disabled = isWatching || (at === null && dead !== null);
+    this.again.disabled = this.bar.speed.disabled = this.branch.disabled = isWatching;
+    this.bar.where.replaceChildren(...this.words(state, at, pace));
+  }
+
+  private words(state: StateMessage, at: number | null, pace: number): (Node | string)[] {
+    if (state.building) return [element('b', {}, `${state.building} …`)];
+    if (at !== null) return [`${(state.last - at).toFixed(2)} s ago`];
+    if (state.dead) return ['stopped'];
+    if (!state.playing) return ['stands'];
+    const lags = Math.abs(pace - 1) > REAL_TIME;
+    const speed = state.speed === 1 ? 'real time' : `${speedText(state.speed)}× slow`;
+    const words = state.speed > 1 ? `${state.speed}× fast` : speed;
+    if (!lags) return [words];
+    const title = 'run time over the time that it should take: the machine does not keep up';
+    const badge = element('b', { class: 'pace', title }, `pace ${pace.toFixed(2)}`);
+    return state.speed === 1 ? [badge] : [`${words}, `, badge];
+  }
+}
+
+function mark(mark: HTMLElement, share: number): void {
+  mark.hidden = share < 0 || share > 1;
+  mark.style.setProperty('--place', String(share));
+}

@@ -1,0 +1,56 @@
+// What the lab says: each note once, for a while, and all of the last ones behind a button.
+import './notes.css';
+import { button, element } from '../ui/dom';
+import type { Note, StateMessage } from '../source/link';
+import type { Panel } from './panel';
+import { closesByItself } from './save_menu';
+import { sign, type SignState } from '../ui/sign';
+
+const STAYS = 6000; // [ms]
+const LONGER = 15_000; // errors
+const MOST = 3; // at a time
+const SIGNS: Record<Note['level'], SignState> = { note: 'ok', warning: 'near', error: 'beyond' };
+
+export class Notes implements Panel {
+  readonly root = element('details', { class: 'menu notes' });
+  private readonly toasts = element('div', { class: 'toasts', role: 'log', 'aria-live': 'polite' });
+  private readonly list = element('ol', { class: 'sheet' });
+  private readonly count = element('summary', { title: 'what the lab has said' }, 'Notes');
+  private seen = -1; // newest that was shown; before the first state: none
+  private shown = '';
+
+  constructor() {
+    this.root.append(this.count, this.list);
+    closesByItself(this.root);
+    document.body.append(this.toasts);
+  }
+
+  onState({ notes }: StateMessage): void {
+    const isFirst = this.seen < 0;
+    const newest = notes.reduce((most, { n }) => Math.max(most, n), 0);
+    // What was said before this page came is in the list only; a lab that began anew counts anew.
+    const fresh = isFirst || newest < this.seen ? [] : notes.filter(({ n }) => n > this.seen);
+    this.seen = newest;
+    for (const note of fresh) this.toast(note);
+    const wanted = `${newest} ${notes.length}`;
+    if (wanted === this.shown) return;
+    this.shown = wanted;
+    const lines = [...notes].reverse().map((note) => line('li', note));
+    this.list.replaceChildren(...(lines.length > 0 ? lines : [element('li', {}, 'Nothing yet.')]));
+    this.count.textContent = notes.length > 0 ? `Notes (${notes.length})` : 'Notes';
+  }
+
+  private toast(note: Note): void {
+    const made = line('div', note);
+    const close = button('×', 'away', () => made.remove(), 'close');
+    made.append(close);
+    this.toasts.append(made);
+    while (this.toasts.childElementCount > MOST) this.toasts.firstElementChild!.remove();
+    setTimeout(() => made.remove(), note.level === 'error' ? LONGER : STAYS);
+  }
+}
+
+function line(tag: 'li' | 'div', { level, text }: Note): HTMLElement {
+  const mark = sign(SIGNS[level] ?? 'ok');
+  return element(tag, { class: `said ${level}` }, mark, element('span', {}, text));
+}

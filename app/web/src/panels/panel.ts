@@ -1,0 +1,51 @@
+// What the page and its panels know of one another.
+//
+// The page calls a panel where the panel has such a function: onScene and onState when a message
+// comes, onFrame and draw only when the next picture is made, onFrame with the newest frame alone.
+// A panel that is not seen (its tab is closed) gets everything but draw.
+import type { BodyInspection } from '../protocol/body_inspection';
+import type { Arrow } from '../view/arrows';
+import type { Clock } from './time_bar';
+import type { Command, Frame, SceneMessage, StateMessage } from '../source/link';
+
+export interface Listener {
+  onScene?(scene: SceneMessage): void;
+  onState?(state: StateMessage): void;
+  onFrame?(frame: Frame): void;
+  onGlass?(inspection: BodyInspection): void;
+  onSelect?(body: number | null): void;
+  onTheme?(): void; // light or dark has changed, or the panel's size: canvases draw again
+}
+
+export interface Panel extends Listener {
+  root: HTMLElement;
+  draw?(): void; // once a picture, while it is seen
+}
+
+// The page, as panels see it.
+export interface LabPage {
+  readonly scene: SceneMessage | null; // the newest of each
+  readonly state: StateMessage | null;
+  readonly selected: number | null; // body
+  readonly hand: { readonly grip: boolean; button(index: 0 | 1, down: boolean): void };
+  readonly holds: boolean; // the hand: it may send all commands
+  // Commands that need the hand ask for it first where nobody has it. False: not sent.
+  send(command: Command): boolean;
+  select(body: number | null): void;
+  // A line at the lower edge of the view, gone after a while.
+  say(words: string): void;
+  // Arrows in the view, in the place of those that the same owner had: free-body diagrams.
+  arrows(owner: string, arrows: Arrow[]): void;
+  showTab(title: string): void;
+}
+
+// All panels of the lab but the inspector.
+export interface PanelSet {
+  knobs: Panel;
+  plots: Panel;
+  ledger: Panel;
+  time: Panel & Clock & { askBranch(): void; seek(time: number): void }; // the bar below the view
+  hand: Panel; // in the view's lower corner: force with its limit
+  gallery: Panel; // root: a <dialog> that the header's button opens
+  dead: Panel; // over the view; hides itself
+}

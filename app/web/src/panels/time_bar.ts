@@ -1,0 +1,104 @@
+// The bar below the view: whether the run goes on, how fast, and which of its instants is shown.
+import '../ui/slider.css';
+import { button, element, icon } from '../ui/dom';
+import './time_bar.css';
+
+export const SPEEDS = [0.01, 0.1, 0.25, 0.5, 1, 2, 5, 10];
+const SPEED_WORDS = ['1/100', '1/10', '1/4', '1/2', '1', '2', '5', '10'];
+const PLACES = 10_000; // of the slider
+
+// What a bar moves, and what its keys move.
+export interface Clock {
+  readonly speed: number;
+  toggle(): void;
+  setSpeed(factor: number): void;
+  seekShare(share: number): void; // of what is remembered, 0 to 1
+}
+
+// By places in SPEEDS.
+export function changeSpeed(clock: Clock, places: number): void {
+  const near = (speed: number) => Math.abs(speed - clock.speed);
+  const nearest = SPEEDS.reduce((a, b) => (near(b) < near(a) ? b : a));
+  const factor = SPEEDS[SPEEDS.indexOf(nearest) + places];
+  if (factor) clock.setSpeed(factor);
+}
+
+export function speedText(speed: number): string {
+  return SPEED_WORDS[SPEEDS.indexOf(speed)] ?? String(speed);
+}
+
+export interface Shown {
+  time: number | null; // of the clock; null: as it is
+  share: number;
+  goes: boolean;
+  speed: number;
+  words: string; // of the slider's place, for ears
+}
+
+export class TimeBar {
+  readonly root = element('footer', { class: 'transport', 'aria-label': 'time' });
+  readonly play: HTMLButtonElement;
+  readonly slider: HTMLInputElement;
+  readonly speed = element('select', { title: 'speed: [ slower, ] faster', 'aria-label': 'speed' });
+  readonly track: HTMLElement;
+  readonly where = element('output', { class: 'where' });
+  readonly ends = element('div', { class: 'buttons' });
+  private readonly clock = element('output', { class: 'clock', 'aria-live': 'off' });
+  private scrubbing = false;
+
+  constructor(clock: Clock, sliderLabel: string, before: Node[], after: Node[]) {
+    this.play = button(icon('play'), '', () => clock.toggle(), 'play');
+    this.slider = element('input', {
+      type: 'range',
+      min: '0',
+      max: String(PLACES),
+      step: '1',
+      'aria-label': sliderLabel,
+    });
+    const { slider } = this;
+    slider.addEventListener('pointerdown', () => (this.scrubbing = true));
+    for (const end of ['pointerup', 'pointercancel', 'change', 'blur'])
+      slider.addEventListener(end, () => (this.scrubbing = false));
+    slider.addEventListener('input', () => clock.seekShare(Number(slider.value) / PLACES));
+    SPEEDS.forEach((speed, i) =>
+      this.speed.append(element('option', { value: String(speed) }, `${SPEED_WORDS[i]}×`)),
+    );
+    this.speed.addEventListener('change', () => clock.setSpeed(Number(this.speed.value)));
+    this.track = element('div', { class: 'track' }, slider);
+    this.root.append(
+      this.track,
+      element(
+        'div',
+        { class: 'row' },
+        element('div', { class: 'buttons' }, ...before, this.play, ...after, this.speed),
+        element('div', { class: 'reading' }, this.clock, this.where),
+        this.ends,
+      ),
+    );
+  }
+
+  show({ time, share, goes, speed, words }: Shown): void {
+    if (time !== null) {
+      const text = `${time.toFixed(3)} s`;
+      if (this.clock.textContent !== text) this.clock.textContent = text;
+    }
+    if (this.play.dataset.goes !== String(goes)) {
+      this.play.dataset.goes = String(goes);
+      this.play.replaceChildren(icon(goes ? 'pause' : 'play'));
+      this.play.title = goes ? 'pause (space)' : 'play (space)';
+      this.play.setAttribute('aria-label', this.play.title);
+    }
+    if (!this.scrubbing) this.slider.value = String(PLACES * share);
+    this.slider.style.setProperty('--share', `${100 * share}%`);
+    this.slider.setAttribute('aria-valuetext', words);
+    if (this.speed.value !== String(speed)) this.showSpeed(speed);
+  }
+
+  private showSpeed(speed: number): void {
+    this.speed.querySelector('.other')?.remove();
+    const known = SPEEDS.find((one) => Math.abs(one - speed) < 1e-9);
+    if (known === undefined)
+      this.speed.append(element('option', { class: 'other', value: String(speed) }, `${speed}×`));
+    this.speed.value = String(known ?? speed);
+  }
+}

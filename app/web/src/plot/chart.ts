@@ -1,0 +1,290 @@
+// One plot of a run: uPlot over the rows that are in its window, a legend with the
+// numbers of one instant, a marker there, the branch that was left as dots, and a limit as a line.
+import uPlot from 'uplot';
+import { axesOfTime } from './axes';
+import { button, element, short } from '../ui/dom';
+import { token } from '../ui/theme';
+import {
+  colorOf,
+  DASH,
+  ghostsOf,
+  lines,
+  lineSeries,
+  rangeOf,
+  stack,
+  stackSeries,
+  usualSize,
+  type Beside,
+  type Ghost,
+  type Window,
+} from './chart_data';
+
+import { savePicture, type CsvColumn } from './export';
+import { Gestures } from './gestures';
+import { drawOver } from './overlay';
+import { screenUnit, type Curve, type PlotSpec } from './specs';
+import type { RunRecord } from '../source/run_record';
+import { bucketsOf } from '../source/store';
+
+const HEIGHT = 128;
+const PICTURE = { width: 960, height: 420 };
+
+export interface ChartUser {
+  degrees: boolean;
+  zoom(window: Window | null): void; // null: as it was
+  seek(time: number): void;
+  saveCsv(what: string, columns: CsvColumn[]): void;
+  pictureName(what: string): string;
+}
+
+export class Chart {
+  readonly root: HTMLElement;
+  isSeen = true; // within what is scrolled to
+  private readonly canvas = element('div', { class: 'canvas', role: 'img' });
+  private readonly title = element('span');
+  private readonly chips: { curve: Curve | null; chip: HTMLElement; value: HTMLElement }[] = [];
+  private readonly hidden = new Set<Curve>();
+  private chart: uPlot | null = null;
+  private made = ''; // what the chart was made for
+  private ghosts: Ghost[] = [];
+  private usual = Infinity; // size of the curves, if the largest ones have no room
+  private sums: number[] = []; // of the curves in ink: the largest so far, at the window's end
+  private window: Window = { from: 0, to: 1 };
+  private factor = 1;
+  private unit = '';
+  private at: number | null = null; // the instant that is shown, if not the newest
+  private readonly marker = element('div', { class: 'marker' });
+  private readonly gestures: Gestures;
+
+  constructor(
+    readonly spec: PlotSpec,
+    readonly record: RunRecord,
+    private readonly user: ChartUser,
+  ) {
+    const head = element(
+      'h3',
+      {},
+      element('span', { class: 'name' }, spec.title),
+      this.title,
+      element('span', { class: 'space' }),
+      button('CSV', `${spec.title}: numbers as a file`, () => this.saveCsv(), 'small'),
+      button('PNG', `${spec.title}: picture as a file`, () => this.savePicture(), 'small'),
+    );
+    const legend = element('div', { class: 'chips' });
+    for (const curve of spec.curves) legend.append(this.chip(curve, curve.name));
+    if (spec.sum !== undefined) legend.append(this.chip(null, 'sum: rise of kinetic energy'));
+    if (spec.omitted > 0)
+      legend.append(element('span', { class: 'omitted' }, `${spec.omitted} smaller not shown`));
+    this.root = element('section', { class: 'plot', id: `plot-${spec.id}` }, head);
+    for (const [i, file] of ['CSV', 'PNG'].entries())
+      head.querySelectorAll('button')[i].setAttribute('aria-label', `${file}: ${spec.title}`);
+    const names = spec.curves.map(({ name }) => name).join(', ');
+    this.canvas.setAttribute('aria-label', `${spec.title} over time: ${names}`);
+    this.root.append(this.canvas, legend);
+    this.gestures = new Gestures(this.canvas, () => this.chart, () => this.at, (time) => user.seek(time));
+  }
+
+  remake(): void {
+    this.made = '';
+  }
+
+  // uPlot knows all charts whose pointers go together until they are told to end.
+  end(): void {
+    this.chart?.destroy();
+    this.chart = null;
+  }
+
+  // `isBlown`: the run has ended in huge numbers. `width`: that of paper, where it is not seen.
+  draw(window: Window, isBlown: boolean, width = this.canvas.clientWidth): void {
+    if (width < 60) return;
+    this.window = window;
+    const { store } = this.record;
+    const begin = Math.max(0, store.after(window.from) - 1);
+    const end = Math.min(store.length, store.after(window.to) + 1);
+    const buckets = bucketsOf(begin, end, store.dropped, width / 1.5);
+    this.scaleUnits();
+    const { spec, shown, factor } = this;
+    const isStack = spec.sum !== undefined;
+    const data = isStack
+      ? stack(store, buckets, shown, spec.sum!)
+      : lines(store, buckets, shown, factor);
+    this.usual = isBlown ? usualSize(data.slice(1).flatMap((column) => [...column])) : Infinity;
+    this.sums = shown
+      .filter((curve) => curve.color < 0 && end > 0)
+      .map((curve) => factor * store.value(curve.column, end - 1));
+    this.ghosts = ghostsOf(this.record, window, spec, shown, factor);
+    const wanted = `${width} ${this.unit}`;
+    if (this.made !== wanted || !this.chart) {
+      this.make(width);
+      this.made = wanted;
+    }
+    this.chart!.batch(() => {
+      this.chart!.setData(data, false);
+      this.chart!.setScale('x', { min: window.from, max: window.to });
+    });
+    this.mark(this.at);
+  }
+
+  mark(at: number | null): void {
+    this.at = at;
+    if (!this.chart) return;
+    const left = at === null ? -1 : this.chart.valToPos(at, 'x');
+    this.marker.hidden = left < 0 || left > this.chart.over.clientWidth;
+    this.marker.style.transform = `translateX(${left}px)`;
+    this.tell();
+  }
+
+  // The numbers under the pointer, else of what is looked at, else the newest.
+  private tell(): void {
+    const { store } = this.record;
+    const left = this.chart?.cursor.left ?? -1;
+    const time = left >= 0 ? this.chart!.posToVal(left, 'x') : this.at;
+    const row = time === null ? store.length - 1 : store.after(time) - 1;
+    for (const { curve, value } of this.chips) {
+      const columns = curve ? [curve.column, ...(curve.rest ?? [])] : [this.spec.sum!];
+      const sum = columns.reduce((all, column) => all + store.value(column, row), 0);
+      value.textContent = row < 0 ? '–' : short(this.factor * sum);
+    }
+  }
+
+  private chip(curve: Curve | null, name: string): HTMLElement {
+    const value = element('b');
+    const chip = element(
+      'button',
+      { type: 'button', 'aria-pressed': 'true', class: curve?.style ?? 'line' },
+      element('i'),
+      element('span', {}, name),
+      value,
+    );
+    if (curve)
+      chip.addEventListener('click', () => {
+        const hide = !this.hidden.has(curve);
+        if (hide) this.hidden.add(curve);
+        else this.hidden.delete(curve);
+        chip.setAttribute('aria-pressed', String(!hide));
+        this.remake();
+      });
+    this.chips.push({ curve, chip, value });
+    return chip;
+  }
+
+  private scaleUnits(): void {
+    const { low, high } = this.record;
+    const size = this.spec.curves.reduce(
+      (most, { column }) => Math.max(most, high[column], -low[column]),
+      0,
+    );
+    const { unit, factor } = screenUnit(this.spec.unit, this.user.degrees, size);
+    this.factor = factor;
+    if (unit === this.unit) return;
+    this.unit = unit;
+    this.title.textContent = ` [${unit}]`;
+  }
+
+  private get limit(): PlotSpec['limit'] {
+    const { limit } = this.spec;
+    return limit && { ...limit, value: limit.value * this.factor };
+  }
+  // What the range makes room for, besides the curves.
+  private get beside(): Beside {
+    const { usual, ghosts, limit, sums, spec } = this;
+    return { usual, ghosts, limit, sums, isForce: spec.unit === 'N' };
+  }
+  private get shown(): Curve[] {
+    return this.spec.curves.filter((curve) => !this.hidden.has(curve));
+  }
+
+  // Anew, in the colours of the theme.
+  private make(width: number): void {
+    this.chart?.destroy();
+    const options = this.options(width, HEIGHT);
+    this.chart = new uPlot(options, [[], ...options.series.slice(1).map(() => [])], this.canvas);
+    this.chart.over.append(this.marker);
+    for (const { curve, chip } of this.chips)
+      chip.style.setProperty('--curve', curve ? colorOf(curve) : token('--ink'));
+  }
+
+  private options(width: number, height: number): uPlot.Options {
+    const isStack = this.spec.sum !== undefined;
+    const { series, bands } = isStack ? stackSeries(this.shown) : lineSeries(this.shown);
+    return {
+      width,
+      height,
+      legend: { show: false },
+      scales: {
+        x: { time: false },
+        y: { range: (_, low, high) => rangeOf(low, high, this.beside) },
+      },
+      padding: [8, 16, 0, 0],
+      cursor: {
+        y: false,
+        points: { show: false },
+        sync: { key: 'run', scales: ['x', null] },
+        drag: { x: true, y: false, setScale: false, dist: 6 },
+        bind: {
+          mousedown: (_, __, handler) => (e) => (this.gestures.isHeld ? null : handler(e)),
+          dblclick: () => () => {
+            this.user.zoom(null);
+            return null;
+          },
+        },
+      },
+      axes: axesOfTime(),
+      series: [{}, ...series],
+      bands,
+      hooks: {
+        setCursor: [() => this.tell()],
+        setSelect: [(chart) => this.select(chart)],
+        draw: [(chart) => drawOver(chart, this.ghosts, this.limit)],
+      },
+    };
+  }
+
+  private select(chart: uPlot): void {
+    const { left, width } = chart.select;
+    if (width < 4) return;
+    this.user.zoom({
+      from: chart.posToVal(left, 'x'),
+      to: chart.posToVal(left + width, 'x'),
+    });
+    chart.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+  }
+
+  private saveCsv(): void {
+    const { store } = this.record;
+    const columns = this.spec.curves.map(({ column, rest = [], name }) => ({
+      name,
+      unit: this.spec.unit,
+      value: (row: number) => [column, ...rest].reduce((sum, one) => sum + store.value(one, row), 0),
+    }));
+    const { sum } = this.spec;
+    if (sum !== undefined)
+      columns.push({ name: 'sum', unit: 'J', value: (row) => store.value(sum, row) });
+    this.user.saveCsv(this.spec.id, columns);
+  }
+
+  // Drawn once more, larger than on the page.
+  private savePicture(): void {
+    if (!this.chart) return;
+    const host = element('div', { class: 'unseen', 'aria-hidden': 'true' });
+    document.body.append(host);
+    const options = this.options(PICTURE.width, PICTURE.height);
+    const { from, to } = this.window;
+    const chart = new uPlot({ ...options, cursor: { show: false } }, [[]], host);
+    chart.setData(this.chart.data, false);
+    chart.setScale('x', { min: from, max: to });
+    const lines = this.shown.map((curve) => ({
+      name: curve.name,
+      color: colorOf(curve),
+      dash: DASH[curve.style] ?? [],
+    }));
+    const title = `${this.spec.title} [${this.unit}]`;
+    const name = this.user.pictureName(this.spec.id);
+    // uPlot draws when this is done.
+    setTimeout(() => {
+      savePicture(name, title, chart.ctx.canvas, lines, token('--surface'), token('--ink'));
+      chart.destroy();
+      host.remove();
+    });
+  }
+}

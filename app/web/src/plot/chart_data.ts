@@ -1,0 +1,164 @@
+// What uPlot gets of a record: rows of a window thinned to what can be seen, as lines or as areas
+// upon each other; and the same of the branch that was left.
+import uPlot from 'uplot';
+import { token } from '../ui/theme';
+import type { Curve, PlotSpec } from './specs';
+import type { RunRecord } from '../source/run_record';
+import { bucketsOf, outline, samples, timesOf, type Buckets, type Points, type Store } from '../source/store';
+
+const MOST_LEFT = 400; // buckets of what was left
+export const DASH: Record<Curve['style'], number[] | undefined> = {
+  line: undefined,
+  dashed: [6, 4],
+  dotted: [2, 4],
+};
+
+export interface Window {
+  from: number;
+  to: number;
+}
+
+export interface Ghost {
+  times: number[];
+  values: Points;
+  color: string;
+}
+
+export function colorOf(curve: Curve): string {
+  return token(curve.color < 0 ? '--ink' : `--c${curve.color % 8}`);
+}
+
+function scaled(values: Points, factor: number): Points {
+  if (factor === 1) return values;
+  return values.map((value) => (value === null ? null : value * factor));
+}
+
+export function lines(
+  store: Store,
+  buckets: Buckets,
+  curves: Curve[],
+  factor: number,
+): uPlot.AlignedData {
+  const values = curves.map(({ column }) => scaled(outline(store.column(column), buckets), factor));
+  return [timesOf(store.times, buckets, true), ...values];
+}
+
+// What is positive piles up above zero, what is negative below; their sum is the line.
+export function stack(
+  store: Store,
+  buckets: Buckets,
+  curves: Curve[],
+  sum: number,
+): uPlot.AlignedData {
+  const times = timesOf(store.times, buckets, false);
+  const data: uPlot.AlignedData = [times];
+  const parts = curves.map(({ column, rest = [] }) => {
+    const columns = [column, ...rest].map((one) => samples(store.column(one), buckets));
+    return times.map((_, i) => columns.reduce((sum, values) => sum + (values[i] ?? 0), 0));
+  });
+  for (const sign of [1, -1]) {
+    let edge: number[] = times.map(() => 0);
+    data.push(edge);
+    for (const part of parts) {
+      edge = edge.map((y, i) => y + sign * Math.max(0, sign * part[i]));
+      data.push(edge);
+    }
+  }
+  data.push(samples(store.column(sum), buckets));
+  return data;
+}
+
+interface Series {
+  series: uPlot.Series[];
+  bands: uPlot.Band[];
+}
+
+export function lineSeries(curves: Curve[]): Series {
+  const series = curves.map((curve) => ({
+    stroke: colorOf(curve),
+    width: curve.style === 'line' ? 1.75 : 1.5,
+    dash: DASH[curve.style],
+    points: { show: false },
+    auto: curve.color >= 0, // what was summed up gets what room is left
+  }));
+  return { series, bands: [] };
+}
+
+export function stackSeries(curves: Curve[]): Series {
+  const series: uPlot.Series[] = [];
+  const bands: uPlot.Band[] = [];
+  for (const sign of [1, -1]) {
+    series.push({ stroke: 'transparent', points: { show: false } });
+    for (const curve of curves) {
+      series.push({ stroke: colorOf(curve), width: 0.75, points: { show: false } });
+      const at = series.length;
+      const pair: [number, number] = sign > 0 ? [at, at - 1] : [at - 1, at];
+      bands.push({ series: pair, fill: `${colorOf(curve)}8c` });
+    }
+  }
+  series.push({ stroke: token('--ink'), width: 1.75, points: { show: false } });
+  return { series, bands };
+}
+
+export function ghostsOf(
+  { before }: RunRecord,
+  window: Window,
+  spec: PlotSpec,
+  curves: Curve[],
+  factor: number,
+): Ghost[] {
+  if (!before || before.length === 0) return [];
+  const begin = Math.max(0, before.after(window.from) - 1);
+  const end = Math.min(before.length, before.after(window.to) + 1);
+  const buckets = bucketsOf(begin, end, 0, MOST_LEFT);
+  const times = timesOf(before.times, buckets, true);
+  const of = (column: number) => scaled(outline(before.column(column), buckets), factor);
+  if (spec.sum !== undefined) return [{ times, values: of(spec.sum), color: token('--ink') }];
+  const shown = curves.filter((curve) => curve.color >= 0);
+  return shown.map((curve) => ({ times, values: of(curve.column), color: colorOf(curve) }));
+}
+
+// The size that nine of ten points stay below: without the last instants of a run that blew up.
+export function usualSize(values: (number | null | undefined)[]): number {
+  const known = values.filter((value): value is number => typeof value === 'number');
+  const sizes = known.map(Math.abs).sort((one, other) => one - other);
+  return sizes[Math.floor(0.9 * sizes.length)] ?? 0;
+}
+
+export interface Beside {
+  usual: number; // of the curves; infinite: all of them have room
+  ghosts: Ghost[];
+  limit: PlotSpec['limit'];
+  sums: number[];
+  isForce: boolean;
+}
+
+const FAR = 3; // what is so many times larger than the curves would press them flat
+
+// So that all of it can be seen: the branch that was left, the limit, what was summed up.
+export function rangeOf(
+  low: number | null,
+  high: number | null,
+  { usual, ghosts, limit, sums, isForce }: Beside,
+): [number, number] {
+  const inner = usual > 0 ? FAR * usual : Infinity;
+  let a = Math.max(-inner, low ?? 0);
+  let b = Math.min(inner, high ?? 0);
+  if (isForce) a = Math.min(a, 0); // how much it is, is read against nothing
+  const room = (value: number) => {
+    a = Math.min(a, value);
+    b = Math.max(b, value);
+  };
+  const left = ghosts.flatMap(({ values }) => values);
+  const most = FAR * Math.max(Math.abs(a), Math.abs(b), usualSize(left));
+  for (const value of left) if (value !== null && Math.abs(value) <= most) room(value);
+  const far = FAR * Math.max(Math.abs(a), Math.abs(b));
+  for (const sum of sums) if (Math.abs(sum) <= far) room(sum);
+  if (limit && (limit.always || b > limit.value / FAR)) {
+    room(0);
+    room(limit.value);
+  }
+  if (a === b) return a === 0 ? [-1, 1] : [a - 0.1 * Math.abs(a), b + 0.1 * Math.abs(b)];
+  const [from, to] = uPlot.rangeNum(a, b, 0.08, true);
+  return [from ?? a, to ?? b];
+}

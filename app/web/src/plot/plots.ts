@@ -1,0 +1,207 @@
+// The plots' panel: which charts, over which time, and their files. Draws at most thirty times a
+// second, and only what is seen.
+import 'uplot/dist/uPlot.min.css';
+import './plot.css';
+import type { Panel } from '../panels/panel';
+import type { RunRecord } from '../source/run_record';
+import type { RunSource } from '../source/run_source';
+import { element } from '../ui/dom';
+import { Chart, type ChartUser } from './chart';
+import type { Window } from './chart_data';
+import { fileName, saveCsv, type CsvColumn } from './export';
+import { PlotBar } from './plot_bar';
+import { PlotSpecs, type PlotSpec } from './specs';
+
+const DRAW = 33; // [ms]
+const SHARE = 5; // where drawing is slow, it takes one in so many milliseconds
+const REVIEW = 1000; // how often it is asked which curves there are [ms]
+
+export class Plots implements Panel, ChartUser {
+  readonly root = element('div', { class: 'plots' });
+  degrees = true;
+  private record: RunRecord | null = null;
+  private readonly bar: PlotBar;
+  private readonly list = element('div');
+  private readonly pick = element('select', { 'aria-label': 'any other quantity' });
+  private readonly picked = element('div');
+  private readonly watch: IntersectionObserver;
+  private specs: PlotSpecs | null = null;
+  private charts: Chart[] = [];
+  private signature = '';
+  private single: Chart | null = null;
+  private window: Window | null = null; // zoomed; null: the newest
+  private drawnAt = 0;
+  private pauseAfter = DRAW; // a picture
+  private drawn = '';
+  private marked: number | null = null;
+  private reviewedAt = 0;
+
+  constructor(private readonly source: RunSource) {
+    this.bar = new PlotBar(source.isLive, {
+      paused: (on) => this.pause(on),
+      all: () => this.zoom(null),
+      degrees: (on) => {
+        this.degrees = on;
+        this.refresh();
+      },
+      saveCsv: () => this.saveAll(),
+    });
+    this.pick.addEventListener('change', () => this.choose(this.pick.value));
+    const pick = element('section', { class: 'pick' }, this.pick, this.picked);
+    this.root.append(this.bar.root, this.list, pick);
+    this.watch = new IntersectionObserver((entries) => {
+      for (const { target, isIntersecting } of entries)
+        for (const chart of this.every) if (chart.root === target) chart.isSeen = isIntersecting;
+      this.refresh();
+    });
+  }
+
+  onTheme(): void {
+    for (const chart of this.every) chart.remake();
+    this.refresh();
+  }
+
+  draw(): void {
+    const now = performance.now();
+    const { source } = this;
+    if (source.record !== this.record) this.take(source.record!);
+    const { record } = this;
+    if (!record || now - this.drawnAt < this.pauseAfter) return;
+    if (now - this.reviewedAt > REVIEW) this.review();
+    const window = this.shownWindow(record);
+    const wanted = `${record.version} ${window.from} ${window.to}`;
+    if (wanted === this.drawn && source.at === this.marked) return;
+    this.drawnAt = now;
+    this.marked = source.at;
+    for (const chart of this.every) {
+      if (!chart.isSeen) continue;
+      if (wanted !== this.drawn) chart.draw(window, source.hasDiverged);
+      chart.mark(source.at);
+    }
+    this.drawn = wanted;
+    this.pauseAfter = Math.max(DRAW, SHARE * (performance.now() - now));
+  }
+
+  // On paper all of them, whether they are seen or not.
+  print(width: number): void {
+    if (this.source.record !== this.record) this.take(this.source.record!);
+    for (const chart of this.every) chart.draw(this.shownWindow(this.record!), false, width);
+    this.refresh();
+  }
+
+  // Of a chart.
+  zoom(window: Window | null): void {
+    this.window = window;
+    this.bar.showPaused(window !== null);
+    this.refresh();
+  }
+  seek(time: number): void {
+    this.source.look(time);
+  }
+  saveCsv(what: string, columns: CsvColumn[]): void {
+    const store = this.record!.store;
+    const time = { name: 'time', unit: 's', value: (row: number) => store.times[row] };
+    saveCsv(fileName(this.record!.scene.title, what, 'csv'), [time, ...columns], store.length);
+  }
+  pictureName(what: string): string {
+    return fileName(this.record!.scene.title, what, 'png');
+  }
+
+  // Every channel and every row of the ledger.
+  saveAll(): void {
+    if (!this.record) return;
+    const { scene, store, works } = this.record;
+    const value = (column: number) => (row: number) => store.value(column, row);
+    const channels = scene.channels.map(({ name, unit }, i) => ({ name, unit, value: value(i) }));
+    const rows = scene.ledger.map((name, i) => ({
+      name: `ledger/${name}`,
+      unit: 'J',
+      value: value(works + i),
+    }));
+    this.saveCsv('all', [...channels, ...rows]);
+  }
+
+  private take(record: RunRecord): void {
+    const isSame = record.scene.scene === this.record?.scene.scene;
+    this.record = record;
+    this.specs = new PlotSpecs(record, isSame ? this.specs?.colors : undefined);
+    this.signature = '';
+    if (!isSame) this.zoom(null);
+    this.fillPick(record);
+    this.review();
+  }
+
+  private get every(): Chart[] {
+    return this.single ? [...this.charts, this.single] : this.charts;
+  }
+
+  private refresh(): void {
+    this.drawn = '';
+  }
+
+  private pause(on: boolean): void {
+    this.window = on && this.record ? this.shownWindow(this.record) : null;
+    this.refresh();
+  }
+
+  private shownWindow(record: RunRecord): Window {
+    if (this.window) return this.window;
+    const { store } = record;
+    const first = store.length > 0 ? store.first : 0;
+    const last = store.length > 0 ? store.last : 0;
+    const newest = Math.max(last, record.before ? record.before.last : last);
+    const { length } = this.bar;
+    if (length === Infinity) return { from: first, to: Math.max(newest, first + 1e-3) };
+    const { at } = this.source;
+    let to = Math.max(last, length);
+    if (at !== null && at < to - length) to = at + 0.2 * length;
+    return { from: to - length, to };
+  }
+
+  // Charts anew where their curves have changed.
+  private review(): void {
+    this.reviewedAt = performance.now();
+    const { record, specs } = this;
+    if (!record || !specs) return;
+    const all = specs.all(this.source.stepSize);
+    const signature = JSON.stringify(all);
+    if (signature === this.signature) return;
+    this.signature = signature;
+    const kept = new Map(this.charts.map((chart) => [JSON.stringify(chart.spec), chart]));
+    const before = this.charts;
+    this.charts = all.map((spec) => {
+      const old = kept.get(JSON.stringify(spec));
+      return old?.record === record ? old : this.chart(spec, record);
+    });
+    for (const chart of before) if (!this.charts.includes(chart)) this.end(chart);
+    this.list.replaceChildren(...this.charts.map((chart) => chart.root));
+    this.refresh();
+  }
+
+  private chart(spec: PlotSpec, record: RunRecord): Chart {
+    const made = new Chart(spec, record, this);
+    this.watch.observe(made.root);
+    return made;
+  }
+
+  private end(chart: Chart): void {
+    this.watch.unobserve(chart.root);
+    chart.end();
+  }
+
+  private fillPick({ scene }: RunRecord): void {
+    this.pick.replaceChildren(element('option', { value: '' }, 'any other quantity …'));
+    scene.channels.forEach(({ name, unit }, i) =>
+      this.pick.append(element('option', { value: String(i) }, `${name} [${unit}]`)),
+    );
+    this.choose('');
+  }
+
+  private choose(value: string): void {
+    if (this.single) this.end(this.single);
+    const spec = value === '' ? null : (this.specs?.single(Number(value)) ?? null);
+    this.single = spec && this.record ? this.chart(spec, this.record) : null;
+    this.picked.replaceChildren(...(this.single ? [this.single.root] : []));
+    this.refresh();
+  }
+}

@@ -1,0 +1,244 @@
+// Which plots a run has, and which curves stand in them. What has not moved or acted yet has no
+// curve; what has once been shown keeps its colour.
+import type { SceneChannel } from '../source/link';
+import type { RunRecord } from '../source/run_record';
+
+export interface Curve {
+  column: number; // of the record
+  rest?: number[]; // columns that are added to it
+  name: string;
+  color: number; // of the theme's; -1: ink
+  style: 'line' | 'dashed' | 'dotted';
+}
+
+export interface PlotSpec {
+  id: string;
+  title: string;
+  unit: string; // SI
+  curves: Curve[];
+  sum?: number; // column: the curves are areas upon each other, and this is their sum
+  limit?: { value: number; words: string; always: boolean }; // seen whatever the curves are
+  omitted: number;
+}
+
+export const DEVICE_LIMIT = 3.3; // [N], the Omni's nominal largest force
+const LANE_TITLES = new Map([
+  ['total_energy', 'Total energy'],
+  ['numerical', 'Energy error: made by the method'],
+]);
+const MOST = 7; // curves that the eye can tell apart
+
+interface Numbered extends SceneChannel {
+  column: number;
+}
+
+export class PlotSpecs {
+  private readonly channels: Numbered[];
+
+  constructor(
+    private readonly record: RunRecord,
+    readonly colors = new Map<string, number>(), // by name
+  ) {
+    this.channels = record.scene.channels.map((channel, column) => ({ ...channel, column }));
+  }
+
+  // `step`: of the run [s], the time that a step may take.
+  all(step: number): PlotSpec[] {
+    const acting = (kind: string) =>
+      this.of(kind).filter(({ column }) => this.size(column) > 0);
+    return [
+      ...this.lanes(),
+      ...this.bodies(),
+      ...this.coordinates('rad'),
+      ...this.error(),
+      ...this.ledger(),
+      ...this.plain('couplings', 'Pull of the couplings', this.of('coupling')),
+      ...this.plain('contacts', 'Contact force', acting('contact')),
+      ...this.device(),
+      ...this.plain('pull', 'Pull of the mouse', acting('pull')),
+      ...this.coordinates('m'),
+      ...this.plain('energies', 'Energies', this.of('energy')),
+      ...this.loop(step),
+    ].filter((spec) => spec.curves.length > 0);
+  }
+
+  // Any one quantity.
+  single(column: number): PlotSpec | null {
+    const channel = this.channels[column];
+    if (!channel) return null;
+    const curves = [curve(column, channel.name, 0)];
+    return { id: 'pick', title: channel.name, unit: channel.unit, curves, omitted: 0 };
+  }
+
+  private of(kind: string): Numbered[] {
+    return this.channels.filter((channel) => channel.kind === kind);
+  }
+
+  private span(column: number): number {
+    return Math.max(0, this.record.high[column] - this.record.low[column]);
+  }
+  private size(column: number): number {
+    return Math.max(0, this.record.high[column], -this.record.low[column]);
+  }
+
+  // The largest of them, in their own order.
+  private largest(all: Numbered[], measure: (column: number) => number): Numbered[] {
+    if (all.length <= MOST) return all;
+    const sorted = [...all].sort((a, b) => measure(b.column) - measure(a.column));
+    const chosen = new Set(sorted.slice(0, MOST));
+    return all.filter((channel) => chosen.has(channel));
+  }
+
+  // Those that have one keep it; the others take what is free.
+  private paint(channels: Numbered[]): number[] {
+    const taken = new Set(channels.map(({ name }) => this.colors.get(name)));
+    for (const { name } of channels) {
+      if (this.colors.has(name)) continue;
+      let free = 0;
+      while (taken.has(free)) free += 1;
+      this.colors.set(name, free);
+      taken.add(free);
+    }
+    return channels.map(({ name }) => this.colors.get(name)!);
+  }
+
+  private plain(id: string, title: string, channels: Numbered[], label = labelOf): PlotSpec[] {
+    const units = [...new Set(channels.map((channel) => channel.unit))];
+    return units.map((unit, i) => {
+      const all = channels.filter((channel) => channel.unit === unit);
+      const shown = this.largest(all, (column) => this.size(column));
+      const colors = this.paint(shown);
+      return {
+        id: i === 0 ? id : `${id}-${i}`,
+        title,
+        unit,
+        curves: shown.map((channel, k) => curve(channel.column, label(channel), colors[k])),
+        omitted: all.length - shown.length,
+      };
+    });
+  }
+
+  // Each quantity with a curve a lane, in the lane's colour of the view.
+  private lanes(): PlotSpec[] {
+    const all = this.of('lane');
+    const names = [...new Set(all.map(({ of }) => of))];
+    const quantity = ({ name, of }: Numbered) => name.slice('lane/'.length, -of.length - 1);
+    return [...new Set(all.map(quantity))].map((what) => {
+      const own = all.filter((channel) => quantity(channel) === what);
+      const curves = own.map(({ column, of }) => curve(column, of, names.indexOf(of)));
+      const [{ unit }] = own;
+      const joint = `${unit === 'm' ? 'Position' : 'Angle'}: ${what.slice(what.indexOf('/') + 1)}`;
+      const title = LANE_TITLES.get(what) ?? joint;
+      return { id: `lane-${what.replaceAll('/', '-')}`, title, unit, curves, omitted: 0 };
+    });
+  }
+
+  // Of a scene without joints.
+  private bodies(): PlotSpec[] {
+    if (this.of('coordinate').length > 0) return [];
+    const moving = this.of('position').filter(({ column }) => this.span(column) > 1e-9);
+    return this.plain('bodies', 'Positions', moving, ({ name }) => name.replace('links/', ''));
+  }
+
+  // The dynamic robot as a line, the kinematic one in the same colour, dashed.
+  private coordinates(unit: 'rad' | 'm'): PlotSpec[] {
+    const targets = new Map(this.of('target').map((channel) => [channel.of, channel.column]));
+    const all = this.of('coordinate').filter(
+      (channel) =>
+        channel.unit === unit && (targets.has(channel.of) || this.span(channel.column) > 1e-9),
+    );
+    const led = all.filter((channel) => targets.has(channel.of)).slice(0, MOST);
+    if (led.length === 0 && this.of('lane').length > 0) return []; // stand there for every lane
+    const shown = led.length > 0 ? led : this.largest(all, (column) => this.span(column));
+    const colors = this.paint(shown);
+    const curves = shown.flatMap(({ column, of }, i) => {
+      const target = targets.get(of);
+      if (target === undefined) return [curve(column, of, colors[i])];
+      return [
+        curve(column, `${of} DVR`, colors[i]),
+        curve(target, `${of} KVR`, colors[i], 'dashed'),
+      ];
+    });
+    const [id, title] = unit === 'rad' ? ['angles', 'Angles'] : ['positions', 'Positions'];
+    return [{ id, title, unit, curves, omitted: all.length - shown.length }];
+  }
+
+  private error(): PlotSpec[] {
+    return this.record.errors.map(({ unit, channels, most, mean }, i) => {
+      const own = channels.map((column) => this.channels[column]);
+      const [spec] = this.plain(i === 0 ? 'error' : `error-${unit}`, 'Error: DVR less KVR', own);
+      const curves = [
+        ...spec.curves,
+        curve(most, 'largest so far', -1, 'dashed'),
+        curve(mean, 'mean so far', -1, 'dotted'),
+      ];
+      return { ...spec, curves };
+    });
+  }
+
+  private ledger(): PlotSpec[] {
+    const { works, sum, scene } = this.record;
+    const all = scene.ledger
+      .map((of, row): Numbered => ({ name: of, of, unit: 'J', kind: 'energy', column: works + row }))
+      .filter(({ column }) => this.size(column) > 0);
+    const [spec] = this.plain('ledger', 'Energy ledger, stacked', all);
+    if (!spec) return [];
+    const shown = new Set(spec.curves.map(({ column }) => column));
+    const [first, ...rest] = all.filter(({ column }) => !shown.has(column)).map(({ column }) => column);
+    const name = `${rest.length + 1} smaller rows`;
+    const others = first === undefined ? [] : [{ ...curve(first, name, MOST), rest }];
+    return [{ ...spec, curves: [...spec.curves, ...others], sum, omitted: 0 }];
+  }
+
+  private device(): PlotSpec[] {
+    const words = `the device's limit, ${DEVICE_LIMIT} N`;
+    const shown = this.of('hand').filter(isShown);
+    return this.plain('device', 'Torques of the device’s motors', shown).map((spec) =>
+      spec.unit === 'N'
+        ? { ...spec, title: 'Device force', limit: { value: DEVICE_LIMIT, words, always: true } }
+        : spec,
+    );
+  }
+
+  private loop(step: number): PlotSpec[] {
+    const words = 'the time of a step';
+    return this.plain('loop', 'Wall time over run time', this.of('time')).map((spec) => {
+      const value = spec.unit === 'us' ? 1e6 * step : step;
+      if (spec.unit !== 's' && spec.unit !== 'us') return spec;
+      return { ...spec, title: 'Loop time', limit: { value, words, always: false } };
+    });
+  }
+}
+
+function curve(
+  column: number,
+  name: string,
+  color: number,
+  style: Curve['style'] = 'line',
+): Curve {
+  return { column, name, color, style };
+}
+
+// What is of the run itself has names that tell it; joints, couplings, pairs are told by theirs.
+function labelOf({ name, kind, of }: SceneChannel): string {
+  const isOwn = kind === 'hand' || kind === 'time' || kind === 'pull';
+  return isOwn || !of ? name.slice(name.indexOf('/') + 1) : of;
+}
+
+// Angles of the device's own joints stand among its coordinates already.
+function isShown(channel: SceneChannel): boolean {
+  return channel.unit !== 'rad' && channel.unit !== '1';
+}
+
+// Stored is SI. On screen: degrees if asked for, microseconds, millimetres where all is small.
+export function screenUnit(
+  unit: string,
+  degrees: boolean,
+  size: number,
+): { unit: string; factor: number } {
+  if (unit === 's') return { unit: 'µs', factor: 1e6 };
+  if (unit === 'us') return { unit: 'µs', factor: 1 };
+  if (unit === 'm' && size < 0.1) return { unit: 'mm', factor: 1000 };
+  if (degrees && unit.startsWith('rad')) return { unit: unit.replace('rad', '°'), factor: 180 / Math.PI };
+  return { unit, factor: 1 };
+}

@@ -1,0 +1,102 @@
+// The connection to the lab. Of each kind of message only the newest is kept, and nobody looks at
+// it before the next picture is drawn: a page that draws slowly sees less, never later. A lost
+// connection is tried again until it holds.
+import { decodeFrame, type Frame } from '../protocol/frame';
+import type { BodyInspection } from '../protocol/body_inspection';
+import type { Command, SceneMessage, StateMessage } from '../protocol/messages';
+
+export * from '../protocol/frame';
+export * from '../protocol/messages';
+
+export interface News {
+  scene: SceneMessage | null;
+  state: StateMessage | null;
+  glass: BodyInspection | null;
+  frame: Frame | null;
+}
+
+const FIRST_PAUSE = 250; // [ms]
+const LONGEST_PAUSE = 2000;
+const KIND = /"kind":\s*"(\w+)"/; // stands before anything that a scene could name
+
+export class Link {
+  open = false;
+  received = 0; // frames, shown or not
+  private socket: WebSocket | null = null;
+  private waiting: ArrayBuffer | null = null;
+  private readonly texts = new Map<string, string>(); // by kind
+  private pause = FIRST_PAUSE;
+  private timer = 0;
+
+  constructor(
+    private readonly url: string,
+    private readonly changed: (open: boolean) => void,
+  ) {
+    addEventListener('online', () => this.connect());
+    document.addEventListener('visibilitychange', () => {
+      if (!document.hidden) this.connect();
+    });
+    this.connect();
+  }
+
+  // False: there is no connection, and it is not kept: a hand's movement of a while ago is no use.
+  send(command: Command): boolean {
+    if (!this.open) return false;
+    this.socket!.send(JSON.stringify(command));
+    return true;
+  }
+
+  // The newest of each kind, once; null: none has come since.
+  take(): News {
+    const text = <T>(kind: string) => {
+      const found = this.texts.get(kind);
+      return found === undefined ? null : (JSON.parse(found) as T);
+    };
+    const state = text<StateMessage>('state');
+    if (state) state.holder ||= null; // 0: nobody
+    const news: News = {
+      scene: text<SceneMessage>('scene'),
+      state,
+      glass: text<BodyInspection>('glass'),
+      frame: this.waiting && decodeFrame(this.waiting),
+    };
+    this.waiting = null;
+    this.texts.clear();
+    return news;
+  }
+
+  // At once, if there is none.
+  connect(): void {
+    clearTimeout(this.timer);
+    if (this.socket) return;
+    const socket = new WebSocket(this.url);
+    this.socket = socket;
+    socket.binaryType = 'arraybuffer';
+    socket.onopen = () => {
+      this.open = true;
+      this.pause = FIRST_PAUSE;
+      this.changed(true);
+    };
+    socket.onmessage = ({ data }: MessageEvent<string | ArrayBuffer>) => this.receive(data);
+    socket.onclose = () => this.lose();
+  }
+
+  private receive(data: string | ArrayBuffer): void {
+    if (typeof data !== 'string') {
+      this.waiting = data;
+      this.received += 1;
+      return;
+    }
+    const kind = KIND.exec(data)?.[1];
+    if (kind) this.texts.set(kind, data);
+  }
+
+  private lose(): void {
+    this.socket = null;
+    this.open = false;
+    this.waiting = null;
+    this.changed(false);
+    this.timer = setTimeout(() => this.connect(), this.pause);
+    this.pause = Math.min(2 * this.pause, LONGEST_PAUSE);
+  }
+}

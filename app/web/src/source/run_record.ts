@@ -1,0 +1,224 @@
+// The run as the plots remember it: channels, ledger, and what is made of them, frame by frame; and
+// the branch that was left.
+//
+// Columns: the scene's channels, its ledger rows, the ledger's sum, and for each unit of the errors
+// the largest of any joint so far and the mean over time of the largest of each instant.
+import type { Run } from '../protocol/run';
+import type { Frame, SceneChannel, SceneMessage, StateMessage } from './link';
+import { Store } from './store';
+
+const MOST = 36_000; // frames: ten minutes at sixty a second
+const FRESH = 1000; // [ms]
+const HISTORY_MAGIC = 0x31485754; // "TWH1"
+const HISTORY_HEADER = 24;
+
+// Of a scene, what names the columns.
+export type RunHead = Pick<SceneMessage, 'scene' | 'title' | 'channels' | 'ledger'>;
+
+export interface ErrorGroup {
+  unit: string;
+  channels: number[];
+  most: number; // columns
+  mean: number;
+}
+
+export interface History {
+  scene: number;
+  times: Float64Array;
+  width: number; // channels of a frame
+  rows: number; // of the ledger
+  channels: Float64Array; // frame by frame
+  works: Float64Array;
+}
+
+export function decodeHistory(buffer: ArrayBuffer): History | null {
+  if (buffer.byteLength < HISTORY_HEADER) return null;
+  const head = new Uint32Array(buffer, 0, 5);
+  const [magic, scene, frames, channels, rows] = head;
+  const numbers = frames * (1 + channels + rows);
+  if (magic !== HISTORY_MAGIC || buffer.byteLength < HISTORY_HEADER + 8 * numbers) return null;
+  const part = (first: number, count: number) =>
+    new Float64Array(buffer, HISTORY_HEADER + 8 * first, count);
+  return {
+    scene,
+    times: part(0, frames),
+    width: channels,
+    rows,
+    channels: part(frames, frames * channels),
+    works: part(frames * (1 + channels), frames * rows),
+  };
+}
+
+export class RunRecord {
+  readonly store: Store;
+  before: Store | null = null; // of the branch that was left, from where it was left
+  readonly errors: ErrorGroup[] = [];
+  readonly works: number; // column of the first ledger row
+  readonly sum: number;
+  version = 0; // changes with what is remembered
+  epoch = 0; // changes when time went back
+  lost: number | null = null; // frames later than this were not seen by the page
+  // Of each column, all that was ever there.
+  readonly low: Float64Array;
+  readonly high: Float64Array;
+  private left: { store: Store; at: number } | null = null;
+  private branch = 0;
+  private began = NaN;
+  private number = NaN; // of the newest frame
+
+  constructor(
+    readonly scene: RunHead,
+    most = MOST,
+  ) {
+    const { channels, ledger } = scene;
+    this.works = channels.length;
+    this.sum = this.works + ledger.length;
+    let next = this.sum + 1;
+    const errors = channels.map(({ kind, unit }, i) => ({ kind, unit, i }));
+    const isError = ({ kind }: { kind: string }) => kind === 'error';
+    for (const unit of new Set(errors.filter(isError).map((channel) => channel.unit))) {
+      const own = errors.filter((one) => isError(one) && one.unit === unit).map(({ i }) => i);
+      this.errors.push({ unit, channels: own, most: next, mean: next + 1 });
+      next += 2;
+    }
+    this.store = new Store(next, most);
+    this.low = new Float64Array(next).fill(Infinity);
+    this.high = new Float64Array(next).fill(-Infinity);
+  }
+
+  addFrame(frame: Frame): void {
+    if (frame.scene !== this.scene.scene || frame.lookedBack) return;
+    if (frame.time < this.store.last) this.goBack(frame.time);
+    else if (frame.number > this.number + 1 && this.lost === null) this.lost = this.store.last;
+    this.number = frame.number;
+    this.addRow(frame.time, frame.channels, frame.works);
+  }
+
+  // What the page has not seen, or missed: takes the place of what is remembered of that time.
+  addHistory({ scene, times, width: C, rows: R, channels, works }: History): void {
+    if (scene !== this.scene.scene || times.length === 0) return;
+    const end = times[times.length - 1];
+    const later = this.store.last > end ? this.store.copy(end) : null;
+    const first = this.store.after(times[0] - 1e-12);
+    this.store.cut(first > 0 ? this.store.times[first - 1] : -Infinity);
+    if (first === 0) this.began = NaN;
+    times.forEach((time, f) =>
+      this.addRow(time, channels.subarray(f * C, (f + 1) * C), works.subarray(f * R, (f + 1) * R)),
+    );
+    if (later) this.replay(later, this, end);
+  }
+
+  // The same run, of which more is told now: pairs that touch come up as they do.
+  grownTo(scene: RunHead): RunRecord {
+    const made = new RunRecord(scene, this.store.most);
+    made.replay(this.store, this);
+    if (this.before) {
+      const left = new RunRecord(scene, Math.max(1, this.before.length));
+      left.replay(this.before, this);
+      made.before = left.store;
+    }
+    Object.assign(made, { branch: this.branch, number: this.number, began: this.began });
+    return made;
+  }
+
+  // Rows later than a time of a store with the columns of another record.
+  private replay(store: Store, of: RunRecord, after = -Infinity): void {
+    const channels = columnsOf(this.scene.channels, of.scene.channels);
+    const ledger = this.scene.ledger.map((name) => of.scene.ledger.indexOf(name));
+    const values = new Float64Array(channels.length);
+    const works = new Float64Array(ledger.length);
+    store.times.forEach((time, row) => {
+      if (time <= after) return;
+      channels.forEach((from, i) => (values[i] = from < 0 ? NaN : store.value(from, row)));
+      ledger.forEach((from, i) => (works[i] = from < 0 ? 0 : store.value(of.works + from, row)));
+      this.addRow(time, values, works);
+    });
+  }
+
+  onState({ branch }: StateMessage): void {
+    const number = branch?.number ?? 0;
+    if (number === this.branch) return;
+    this.branch = number;
+    this.version += 1;
+    this.before = null;
+    if (!branch) return;
+    // The frames may have gone back before this message came.
+    const isFresh = this.left && performance.now() - this.left.at < FRESH;
+    if (!isFresh && this.store.last > branch.from) this.goBack(branch.from);
+    this.before = this.left?.store ?? null;
+    this.left = null;
+  }
+
+  private goBack(time: number): void {
+    this.left = { store: this.store.copy(time), at: performance.now() };
+    this.store.cut(time);
+    this.epoch += 1;
+    this.lost = null;
+    if (this.store.length === 0) this.began = NaN;
+  }
+
+  addRow(time: number, channels: ArrayLike<number>, works: ArrayLike<number>): void {
+    const put = this.store.add(time);
+    if (!put) return;
+    if (Number.isNaN(this.began)) this.began = time;
+    const keep = (index: number, value: number) => {
+      put(index, value);
+      if (value < this.low[index]) this.low[index] = value;
+      if (value > this.high[index]) this.high[index] = value;
+    };
+    // A frame may be older or newer than the scene: what comes up stands behind all others.
+    for (let i = 0; i < this.works; ++i) keep(i, channels[i] ?? NaN);
+    let sum = 0;
+    for (let i = this.works; i < this.sum; ++i) {
+      const work = works[i - this.works] ?? 0;
+      keep(i, work);
+      sum += work;
+    }
+    keep(this.sum, sum);
+    const previous = this.store.length - 2;
+    for (const group of this.errors) this.follow(group, channels, time, previous, keep);
+    this.version += 1;
+  }
+
+  // The largest so far, and the mean over time by the rectangle rule, from the row before.
+  private follow(
+    { channels, most, mean }: ErrorGroup,
+    values: ArrayLike<number>,
+    time: number,
+    previous: number,
+    keep: (index: number, value: number) => void,
+  ): void {
+    let now = 0;
+    for (const i of channels) now = Math.max(now, Math.abs(values[i]) || 0);
+    if (previous < 0) {
+      keep(most, now);
+      keep(mean, now);
+      return;
+    }
+    const then = this.store.times[previous];
+    const passed = then - this.began;
+    const all = time - this.began;
+    keep(most, Math.max(this.store.value(most, previous), now));
+    keep(mean, (this.store.value(mean, previous) * passed + now * (time - then)) / all);
+  }
+}
+
+// For each of the first where it stands among the second; -1: nowhere.
+function columnsOf(wanted: SceneChannel[], there: SceneChannel[]): number[] {
+  const places = new Map(there.map(({ name }, i) => [name, i]));
+  return wanted.map(({ name }) => places.get(name) ?? -1);
+}
+
+// Of a run that has ended.
+export function recordOf({ title, channels, ledger, times }: Run): RunRecord {
+  const { rows, works } = ledger;
+  const record = new RunRecord({ scene: 0, title, channels, ledger: rows }, times.length);
+  times.forEach((time, frame) =>
+    record.addRow(
+      time,
+      channels.map(({ values }) => values[frame]),
+      works.subarray(frame * rows.length, (frame + 1) * rows.length),
+    ),
+  );
+  return record;
+}

@@ -1,0 +1,36 @@
+// Tables of numbers: all digits stand at the pointer.
+import './table.css';
+import { element, short } from './dom';
+
+export function numberCell(value: number | null, scale = 0, more = ''): HTMLTableCellElement {
+  const made = element('td', { class: `number ${more}`.trim() });
+  putNumber(made, value, scale);
+  return made;
+}
+
+export function putNumber(cell: HTMLElement, value: number | null, scale = 0): void {
+  cell.textContent = short(value, scale);
+  cell.title = String(value);
+}
+
+export function row(head: string | (Node | string)[], ...cells: Node[]): HTMLTableRowElement {
+  return element('tr', {}, element('th', { scope: 'row' }, ...[head].flat()), ...cells);
+}
+
+export function table(
+  heads: (string | HTMLElement)[],
+  rows: Node[],
+  attributes: Record<string, string> = {},
+  foot?: Node,
+): HTMLTableElement {
+  const cells = heads.map((head) =>
+    typeof head === 'string' ? element('th', { scope: 'col' }, head) : head,
+  );
+  return element(
+    'table',
+    attributes,
+    element('thead', {}, element('tr', {}, ...cells)),
+    element('tbody', {}, ...rows),
+    ...(foot ? [element('tfoot', {}, foot)] : []),
+  );
+}

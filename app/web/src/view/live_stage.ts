@@ -1,0 +1,148 @@
+// The view of the run: the newest frame, as it came. Nothing is interpolated between frames: that
+// would show each of them one frame later, and a hand feels that.
+import type { LabelColumns } from '../protocol/run';
+import { element } from '../ui/dom';
+import { Labels } from './labels';
+import type { Part } from './painter';
+import { Stage } from './stage';
+import { labelText, placeOf, type Frame, type SceneMessage } from '../source/link';
+import { MeshStore } from '../source/meshes';
+
+const [RIM, DARK_RIM] = ['#0067a5', '#6cb8ee']; // around what is selected: the accent
+const FINE = new URLSearchParams(location.search).has('fine'); // for pictures, at any cost
+const SHADOWS_AFTER = 300; // [ms]
+const NO_DATA = { meshes: [], textures: [] };
+
+export class LiveStage {
+  stage: Stage | null = null; // before the first scene, and where a browser cannot draw: none
+  private readonly gl = webGl(); // null: none
+  private readonly isSlow = this.gl !== null && isSoftware(this.gl) && !FINE;
+  readonly canDraw = this.gl !== null;
+  private readonly store = new MeshStore();
+  private readonly labels: Labels;
+  private readonly tag = element('div', { class: 'tag', hidden: '' });
+  private scene: SceneMessage | null = null;
+  private meshes = 0; // that the stage has
+  private textures = 0;
+  private isSeen = false;
+  private dark = false;
+  private numbers = new Uint32Array(); // 0, 1, 2, ..
+
+  constructor(
+    private readonly host: HTMLElement,
+    parts: { labels: HTMLElement; handles: HTMLElement },
+    private readonly changed: () => void,
+  ) {
+    this.labels = new Labels(parts.labels);
+    parts.handles.append(this.tag);
+  }
+
+  // A scene of the same number has more of everything, and nothing else.
+  async show(scene: SceneMessage): Promise<void> {
+    const before = this.scene;
+    this.scene = scene;
+    if (!this.canDraw) return;
+    if (!this.stage) {
+      // A context costs a tenth of a second there: the one that was asked is drawn with.
+      const plain = this.isSlow ? this.gl : null;
+      this.stage = new Stage(this.host, scene.view, NO_DATA, this.changed, plain);
+      if (!plain) this.gl!.getExtension('WEBGL_lose_context')?.loseContext();
+      this.stage.setTheme(this.dark);
+    } else if (before?.scene !== scene.scene) {
+      this.stage.refurnish(scene.view);
+      this.stage.setTheme(this.dark);
+      if (before?.file !== scene.file) this.stage.look('start');
+      this.meshes = this.textures = 0;
+    }
+    const [meshes, textures] = await Promise.all([
+      this.store.get(scene.meshes),
+      this.store.images(scene.textures),
+    ]);
+    if (this.scene !== scene) return; // another one has come meanwhile
+    this.stage.add(meshes.slice(this.meshes), textures.slice(this.textures));
+    this.meshes = meshes.length;
+    this.textures = textures.length;
+    this.changed();
+  }
+
+  setTheme(dark: boolean): void {
+    this.dark = dark;
+    this.stage?.setTheme(dark);
+  }
+
+  get isReady(): boolean {
+    if (!this.canDraw) return true;
+    return this.scene !== null && this.meshes === this.scene.meshes.length;
+  }
+
+  // `shown`: names of layers. `selected`, `followed`: bodies.
+  paint(
+    frame: Frame,
+    shown: Set<string>,
+    { selected, followed }: { selected: number | null; followed: number | null },
+  ): void {
+    const { stage, scene } = this;
+    if (!stage || !scene) return;
+    if (followed !== null) stage.follow(placeOf(frame.link, followed));
+    const parts: Part[] = [];
+    scene.layers.forEach(({ name }, l) => {
+      if (l >= frame.layers || !(l === 0 || shown.has(name))) return;
+      parts.push({ columns: frame, a: l, b: l, share: 0, shadow: l === 0 });
+    });
+    const marked = [...parts];
+    if (selected !== null) {
+      const outline = { color: this.dark ? DARK_RIM : RIM, of: (i: number) => frame.body[i] === selected };
+      marked.push({ columns: frame, a: 0, b: 0, share: 0, outline });
+    }
+    stage.paint(marked);
+    stage.draw();
+    if (this.isReady && !this.isSeen) {
+      this.isSeen = true;
+      setTimeout(() => stage.addShadows(), SHADOWS_AFTER);
+    }
+    this.paintLabels(stage, frame, parts);
+    this.paintTag(stage, frame, selected);
+  }
+
+  // The page is too slow for what comes. Without a graphics card it helps little.
+  coarsen(): void {
+    if (!this.isSlow && !FINE) this.stage?.coarsen();
+  }
+
+  private paintLabels(stage: Stage, frame: Frame, parts: Part[]): void {
+    const count = frame.textEnd.length;
+    if (this.numbers.length < count) this.numbers = Uint32Array.from({ length: 2 * count }, (_, i) => i);
+    const columns: LabelColumns = {
+      first: frame.firstLabel,
+      text: this.numbers,
+      position: frame.labelPosition,
+      offset: frame.labelOffset,
+    };
+    const texts = Array.from({ length: count }, (_, i) => labelText(frame, i));
+    const layers = count > 0 ? parts.map(({ a }) => ({ columns, frame: a })) : [];
+    this.labels.paint(stage, texts, layers);
+  }
+
+  // The name of what is selected, beside it.
+  private paintTag(stage: Stage, frame: Frame, body: number | null): void {
+    const place = body === null ? null : placeOf(frame.link, body);
+    const at = place && stage.project(...place);
+    this.tag.hidden = !at;
+    if (!at || body === null) return;
+    const name = this.scene?.bodies[body]?.name ?? '';
+    if (this.tag.textContent !== name) this.tag.textContent = name;
+    this.tag.style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px)`;
+  }
+}
+
+function webGl(): WebGL2RenderingContext | null {
+  if (new URLSearchParams(location.search).has('plain')) return null; // asked to do without
+  return document.createElement('canvas').getContext('webgl2', { antialias: false });
+}
+
+// A program draws in the place of a graphics card.
+function isSoftware(gl: WebGL2RenderingContext): boolean {
+  const names = gl.getExtension('WEBGL_debug_renderer_info');
+  const name = names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
+  return /swiftshader|llvmpipe|softpipe|basic render/i.test(name);
+}

@@ -1,0 +1,44 @@
+// What lies under a point of the view: the nearest entry of a layer that belongs to a body.
+import * as THREE from 'three';
+import type { Stage } from './stage';
+import { NO_BODY, type Frame } from '../source/link';
+
+export interface Hit {
+  body: number;
+  point: THREE.Vector3; // world
+  distance: number; // from the eye [m]
+}
+
+const ray = new THREE.Raycaster();
+const probe = new THREE.Mesh<THREE.BufferGeometry, THREE.MeshBasicMaterial>(
+  undefined,
+  new THREE.MeshBasicMaterial({ side: THREE.DoubleSide }),
+);
+const [position, turn, scale] = [new THREE.Vector3(), new THREE.Quaternion(), new THREE.Vector3()];
+
+// The ray through a point of the view, in pixels from its upper left.
+export function rayAt(stage: Stage, x: number, y: number): THREE.Ray {
+  const { clientWidth, clientHeight } = stage.host;
+  const at = new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight);
+  ray.setFromCamera(at, stage.camera);
+  return ray.ray.clone();
+}
+
+// Cost: one test of a ball for each entry, and of triangles for those that the ray comes near.
+export function pick(stage: Stage, frame: Frame, layer: number, x: number, y: number): Hit | null {
+  if (layer >= frame.layers) return null;
+  rayAt(stage, x, y);
+  let nearest: Hit | null = null;
+  for (let i = frame.first[layer]; i < frame.first[layer + 1]; ++i) {
+    const geometry = stage.geometries[frame.mesh[i]];
+    if (frame.body[i] === NO_BODY || !geometry) continue;
+    position.fromArray(frame.position, 3 * i);
+    turn.fromArray(frame.turn, 4 * i).normalize();
+    scale.fromArray(frame.scale, 3 * i);
+    probe.geometry = geometry;
+    probe.matrixWorld.compose(position, turn, scale);
+    for (const { point, distance } of ray.intersectObject(probe, false))
+      if (!nearest || distance < nearest.distance) nearest = { body: frame.body[i], point, distance };
+  }
+  return nearest;
+}

@@ -1,0 +1,85 @@
+// A billiard ball that slides until it rolls (E5).
+#include <algorithm>
+#include <cmath>
+
+#include "benchmarks/analytic/contact/contact_cases.h"
+#include "benchmarks/analytic/support/contact_look.h"
+#include "benchmarks/analytic/support/contact_scene.h"
+
+namespace twinarm {
+namespace {
+
+using namespace contact_looks;
+
+// Billiards: R = 0.0286 m, mu = 0.2, 2 m/s, without and with top spin (R w = 4 m/s).
+struct Roll {
+  double time = 0, x = 0, v = 0, rim = 0, loss = 0;
+};
+Roll billiard(double rim, double mu, double inertia = 1) {
+  constexpr double R = 0.0286;
+  ContactScene scene;
+  scene.add_floor(surface(mu));
+  ContactScene::Body body{Sphere{R}, surface(mu), 0.17, {0, 0, R}, {2, 0, 0}, {0, rim / R, 0}};
+  body.inertia = inertia * 0.4 * 0.17 * R * R * Matrix3::Identity();
+  const int ball = scene.add(body);
+  scene.start();
+  const double before = scene.energy() - 0.17 * kGravity * R;
+  Roll roll;
+  while (scene.t() < 1) {
+    scene.step(kStep);
+    const double slip = scene.v(ball).x() - R * scene.w(ball).y();
+    if (roll.time == 0 && std::abs(slip) < 1e-9) roll.time = scene.t(), roll.x = scene.p(ball).x();
+  }
+  roll.v = scene.v(ball).x();
+  roll.rim = R * scene.w(ball).y();
+  roll.loss = 1 - (scene.energy() - 0.17 * kGravity * R) / before;
+  return roll;
+}
+CaseResult billiard_time(double off) {  // mu
+  const Roll roll = billiard(0, off * 0.2);
+  return {std::max(std::abs(roll.time - 0.291247997670016),
+                   std::abs(roll.x - 0.4992822817200275) / roll.v)};
+}
+CaseResult billiard_speed(double off) {  // inertia
+  const Roll roll = billiard(0, 0.2, off), top = billiard(4, 0.2, off);
+  return {std::max({relative(roll.v, 10 / 7.0), relative(roll.rim, 10 / 7.0),
+                    relative(roll.loss, 2 / 7.0), relative(top.v, 18 / 7.0)})};
+}
+
+// ---- what a page draws of them ----
+
+// Without and with top spin: the centre goes to 5/7 v + 2/7 R w.
+double known_centre(std::size_t run, double t) {
+  const double change = 0.2 * kGravity * t;
+  return run == 0 ? std::max(2 - change, 10 / 7.0) : std::min(2 + change, 18 / 7.0);
+}
+double known_billiard(std::size_t k, double t) {
+  return k == 0 ? known_centre(0, t) : std::min(2.5 * 0.2 * kGravity * t, 10 / 7.0);
+}
+
+}  // namespace
+
+CaseFamily billiards_cases() {
+  const std::vector<AnalyticCase> cases = {
+      contact_case<billiard_time, 10>(
+          "E5-time", "billiard ball: end of sliding [s]; closed form", kStep,
+          "A billiard ball is struck to v = 2 m/s without spin, μ = 0.2. It slides, and rolls from "
+          "<p>t = 2v/(7 μ g), x = 12 v<sup>2</sup>/(49 μ g)</p> on.",
+          ContactLook{.readings = {"v of the centre [m/s]", "R ω [m/s]"},
+                      .read = speed_and_rim<286>,
+                      .exact = known_billiard,
+                      .about_steps = kPartOfStep}),
+      contact_case<billiard_speed, 10>(
+          "E5-speed", "billiard ball: speed, spin, loss; with top spin [relative]", 1e-3,
+          "How fast the ball rolls then, whatever μ is: without spin, and with a top spin R ω of 4 "
+          "m/s. <p>v<sub>end</sub> = (5/7) v + (2/7) R ω</p> Without spin it has lost 2/7 of its "
+          "energy.",
+          ContactLook{.readings = {"v of the centre [m/s]"},
+                      .read = velocity<1, 0>,
+                      .exact = known_centre,
+                      .runs = {"no spin", "top spin"}}),
+  };
+  return {220, cases};
+}
+
+}  // namespace twinarm

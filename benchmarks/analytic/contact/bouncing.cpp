@@ -1,0 +1,166 @@
+// The bouncing ball (E1), by Newton's law of impact.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "benchmarks/analytic/contact/contact_cases.h"
+#include "benchmarks/analytic/support/contact_look.h"
+#include "benchmarks/analytic/support/contact_scene.h"
+
+namespace twinarm {
+namespace {
+
+using namespace contact_looks;
+
+constexpr double kZeno = 4.063712768871578;  // t1 (1 + e) / (1 - e)
+
+// A ball that falls from 1 m onto the floor.
+int add_falling_ball(ContactScene& scene, double restitution) {
+  scene.add_floor(surface(0, restitution));
+  const int ball = scene.add({Sphere{kBallRadius}, surface(0, 1), 1, {0, 0, 1 + kBallRadius}});
+  scene.start();
+  return ball;
+}
+
+constexpr std::array kTimes = {0.4515236409857309, 1.1739614665629,   1.751911727024636,
+                               2.214271935394024,  2.584160102089535, 2.880070635445944};
+constexpr std::array kSpeeds = {4.42944691807002, 3.543557534456016, 2.834846027564813,
+                                2.26787682205185, 1.81430145764148};
+
+// When and how fast the ball reaches the floor: from where it stands before the step that turns it
+// round, in free fall.
+struct Bounces {
+  double time_error = NAN, speed_error = NAN;
+};
+Bounces bounce(bool located, double gravity, double e) {
+  ContactScene scene(gravity);
+  const int ball = add_falling_ball(scene, e);
+  if (located) scene.locate_events();
+  Bounces errors{0, 0};
+  std::size_t impacts = 0;
+  while (impacts < kTimes.size() && scene.t() < kZeno) {
+    const double t = scene.t(), v = scene.v(ball).z(), gap = scene.p(ball).z() - kBallRadius;
+    scene.step(kStep);
+    if (v >= 0 || scene.v(ball).z() <= 0) continue;
+    const double speed = std::sqrt(v * v + 2 * kGravity * std::max(0.0, gap));
+    const double time = t + (speed + v) / kGravity;
+    errors.time_error = std::max(errors.time_error, std::abs(time - kTimes[impacts]));
+    if (impacts < kSpeeds.size())
+      errors.speed_error = std::max(errors.speed_error, relative(speed, kSpeeds[impacts]));
+    ++impacts;
+  }
+  return impacts == kTimes.size() ? errors : Bounces{};
+}
+CaseResult bounce_times(double off) {  // gravity
+  return {bounce(true, off, 0.8).time_error};
+}
+CaseResult bounce_speeds(double off) {  // gravity
+  return {bounce(true, off, 0.8).speed_error};
+}
+CaseResult bounce_fixed(double off) {  // e
+  return {bounce(false, 1, off * 0.8).speed_error};
+}
+
+// Both with steps that locate the impacts, whose number is beyond counting, and with steps of fixed
+// size.
+CaseResult rest_after_bounces(double off) {  // e
+  double fastest = 0;
+  for (const bool located : {false, true}) {
+    ContactScene scene;
+    const int ball = add_falling_ball(scene, off * 0.8);
+    if (located) scene.locate_events();
+    while (scene.t() < 6) {
+      scene.step(kStep);
+      if (scene.t() > kZeno + kStep) fastest = std::max(fastest, scene.v(ball).norm());
+    }
+  }
+  return {fastest};
+}
+
+CaseResult bounce_energy(double off) {  // the weight; the energy counts it as it should be
+  double rise = 0;
+  for (const double e : {0.0, 0.3, 0.5, 0.8, 0.95, 1.0}) {
+    ContactScene scene;
+    const int ball = add_falling_ball(scene, e);
+    scene.push(ball, {0, 0, (1 - off) * kGravity});
+    scene.run(5, kStep);
+    rise = std::max(rise, scene.rise());
+  }
+  return {rise};
+}
+
+// ---- what a page draws of them ----
+
+// Body by body, from 1 on.
+template <int body>
+Values seen_height(Scene s) {
+  return {s.p(body).z() - 0.1};
+}
+// The gap of a ball that falls from 1 m.
+double known_bounce(double e, double t) {
+  const double fall = std::sqrt(2 / kGravity);
+  if (t < fall) return 1 - kGravity * t * t / 2;
+  double speed = e * kGravity * fall, since = t - fall;
+  while (speed > 1e-6 && since > 2 * speed / kGravity) since -= 2 * speed / kGravity, speed *= e;
+  return speed > 1e-6 ? speed * since - kGravity * since * since / 2 : 0;
+}
+double known_bounces(std::size_t, double t) {
+  return known_bounce(0.8, t);
+}
+
+constexpr const char* kStatementE1 =
+    "A ball falls from h = 1 m onto a floor, with a restitution of e = 0.8. It meets the floor for "
+    "the nth time at <p>t<sub>n</sub> = √(2h/g) (1 + 2(e + e<sup>2</sup> + … + e<sup>n−1</sup>)), "
+    "v<sub>n</sub> = e<sup>n−1</sup> √(2 g h)</p>";
+
+}  // namespace
+
+CaseFamily bouncing_cases() {
+  const std::vector<AnalyticCase> cases = {
+      contact_case<bounce_times, 1>(
+          "E1-times", "ball from 1 m, e = 0.8, events located: times of six impacts [s]", 1e-9,
+          kStatementE1,
+          ContactLook{.readings = {"height of the ball [m]"},
+                      .read = seen_height<1>,
+                      .exact = known_bounces,
+                      .no_steps = kLocated}),
+      contact_case<bounce_speeds, 1>(
+          "E1-speeds", "ball from 1 m, e = 0.8, events located: speeds before five [relative]",
+          1e-9, kStatementE1,
+          ContactLook{.readings = {"height of the ball [m]"},
+                      .read = seen_height<1>,
+                      .exact = known_bounces,
+                      .no_steps = kLocated}),
+      contact_case<bounce_fixed, 1>(
+          "E1-fixed", "the same in steps of 1 ms: speeds before five impacts [relative]", 1e-3,
+          kStatementE1,
+          ContactLook{
+              .readings = {"height of the ball [m]"},
+              .read = seen_height<1>,
+              .exact = known_bounces,
+              .about_steps =
+                  "Flight is exact in any step. One of 0.5 ms would end 1 µm within the floor, "
+                  "ends on it, 0.1 % slower, and the ball bounces in the next one."}),
+      contact_case<rest_after_bounces, 1>(
+          "E1-rest", "the bouncing ball rests after its last impact at 4.0637 s [m/s]", 1e-6,
+          "The same ball bounces without end in a time that has one: from <p>t = √(2h/g) (1 + "
+          "e)/(1 − e) = 4.0637&nbsp;s</p> on it lies still.",
+          ContactLook{.readings = {"height of the ball [m]"},
+                      .read = seen_height<1>,
+                      .exact = known_bounces,
+                      .runs = {"located", "1 ms"},
+                      .no_steps = kRounding}),
+      contact_case<bounce_energy, 10>(
+          "E1-energy", "bouncing ball: energy rises for no e from 0 to 1 [of the kinetic]", 1e-10,
+          "The same ball with restitutions from 0 to 1: an impact takes energy or, with e = 1, "
+          "keeps it. <p>E<sub>after</sub> − E<sub>before</sub> = −(1 − e<sup>2</sup>) m "
+          "v<sup>2</sup>/2</p>",
+          ContactLook{.readings = {"height of the ball [m]"},
+                      .read = seen_height<1>,
+                      .runs = {"e = 0", "0.3", "0.5", "0.8", "0.95", "1"},
+                      .no_steps = kRounding}),
+  };
+  return {180, cases};
+}
+
+}  // namespace twinarm

@@ -1,0 +1,277 @@
+#include "benchmarks/analytic/contact/engine_tasks.h"
+
+#include <cmath>
+#include <random>
+
+#include "benchmarks/analytic/support/contact_look.h"
+
+namespace twinarm::engine_tasks {
+namespace {
+
+Vector3 eigen(const Numbers& v) {
+  return Vector3(v.data());
+}
+
+double energy_of(const Task& task, const std::vector<Moving>& bodies) {
+  double energy = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Moving& b = bodies[i];
+    const double m = task.bodies[i].mass, r = task.bodies[i].half[0];
+    energy += m * kGravity * b.p[2] + m / 2 * eigen(b.v).squaredNorm() +
+              m * r * r / 5 * eigen(b.w).squaredNorm();
+  }
+  return energy;
+}
+
+// Of balls with each other and with the floor.
+double overlap_of(const Task& task, const std::vector<Moving>& bodies) {
+  const double r = task.bodies[0].half[0];
+  double sum = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Vector3 p = eigen(bodies[i].p);
+    const double below = std::max(0.0, r - p.z());
+    sum += below * below;
+    for (std::size_t j = i + 1; j < bodies.size(); ++j) {
+      const double apart = (eigen(bodies[j].p) - p).squaredNorm();
+      if (apart >= 4 * r * r) continue;
+      const double depth = 2 * r - std::sqrt(apart);
+      sum += depth * depth;
+    }
+  }
+  return sum;
+}
+
+Shape shape_of(const TaskBody& b) {
+  if (b.is_box) return Box{2 * eigen(b.half)};
+  return Sphere{b.half[0]};
+}
+TaskBody ball(double mass, double radius, const Numbers& p) {
+  return {false, {radius, radius, radius}, mass, p, {}};
+}
+
+// The pushes of a task on bodies whose origin is their centre.
+class Pushes final : public ForceSource {
+ public:
+  explicit Pushes(const Task& task) : task_(task) {}
+  void add_forces(const State<double>&, const Kinematics& k, Forces<double>& f) noexcept override {
+    for (std::size_t i = 0; i < task_.bodies.size(); ++i) {
+      const Vector3 F_B = k.R_WB[i + 1].transpose() * eigen(task_.bodies[i].push);
+      f.f_ext[i + 1].f += from_eigen(F_B);
+    }
+  }
+
+ private:
+  const Task& task_;
+};
+
+// In our own solver, in steps of 1 ms; judged as `truth` says.
+double error_of(const Task& task, const Task& truth) {
+  ContactScene scene;
+  const double e = std::sqrt(task.restitution), mu = task.friction;
+  // a pair takes the geometric mean of the frictions
+  scene.add_floor(surface(mu > 0 ? task.floor_friction * task.floor_friction / mu : 0, e));
+  for (const TaskBody& b : task.bodies) {
+    scene.add({shape_of(b), surface(mu, e), b.mass, eigen(b.p)});
+  }
+  scene.start();
+  Pushes pushes(task);
+  scene.simulation().add(pushes);
+  MeanError error(truth);
+  std::vector<Moving> bodies(task.bodies.size());
+  double mean = NAN;
+  for (long n = 1; n <= std::lround(task.duration / kStep); ++n) {
+    if (!scene.step(kStep)) return NAN;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const int b = static_cast<int>(i) + 1;
+      Vector3::Map(bodies[i].p.data()) = scene.p(b);
+      Vector3::Map(bodies[i].v.data()) = scene.v(b);
+      Vector3::Map(bodies[i].w.data()) = scene.w(b);
+    }
+    mean = error.take(scene.t(), bodies);
+  }
+  return mean;
+}
+
+double error_of(const Task& task) {
+  return error_of(task, task);
+}
+
+// As much of a task as a run of all cases has time for; scripts/measure/peers runs the whole.
+Task first(double seconds, Task task) {
+  task.duration = seconds;
+  return task;
+}
+
+// Mistakes: of 0.1 %, and balls that come nearer than they should.
+Task smaller(Task task) {
+  for (TaskBody& b : task.bodies)
+    for (double& r : b.half) r *= 0.95;
+  return task;
+}
+Task heavier(Task task) {
+  for (TaskBody& b : task.bodies) b.mass *= 1.001;
+  return task;
+}
+Task less_elastic(Task task) {
+  task.restitution *= 0.999;
+  return task;
+}
+
+}  // namespace
+
+Task rolling(bool askew) {
+  constexpr double m = 1, M = 10, n = 25, F = 150, mu = 0.4, r = 0.5;
+  Task task{askew ? "H1-rolling-xy" : "H1-rolling-y",
+            "a box with 25 balls on it is pulled over the floor for 4 s",
+            "(m/s)^2, box and a ball, mean"};
+  task.floor_friction = mu, task.friction = 0.8, task.duration = 4;
+  task.measure = Measure::velocity;
+  const Numbers along = askew ? Numbers{0.5, std::sqrt(0.75), 0} : Numbers{0, 1, 0};
+  const double f1 = mu * (M + n * m) * kGravity, f2 = (F - f1) / M / (3.5 / m + n / M);
+  TaskBody box{true, {10, 10, 0.5}, M, {0, 0, 0.5}, {}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.push[k] = F * along[k];
+    task.box_rate[k] = (F - f1 - n * f2) / M * along[k];
+    task.ball_rate[k] = f2 / m * along[k];
+  }
+  task.bodies.push_back(box);
+  for (int i = 0; i < 25; ++i)
+    task.bodies.push_back(ball(m, r, {2.0 * (i % 5 - 2), 2.0 * (i / 5 - 2), 1 + r}));
+  return task;
+}
+
+Task bouncing() {
+  Task task{"H1-bouncing", "49 balls fall from 5 m, e = 1, for 20 s", "J^2, mean"};
+  task.restitution = 1, task.duration = 20;
+  for (int i = 0; i < 49; ++i)
+    task.bodies.push_back(ball(10, 0.1, {2.0 * (i % 7), 2.0 * (i / 7), 5}));
+  task.energy = 49 * 10 * kGravity * 5;
+  return task;
+}
+
+Task pile(bool elastic) {
+  Task task{elastic ? "H1-666-elastic" : "H1-666",
+            elastic ? "216 balls fall from 1.101 m, e = 1, for 10 s"
+                    : "216 balls fall from 1.101 m, e = 0, for 15 s",
+            elastic ? "J^2, mean" : "m^2 of overlaps, mean"};
+  task.restitution = elastic ? 1 : 0, task.duration = elastic ? 10 : 15;
+  task.measure = elastic ? Measure::energy : Measure::overlap;
+  std::mt19937 random(42);
+  const auto askew = [&random] { return 1e-3 * static_cast<double>(random()) / 4294967296.0; };
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      for (int k = 0; k < 6; ++k) {
+        const double x = 0.21 * i + askew(), y = 0.21 * j + askew();
+        task.bodies.push_back(ball(10, 0.1, {x, y, 1.101 + 0.21 * k + askew()}));
+      }
+  for (const TaskBody& b : task.bodies) task.energy += b.mass * kGravity * b.p[2];
+  return task;
+}
+
+double MeanError::take(double t, const std::vector<Moving>& bodies) {
+  sum_ += now(t, bodies), ++count_;
+  return sum_ / static_cast<double>(count_);
+}
+
+double MeanError::now(double t, const std::vector<Moving>& bodies) const {
+  switch (task_.measure) {
+    case Measure::velocity:
+      return (eigen(bodies[0].v) - t * eigen(task_.box_rate)).squaredNorm() +
+             (eigen(bodies[1].v) - t * eigen(task_.ball_rate)).squaredNorm();
+    case Measure::overlap:
+      return overlap_of(task_, bodies);
+    case Measure::energy:
+      break;
+  }
+  return std::pow(energy_of(task_, bodies) - task_.energy, 2);
+}
+
+namespace {
+
+using contact_looks::place;
+
+// ---- what a page draws of them ----
+
+constexpr const char* kPublished =
+    "Run in the step of the published figures alone, 1 ms; other engines beside: docs/peers.md.";
+// The box, pulled with 150 N, and the ball in a corner.
+std::vector<double> seen_speeds(const ContactScene& s) {
+  return {s.v(1).norm(), s.v(2).norm()};
+}
+double known_box_and_ball(std::size_t k, double t) {
+  const double pull = 150 - 0.4 * (10 + 25) * kGravity, ball = pull / 10 / (3.5 + 25 / 10.);
+  return t * (k == 0 ? (pull - 25 * ball) / 10 : ball);
+}
+// Falls by 4.9 m, e = 1.
+double known_bouncing(std::size_t, double t) {
+  const double fall = std::sqrt(2 * 4.9 / kGravity), since = std::remainder(t, 2 * fall);
+  return 5 - kGravity * since * since / 2;
+}
+std::vector<double> seen_heights(const ContactScene& s) {
+  return {s.p(1).z(), s.p(216).z()};
+}
+
+constexpr const char* kStatementRolling =
+    "A box of M = 10 kg carries n = 25 balls of m = 1 kg and is pulled with F = 150 N (RaiSim's "
+    "SimBenchmark). It slides, and the balls roll on it: <p>F &minus; &mu; (M + n m) g = (M + "
+    "(2/7) n m) a, a<sub>ball</sub> = (2/7) a</p>";
+
+AnalyticCase task_case(const char* name, const char* reference, double tolerance,
+                       CaseResult (*run)(), CaseResult (*mistaken)(), const char* statement,
+                       ContactLook look) {
+  AnalyticCase c = experiment_case(name, "engines", reference, tolerance, run, mistaken, statement);
+  look.no_steps = kPublished;
+  c.look = std::make_shared<const ContactLook>(std::move(look));
+  return c;
+}
+
+}  // namespace
+}  // namespace twinarm::engine_tasks
+
+namespace twinarm {
+
+CaseFamily engine_tasks_cases() {
+  using namespace engine_tasks;
+  const std::vector<AnalyticCase> cases = {
+      task_case(
+          "H1-rolling-y", "box with 25 balls, pulled along y: velocities, mean square [m2/s2]",
+          1e-6, [] { return CaseResult{error_of(rolling(false))}; },
+          [] { return CaseResult{error_of(heavier(rolling(false)))}; }, kStatementRolling,
+          {.readings = {"box [m/s]", "ball [m/s]"},
+           .read = seen_speeds,
+           .exact = known_box_and_ball}),
+      task_case(
+          "H1-rolling-xy", "the same, pulled along (1/2, sqrt(3)/2) [m2/s2]", 1e-6,
+          [] { return CaseResult{error_of(rolling(true))}; },
+          [] { return CaseResult{error_of(heavier(rolling(true)))}; }, kStatementRolling,
+          {.readings = {"box [m/s]", "ball [m/s]"},
+           .read = seen_speeds,
+           .exact = known_box_and_ball}),
+      task_case(
+          "H1-bouncing", "49 elastic balls for 20 s: energy, mean square [J2]", 0.1,
+          [] { return CaseResult{error_of(bouncing())}; },
+          [] { return CaseResult{error_of(less_elastic(bouncing()))}; },
+          "49 balls of m = 10 kg fall from h = 5 m and bounce without loss for 20 s: <p>E = n m g "
+          "h = const</p>",
+          {.readings = {"height [m]"}, .read = place<1, 2>, .exact = known_bouncing, .until = 8}),
+      task_case(
+          "H1-666", "216 balls fall on each other, 0.55 s: overlaps squared, mean [m2]", 1e-3,
+          [] { return CaseResult{error_of(first(0.55, pile(false)))}; },
+          [] {
+            const Task task = first(0.55, pile(false));
+            return CaseResult{error_of(smaller(task), task)};
+          },
+          "216 balls in a cube of six by six by six fall on each other without friction; none "
+          "shall enter another. <p>&Sigma; d<sup>2</sup> = 0, d the overlap of two balls</p>",
+          {.readings = {"first ball [m]", "last ball [m]"}, .read = seen_heights}),
+      task_case(
+          "H1-666-elastic", "the same, elastic, 2 s: energy, mean square [J2]", 50,
+          [] { return CaseResult{error_of(first(2, pile(true)))}; },
+          [] { return CaseResult{error_of(less_elastic(first(2, pile(true))))}; },
+          "The same without loss: <p>E = const</p>",
+          {.readings = {"first ball [m]", "last ball [m]"}, .read = seen_heights}),
+  };
+  return {380, cases};
+}
+
+}  // namespace twinarm

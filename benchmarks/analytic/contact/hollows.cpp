@@ -1,0 +1,212 @@
+// Rolling in a bowl, in a trough, on a turntable and in an upright tube (E12).
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "benchmarks/analytic/contact/contact_cases.h"
+#include "benchmarks/analytic/support/contact_look.h"
+#include "benchmarks/analytic/support/contact_scene.h"
+
+namespace twinarm {
+namespace {
+
+using namespace contact_looks;
+
+// Angular frequency of small swings, from the times at which `reading` passes zero; 0.02 rad wide.
+template <class Reading>
+double frequency(ContactScene& scene, double duration, Reading&& reading) {
+  double before = reading(), first = 0, last = 0;
+  int passes = 0;
+  while (scene.t() < duration) {
+    const double t = scene.t();
+    scene.step(kStep);
+    const double now = reading();
+    if (before * now < 0) {
+      last = scene.t() - (scene.t() - t) * now / (now - before);
+      if (passes++ == 0) first = last;
+    }
+    before = now;
+  }
+  return (passes - 1) * std::numbers::pi / (last - first);
+}
+
+CaseResult bowl(const Shape& hollow, const Shape& shape, double reference, double gravity) {
+  constexpr double kAngle = 0.02, kArm = 1 - kBallRadius;
+  const Matrix3 R = std::holds_alternative<HollowCylinder>(hollow) ? axis_along_y()
+                                                                   : Matrix3(Matrix3::Identity());
+  ContactScene scene(gravity);
+  scene.add_fixed(hollow, surface(1), {R, Vector3::Zero()});
+  const int body = scene.add(
+      {shape, surface(1), 1, {kArm * std::sin(kAngle), 0, -kArm * std::cos(kAngle)}, {}, {}, R});
+  scene.start();
+  const double found = frequency(scene, 12, [&] { return scene.p(body).x(); });
+  return {relative(found, reference), scene.drift()};
+}
+CaseResult sphere_in_bowl(double off) {  // gravity
+  return bowl(HollowSphere{1}, Sphere{kBallRadius}, 2.79028928352, off);
+}
+CaseResult sphere_in_trough(double off) {  // gravity
+  return bowl(HollowCylinder{1, 1}, Sphere{kBallRadius}, 2.79028928352, off);
+}
+CaseResult cylinder_in_trough(double off) {  // gravity
+  return bowl(HollowCylinder{1, 1}, Cylinder{kBallRadius, 0.3}, 2.69567554922, off);
+}
+
+// Starts with the table's own velocity there, W x r_0, and without spin. From v' = (2/7) W x v the
+// centre circles at 2/7 of the table's rate, about r_0 - (7/2) r_0.
+struct Circle {
+  double period, astray;  // [s], [of the radius]
+};
+// The table may turn at a rate that is off.
+Circle turntable(double h, double off, Steps steps = Steps::fixed) {
+  constexpr double W = 2, kStart = 0.2;
+  ContactScene scene;
+  scene.add_turning(Cylinder{3, 0.2}, surface(1), {Matrix3::Identity(), {0, 0, -0.1}}, off * W);
+  ContactScene::Body ball{Sphere{kBallRadius}, surface(1), 1, {kStart, 0, kBallRadius}};
+  ball.v = {0, W * kStart, 0};
+  const int body = scene.add(ball);
+  scene.start();
+  if (steps == Steps::located) scene.locate_events();
+  double turned = 0, error = 0;
+  Vector3 last = ball.v;
+  while (turned < 2 * std::numbers::pi && scene.t() < 15) {
+    scene.step(h);
+    const Vector3 v = scene.v(body);
+    turned += std::atan2(last.x() * v.y() - last.y() * v.x(), last.x() * v.x() + last.y() * v.y());
+    last = v;
+    const double angle = 2 / 7.0 * W * scene.t();
+    const Vector3 wanted(kStart * (3.5 * std::cos(angle) - 2.5), kStart * 3.5 * std::sin(angle),
+                         kBallRadius);
+    error = std::max(error, (scene.p(body) - wanted).norm() / (3.5 * kStart));
+  }
+  return {scene.t() * 2 * std::numbers::pi / turned, error};
+}
+CaseResult turntable_period(double off) {  // the table's rate
+  return with_order(
+      [off](double h) { return relative(turntable(h, off).period, 3.5 * std::numbers::pi); },
+      kStep);
+}
+CaseResult turntable_circle(double off) {  // the table's rate
+  return {turntable(0.01, off, Steps::located).astray};
+}
+
+// Rolls round in an upright tube, fast enough not to slip: it does not sink but goes up and down at
+// sqrt(2/7) of the rate at which it goes round. Steps of fixed size lose a fifth of that rate in
+// 6 s; so events are located.
+CaseResult upright_tube(double off) {  // inertia
+  constexpr double kArm = 0.5 - kBallRadius, kRate = 12;
+  ContactScene scene;
+  scene.add_fixed(HollowCylinder{0.5, 4}, surface(2));
+  ContactScene::Body ball{Sphere{kBallRadius}, surface(2), 1, {kArm, 0, 0}};
+  ball.inertia = off * 0.4 * kBallRadius * kBallRadius * Matrix3::Identity();
+  ball.v = {0, kArm * kRate, 0};
+  ball.w = {0, 0, -kArm * kRate / kBallRadius};
+  const int body = scene.add(ball);
+  scene.start();
+  scene.locate_events();
+  // How far it goes round from one level place to the next.
+  double turned = 0, before = scene.v(body).z(), first = 0, last = 0;
+  Vector3 p = scene.p(body);
+  int passes = 0;
+  while (scene.t() < 3) {
+    scene.step(kStep);
+    const Vector3 now = scene.p(body);
+    const double turn =
+        std::atan2(p.x() * now.y() - p.y() * now.x(), p.x() * now.x() + p.y() * now.y());
+    const double rise = scene.v(body).z();
+    turned += turn;
+    if (before * rise < 0) {
+      last = turned - turn * rise / (rise - before);
+      if (passes++ == 0) first = last;
+    }
+    before = rise, p = now;
+  }
+  const double found = (passes - 1) * std::numbers::pi / (last - first);
+  return {relative(found, std::sqrt(2 / 7.0)), scene.drift()};
+}
+
+// ---- what a page draws of them ----
+
+constexpr const char* kSmallSwings =
+    "It does not fall: the formula is that of small swings, and those of 0.02 rad are slower by "
+    "0.02²/16 = 2.5e-5.";
+Values seen_ball(Scene s) {
+  return {s.p(2).x(), s.p(2).y()};
+}
+double known_circle(std::size_t k, double t) {
+  const double angle = 4 / 7.0 * t;
+  return 0.2 * (k == 0 ? 3.5 * std::cos(angle) - 2.5 : 3.5 * std::sin(angle));
+}
+double known_swing(double rate, double t) {
+  return 0.9 * std::sin(0.02 * std::cos(rate * t));
+}
+double known_sphere_swing(std::size_t, double t) {
+  return known_swing(std::sqrt(5 * kGravity / (7 * 0.9)), t);
+}
+// From v_z'' = -(2/7) W^2 v_z, and v_z' = -(5/7) g at the start.
+double known_tube(std::size_t, double t) {
+  const double rate = std::sqrt(2 / 7.) * 12;
+  return -5 / 7. * kGravity / (rate * rate) * (1 - std::cos(rate * t));
+}
+double known_cylinder_swing(std::size_t, double t) {
+  return known_swing(std::sqrt(2 * kGravity / (3 * 0.9)), t);
+}
+
+}  // namespace
+
+CaseFamily hollows_cases() {
+  const std::vector<AnalyticCase> cases = {
+      contact_case<sphere_in_bowl, 5>("E12-bowl",
+                                      "sphere in a bowl: sqrt(5 g/(7 (R - r))) [relative]", 1e-3,
+                                      "A sphere of r = 0.1 m rolls without slipping in a bowl of R "
+                                      "= 1 m, 0.02 rad to and fro: <p>ω = √(5g/(7(R − r)))</p>",
+                                      ContactLook{.readings = {"x [m]"},
+                                                  .read = place<1, 0>,
+                                                  .exact = known_sphere_swing,
+                                                  .until = 6,
+                                                  .about_steps = kSmallSwings}),
+      contact_case<sphere_in_trough, 5>(
+          "E12-trough", "sphere in a trough: sqrt(5 g/(7 (R - r))) [relative]", 1e-3,
+          "The same sphere in a trough: <p>ω = √(5g/(7(R − r)))</p>",
+          ContactLook{.readings = {"x [m]"},
+                      .read = place<1, 0>,
+                      .exact = known_sphere_swing,
+                      .until = 6,
+                      .about_steps = kSmallSwings}),
+      contact_case<cylinder_in_trough, 5>(
+          "E12-cylinder", "cylinder in a trough: sqrt(2 g/(3 (R - r))) [relative]", 1e-3,
+          "A cylinder in the trough: <p>ω = √(2g/(3(R − r)))</p>",
+          ContactLook{.readings = {"x [m]"},
+                      .read = place<1, 0>,
+                      .exact = known_cylinder_swing,
+                      .until = 6,
+                      .about_steps = kSmallSwings}),
+      contact_case<turntable_period, 2>(
+          "E12-turntable", "ball on a turntable: its circle takes 7/2 turns [relative]", 1e-3,
+          "A ball rolls on a table that turns at Ω. Its centre goes round a circle that is not "
+          "about the table's axis, at <p>v′ = (2/7) Ω × v</p> so that it takes 7/2 turns of the "
+          "table.",
+          ContactLook{.readings = {"x [m]", "y [m]"}, .read = seen_ball, .exact = known_circle}),
+      contact_case<turntable_circle, 1>(
+          "E12-circle", "ball on a turntable, events located: place on its circle [of R]", 1e-9,
+          "The same ball: where on that circle it is, at any time. <p>r(t) − c = Rot(2Ωt/7) (r(0) "
+          "− c), c = −(5/2) r(0)</p>",
+          ContactLook{.readings = {"x [m]", "y [m]"},
+                      .read = seen_ball,
+                      .exact = known_circle,
+                      .until = 5.5,
+                      .no_steps = kLocated}),
+      contact_case<upright_tube, 10>(
+          "E12-tube",
+          "ball in an upright tube, events located: up and down at sqrt(2/7) [relative]", 1e-9,
+          "A ball rolls round in an upright tube, and does not sink: it goes up and down at <p>ω = "
+          "√(2/7) φ′</p> where φ′ is the rate at which it goes round.",
+          ContactLook{.readings = {"height [m]"},
+                      .read = place<1, 2>,
+                      .exact = known_tube,
+                      .no_steps = kLocated}),
+  };
+  return {280, cases};
+}
+
+}  // namespace twinarm

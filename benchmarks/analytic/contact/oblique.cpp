@@ -1,0 +1,102 @@
+// An oblique impact with friction (E16).
+#include <algorithm>
+#include <cmath>
+
+#include "benchmarks/analytic/contact/contact_cases.h"
+#include "benchmarks/analytic/support/contact_look.h"
+#include "benchmarks/analytic/support/contact_scene.h"
+
+namespace twinarm {
+namespace {
+
+using namespace contact_looks;
+
+// A sphere at (2, -3) m/s, e = 0.8: below mu = 0.1058 it slips throughout, else it ends rolling.
+// T0 from where it touches; with a flight before the error is that of the step.
+CaseResult oblique_from(double gap, double off) {  // e
+  double error = 0;
+  for (const double mu : {0.05, 0.2}) {
+    ContactScene scene(Vector3::Zero());
+    scene.add_floor(surface(mu, off * 0.8));
+    const int ball =
+        scene.add({Sphere{kBallRadius}, surface(mu, 1), 1, {0, 0, kBallRadius + gap}, {2, 0, -3}});
+    scene.start();
+    scene.run(0.1, kStep);
+    const double vt = mu == 0.05 ? 1.73 : 10 / 7.0, rim = mu == 0.05 ? 0.675 : 10 / 7.0;
+    const Vector3 wanted(vt, 2.4, rim);
+    const Vector3 found(scene.v(ball).x(), scene.v(ball).z(), kBallRadius * scene.w(ball).y());
+    error = std::max(error, (found - wanted).cwiseAbs().maxCoeff() / 2.4);
+  }
+  return {error};
+}
+CaseResult oblique(double off) {
+  return oblique_from(0, off);
+}
+CaseResult oblique_flight(double off) {
+  return oblique_from(0.1, off);
+}
+
+// What is left of the slip falls in proportion to mu until, at the limit, there is none.
+double slip_left(double mu, double off) {  // e
+  ContactScene scene(Vector3::Zero());
+  scene.add_floor(surface(mu, off * 0.8));
+  const int ball =
+      scene.add({Sphere{kBallRadius}, surface(mu, 1), 1, {0, 0, kBallRadius}, {2, 0, -3}});
+  scene.start();
+  scene.run(0.01, kStep);
+  return scene.v(ball).x() - kBallRadius * scene.w(ball).y();
+}
+CaseResult stick_limit(double off) {  // e
+  const double some = slip_left(0.04, off), less = slip_left(0.08, off);
+  const double limit = 0.08 + 0.04 * less / (some - less);
+  return {relative(limit, 2 / 7.0 * 2 / (1.8 * 3))};
+}
+
+constexpr const char* kStatementE16 =
+    "A sphere without spin comes down at (2, −3) m/s, e = 0.8. With little friction it slips "
+    "through the impact, <p>v<sub>t</sub><sup>+</sup> = v<sub>t</sub> − μ (1 + e) v<sub>n</sub>, R "
+    "ω<sup>+</sup> = (5/2) μ (1 + e) v<sub>n</sub>,</p> with more than μ = 2 v<sub>t</sub>/(7 (1 + "
+    "e) v<sub>n</sub>) it ends rolling: <p>v<sub>t</sub><sup>+</sup> = R ω<sup>+</sup> = (5/7) "
+    "v<sub>t</sub></p>";
+
+}  // namespace
+
+CaseFamily oblique_cases() {
+  const std::vector<AnalyticCase> cases = {
+      contact_case<oblique, 1>(
+          "E16", "oblique impact of a sphere, slipping and sticking [of the largest speed]", 1e-12,
+          kStatementE16,
+          ContactLook{.readings = {"v along the floor [m/s]"},
+                      .read = velocity<1, 0>,
+                      .exact = [](std::size_t run,
+                                  double t) { return t == 0     ? 2
+                                                     : run == 0 ? 1.73
+                                                                : 10 / 7.; },
+                      .runs = {"μ = 0.05", "μ = 0.2"},
+                      .until = 0.02}),
+      contact_case<stick_limit, 1>(
+          "E16-limit", "oblique impact: mu from which it sticks, 0.10582 [relative]", 1e-12,
+          kStatementE16,
+          ContactLook{.readings = {"slip [m/s]"},
+                      .read = [](Scene s) { return Values{s.v(1).x() - 0.1 * s.w(1).y()}; },
+                      .exact =
+                          [](std::size_t run, double t) {
+                            return t == 0 ? 2 : 2 - 3.5 * (run == 0 ? 0.04 : 0.08) * 1.8 * 3;
+                          },
+                      .runs = {"μ = 0.04", "μ = 0.08"},
+                      .no_steps = "One step is one impact, whatever its length."}),
+      contact_case<oblique_flight, 2>(
+          "E16-flight", "oblique impact, coming from 0.1 m above [of the largest speed]", 1e-3,
+          kStatementE16,
+          ContactLook{.readings = {"v along the floor [m/s]"},
+                      .read = velocity<1, 0>,
+                      .exact = [](std::size_t run,
+                                  double t) { return t < 0.1 / 3 ? 2
+                                                     : run == 0  ? 1.73
+                                                                 : 10 / 7.; },
+                      .runs = {"μ = 0.05", "μ = 0.2"}}),
+  };
+  return {200, cases};
+}
+
+}  // namespace twinarm

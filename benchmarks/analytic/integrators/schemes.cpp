@@ -1,0 +1,270 @@
+// G2 to G4: what the integrators do on an oscillator, a pendulum, a turning body, a double
+// pendulum. G2, invariants of the symplectic schemes on x'' = -w^2 x:
+//   semi-implicit:  v^2 + w^2 x^2 - h w^2 x v,    verlet:  v^2 + w^2 x^2 (1 - h^2 w^2 / 4),
+// exact but for rounding; on the pendulum the energy, averaged, has no trend.
+// G3, a body at constant rate: the exponential update is exact, and keeps |q| = 1.
+// G4, the slope of the error on C2 is the order (Hairer, Lubich, Wanner, Geometric Numerical
+// Integration, chapters I, VI).
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+#include "benchmarks/analytic/integrators/integrator_cases.h"
+#include "benchmarks/analytic/joints/golden_steps.h"
+#include "benchmarks/analytic/joints/joint_cases.h"
+#include "benchmarks/analytic/support/run_trajectory.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
+#include "solver/dynamics/energy_momentum.h"
+#include "solver/stepping/simulation.h"
+
+namespace twinarm {
+namespace {
+
+using namespace smooth_parts;
+
+const char* const kIntegrators = "integrators";
+constexpr double kGoldenStep = 0.01;
+
+// ---- G2 ----
+
+constexpr double kSquare = 100;  // w^2 [rad^2/s^2]
+
+CaseScene undamped_oscillator() {
+  ModelBuilder builder;
+  builder.set_gravity(Vector3::Zero());
+  builder.add_body("mass", 0, "slide", JointType::prismatic, {}, Vector3::UnitX(),
+                   {1, Vector3::Zero(), Matrix3::Identity()});
+  CaseScene scene = start_at(builder.build(), {0.1}, {0.5});
+  scene.sources = {std::make_shared<JointEffort>([](double, double x) { return -kSquare * x; })};
+  scene.conserves = false;  // its own invariant is looked at
+  return scene;
+}
+double kept_by(Integrator integrator, double x, double v) {
+  const double h = kGoldenStep, plain = v * v + kSquare * x * x;
+  return integrator == Integrator::verlet ? plain - h * h * kSquare * kSquare * x * x / 4
+                                          : plain - h * kSquare * x * v;
+}
+TrajectoryCase invariant(Integrator integrator) {
+  return {.statement =
+              "An oscillator of 10 rad/s, a million steps of 10 ms. What the scheme keeps: "
+              "<p>semi-implicit v<sup>2</sup> + w<sup>2</sup>x<sup>2</sup> &minus; h "
+              "w<sup>2</sup>x v, verlet v<sup>2</sup> + w<sup>2</sup>x<sup>2</sup>(1 &minus; "
+              "h<sup>2</sup>w<sup>2</sup>/4)</p>",
+          .scene = undamped_oscillator,
+          .times = {1, 100, 10000},
+          .readings = {"invariant [m2/s2]"},
+          .observe =
+              [integrator](const Model<double>&, const State<double>& x) {
+                return CaseReadings{kept_by(integrator, x.q[0], x.qd[0])};
+              },
+          .reference = [integrator](double) { return CaseReadings{kept_by(integrator, 0.1, 0.5)}; },
+          .lane = {integrator, kGoldenStep, 0},
+          .measure = relative_each,
+          .mutant = more_inertia,
+          .of_its_lane = true};
+}
+
+// Mean energy of the last tenth of a million steps against the first tenth's, weighted so that
+// whole and broken periods count alike, by step and relative to the energy from the bottom.
+template <Integrator integrator>
+CaseResult trend(double damping) {
+  constexpr long steps = 1000000, window = steps / 10;
+  Model<double> model = point_pendulum();
+  model.damping[0] = damping;
+  State<double> x(model);
+  x.q[0] = std::numbers::pi / 2;
+  Simulation simulation(model, x);
+  simulation.set_integrator(integrator);
+  double mean[2] = {0, 0}, weights = 0;
+  for (long n = 0; n < steps; ++n) {
+    if (!simulation.step(kGoldenStep).ok()) return {std::numeric_limits<double>::quiet_NaN()};
+    const bool early = n < window;
+    if (!early && n < steps - window) continue;
+    const long place = early ? n : n - (steps - window);
+    const double s = std::sin(std::numbers::pi * (double(place) + 0.5) / double(window));
+    const double weight = s * s * s * s, v = simulation.state().qd[0];
+    mean[early ? 0 : 1] += weight * (v * v / 2 - kGravity * std::cos(simulation.state().q[0]));
+    if (early) weights += weight;
+  }
+  return {std::abs(mean[1] - mean[0]) / weights / kGravity / double(steps - window)};
+}
+template <Integrator integrator>
+AnalyticCase trend_case() {
+  return experiment_case(
+      name_of_case("G2-trend-", integrator), kIntegrators,
+      "pendulum, a million steps of 10 ms: trend of the energy a step [relative]", 1e-12,
+      [] { return trend<integrator>(0); }, [] { return trend<integrator>(1e-8); },
+      "The pendulum of B2 for a million steps of 10 ms. The energy of a symplectic scheme swings "
+      "about that of a system nearby, and has no trend: <p>|E(t) − E(0)| = O(h<sup>p</sup>) for "
+      "all t</p>");
+}
+
+// ---- G3 ----
+
+const Vector3 kSteady(0.6, -1.2, 2.0);  // [rad/s]
+
+TrajectoryCase steady_turning() {
+  return {.statement =
+              "A ball turns at a constant rate: <p>R = exp(&omega; t)</p> is exact in every step.",
+          .scene =
+              [] {
+                return start_at(free_body(1, {0.1, 0.1, 0.1}), {0, 0, 0, 1, 0, 0, 0},
+                                {kSteady.x(), kSteady.y(), kSteady.z(), 0, 0, 0});
+              },
+          .times = {0.1, 1, 10},
+          .readings = {"qw", "qx", "qy", "qz", "wx [rad/s]", "wy [rad/s]", "wz [rad/s]"},
+          .observe = observe_attitude_and_rate,
+          .reference =
+              [](double t) {
+                return attitude_and_rate(
+                    Eigen::Quaterniond(Eigen::AngleAxisd(kSteady.norm() * t, kSteady.normalized())),
+                    kSteady);
+              },
+          .lane = {Integrator::semi_implicit, kGoldenStep, 0},
+          .measure = attitude_and_rate_error,
+          .mutant = [](CaseScene& scene) { scene.start.qd[0] *= 1.001; }};
+}
+TrajectoryCase unit_quaternion() {
+  TrajectoryCase c = steady_turning();
+  c.statement =
+      "The same ball, a million steps of 10 ms: its quaternion has length 1, and its rate is what "
+      "it was. <p>q<sub>n+1</sub> = q<sub>n</sub> exp(h &omega;/2), |q| = 1</p>";
+  c.scene = [scene = c.scene] {
+    CaseScene all = scene();
+    all.conserves = false;
+    return all;
+  };
+  c.times = {10000};
+  c.readings = {"|q|", "rate [rad/s]"};
+  c.observe = [](const Model<double>&, const State<double>& x) {
+    return CaseReadings{
+        std::sqrt(x.q[3] * x.q[3] + x.q[4] * x.q[4] + x.q[5] * x.q[5] + x.q[6] * x.q[6]),
+        Vector3(x.qd[0], x.qd[1], x.qd[2]).norm()};
+  };
+  c.reference = [](double) { return CaseReadings{1, kSteady.norm()}; };
+  c.measure = largest_difference;
+  c.of_its_lane = true;
+  return c;
+}
+
+// ---- G1 and G4, orders ----
+
+// Of a known motion after 1 s; each mistake is 0.1 % more gravity.
+double error_after_a_second(const char* name, CaseMeasure measure, const Lane& lane, int mistakes) {
+  const std::vector<AnalyticCase> motions =
+      (name[0] == 'B' ? pendulum_cases() : double_pendulum_cases()).cases;
+  for (const AnalyticCase& known : motions) {
+    if (std::strcmp(known.name, name) != 0) continue;
+    TrajectoryCase c = *known.trajectory;
+    c.times = {1};
+    c.measure = measure;
+    c.scene = [scene = c.scene, mistakes] {
+      CaseScene all = scene();
+      all.conserves = false;
+      for (int k = 0; k < mistakes; ++k) more_gravity(all);
+      return all;
+    };
+    return run_lane(c, lane).error;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+double double_pendulum_error(const Lane& lane, bool mistaken) {
+  return error_after_a_second("C2", largest_difference, lane, mistaken ? 1 : 0);
+}
+
+// Of schemes of first order the pendulum's angle, while 10 ms halve twice: the worse of two slopes.
+template <Integrator integrator>
+CaseResult halving(bool mistaken) {
+  const auto of_angle = [](const CaseReadings& seen, const CaseReadings& exact) {
+    return std::abs(seen[0] - exact[0]);
+  };
+  double error[3];
+  for (int i = 0; i < 3; ++i)
+    error[i] = error_after_a_second("B2", of_angle, {integrator, kGoldenStep / (1 << i), 0},
+                                    mistaken ? 5 : 0);
+  const double coarse = std::log2(error[0] / error[1]), fine = std::log2(error[1] / error[2]);
+  return {std::max(std::abs(coarse - 1), std::abs(fine - 1)), {}, fine};
+}
+template <Integrator integrator>
+AnalyticCase halving_case() {
+  return experiment_case(
+      name_of_case("G1-order-", integrator), kIntegrators,
+      "pendulum, 10 ms halve twice: slope of the angle's error against 1", 0.05,
+      [] { return halving<integrator>(false); }, [] { return halving<integrator>(true); },
+      "The pendulum of B2 after 1 s, with steps of 10, 5 and 2.5 ms: the angle of a scheme of "
+      "first order is off by half as much as the step halves. <p>e(h) = C h, "
+      "log<sub>2</sub>(e(h)/e(h/2)) = 1</p>");
+}
+
+// The slope while h halves four times, from n ms for order n, against the order.
+template <Integrator integrator>
+CaseResult slope(bool mistaken) {
+  const int order = facts_of(integrator).order;
+  const double h = 1e-3 * order;
+  const double coarse = double_pendulum_error({integrator, h, 0}, mistaken);
+  const double fine = double_pendulum_error({integrator, h / 16, 0}, mistaken);
+  const double found = std::log2(coarse / fine) / 4;
+  return {std::abs(found - order), {}, found};
+}
+template <Integrator integrator>
+AnalyticCase order_case() {
+  return experiment_case(
+      name_of_case("G4-", integrator), kIntegrators,
+      "double pendulum C2, h halves four times: slope of the error against the order", 0.1,
+      [] { return slope<integrator>(false); }, [] { return slope<integrator>(true); },
+      "The double pendulum of rods, C2, after 1 s, with steps that halve four times. On "
+      "logarithmic axes the error is a straight line, and its slope is the order: <p>e(h) = C "
+      "h<sup>p</sup>, p = log<sub>2</sub>(e(h)/e(h/2))</p>");
+}
+
+// The error of dopri5 over its tolerance: the largest of four decades by the smallest.
+CaseResult proportion(bool mistaken) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const double tolerance : {1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
+    const double error = double_pendulum_error({Integrator::dopri5, 1, tolerance}, mistaken);
+    least = std::min(least, error / tolerance);
+    most = std::max(most, error / tolerance);
+  }
+  return {most / least};
+}
+
+}  // namespace
+
+CaseFamily schemes_cases() {
+  std::vector<AnalyticCase> all = {
+      halving_case<Integrator::euler>(), halving_case<Integrator::semi_implicit>(),
+      halving_case<Integrator::semi_implicit_xv>(), halving_case<Integrator::implicit_euler>()};
+  for (const Integrator integrator : {Integrator::semi_implicit, Integrator::verlet})
+    all.push_back(trajectory_case(name_of_case("G2-", integrator), kIntegrators,
+                                  "oscillator, a million steps: the scheme's invariant [relative]",
+                                  1e-12, invariant(integrator)));
+  all.push_back(trend_case<Integrator::semi_implicit>());
+  all.push_back(trend_case<Integrator::verlet>());
+  all.push_back(trajectory_case("G3", kIntegrators,
+                                "ball at constant rate, semi-implicit: attitude [rad], rate, 10 s",
+                                1e-12, steady_turning()));
+  all.push_back(trajectory_case("G3-norm", kIntegrators, "the same, a million steps: |q| and rate",
+                                1e-12, unit_quaternion()));
+  const AnalyticCase orders[] = {order_case<Integrator::euler>(),
+                                 order_case<Integrator::semi_implicit>(),
+                                 order_case<Integrator::semi_implicit_xv>(),
+                                 order_case<Integrator::verlet>(),
+                                 order_case<Integrator::midpoint>(),
+                                 order_case<Integrator::heun>(),
+                                 order_case<Integrator::rk4>(),
+                                 order_case<Integrator::implicit_euler>(),
+                                 order_case<Integrator::implicit_midpoint>(),
+                                 order_case<Integrator::trapezoid>()};
+  all.insert(all.end(), std::begin(orders), std::end(orders));
+  all.push_back(experiment_case(
+      "G4-dopri5", kIntegrators,
+      "the same, tolerance from 1e-6 to 1e-10: error over tolerance, largest by least", 2,
+      [] { return proportion(false); }, [] { return proportion(true); },
+      "The same by dopri5, with tolerances from 1e−6 to 1e−10: the error is in proportion. <p>e = "
+      "C tol</p>"));
+  return {370, all};
+}
+
+}  // namespace twinarm

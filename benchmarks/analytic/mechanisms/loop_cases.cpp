@@ -1,0 +1,217 @@
+#include "benchmarks/analytic/mechanisms/loop_cases.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "benchmarks/analytic/mechanisms/loop_parts.h"
+
+namespace twinarm {
+
+using namespace loop_parts;
+
+// A body of 1 kg, 0.25 kg m^2, held 0.5 m beside its centre of mass: equivalent to a particle at
+// (I + m c^2) / (m c) = 1 m.
+LoopCase pendulum_on_hinge() {
+  LoopCase c{"D1-hinge", "pendulum: a free body hinged to the world"};
+  ModelBuilder builder;
+  builder.add_body("body", 0, "free", JointType::free, {}, Vector3::UnitZ(),
+                   {1, Vector3::Zero(), 0.25 * Matrix3::Identity()});
+  c.model = builder.build();
+  c.start = State<double>(c.model);
+  c.start.q[0] = -0.5;
+  c.loops = {{"pivot", LoopType::hinge, 1, 0, {z_along_y(), {0.5, 0, 0}}, {z_along_y(), {}}}};
+  c.loops[0].X_LbC.p.setZero();
+  c.read = [](const State<double>& x, const Kinematics& k) {
+    return std::vector{2 * k.X_WL[1].p.x(), 2 * k.X_WL[1].p.z(), x.qd[1]};
+  };
+  c.readings = {"x [m]", "z [m]", "rate [rad/s]"};
+  // Angle and rate by elliptic functions, from 90 degrees at rest.
+  constexpr double at[4][3] = {{1, -1.4050273115247991, -1.7993090169070786},
+                               {2, 0.91664758966324498, 3.4552068990593298},
+                               {5, 1.2294518114853856, -2.5627875681926295},
+                               {10, 0.27868067356998295, -4.3431606928646831}};
+  for (const auto& [t, angle, rate] : at)
+    c.reference.push_back({t, {-std::sin(angle), -std::cos(angle), rate}});
+  c.tolerance = 1e-8;
+  return c;
+}
+
+LoopCase pendulum_on_circle() {
+  LoopCase c = pendulum_on_hinge();
+  c.name = "D1-circle", c.title = "pendulum: a particle in a plane, at a distance";
+  ModelBuilder builder;
+  const int slide =
+      builder.add_body("slide", 0, "x", JointType::prismatic, {}, Vector3::UnitX(), {});
+  builder.add_body("bob", slide, "z", JointType::prismatic, {}, Vector3::UnitZ(),
+                   {1, Vector3::Zero(), Matrix3::Zero()});
+  c.model = builder.build();
+  c.start = State<double>(c.model);
+  c.start.q[0] = -1;
+  LoopClosure rod{"rod", LoopType::distance, 2, 0};
+  rod.length = 1;
+  c.loops = {rod};
+  c.read = [](const State<double>& x, const Kinematics&) {
+    return std::vector{x.q[0], x.q[1], x.q[1] * x.qd[0] - x.q[0] * x.qd[1]};
+  };
+  return c;
+}
+
+// Exact reduction: q'' = c (g / l) sin q, c = ((N + 1)/2 + N) / ((N + 1)/3 + N).
+LoopCase windows(int count) {
+  LoopCase c{"D2-" + std::to_string(count), std::to_string(count) + " four-bars in a row"};
+  ModelBuilder builder;
+  std::vector<int> posts, beams;
+  for (int i = 0; i <= count; ++i) {
+    const std::string n = std::to_string(i);
+    posts.push_back(builder.add_body("post" + n, 0, "foot" + n, JointType::revolute, at(i, 0, 0),
+                                     Vector3::UnitY(), rod(1, 1, Vector3::UnitZ())));
+    if (i < count)
+      beams.push_back(builder.add_body("beam" + n, posts.back(), "top" + n, JointType::revolute,
+                                       at(0, 0, 1), Vector3::UnitY(), rod(1, 1, Vector3::UnitX())));
+  }
+  c.model = builder.build();
+  c.start = State<double>(c.model);
+  for (const int post : posts) c.start.qd[c.model.iv[static_cast<std::size_t>(post)]] = 1;
+  for (const int beam : beams) c.start.qd[c.model.iv[static_cast<std::size_t>(beam)]] = -1;
+  for (std::size_t i = 0; i < beams.size(); ++i)
+    c.loops.push_back({"corner" + std::to_string(i + 1),
+                       LoopType::hinge,
+                       beams[i],
+                       posts[i + 1],
+                       {z_along_y(), {1, 0, 0}},
+                       {z_along_y(), {0, 0, 1}}});
+  c.read = [](const State<double>& x, const Kinematics&) {
+    const double s = std::sin(x.q[0]), r = std::cos(x.q[0]);
+    return std::vector{s, r, r * x.qd[0], -s * x.qd[0]};
+  };
+  c.readings = {"x of B0 [m]", "z of B0 [m]", "vx [m/s]", "vz [m/s]"};
+  if (count == 2)
+    c.reference = {
+        {1, {-0.1950203019494351, -0.9807992056621738, -6.676678036881158, 1.327578325160487}},
+        {10, {0.3284581115408154, 0.944518538178601, 1.423051470206944, -0.494868845487043}}};
+  if (count == 40)
+    c.reference = {
+        {1, {-0.1153568806321099, -0.9933241113004502, -6.669987523941772, 0.7746000986623433}},
+        {10, {0.1805122266867284, 0.9835727405823116, 1.148441277469414, -0.2107700667794239}},
+        {20, {0.4109011537629452, 0.9116799009719807, 1.56678537190907, -0.7061622355938373}}};
+  return c;
+}
+
+// Joint axes y, z, x, y, z, x at the corners of a cube's edge path; the last one closes the loop.
+LoopCase bricard() {
+  LoopCase c{"D4", "Bricard's 6R mechanism"};
+  ModelBuilder builder;
+  builder.set_gravity({0, -9.81, 0});
+  const Vector3 x = Vector3::UnitX(), y = Vector3::UnitY(), z = Vector3::UnitZ();
+  const Vector3 axes[] = {y, z, x, y, z}, along[] = {x, -y, z, -x, y};
+  int parent = 0;
+  for (int i = 0; i < 5; ++i) {
+    BodyInertia bar = rod(1, 1, along[i]);
+    const Matrix3 axial = along[i] * along[i].transpose();
+    bar.inertia = (1.01 / 12) * (Matrix3::Identity() - axial) + (0.02 / 12) * axial;
+    const Pose joint{Matrix3::Identity(), i == 0 ? Vector3(0, 0, 0) : along[i - 1]};
+    parent =
+        builder.add_body("bar" + std::to_string(i + 1), parent, "joint" + std::to_string(i + 1),
+                         JointType::revolute, joint, axes[i], bar);
+  }
+  c.model = builder.build();
+  c.start = State<double>(c.model);
+  Matrix3 z_along_x;
+  z_along_x << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  c.loops = {{"joint6", LoopType::hinge, 5, 0, {z_along_x, y}, {z_along_x, z}}};
+  c.read = [](const State<double>&, const Kinematics& k) {
+    const Vector3 p = k.X_WL[3].p;
+    return std::vector{p.x(), p.y(), p.z()};
+  };
+  c.readings = {"x of P3 [m]", "y of P3 [m]", "z of P3 [m]"};
+  c.reference = {{0.5, {0.7747178080392342, -0.9798150476556691, -0.19990615895344244}},
+                 {1, {0.2744813192646237, -0.8867079387346718, -0.4623300026873756}},
+                 {1.25, {-0.0023061004440242663, -0.8660269389820145, -0.4999973409503708}},
+                 {2, {-0.7781353730332895, -0.9803526834432564, -0.19725267061717183}},
+                 {5, {0.9999327423021112, -0.999999997738353, -6.725543608968683e-05}},
+                 {10, {0.9997309873038307, -0.9999999638258174, -0.00026897651225403556}}};
+  return c;
+}
+
+// Crank 0.1 m, 1 kg; rod 0.3 m, 2 kg; piston 1.5 kg on the x axis. Angles turn x to z.
+LoopCase slider_crank() {
+  LoopCase c{"D6", "slider-crank"};
+  ModelBuilder builder;
+  const Vector3 axis = -Vector3::UnitY();
+  const int crank = builder.add_body("crank", 0, "bearing", JointType::revolute, {}, axis,
+                                     rod(1, 0.1, Vector3::UnitX()));
+  const int link = builder.add_body("rod", crank, "pin", JointType::revolute, at(0.1, 0, 0), axis,
+                                    rod(2, 0.3, Vector3::UnitX()));
+  const int piston = builder.add_body("piston", 0, "slide", JointType::prismatic, {},
+                                      Vector3::UnitX(), {1.5, Vector3::Zero(), Matrix3::Zero()});
+  c.model = builder.build();
+  c.start = State<double>(c.model);
+  c.start.q[2] = 0.4;
+  c.start.qd = {5, -5 - 5 / 3.0, 0};  // the rod's end has no velocity along z
+  c.loops = {{"wrist",
+              LoopType::hinge,
+              link,
+              piston,
+              {z_along_y(), {0.3, 0, 0}},
+              {z_along_y(), {0, 0, 0}}}};
+  c.read = [](const State<double>& x, const Kinematics&) {
+    return std::vector{x.q[0], x.qd[0], x.q[2]};
+  };
+  c.readings = {"crank [rad]", "crank rate [rad/s]", "piston [m]"};
+  c.reference = {{1, {-0.8469973614518336, -8.6334328688464898, 0.35671553542042059}},
+                 {2, {-2.4662097865640883, -11.262911846678523, 0.21536642130893208}},
+                 {5, {0.077378762080233428, 1.4792680585608234, 0.39960116696003938}},
+                 {10, {0.071953580882247739, -1.9366283060128149, 0.39965509358798561}}};
+  return c;
+}
+
+// Crank 0.1, coupler 0.35, rocker 0.3, ground 0.4 m; the crank at 60 degrees and 10 rad/s. Starts
+// nearby, open; one sample at t = 0, to be assembled.
+LoopCase four_bar() {
+  LoopCase c{"D7", "four-bar at one place"};
+  ModelBuilder builder;
+  const Vector3 axis = -Vector3::UnitY();
+  const int crank = builder.add_body("crank", 0, "A", JointType::revolute, {}, axis,
+                                     rod(1, 0.1, Vector3::UnitX()));
+  const int coupler = builder.add_body("coupler", crank, "B", JointType::revolute, at(0.1, 0, 0),
+                                       axis, rod(1, 0.35, Vector3::UnitX()));
+  const int rocker = builder.add_body("rocker", 0, "D", JointType::revolute, at(0.4, 0, 0), axis,
+                                      rod(1, 0.3, Vector3::UnitX()));
+  c.model = builder.build();
+  c.start = State<double>(c.model);
+  c.start.q = {1.0, -0.4, 1.8};
+  LoopClosure input{"input", LoopType::locked, crank};
+  input.offset = std::numbers::pi / 3;
+  c.loops = {{"C",
+              LoopType::hinge,
+              coupler,
+              rocker,
+              {z_along_y(), {0.35, 0, 0}},
+              {z_along_y(), {0.3, 0, 0}}},
+             input};
+  c.read = [](const State<double>& x, const Kinematics&) {
+    return std::vector{x.q[0] + x.q[1], x.q[2], x.qd[0] + x.qd[1], x.qd[2]};
+  };
+  c.readings = {"coupler [rad]", "rocker [rad]", "coupler rate [rad/s]", "rocker rate [rad/s]"};
+  constexpr double deg = std::numbers::pi / 180;
+  c.reference = {{0,
+                  {36.022723330118301 * deg, 102.89032693082044 * deg, -2.1145763572233942,
+                   1.4730118774236057}}};
+  c.tolerance = 1e-12;
+  return c;
+}
+
+std::vector<LoopCase> all_loop_cases() {
+  std::vector<LoopCase> cases;
+  cases.push_back(pendulum_on_hinge());
+  cases.push_back(pendulum_on_circle());
+  cases.push_back(windows(2));
+  cases.push_back(squeezer());
+  cases.push_back(bricard());
+  cases.push_back(governor(Couplers::springs));
+  cases.push_back(governor(Couplers::rods));
+  cases.push_back(slider_crank());
+  return cases;
+}
+
+}  // namespace twinarm

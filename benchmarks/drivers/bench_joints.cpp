@@ -1,0 +1,100 @@
+// What a body costs by the type of its joint: forward dynamics of chains of 16 bodies, every joint
+// type in every scalar, ns per body (and per state, for batches). Prints a table.
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "benchmarks/drivers/timing.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/model/convert_model.h"
+
+namespace twinarm::bench {
+namespace {
+
+constexpr int kBodies = 16;
+
+Model<double> chain_of(JointType type) {
+  ModelBuilder builder;
+  for (int i = 0; i < kBodies; ++i) {
+    const std::string number = std::to_string(i);
+    const double a = 0.3 * i;  // something different for each body
+    BodyInertia body{1 + 0.1 * i, {0.05, 0.01 * i, 0.02}, Matrix3::Zero()};
+    body.inertia.diagonal() << 0.02, 0.03 + 0.001 * i, 0.04;
+    Matrix3 R = Matrix3::Identity();
+    R.topLeftCorner<2, 2>() << std::cos(a), -std::sin(a), std::sin(a), std::cos(a);
+    builder.add_body("link" + number, i, "joint" + number, type, {R, {0.1, 0.02, 0.03}},
+                     {std::cos(a), 0.3, std::sin(a)}, body, {.pitch = 0.01});
+  }
+  return builder.build();
+}
+
+// Calls of forward dynamics in one scalar: the job, and how many states it does at once.
+template <class S>
+std::function<void()> forward_dynamics_of(const Model<double>& model) {
+  struct Work {
+    Model<S> model;
+    State<S> x;
+    Forces<S> forces;
+    Workspace<S> w;
+    explicit Work(const Model<double>& m)
+        : model(convert<S>(m)), x(model), forces(model), w(model) {
+      std::vector<S> shift;
+      for (std::size_t k = 0; k < model.nv; ++k) {
+        shift.push_back(S(0.1 * static_cast<double>(k % 7)));
+        x.qd[k] = S(0.2), forces.tau[k] = S(0.5);
+      }
+      for (std::size_t i = 1; i < model.parent.size(); ++i)
+        visit_joint(model, i, [&](auto joint) {
+          joint.integrate(x.q.data() + model.iq[i], shift.data() + model.iv[i],
+                          x.q.data() + model.iq[i]);
+        });
+    }
+  };
+  return
+      [work = std::make_shared<Work>(model)] { aba(work->model, work->x, work->forces, work->w); };
+}
+
+void run(int repetitions, double seconds) {
+  const std::array<const char*, 5> scalars{"double", "float", "batch4", "batch8", "dual8"};
+  const std::array<double, 5> states{1, 1, 4, 8, 1};
+  std::vector<std::function<void()>> jobs;
+  for (const JointType type : all_joint_types) {
+    const Model<double> model = chain_of(type);
+    jobs.push_back(forward_dynamics_of<double>(model));
+    jobs.push_back(forward_dynamics_of<float>(model));
+    jobs.push_back(forward_dynamics_of<Batch<4>>(model));
+    jobs.push_back(forward_dynamics_of<Batch<8>>(model));
+    jobs.push_back(forward_dynamics_of<Dual<8>>(model));
+  }
+  const std::vector<Timing> times = time_interleaved(jobs, repetitions, seconds);
+
+  std::printf("aba(), ns per body and state, chains of %d bodies\n%-12s", kBodies, "joint");
+  for (const char* scalar : scalars) std::printf("%9s", scalar);
+  std::printf("\n");
+  std::size_t next = 0;
+  for (const JointType type : all_joint_types) {
+    std::printf("%-12s", name_of(type));
+    for (const double count : states) std::printf("%9.1f", times[next++].ns / kBodies / count);
+    std::printf("\n");
+  }
+}
+
+}  // namespace
+}  // namespace twinarm::bench
+
+int main(int argc, char** argv) {
+  const std::string option = argc > 1 ? argv[1] : "";
+  if (argc > 2 || (!option.empty() && option != "--quick")) {
+    std::puts("What a body costs by the type of its joint.\n\n  bench_joints [--quick]\n");
+    return option == "--help" ? 0 : 2;
+  }
+  if (option == "--quick")
+    twinarm::bench::run(1, 1e-4);
+  else
+    twinarm::bench::run(7, 0.01);
+}

@@ -1,0 +1,186 @@
+// Steps of many coupled runs, as maps of stability take them: coupling, integration and measures
+// included. What a step costs over the batch's aba() alone, measured in the same rounds: that ratio
+// is what the machine's mood does not change. And how many steps come out of a second, by cells,
+// threads and lanes. scripts/measure/map_throughput draws the latter.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "benchmarks/drivers/map_runs.h"
+#include "benchmarks/drivers/timing.h"
+#include "coupling/batch/merge_fixed_joints.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/model/convert_model.h"
+
+namespace twinarm::bench {
+namespace {
+
+constexpr std::array kTreatments{Treatment::explicit_, Treatment::semi_implicit,
+                                 Treatment::implicit};
+constexpr std::array kTreatmentNames{"explicit", "semi-implicit", "implicit"};
+
+struct MapBenchOptions {
+  bool quick = false, json = false, passes = true, throughput = true;
+};
+
+// One line of a table, or one object of a list.
+class Rows {
+ public:
+  Rows(const char* name, bool json) : json_(json) {
+    if (json_) std::printf(",\n \"%s\": [", name);
+  }
+  ~Rows() {
+    if (json_) std::printf("]");
+  }
+  Rows(const Rows&) = delete;
+  template <class... T>
+  void add(const char* as_json, const char* as_text, T... values) {
+    if (json_) std::printf("%s\n  ", first_ ? "" : ",");
+    first_ = false;
+    std::printf(json_ ? as_json : as_text, values...);
+    std::fflush(stdout);
+  }
+
+ private:
+  bool json_, first_ = true;
+};
+
+// The batch's forward dynamics alone, at as many lanes as the map has: one call for each state.
+template <int N>
+class PassesAlone {
+ public:
+  explicit PassesAlone(const Model<double>& lumped)
+      : model_(convert<Batch<N>>(lumped)), w_(model_), forces_(model_) {
+    for (int k = 0; k < kCalls; ++k) {
+      State<Batch<N>> x(model_);
+      for (std::size_t d = 0; d < x.q.size(); ++d)
+        for (int lane = 0; lane < N; ++lane) {
+          x.q[d].set(lane, std::sin(1.0 + k + 0.7 * static_cast<double>(d) + 0.3 * lane));
+          x.qd[d].set(lane, std::cos(2.0 + k + 0.7 * static_cast<double>(d) + 0.3 * lane));
+        }
+      states_.push_back(x);
+    }
+  }
+  static constexpr int kCalls = 8, kStates = kCalls * N;
+  void run() {
+    for (const State<Batch<N>>& x : states_) passes<Batch<N>>().aba(model_, x, forces_, w_);
+  }
+
+ private:
+  Model<Batch<N>> model_;
+  Workspace<Batch<N>> w_;
+  Forces<Batch<N>> forces_;
+  std::vector<State<Batch<N>>> states_;
+};
+
+// All laws and treatments, in turn with the passes alone.
+template <int N>
+void compare_with_passes(const MapBenchOptions& options) {
+  if (!options.json)
+    std::printf("ns per step of a cell, one core, %d lanes; beside it the batch's aba() alone\n",
+                N);
+  Rows rows("passes", options.json);
+  PassesAlone<N> alone(LumpedModel(locked_s103()).model);
+  for (const bool energy : {false, true})
+    for (const MapLaw& law : kMapLaws)
+      for (std::size_t t = 0; t < kTreatments.size(); ++t) {
+        MapRuns map(law, kTreatments[t], energy, 4 * N, 1, 1.0);
+        const std::vector<Timing> times =
+            time_interleaved({[&] { map.run(); }, [&] { alone.run(); }}, options.quick ? 3 : 9,
+                             options.quick ? 0.01 : 0.05);
+        const double step = times[0].ns / static_cast<double>(map.steps());
+        const double aba = times[1].ns / alone.kStates;
+        rows.add(
+            R"({"law": "%s", "treatment": "%s", "energies": %s, "ns": %.3f, "aba_ns": %.3f, "ratio": %.4f})",
+            "%-7s %-14s %-13s %7.1f %7.1f  ratio %.2f\n", law.name, kTreatmentNames[t],
+            options.json ? (energy ? "true" : "false") : (energy ? "with energies" : ""), step, aba,
+            step / aba);
+      }
+}
+
+struct Quickest {
+  double wall = std::numeric_limits<double>::infinity(), busiest = wall;  // [s]
+};
+
+// Of several calls.
+Quickest quickest(MapRuns& map, bool alone, bool quick) {
+  using Clock = std::chrono::steady_clock;
+  Quickest best;
+  double all = 0;
+  for (int n = 0; n < (quick ? 1 : 3) || (n < 50 && all < (quick ? 0 : 0.15)); ++n) {
+    const auto start = Clock::now();
+    if (alone)
+      map.run_alone();
+    else
+      map.run_fresh();
+    const double took = std::chrono::duration<double>(Clock::now() - start).count();
+    best.wall = std::min(best.wall, took);
+    best.busiest = std::min(best.busiest, map.busiest());
+    all += took;
+    if (all > 2) break;
+  }
+  return best;
+}
+
+// Linear springs with implicit dampers. Side by side with the energies, which a map always has.
+void measure_throughput(const MapBenchOptions& options) {
+  if (!options.json)
+    std::printf("million steps per second by the wall clock, linear semi-implicit, energies too\n");
+  Rows rows("throughput", options.json);
+  const double duration = options.quick ? 0.3 : 3;
+  const std::size_t most = options.quick ? 16 : 1024, most_alone = options.quick ? 4 : 16;
+  for (const bool alone : {true, false})
+    for (const std::size_t threads : {std::size_t{1}, std::size_t{2}})
+      for (std::size_t cells = 1; cells <= (alone ? most_alone : most); cells *= 2)
+        for (const bool energy : {true, false}) {
+          if (!energy && (alone || cells < most)) continue;
+          MapRuns map(kMapLaws[2], Treatment::semi_implicit, energy, cells, threads, duration);
+          const Quickest best = quickest(map, alone, options.quick);
+          const double steps = static_cast<double>(map.steps()), in = options.json ? 1 : 1e6;
+          rows.add(
+              R"({"lanes": %zu, "threads": %zu, "cells": %zu, "energies": %s, "steps_per_second": %.6g, "steps_per_cpu_second": %.6g})",
+              "%zu lanes, %zu threads, %4zu cells%s: %6.2f, by processor time %6.2f\n",
+              alone ? 1 : map.lanes(), threads, cells,
+              options.json ? (energy ? "true" : "false") : (energy ? "" : ", no energies"),
+              steps / best.wall / in, steps / best.busiest / in);
+        }
+}
+
+void measure(const MapBenchOptions& options) {
+  const Isa isa = best_isa();
+  const char* name = isa == Isa::v4 ? "v4" : isa == Isa::v3 ? "v3" : "generic";
+  if (options.json) std::printf("{\"isa\": \"%s\"", name);
+  if (options.passes) {
+    if (isa == Isa::v4)
+      compare_with_passes<8>(options);
+    else
+      compare_with_passes<4>(options);
+  }
+  if (options.throughput) measure_throughput(options);
+  if (options.json) std::printf("}\n");
+}
+
+}  // namespace
+}  // namespace twinarm::bench
+
+int main(int argc, char** argv) {
+  twinarm::bench::MapBenchOptions options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    options.quick |= word == "--quick";
+    options.json |= word == "--json";
+    if (word == "--passes") options.throughput = false;
+    if (word == "--throughput") options.passes = false;
+    if (word != "--quick" && word != "--json" && word != "--passes" && word != "--throughput") {
+      std::puts(
+          "What a step of a map costs, and how many there are in a second.\n\n"
+          "  bench_map [--quick] [--json] [--passes | --throughput]\n");
+      return word == "--help" ? 0 : 2;
+    }
+  }
+  twinarm::bench::measure(options);
+}

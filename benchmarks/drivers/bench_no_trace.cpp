@@ -1,0 +1,112 @@
+// What the hook of the trace costs when it is off: aba() and a step with NoTrace against the same
+// text without the hook, in turn. Prints a table of ratios; 1 is no cost.
+//
+// On a shared machine two runs of the same instructions differ by more than the hook could cost. So
+// beside each ratio stands that of the bare text to itself, which is what the machine can tell.
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "benchmarks/drivers/no_trace_passes.h"
+#include "benchmarks/drivers/timing.h"
+#include "benchmarks/scenes/mechanisms.h"
+#include "benchmarks/scenes/scene_model.h"
+
+namespace twinarm::bench {
+namespace {
+
+// The mechanism and its states, as doubles.
+struct Work {
+  Model<double> model;
+  Workspace<double> w;
+  std::vector<State<double>> states;
+  std::vector<Forces<double>> forces;
+  State<double> next;
+  std::vector<double> shift;
+
+  explicit Work(const Scene& mechanism)
+      : model(model_of(mechanism)), w(model), next(model), shift(model.nv) {
+    constexpr std::size_t kStates = 16;
+    for (const Situation& s : situations(mechanism, kStates)) {
+      states.emplace_back(model);
+      states.back().q = s.q, states.back().qd = s.v;
+      forces.emplace_back(model);
+      forces.back().tau = s.tau;
+    }
+  }
+  void passes(const NoTracePasses& text) {
+    for (std::size_t k = 0; k < states.size(); ++k) text.pass(model, states[k], forces[k], w);
+  }
+  void steps(const NoTracePasses& text) {
+    for (std::size_t k = 0; k < states.size(); ++k)
+      text.step(model, states[k], forces[k], w, 1e-3, next, shift);
+  }
+};
+
+struct Ratio {
+  double median, least, largest;
+};
+Ratio ratio_of(std::vector<double> values) {
+  std::ranges::sort(values);
+  return {values[values.size() / 2], values.front(), values.back()};
+}
+
+// Hook to bare, and bare to itself, over rounds in which all of them take turns.
+void measure(const char* what, const std::string& model,
+             const std::function<void(const NoTracePasses&)>& job, int rounds, double seconds) {
+  const NoTracePasses hooked = hooked_passes(), bare = bare_passes();
+  const auto run = [&](const NoTracePasses& text) { return [&] { job(text); }; };
+  std::vector<double> hook, same;
+  for (int round = 0; round < rounds; ++round) {
+    const std::vector<Timing> t =
+        round % 2 == 0 ? time_interleaved({run(hooked), run(bare), run(bare)}, 5, seconds)
+                       : time_interleaved({run(bare), run(bare), run(hooked)}, 5, seconds);
+    const std::size_t h = round % 2 == 0 ? 0 : 2, b = 1, c = round % 2 == 0 ? 2 : 0;
+    hook.push_back(t[h].ns / t[b].ns);
+    same.push_back(t[c].ns / t[b].ns);
+  }
+  const Ratio a = ratio_of(hook), b = ratio_of(same);
+  std::printf("%-6s %-9s  %.4f  (%.4f to %.4f)     %.4f  (%.4f to %.4f)\n", what, model.c_str(),
+              a.median, a.least, a.largest, b.median, b.least, b.largest);
+}
+
+void run_all(int rounds, double seconds) {
+  std::printf(
+      "thread CPU time as a part of that of the bare text; median of %d rounds (least to "
+      "largest)\n                 no trace                      the bare text again\n",
+      rounds);
+  for (const char* name : {"scara3", "puma6", "chain32"}) {
+    Work work(mechanism(name));
+    const auto passes = [&](const NoTracePasses& text) { work.passes(text); };
+    const auto steps = [&](const NoTracePasses& text) { work.steps(text); };
+    measure("aba", name, passes, rounds, seconds);
+    measure("step", name, steps, rounds, seconds);
+  }
+}
+
+// Calls of the one text alone, for tools that count instructions.
+void only(std::string_view which, int calls) {
+  Work work(mechanism("puma6"));
+  const NoTracePasses text = which == "bare" ? bare_passes() : hooked_passes();
+  for (int k = 0; k < calls; ++k) work.steps(text);
+}
+
+}  // namespace
+}  // namespace twinarm::bench
+
+int main(int argc, char** argv) {
+  const std::string_view option = argc > 1 ? argv[1] : "";
+  if (argc > 2 || (option != "" && option != "--quick" && option != "--only-bare" &&
+                   option != "--only-hooked")) {
+    std::fputs("bench_no_trace [--quick | --only-bare | --only-hooked]\n", stderr);
+    return 2;
+  }
+  if (option.starts_with("--only-"))
+    twinarm::bench::only(option.substr(7), 2000);
+  else
+    twinarm::bench::run_all(option == "--quick" ? 1 : 21, option == "--quick" ? 0.001 : 0.01);
+  return 0;
+}

@@ -1,0 +1,162 @@
+// The same scenes in every engine: how far each is from the truth, and what a step costs it. Prints
+// JSON (docs/peers.md says what is in it); table and figure are scripts/measure/peers'.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/drivers/command_line.h"
+#include "benchmarks/drivers/peer_progress.h"
+
+namespace twinarm::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;  // what is not finite becomes null
+
+constexpr const char* usage =
+    R"(Runs the same scenes in all engines of this build; prints JSON on stdout, progress on stderr.
+
+  bench_peers [--cases A,B] [--engines A,B] [--work-precision]
+              [--repetitions N] [--budget S] [--quick] [--list]
+
+  --cases           names or groups; default: all (--list prints them, and the engines)
+  --engines         default: all of this build
+  --work-precision  instead of steps of 1 ms: many steps and tolerances, of the cases that are so marked
+  --repetitions     default 3; in each, all engines run one after the other
+  --budget          seconds of one run, default 20; what is not done by then is stopped, and said
+  --quick           one repetition, budget 0.2 s: to see that it runs
+
+Example: bench_peers --cases C2,E2-slide --engines twinarm,mujoco
+Exit codes: 0 done; 2 bad option.
+)";
+
+struct Options {
+  std::vector<std::string> cases, engines;  // empty: all
+  bool work_precision = false;
+  int repetitions = 3;
+  double budget = 20;
+  bool list = false;
+};
+
+// Each kind by its first variant, which runs scenes.
+struct Peer {
+  std::string name;
+  std::unique_ptr<Engine> engine;
+};
+std::vector<Peer> all_peers() {
+  std::vector<Peer> peers;
+  for (const EngineKind& kind : kinds_in_order())
+    peers.push_back({kind.name, std::move(kind.make().front())});
+  return peers;
+}
+
+std::vector<SceneCase> all_cases() {
+  std::vector<SceneCase> all;
+  for (auto* family : {&smooth_cases, &contact_cases, &engine_cases})
+    for (SceneCase& c : family()) all.push_back(std::move(c));
+  return all;
+}
+
+void check(const Options& o) {
+  std::vector<std::string> cases, engines = missing_engines();  // skipped, and said in the answer
+  for (const SceneCase& c : all_cases()) cases.push_back(c.name), cases.push_back(c.group);
+  for (const EngineKind& kind : kinds_in_order()) engines.push_back(kind.name);
+  check_known(o.cases, cases, "case or group", "; see --list");
+  check_known(o.engines, engines, "engine", "; see --list");
+}
+
+std::vector<Row> rows_of(const SceneCase& c, const std::vector<Peer>& peers,
+                         const Options& options) {
+  std::vector<Row> rows;
+  for (const Peer& peer : peers) {
+    if (!chosen(options.engines, peer.name)) continue;
+    for (const Scheme& scheme : peer.engine->schemes(c.scene)) {
+      const auto add = [&](double h) {
+        rows.push_back({peer.engine.get(), peer.name, &c, scheme, h});
+      };
+      if (!options.work_precision) add(scheme.adaptive ? 1e-10 : c.step);
+      for (int k = 0; options.work_precision && k < 9; ++k)
+        add(scheme.adaptive ? std::pow(10.0, -3 - k) : std::ldexp(0.01, -k));
+    }
+  }
+  return rows;
+}
+
+Json json_of(const Row& row) {
+  const double median = median_of(row.seconds);
+  return {{"case", row.test->name},
+          {"group", row.test->group},
+          {"engine", row.name},
+          {"scheme", row.scheme.name},
+          {"step", row.scheme.adaptive ? NAN : row.h},
+          {"tolerance", row.scheme.adaptive ? row.h : NAN},
+          {"error", row.error},
+          {"unit", row.test->unit},
+          {"seconds", median},
+          {"spread", row.seconds.size() < 2 ? NAN : spread_of(row.seconds)},
+          {"ns_per_step", row.steps > 0 ? 1e9 * median / static_cast<double>(row.steps) : NAN},
+          {"stopped", row.stopped.empty() ? Json(nullptr) : Json(row.stopped)}};
+}
+Json json_of(const SceneCase& c) {
+  Json published = Json::object();
+  for (const auto& [who, error] : c.published) published[who] = error;
+  return {{"name", c.name}, {"group", c.group},       {"what", c.what},
+          {"unit", c.unit}, {"duration", c.duration}, {"published", published}};
+}
+
+int run(const Options& options) {
+  const std::vector<Peer> peers = all_peers();
+  std::vector<SceneCase> cases = all_cases();
+  std::erase_if(cases, [&](const SceneCase& c) {
+    return (options.work_precision && !c.work_precision) ||
+           !(chosen(options.cases, c.name) || chosen(options.cases, c.group));
+  });
+  if (options.list) {
+    for (const SceneCase& c : cases)
+      std::cout << c.name << "  " << c.group << "  " << c.what << '\n';
+    for (const Peer& peer : peers) std::cout << peer.name << '\n';
+    return 0;
+  }
+  Json answer = {{"cases", Json::array()}, {"refused", Json::array()}};
+  for (const SceneCase& c : cases) {
+    answer["cases"].push_back(json_of(c));
+    for (const Peer& peer : peers)
+      if (const std::string why = peer.engine->refusal(c.scene); !why.empty())
+        answer["refused"].push_back({{"case", c.name}, {"engine", peer.name}, {"why", why}});
+  }
+  answer["missing"] = missing_engines();
+  for (const std::string& name : missing_engines())
+    std::cerr << "bench_peers: " << name << " is not in this build: skipped\n";
+
+  Progress progress(options.repetitions, options.budget);
+  std::vector<std::vector<Row>> rows;  // by case
+  for (const SceneCase& c : cases) {
+    rows.push_back(rows_of(c, peers, options));
+    for (const Row& row : rows.back()) progress.expect(row);
+  }
+  Json& list = answer[options.work_precision ? "work_precision" : "rows"] = Json::array();
+  for (auto& of_case : rows) {
+    measure(of_case, options.repetitions, options.budget, progress);
+    for (const Row& row : of_case) list.push_back(json_of(row));
+  }
+  std::cout << answer.dump(1) << '\n';
+  return 0;
+}
+
+}  // namespace
+}  // namespace twinarm::bench
+
+int main(int argc, char** argv) {
+  using namespace twinarm::bench;
+  Options o;
+  CommandLine line("bench_peers", usage);
+  line.list("--cases", o.cases);
+  line.list("--engines", o.engines);
+  line.flag("--work-precision", o.work_precision);
+  line.number("--repetitions", o.repetitions);
+  line.number("--budget", o.budget);
+  line.flag("--quick", [&] { o.repetitions = 1, o.budget = 0.2; });
+  line.flag("--list", o.list);
+  return line.run(
+      argc, argv, [&] { check(o); }, [&] { return run(o); });
+}

@@ -1,0 +1,159 @@
+// How long the engines take for the same mechanisms in the same situations. Prints JSON; the table
+// and the figure are scripts/measure/bench's.
+#include <algorithm>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/drivers/agreement.h"
+#include "benchmarks/drivers/command_line.h"
+#include "benchmarks/drivers/stages.h"
+#include "benchmarks/drivers/timing.h"
+#include "benchmarks/scenes/mechanisms.h"
+
+namespace twinarm::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* usage =
+    R"(Times rigid-body engines on the same mechanisms; prints JSON on stdout, progress on stderr.
+
+  bench_speed [--models A,B] [--engines A,B] [--algorithms fd,id,crba,fk,step]
+              [--repetitions N] [--seconds S] [--quick] [--list]
+
+  --models       scara3, puma6, humanoid30, chainN; default: the six of the published table
+  --engines      default: all of this build (--list prints their names)
+  --repetitions  default 9; each runs all engines one after the other
+  --seconds      of each engine in each repetition, default 0.02
+  --quick        3 repetitions of 0.003 s: to see that it runs
+
+Example: bench_speed --models puma6,chain32 --algorithms fd
+Exit codes: 0 done; 1 an engine's answers differ from twinarm's (its rows are left out); 2 bad option.
+)";
+
+struct NamedAlgorithm {
+  Algorithm algorithm;
+  const char* name;
+};
+constexpr std::array<NamedAlgorithm, 5> algorithms = {{{Algorithm::forward_dynamics, "fd"},
+                                                       {Algorithm::inverse_dynamics, "id"},
+                                                       {Algorithm::mass_matrix, "crba"},
+                                                       {Algorithm::kinematics, "fk"},
+                                                       {Algorithm::step, "step"}}};
+
+struct Options {
+  std::vector<std::string> models = {"scara3",  "puma6",    "chain7",
+                                     "chain32", "chain128", "humanoid30"};
+  std::vector<std::string> engines, wanted;  // algorithms; empty: all
+  int repetitions = 9;
+  double seconds = 0.02;
+  bool list = false;
+};
+
+// All that have an algorithm.
+Engines engines_of_build() {
+  Engines engines = all_engines();
+  std::erase_if(engines, [](const auto& e) { return !e->has(Algorithm::forward_dynamics); });
+  return engines;
+}
+std::vector<std::string> names_of(const Engines& engines) {
+  std::vector<std::string> names;
+  for (const auto& engine : engines) names.push_back(engine->name());
+  return names;
+}
+
+void check(const Options& o) {
+  for (const std::string& model : o.models) mechanism(model);
+  check_known(o.wanted, {"fd", "id", "crba", "fk", "step"}, "algorithm",
+              ": there are fd, id, crba, fk, step");
+  check_known(o.engines, names_of(engines_of_build()), "engine", " in this build; see --list");
+}
+
+void measure(const Options& options, const std::string& model, Stages& stages, Json& rows,
+             std::vector<Agreement>& agreement) {
+  const Scene mechanism = bench::mechanism(model);
+  const auto given = situations(mechanism, mechanism.bodies.size() > 200 ? 16 : 64);
+  Engines engines = engines_of_build();
+  // The first one stays: the others are held against it.
+  for (std::size_t i = engines.size(); i-- > 1;)
+    if (!chosen(options.engines, engines[i]->name()))
+      engines.erase(engines.begin() + static_cast<std::ptrdiff_t>(i));
+  for (const auto& engine : engines) {
+    engine->load_mechanism(mechanism);
+    engine->set_situations(given);
+  }
+  const std::vector<Agreement> agreed = compare(engines, mechanism, given);
+  agreement.insert(agreement.end(), agreed.begin(), agreed.end());
+  for (const Agreement& a : agreed)
+    if (!a.holds())
+      std::cerr << "bench_speed: " << a.engine << " computes another " << model
+                << ": qdd differs by " << a.error << ", tau by " << a.error_inverse
+                << " (relative), allowed is " << a.tolerance << "; it is left out\n";
+
+  for (const auto& [algorithm, name] : algorithms) {
+    if (!chosen(options.wanted, name)) continue;
+    std::vector<std::function<void()>> jobs;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < engines.size(); ++i) {
+      Engine* engine = engines[i].get();
+      if (!agreed[i].holds() || !engine->has(algorithm)) continue;
+      if (!chosen(options.engines, engine->name())) continue;
+      jobs.push_back([engine, which = algorithm] { engine->run(which); });
+      names.push_back(engine->name());
+    }
+    stages.begin(std::string(name) + " of " + model + ", " + std::to_string(jobs.size()) +
+                 " engines");
+    const std::vector<Timing> timings =
+        time_interleaved(jobs, options.repetitions, options.seconds);
+    for (std::size_t i = 0; i < jobs.size(); ++i)
+      rows.push_back({{"algorithm", name},
+                      {"engine", names[i]},
+                      {"model", model},
+                      {"ns", timings[i].ns / static_cast<double>(given.size())},
+                      {"spread", timings[i].spread}});
+  }
+}
+
+Json json_of(const Agreement& a) {
+  // JSON has no infinity
+  const auto number = [](double x) { return x <= 1e300 ? x : 1e300; };
+  return {{"engine", a.engine},       {"model", a.model},
+          {"error", number(a.error)}, {"error_inverse", number(a.error_inverse)},
+          {"tolerance", a.tolerance}, {"pass", a.holds()}};
+}
+
+int run(const Options& options) {
+  if (options.list) {
+    for (const std::string& name : names_of(engines_of_build())) std::cout << name << '\n';
+    return 0;
+  }
+  const auto of_a_model = std::ranges::count_if(
+      algorithms, [&](const auto& each) { return chosen(options.wanted, each.name); });
+  Stages stages("bench_speed",
+                static_cast<double>(options.models.size()) * static_cast<double>(of_a_model));
+  Json result = {{"rows", Json::array()}, {"agreement", Json::array()}};
+  std::vector<Agreement> agreement;
+  for (const std::string& model : options.models)
+    measure(options, model, stages, result["rows"], agreement);
+  for (const Agreement& a : agreement) result["agreement"].push_back(json_of(a));
+  std::cout << result.dump(1) << '\n';
+  return std::ranges::all_of(agreement, &Agreement::holds) ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace twinarm::bench
+
+int main(int argc, char** argv) {
+  using namespace twinarm::bench;
+  Options o;
+  CommandLine line("bench_speed", usage);
+  line.list("--models", o.models);
+  line.list("--engines", o.engines);
+  line.list("--algorithms", o.wanted);
+  line.number("--repetitions", o.repetitions);
+  line.number("--seconds", o.seconds);
+  line.flag("--quick", [&] { o.repetitions = 3, o.seconds = 0.003; });
+  line.flag("--list", o.list);
+  return line.run(
+      argc, argv, [&] { check(o); }, [&] { return run(o); });
+}

@@ -1,0 +1,128 @@
+// What the benchmark programs share: options, exit codes, and how repetitions become one number.
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace twinarm::bench {
+
+// A,B,C; at least one.
+inline std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
+  if (parts.empty()) throw std::invalid_argument("an empty list");
+  return parts;
+}
+
+template <class Number>
+Number positive(const std::string& text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size() || !(number > 0))
+    throw std::invalid_argument(text + " is not a positive number");
+  return number;
+}
+
+// Empty: all.
+inline bool chosen(const std::vector<std::string>& list, std::string_view name) {
+  return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
+}
+
+// Not a number of none.
+inline double median_of(std::vector<double> values) {
+  if (values.empty()) return NAN;
+  std::sort(values.begin(), values.end());
+  return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
+}
+// (longest - shortest) / median.
+inline double spread_of(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return (*most - *least) / median_of(values);
+}
+
+// Options by name. Exit codes: 2 for a bad one, 4 where the program itself fails.
+class CommandLine {
+ public:
+  CommandLine(std::string program, const char* usage)
+      : program_(std::move(program)), usage_(usage) {
+    flag("--help", help_), flag("-h", help_);
+  }
+  void list(const std::string& name, std::vector<std::string>& values) {
+    options_.push_back({name, true, [&](const std::string& text) { values = split(text); }});
+  }
+  template <class Number>
+  void number(const std::string& name, Number& value) {
+    options_.push_back(
+        {name, true, [&](const std::string& text) { value = positive<Number>(text); }});
+  }
+  void flag(const std::string& name, std::function<void()> set) {
+    options_.push_back({name, false, [set = std::move(set)](const std::string&) { set(); }});
+  }
+  void flag(const std::string& name, bool& value) {
+    flag(name, [&value] { value = true; });
+  }
+
+  // Reads the options, has them checked, and runs.
+  int run(int argc, char** argv, const std::function<void()>& check,
+          const std::function<int()>& program) const {
+    try {
+      for (int i = 1; i < argc; ++i) i += read(argv[i], i + 1 < argc ? argv[i + 1] : nullptr);
+      check();
+    } catch (const std::exception& fault) {
+      std::cerr << program_ << ": " << fault.what() << "; see --help\n";
+      return 2;
+    }
+    if (help_) {
+      std::cout << usage_;
+      return 0;
+    }
+    try {
+      return program();
+    } catch (const std::exception& fault) {
+      std::cerr << program_ << ": " << fault.what() << '\n';
+      return 4;
+    }
+  }
+
+ private:
+  struct Option {
+    std::string name;
+    bool has_value;
+    std::function<void(const std::string&)> set;
+  };
+  // How many words its value takes.
+  int read(const std::string& name, const char* next) const {
+    for (const Option& option : options_) {
+      if (option.name != name) continue;
+      if (option.has_value && !next) throw std::invalid_argument(name + " needs a value");
+      option.set(option.has_value ? next : "");
+      return option.has_value ? 1 : 0;
+    }
+    throw std::invalid_argument("unknown option " + name);
+  }
+
+  std::string program_;
+  const char* usage_;
+  bool help_ = false;
+  std::vector<Option> options_;
+};
+
+// All that were asked for must be known.
+inline void check_known(const std::vector<std::string>& wanted,
+                        const std::vector<std::string>& known, const std::string& what,
+                        const std::string& remedy) {
+  for (const std::string& name : wanted)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw std::invalid_argument("no " + what + " " + name + remedy);
+}
+
+}  // namespace twinarm::bench

@@ -1,0 +1,35 @@
+// Compiled twice: with solver/passes/aba.h (TWINARM_ISA = hooked), and with a copy of it that CMake
+// writes, the line of the hook taken out (TWINARM_ISA = bare).
+#include "benchmarks/drivers/no_trace_passes.h"
+
+#include "solver/passes/aba.h"
+
+namespace twinarm::bench {
+namespace {
+
+void pass(const Model<double>& model, const State<double>& x, const Forces<double>& forces,
+          Workspace<double>& w) {
+  TWINARM_ISA::aba(model, x, forces, w, NoTrace{});
+}
+
+void step(const Model<double>& model, const State<double>& x, const Forces<double>& forces,
+          Workspace<double>& w, double h, State<double>& next, std::vector<double>& shift) {
+  pass(model, x, forces, w);
+  for (std::size_t k = 0; k < model.nv; ++k) {
+    next.qd[k] = x.qd[k] + h * w.qdd[k];
+    shift[k] = h * next.qd[k];
+  }
+  for (std::size_t i = 1; i < model.parent.size(); ++i)
+    visit_joint(model, i, [&](auto joint) {
+      joint.integrate(x.q.data() + model.iq[i], shift.data() + model.iv[i],
+                      next.q.data() + model.iq[i]);
+    });
+}
+
+}  // namespace
+
+NoTracePasses TWINARM_PASSES() {
+  return {&pass, &step};
+}
+
+}  // namespace twinarm::bench

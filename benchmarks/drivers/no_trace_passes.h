@@ -1,0 +1,21 @@
+// aba() with the hook of the trace in its text, and the same text without: compiled alike.
+#pragma once
+
+#include <vector>
+
+#include "solver/model/workspace.h"
+
+namespace twinarm::bench {
+
+struct NoTracePasses {
+  void (*pass)(const Model<double>&, const State<double>&, const Forces<double>&,
+               Workspace<double>&);
+  // A semi-implicit step of h: the pass, then velocities, then places. `next` and `shift` have the
+  // sizes of the model's; x is left as it is.
+  void (*step)(const Model<double>&, const State<double>& x, const Forces<double>&,
+               Workspace<double>&, double h, State<double>& next, std::vector<double>& shift);
+};
+NoTracePasses hooked_passes();  // solver/passes/aba.h, with NoTrace
+NoTracePasses bare_passes();    // the same without the line of the hook
+
+}  // namespace twinarm::bench

@@ -1,0 +1,89 @@
+#include "benchmarks/drivers/peer_run.h"
+
+#include <algorithm>
+#include <exception>
+
+#include "benchmarks/drivers/peer_progress.h"
+#include "benchmarks/engines/thread_seconds.h"
+
+namespace twinarm::bench {
+namespace {
+
+// When a run is looked at.
+std::vector<double> looks(const SceneCase& c) {
+  if (!c.times.empty()) return c.times;
+  std::vector<double> all;
+  for (long n = 1; n <= std::lround(c.duration / c.step); ++n)
+    all.push_back(static_cast<double>(n) * c.step);
+  return all;
+}
+
+// The first run: what it comes to. Looking is not timed.
+void observe(Row& row, double budget) {
+  row.engine->load(row.test->scene, row.scheme, row.h);
+  const Judge judge = row.test->judge();
+  std::vector<double> q, v;
+  double spent = 0;
+  for (const double t : looks(*row.test)) {
+    const double start = thread_seconds();
+    row.engine->advance(t);
+    spent += thread_seconds() - start;
+    row.engine->read(q, v);
+    row.error = judge(t, q, v);
+    if (!row.scheme.adaptive) row.steps = std::lround(t / row.h);
+    if (!std::isfinite(row.error)) {
+      row.stopped = "not a number after " + std::to_string(t) + " s";
+      break;
+    }
+    if (spent > budget && t < row.test->duration - 1e-9) {
+      row.stopped = "took longer than the budget, after " + std::to_string(t) + " s of the scene";
+      break;
+    }
+  }
+  row.seconds.push_back(spent);
+}
+
+// Those that follow: nothing but the steps. As often as a clock needs.
+void repeat(Row& row) {
+  constexpr double kLongEnough = 2e-3;
+  const std::vector<double> times =
+      row.test->times.empty() ? std::vector{row.test->duration} : row.test->times;
+  double spent = 0;
+  int runs = 0;
+  do {
+    row.engine->load(row.test->scene, row.scheme, row.h);
+    const double start = thread_seconds();
+    for (const double t : times) row.engine->advance(t);
+    spent += thread_seconds() - start;
+    ++runs;
+  } while (spent < kLongEnough);
+  row.seconds.push_back(spent / runs);
+}
+
+}  // namespace
+
+void measure(std::vector<Row>& rows, int repetitions, double budget, Progress& progress) {
+  const auto worth_repeating = [&](const Row& row) {
+    return repetitions > 1 && row.stopped.empty() && row.seconds[0] < kOnceIsEnough;
+  };
+  std::vector<Row*> repeated;
+  for (Row& row : rows) {
+    progress.begin(row, "");
+    try {
+      observe(row, budget);
+    } catch (const std::exception& fault) {
+      row.stopped = fault.what(), row.error = NAN;
+    }
+    if (worth_repeating(row)) repeated.push_back(&row);
+    progress.saw(row, worth_repeating(row));
+  }
+  for (Row* row : repeated) row->seconds.clear();  // they had looks in them, and cold caches
+  for (int n = 0; n < repetitions && repetitions > 1; ++n)
+    for (Row* row : repeated) {
+      progress.begin(*row, ", again");
+      repeat(*row);
+      progress.repeated(row->seconds.back());
+    }
+}
+
+}  // namespace twinarm::bench

@@ -1,0 +1,244 @@
+// Bullet.
+//
+// header: BulletDynamics/Featherstone/btMultiBody.h
+// libraries: BulletDynamics-float64 BulletCollision-float64 LinearMath-float64
+// single: BulletDynamics BulletCollision LinearMath
+// options: -DBT_USE_DOUBLE_PRECISION
+//
+// Scenes: what hangs on joints is one btMultiBody, free bodies are btRigidBodies; contacts by
+// sequential impulses, ten iterations, all else as it comes but damping and sleep, which are off.
+// Algorithms: btMultiBody's; inverse dynamics and mass matrix are in an extra library of Bullet's,
+// which is left out. In double (Debian has both); bench_contact has single precision, which is what
+// it is mostly built for.
+#include <algorithm>
+#include <cmath>
+
+#include "benchmarks/engines/bullet_world.h"
+#include "benchmarks/engines/engine.h"
+
+namespace twinarm::bench {
+namespace {
+
+class Bullet final : public FixedStepEngine {
+ public:
+  std::string name() const override { return "bullet"; }
+  std::vector<Scheme> schemes(const Scene& scene) const override {
+    if (!refusal(scene).empty()) return {};
+    if (all_free(scene)) return {{"semi-implicit"}};
+    return {{"semi-implicit"}, {"RK4"}};
+  }
+  std::string refusal(const Scene& scene) const override {
+    const bool diagonal = std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
+      const double rest = std::abs(b.inertia[3]) + std::abs(b.inertia[4]) + std::abs(b.inertia[5]);
+      return rest <= 1e-12 * (b.inertia[0] + b.inertia[1] + b.inertia[2]);
+    });
+    return diagonal ? "" : "Bullet wants bodies in the principal axes of their inertias";
+  }
+  bool is_timed_with_contacts() const override { return true; }
+
+  void load(const Scene& scene, const Scheme& scheme, double h) override {
+    begin(h);
+    scene_ = scene;
+    world_.reset();
+    world_ = std::make_unique<BulletWorld>(scene);
+    const double *q = scene.q.data(), *v = scene.v.data();
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const Joint joint = scene.bodies[i].joint;
+      if (joint == Joint::free)
+        place(*world_->bodies[i], q, v);
+      else
+        set_joint(static_cast<int>(i), joint, q, v);
+      q += coordinates_of(joint), v += velocities_of(joint);
+    }
+    if (!world_->tree) return;
+    world_->tree->useRK4Integration(scheme.name == "RK4");
+    world_->update_transforms();
+  }
+  void step() override {
+    for (std::size_t i = 0; i < world_->bodies.size(); ++i)
+      if (scene_.bodies[i].push != Numbers3{})
+        world_->bodies[i]->applyCentralForce(bt(scene_.bodies[i].push));
+    if (scene_.control)
+      for (int j = 0; j < world_->tree->getNumLinks(); ++j)
+        world_->tree->addJointTorque(
+            j, bt(scene_.control->torque(index(j), world_->tree->getJointPos(j),
+                                         world_->tree->getJointVel(j))));
+    world_->world.stepSimulation(bt(h_), 0);  // one step of that length
+  }
+  void read(std::vector<double>& q, std::vector<double>& v) override {
+    q.resize(scene_.q.size()), v.resize(scene_.v.size());
+    double *at = q.data(), *rate = v.data();
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      const Joint joint = scene_.bodies[i].joint;
+      if (joint == Joint::free) {
+        read_body(*world_->bodies[i], at, rate);
+      } else {
+        const int link = static_cast<int>(i);
+        const btScalar* p = world_->tree->getJointPosMultiDof(link);
+        if (joint == Joint::revolute)
+          at[0] = p[0];
+        else
+          write(btQuaternion(p[0], p[1], p[2], p[3]), at);
+        std::copy_n(world_->tree->getJointVelMultiDof(link), velocities_of(joint), rate);
+      }
+      at += coordinates_of(joint), rate += velocities_of(joint);
+    }
+  }
+
+  bool has(Algorithm algorithm) const override {
+    return algorithm != Algorithm::inverse_dynamics && algorithm != Algorithm::mass_matrix;
+  }
+  void load_mechanism(const Scene& mechanism) override {
+    scene_ = mechanism;
+    first_ = mechanism.floats() ? 1 : 0;
+    frames_ = {mechanism.bodies.begin(), mechanism.bodies.end()};
+    tree_ = make_tree(mechanism, frames_);
+    // A world of Bullet's adds the weights before every step; they are constant, so here it is
+    // once.
+    for (int i = 0; i < tree_->getNumLinks(); ++i)
+      tree_->addLinkForce(i, weight(index(i) + first_));
+  }
+  void set_situations(const std::vector<Situation>& situations) override {
+    situations_ = situations;
+    states_.clear();
+    for (const Situation& s : situations) states_.push_back(convert(s));
+  }
+  void run(Algorithm algorithm) override {
+    for (const State& s : states_) run(algorithm, s);
+  }
+  // Bullet leaves the accelerations as velocities after a step: with a step of 1 s from here.
+  std::vector<double> qdd(std::size_t k) override {
+    set_position(states_[k]);
+    set_velocity(states_[k]);
+    accelerate(1);
+    const btScalar* v = tree_->getVelocityVector();
+    const Situation& s = situations_[k];
+    std::vector<double> qdd;
+    if (scene_.floats()) {
+      // of the com in the world; and of the origin: a_O = a_C - alpha x c - w x (w x c)
+      const Base base(s);
+      const Eigen::Vector3d w = base.R * base.w_B, c = base.R * vector3(scene_.bodies[0].com);
+      const Eigen::Vector3d alpha = Eigen::Vector3d(v[0], v[1], v[2]) - w;
+      const Eigen::Vector3d v_C = base.v_W + w.cross(c);
+      const Eigen::Vector3d a_C = Eigen::Vector3d(v[3], v[4], v[5]) - v_C;
+      const Eigen::Vector3d a = a_C - alpha.cross(c) - w.cross(w.cross(c));
+      const Eigen::Vector3d alpha_B = base.R.conjugate() * alpha;
+      qdd = {alpha_B.x(), alpha_B.y(), alpha_B.z(), a.x(), a.y(), a.z()};
+    }
+    const std::size_t n = states_[k].v.size();
+    for (std::size_t j = 0; j < n; ++j) qdd.push_back(v[6 + j] - s.v[s.v.size() - n + j]);
+    return qdd;
+  }
+
+ private:
+  struct State {
+    std::vector<btScalar> q, v, tau;  // of the joints
+    // Of the base: of and at the com, all world axes.
+    btVector3 position, velocity, omega, force, torque;
+    btQuaternion world_to_base;
+  };
+
+  static void place(btRigidBody& body, const double* q, const double* v) {
+    const btQuaternion R = bt(quaternion(q + 3));
+    body.setCenterOfMassTransform(btTransform(R, {bt(q[0]), bt(q[1]), bt(q[2])}));
+    body.setAngularVelocity(quatRotate(R, {bt(v[0]), bt(v[1]), bt(v[2])}));
+    body.setLinearVelocity({bt(v[3]), bt(v[4]), bt(v[5])});
+  }
+  static void read_body(const btRigidBody& body, double* q, double* v) {
+    const btTransform& X = body.getCenterOfMassTransform();
+    const btVector3 w = quatRotate(X.getRotation().inverse(), body.getAngularVelocity());
+    for (int k = 0; k < 3; ++k) {
+      q[k] = X.getOrigin()[k], v[k] = w[k];
+      v[3 + k] = body.getLinearVelocity()[k];
+    }
+    write(X.getRotation(), q + 3);
+  }
+  void set_joint(int link, Joint joint, const double* q, const double* v) const {
+    const btScalar rate[] = {bt(v[0]), joint == Joint::revolute ? bt(0) : bt(v[1]),
+                             joint == Joint::revolute ? bt(0) : bt(v[2])};
+    btScalar p[4] = {bt(q[0])};
+    if (joint == Joint::spherical)
+      for (int k = 0; k < 4; ++k) p[k] = bt(q[(k + 1) % 4]);
+    world_->tree->setJointPosMultiDof(link, p);
+    world_->tree->setJointVelMultiDof(link, rate);
+  }
+
+  State convert(const Situation& s) const {
+    const auto n = static_cast<std::ptrdiff_t>(scene_.bodies.size() - first_);
+    State state;
+    state.q.assign(s.q.end() - n, s.q.end());
+    state.v.assign(s.v.end() - n, s.v.end());
+    state.tau.assign(s.tau.end() - n, s.tau.end());
+    if (!scene_.floats()) return state;
+    const Base base(s);
+    const Eigen::Vector3d w = base.R * base.w_B, c = base.R * vector3(scene_.bodies[0].com);
+    state.position = bt(base.p + c), state.velocity = bt(base.v_W + w.cross(c));
+    state.omega = bt(w);
+    state.world_to_base = bt((base.R * Eigen::Quaterniond(frames_[0].R_BP)).conjugate());
+    state.force = bt(base.f_W) + weight(0);
+    state.torque = bt(base.R * base.t_B - c.cross(base.f_W));
+    return state;
+  }
+  btVector3 weight(std::size_t i) const {
+    return {0, 0, bt(-standard_gravity * scene_.bodies[i].mass)};
+  }
+
+  void set_position(const State& s) {
+    if (scene_.floats()) {
+      tree_->setBasePos(s.position);
+      tree_->setWorldToBaseRot(s.world_to_base);
+    }
+    for (std::size_t j = 0; j < s.q.size(); ++j)
+      tree_->setJointPosMultiDof(static_cast<int>(j), s.q.data() + j);
+  }
+  void set_velocity(const State& s) {
+    if (scene_.floats()) {
+      tree_->setBaseVel(s.velocity);
+      tree_->setBaseOmega(s.omega);
+      // There is only adding to the force on the base.
+      tree_->addBaseForce(s.force - tree_->getBaseForce());
+      tree_->addBaseTorque(s.torque - tree_->getBaseTorque());
+    }
+    for (std::size_t j = 0; j < s.v.size(); ++j) {
+      tree_->setJointVel(static_cast<int>(j), s.v[j]);
+      tree_->getLink(static_cast<int>(j)).m_jointTorque[0] = s.tau[j];
+    }
+  }
+  void accelerate(btScalar h) {
+    tree_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(h, numbers_, vectors_, matrices_,
+                                                                false, false, false);
+  }
+  void run(Algorithm algorithm, const State& s) {
+    set_position(s);
+    if (algorithm == Algorithm::kinematics) {
+      tree_->forwardKinematics(quaternions_, vectors_);
+      return;
+    }
+    set_velocity(s);
+    accelerate(bt(step_length));  // also adds them to the velocities, which costs next to nothing
+    if (algorithm == Algorithm::step) tree_->stepPositionsMultiDof(bt(step_length));
+  }
+
+  Scene scene_;
+  std::unique_ptr<BulletWorld> world_;
+  std::size_t first_ = 0;  // body on a joint, of a mechanism
+  std::vector<Principal> frames_;
+  std::unique_ptr<btMultiBody> tree_;
+  std::vector<Situation> situations_;
+  std::vector<State> states_;
+  btAlignedObjectArray<btScalar> numbers_;
+  btAlignedObjectArray<btVector3> vectors_;
+  btAlignedObjectArray<btMatrix3x3> matrices_;
+  btAlignedObjectArray<btQuaternion> quaternions_;
+};
+
+}  // namespace
+}  // namespace twinarm::bench
+
+namespace twinarm {
+
+bench::EngineKind bullet_engine() {
+  return {"bullet", 2, bench::one_engine<bench::Bullet>};
+}
+
+}  // namespace twinarm

@@ -1,0 +1,279 @@
+// DART.
+//
+// header: dart/dynamics/Skeleton.hpp
+// libraries: dart
+//
+// Scenes: its World, with its own collision detector (the default one makes spheres of triangles),
+// all else as it comes: semi-implicit Euler, contacts by Dantzig's method. Algorithms: a step is
+// what its World does for a skeleton without contact: forward dynamics, velocities, positions.
+#include <dart/collision/dart/DARTCollisionDetector.hpp>
+#include <dart/constraint/ConstraintSolver.hpp>
+#include <dart/constraint/ContactConstraint.hpp>
+#include <dart/dynamics/BallJoint.hpp>
+#include <dart/dynamics/BodyNode.hpp>
+#include <dart/dynamics/BoxShape.hpp>
+#include <dart/dynamics/FreeJoint.hpp>
+#include <dart/dynamics/RevoluteJoint.hpp>
+#include <dart/dynamics/Skeleton.hpp>
+#include <dart/dynamics/SphereShape.hpp>
+#include <dart/dynamics/WeldJoint.hpp>
+#include <dart/simulation/World.hpp>
+
+#include <cmath>
+#include <iostream>
+
+#include "benchmarks/engines/engine.h"
+#include "benchmarks/scenes/eigen.h"
+
+namespace twinarm::bench {
+namespace {
+
+namespace dd = dart::dynamics;
+using dart::constraint::ContactConstraint;
+
+// DART reports names that it changes, and on stdout, where the answer goes.
+class ReportsOnStderr {
+ public:
+  ReportsOnStderr() : out_(std::cout.rdbuf(std::cerr.rdbuf())) {}
+  ~ReportsOnStderr() { std::cout.rdbuf(out_); }
+  ReportsOnStderr(const ReportsOnStderr&) = delete;
+  ReportsOnStderr& operator=(const ReportsOnStderr&) = delete;
+
+ private:
+  std::streambuf* out_;
+};
+
+class Dart final : public FixedStepEngine {
+ public:
+  std::string name() const override { return "dart"; }
+  std::vector<Scheme> schemes(const Scene&) const override { return {{"semi-implicit"}}; }
+
+  void load(const Scene& scene, const Scheme&, double h) override {
+    const ReportsOnStderr quiet;
+    begin(h);
+    static const double its_own = ContactConstraint::getErrorReductionParameter();
+    ContactConstraint::setErrorReductionParameter(scene.uncorrected ? 0 : its_own);
+    world_ = std::make_shared<dart::simulation::World>();
+    world_->setGravity(vector3(scene.gravity));
+    world_->setTimeStep(h);
+    world_->getConstraintSolver()->setCollisionDetector(
+        dart::collision::DARTCollisionDetector::create());
+    add_bodies(scene);
+    set_state();
+    for (const dd::BodyNodePtr& body : bodies_)
+      if (body->getParentBodyNode() == nullptr) world_->addSkeleton(body->getSkeleton());
+    if (scene.floor) add_floor();
+  }
+  void step() override {
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      if (scene_.bodies[i].push != Numbers3{})
+        bodies_[i]->setExtForce(vector3(scene_.bodies[i].push));
+    world_->step();
+  }
+  void read(std::vector<double>& q, std::vector<double>& v) override {
+    q.resize(scene_.q.size()), v.resize(scene_.v.size());
+    double *at = q.data(), *rate = v.data();
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const dd::Joint* joint = bodies_[i]->getParentJoint();
+      const Eigen::VectorXd p = joint->getPositions(), u = joint->getVelocities();
+      const Joint type = scene_.bodies[i].joint;
+      if (type == Joint::revolute) {
+        at[0] = p[0], rate[0] = u[0];
+      } else if (type == Joint::spherical) {
+        write_quaternion(Eigen::Quaterniond(dd::BallJoint::convertToRotation(p)), at);
+        Eigen::Vector3d::Map(rate) = u;
+      } else {  // its velocities are a twist in body axes
+        const Eigen::Isometry3d X = dd::FreeJoint::convertToTransform(p);
+        Eigen::Vector3d::Map(at) = X.translation();
+        write_quaternion(Eigen::Quaterniond(X.linear()), at + 3);
+        Eigen::Vector3d::Map(rate) = u.head<3>();
+        Eigen::Vector3d::Map(rate + 3) = X.linear() * u.tail<3>();
+      }
+      at += coordinates_of(type), rate += velocities_of(type);
+    }
+  }
+
+  bool has(Algorithm) const override { return true; }
+  void load_mechanism(const Scene& mechanism) override {
+    const ReportsOnStderr quiet;
+    add_bodies(mechanism);
+    skeleton_ = bodies_[0]->getSkeleton();
+    skeleton_->setGravity(vector3(mechanism.gravity));
+    skeleton_->setTimeStep(step_length);
+  }
+  void set_situations(const std::vector<Situation>& situations) override {
+    states_.clear();
+    for (const Situation& s : situations) states_.push_back(convert(s));
+    situations_ = situations;
+  }
+  void run(Algorithm algorithm) override {
+    for (const State& state : states_) run(algorithm, state);
+  }
+  std::vector<double> qdd(std::size_t k) override {
+    run(Algorithm::forward_dynamics, states_[k]);
+    Eigen::VectorXd a = skeleton_->getAccelerations();
+    if (scene_.floats()) {  // (alpha; spatial acceleration of the origin), both in body axes
+      const Base base(situations_[k]);
+      const Eigen::Vector3d v_B = base.R.conjugate() * base.v_W;
+      a.segment<3>(3) = base.R * (a.segment<3>(3) + base.w_B.cross(v_B)).eval();
+    }
+    return {a.begin(), a.end()};
+  }
+  std::vector<double> tau(std::size_t k) override {
+    run(Algorithm::inverse_dynamics, states_[k]);
+    const Eigen::VectorXd tau = skeleton_->getForces();
+    return {tau.begin(), tau.end()};
+  }
+
+ private:
+  // In DART's coordinates: of the base its logarithm of rotation and position; velocities, forces
+  // and accelerations are twists and wrenches in body axes, angular part first.
+  struct State {
+    Eigen::VectorXd q, v, tau, qdd;
+  };
+
+  template <class JointType>
+  dd::BodyNode* make(const dd::SkeletonPtr& skeleton, dd::BodyNode* parent,
+                     typename JointType::Properties properties) {
+    const std::string number = std::to_string(bodies_.size());  // or it renames them, and says so
+    properties.mName = "joint " + number;
+    const dd::BodyNode::AspectProperties named("body " + number);
+    return skeleton->createJointAndBodyNodePair<JointType>(parent, properties, named).second;
+  }
+  void add_bodies(const Scene& scene) {
+    scene_ = scene;
+    bodies_.clear();
+    for (const Body& b : scene.bodies) bodies_.push_back(add(b));
+  }
+  dd::BodyNodePtr add(const Body& b) {
+    dd::BodyNode* parent = b.parent < 0 ? nullptr : bodies_[index(b.parent)].get();
+    const dd::SkeletonPtr skeleton =
+        parent ? parent->getSkeleton()
+               : dd::Skeleton::create("of " + std::to_string(bodies_.size()));
+    Eigen::Isometry3d placed = Eigen::Isometry3d::Identity();
+    placed.linear() = matrix3(b.rotation);
+    placed.translation() = vector3(b.position);
+    dd::BodyNode* body = nullptr;
+    if (b.joint == Joint::revolute) {
+      dd::RevoluteJoint::Properties revolute;
+      revolute.mAxis = axis_of(b);
+      revolute.mT_ParentBodyToJoint = placed;
+      body = make<dd::RevoluteJoint>(skeleton, parent, revolute);
+    } else if (b.joint == Joint::spherical) {
+      dd::BallJoint::Properties ball;
+      ball.mT_ParentBodyToJoint = placed;
+      body = make<dd::BallJoint>(skeleton, parent, ball);
+    } else {
+      body = make<dd::FreeJoint>(skeleton, parent, {});
+    }
+    body->setInertia({b.mass, vector3(b.com), inertia3(b.inertia)});
+    if (b.form == Form::sphere)
+      add_shape(body, std::make_shared<dd::SphereShape>(b.half[0]), scene_.friction);
+    if (b.form == Form::box)
+      add_shape(body, std::make_shared<dd::BoxShape>(2 * vector3(b.half)), scene_.friction);
+    return body;
+  }
+  // A pair takes the smaller friction and the product of the restitutions.
+  void add_shape(dd::BodyNode* body, const dd::ShapePtr& shape, double friction) const {
+    auto* node = body->createShapeNodeWith<dd::CollisionAspect, dd::DynamicsAspect>(shape);
+    node->getDynamicsAspect()->setFrictionCoeff(friction);
+    node->getDynamicsAspect()->setRestitutionCoeff(std::sqrt(scene_.restitution));
+  }
+  // Its detector knows no half-space: a large box.
+  void add_floor() {
+    const dd::SkeletonPtr floor = dd::Skeleton::create("floor");
+    dd::WeldJoint::Properties below;
+    below.mT_ParentBodyToJoint.translation() = Eigen::Vector3d(0, 0, -1);
+    add_shape(make<dd::WeldJoint>(floor, nullptr, below),
+              std::make_shared<dd::BoxShape>(Eigen::Vector3d(200, 200, 2)), scene_.floor_friction);
+    world_->addSkeleton(floor);
+  }
+  void set_state() {
+    const double *q = scene_.q.data(), *v = scene_.v.data();
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      dd::Joint* joint = bodies_[i]->getParentJoint();
+      const Joint type = scene_.bodies[i].joint;
+      if (type == Joint::revolute) {
+        joint->setPosition(0, q[0]), joint->setVelocity(0, v[0]);
+      } else if (type == Joint::spherical) {
+        joint->setPositions(dd::BallJoint::convertToPositions(quaternion(q).toRotationMatrix()));
+        joint->setVelocities(Eigen::Vector3d(v));
+      } else {
+        joint->setPositions(free_positions(q));
+        Eigen::Matrix<double, 6, 1> twist;
+        twist << Eigen::Vector3d(v),
+            quaternion(q + 3).toRotationMatrix().transpose() * Eigen::Vector3d(v + 3);
+        joint->setVelocities(twist);
+      }
+      q += coordinates_of(type), v += velocities_of(type);
+    }
+  }
+  static Eigen::Matrix<double, 6, 1> free_positions(const double* q) {
+    Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+    X.linear() = quaternion(q + 3).toRotationMatrix();
+    X.translation() = Eigen::Vector3d(q);
+    return dd::FreeJoint::convertToPositions(X);
+  }
+
+  State convert(const Situation& s) const {
+    const auto eigen = [](const std::vector<double>& v) {
+      return Eigen::VectorXd(
+          Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())));
+    };
+    State state{eigen(s.q), eigen(s.v), eigen(s.tau), eigen(s.qdd)};
+    if (!scene_.floats()) return state;
+    const Base base(s);
+    const Eigen::Quaterniond R_BW = base.R.conjugate();
+    const Eigen::VectorXd joints = state.q.tail(state.q.size() - 7);
+    state.q.resize(joints.size() + 6);
+    state.q << free_positions(s.q.data()), joints;
+    const Eigen::Vector3d v_B = R_BW * base.v_W;
+    state.v.segment<3>(3) = v_B;
+    state.tau.segment<3>(3) = R_BW * base.f_W;
+    state.qdd.segment<3>(3) = R_BW * Eigen::Vector3d(s.qdd.data() + 3) - base.w_B.cross(v_B);
+    return state;
+  }
+
+  void run(Algorithm algorithm, const State& state) {
+    skeleton_->setPositions(state.q);
+    switch (algorithm) {
+      case Algorithm::mass_matrix:
+        skeleton_->getMassMatrix();
+        return;
+      case Algorithm::kinematics:  // computed on demand, down to the body that is asked for
+        for (const dd::BodyNode* body : bodies_) body->getWorldTransform();
+        return;
+      case Algorithm::inverse_dynamics:
+        skeleton_->setVelocities(state.v);
+        skeleton_->setAccelerations(state.qdd);
+        skeleton_->computeInverseDynamics();
+        return;
+      case Algorithm::forward_dynamics:
+      case Algorithm::step:
+        skeleton_->setVelocities(state.v);
+        skeleton_->setForces(state.tau);
+        skeleton_->computeForwardDynamics();
+        if (algorithm == Algorithm::forward_dynamics) return;
+        skeleton_->integrateVelocities(step_length);
+        skeleton_->integratePositions(step_length);
+    }
+  }
+
+  Scene scene_;
+  dart::simulation::WorldPtr world_;
+  std::vector<dd::BodyNodePtr> bodies_;  // each keeps its skeleton alive
+  dd::SkeletonPtr skeleton_;             // of a mechanism
+  std::vector<State> states_;
+  std::vector<Situation> situations_;
+};
+
+}  // namespace
+}  // namespace twinarm::bench
+
+namespace twinarm {
+
+bench::EngineKind dart_engine() {
+  return {"dart", 3, bench::one_engine<bench::Dart>};
+}
+
+}  // namespace twinarm

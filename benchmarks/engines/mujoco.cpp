@@ -1,0 +1,226 @@
+// MuJoCo.
+//
+// header: mujoco/mujoco.h
+// libraries: mujoco
+//
+// Scenes: mj_step with every one of its integrators; contacts by Newton's method, elliptic cones,
+// all else as it comes. It has no coefficient of restitution.
+//
+// Algorithms: its smooth dynamics, by the calls of mj_forward that the answer needs, and no other.
+// No collision, no constraints, no actuators, no passive forces (the models have none, and
+// mj_passive would only cost), so this is the least time in which MuJoCo itself can give it.
+#include "benchmarks/engines/engine.h"
+#include "benchmarks/engines/mujoco_model.h"
+#include "benchmarks/scenes/eigen.h"
+
+namespace twinarm::bench {
+namespace {
+
+// The scene as MJCF. The XML reader refuses elements nested deeper than 100, so bodies that are
+// deeper go into files of their own, each included where its first body is.
+class Mjcf {
+ public:
+  Mjcf(const Scene& scene, const std::string& integrator, double h) : scene_(scene) {
+    std::ostringstream xml;
+    xml.precision(17);
+    xml << "<mujoco><compiler angle=\"radian\"/><size njmax=\"3000\" nconmax=\"1000\"/>"
+        << "<option timestep=\"" << h << "\" gravity=\"" << mjcf(scene.gravity)
+        << "\" integrator=\"" << integrator << "\" solver=\"Newton\" cone=\"elliptic\">"
+        << (scene.has_contacts() ? "" : "<flag constraint=\"disable\" contact=\"disable\"/>")
+        << "</option><worldbody>";
+    // A pair takes the larger friction, unless one surface has priority.
+    if (scene.floor)
+      xml << "<geom type=\"plane\" size=\"50 50 1\" priority=\"1\"" << surface(scene.floor_friction)
+          << "/>";
+    write_children(xml, -1, 1);
+    if (scene.obstacle)
+      xml << "<geom type=\"box\" pos=\"" << mjcf(scene.obstacle->centre) << "\" size=\""
+          << mjcf(scene.obstacle->half) << "\"" << surface(scene.friction) << "/>";
+    xml << "</worldbody></mujoco>";
+    files.emplace_back("model.xml", xml.str());
+  }
+  std::vector<std::pair<std::string, std::string>> files;  // name and text; the model is the last
+
+ private:
+  static std::string surface(double friction) {
+    std::ostringstream xml;
+    xml.precision(17);
+    xml << " condim=\"" << (friction > 0 ? 3 : 1) << "\" friction=\"" << friction << "\"";
+    return xml.str();
+  }
+  void write_children(std::ostream& xml, int parent, int depth) {
+    for (auto i = static_cast<std::size_t>(parent + 1); i < scene_.bodies.size(); ++i) {
+      if (scene_.bodies[i].parent != parent) continue;
+      if (depth % 80 != 0) {
+        write_body(xml, i, depth);
+        continue;
+      }
+      std::ostringstream part;
+      part << "<mujocoinclude>";
+      write_body(part, i, depth);
+      part << "</mujocoinclude>";
+      const std::string name = "from" + std::to_string(i) + ".xml";
+      files.emplace_back(name, part.str());
+      xml << "<include file=\"" << name << "\"/>";
+    }
+  }
+  void write_body(std::ostream& xml, std::size_t i, int depth) {
+    const Body& b = scene_.bodies[i];
+    const Eigen::Quaterniond R(matrix3(b.rotation));
+    xml << "<body pos=\"" << mjcf(b.position) << "\" quat=\""
+        << mjcf(std::array{R.w(), R.x(), R.y(), R.z()}) << "\">";
+    if (b.joint == Joint::free)
+      xml << "<freejoint/>";
+    else if (b.joint == Joint::spherical)
+      xml << "<joint type=\"ball\"/>";
+    else
+      xml << "<joint type=\"hinge\" axis=\"" << mjcf(axis_of(b)) << "\"/>";
+    xml << "<inertial pos=\"" << mjcf(b.com) << "\" mass=\"" << mjcf(std::array{b.mass})
+        << "\" fullinertia=\"" << mjcf(b.inertia) << "\"/>";
+    if (b.form != Form::none)
+      xml << "<geom type=\"" << (b.form == Form::box ? "box" : "sphere") << "\" size=\""
+          << mjcf(b.half) << "\" pos=\"" << mjcf(b.form_at) << "\"" << surface(scene_.friction)
+          << "/>";
+    write_children(xml, static_cast<int>(i), depth + 1);
+    xml << "</body>";
+  }
+  const Scene& scene_;
+};
+
+class MuJoCo final : public FixedStepEngine {
+ public:
+  std::string name() const override { return "mujoco"; }
+  std::vector<Scheme> schemes(const Scene& scene) const override {
+    if (!refusal(scene).empty()) return {};
+    return {{"Euler"}, {"RK4"}, {"implicit"}};
+  }
+  std::string refusal(const Scene& scene) const override {
+    return scene.restitution > 0 ? "MuJoCo has no coefficient of restitution" : "";
+  }
+  bool is_timed_with_contacts() const override { return true; }
+
+  void load(const Scene& scene, const Scheme& scheme, double h) override {
+    begin(h);
+    scene_ = scene;
+    run_ = MujocoRun(Mjcf(scene, scheme.name, h).files);
+    std::copy(scene.q.begin(), scene.q.end(), data()->qpos);
+    const std::vector<double> v = swapped(scene.v);
+    std::copy(v.begin(), v.end(), data()->qvel);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      std::copy_n(scene.bodies[i].push.data(), 3, data()->xfrc_applied + 6 * (i + 1));
+  }
+  void step() override {
+    mjData* d = data();
+    if (scene_.control)
+      for (std::size_t j = 0; j < scene_.bodies.size(); ++j)
+        d->qfrc_applied[j] = scene_.control->torque(j, d->qpos[j], d->qvel[j]);
+    mj_step(run_.model.get(), d);
+  }
+  void read(std::vector<double>& q, std::vector<double>& v) override {
+    q.assign(data()->qpos, data()->qpos + run_.model->nq);
+    v = of_velocities(data()->qvel);
+  }
+
+  bool has(Algorithm) const override { return true; }
+  // It keeps the principal axes of an inertia as a quaternion that it finds by iteration to 1e-8 or
+  // so: where the inertias are not diagonal, it computes another mechanism by that much.
+  double tolerance(const Scene& mechanism) const override {
+    const bool diagonal = std::all_of(
+        mechanism.bodies.begin(), mechanism.bodies.end(),
+        [](const Body& b) { return b.inertia[3] == 0 && b.inertia[4] == 0 && b.inertia[5] == 0; });
+    return diagonal ? 1e-9 : 1e-6;
+  }
+  // The bodies come in the order of a depth-first walk, which is the order of all the mechanisms.
+  void load_mechanism(const Scene& mechanism) override {
+    scene_ = mechanism;
+    run_ = MujocoRun(Mjcf(mechanism, "Euler", step_length).files);
+  }
+  void set_situations(const std::vector<Situation>& situations) override {
+    situations_ = situations;
+    for (Situation& s : situations_)
+      for (auto* each : {&s.v, &s.tau, &s.qdd}) *each = swapped(*each);
+  }
+  void run(Algorithm algorithm) override {
+    for (const Situation& s : situations_) run(algorithm, s);
+  }
+  std::vector<double> qdd(std::size_t k) override {
+    run(Algorithm::forward_dynamics, situations_[k]);
+    return of_velocities(data()->qacc_smooth);
+  }
+  std::vector<double> tau(std::size_t k) override {
+    run(Algorithm::inverse_dynamics, situations_[k]);
+    return of_velocities(data()->qfrc_inverse);
+  }
+
+ private:
+  mjData* data() const { return run_.data.get(); }
+
+  // Its coordinates are the scene's, but of a free body the linear velocity comes first.
+  std::vector<double> swapped(std::vector<double> v) const {
+    auto at = v.begin();
+    for (const Body& b : scene_.bodies) {
+      if (b.joint == Joint::free) std::swap_ranges(at, at + 3, at + 3);
+      at += static_cast<std::ptrdiff_t>(velocities_of(b.joint));
+    }
+    return v;
+  }
+  std::vector<double> of_velocities(const mjtNum* v) const {
+    return swapped({v, v + run_.model->nv});
+  }
+
+  void run(Algorithm algorithm, const Situation& s) {
+    const mjModel* m = run_.model.get();
+    mjData* d = data();
+    std::copy(s.q.begin(), s.q.end(), d->qpos);
+    if (algorithm != Algorithm::mass_matrix && algorithm != Algorithm::kinematics)
+      std::copy(s.v.begin(), s.v.end(), d->qvel);
+    switch (algorithm) {
+      case Algorithm::forward_dynamics:
+        position(m, d);
+        mj_crb(m, d);
+        mj_factorM(m, d);
+        mj_comVel(m, d);
+        mj_rne(m, d, 0, d->qfrc_bias);
+        for (std::size_t i = 0; i < s.tau.size(); ++i)
+          d->qfrc_smooth[i] = s.tau[i] - d->qfrc_bias[i];
+        mj_solveM(m, d, d->qacc_smooth, d->qfrc_smooth, 1);
+        break;
+      case Algorithm::inverse_dynamics:
+        position(m, d);
+        mj_comVel(m, d);
+        std::copy(s.qdd.begin(), s.qdd.end(), d->qacc);
+        mj_rne(m, d, 1, d->qfrc_inverse);
+        break;
+      case Algorithm::mass_matrix:  // leaves it sparse, the way MuJoCo goes on with it
+        position(m, d);
+        mj_crb(m, d);
+        break;
+      case Algorithm::kinematics:
+        mj_kinematics(m, d);
+        break;
+      case Algorithm::step:  // the whole of it: MuJoCo offers no smaller one
+        std::copy(s.tau.begin(), s.tau.end(), d->qfrc_applied);
+        mj_step(m, d);
+        break;
+    }
+  }
+  static void position(const mjModel* m, mjData* d) {
+    mj_kinematics(m, d);
+    mj_comPos(m, d);  // also what makes the com-based inertias and motion axes of crb and rne
+  }
+
+  Scene scene_;
+  MujocoRun run_;
+  std::vector<Situation> situations_;
+};
+
+}  // namespace
+}  // namespace twinarm::bench
+
+namespace twinarm {
+
+bench::EngineKind mujoco_engine() {
+  return {"mujoco", 1, bench::one_engine<bench::MuJoCo>};
+}
+
+}  // namespace twinarm

@@ -1,0 +1,192 @@
+// ODE, in double.
+//
+// header: ode/ode.h
+// libraries: ode
+//
+// Every body has six coordinates and joints are constraints between them; contacts
+// with a pyramid for a cone. Both of its solvers: `step` (Dantzig) and `quick` (successive
+// over-relaxation, 20 iterations); all else as it comes.
+#include <ode/ode.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "benchmarks/engines/engine.h"
+#include "benchmarks/scenes/eigen.h"
+
+namespace twinarm::bench {
+namespace {
+
+struct Place {  // of a body in the world, and how it moves there
+  Eigen::Quaterniond R{1, 0, 0, 0};
+  Eigen::Vector3d p{0, 0, 0}, v{0, 0, 0}, w{0, 0, 0};  // of its origin
+};
+// Of a body whose joint has these coordinates, in a parent that stands there.
+Place place_of(const Body& b, const Place& parent, const double* q, const double* v) {
+  const Eigen::Quaterniond at_zero = parent.R * Eigen::Quaterniond(matrix3(b.rotation));
+  const Eigen::Vector3d arm = parent.R * vector3(b.position);
+  Place place{at_zero, parent.p + arm, parent.v + parent.w.cross(arm), parent.w};
+  if (b.joint == Joint::revolute) {
+    place.R = at_zero * Eigen::AngleAxisd(q[0], axis_of(b));
+    place.w += place.R * (v[0] * axis_of(b));
+  } else if (b.joint == Joint::spherical) {
+    place.R = at_zero * quaternion(q);
+    place.w += place.R * Eigen::Vector3d(v);
+  } else {
+    place.p += at_zero * Eigen::Vector3d(q), place.R = at_zero * quaternion(q + 3);
+    place.v += at_zero * Eigen::Vector3d(v + 3), place.w += place.R * Eigen::Vector3d(v);
+  }
+  return place;
+}
+// The other way round; angles of hinges within half a turn.
+void joint_of(const Body& b, const Place& parent, const Place& body, double* q, double* v) {
+  const Eigen::Quaterniond at_zero = parent.R * Eigen::Quaterniond(matrix3(b.rotation));
+  const Eigen::Quaterniond turn = at_zero.conjugate() * body.R;
+  const Eigen::Vector3d w_B = body.R.conjugate() * (body.w - parent.w);
+  if (b.joint == Joint::revolute) {
+    q[0] = std::remainder(2 * std::atan2(turn.vec().dot(axis_of(b)), turn.w()), 2 * M_PI);
+    v[0] = w_B.dot(axis_of(b));
+    return;
+  }
+  if (b.joint == Joint::free) {
+    Eigen::Vector3d::Map(q) = body.p, Eigen::Vector3d::Map(v + 3) = body.v;
+    q += 3;
+  }
+  write_quaternion(turn, q);
+  Eigen::Vector3d::Map(v) = w_B;
+}
+
+class Ode final : public FixedStepEngine {
+ public:
+  Ode() { dInitODE(); }
+  ~Ode() override { clear(); }
+  Ode(const Ode&) = delete;
+  Ode& operator=(const Ode&) = delete;
+  std::string name() const override { return "ode"; }
+  std::vector<Scheme> schemes(const Scene&) const override { return {{"step"}, {"quick"}}; }
+
+  void load(const Scene& scene, const Scheme& scheme, double h) override {
+    begin(h);
+    clear();
+    scene_ = scene;
+    quick_ = scheme.name == "quick";
+    world_ = dWorldCreate();
+    space_ = dHashSpaceCreate(nullptr);
+    contacts_ = dJointGroupCreate(0);
+    dWorldSetGravity(world_, scene.gravity[0], scene.gravity[1], scene.gravity[2]);
+    if (scene.uncorrected) dWorldSetERP(world_, 0), dWorldSetCFM(world_, 0);
+    std::vector<Place> places;
+    const double *q = scene.q.data(), *v = scene.v.data();
+    for (const Body& b : scene.bodies) {
+      places.push_back(place_of(b, b.parent < 0 ? Place{} : places[index(b.parent)], q, v));
+      add(b, places.back());
+      q += coordinates_of(b.joint), v += velocities_of(b.joint);
+    }
+    if (scene.floor) dCreatePlane(space_, 0, 0, 1, 0);
+  }
+  void step() override {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const Numbers3& F = scene_.bodies[i].push;
+      if (F != Numbers3{}) dBodyAddForce(bodies_[i], F[0], F[1], F[2]);
+    }
+    if (scene_.floor) dSpaceCollide(space_, this, &Ode::near);
+    if (quick_)
+      dWorldQuickStep(world_, h_);
+    else
+      dWorldStep(world_, h_);
+    dJointGroupEmpty(contacts_);
+  }
+  void read(std::vector<double>& q, std::vector<double>& v) override {
+    q.resize(scene_.q.size()), v.resize(scene_.v.size());
+    double *at = q.data(), *rate = v.data();
+    std::vector<Place> places;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const Body& b = scene_.bodies[i];
+      const dReal *R = dBodyGetQuaternion(bodies_[i]), *p = dBodyGetPosition(bodies_[i]);
+      Place place{quaternion(R), Eigen::Vector3d(p), Eigen::Vector3d(dBodyGetLinearVel(bodies_[i])),
+                  Eigen::Vector3d(dBodyGetAngularVel(bodies_[i]))};
+      const Eigen::Vector3d com = place.R * vector3(b.com);
+      place.p -= com, place.v -= place.w.cross(com);
+      places.push_back(place);
+      joint_of(b, b.parent < 0 ? Place{} : places[index(b.parent)], place, at, rate);
+      at += coordinates_of(b.joint), rate += velocities_of(b.joint);
+    }
+  }
+
+ private:
+  // ODE's bodies have their place in their centre of mass.
+  void add(const Body& b, const Place& place) {
+    const dBodyID body = bodies_.emplace_back(dBodyCreate(world_));
+    dMass mass;
+    const auto& [xx, yy, zz, xy, xz, yz] = b.inertia;
+    dMassSetParameters(&mass, b.mass, 0, 0, 0, xx, yy, zz, xy, xz, yz);
+    dBodySetMass(body, &mass);
+    const Eigen::Vector3d c = place.R * vector3(b.com), p = place.p + c;
+    const Eigen::Vector3d v = place.v + place.w.cross(c);
+    const dQuaternion turn = {place.R.w(), place.R.x(), place.R.y(), place.R.z()};
+    dBodySetPosition(body, p.x(), p.y(), p.z());
+    dBodySetQuaternion(body, turn);
+    dBodySetLinearVel(body, v.x(), v.y(), v.z());
+    dBodySetAngularVel(body, place.w.x(), place.w.y(), place.w.z());
+    if (b.form != Form::none) {
+      const dGeomID shape = b.form == Form::sphere
+                                ? dCreateSphere(space_, b.half[0])
+                                : dCreateBox(space_, 2 * b.half[0], 2 * b.half[1], 2 * b.half[2]);
+      dGeomSetBody(shape, body);
+    }
+    const dBodyID parent = b.parent < 0 ? nullptr : bodies_[index(b.parent)];
+    if (b.joint == Joint::revolute) {
+      const dJointID hinge = dJointCreateHinge(world_, nullptr);
+      dJointAttach(hinge, body, parent);
+      dJointSetHingeAnchor(hinge, place.p.x(), place.p.y(), place.p.z());
+      const Eigen::Vector3d axis = place.R * axis_of(b);
+      dJointSetHingeAxis(hinge, axis.x(), axis.y(), axis.z());
+    } else if (b.joint == Joint::spherical) {
+      const dJointID ball = dJointCreateBall(world_, nullptr);
+      dJointAttach(ball, body, parent);
+      dJointSetBallAnchor(ball, place.p.x(), place.p.y(), place.p.z());
+    }
+  }
+  static void near(void* self, dGeomID a, dGeomID b) {
+    Ode& ode = *static_cast<Ode*>(self);
+    constexpr int kMost = 8;
+    dContact contacts[kMost] = {};
+    const int count = dCollide(a, b, kMost, &contacts[0].geom, sizeof(dContact));
+    const bool floor = dGeomGetBody(a) == nullptr || dGeomGetBody(b) == nullptr;
+    for (int i = 0; i < count; ++i) {
+      dSurfaceParameters& surface = contacts[i].surface;
+      surface.mode = dContactApprox1 | (ode.scene_.restitution > 0 ? dContactBounce : 0);
+      surface.mu = floor ? ode.scene_.floor_friction : ode.scene_.friction;
+      surface.bounce = ode.scene_.restitution;
+      surface.bounce_vel = 1e-3;
+      dJointAttach(dJointCreateContact(ode.world_, ode.contacts_, &contacts[i]), dGeomGetBody(a),
+                   dGeomGetBody(b));
+    }
+  }
+  void clear() {
+    bodies_.clear();
+    if (world_ == nullptr) return;
+    dJointGroupDestroy(contacts_);
+    dSpaceDestroy(space_);
+    dWorldDestroy(world_);
+    world_ = nullptr;
+  }
+
+  Scene scene_;
+  bool quick_ = false;
+  dWorldID world_ = nullptr;
+  dSpaceID space_ = nullptr;
+  dJointGroupID contacts_ = nullptr;
+  std::vector<dBodyID> bodies_;
+};
+
+}  // namespace
+}  // namespace twinarm::bench
+
+namespace twinarm {
+
+bench::EngineKind ode_engine() {
+  return {"ode", 5, bench::one_engine<bench::Ode>};
+}
+
+}  // namespace twinarm

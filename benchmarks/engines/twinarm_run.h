@@ -1,0 +1,147 @@
+// A scene in twinarm: the step that any program calls, with every integrator; contacts by the rigid
+// response, as they come and with impacts located in time.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/engines/engine.h"
+#include "benchmarks/engines/thread_seconds.h"
+#include "benchmarks/scenes/eigen.h"
+#include "benchmarks/scenes/scene_model.h"
+#include "collision/contact/contact_constraints.h"
+#include "solver/stepping/simulation.h"
+
+namespace twinarm::bench {
+
+inline constexpr const char* kLocated = "located";  // the scheme that locates events of contacts
+
+inline std::vector<Scheme> twinarm_schemes(const Scene& scene) {
+  constexpr std::size_t kMostLocated = 50;  // bodies; a pile has more impacts than can be located
+  if (scene.has_contacts() && scene.bodies.size() > kMostLocated) return {{"semi-implicit"}};
+  if (scene.has_contacts()) return {{"semi-implicit"}, {kLocated}};
+  std::vector<Scheme> all{{"semi-implicit"}};
+  for (const IntegratorFacts& facts : all_integrators)
+    if (facts.integrator != Integrator::semi_implicit)
+      all.push_back({facts.name, facts.integrator == Integrator::dopri5});
+  return all;
+}
+
+// The constant forces on the bodies that have one, and the torques of the control.
+class ScenePushes final : public ForceSource {
+ public:
+  explicit ScenePushes(const Scene& scene) : scene_(scene) {}
+  bool is_needed() const {
+    return scene_.control || std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
+                                         [](const Body& b) { return b.push != Numbers3{}; });
+  }
+  void add_forces(const State<double>& x, const Kinematics& k,
+                  Forces<double>& f) noexcept override {
+    if (scene_.control) {
+      for (std::size_t j = 0; j < f.tau.size(); ++j)
+        f.tau[j] += scene_.control->torque(j, x.q[j], x.qd[j]);
+      return;
+    }
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      const Vector3 F_B = k.R_WB[i + 1].transpose() * vector3(scene_.bodies[i].push);
+      f.f_ext[i + 1].f += from_eigen(F_B);
+    }
+  }
+
+ private:
+  const Scene& scene_;
+};
+
+// Contacts with clocks around their detection and around what the solver does between add and take.
+class WatchedContacts final : public ConstraintSource {
+ public:
+  explicit WatchedContacts(ContactConstraints& contacts) : contacts_(contacts) {}
+  bool watched = false;
+  double detection = 0, solver = 0;  // since they were set to 0 [s]
+
+  void begin_step(const Kinematics& k, const State<double>& x, double h) noexcept override {
+    const double start = now();
+    contacts_.begin_step(k, x, h);
+    detection += now() - start;
+  }
+  bool closes(const ConstraintFrame& frame) noexcept override { return contacts_.closes(frame); }
+  bool look_farther(const Kinematics& k, double h) noexcept override {
+    return contacts_.look_farther(k, h);
+  }
+  bool wants_separation() const noexcept override { return contacts_.wants_separation(); }
+  void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override {
+    contacts_.add(frame, problem);
+    added_ = now();
+  }
+  void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
+            std::size_t first) noexcept override {
+    solver += now() - added_;
+    contacts_.take(frame, problem, first);
+  }
+
+ private:
+  double now() const { return watched ? thread_seconds() : 0; }
+  ContactConstraints& contacts_;
+  double added_ = 0;
+};
+
+struct TwinarmRun {
+  TwinarmRun(const Scene& s, const Scheme& scheme, double h)
+      : scene(s), model(model_of(s)), simulation(model, start()), pushes(scene) {
+    if (scene.has_contacts()) {
+      contacts.emplace(model, ContactResponse::rigid);
+      watch.emplace(*contacts);
+      add_shapes();
+      if (scheme.name == kLocated) {
+        simulation.add(*contacts);
+        simulation.locate_events();
+      } else {
+        simulation.add(*watch);
+      }
+    } else {
+      simulation.set_integrator(find_integrator(scheme.name).value());
+      if (scheme.adaptive) simulation.set_tolerance(h);
+    }
+    if (pushes.is_needed()) simulation.add(pushes);
+  }
+  State<double> start() const {
+    State<double> x(model);
+    x.q = scene.q, x.qd = scene.v;
+    return x;
+  }
+  // A pair takes the geometric mean of the frictions and the product of the restitutions.
+  void add_shapes() {
+    ContactSurface body, fixed;
+    body.friction = fixed.friction = scene.friction;
+    if (scene.floor && scene.floor_friction != scene.friction)
+      fixed.friction = scene.floor_friction * scene.floor_friction / scene.friction;
+    body.restitution = fixed.restitution = std::sqrt(scene.restitution);
+    if (scene.floor) contacts->add({"floor", 0, {}, HalfSpace{}, fixed});
+    if (scene.obstacle)
+      contacts->add({"obstacle",
+                     0,
+                     {Matrix3::Identity(), vector3(scene.obstacle->centre)},
+                     Box{2 * vector3(scene.obstacle->half)},
+                     fixed});
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const Body& b = scene.bodies[i];
+      const Pose X_LG{Matrix3::Identity(), vector3(b.form_at)};
+      if (b.form == Form::sphere)
+        contacts->add({"body", static_cast<int>(i) + 1, X_LG, Sphere{b.half[0]}, body});
+      if (b.form == Form::box)
+        contacts->add({"body", static_cast<int>(i) + 1, X_LG, Box{2 * vector3(b.half)}, body});
+    }
+  }
+
+  Scene scene;
+  Model<double> model;
+  Simulation simulation;
+  ScenePushes pushes;
+  std::optional<ContactConstraints> contacts;
+  std::optional<WatchedContacts> watch;
+};
+
+}  // namespace twinarm::bench

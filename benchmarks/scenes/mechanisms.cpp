@@ -1,0 +1,248 @@
+#include "benchmarks/scenes/mechanisms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+namespace twinarm::bench {
+namespace {
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double operator()(double low = 0, double high = 1) { return low + (high - low) * unit_(engine_); }
+
+ private:
+  std::mt19937 engine_;
+  std::uniform_real_distribution<double> unit_{0, 1};
+};
+
+Numbers9 product(const Numbers9& A, const Numbers9& B) {
+  Numbers9 C{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = 0; k < 3; ++k) C[3 * i + j] += A[3 * i + k] * B[3 * k + j];
+  return C;
+}
+
+Numbers9 transpose(const Numbers9& A) {
+  return {A[0], A[3], A[6], A[1], A[4], A[7], A[2], A[5], A[8]};
+}
+
+// By roll about x, then pitch about y, then yaw about z, all fixed axes.
+Numbers9 rotation(const Numbers3& rpy) {
+  using std::cos, std::sin;
+  const auto [roll, pitch, yaw] = rpy;
+  const Numbers9 X = {1, 0, 0, 0, cos(roll), -sin(roll), 0, sin(roll), cos(roll)};
+  const Numbers9 Y = {cos(pitch), 0, sin(pitch), 0, 1, 0, -sin(pitch), 0, cos(pitch)};
+  const Numbers9 Z = {cos(yaw), -sin(yaw), 0, sin(yaw), cos(yaw), 0, 0, 0, 1};
+  return product(product(Z, Y), X);
+}
+
+// With these principal moments about axes that are rotated so against the body's.
+Numbers6 inertia(const Numbers3& principal, const Numbers3& rpy = {0, 0, 0}) {
+  const Numbers9 R = rotation(rpy);
+  const Numbers9 D = {principal[0], 0, 0, 0, principal[1], 0, 0, 0, principal[2]};
+  const Numbers9 I = product(product(R, D), transpose(R));
+  return {I[0], I[4], I[8], I[1], I[2], I[5]};
+}
+
+constexpr std::size_t about_x = 0, about_y = 1, about_z = 2;
+
+Body link(int parent, std::size_t axis, const Numbers3& position, double mass, const Numbers3& com,
+          const Numbers6& inertia, const Numbers3& rpy = {0, 0, 0}) {
+  Body b;
+  b.parent = parent, b.joint = Joint::revolute, b.axis = axis;
+  b.position = position, b.rotation = rotation(rpy);
+  b.mass = mass, b.com = com, b.inertia = inertia;
+  return b;
+}
+Scene of_links(const std::string& name, std::vector<Body> links) {
+  Scene scene;
+  scene.name = name;
+  scene.bodies = std::move(links);
+  return scene;
+}
+
+Scene scara3() {
+  return of_links("scara3", {link(-1, about_z, {0, 0, 0.10}, 1.2, {0.05, 0.002, 0.01},
+                                  inertia({1.0e-3, 2.2e-3, 2.5e-3})),
+                             link(0, about_z, {0.10, 0, 0.02}, 1.0, {0.06, -0.001, 0.005},
+                                  inertia({0.8e-3, 1.9e-3, 2.1e-3})),
+                             link(1, about_z, {0.12, 0, 0.01}, 0.7, {0.07, 0.001, -0.01},
+                                  inertia({0.5e-3, 1.4e-3, 1.5e-3}))});
+}
+
+Scene puma6() {
+  const Numbers3 forward{std::numbers::pi / 2, 0, 0}, back{-std::numbers::pi / 2, 0, 0};
+  return of_links(
+      "puma6",
+      {link(-1, about_z, {0, 0, 0.67}, 10.0, {0, 0.03, -0.05}, inertia({0.25, 0.25, 0.35})),
+       link(0, about_z, {0, 0.15, 0}, 17.4, {0.068, 0.006, -0.016}, inertia({0.13, 0.524, 0.539}),
+            back),
+       link(1, about_z, {0.4318, 0, 0.0934}, 4.8, {0, -0.070, 0.014},
+            inertia({0.066, 0.0300, 0.086})),
+       link(2, about_z, {-0.0203, -0.4331, 0}, 0.82, {0, 0, -0.019},
+            inertia({1.8e-3, 1.8e-3, 1.3e-3}), forward),
+       link(3, about_z, {0, 0, 0}, 0.34, {0, 0, 0.01}, inertia({0.3e-3, 0.3e-3, 0.4e-3}), back),
+       link(4, about_z, {0, 0, 0}, 0.09, {0, 0, 0.032}, inertia({0.15e-3, 0.15e-3, 0.04e-3}),
+            forward)});
+}
+
+// The random numbers of a link are drawn last property first: the order that published timings of
+// these models were made with.
+Scene chain(int n) {
+  Scene chain = of_links("chain" + std::to_string(n), {});
+  Random random(7);
+  for (int i = 0; i < n; ++i) {
+    Body b = link(i - 1, static_cast<std::size_t>(i % 3), {0, 0, 0}, 0, {}, {});
+    b.com[2] = 0.01 * random();
+    b.com[1] = 0.01 * random();
+    b.com[0] = 0.05 + 0.01 * random();
+    b.mass = 0.5 + 0.5 * random();
+    if (i > 0) b.position[0] = 0.10 + 0.02 * random();
+    const double yaw = random(), pitch = random(), roll = random();
+    const double Izz = 1.2e-3 + 2e-4 * random();
+    const double Iyy = 1.0e-3 + 2e-4 * random();
+    const double Ixx = 0.8e-3 + 2e-4 * random();
+    b.inertia = inertia({Ixx, Iyy, Izz}, {roll, pitch, yaw});
+    chain.bodies.push_back(b);
+  }
+  return chain;
+}
+
+Scene humanoid30() {
+  Scene body = of_links("humanoid30", {});
+  Random random(11);
+  // A link of this mass, its com at this height, and this radius of gyration; all of it roughly.
+  const auto add = [&](int parent, std::size_t axis, const Numbers3& position, double mass,
+                       double height, double radius) {
+    Body b = link(parent, axis, position, mass, {0, 0, height}, {});
+    b.com[1] = 0.01 * random();
+    b.com[0] = 0.01 * random();
+    const double k = mass * radius * radius;
+    const double yaw = 0.3 * random(), pitch = 0.3 * random(), roll = 0.3 * random();
+    const double Izz = k * (0.9 + 0.2 * random());
+    const double Iyy = k * (1 + 0.2 * random());
+    const double Ixx = k * (1 + 0.2 * random());
+    b.inertia = inertia({Ixx, Iyy, Izz}, {roll, pitch, yaw});
+    body.bodies.push_back(b);
+    return static_cast<int>(body.bodies.size()) - 1;
+  };
+  const int pelvis = add(-1, about_z, {0, 0, 0}, 8, 0.02, 0.12);
+  body.bodies[0].joint = Joint::free;
+  for (const double side : {-1.0, 1.0}) {
+    int leg = add(pelvis, about_z, {0, 0.1 * side, -0.05}, 1.0, -0.02, 0.05);
+    leg = add(leg, about_x, {0, 0, 0}, 1.5, -0.03, 0.05);
+    leg = add(leg, about_y, {0, 0, 0}, 5, -0.18, 0.12);
+    leg = add(leg, about_y, {0, 0, -0.4}, 3, -0.17, 0.1);
+    leg = add(leg, about_y, {0, 0, -0.4}, 0.7, -0.01, 0.04);
+    add(leg, about_x, {0, 0, 0}, 1.0, -0.03, 0.05);
+  }
+  int torso = add(pelvis, about_z, {0, 0, 0.12}, 1.5, 0.03, 0.06);
+  torso = add(torso, about_y, {0, 0, 0.05}, 12, 0.18, 0.15);
+  for (const double side : {-1.0, 1.0}) {
+    int arm = add(torso, about_y, {0, 0.2 * side, 0.3}, 0.8, 0, 0.04);
+    arm = add(arm, about_x, {0, 0.03 * side, 0}, 0.8, -0.02, 0.04);
+    arm = add(arm, about_z, {0, 0, -0.05}, 1.4, -0.12, 0.07);
+    arm = add(arm, about_y, {0, 0, -0.25}, 0.9, -0.03, 0.05);
+    arm = add(arm, about_z, {0, 0, -0.05}, 0.7, -0.1, 0.06);
+    arm = add(arm, about_y, {0, 0, -0.2}, 0.3, -0.01, 0.03);
+    add(arm, about_x, {0, 0, 0}, 0.4, -0.05, 0.04);
+  }
+  const int neck = add(torso, about_z, {0, 0, 0.4}, 0.5, 0.02, 0.03);
+  add(neck, about_y, {0, 0, 0.04}, 3, 0.08, 0.08);
+  return body;
+}
+
+// Free cubes of 1 kg and 0.1 m on the floor, at rest.
+constexpr double box_edge = 0.1, box_mass = 1, contact_friction = 0.6;
+
+void add_box(Scene& scene, const Numbers3& centre) {
+  Body b;
+  b.mass = box_mass, b.form = Form::box, b.half = {box_edge / 2, box_edge / 2, box_edge / 2};
+  const double I = box_mass * box_edge * box_edge / 6;
+  b.inertia = {I, I, I, 0, 0, 0};
+  scene.bodies.push_back(b);
+  scene.q.insert(scene.q.end(), {centre[0], centre[1], centre[2], 1, 0, 0, 0});
+  scene.v.insert(scene.v.end(), 6, 0.0);
+}
+
+Scene pushing_scara() {
+  Scene scene = scara3();
+  scene.name = "scara";
+  Body& last = scene.bodies.back();
+  last.form = Form::sphere, last.half = {0.02, 0.02, 0.02}, last.form_at = {0.14, 0, 0};
+  scene.obstacle = {{0.2206, 0.3053, 0.13}, {box_edge / 2, box_edge / 2, box_edge / 2}};
+  scene.control = Control{{0.6, 0.3, 0.2}, 20, 0.5};
+  scene.q.assign(3, 0), scene.v.assign(3, 0);
+  return scene;
+}
+
+}  // namespace
+
+TimedScene timed_scene(const std::string& name) {
+  TimedScene timed{{}, 2e-3, 2000};
+  Scene& scene = timed.scene;
+  scene.name = name;
+  const auto height = [](int row) { return 0.055 + 0.101 * row; };
+  if (name == "scara") {
+    timed = {pushing_scara(), 1e-3, 5000};
+  } else if (name == "wall100") {
+    for (int column = 0; column < 10; ++column)
+      for (int row = 0; row < 10; ++row) add_box(scene, {0.15 * (column - 4.5), 0, height(row)});
+  } else if (name == "pyr55") {
+    for (int row = 0; row < 10; ++row)
+      for (int i = 0; i < 10 - row; ++i)
+        add_box(scene, {0.11 * (i - (9 - row) / 2.0), 0, height(row)});
+  } else {
+    throw std::invalid_argument("no scene " + name + ": there are wall100, pyr55, scara");
+  }
+  scene.floor = !scene.obstacle;
+  scene.floor_friction = scene.friction = contact_friction;
+  return timed;
+}
+
+Scene mechanism(const std::string& name) {
+  if (name == "scara3") return scara3();
+  if (name == "puma6") return puma6();
+  if (name == "humanoid30") return humanoid30();
+  if (name.starts_with("chain") && name.size() > 5 && name.size() < 10 &&
+      name.find_first_not_of("0123456789", 5) == std::string::npos && name[5] != '0')
+    return chain(std::stoi(name.substr(5)));
+  throw std::invalid_argument("no model " + name +
+                              ": there are scara3, puma6, humanoid30 and chainN, N from 1 to 9999");
+}
+
+std::vector<Situation> situations(const Scene& mechanism, std::size_t count) {
+  Random random(42);
+  const bool floats = mechanism.floats();
+  const std::size_t joints = mechanism.bodies.size() - (floats ? 1 : 0);
+  // Of the base linear before angular; then as Joint says.
+  const auto swap_base = [floats](std::vector<double>& v) {
+    if (floats) std::rotate(v.begin(), v.begin() + 3, v.begin() + 6);
+  };
+  std::vector<Situation> all(count);
+  for (Situation& s : all) {
+    if (floats) {
+      for (int k = 0; k < 3; ++k) s.q.push_back(random(-0.5, 0.5));
+      double norm = 0;
+      for (int k = 0; k < 4; ++k) s.q.push_back(random(-1, 1)), norm += s.q.back() * s.q.back();
+      for (std::size_t k = 3; k < 7; ++k) s.q[k] /= std::sqrt(norm);
+      for (int k = 0; k < 6; ++k) s.v.push_back(random(-1, 1)), s.tau.push_back(random(-10, 10));
+    }
+    for (std::size_t j = 0; j < joints; ++j) {
+      s.q.push_back(random(-2, 2));
+      s.v.push_back(random(-1, 1));
+      s.tau.push_back(random(-1, 1));
+    }
+    for (std::size_t j = 0; j < s.v.size(); ++j) s.qdd.push_back(random(-1, 1));
+    swap_base(s.v), swap_base(s.tau), swap_base(s.qdd);
+  }
+  return all;
+}
+
+}  // namespace twinarm::bench

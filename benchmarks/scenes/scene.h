@@ -1,0 +1,84 @@
+// A mechanism or a scene in plain numbers, so that every engine gets the same one and converts it
+// itself. No engine's types, none of ours, and C++17: Simbody's headers know no later one.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace twinarm::bench {
+
+using Numbers3 = std::array<double, 3>;
+using Numbers6 = std::array<double, 6>;
+using Numbers9 = std::array<double, 9>;  // a 3x3 matrix, row by row
+
+inline constexpr double standard_gravity = 9.81;  // [m/s^2]
+
+enum class Joint {
+  revolute,   // q an angle, v its rate
+  spherical,  // q the quaternion w, x, y, z body to parent, v the angular velocity in body axes
+  free        // q position and quaternion, v angular velocity in body axes and velocity of the
+              // body's origin in world axes
+};
+enum class Form { none, sphere, box };
+
+struct Body {
+  int parent = -1;  // the number of another body, before this one; -1: the world
+  Joint joint = Joint::free;
+  Numbers3 position{};  // of the body's origin in the parent at q = 0 [m]
+  Numbers9 rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1};  // body axes to parent axes at q = 0
+  std::size_t axis = 2;                             // a revolute is about x (0), y (1) or z (2)
+  double mass = 1;                                  // [kg]
+  Numbers3 com{};                                   // from the origin, body axes [m]
+  Numbers6 inertia{};  // xx, yy, zz, xy, xz, yz about the com, body axes [kg m^2]
+  Form form = Form::none;
+  Numbers3 half{};     // radius of a sphere three times, half edges of a box [m]
+  Numbers3 form_at{};  // centre of the shape, body axes [m]
+  Numbers3 push{};     // a constant force at the com, which is the origin; world axes [N]
+};
+
+// Of all joints, which are revolutes: tau = stiffness (target - q) - damping qd, once in each step.
+struct Control {
+  std::vector<double> target;         // [rad]
+  double stiffness = 0, damping = 0;  // [N m/rad], [N m s/rad]
+  double torque(std::size_t joint, double q, double qd) const {
+    return stiffness * (target[joint] - q) - damping * qd;
+  }
+};
+
+struct Scene {
+  std::string name;
+  Numbers3 gravity{0, 0, -standard_gravity};
+  std::vector<Body> bodies;
+  std::vector<double> q, v;                 // at the start, body by body as Joint says
+  bool floor = false;                       // z = 0
+  double floor_friction = 0, friction = 0;  // of a body with the floor; of two bodies
+  double restitution = 0;                   // of every pair
+  bool uncorrected = false;  // overlaps are not pushed apart where an engine can be told so
+  struct FixedBox {
+    Numbers3 centre, half;  // axes along the world's [m]
+  };
+  std::optional<FixedBox> obstacle{};  // with the friction of two bodies
+  std::optional<Control> control{};
+
+  bool has_contacts() const { return floor || obstacle; }
+  bool floats() const { return !bodies.empty() && bodies[0].joint == Joint::free; }
+};
+
+inline std::size_t coordinates_of(Joint joint) {
+  return joint == Joint::revolute ? 1 : joint == Joint::spherical ? 4 : 7;
+}
+inline std::size_t velocities_of(Joint joint) {
+  return joint == Joint::revolute ? 1 : joint == Joint::spherical ? 3 : 6;
+}
+
+// A state of a mechanism and what acts in it, body by body as Joint says: tau are torques and
+// forces on v, a free body's force at its origin; qdd the time derivative of v, for inverse
+// dynamics.
+struct Situation {
+  std::vector<double> q, v, tau, qdd;
+};
+
+}  // namespace twinarm::bench

@@ -1,0 +1,75 @@
+#include "collision/contact/contact_active_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace twinarm {
+
+void ContactActiveSet::hold(const ConstraintFrame& frame, bool struck,
+                            std::vector<ContactPoint>& points) noexcept {
+  bodies_.locates = true;
+  held_pairs_.clear();
+  for (ContactPoint& p : points) {
+    const Vector3 velocity = bodies_.approach(p.contact, frame.k);
+    const double u = p.contact.n_W.dot(velocity);
+    const bool goes_on = p.is_held && !p.opens && !struck;
+    p.is_held = goes_on || (p.contact.depth >= -EventSource::kClosed && u <= EventSource::kRest);
+    p.opens = false;
+    p.slip_W = velocity - u * p.contact.n_W;
+    const std::pair pair(p.contact.a, p.contact.b);
+    if (p.is_held && (held_pairs_.empty() || held_pairs_.back() != pair))
+      held_pairs_.push_back(pair);
+  }
+  held_ = points;
+  flow_works_.assign(kFlowNumbers * held_pairs_.size(), 0);
+}
+
+void ContactActiveSet::hold_again(std::vector<ContactPoint>& points) noexcept {
+  points = held_;
+  std::fill(flow_works_.begin(), flow_works_.end(), 0);
+}
+
+void ContactActiveSet::look(const ConstraintFrame& frame, const std::vector<ContactPoint>& points,
+                            EventSource::Nearest& nearest) const noexcept {
+  for (const ContactPoint& p : points) {
+    if (p.is_held) continue;
+    const double gap = -p.contact.depth;
+    const double u = p.contact.n_W.dot(bodies_.approach(p.contact, frame.k));
+    const bool closes = u < -EventSource::kRest;
+    if (closes) nearest.time = std::min(nearest.time, std::max(0.0, gap) / -u);
+    const bool passed = gap < -10 * EventSource::kClosed;
+    if ((closes || passed) && gap < nearest.gap) nearest.gap = gap, nearest.closes = closes;
+  }
+}
+
+void ContactActiveSet::take_flow(ContactPoint& point, const ImpulseConstraint& c, double h,
+                                 double normal, double friction) {
+  const bool moves = std::hypot(c.u[1], c.u[2]) > EventSource::kMoves;
+  const bool slid = c.law == ImpulseLaw::coulomb && point.slip_W.norm() > EventSource::kMoves;
+  const bool goes_on = moves && point.slip_W.dot(point.velocity_W) > 0;
+  char mode = moves ? EventSource::slides : EventSource::rests;
+  if (slid && !goes_on) mode = EventSource::turns;
+  point.opens = c.u[0] > EventSource::kMoves;
+  if (point.opens) mode = EventSource::opens;
+  modes_.push_back(mode);
+  const auto pair = std::lower_bound(held_pairs_.begin(), held_pairs_.end(),
+                                     std::pair(point.contact.a, point.contact.b));
+  double* sums = &flow_works_[kFlowNumbers * static_cast<std::size_t>(pair - held_pairs_.begin())];
+  sums[0] += normal, sums[1] += friction;
+  const Vector3 impulse_W = h * point.force_W;
+  const Vector3 moment_W = bodies_.moment_of(point.contact, impulse_W) + h * point.couple_W;
+  for (int i = 0; i < 3; ++i) sums[2 + i] += impulse_W[i], sums[5 + i] += moment_W[i];
+}
+
+void ContactActiveSet::count_works(ContactWorks& works) const noexcept {
+  for (std::size_t i = 0; i < held_pairs_.size(); ++i) {
+    ContactWork& work = works.of(held_pairs_[i].first, held_pairs_[i].second);
+    const double* sums = &flow_works_[kFlowNumbers * i];
+    work.normal += sums[0], work.friction += sums[1];
+    work.impulse_W += Vector3(sums[2], sums[3], sums[4]);
+    work.moment_W += Vector3(sums[5], sums[6], sums[7]);
+  }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,43 @@
+// Which contacts are held during a smooth piece of the motion, where steps locate their events in
+// time (solver/impulses/event_source.h), and the work of these.
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "collision/contact/contact_bodies.h"
+#include "collision/contact/contact_work.h"
+#include "solver/impulses/event_source.h"
+
+namespace twinarm {
+
+class ContactActiveSet {
+ public:
+  explicit ContactActiveSet(ContactBodies& bodies) : bodies_(bodies) {}
+
+  void hold(const ConstraintFrame& frame, bool struck, std::vector<ContactPoint>& points) noexcept;
+  void hold_again(std::vector<ContactPoint>& points) noexcept;
+  void look(const ConstraintFrame& frame, const std::vector<ContactPoint>& points,
+            EventSource::Nearest& nearest) const noexcept;
+
+  // A solution in Phase::flow: what each held one does, and its works.
+  void begin_flow() { modes_.clear(); }
+  void take_flow(ContactPoint& point, const ImpulseConstraint& c, double h, double normal,
+                 double friction);
+  const std::vector<char>& modes() const { return modes_; }
+  std::span<double> works() { return flow_works_; }
+  void count_works(ContactWorks& works) const noexcept;
+
+ private:
+  // Of each pair: works of normal force and friction, impulse, moment.
+  static constexpr std::size_t kFlowNumbers = 8;
+
+  ContactBodies& bodies_;
+  std::vector<ContactPoint> held_;               // the points as hold() left them
+  std::vector<std::pair<int, int>> held_pairs_;  // ascending
+  std::vector<double> flow_works_;
+  std::vector<char> modes_;  // of the held, after a flow
+};
+
+}  // namespace twinarm

@@ -1,0 +1,122 @@
+#include "collision/contact/contact_manifolds.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace twinarm {
+namespace {
+
+constexpr double kLeastReach = 5e-4;  // [m]
+constexpr double kSamePoint = 0.01;   // [m]
+
+std::tuple<int, int, int> name_of(const Contact& c) {
+  return {c.a, c.b, c.feature};
+}
+
+}  // namespace
+
+ContactManifolds::ContactManifolds(ContactBodies& bodies) : bodies_(bodies) {
+  constexpr std::size_t kRoom = 256;  // so that a pair that touches for the first time takes none
+  points.reserve(kRoom);
+}
+
+// As far as it is looked for others, forces within the step included.
+double ContactManifolds::reach(std::size_t geometry, const Kinematics& k, double h) const {
+  const bool is_fixed = bodies_.geometry(static_cast<int>(geometry)).body == 0;
+  return is_fixed ? 0 : kLeastReach + 1.25 * bodies_.way(geometry, k, h);
+}
+
+ContactPoint ContactManifolds::start(const Contact& contact) const {
+  ContactPoint point;
+  point.contact = contact;
+  const ContactPairLaw law = bodies_.law_of(contact.a, contact.b);
+  point.friction = law.friction;
+  point.restitution = law.restitution;
+  point.compliance = law.compliance;
+  if (const ContactPoint* before = last_of(contact)) {
+    point.force_W = before->force_W;
+    point.couple_W = before->couple_W;
+    point.anchor_W = before->anchor_W;
+    point.is_held = before->is_held, point.opens = before->opens;
+    point.slip_W = before->slip_W;
+  }
+  return point;
+}
+
+// The same point one step before: by its name, else the nearest of the pair (where edges lie on one
+// another rounding decides which of them names a corner).
+const ContactPoint* ContactManifolds::last_of(const Contact& contact) const {
+  const auto pair = std::pair(contact.a, contact.b);
+  auto p = std::lower_bound(last_.begin(), last_.end(), pair, [](const ContactPoint& q, auto ab) {
+    return std::pair(q.contact.a, q.contact.b) < ab;
+  });
+  const ContactPoint* nearest = nullptr;
+  double least = kSamePoint;
+  for (; p != last_.end() && std::pair(p->contact.a, p->contact.b) == pair; ++p) {
+    if (p->contact.feature == contact.feature) return &*p;
+    const double distance = (p->contact.p_WC - contact.p_WC).norm();
+    if (distance < least) least = distance, nearest = &*p;
+  }
+  return nearest;
+}
+
+void ContactManifolds::begin_step(const Kinematics& k, double h) noexcept {
+  reach_.resize(bodies_.size());
+  X_WG_.resize(bodies_.size());
+  for (std::size_t g = 0; g < bodies_.size(); ++g) {
+    const ContactGeometry& geometry = bodies_.geometry(static_cast<int>(g));
+    X_WG_[g] = k.X_WL[static_cast<std::size_t>(geometry.body)] * geometry.X_LG;
+    reach_[g] = reach(g, k, h);
+  }
+  bodies_.world().detect(X_WG_, reach_, contacts_);
+  std::swap(points, last_);
+  points.clear();
+  for (const Contact& contact : contacts_)
+    if (bodies_.moves(contact)) points.push_back(start(contact));
+}
+
+bool ContactManifolds::look_farther(const Kinematics& k, double h) noexcept {
+  bool farther = false;
+  for (std::size_t g = 0; g < bodies_.size(); ++g)
+    if (bodies_.way(g, k, h) > reach_[g]) farther = true, reach_[g] = reach(g, k, h);
+  if (!farther) return false;
+  bodies_.world().detect(X_WG_, reach_, contacts_);
+  const auto before = [](const ContactPoint& p, const ContactPoint& q) {
+    return name_of(p.contact) < name_of(q.contact);
+  };
+  const std::size_t known = points.size();
+  for (const Contact& contact : contacts_) {
+    const auto end = points.begin() + static_cast<std::ptrdiff_t>(known);
+    const auto p = std::lower_bound(
+        points.begin(), end, contact,
+        [](const ContactPoint& q, const Contact& c) { return name_of(q.contact) < name_of(c); });
+    if (p != end && name_of(p->contact) == name_of(contact)) continue;
+    if (bodies_.moves(contact)) points.push_back(start(contact));
+  }
+  if (points.size() == known) return false;
+  std::sort(points.begin(), points.end(), before);
+  for (ContactPoint& point : points) point.closes = false, point.gap_after = 0;
+  return true;
+}
+
+// Bristles, guesses, what is held.
+void ContactManifolds::visit_memory(Memory& memory) {
+  constexpr std::size_t kPoint = 28 * sizeof(double);  // bytes, at least
+  const std::size_t count = bodies_.size();
+  memory.resize(points, kPoint);
+  for (ContactPoint& p : points) {
+    for (int* id : {&p.contact.a, &p.contact.b}) memory.visit_index(*id, count);
+    memory.visit(p.contact.feature);
+    for (double* number : {&p.contact.depth, &p.friction, &p.restitution, &p.compliance.stiffness,
+                           &p.compliance.dissipation})
+      memory.visit(*number);
+    for (Vector3* v : {&p.contact.p_WC, &p.contact.n_W, &p.impulse_W, &p.force_W, &p.couple_W,
+                       &p.anchor_W, &p.velocity_W, &p.slip_W})
+      memory.visit(*v);
+    memory.visit(p.is_held);
+    memory.visit(p.opens);
+  }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,25 @@
+// The formats of robot files.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "collision/import/robot/robot_description.h"
+#include "collision/import/robot/robot_file_options.h"
+
+namespace twinarm {
+
+// The file NAME_format.cpp defines `RobotFormat NAME_format()`.
+struct RobotFormat {
+  const char* extension;  // of its files, with the dot
+  // Throws InputError with all faults of the file, each with its line. The robot has passed
+  // check_robot (robot_check.h) and has its root.
+  RobotDescription (*read)(const std::filesystem::path& file, const RobotFileOptions& options);
+};
+const std::vector<RobotFormat>& robot_formats();
+
+// By the format that has this extension, else as URDF.
+RobotDescription read_robot_file(const std::filesystem::path& file,
+                                 const RobotFileOptions& options = {});
+
+}  // namespace twinarm

@@ -1,0 +1,40 @@
+// A box: its support, mass, polytope and distance from a point.
+#pragma once
+
+#include <cmath>
+#include <tuple>
+
+#include "collision/geometry/mass_properties.h"
+#include "collision/geometry/polytope.h"
+#include "collision/shapes/signed_point.h"
+
+namespace twinarm {
+
+struct Box {
+  static constexpr const char* name = "box";
+  static constexpr const char* key = "box";
+  static constexpr bool is_in_urdf = true;
+  Vector3 size = Vector3::Ones();  // full edge lengths [m], centred, along the axes
+  static constexpr auto lengths() { return std::make_tuple(std::pair("size", &Box::size)); }
+
+  Vector3 support(const Vector3& d) const {
+    return 0.5 * Vector3(std::copysign(size.x(), d.x()), std::copysign(size.y(), d.y()),
+                         std::copysign(size.z(), d.z()));
+  }
+  MassProperties solid(double density) const {
+    const double m = density * size.prod();
+    const Vector3 q = m / 12 * size.cwiseAbs2();
+    return centred_solid(m, q.y() + q.z(), q.x() + q.z(), q.x() + q.y());
+  }
+  Polytope polytope() const { return polyhedron(box_hull(size)); }
+  SignedPoint nearest(const Vector3& p) const {
+    const Vector3 half = size / 2;
+    const Vector3 outside = p - p.cwiseMax(-half).cwiseMin(half);
+    if (outside.norm() > SignedPoint::touching) return {outside.norm(), outside.normalized()};
+    int axis = 0;
+    const double inside = (half - p.cwiseAbs()).minCoeff(&axis);
+    return {-inside, std::copysign(1.0, p[axis]) * Vector3::Unit(axis)};
+  }
+};
+
+}  // namespace twinarm

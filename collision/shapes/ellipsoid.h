@@ -1,0 +1,37 @@
+// An ellipsoid: one smooth patch.
+#pragma once
+
+#include <numbers>
+#include <tuple>
+
+#include "collision/geometry/boundary_features.h"
+#include "collision/geometry/mass_properties.h"
+
+namespace twinarm {
+
+struct Ellipsoid {
+  static constexpr const char* name = "ellipsoid";
+  static constexpr const char* key = "ellipsoid";
+  Vector3 semi_axes = Vector3::Ones();  // half the extents along the axes [m], centred
+  static constexpr auto lengths() {
+    return std::make_tuple(std::pair("semi_axes", &Ellipsoid::semi_axes));
+  }
+
+  Vector3 support(const Vector3& d) const {
+    const Vector3 scaled = semi_axes.cwiseProduct(d);
+    return semi_axes.cwiseProduct(scaled) / scaled.norm();
+  }
+  MassProperties solid(double density) const {
+    const double m = density * 4.0 / 3.0 * std::numbers::pi * semi_axes.prod();
+    const Vector3 q = m / 5 * semi_axes.cwiseAbs2();
+    return centred_solid(m, q.y() + q.z(), q.x() + q.z(), q.x() + q.y());
+  }
+  Patches patches() const {
+    Patches patches;
+    patches.rounds = {{Vector3::Zero(), Matrix3(semi_axes.cwiseAbs2().asDiagonal())}};
+    patches.sharpest = semi_axes.minCoeff() * semi_axes.minCoeff() / semi_axes.maxCoeff();
+    return patches;
+  }
+};
+
+}  // namespace twinarm

@@ -1,0 +1,29 @@
+// A half-space: a plane that is solid on one side.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "solver/spatial/pose.h"
+
+namespace twinarm {
+
+struct HalfSpace {
+  static constexpr const char* name = "half-space";
+  static constexpr const char* key = "halfspace";
+  Vector3 normal = Vector3::UnitZ();  // outward, unit
+  double offset = 0;                  // solid where normal . x <= offset [m]
+
+  // Infinity, except along its normal.
+  Vector3 support(const Vector3& d) const {
+    if (d.normalized().dot(normal) > 1 - 1e-12) return offset * normal;
+    return d * std::numeric_limits<double>::infinity();
+  }
+  std::string fault() const {
+    if (std::abs(normal.norm() - 1) < 1e-9 && std::isfinite(offset)) return "";
+    return "normal has length " + std::to_string(normal.norm()) + ", must be 1";
+  }
+};
+
+}  // namespace twinarm

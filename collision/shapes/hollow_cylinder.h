@@ -1,0 +1,21 @@
+// The inside of an open tube, as a wall.
+#pragma once
+
+#include "collision/shapes/cylinder.h"
+
+namespace twinarm {
+
+struct HollowCylinder {  // the inside of a tube with open ends
+  static constexpr const char* name = "hollow cylinder";
+  static constexpr const char* key = "hollow_cylinder";
+  double radius = 1;  // [m]
+  double length = 1;  // [m], along z, centred
+  static constexpr auto lengths() {
+    return std::make_tuple(std::pair("radius", &HollowCylinder::radius),
+                           std::pair("length", &HollowCylinder::length));
+  }
+
+  Vector3 support(const Vector3& d) const { return Cylinder{radius, length}.support(d); }
+};
+
+}  // namespace twinarm

@@ -1,0 +1,19 @@
+// The inside of a sphere, as a wall.
+#pragma once
+
+#include "collision/shapes/sphere.h"
+
+namespace twinarm {
+
+struct HollowSphere {  // the inside: bodies move within
+  static constexpr const char* name = "hollow sphere";
+  static constexpr const char* key = "hollow_sphere";
+  double radius = 1;  // [m], centred
+  static constexpr auto lengths() {
+    return std::make_tuple(std::pair("radius", &HollowSphere::radius));
+  }
+
+  Vector3 support(const Vector3& d) const { return Sphere{radius}.support(d); }
+};
+
+}  // namespace twinarm

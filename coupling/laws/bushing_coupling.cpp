@@ -1,0 +1,15 @@
+// A spring-damper in six dimensions, at a frame fixed to each link (coupling/laws/spring_damper.h).
+#include "coupling/laws/spring_damper.h"
+
+namespace twinarm {
+
+CouplingFacts bushing_coupling() {
+  return {.name = "bushing",
+          .order = 3,
+          .treatments = CouplingFacts::Treatments::all,
+          .at_point = true,
+          .can_hold = true,
+          .make = make_spring_damper<SpringDamperCoupling::Space::frame>};
+}
+
+}  // namespace twinarm

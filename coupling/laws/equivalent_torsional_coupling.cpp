@@ -1,0 +1,76 @@
+// The fair match of a torsional to a linear coupling: a joint-space torsional coupling with the
+// FULL stiffness and damping of the linear one, taken at the KVR's pose,
+//   tau = K_q(q_K) (q_K - q_D) + B_q(q_K) (qd_K - qd_D).
+// Matching k_T = k_L r^2 joint by joint is not fair for a chain: the outer spring also holds the
+// inner joint.
+//
+// Explicit only: the weightless thing that would stand for h B_q + h^2 K_q is a full matrix over
+// all joints, at the KVR's pose; no inertia of a link is, and ABA would no longer be O(n). Joints
+// of one degree of freedom only.
+#include "coupling/laws/spring_damper.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+class MatchedTorsional final : public Coupling {
+ public:
+  // The springs are those of the linear coupling that is matched. Throws InputError for joints
+  // between base and links that have not one degree of freedom.
+  MatchedTorsional(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr);
+  void add_forces(const State<double>& x, const Kinematics& k,
+                  Forces<double>& forces) noexcept override;
+  JointSpace joint_space(const Kinematics& k) const override {
+    return joint_space_of_points(model_, k, springs_);
+  }
+
+ private:
+  std::vector<std::size_t> iq_;  // by velocity: the joint's coordinate
+};
+
+MatchedTorsional::MatchedTorsional(const CouplingSpec& spec, const Model<double>& model,
+                                   KinematicRobot& kvr)
+    : Coupling(spec, model, kvr), iq_(model.nv) {
+  FaultList faults;
+  for (std::size_t i = 1; i < model.parent.size(); ++i)
+    if (model.dofs(i) == 1) iq_[model.iv[i]] = model.iq[i];
+  for (const Spring& spring : springs_)
+    for (int body = spring.body; body > 0; body = model.parent[static_cast<std::size_t>(body)]) {
+      const auto i = static_cast<std::size_t>(body);
+      if (model.dofs(i) > 1)
+        faults.add({"", 0, "coupling '" + name_ + "', joint '" + model.joint_name[i] + "'",
+                    "the joint has " + std::to_string(model.dofs(i)) + " degrees of freedom",
+                    "the matched law takes joints of one; choose a linear coupling"});
+    }
+  faults.check();
+}
+
+// tau = sum_p J_p^T (k J_p e + b J_p e'), point by point: no matrix, nothing allocated.
+void MatchedTorsional::add_forces(const State<double>& x, const Kinematics&,
+                                  Forces<double>& forces) noexcept {
+  const KvrSample& target = kvr_.at(x.t);
+  for (std::size_t s = 0; s < springs_.size(); ++s) {
+    const Spring& spring = springs_[s];
+    const Vector3 p_K = target.k.position(spring.body, spring.p_L);
+    const auto for_each_column = [&](auto f) {
+      for_each_dof_below(model_, target.k, spring.body,
+                         [&](std::size_t dof, const Vector3& w, const Vector3& v,
+                             const Vector3& o) { f(dof, Vector3(v + w.cross(p_K - o))); });
+    };
+    Vector3 pull = Vector3::Zero();
+    for_each_column([&](std::size_t dof, const Vector3& J) {
+      const double e = target.x.q[iq_[dof]] - x.q[iq_[dof]];
+      pull += (spring.k * e + spring.b * (target.x.qd[dof] - x.qd[dof])) * J;
+    });
+    for_each_column([&](std::size_t dof, const Vector3& J) { forces.tau[dof] += J.dot(pull); });
+    readings_[s] = {p_K, p_K, pull, pull.norm()};
+  }
+}
+
+}  // namespace
+
+CouplingFacts equivalent_torsional_coupling() {
+  return {.name = "matched", .order = 5, .at_point = true, .make = make_law<MatchedTorsional>};
+}
+
+}  // namespace twinarm

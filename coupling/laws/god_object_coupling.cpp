@@ -1,0 +1,126 @@
+// God object: the DVR has the acceleration that brings it onto the KVR at the end of the step, and
+// where it touches something, the nearest one that the contact allows (Zilles and Salisbury 1995
+// for a point; Ortega, Redon, Coquillart 2007 in six dimensions, after Gauss's principle):
+//
+//   a_u = ((q_K' - q)/h - qd)/h                 lands on q_K' : qd' = qd + h a_u, q' = q + h qd'
+//   min (a - a_u)^T M (a - a_u)  with  J a >= what the contacts ask for
+//
+// tau = ID(q, qd, a_u), inverse dynamics in O(n), makes a_u the acceleration without contact; the
+// rigid contacts' impulses then change it by M^-1 J^T p, p >= 0: that is the projection in the
+// metric of M. Gravity, damping and dry friction of the joints are in tau, so that nothing but
+// contacts and limits keeps the DVR off the KVR. There is no spring, no gain, no limit of the step;
+// against an obstacle the torque is whatever the way that is lacking asks for: M times it over h^2.
+//
+// All joints of a robot at once: those that were left out would be thrown about by the others.
+// Joints of one degree of freedom only. It belongs to the semi-implicit step: no other treatment.
+#include "coupling/laws/god_object.h"
+
+#include "coupling/laws/coupling_spec.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+class GodObject final : public Coupling {
+ public:
+  // One spring for each joint, named by the body that it carries; their gains must be 0. Throws
+  // InputError for joints that have not one degree of freedom, or whose neighbours are left out.
+  GodObject(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr);
+
+  void add_forces(const State<double>& x, const Kinematics& k,
+                  Forces<double>& forces) noexcept override;
+  bool needs_semi_implicit() const override { return true; }
+  JointSpace joint_space(const Kinematics&) const override {  // zero: there is no spring
+    return JointSpace(model_.nv);
+  }
+
+ private:
+  void check_joints() const;
+  double friction(std::size_t dof, double qd_end) const;
+
+  std::vector<double> a_u_;  // by velocity
+  std::vector<Force<double>> no_forces_;
+  Workspace<double> w_;
+};
+
+GodObject::GodObject(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr)
+    : Coupling(spec, model, kvr), a_u_(model.nv), no_forces_(model.parent.size()), w_(model) {
+  check_one_dof();
+  check_joints();
+}
+
+// A joint of the same tree that is not driven.
+void GodObject::check_joints() const {
+  std::vector<char> driven(model_.parent.size(), 0), above(driven);  // above: in a driven branch
+  for (const Spring& joint : springs_) driven[static_cast<std::size_t>(joint.body)] = 1;
+  FaultList faults;
+  const auto fault = [&](std::size_t i) {
+    faults.add({"", 0, "coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
+                "it is left out, but its neighbours are driven", "drive all joints of the robot"});
+  };
+  for (std::size_t i = 1; i < driven.size(); ++i) {
+    const auto parent = static_cast<std::size_t>(model_.parent[i]);
+    above[i] = static_cast<char>(above[parent] | driven[i]);
+    if (above[i] && !driven[i] && model_.dofs(i) > 0) fault(i);
+  }
+  std::vector<char> below(driven);
+  for (std::size_t i = driven.size(); i-- > 1;) {
+    const auto parent = static_cast<std::size_t>(model_.parent[i]);
+    if (parent > 0 && below[i]) below[parent] = 1;
+    if (below[i] && !above[i] && model_.dofs(i) > 0) fault(i);
+  }
+  faults.check();
+}
+
+// Against damping and dry friction, which the step takes at its end. At rest nothing rubs: friction
+// finds what it holds by itself.
+double GodObject::friction(std::size_t dof, double qd_end) const {
+  const double dry = qd_end > 0   ? model_.coulomb_plus[dof]
+                     : qd_end < 0 ? -model_.coulomb_minus[dof]
+                                  : 0;
+  return model_.damping[dof] * qd_end + dry;
+}
+
+void GodObject::add_forces(const State<double>& x, const Kinematics& k,
+                           Forces<double>& forces) noexcept {
+  const KvrSample& end = kvr_.end();
+  for (const Spring& joint : springs_) {
+    const auto i = static_cast<std::size_t>(joint.body);
+    const std::size_t iq = model_.iq[i], iv = model_.iv[i];
+    a_u_[iv] = ((end.x.q[iq] - x.q[iq]) / h_ - x.qd[iv]) / h_;
+  }
+  rnea(model_, x, a_u_, no_forces_, w_);
+  for (std::size_t s = 0; s < springs_.size(); ++s) {
+    const auto i = static_cast<std::size_t>(springs_[s].body);
+    const std::size_t iv = model_.iv[i];
+    SpringReading& reading = readings_[s];
+    reading.size = w_.tau[iv] + friction(iv, x.qd[iv] + h_ * a_u_[iv]);
+    reading.p_K = end.k.X_WL[i].p;
+    reading.p_D = k.X_WL[i].p;
+    forces.tau[iv] += reading.size;
+  }
+}
+
+}  // namespace
+
+std::vector<Spring> god_object_joints(const Model<double>& model, int first_body, int last_body) {
+  std::vector<Spring> joints;
+  for (int body = first_body; body <= last_body; ++body) {
+    const auto i = static_cast<std::size_t>(body);
+    if (model.dofs(i) > 0) joints.push_back({model.joint_name[i], body});
+  }
+  return joints;
+}
+
+CouplingFacts god_object_coupling() {
+  return {.name = "god-object",
+          .order = 7,
+          .treatments = CouplingFacts::Treatments::own,
+          .at_joint = true,
+          .is_spring_damper = false,
+          .step_law = StepLaw::god_object,
+          .make = make_law<GodObject>};
+}
+
+}  // namespace twinarm

@@ -1,0 +1,15 @@
+// A spring-damper at a point of each link (coupling/laws/spring_damper.h).
+#include "coupling/laws/spring_damper.h"
+
+namespace twinarm {
+
+CouplingFacts linear_coupling() {
+  return {.name = "linear",
+          .order = 1,
+          .treatments = CouplingFacts::Treatments::all,
+          .at_point = true,
+          .can_hold = true,
+          .make = make_spring_damper<SpringDamperCoupling::Space::point>};
+}
+
+}  // namespace twinarm

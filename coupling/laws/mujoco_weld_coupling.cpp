@@ -1,0 +1,114 @@
+#include "coupling/laws/mujoco_weld.h"
+
+#include <utility>
+
+#include "coupling/laws/spring_damper.h"
+#include "solver/dynamics/mass_matrix.h"
+#include "solver/forces/spring.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+// 3/trace(J M^-1 J^T); 0 where the link cannot move so.
+double effective_mass(const Eigen::MatrixXd& inverse_M, const Eigen::Matrix3Xd& J) {
+  const double trace = (J * inverse_M * J.transpose()).trace();
+  return trace > 0 ? 3 / trace : 0;
+}
+
+// Accelerations at qdd = 0: of the link's orientation, and of its point at p_W. a_bias is spatial
+// and has gravity in it as an upward acceleration of the base; both are taken out.
+struct BiasAcceleration {
+  Vector3 turn, point;
+};
+BiasAcceleration bias_acceleration(const Model<double>& model, const Kinematics& k, int body,
+                                   const Vector3& p_W) {
+  const auto i = static_cast<std::size_t>(body);
+  const Vector3 turn = k.R_WB[i] * to_eigen(k.a_bias[i].w);
+  const Vector3 origin = k.R_WB[i] * to_eigen(k.a_bias[i].v) + to_eigen(model.gravity);
+  return {turn, origin + turn.cross(p_W - k.X_WL[i].p) + k.w_WL[i].cross(k.velocity(body, p_W))};
+}
+
+class WeldLike final : public Coupling {
+ public:
+  // Of the springs, m_R = b/b_ref. Throws InputError for a reference out of bounds.
+  WeldLike(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr);
+
+  void add_forces(const State<double>& x, const Kinematics& k,
+                  Forces<double>& forces) noexcept override;
+  bool needs_semi_implicit() const override { return true; }
+  // Of spring and damper. With e = q_K - q_D: (M + m_R J^T J) e'' + B e' + K e = ...
+  JointSpace joint_space(const Kinematics& k) const override {
+    return joint_space_of_frames(model_, k, springs_);
+  }
+
+ private:
+  Treatment treatment_;
+  double damping_;  // b_ref
+};
+
+}  // namespace
+
+Spring weld_spring(std::string name, const Model<double>& model, const State<double>& x, int body,
+                   const Vector3& p_L, const WeldReference& reference) {
+  const auto i = static_cast<std::size_t>(body);
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  const Eigen::MatrixXd inverse_M = inverse_of(mass_matrix(model, x));
+  const Vector3 com =
+      model.I[i].m > 0 ? Vector3(to_eigen(model.I[i].h) / model.I[i].m) : Vector3(Vector3::Zero());
+  const Vector3 com_W = k.X_WL[i].p + k.R_WB[i] * com;
+  const double part = reference.impedance / (1 - reference.impedance);
+  const double mass = part * effective_mass(inverse_M, point_jacobian(model, k, body, com_W));
+  const double turn = part * effective_mass(inverse_M, rotation_jacobian(model, k, body));
+  const double k_ref = reference.stiffness(), b_ref = reference.damping();
+  return {std::move(name), body, p_L, mass * k_ref, mass * b_ref, turn * k_ref, turn * b_ref};
+}
+
+WeldLike::WeldLike(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr)
+    : Coupling(spec, model, kvr), treatment_(spec.treatment), damping_(spec.reference.damping()) {
+  const WeldReference& reference = spec.reference;
+  const auto good = [](double x) { return x > 0 && std::isfinite(x); };
+  FaultList faults;
+  const auto check = [&](bool holds, const char* what, const char* rule) {
+    if (!holds) faults.add({"", 0, "coupling '" + name_ + "', " + what, rule, ""});
+  };
+  check(good(reference.time_constant), "time constant", "must be positive");
+  check(good(reference.damping_ratio), "damping ratio", "must be positive");
+  check(reference.impedance > 0 && reference.impedance < 1, "impedance",
+        "must lie between 0 and 1");
+  faults.check();
+  readings_.resize(2 * springs_.size());  // forces, then couples
+}
+
+// The pulls are those at qdd = 0: m_R times the bias acceleration goes off them.
+void WeldLike::add_forces(const State<double>& x, const Kinematics& k,
+                          Forces<double>& forces) noexcept {
+  TreatmentTerms terms = terms_of(treatment_, kvr_, x.t, h_);
+  terms.weight_b += 1 / damping_;  // m* = m_R + h b + h^2 k
+  terms.sees_target_moves = false;
+  for (std::size_t s = 0; s < springs_.size(); ++s) {
+    const Spring& spring = springs_[s];
+    SpringReading &force = readings_[s], &couple = readings_[springs_.size() + s];
+    pull_point(spring, terms, k, force, forces);
+    turn_link(spring.body, spring.k_turn, spring.b_turn, terms, k, couple, forces);
+    const BiasAcceleration bias = bias_acceleration(model_, k, spring.body, force.p_D);
+    force.pull -= spring.b / damping_ * bias.point;
+    couple.pull -= spring.b_turn / damping_ * bias.turn;
+    force.size = force.pull.norm();
+    couple.size = couple.pull.norm();
+    add_point_force(k, spring.body, force.p_D, force.pull, forces);
+    add_couple(k, spring.body, couple.pull, forces);
+  }
+}
+
+CouplingFacts mujoco_weld_coupling() {
+  return {.name = "weld",
+          .order = 4,
+          .treatments = CouplingFacts::Treatments::all,
+          .at_point = true,
+          .make = make_law<WeldLike>};
+}
+
+}  // namespace twinarm

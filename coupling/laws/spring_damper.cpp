@@ -1,0 +1,132 @@
+#include "coupling/laws/spring_damper.h"
+
+#include "solver/forces/spring.h"
+
+namespace twinarm {
+
+SpringDamperCoupling::SpringDamperCoupling(const CouplingSpec& spec, const Model<double>& model,
+                                           KinematicRobot& kvr, Space space)
+    : Coupling(spec, model, kvr),
+      space_(space),
+      treatment_(spec.treatment),
+      hold_(spec.hold_steps, spec.treatment) {
+  if (space == Space::joint) check_one_dof();
+  if (space == Space::frame) readings_.resize(2 * springs_.size());  // forces, then couples
+}
+
+void SpringDamperCoupling::begin_step(const Kinematics& k, double t, double h) noexcept {
+  Coupling::begin_step(k, t, h);
+  hold_.begin_step();
+}
+
+void SpringDamperCoupling::add_forces(const State<double>& x, const Kinematics& k,
+                                      Forces<double>& forces) noexcept {
+  const TreatmentTerms terms = terms_of(treatment_, kvr_, x.t, h_);
+  const bool at_point = space_ == Space::point || space_ == Space::frame;
+  const bool turns = space_ == Space::orientation || space_ == Space::frame;
+  for (std::size_t s = 0; s < springs_.size(); ++s) {
+    if (space_ == Space::joint) pull_joint(s, terms, x, k, forces);
+    const Spring& spring = springs_[s];
+    SpringReading &force = readings_[s],
+                  &couple = readings_[at_point && turns ? springs_.size() + s : s];
+    if (hold_.is_fresh()) {
+      if (at_point) pull_point(spring, terms, k, force, forces);
+      if (turns && at_point)
+        turn_link(spring.body, spring.k_turn, spring.b_turn, terms, k, couple, forces);
+      else if (turns)
+        turn_link(spring.body, spring.k, spring.b, terms, k, couple, forces);
+    }
+    if (at_point)
+      add_point_force(k, spring.body, k.position(spring.body, spring.p_L), force.pull, forces);
+    if (turns) add_couple(k, spring.body, couple.pull, forces);
+  }
+  hold_.computed();
+}
+
+void SpringDamperCoupling::pull_joint(std::size_t s, const TreatmentTerms& terms,
+                                      const State<double>& x, const Kinematics& k,
+                                      Forces<double>& forces) {
+  const Spring& spring = springs_[s];
+  const auto i = static_cast<std::size_t>(spring.body);
+  const std::size_t iq = model_.iq[i], iv = model_.iv[i];
+  SpringReading& reading = readings_[s];
+  if (hold_.is_fresh()) {
+    const double e = terms.spring_target->x.q[iq] - x.q[iq] - terms.look_ahead * x.qd[iv];
+    reading.size = spring.k * e + spring.b * (terms.damper_target->x.qd[iv] - x.qd[iv]);
+    reading.p_K = terms.spring_target->k.X_WL[i].p;
+    reading.p_D = k.X_WL[i].p;
+    reading.m_star = terms.m_star(spring.k, spring.b);
+    forces.armature[iv] += reading.m_star;
+  }
+  forces.tau[iv] += reading.size;
+}
+
+Coupling::JointSpace SpringDamperCoupling::joint_space(const Kinematics& k) const {
+  if (space_ == Space::point) return joint_space_of_points(model_, k, springs_);
+  if (space_ == Space::frame) return joint_space_of_frames(model_, k, springs_);
+  JointSpace sum(model_.nv);
+  for (const Spring& spring : springs_)
+    if (space_ == Space::orientation)
+      sum.add(spring.k, spring.b, rotation_jacobian(model_, k, spring.body));
+    else
+      sum.add(spring.k, spring.b, joint_row(spring.body));
+  return sum;
+}
+
+void SpringDamperCoupling::visit_memory(Memory& memory) {
+  Coupling::visit_memory(memory);
+  hold_.visit_memory(memory);
+}
+
+void pull_point(const Spring& spring, const TreatmentTerms& terms, const Kinematics& D,
+                SpringReading& reading, Forces<double>& forces) {
+  const Kinematics &K = terms.spring_target->k, &K_damper = terms.damper_target->k;
+  reading.p_K = K.position(spring.body, spring.p_L);
+  reading.p_D = D.position(spring.body, spring.p_L);
+  const Vector3 v_D = D.velocity(spring.body, reading.p_D);
+  Vector3 v_K = Vector3::Zero();
+  if (terms.sees_target_moves)
+    v_K = K_damper.velocity(spring.body, K_damper.position(spring.body, spring.p_L));
+  reading.pull =
+      spring.k * (reading.p_K - reading.p_D - terms.look_ahead * v_D) + spring.b * (v_K - v_D);
+  reading.size = reading.pull.norm();
+  reading.m_star = terms.m_star(spring.k, spring.b);
+  if (reading.m_star > 0) add_particle(D, spring.body, reading.p_D, reading.m_star, forces);
+}
+
+void turn_link(int body, double k, double b, const TreatmentTerms& terms, const Kinematics& D,
+               SpringReading& reading, Forces<double>& forces) {
+  const auto i = static_cast<std::size_t>(body);
+  const Kinematics& K = terms.spring_target->k;
+  const Vector3 phi =
+      rotation_vector(K.X_WL[i].R * D.X_WL[i].R.transpose()) - terms.look_ahead * D.w_WL[i];
+  Vector3 w_K = Vector3::Zero();
+  if (terms.sees_target_moves) w_K = terms.damper_target->k.w_WL[i];
+  reading.pull = k * phi + b * (w_K - D.w_WL[i]);
+  reading.size = reading.pull.norm();
+  reading.p_K = K.X_WL[i].p;
+  reading.p_D = D.X_WL[i].p;
+  reading.m_star = terms.m_star(k, b);
+  if (reading.m_star > 0) add_flywheel(D, body, reading.m_star, forces);
+}
+
+Coupling::JointSpace joint_space_of_points(const Model<double>& model, const Kinematics& k,
+                                           const std::vector<Spring>& springs) {
+  Coupling::JointSpace sum(model.nv);
+  for (const Spring& spring : springs)
+    sum.add(spring.k, spring.b,
+            point_jacobian(model, k, spring.body, k.position(spring.body, spring.p_L)));
+  return sum;
+}
+
+Coupling::JointSpace joint_space_of_frames(const Model<double>& model, const Kinematics& k,
+                                           const std::vector<Spring>& springs) {
+  Coupling::JointSpace sum = joint_space_of_points(model, k, springs), turns(model.nv);
+  for (const Spring& spring : springs)
+    turns.add(spring.k_turn, spring.b_turn, rotation_jacobian(model, k, spring.body));
+  sum.K += turns.K;
+  sum.B += turns.B;
+  return sum;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,64 @@
+// Stable PD (Tan, Liu, Turk 2011, "Stable proportional-derivative controllers"), as printed, at the
+// joints of one degree of freedom that carry the springs' links:
+//
+//   tau = -k (q + h qd - q_K') - b (qd + h qdd - qd_K')        ' the end of the step of h
+//
+// The unknown qdd stands on the left: (M + h b) qdd = ..., an armature h b. The spring looks ahead
+// by h qd alone, without the h^2 qdd that the implicit treatment (coupling/laws/spring_damper.h)
+// has besides; so it is not stable at every gain. On an inertia I, with alpha = k h^2/I and beta =
+// b h/I:
+//
+//   x' = x + h v'  (semi-implicit Euler, the one that this program steps it with)
+//        alpha < (4 + 2 beta)/3
+//   x' = x + h v   (explicit Euler):  alpha < 4 + 2 beta
+//
+// The derivation is in docs/coupling.md. It is a treatment of its own: there is no other.
+#include "coupling/laws/coupling_spec.h"
+
+namespace twinarm {
+namespace {
+
+class StablePd final : public Coupling {
+ public:
+  // Throws InputError for joints that have not one degree of freedom.
+  StablePd(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr)
+      : Coupling(spec, model, kvr) {
+    check_one_dof();
+  }
+  void add_forces(const State<double>& x, const Kinematics& k,
+                  Forces<double>& forces) noexcept override {
+    const KvrSample& end = kvr_.end();
+    for (std::size_t s = 0; s < springs_.size(); ++s) {
+      const Spring& spring = springs_[s];
+      const auto i = static_cast<std::size_t>(spring.body);
+      const std::size_t iq = model_.iq[i], iv = model_.iv[i];
+      const double e = end.x.q[iq] - (x.q[iq] + h_ * x.qd[iv]), e_dot = end.x.qd[iv] - x.qd[iv];
+      SpringReading& reading = readings_[s];
+      reading.size = spring.k * e + spring.b * e_dot;
+      reading.m_star = h_ * spring.b;
+      reading.p_K = end.k.X_WL[i].p;
+      reading.p_D = k.X_WL[i].p;
+      forces.tau[iv] += reading.size;
+      forces.armature[iv] += reading.m_star;
+    }
+  }
+  bool needs_semi_implicit() const override { return true; }
+  JointSpace joint_space(const Kinematics&) const override {
+    JointSpace sum(model_.nv);
+    for (const Spring& spring : springs_) sum.add(spring.k, spring.b, joint_row(spring.body));
+    return sum;
+  }
+};
+
+}  // namespace
+
+CouplingFacts stable_pd_coupling() {
+  return {.name = "stable-pd",
+          .order = 6,
+          .treatments = CouplingFacts::Treatments::own,
+          .at_joint = true,
+          .step_law = StepLaw::stable_pd,
+          .make = make_law<StablePd>};
+}
+
+}  // namespace twinarm

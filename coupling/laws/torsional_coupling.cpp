@@ -1,0 +1,22 @@
+// A spring-damper on the orientation of each link, or on the coordinate of its joint
+// (coupling/laws/spring_damper.h).
+#include "coupling/laws/spring_damper.h"
+
+namespace twinarm {
+
+CouplingFacts torsional_coupling() {
+  return {.name = "torsional",
+          .order = 2,
+          .treatments = CouplingFacts::Treatments::all,
+          .has_measure = true,
+          .can_hold = true,
+          .make = [](const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr) {
+            using Space = SpringDamperCoupling::Space;
+            const auto make = spec.measure == Measure::joint
+                                  ? make_spring_damper<Space::joint>
+                                  : make_spring_damper<Space::orientation>;
+            return make(spec, model, kvr);
+          }};
+}
+
+}  // namespace twinarm

@@ -1,0 +1,98 @@
+#include "solver/integration/integrator_step.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "solver/model/mimic.h"
+#include "solver/model/non_finite.h"
+
+namespace twinarm {
+namespace {
+
+// Forces and ABA, in rounds where a source asks for them.
+void solve_sources(Mechanism& m, double h, StepReport& report) {
+  bool again = true;
+  for (report.rounds = 0; again && report.rounds < ForceSource::kMaxRounds; ++report.rounds) {
+    m.accelerate_over(h);
+    again = false;
+    for (ForceSource* source : m.sources) again = source->refine(m.k, m.w) || again;
+  }
+  report.converged = !again;
+}
+
+}  // namespace
+
+IntegratorStep::IntegratorStep(const Mechanism& m)
+    : shift_(m.model.nv), rk_(m.model.nv), dopri5_(m), events_(m) {}
+
+void IntegratorStep::set_integrator(Integrator integrator) {
+  integrator_ = integrator;
+  forget();
+  if (facts_of(integrator).solves && !implicit_) implicit_.emplace(shift_.size());
+}
+
+void IntegratorStep::set_tolerance(double tolerance) {
+  if (!(tolerance > 0) || !std::isfinite(tolerance))
+    throw std::invalid_argument("a tolerance is a positive number");
+  dopri5_.set_tolerance(tolerance);
+  forget();
+}
+
+void IntegratorStep::step(Mechanism& m, double h, bool one_substep, StepReport& report) {
+  const double t = m.x.t;
+  if (integrator_ == Integrator::semi_implicit_xv) {  // its sources act at the new coordinates
+    m.prepare_projection();
+    drift(m, shift_, h);
+    m.x.t = t + h;
+    m.refresh();
+    if (m.account) m.account->count_projection();
+  }
+  m.begin_step(h);
+  if (integrator_ == Integrator::dopri5) return dopri5_.step(m, h, one_substep, report);
+  if (facts_of(integrator_).implicit_force) {
+    solve_sources(m, h, report);
+    kick(m, h);
+    m.dynamics.settle(m.x);
+    apply_mimics(m.model, m.x);
+    if (integrator_ == Integrator::semi_implicit) drift(m, shift_, h);
+  } else if (m.dynamics.has_coulomb()) {
+    report.events = events_.advance(m, h, [&](double s) { move(m, s, report); });
+  } else {
+    move(m, h, report);
+  }
+  m.x.t = t + h;
+}
+
+void IntegratorStep::move(Mechanism& m, double h, StepReport& report) {
+  if (facts_of(integrator_).solves)
+    implicit_->step(m, integrator_, h, report);
+  else if (integrator_ == Integrator::verlet)
+    step_verlet(m, shift_, h);
+  else
+    rk_.step(m, tableau_of(integrator_), h);
+}
+
+void report_non_finite(const Mechanism& m, StepReport& report) {
+  double sum = 0;  // one non-finite number makes the sum non-finite
+  for (double q : m.x.q) sum += q * 0;
+  for (double qd : m.x.qd) sum += qd * 0;
+  if (sum == 0) return;
+
+  report.finite = false;
+  const BadQuantity bad = first_bad_quantity(m.model, m.forces, m.w);
+  if (bad.body != 0) {
+    report.bad_field = bad.name;
+    report.bad_body = static_cast<int>(bad.body);
+    return;
+  }
+  for (std::size_t i = 1; i < m.model.parent.size() && !report.bad_field; ++i) {
+    const std::size_t iq = m.model.iq[i];
+    for (std::size_t c = iq; c < iq + facts_of(m.model.joint[i]).nq; ++c)
+      if (!std::isfinite(m.x.q[c])) {
+        report.bad_field = "q";
+        report.bad_body = static_cast<int>(i);
+      }
+  }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,251 @@
+// The types of loop closures: a struct for each, with its rows g, g', gamma and J (loop_closure.h).
+//
+// A new type is one struct here and its line in the list of loop_closure.h. Each struct states
+//   rows              of g
+//   ends              between two bodies, between two joints, or of one joint
+//   evaluate          writes g, g', gamma and J of its rows, and what wrench() reads
+//   wrench            on link a, of the multipliers of its rows
+//   problem           what is wrong with the closure's own numbers; empty where nothing is
+//   is_turned_over    whether g = 0 is met, but by axes that point in opposite directions
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "solver/loops/loop_closure.h"
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+
+// Of one end: C, and how it moves at qdd = 0, in world axes. Gravity stands in a_bias as a_0 = -g,
+// at both ends alike, and drops out of every difference.
+struct LoopSide {
+  Pose X_WC;
+  Vector3 w, v, alpha, a;
+
+  LoopSide(const Kinematics& k, int body, const Pose& X_LC) {
+    const auto i = static_cast<std::size_t>(body);
+    const Vector3 r = k.X_WL[i].R * X_LC.p;
+    X_WC = k.X_WL[i] * X_LC;
+    w = k.w_WL[i];
+    v = k.v_WLo[i] + k.w_WL[i].cross(r);
+    alpha = k.R_WB[i] * to_eigen(k.a_bias[i].w);
+    a = k.R_WB[i] * to_eigen(k.a_bias[i].v) + w.cross(v) + alpha.cross(r);
+  }
+};
+
+// One loop at a state: what its type reads, and the rows that it writes, from `row` on.
+struct LoopRows {
+  using Index = Eigen::Index;
+  const Model<double>& model;
+  const State<double>& x;
+  const Kinematics& k;
+  const LoopClosure& loop;
+  LoopEnds& e;
+  Index row;
+  Eigen::VectorXd &g, &rate, &gamma;
+  LoopJacobian& J;
+
+  LoopSide side_a() const { return {k, loop.body_a, loop.X_LaC}; }
+  LoopSide side_b() const { return {k, loop.body_b, loop.X_LbC}; }
+  // f(sign, dof, angular and linear part of its velocity, its origin): of the dofs below a, with
+  // sign 1, and below b, with sign -1, that the two do not share.
+  template <class F>
+  void for_each_dof(F&& f) const {
+    for (const double sign : {1.0, -1.0})
+      for_each_dof_below(
+          model, k, sign > 0 ? loop.body_a : loop.body_b,
+          [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
+            if (dof >= e.shared) f(sign, static_cast<Index>(dof), w, v, o);
+          });
+  }
+};
+
+// Entries of J that are smaller than this part of the velocities that they are the difference of
+// are rounding. They are made zero, so that a row that moves nothing (out of the plane of a planar
+// mechanism) is empty, and is not taken for a small but true one.
+inline double without_rounding(double entry, double size) {
+  constexpr double kEntryRounding = 1e-9;
+  return std::abs(entry) <= kEntryRounding * size ? 0 : entry;
+}
+
+struct LoopProblem {
+  std::string problem, fix;
+};
+
+// What every type shares that does not say otherwise.
+struct AnyLoop {
+  static constexpr LoopBetween ends = LoopBetween::bodies;
+  static LoopWrench wrench(const LoopEnds&, const double*) { return {}; }
+  static LoopProblem problem(const LoopClosure&) { return {}; }
+  static bool is_turned_over(const Matrix3&) { return false; }
+};
+
+// ---- frames: the origins of C_a and C_b agree, and some of their axes ----
+
+// Which axes of C_a and C_b are to stay at right angles, and with which sign, so that the couples
+// of the rows are about x, y, z of C where the loop is closed.
+struct AxisRow {
+  int of_a, of_b, sign;
+};
+
+// With s = p_b - p_a, seen from a: g = -R^T s, R the axes of C_a, R' = [w_a]x R. Then
+//   g'  = -R^T (s' - w_a x s)  = R^T (velocity of a's point at p_b - that of b's)
+//   g'' = -R^T (s'' - alpha_a x s - 2 w_a x s' + w_a x (w_a x s)).
+inline void evaluate_points(const LoopRows& out, const LoopSide& a, const LoopSide& b) {
+  const Matrix3 R_CW = a.X_WC.R.transpose();
+  const Vector3& p = b.X_WC.p;
+  const Vector3 s = p - a.X_WC.p, s_rate = b.v - a.v, turned = a.w.cross(s);
+  out.e.R_WC = a.X_WC.R;
+  out.e.p_WC = p;
+  out.g.segment<3>(out.row) = -(R_CW * s);
+  out.rate.segment<3>(out.row) = R_CW * (turned - s_rate);
+  out.gamma.segment<3>(out.row) =
+      R_CW * (a.a - b.a + a.alpha.cross(s) + 2 * a.w.cross(s_rate) - a.w.cross(turned));
+  out.for_each_dof(
+      [&](double sign, Eigen::Index dof, const Vector3& w, const Vector3& v, const Vector3& o) {
+        const Vector3 entry = sign * (R_CW * (v + w.cross(p - o)));
+        const double size = v.norm() + w.norm() * (p - o).norm();
+        for (Eigen::Index c = 0; c < 3; ++c)
+          out.J(out.row + c, dof) = without_rounding(entry[c], size);
+      });
+}
+
+// Axes u of C_a and z of C_b at right angles: g = u . z, with n = u x z
+//   g' = (w_a x u) . z + u . (w_b x z) = n . (w_a - w_b)
+//   g'' = n . (alpha_a - alpha_b) + n' . (w_a - w_b),   n' = (w_a x u) x z + u x (w_b x z).
+template <std::size_t count>
+void evaluate_axes(const LoopRows& out, const std::array<AxisRow, count>& axes, const LoopSide& a,
+                   const LoopSide& b) {
+  const Vector3 w = a.w - b.w, alpha = a.alpha - b.alpha;
+  const Eigen::Index first = out.row + 3;
+  for (std::size_t r = 0; r < count; ++r) {
+    const Vector3 u = double(axes[r].sign) * a.X_WC.R.col(axes[r].of_a);
+    const Vector3 z = b.X_WC.R.col(axes[r].of_b);
+    const Vector3 n_rate = a.w.cross(u).cross(z) + u.cross(b.w.cross(z));
+    out.e.n[r] = u.cross(z);
+    const Eigen::Index row = first + static_cast<Eigen::Index>(r);
+    out.g[row] = u.dot(z);
+    out.rate[row] = out.e.n[r].dot(w);
+    out.gamma[row] = out.e.n[r].dot(alpha) + n_rate.dot(w);
+  }
+  out.for_each_dof(
+      [&](double sign, Eigen::Index dof, const Vector3& turn, const Vector3&, const Vector3&) {
+        for (std::size_t r = 0; r < count; ++r)
+          out.J(first + static_cast<Eigen::Index>(r), dof) =
+              without_rounding(sign * out.e.n[r].dot(turn), turn.norm());
+      });
+}
+
+template <AxisRow... axes>
+struct FrameLoop : AnyLoop {
+  static constexpr std::size_t rows = 3 + sizeof...(axes);
+  static void evaluate(const LoopRows& out) {
+    const LoopSide a = out.side_a(), b = out.side_b();
+    evaluate_points(out, a, b);
+    if constexpr (sizeof...(axes) > 0)
+      evaluate_axes(out, std::array<AxisRow, sizeof...(axes)>{axes...}, a, b);
+  }
+  static LoopWrench wrench(const LoopEnds& e, const double* lambda) {
+    LoopWrench on_a;
+    for (std::size_t r = 0; r < sizeof...(axes); ++r) on_a.couple += lambda[3 + r] * e.n[r];
+    on_a.force = e.R_WC * Eigen::Map<const Vector3>(lambda);
+    return on_a;
+  }
+};
+struct BallLoop : FrameLoop<> {};
+struct HingeLoop : FrameLoop<AxisRow{1, 2, 1}, AxisRow{0, 2, -1}> {
+  static bool is_turned_over(const Matrix3& R_CaCb) { return R_CaCb(2, 2) < 0; }
+};
+struct WeldLoop : FrameLoop<AxisRow{1, 2, 1}, AxisRow{2, 0, 1}, AxisRow{0, 1, 1}> {
+  static bool is_turned_over(const Matrix3& R_CaCb) {
+    return (R_CaCb.diagonal().array() < 0).any();
+  }
+};
+
+// ---- distance ----
+
+// With d = p_a - p_b and n = d / |d|: g' = n . d',  g'' = n . d'' + (|d'|^2 - g'^2) / |d|.
+struct DistanceLoop : AnyLoop {
+  static constexpr std::size_t rows = 1;
+  static void evaluate(const LoopRows& out) {
+    const LoopSide a = out.side_a(), b = out.side_b();
+    const Vector3 d = a.X_WC.p - b.X_WC.p, d_rate = a.v - b.v;
+    const double length = d.norm();
+    const Vector3 n = d / length;
+    const Eigen::Index row = out.row;
+    out.e.n[0] = n;
+    out.e.p_WC = b.X_WC.p;
+    out.g[row] = length - out.loop.length;
+    out.rate[row] = n.dot(d_rate);
+    out.gamma[row] =
+        n.dot(a.a - b.a) + (d_rate.squaredNorm() - out.rate[row] * out.rate[row]) / length;
+    out.for_each_dof(
+        [&](double sign, Eigen::Index dof, const Vector3& w, const Vector3& v, const Vector3& o) {
+          const Vector3& p = sign > 0 ? a.X_WC.p : b.X_WC.p;
+          const double entry = sign * n.dot(v + w.cross(p - o));
+          out.J(row, dof) = without_rounding(entry, v.norm() + w.norm() * (p - o).norm());
+        });
+  }
+  static LoopWrench wrench(const LoopEnds& e, const double* lambda) {
+    LoopWrench on_a;
+    on_a.force = lambda[0] * e.n[0];
+    return on_a;
+  }
+  static LoopProblem problem(const LoopClosure& loop) {
+    if (loop.length > 0 && std::isfinite(loop.length)) return {};
+    return {"its length is " + short_number_text(loop.length) + " m, must be positive",
+            "give the length of the rod, or a ball"};
+  }
+};
+
+// ---- joints of one dof; the multiplier is the torque on joint a ----
+
+struct LockedLoop : AnyLoop {
+  static constexpr std::size_t rows = 1;
+  static constexpr LoopBetween ends = LoopBetween::one_joint;
+  static void evaluate(const LoopRows& out) {
+    const std::size_t q = out.model.iq[static_cast<std::size_t>(out.loop.body_a)];
+    const std::size_t v = out.e.dofs[0];
+    out.g[out.row] = out.x.q[q] - out.loop.offset;
+    out.rate[out.row] = out.x.qd[v];
+    out.gamma[out.row] = 0;
+    out.J(out.row, static_cast<Eigen::Index>(v)) = 1;
+  }
+  static LoopProblem problem(const LoopClosure& loop) {
+    if (std::isfinite(loop.offset)) return {};
+    return {"ratio and offset must be finite", "give numbers"};
+  }
+};
+
+struct GearLoop : LockedLoop {
+  static constexpr LoopBetween ends = LoopBetween::joints;
+  static void evaluate(const LoopRows& out) {
+    LockedLoop::evaluate(out);
+    const std::size_t q = out.model.iq[static_cast<std::size_t>(out.loop.body_b)];
+    const std::size_t v = out.e.dofs[1];
+    out.g[out.row] -= out.loop.ratio * out.x.q[q];
+    out.rate[out.row] -= out.loop.ratio * out.x.qd[v];
+    out.J(out.row, static_cast<Eigen::Index>(v)) = -out.loop.ratio;
+  }
+  static LoopProblem problem(const LoopClosure& loop) {
+    return std::isfinite(loop.ratio)
+               ? LockedLoop::problem(loop)
+               : LoopProblem{"ratio and offset must be finite", "give numbers"};
+  }
+};
+
+// Calls f with the struct of the type: f(WeldLoop{}), and so on.
+template <class F>
+decltype(auto) visit_loop(LoopType type, F&& f) {
+  switch (type) {
+#define TWINARM_CASE(name, Loop) \
+  case LoopType::name:           \
+    return f(Loop{});
+    TWINARM_LOOPS(TWINARM_CASE)
+#undef TWINARM_CASE
+  }
+  return f(BallLoop{});  // not reached
+}
+
+}  // namespace twinarm

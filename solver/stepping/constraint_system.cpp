@@ -1,0 +1,45 @@
+#include "solver/stepping/constraint_system.h"
+
+#include "solver/dynamics/dynamics.h"
+
+namespace twinarm {
+
+void ConstraintSystem::begin_step(const Mechanism& m, double h) {
+  for (ConstraintSource* source : sources) source->begin_step(m.k, m.x, h);
+}
+
+void ConstraintSystem::accelerate(Mechanism& m, double h) {
+  m.forces.clear();
+  for (ForceSource* source : m.sources) source->add_forces(m.x, m.k, m.forces);
+  friction.add_dampers(m.x, h, m.forces);
+  aba(m.model, m.x, m.forces, m.w);
+  if (!m.has_loops()) return;
+  m.dynamics.bilateral().loops().evaluate(m.x, m.k);
+  m.dynamics.bilateral().prepare(m.w);
+  m.start_projection();
+}
+
+void ConstraintSystem::begin_problem(const Forces<double>* forces, Workspace<double>& w) {
+  problem.clear();
+  trees.add_to(problem, forces, w);
+}
+
+void ConstraintSystem::keep_velocities(ConstraintFrame& frame) {
+  if (problem.nv() == 0) return;
+  velocity.assign(problem.v0(0), problem.v0(0) + problem.nv());
+  frame.v = velocity.data();
+}
+
+void ConstraintSystem::add_sources(const ConstraintFrame& frame) {
+  first_.clear();
+  for (ConstraintSource* source : sources) {
+    first_.push_back(problem.constraints().size());
+    source->add(frame, problem);
+  }
+}
+
+void ConstraintSystem::hand_out(const ConstraintFrame& frame) {
+  for (std::size_t s = 0; s < sources.size(); ++s) sources[s]->take(frame, problem, first_[s]);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,41 @@
+#include "solver/stepping/friction_constraints.h"
+
+#include <algorithm>
+
+namespace twinarm {
+
+void FrictionConstraints::add_dampers(const State<double>& x, double h,
+                                      Forces<double>& forces) const {
+  for (std::size_t dof = 0; is_on_ && dof < model_->nv; ++dof) {
+    if (model_->damping[dof] == 0) continue;
+    forces.tau[dof] -= model_->damping[dof] * x.qd[dof];
+    forces.armature[dof] += h * model_->damping[dof];
+  }
+}
+
+void FrictionConstraints::add_to(ImpulseProblem& problem, const ModelTrees& trees, double h) {
+  first_ = problem.constraints().size();
+  for (std::size_t dof = 0; is_on_ && dof < model_->nv; ++dof) {
+    if (!has_coulomb(dof)) continue;
+    ImpulseConstraint& c =
+        problem.add(ImpulseLaw::within, 1, trees.tree_of_dof(dof), ImpulseConstraint::no_tree);
+    problem.J(c, 0)[trees.place(dof)] = 1;
+    c.low = -h * model_->coulomb_plus[dof], c.high = h * model_->coulomb_minus[dof];
+    c.p[0] = std::clamp(guess_[dof], c.low, c.high);
+  }
+}
+
+void FrictionConstraints::clear() {
+  std::fill(torque_.begin(), torque_.end(), 0);
+}
+
+void FrictionConstraints::take(const ImpulseProblem& problem, double h) {
+  std::size_t next = first_;
+  for (std::size_t dof = 0; is_on_ && dof < model_->nv; ++dof)
+    if (has_coulomb(dof)) {
+      guess_[dof] = problem.constraints()[next++].p[0];
+      torque_[dof] = guess_[dof] / h;
+    }
+}
+
+}  // namespace twinarm

@@ -1,0 +1,110 @@
+// The second ways of `twinarm inspect` on mechanisms of all joints.
+#include <doctest/doctest.h>
+
+#include <map>
+
+#include "app/inspect/cross_checks.h"
+#include "app/inspect/displayed_quantities.h"
+#include "app/inspect/force_balance.h"
+#include "tests/solver/dynamics/random_tree.h"
+
+using namespace twinarm;
+using namespace twinarm::testing;
+
+namespace {
+
+// Torques, wrenches, and what implicit springs and dampers bring.
+std::vector<Actor> random_actors(Random& random, const Model<double>& model, bool implicit) {
+  Forces<double> forces(model);
+  const auto vec = [&](double size) {
+    return Vec3<double>{random.uniform(-size, size), random.uniform(-size, size),
+                        random.uniform(-size, size)};
+  };
+  for (std::size_t dof = 0; dof < model.nv; ++dof) {
+    forces.tau[dof] = random.uniform(-5, 5);
+    if (implicit) forces.armature[dof] = random.uniform(0, 0.5);
+  }
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    forces.f_ext[i] = {vec(5), vec(5)};
+    if (implicit) {
+      const double m = random.uniform(0, 1);
+      forces.impedance[i].M = Sym3<double>::scaled_identity(m);
+      forces.impedance[i].I = Sym3<double>::scaled_identity(random.uniform(0, 0.3));
+    }
+  }
+  return {actor_of("all", forces)};
+}
+
+// What the wrenches on a body leave, as a part of the largest of their numbers, whatever it is.
+double rest_of_wrenches(const BodyBalance& balance) {
+  Vector6 sum = Vector6::Zero();
+  double largest = 0;
+  for (const NamedWrench& wrench : balance.wrenches) {
+    const Vector6 six = (Vector6() << wrench.force, wrench.torque).finished();
+    sum += six;
+    largest = std::max(largest, six.lpNorm<Eigen::Infinity>());
+  }
+  return largest > 0 ? sum.lpNorm<Eigen::Infinity>() / largest : 0;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "every second way agrees with the passes, on 1,000 random trees and states of all joints") {
+  Random random(20);
+  std::map<std::string, double> worst;
+  const std::vector<JointType> types{all_joint_types.begin(), all_joint_types.end()};
+  for (int k = 0; k < 1000; ++k) {
+    CAPTURE(k);
+    std::vector<TreeBody> bodies = random_bodies(random, random.integer(1, 9), types);
+    for (TreeBody& body : bodies)
+      if (random.integer(0, 2) == 0) body.properties.armature = random.uniform(0, 1);
+    const Model<double> model = build(bodies);
+    const State<double> x = random_state(random, model);
+    const Inspection in(model, x, random_actors(random, model, k % 2 == 1));
+    for (const Check& check : run_checks(in)) {
+      CAPTURE(check.name);
+      CHECK_MESSAGE(check.pass(), check.name, " ", check.error);
+      double& largest = worst[check.name];
+      largest = std::max(largest, check.error);
+    }
+    double& rest = worst["wrenches on a body, of the largest"];
+    for (std::size_t i = 1; i < in.body_count(); ++i)
+      rest = std::max(rest, rest_of_wrenches(balance_of(in, i)));
+    CHECK(rest < 1e-10);
+  }
+  for (const auto& [name, error] : worst) MESSAGE(name, ": ", error);
+}
+
+TEST_CASE("a number that is off by 1e-8 is found by the check of its name") {
+  Random random(21);
+  const Model<double> model = random_tree(random, 4, {JointType::revolute});
+  const State<double> x = random_state(random, model);
+  const Inspection good(model, x, random_actors(random, model, false));
+  const auto fails = [&](const char* name, auto spoil) {
+    CAPTURE(name);
+    Inspection bad = good;
+    spoil(bad.w);
+    bool found = false;
+    for (const Check& check : run_checks(bad))
+      if (check.name == name) {
+        CHECK_FALSE(check.pass());
+        CHECK(check.worst.size() > 0);
+        found = true;
+      }
+    CHECK(found);
+  };
+  constexpr double kOff = 1 + 1e-8;
+  using W = Workspace<double>;
+  fails("v", [&](W& w) { w.v[2].w = kOff * w.v[2].w; });
+  fails("D", [&](W& w) { w.D[1] *= kOff; });
+  fails("U", [&](W& w) { w.U[1] = kOff * w.U[1]; });
+  fails("pA", [&](W& w) { w.pA[2] = kOff * w.pA[2]; });
+  fails("u", [&](W& w) { w.u[1] += 1e-6; });
+  fails("qdd", [&](W& w) { w.qdd[1] += 1e-6; });
+  fails("a", [&](W& w) { w.a[2].v.x += 1e-6; });
+  fails("tau", [&](W& w) { w.qdd[1] += 1e-6; });
+  fails("f", [&](W& w) { w.IA[2].I.xx += 1e-6; });
+  fails("balance", [&](W& w) { w.pA[2].f.x += 1e-6; });
+  fails("momentum", [&](W& w) { w.qdd[1] += 1e-5; });
+}

@@ -1,0 +1,45 @@
+// What the lab does for requests over HTTP beside its run: errands, and files that are uploaded.
+#include <doctest/doctest.h>
+
+#include <future>
+#include <stdexcept>
+
+#include "app/lab/app/task_queue.h"
+#include "app/lab/app/upload_folder.h"
+#include "tests/app/scene/model/helpers.h"
+
+namespace twinarm {
+
+TEST_CASE("errands: one that throws is reported, and the next one is done") {
+  std::promise<std::string> reported, done;
+  Errands errands([&](const std::string& why) { reported.set_value(why); });
+  errands.add([] { throw std::runtime_error("no room on the disk"); });
+  errands.add([&] { done.set_value("done"); });
+  CHECK(reported.get_future().get() == "no room on the disk");
+  CHECK(done.get_future().get() == "done");
+}
+
+TEST_CASE("uploads: the oldest files are removed beyond a number of files and of bytes") {
+  const TemporaryFolder folder;
+  UploadFolder uploads(folder.path() / "uploads", 3, 100);
+  const auto names = [&] {
+    std::string all;
+    for (const char* name : {"a.stl", "b/c/d.stl", "e.stl", "f.stl"})
+      if (std::filesystem::exists(uploads.path() / name)) all += std::string(name) + " ";
+    return all;
+  };
+  for (const char* name : {"b/c/d.stl", "a.stl", "e.stl"})
+    CHECK(uploads.write(name, "ten bytes.") == uploads.path() / name);
+  CHECK(names() == "a.stl b/c/d.stl e.stl ");
+  uploads.write("b/c/d.stl", "again");  // now it is the newest
+  CHECK(names() == "a.stl b/c/d.stl e.stl ");
+  uploads.write("f.stl", "");
+  CHECK(names() == "b/c/d.stl e.stl f.stl ");
+  uploads.write("f.stl", std::string(90, 'x'));  // 5 + 10 + 90 bytes are too many
+  CHECK(names() == "b/c/d.stl f.stl ");
+  uploads.write("f.stl", std::string(96, 'x'));
+  CHECK(names() == "f.stl ");
+  CHECK_FALSE(std::filesystem::exists(uploads.path() / "b"));
+}
+
+}  // namespace twinarm

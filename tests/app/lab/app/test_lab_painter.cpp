@@ -1,0 +1,261 @@
+// A session in real time, and what its painter sends to clients: each frame once, and not too many.
+#include <chrono>
+#include <cstring>
+#include <mutex>
+#include <thread>
+
+#include "app/lab/app/message_streamer.h"
+#include "app/lab/app/rate_limiter.h"
+#include "app/lab/app/state_message.h"
+#include "tests/app/lab/run/helpers.h"
+#include "tests/app/lab/session/built_scene.h"
+#include "tests/support/waiting.h"
+
+namespace twinarm {
+namespace {
+
+LabCommand said(const std::string& text) {
+  return parse_command(text);
+}
+
+struct SentFrame {
+  double time = 0, stamp = 0, age = 0;
+  std::uint64_t step = 0;
+  std::uint32_t flags = 0;
+};
+
+// A session and its painter, and what one client is sent.
+struct Painted {
+  explicit Painted(const std::string& text)
+      : session(built_from(text), gallery),
+        painter(session, audience, gallery,
+                [this](ClientId, LabPainter::Channel channel, Bytes bytes, bool) {
+                  take(channel, *bytes);
+                }) {
+    audience.opened(1);
+    painter.welcome(1);
+    painter.begin();
+    REQUIRE(comes_true([&] { return !frames().empty(); }));
+  }
+  ~Painted() {
+    session.end();
+    painter.end();
+  }
+
+  void take(LabPainter::Channel channel, const std::string& bytes) {
+    const std::lock_guard lock(mutex);
+    if (channel == LabPainter::state_channel) ++states_;
+    if (channel != LabPainter::frame_channel) return;
+    SentFrame frame;
+    std::memcpy(&frame.time, bytes.data() + 8, 8);
+    std::memcpy(&frame.stamp, bytes.data() + 16, 8);
+    std::memcpy(&frame.age, bytes.data() + 24, 8);
+    std::memcpy(&frame.step, bytes.data() + 32, 8);
+    std::memcpy(&frame.flags, bytes.data() + 44, 4);
+    frames_.push_back(frame);
+  }
+  std::vector<SentFrame> frames() const {
+    const std::lock_guard lock(mutex);
+    return frames_;
+  }
+  std::size_t states() const {
+    const std::lock_guard lock(mutex);
+    return states_;
+  }
+  LabStatus status() const { return *session.shown().now().status; }
+  // Told once more, and done: all that was said before has been done then, and painted.
+  void settle() {
+    static int count = 0;
+    const std::string text = "settled " + std::to_string(++count);
+    session.note("note", text);
+    REQUIRE(
+        comes_true([&] { return !status().notes.empty() && status().notes.back().text == text; }));
+    bool is_done = false;
+    for (int n = 0; n < 2; ++n) {  // the first time it may be on its way past
+      is_done = false;
+      painter.ask([&](LabPainter&) {
+        const std::lock_guard lock(mutex);
+        is_done = true;
+      });
+      REQUIRE(comes_true([&] {
+        const std::lock_guard lock(mutex);
+        return is_done;
+      }));
+    }
+  }
+
+  const std::vector<GalleryScene> gallery;
+  mutable std::mutex mutex;
+  std::vector<SentFrame> frames_;
+  std::size_t states_ = 0;
+  Audience audience;
+  LabSession session;
+  LabPainter painter;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+TEST_CASE("lab frames: so many a second, two at once after a pause, and nothing is made up for") {
+  using std::chrono::microseconds;
+  const Allowance::Time start = Allowance::Time{} + std::chrono::hours(1);
+  const auto sent = [&](int every_us, int count) {
+    Allowance allowance;
+    int went = 0;
+    for (int n = 0; n < count; ++n) {
+      const Allowance::Time now = start + n * microseconds(every_us);
+      if (allowance.wait(now) > 0) continue;
+      allowance.take(now, 50);
+      ++went;
+    }
+    return went;
+  };
+  CHECK(sent(25'000, 400) == 400);  // 40 a second: all
+  CHECK(sent(20'000, 500) == 500);
+  CHECK(sent(1'000, 10'000) == 501);  // 1000 a second, for 10 s
+  Allowance allowance;
+  allowance.take(start, 50);
+  CHECK(allowance.wait(start) == 0);  // the second of two
+  allowance.take(start, 50);
+  CHECK(allowance.wait(start) == doctest::Approx(0.02));
+  CHECK(allowance.wait(start + microseconds(15'000)) == doctest::Approx(0.005));
+  const Allowance::Time later = start + std::chrono::seconds(9);
+  allowance.take(later, 50);
+  allowance.take(later, 50);
+  CHECK(allowance.wait(later) == doctest::Approx(0.02));
+}
+
+TEST_CASE("lab frames: commands and notes send no frame twice, and inputs come in the next one") {
+  Painted lab(kSlowlyDriven);
+  const auto start = std::chrono::steady_clock::now();
+  const std::size_t states = lab.states();
+  for (int n = 1; n <= 300; ++n) {
+    lab.session.push(
+        said(R"({"do": "joint", "index": 0, "value": 0.1, "stamp": )" + std::to_string(n) + "}"));
+    if (n % 3 == 0) lab.session.push(said(R"({"do": "look", "at": null})"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+  }
+  const double gone = seconds_since(start);
+  const std::size_t told = lab.states() - states;
+  REQUIRE(comes_true([&] { return lab.frames().back().stamp == 300; }));
+  const std::vector<SentFrame> frames = lab.frames();
+  CHECK(frames.size() > 5);
+  for (std::size_t n = 1; n < frames.size(); ++n) {
+    CHECK(frames[n].step > frames[n - 1].step);
+    CHECK(frames[n].stamp >= frames[n - 1].stamp);
+  }
+  CHECK(static_cast<double>(frames.size()) <= 63.0 * seconds_since(start) + 5);
+  // The 100 `look`s are told, the movements are not.
+  CHECK(static_cast<double>(told) <= 100 + 8 * gone + 5);
+}
+
+TEST_CASE("lab frames: while time stands one comes for each change of what is seen, and no more") {
+  Painted lab(kSlowlyDriven);
+  lab.session.push(said(R"({"do": "play", "on": false})"));
+  REQUIRE(comes_true([&] { return (lab.frames().back().flags & 1) != 0; }));
+  lab.settle();
+  const std::size_t before = lab.frames().size();
+  for (int n = 0; n < 10; ++n) {  // more than twenty at once would not all be kept
+    lab.session.note("note", "something");
+    lab.session.push(said(R"({"do": "speed", "factor": 1})"));
+  }
+  lab.settle();
+  CHECK(lab.frames().size() == before);
+  // Another layer, which no step brings.
+  lab.audience.want_layers(1, {"bodies", "frames"});
+  lab.painter.look_again();
+  REQUIRE(comes_true([&] { return lab.frames().size() > before; }));
+  lab.settle();
+  CHECK(lab.frames().size() == before + 1);
+  const std::uint64_t step = lab.frames().back().step;
+  lab.session.push(said(R"({"do": "step", "steps": 3})"));
+  REQUIRE(comes_true([&] { return lab.frames().back().step == step + 3; }));
+  lab.session.push(said(R"({"do": "look", "at": 0})"));
+  REQUIRE(comes_true([&] { return (lab.frames().back().flags & 2) != 0; }));
+  CHECK(lab.frames().back().step == 0);
+}
+
+TEST_CASE("lab frames: a run that rushes sends no more of them, and at last the last one") {
+  Painted lab(kFreeBox);
+  lab.session.push(said(R"({"do": "play", "on": false})"));
+  REQUIRE(comes_true([&] { return (lab.frames().back().flags & 1) != 0; }));
+  const auto start = std::chrono::steady_clock::now();
+  const std::size_t before = lab.frames().size();
+  const std::uint64_t step = lab.frames().back().step;
+  lab.session.push(said(R"({"do": "step", "steps": 50000})"));
+  REQUIRE(comes_true([&] { return lab.frames().back().step == step + 50000; }));
+  const auto count = static_cast<double>(lab.frames().size() - before);
+  CHECK(count <= 63 * seconds_since(start) + 2);
+}
+
+TEST_CASE("lab painter: a failure while it draws is shown as an error, and frames go on") {
+  Painted lab(kSlowlyDriven);
+  for (int n = 0; n < 2; ++n)
+    lab.painter.ask([](LabPainter&) { throw std::runtime_error("no such mesh"); });
+  REQUIRE(comes_true([&] { return !lab.status().notes.empty(); }));
+  lab.settle();
+  const std::vector<LabNote> notes = lab.status().notes;
+  CHECK(notes.front().level == "error");
+  CHECK(notes.front().text == "the lab cannot draw this: no such mesh");
+  CHECK(notes.size() == 2);  // the other one is that of settle()
+  const std::size_t before = lab.frames().size();
+  CHECK(comes_true([&] { return lab.frames().size() > before + 5; }));
+}
+
+TEST_CASE("lab session: the status goes with news at once, else a few times a second") {
+  Painted lab(kSlowlyDriven);
+  const auto start = std::chrono::steady_clock::now();
+  const std::size_t states = lab.states(), frames = lab.frames().size();
+  REQUIRE(comes_true([&] { return lab.frames().size() > frames + 60; }));
+  // Each quarter of a second, and the limits beside the knobs at their own time.
+  CHECK(static_cast<double>(lab.states() - states) <= 7 * seconds_since(start) + 3);
+  CHECK(lab.states() > states);
+}
+
+TEST_CASE("lab session: whoever is woken between a look and the wait does not wait") {
+  const std::vector<GalleryScene> gallery;
+  LabSession session(built_from(kFreeBox), gallery);
+  session.push(said(R"({"do": "play", "on": false})"));
+  REQUIRE(comes_true([&] { return !session.shown().now().status->playing; }));
+  const LabNow seen = session.shown().now();
+  session.wake();
+  constexpr double kLongest = 20;
+  const auto start = std::chrono::steady_clock::now();
+  session.shown().wait(seen, kLongest);
+  CHECK(seconds_since(start) < kLongest);
+  // And who has seen that waits.
+  const LabNow again = session.shown().now();
+  CHECK(again.number == seen.number);
+  const auto begin = std::chrono::steady_clock::now();
+  session.shown().wait(again, 0.05);
+  CHECK(seconds_since(begin) >= 0.05);
+}
+
+TEST_CASE("lab session: a page that comes later is told of the hand as it is") {
+  Painted lab(kSlowlyDriven);
+  CHECK(lab.status().hand.source == "scene");
+  CHECK(lab.status().hand.mode.empty());
+  CHECK_FALSE(lab.status().hand.gripper_closed);
+  lab.session.push(said(R"({"do": "hand", "source": "drag"})"));
+  lab.session.push(said(R"({"do": "button", "index": 0, "down": true})"));
+  REQUIRE(comes_true([&] { return lab.status().hand.gripper_closed; }));
+  CHECK(lab.status().hand.source == "drag");
+  CHECK(lab.status().hand.mode == "live");
+  CHECK(lab.status().hand.spec.empty());
+  // Whoever lets go of what he pulled, or goes away, opens no gripper.
+  lab.session.push(said(R"({"do": "drop"})"));
+  lab.settle();
+  CHECK(lab.status().hand.gripper_closed);
+  lab.session.push(said(R"({"do": "hand", "source": "device", "spec": "virtual:synthetic:4"})"));
+  REQUIRE(comes_true([&] { return lab.status().hand.source == "device"; }));
+  CHECK(lab.status().hand.spec == "virtual:synthetic:4");
+  const std::string message = state_message(lab.status(), lab.audience.view(), {}, {});
+  for (const char* part :
+       {R"("spec": "virtual:synthetic:4")", R"("mode": "live")", R"("gripper": )"})
+    CHECK(message.find(part) != std::string::npos);
+}
+
+}  // namespace twinarm

@@ -1,0 +1,277 @@
+// What is said to the lab, who may say it, and how its time goes.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <future>
+#include <thread>
+
+#include "app/lab/app/clients.h"
+#include "app/lab/app/uploaded_file.h"
+#include "app/lab/session/lab_command.h"
+#include "app/lab/session/lab_session.h"
+#include "app/lab/session/pace.h"
+#include "solver/support/diagnostics.h"
+#include "tests/app/lab/run/helpers.h"
+#include "tests/app/lab/session/built_scene.h"
+#include "tests/support/waiting.h"
+
+namespace twinarm {
+namespace {
+
+std::size_t faults_in(const std::string& text) {
+  try {
+    parse_command(text);
+  } catch (const InputError& error) {
+    return error.faults().size();
+  }
+  return 0;
+}
+
+std::string texts_of(const std::vector<Change>& changes) {
+  std::string all;
+  for (const Change& change : changes) all += change.path + "=" + change.value + " ";
+  return all;
+}
+
+// Whatever was told of it; waits for what is being built.
+struct ToldSession {
+  const std::vector<GalleryScene> gallery{};
+  LabSession session{built_from(kSlowlyDriven), gallery};
+  void set(const std::string& change) {
+    session.push(parse_command(R"({"do": "set", "changes": [")" + change + "\"]}"));
+  }
+  bool comes_to(const std::string& changes) const {
+    return comes_true([&] { return texts_of(session.shown().now().status->changes) == changes; });
+  }
+  bool has_note(const std::string& words) const {
+    return comes_true([&] {
+      const auto status = session.shown().now().status;
+      return std::any_of(status->notes.begin(), status->notes.end(), [&](const LabNote& note) {
+        return note.text.find(words) != std::string::npos;
+      });
+    });
+  }
+};
+
+TEST_CASE(
+    "lab session: a change that is refused does not undo those that wait, nor spoil the next") {
+  ToldSession lab;
+  lab.set("coupling.one.stiffness=30");
+  lab.set("coupling.one.damping=2");
+  lab.set("coupling.one.stiffness=-7");
+  lab.set("gravity[2]=-1.62");
+  CHECK(lab.has_note("-7"));
+  CHECK(lab.comes_to("coupling.one.stiffness=30 coupling.one.damping=2 gravity[2]=-1.62 "));
+  lab.set("coupling.one.damping=3");
+  CHECK(lab.comes_to("coupling.one.stiffness=30 gravity[2]=-1.62 coupling.one.damping=3 "));
+  const auto status = lab.session.shown().now().status;
+  CHECK(std::count_if(status->notes.begin(), status->notes.end(),
+                      [](const LabNote& note) { return note.level == "error"; }) == 1);
+}
+
+TEST_CASE("lab session: what restores the scene outlives changes before it, not those behind it") {
+  ToldSession lab;
+  lab.set("coupling.one.stiffness=30");
+  lab.session.push(parse_command(R"({"do": "restore"})"));
+  lab.set("coupling.one.damping=2");
+  CHECK(lab.comes_to("coupling.one.damping=2 "));
+}
+
+TEST_CASE("lab session: of two changes to one number the later holds, by whichever path") {
+  std::vector<Change> changes;
+  for (const char* text :
+       {"coupling.stiffness=31", "coupling.one.stiffness=32", "coupling.stiffness=33"})
+    put(changes, parse_change(text));
+  CHECK(built_from(kSlowlyDriven).scene->text(changes).find("stiffness = 33") != std::string::npos);
+}
+
+TEST_CASE("lab session: a failure in the run's thread pauses the run and is shown as an error") {
+  ToldSession lab;
+  Order order;
+  const TemporaryFolder folder;
+  order.file = folder.write("scene.toml", kFreeBox);
+  order.done = [](const std::string&) { throw std::runtime_error("nobody is there to answer"); };
+  lab.session.open(std::move(order));
+  CHECK(lab.has_note("the run is paused: nobody is there to answer"));
+  CHECK_FALSE(lab.session.shown().now().status->playing);
+  lab.session.push(parse_command(R"({"do": "play", "on": true})"));
+  CHECK(comes_true([&] { return lab.session.shown().now().status->playing; }));
+}
+
+TEST_CASE("lab session: an order that is replaced may ask the session in its answer") {
+  std::promise<void> begun, go_on;
+  std::string answer;
+  ToldSession lab;
+  Order blocking, replaced, last;
+  blocking.file = "nowhere.toml";
+  blocking.done = [&](const std::string&) {
+    begun.set_value();
+    go_on.get_future().wait();
+  };
+  replaced.done = [&](const std::string& why) {
+    answer = why + lab.session.shown().now().status->scene_name;
+  };
+  lab.session.open(std::move(blocking));
+  begun.get_future().wait();
+  lab.session.open(std::move(replaced));
+  lab.session.open(std::move(last));
+  CHECK(answer.find("try again") != std::string::npos);
+  go_on.set_value();
+}
+
+TEST_CASE("lab session: of more notes than are kept the last are told") {
+  ToldSession lab;
+  for (int n = 1; n <= 500; ++n) lab.session.note("note", "number " + std::to_string(n) + ".");
+  CHECK(lab.has_note("number 500."));
+  CHECK(lab.has_note("number 481."));
+  CHECK(lab.session.shown().now().status->notes.size() == 20);
+}
+
+TEST_CASE("lab session: what is remembered of a run begins at its start, however many steps wait") {
+  ToldSession lab;
+  const long before = lab.session.shown().now().change_number;
+  lab.session.push(parse_command(R"({"do": "step", "steps": 100000})"));
+  lab.session.push(parse_command(R"({"do": "reset"})"));
+  REQUIRE(comes_true([&] { return lab.session.shown().now().change_number > before; }));
+  CHECK(lab.session.shown().now().frame);
+  CHECK(comes_true([&] { return lab.session.shown().now().status->time > 0.1; }));
+  REQUIRE_FALSE(lab.session.timeline().frames(0).empty());
+  CHECK(lab.session.timeline().frames(0).front()->recorded.t == 0);
+}
+
+TEST_CASE("lab session: whoever opens a file is answered, also where others do at the same time") {
+  std::atomic<int> answered = 0;
+  {
+    ToldSession lab;
+    for (int n = 0; n < 20; ++n) {
+      Order order;
+      order.file =
+          std::filesystem::path(TWINARM_SOURCE_DIR) / "assets/scenes/hand_and_obstacles.toml";
+      order.name = "hand_and_obstacles";
+      order.done = [&](const std::string&) { ++answered; };
+      lab.session.open(std::move(order));
+    }
+    CHECK(comes_true([&] { return answered == 20; }));
+  }
+  CHECK(answered == 20);
+}
+
+TEST_CASE("a command is read with all that it brings") {
+  const LabCommand pull = parse_command(
+      R"({"do": "pull", "body": 3, "point": [0.5, -1, 2], "goal": [1, 2, 3.25], "stamp": 12.5})");
+  CHECK(pull.what == LabCommand::Do::pull);
+  CHECK(pull.count == 3);
+  CHECK(pull.point == Vector3(0.5, -1, 2));
+  CHECK(pull.goal == Vector3(1, 2, 3.25));
+  CHECK(pull.stamp == 12.5);
+  const LabCommand set = parse_command(R"({"do": "set", "changes": ["step=0.0005", "a=b"]})");
+  CHECK(set.names == std::vector<std::string>{"step=0.0005", "a=b"});
+  CHECK(parse_command(R"({"do": "look", "at": 1.5})").at == 1.5);
+  CHECK_FALSE(parse_command(R"({"do": "look", "at": null})").at.has_value());
+  CHECK(parse_command(R"({"do": "axes", "rates": [2, -7, 0.5, 0, 0, 0]})").rates[0] == 1.0);
+}
+
+TEST_CASE("a command that is not understood is refused with every fault that it has") {
+  CHECK(faults_in("") == 1);
+  CHECK(faults_in("[]") == 1);
+  CHECK(faults_in(R"({"do": "dance"})") == 1);
+  CHECK(faults_in(R"({"do": "pull", "body": -1, "point": [1, 2]})") == 3);
+  CHECK(faults_in(R"({"do": "speed", "factor": 1e9})") == 1);
+  CHECK(faults_in(R"({"do": "tip", "goal": [1, 2, NaN]})") == 1);
+  CHECK(faults_in(R"({"do": "tip", "goal": [1, 2, 1e999]})") >= 1);
+  CHECK(faults_in(R"({"do": "joint", "index": 1.5, "value": 0})") == 1);
+  CHECK(faults_in(R"({"do": "step", "steps": true})") == 1);
+  CHECK(faults_in(std::string(100'000, '[')) >= 1);
+}
+
+TEST_CASE("looking on needs no hand, moving the robot does") {
+  CHECK_FALSE(needs_hand(LabCommand::Do::layers));
+  CHECK_FALSE(needs_hand(LabCommand::Do::take));
+  CHECK(needs_hand(LabCommand::Do::tip));
+  CHECK(needs_hand(LabCommand::Do::set));
+}
+
+TEST_CASE("what a page brings is opened by what it is, kept, or refused in clear words") {
+  const std::string robot =
+      "\xef\xbb\xbf<?xml version=\"1.0\"?>\n<!-- <sdf> -->\n<robot name=\"a\"/>";
+  for (const char* name : {"arm.urdf", "arm.xml", "arm.xacro", "arm.URDF"}) {
+    INFO(std::string(name));
+    const BroughtFile file = brought_file(name, robot);
+    CHECK(file.fault.empty());
+    CHECK(file.opens);
+    CHECK(file.path == "arm.urdf");
+  }
+  CHECK(brought_file("s.toml", "").opens);
+  CHECK(brought_file("r.twinrec", "").opens);
+  for (const char* name : {"a.stl", "a.OBJ", "meshes/a.dae", "wood.png"}) {
+    const BroughtFile file = brought_file(name, "");
+    CHECK(file.fault.empty());
+    CHECK_FALSE(file.opens);
+    CHECK(file.path == name);
+  }
+  const auto said = [](const char* name, const char* bytes, const char* words) {
+    return brought_file(name, bytes).fault.find(words) != std::string::npos;
+  };
+  CHECK(said("a.xml", "<mujoco model=\"a\">", "MJCF"));
+  CHECK(said("a.xml", "<sdf version=\"1.7\">", "SDFormat"));
+  CHECK(said("a.xml", "<html>", "<html>"));
+  CHECK(said("a.xml", "<!-- never ended <robot>", "no XML"));
+  CHECK(said("a.xacro", "", "no XML"));
+  for (const char* name : {"junk.bin2", "photo", "a.exe", "notes.txt"})
+    CHECK(said(name, "<robot>", ".urdf"));
+}
+
+TEST_CASE("the first who comes has the hand, and others get it in turn") {
+  Audience audience;
+  for (const ClientId client : {11u, 12u, 13u}) audience.opened(client);
+  CHECK(audience.has_hand(11));
+  audience.take(13);
+  audience.take(12);
+  audience.take(13);
+  audience.opened(14);
+  audience.take(14);
+  audience.closed(14);  // who asks and goes asks no more
+  CHECK(audience.view().asked == std::vector<ClientId>{13, 12});
+  CHECK_FALSE(audience.give(12, 12));  // who has none gives none
+  CHECK_FALSE(audience.give(11, 99));
+  CHECK(audience.give(11, 12));
+  CHECK(audience.has_hand(12));
+  audience.closed(12);  // the next who asked
+  CHECK(audience.has_hand(13));
+  audience.closed(13);
+  CHECK(audience.has_hand(11));  // the only one left
+  audience.closed(11);
+  CHECK(audience.view().holder == 0);
+}
+
+TEST_CASE("all layers that anybody wants are drawn, each once") {
+  Audience audience;
+  audience.opened(1);
+  audience.opened(2);
+  audience.want_layers(1, {"bodies", "frames"});
+  audience.want_layers(2, {"trails", "bodies"});
+  CHECK(audience.layers() == std::vector<std::string>{"bodies", "frames", "trails"});
+  audience.want_glass(2, 4);
+  CHECK(audience.glass() == std::map<ClientId, long>{{2, 4}});
+  audience.want_glass(2, std::nullopt);
+  CHECK(audience.glass().empty());
+}
+
+TEST_CASE("run time follows wall time, and what was missed is not made up for in a rush") {
+  using std::chrono::milliseconds;
+  const Pace::Time start{};
+  Pace pace;
+  pace.begin(start, 5.0, 0.5);
+  CHECK(pace.due(start + milliseconds(1000)) == doctest::Approx(5.5));
+  pace.forgive(start + milliseconds(1000), 5.49, 0.05);  // as good as in time
+  CHECK(pace.due(start + milliseconds(1000)) == doctest::Approx(5.5));
+  pace.forgive(start + milliseconds(1000), 5.2, 0.05);  // 0.6 s of wall time behind
+  CHECK(pace.due(start + milliseconds(1000)) == doctest::Approx(5.225));
+  CHECK(pace.factor(start + milliseconds(2000), 5.5) == doctest::Approx(0.5));
+}
+
+}  // namespace
+}  // namespace twinarm

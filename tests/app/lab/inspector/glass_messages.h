@@ -1,0 +1,80 @@
+// Frames of runs, and the messages that the lab's inspector writes of them.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "app/data/json_tree.h"
+#include "app/lab/inspector/body_inspector.h"
+#include "app/run/run.h"
+#include "tests/collision/import/robot/helpers.h"
+
+namespace twinarm::testing {
+
+inline SimulatePlan plan_of_asset(const std::string& file, double duration) {
+  SimulateOptions options;
+  options.robot.model = std::string(TWINARM_SOURCE_DIR "/assets/") + file;
+  options.integrator = "semi-implicit";
+  options.contact = options.robot.model.extension() == ".toml" ? "rigid" : "";
+  options.duration = duration;
+  return prepare_simulation(options);
+}
+
+// A frame after so many steps, and what the next step found.
+struct Told {
+  LabFrame frame;
+  std::vector<std::string> ledger;
+  std::vector<double> qdd;     // of the next step
+  std::vector<Vector3> force;  // of its contacts
+};
+inline Told told_of(SimulatePlan plan, long steps) {
+  Told told;
+  RunWatch watch;
+  watch.warn = [](const std::string&) {};
+  watch.sample = [](double, const State<double>&) {};
+  watch.look = [&](RunView& view) {
+    if (view.step() == steps) {
+      RecordedFrame& recorded = told.frame.recorded;
+      recorded.step = steps;
+      recorded.t = view.simulation().state().t;
+      recorded.memory = view.memory();
+      for (const LedgerRow& row : view.ledger()) {
+        recorded.rows.push_back(static_cast<std::uint32_t>(told.ledger.size()));
+        recorded.works.push_back(row.work);
+        told.ledger.push_back(row.name);
+      }
+    }
+    if (view.step() != steps + 1) return;
+    told.qdd = view.simulation().workspace().qdd;
+    if (view.contacts() && view.contacts()->contacts())
+      for (const ContactPoint& p : view.contacts()->contacts()->points())
+        if (!p.force_W.isZero(0)) told.force.push_back(p.force_W);
+  };
+  RunStart last;
+  plan.run.times.clear();
+  plan.run.duration = static_cast<double>(steps + 2) * plan.run.step;
+  run_plan(plan.input, plan.run, watch);
+  REQUIRE(!told.qdd.empty());
+  return told;
+}
+inline Told told_of(const std::string& file, long steps) {
+  return told_of(plan_of_asset(file, 1), steps);
+}
+
+inline JsonValue parsed(const std::string& message) {
+  const TemporaryFolder folder;
+  return read_json(folder.write("glass.json", message));
+}
+inline const JsonValue& at(const JsonValue& value, const std::string& name) {
+  const JsonValue* found = value.find(name);
+  REQUIRE_MESSAGE(found, name);
+  return *found;
+}
+inline Vector3 vector_of(const JsonValue& list) {
+  REQUIRE(list.items.size() == 3);
+  return {list.items[0].number, list.items[1].number, list.items[2].number};
+}
+
+}  // namespace twinarm::testing

@@ -1,0 +1,231 @@
+// The lab's inspector: what it tells of a frame, against the run that the frame is of.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/inspect/report/inspect_input.h"
+#include "app/inspect/report/inspect_output.h"
+#include "app/lab/run/lab_run.h"
+#include "tests/app/lab/inspector/glass_messages.h"
+
+using namespace twinarm;
+using namespace twinarm::testing;
+
+namespace {
+
+constexpr const char* kGlassScenes[] = {
+    "hand_and_obstacles",     "box_stack", "four_bar", "incline",
+    "robot_beside_obstacles", "turntable"};
+
+// Of the body's pass.
+const JsonValue* quantity_of(const JsonValue& passes, int pass, const std::string& name) {
+  for (const JsonValue& step : passes.items)
+    if (at(step, "pass").number == pass)
+      for (const JsonValue& quantity : at(step, "quantities").items)
+        if (at(quantity, "name").text == name) return &at(quantity, "value");
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("glass: accelerations and contact forces are those that the run's own next step finds") {
+  for (const std::string name : kGlassScenes) {
+    CAPTURE(name);
+    const std::string file = "scenes/" + name + ".toml";
+    const Told told = told_of(file, 120);
+    Glass glass(plan_of_asset(file, 1));
+    const SimulatePlan plan = plan_of_asset(file, 1);
+    const Model<double>& model = plan.input.robot.model;
+    double size = 1;
+    for (const double qdd : told.qdd) size = std::max(size, std::abs(qdd));
+    std::size_t pressing = 0;
+    for (std::size_t body = 1; body < model.parent.size(); ++body) {
+      CAPTURE(model.body_name[body]);
+      const JsonValue message = parsed(glass.message(told.frame, {body, false, 3, &told.ledger}));
+      CHECK(at(message, "scene").number == 3);
+      CHECK(at(message, "name").text == model.body_name[body]);
+      if (model.dofs(body) == 1) {
+        const JsonValue* qdd = quantity_of(at(message, "passes"), 3, "qdd");
+        REQUIRE(qdd);
+        CHECK(std::abs(qdd->number - told.qdd[model.iv[body]]) <= 1e-9 * size);
+      }
+      for (const JsonValue& force : at(message, "forces").items)
+        if (force.find("axis")) {
+          const Vector3 on = vector_of(at(at(force, "on").items[0], "force"));
+          CHECK(std::any_of(told.force.begin(), told.force.end(), [&](const Vector3& f) {
+            return (f - on).norm() <= 1e-9 * std::max(1.0, f.norm());
+          }));
+          ++pressing;
+        }
+    }
+    CHECK((pressing > 0) == !told.force.empty());
+  }
+}
+
+TEST_CASE("glass: every body's wrenches sum to zero, and so does each equation") {
+  for (const std::string name : kGlassScenes) {
+    CAPTURE(name);
+    const std::string file = "scenes/" + name + ".toml";
+    const Told told = told_of(file, 77);
+    Glass glass(plan_of_asset(file, 1));
+    const SimulatePlan plan = plan_of_asset(file, 1);
+    for (std::size_t body = 1; body < plan.input.robot.model.parent.size(); ++body) {
+      const JsonValue message = parsed(glass.message(told.frame, {body, true, 1, &told.ledger}));
+      const JsonValue& balance = at(message, "balance").items.at(0);
+      Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
+      double largest = 0;
+      for (const JsonValue& wrench : at(balance, "wrenches").items) {
+        const Vector3 f = vector_of(at(wrench, "force")), n = vector_of(at(wrench, "torque"));
+        force += f;
+        torque += n;
+        largest = std::max({largest, f.norm(), n.norm()});
+      }
+      CHECK(force.norm() <= 1e-9 * largest);
+      CHECK(torque.norm() <= 1e-9 * largest);
+      CHECK(at(message, "equations").items.size() > 4);
+      for (const JsonValue& equation : at(message, "equations").items) {
+        CAPTURE(at(equation, "text").text);
+        CHECK(at(equation, "residual").number <= 1e-9);
+      }
+      for (const JsonValue& check : at(message, "checks").items)
+        CHECK_MESSAGE(at(check, "pass").number == 1, at(check, "name").text);
+    }
+  }
+}
+
+TEST_CASE("glass: the numbers are those of inspect, digit by digit; its ledger the frame's") {
+  const std::string file = "scenes/hand_and_obstacles.toml";
+  const Told told = told_of(file, 50);
+  SimulatePlan plan = plan_of_asset(file, 1);
+  Memory memory = simulation_memory(told.frame.recorded.memory);
+  Inspected inspected = inspect_scene(plan.input, plan.run.step, &memory);
+  const Inspection in(plan.input.robot.model, inspected.x, inspected.actors, inspected.loops);
+  JsonWriter json;
+  json.begin_object();
+  write_passes(json.key("passes"), in, {1, 2, 3}, {2});
+  std::string wanted = json.str();
+  wanted = wanted.substr(wanted.find("\"passes\""));
+  Glass glass(plan_of_asset(file, 1));
+  for (int again = 0; again < 3; ++again) {  // what was asked before leaves no trace
+    const std::string message = glass.message(told.frame, {2, again == 1, 1, &told.ledger});
+    CHECK(message.find(wanted) != std::string::npos);
+    const JsonValue tree = parsed(message);
+    const JsonValue& ledger = at(tree, "ledger");
+    for (std::size_t i = 0; i < told.ledger.size(); ++i)
+      CHECK(at(ledger, told.ledger[i]).number == told.frame.recorded.works[i]);
+    glass.message(told_of(file, 10).frame, {1, true, 1});
+  }
+}
+
+TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
+  SimulateOptions options;
+  options.robot.model = TWINARM_SOURCE_DIR "/assets/scenes/hand_and_obstacles.toml";
+  options.duration = 1;
+  const LabScene scene(options);
+  LabHand hand;
+  LabRun run(scene, {}, hand);
+  hand.choose(LabHand::Source::joints);
+  hand.joint(0, 2.5, 1);  // at LabHand::kFastest it is long under way
+  for (int n = 0; n < 100; ++n) REQUIRE(run.step());
+  LabNames names;
+  const LabFrame frame = run.frame(names);
+  REQUIRE(frame.hand);
+  CHECK(frame.hand->leads);
+  CHECK(frame.hand->qd_K.at(0) == doctest::Approx(LabHand::kFastest));
+  Glass glass(std::move(scene.plan()->prepared));
+  const Model<double>& model = run.prepared().input.robot.model;
+  const auto body = static_cast<std::size_t>(model.find_joint("joint1"));
+  REQUIRE(run.step());
+  const double wanted = run.view().simulation().workspace().qdd[model.iv[body]];
+  CHECK(std::abs(wanted) > 0.1);
+  const auto told_by = [&](const LabFrame& of) {
+    const JsonValue message = parsed(glass.message(of, {body, true, 1, &names.rows}));
+    for (const JsonValue& check : at(message, "checks").items) CHECK(at(check, "pass").number == 1);
+    const JsonValue* qdd = quantity_of(at(message, "passes"), 3, "qdd");
+    REQUIRE(qdd);
+    return qdd->number;
+  };
+  CHECK(told_by(frame) == doctest::Approx(wanted).epsilon(1e-9));
+  // A hand that stood still would have another force.
+  LabFrame still = frame;
+  still.hand->qd_K.assign(still.hand->qd_K.size(), 0);
+  CHECK(std::abs(told_by(still) - wanted) > 1e-3 * std::abs(wanted));
+  LabFrame pulled = frame;
+  pulled.pull = LabPull{static_cast<int>(body), Vector3::Zero(), Vector3::Zero(), {0, 0, 10}};
+  const JsonValue message = parsed(glass.message(pulled, {body, false, 1}));
+  bool found = false;
+  for (const JsonValue& wrench : at(at(message, "balance").items.at(0), "wrenches").items)
+    if (at(wrench, "source").text == "mouse")
+      found = (vector_of(at(wrench, "force")) - Vector3(0, 0, 10)).norm() < 1e-12;
+  CHECK(found);
+}
+
+TEST_CASE("glass: where time stands, all bodies come in the order of the call") {
+  const std::string file = "scenes/robot_beside_obstacles.toml";
+  const Told told = told_of(file, 5);
+  const SimulatePlan plan = plan_of_asset(file, 1);
+  std::vector<std::string> names(plan.input.robot.model.body_name.begin() + 1,
+                                 plan.input.robot.model.body_name.end());
+  Glass glass(plan_of_asset(file, 1));
+  CHECK(!parsed(glass.message(told.frame, {1, false, 1, &told.ledger})).find("rows"));
+  const JsonValue message = parsed(glass.message(told.frame, {1, true, 1}));
+  std::vector<std::pair<int, std::string>> order, wanted;
+  for (const JsonValue& row : at(message, "rows").items) {
+    order.emplace_back(static_cast<int>(at(row, "pass").number), at(row, "body").text);
+    // Bodies that are fixed to their parents have neither D nor u.
+    CHECK((at(row, "pass").number == 2 || !at(row, "quantities").items.empty()));
+  }
+  for (const int pass : {1, 2, 3}) {
+    if (pass > 1) std::reverse(names.begin(), names.end());
+    for (const std::string& body : names) wanted.emplace_back(pass, body);
+  }
+  CHECK(order == wanted);
+}
+
+TEST_CASE("glass: a robot alone, without a scene") {
+  const std::string file = "robots/s103/s103.urdf";
+  const Told told = told_of(file, 40);
+  Glass glass(plan_of_asset(file, 1));
+  const SimulatePlan plan = plan_of_asset(file, 1);
+  const Model<double>& model = plan.input.robot.model;
+  const auto body = static_cast<std::size_t>(model.find_joint("joint1"));
+  const JsonValue message = parsed(glass.message(told.frame, {body, true, 1, &told.ledger}));
+  const JsonValue* qdd = quantity_of(at(message, "passes"), 3, "qdd");
+  REQUIRE(qdd);
+  CHECK(std::isfinite(qdd->number));
+  for (const JsonValue& check : at(message, "checks").items) CHECK(at(check, "pass").number == 1);
+}
+
+TEST_CASE("glass: numbers that are not finite are told, and a frame of another scene too") {
+  const std::string file = "scenes/hand_and_obstacles.toml";
+  Told told = told_of(file, 20);
+  Glass glass(plan_of_asset(file, 1));
+  const std::string good = glass.message(told.frame, {1, true, 1, &told.ledger});
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200}) {
+    CAPTURE(bad);
+    LabFrame broken = told.frame;
+    Memory memory = simulation_memory(broken.recorded.memory);
+    const std::size_t head = broken.recorded.memory.size();
+    std::vector<double> q;
+    memory.visit(q);
+    REQUIRE(q.size() > 1);
+    // The first coordinate stands behind the run's own numbers and the count of coordinates.
+    Memory written;
+    written.visit(q);
+    const std::size_t place = broken.recorded.memory.find(written.bytes()) + sizeof(std::uint64_t);
+    REQUIRE(place < head);
+    broken.recorded.memory.replace(place, sizeof bad, reinterpret_cast<const char*>(&bad),
+                                   sizeof bad);
+    const JsonValue message = parsed(glass.message(broken, {1, true, 1, &told.ledger}));
+    CHECK(at(message, "kind").text == "glass");
+    if (std::isnan(bad)) CHECK(!at(message, "warnings").items.empty());
+  }
+  const Told other = told_of("scenes/box_stack.toml", 3);
+  const JsonValue message = parsed(glass.message(other.frame, {1, true, 1, &told.ledger}));
+  CHECK(at(message, "warnings").items.size() == 1);
+  CHECK(!message.find("passes"));
+  CHECK(glass.message(told.frame, {1, true, 1, &told.ledger}) == good);
+}

@@ -1,0 +1,309 @@
+// Knobs against the runs that they turn: the run is the oracle.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "tests/app/lab/parameters/knob_scenes.h"
+#include "tests/collision/import/robot/helpers.h"
+
+using namespace twinarm;
+
+TEST_CASE("knobs: all, set to the values that they show, change no bit of the run") {
+  for (const auto& file : offered_scenes()) {
+    INFO(file.filename().string());
+    const SimulatePlan plan = planned(file, {}, 20);
+    const std::string memory = ran(plan, 20).memory;
+    REQUIRE(!memory.empty());
+    std::vector<std::string> changes;
+    for (const Knob& knob : knobs_of(plan))
+      if (!knob.change().empty()) changes.push_back(knob.change());
+    CHECK(changes.size() >= 3);
+    CHECK(ran(planned(file, changes, 20), 20).memory == memory);
+  }
+}
+
+TEST_CASE("knobs: each end of a range and each choice makes a scene that runs") {
+  const auto folder = read_gallery().front().file.parent_path();
+  for (const char* name : {"study.toml", "study_e3.toml", "study_e4.toml", "tracking_map.toml",
+                           "pendulum.toml", "incline.toml", "bouncing_ball.toml"})
+    for (const Knob& knob : knobs_of(planned(folder / name, {}))) {
+      std::vector<std::string> values = knob.choices;
+      if (knob.form != Knob::Form::choice) {
+        CHECK(knob.low < knob.high);
+        values = {fmt::format("{}", knob.low), fmt::format("{}", knob.high)};
+      }
+      for (const std::string& value : values) {
+        INFO(std::string(name), ": ", knob.path, "=", value);
+        SimulatePlan plan = planned(folder / name, {knob.path + "=" + value}, 2);
+        plan.run.energy_bound = HUGE_VAL;
+        CHECK(ran(plan, 2).end > 0);
+      }
+    }
+}
+
+TEST_CASE("knobs: each has a label, a group, a meaning, and its value among its choices") {
+  for (const auto& file : offered_scenes())
+    for (const Knob& knob : knobs_of(planned(file, {}))) {
+      INFO(file.filename().string(), ": ", knob.path);
+      CHECK(!knob.label.empty());
+      CHECK(!knob.group.empty());
+      CHECK(knob.meaning.size() > 20);
+      if (knob.form == Knob::Form::choice && !knob.text.empty())
+        CHECK(std::count(knob.choices.begin(), knob.choices.end(), knob.text) == 1);
+      if (knob.form == Knob::Form::log) CHECK(knob.low > 0);
+    }
+}
+
+namespace {
+
+struct LimitCase {
+  const char *name, *top, *spring, *path;
+};
+
+// A swing that dies out, stays or grows within 3000 steps.
+bool dies_out(const std::string& text, const std::string& change) {
+  const long steps = 3000;
+  SimulatePlan plan = planned(temporary_scene("limit", text), {change}, steps);
+  plan.run.energy_bound = 1;
+  const ShortRun run = ran(plan, steps);
+  return !run.stopped && run.late < 20 * run.early;
+}
+
+const char* const kLinear = "type = \"linear\"\nstiffness = 2e4\ndamping = 40\n";
+
+}  // namespace
+
+TEST_CASE("knobs: a run holds 10 percent this side of a predicted limit, and not beyond it") {
+  const std::string linear = std::string(kLinear) + "treatment = \"explicit\"";
+  const std::string half = std::string(kLinear) + "treatment = \"semi-implicit\"";
+  const std::string held = "type = \"linear\"\nstiffness = 4000\ndamping = 40\nrate = 250";
+  const std::string printed = "type = \"printed-linear\"\nstiffness = 2e4\ndamping = 40";
+  const std::string turning =
+      "type = \"torsional\"\nstiffness = 500\ndamping = 2\ntreatment = \"explicit\"";
+  const auto pointless = [](std::string text) {  // torsional couplings have no point
+    for (std::size_t at; (at = text.find("point = ")) != std::string::npos;)
+      text.erase(at, text.find('\n', at) - at);
+    return text;
+  };
+  const LimitCase cases[] = {
+      {"semi-implicit", "", linear.c_str(), "coupling.stiffness"},
+      {"semi-implicit", "", linear.c_str(), "coupling.damping"},
+      {"semi-implicit", "", linear.c_str(), "coupling[1].stiffness"},
+      {"semi-implicit", "", linear.c_str(), "step"},
+      {"euler", "integrator = \"euler\"", linear.c_str(), "coupling.stiffness"},
+      {"euler", "integrator = \"euler\"", linear.c_str(), "step"},
+      {"rk4", "integrator = \"rk4\"", linear.c_str(), "coupling.stiffness"},
+      {"damper implicit", "", half.c_str(), "coupling.stiffness"},
+      {"held", "", held.c_str(), "coupling.stiffness"},
+      {"held", "", held.c_str(), "coupling[0].damping"},
+      {"printed", "", printed.c_str(), "coupling.stiffness"},
+      {"torsional", "", turning.c_str(), "coupling[0].stiffness"},
+      {"torsional", "", turning.c_str(), "step"}};
+  for (const LimitCase& c : cases) {
+    INFO(std::string(c.name), ": ", std::string(c.path));
+    std::string text = held_arm(c.top, c.spring);
+    if (std::string(c.spring).find("torsional") != std::string::npos) text = pointless(text);
+    SimulatePlan plan = planned(temporary_scene("limit", text), {});
+    std::vector<Knob> knobs = knobs_of(plan);
+    predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
+    const Knob& knob = knob_at(knobs, c.path);
+    REQUIRE(knob.limit);
+    REQUIRE(knob.limit->value);
+    const double limit = *knob.limit->value;
+    CHECK(knob.limit->state == KnobLimit::State::ok);
+    INFO(limit);
+    CHECK(dies_out(text, fmt::format("{}={}", c.path, 0.9 * limit)));
+    CHECK(!dies_out(text, fmt::format("{}={}", c.path, 1.15 * limit)));
+  }
+}
+
+TEST_CASE("knobs: a held force holds at the predicted rate, and not a quarter slower") {
+  const std::string text =
+      held_arm("", "type = \"linear\"\nstiffness = 4000\ndamping = 40\nrate = 500");
+  SimulatePlan plan = planned(temporary_scene("rate", text), {});
+  std::vector<Knob> knobs = knobs_of(plan);
+  predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
+  const Knob& knob = knob_at(knobs, "coupling[1].rate");
+  REQUIRE(knob.limit);
+  REQUIRE(knob.limit->value);
+  const long steps = std::lround(1 / (*knob.limit->value * plan.run.step));
+  CHECK(steps > 2);
+  const auto at = [&](long n) { return fmt::format("coupling[1].rate={}", 1000.0 / double(n)); };
+  CHECK(dies_out(text, at(steps)));
+  CHECK(!dies_out(text, at(steps + steps / 4 + 1)));
+}
+
+TEST_CASE("knobs: amber within a quarter of the limit, beyond it says what would be stable") {
+  const std::string text = held_arm("", std::string(kLinear) + "treatment = \"explicit\"");
+  const auto limit_at = [&](const std::vector<std::string>& changes) {
+    SimulatePlan plan = planned(temporary_scene("amber", text), changes);
+    std::vector<Knob> knobs = knobs_of(plan);
+    predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
+    return *knob_at(knobs, "coupling.stiffness").limit;
+  };
+  const KnobLimit at_start = limit_at({});
+  REQUIRE(at_start.value);
+  const auto with = [&](double part) {
+    return limit_at({fmt::format("coupling.stiffness={}", part * *at_start.value)});
+  };
+  CHECK(with(0.70).state == KnobLimit::State::ok);
+  CHECK(with(0.80).state == KnobLimit::State::near);
+  CHECK(with(1.30).state == KnobLimit::State::beyond);
+  // Sought from above, it is the same edge.
+  CHECK(*with(1.30).value == doctest::Approx(*at_start.value).epsilon(0.02));
+  CHECK(!with(1.30).words.empty());
+  const KnobLimit implicit = limit_at({"coupling.treatment=implicit"});
+  CHECK(!implicit.value);
+  CHECK(implicit.state == KnobLimit::State::ok);
+  CHECK(!implicit.words.empty());
+}
+
+TEST_CASE("knobs: where it does not hold, those that would mend it alone say so, and no others") {
+  // The linear spring is beyond its limit, the torsional one is not to blame.
+  std::string text = held_arm("",
+                              "type = \"linear\"\nstiffness = 2e4\ndamping = 40\n"
+                              "treatment = \"explicit\"");
+  const auto knobs_with = [&](const std::vector<std::string>& changes) {
+    SimulatePlan plan = planned(temporary_scene("once", text), changes);
+    std::vector<Knob> knobs = knobs_of(plan);
+    predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
+    return knobs;
+  };
+  const std::vector<Knob> at_start = knobs_with({});
+  const double limit = *knob_at(at_start, "coupling[0].stiffness").limit->value;
+  const std::string too_stiff = fmt::format("coupling[0].stiffness={}", 3 * limit);
+  const std::vector<Knob> one = knobs_with({too_stiff});
+  CHECK(knob_at(one, "coupling[0].stiffness").limit->state == KnobLimit::State::beyond);
+  CHECK(knob_at(one, "step").limit->state == KnobLimit::State::beyond);
+  CHECK(knob_at(one, "step").limit->value);
+  CHECK_FALSE(knob_at(one, "coupling[1].stiffness").limit);
+  CHECK_FALSE(knob_at(one, "coupling[1].damping").limit);
+  // Both beyond: neither alone mends it, a shorter step does.
+  const std::vector<Knob> both =
+      knobs_with({too_stiff, fmt::format("coupling[1].stiffness={}", 100 * limit)});
+  CHECK_FALSE(knob_at(both, "coupling[0].stiffness").limit);
+  CHECK_FALSE(knob_at(both, "coupling[1].stiffness").limit);
+  CHECK(knob_at(both, "step").limit->value);
+}
+
+TEST_CASE("knobs: each tells what the scene's file says, whatever was turned since") {
+  const auto file = read_gallery().front().file;
+  const std::vector<Knob> unchanged = knobs_of(planned(file, {}));
+  std::vector<Knob> knobs = knobs_of(
+      planned(file, {"coupling[0].stiffness=123", "step=0.0005", "coupling[0].type=weld"}));
+  know_starts(unchanged, knobs);
+  std::vector<std::string> back;
+  for (const Knob& knob : knobs) {
+    INFO(knob.path);
+    const auto before = std::find_if(unchanged.begin(), unchanged.end(),
+                                     [&](const Knob& other) { return other.path == knob.path; });
+    CHECK(knob.start.has_value() == (before != unchanged.end()));
+    if (knob.start) CHECK(knob.path + "=" + *knob.start == before->path + "=" + before->value());
+    if (knob.start && knob.start != knob.value()) back.push_back(knob.path);
+  }
+  CHECK(std::count(back.begin(), back.end(), "step") == 1);
+  CHECK(std::count(back.begin(), back.end(), "coupling[0].type") == 1);
+  CHECK_FALSE(knob_at(knobs, "coupling[0].time_constant").start);  // the file has no such key
+}
+
+TEST_CASE("knobs: the predicted lag is what the arm falls behind a twin that starts at 1 rad/s") {
+  // One joint alone: peak of e'' = -w^2 e - 2 z w e', e(0) = 0, e'(0) = 1 rad/s.
+  const std::string text = R"(
+gravity = [0, 0, 0]
+[[robot]]
+name = "arm"
+model = "robots/s103/s103.urdf"
+lock = ["joint2", "joint3", "gripper_lift"]
+collide = false
+[[coupling]]
+type = "torsional"
+measure = "joint"
+link = "arm1"
+stiffness = 500
+damping = 0
+)";
+  SimulatePlan plan = planned(temporary_scene("lag", text), {});
+  std::vector<Knob> knobs = knobs_of(plan);
+  predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
+  const std::string lag = knob_at(knobs, "coupling[0].stiffness").lag;
+  // The period of a free swing says the inertia: a run from 1e-3 rad, its first zero.
+  SimulatePlan swing =
+      planned(temporary_scene("lag", text),
+              {"coupling.treatment=explicit", "step=1e-4", "robot.qd.joint1=0.001"}, 20000);
+  double quarter = 0;
+  RunWatch watch;
+  watch.look = [&](RunView& run) {
+    if (quarter == 0 && run.simulation().state().qd[0] < 0) quarter = run.simulation().state().t;
+  };
+  run_plan(swing.input, swing.run, watch);
+  REQUIRE(quarter > 0);
+  const double peak = quarter / (std::numbers::pi / 2) * 180 / std::numbers::pi;  // v / w
+  CHECK(lag == fmt::format("up to {:.2g}° at a start to 1 rad/s", peak));
+}
+
+TEST_CASE("knobs: a coupling's type turns linear into torsional, and its point goes") {
+  const auto file = read_gallery().front().file;
+  const std::vector<Knob> knobs = knobs_of(planned(file, {}));
+  for (const std::string& type : knob_at(knobs, "coupling[0].type").choices) {
+    INFO(type);
+    const SimulatePlan plan = planned(file, {"coupling[0].type=" + type}, 10);
+    const CouplingDescription& now = plan.input.scene->description.couplings[0];
+    CHECK(facts_of(now.law, now.printed).name == type);
+    CHECK(!ran(plan, 10).stopped);
+  }
+}
+
+TEST_CASE("presets: each has a scene, and moves its robot as it says") {
+  const auto folder = read_gallery().front().file.parent_path();
+  CHECK(all_presets().size() == 4);
+  for (const Preset& preset : all_presets()) {
+    INFO(preset.name);
+    const SimulatePlan plan = planned(folder / preset.scene, preset.changes);
+    const auto target = plan.input.scene->couplings[0].target;
+    CHECK((target == CouplingTarget::Kind::paper) == (preset.hand == "scene"));
+    CHECK((target == CouplingTarget::Kind::device) == (preset.hand == "drag"));
+    CHECK(find_preset(preset.name) == &preset);
+  }
+  CHECK(find_preset("E5") == nullptr);
+}
+
+TEST_CASE("gallery: the lanes of an entry are read, and what is wrong with them is told") {
+  const LaneSet lanes = find_scene(read_gallery(), "six_integrators")->lanes;
+  CHECK(lanes.path == "integrator");
+  CHECK(lanes.values.size() == 6);
+  CHECK(lanes.apart.has_value());
+  const auto entry = [](const std::string& told) {
+    return temporary_scene("lanes",
+                           "[[scene]]\nname = \"a\"\nfile = \"no.toml\"\ntitle = \"t\"\n"
+                           "look = [\"one\", \"two\", \"three\"]\nlanes = " +
+                               told);
+  };
+  for (const char* told : {"{ path = \"step\", values = [0.1] }", "{ values = [0.1, 0.2] }",
+                           "{ path = \"step\", values = [0.1, 0.1] }", "3"}) {
+    CAPTURE(told);
+    const auto faults = faults_of([&] { read_gallery(entry(told)); });
+    REQUIRE(faults.size() == 2);  // the file is not there either
+    CHECK(faults[1].where.find("lanes") != std::string::npos);
+  }
+}
+
+TEST_CASE("gallery: every scene has a picture, and faults are told together") {
+  const auto gallery = read_gallery();
+  CHECK(gallery.size() >= 16);
+  CHECK(gallery.front().name == "study");
+  for (const GalleryScene& scene : gallery) {
+    INFO(scene.name);
+    CHECK(!scene.picture.empty());
+    CHECK(find_scene(gallery, scene.name) == &scene);
+  }
+  try {
+    read_gallery(temporary_scene("gallery",
+                                 "[[scene]]\nname = \"a\"\nfile = \"no.toml\"\n"
+                                 "title = \"t\"\nlook = [\"one\"]\nmore = 1\n"));
+    FAIL("it was read");
+  } catch (const InputError& error) {
+    CHECK(error.faults().size() == 3);
+  }
+}

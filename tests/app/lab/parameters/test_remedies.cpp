@@ -1,0 +1,121 @@
+// Each remedy tried: the run that stopped, again, with its changes.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "app/diagnose/post_mortem.h"
+#include "app/diagnose/remedies.h"
+#include "tests/app/lab/parameters/knob_scenes.h"
+
+using namespace twinarm;
+
+namespace {
+
+// Of an arm that has some joules in its motion. A point spring pulls no more than k times its
+// length: a run that tumbles under it need not overflow.
+constexpr double kFarTooMuch = 1e4;  // [J]
+
+struct BadScene {
+  const char* name;
+  std::string file;
+  std::vector<std::string> changes;
+};
+
+std::vector<BadScene> bad_scenes() {
+  const auto folder = read_gallery().front().file.parent_path();
+  const auto scene = [&](const char* name) { return (folder / name).string(); };
+  const std::string held =
+      held_arm("", "type = \"linear\"\nstiffness = 1e5\ndamping = 100\nrate = 100\n");
+  return {{"stiff", scene("tracking_map.toml"), {"coupling.stiffness=1e7"}},
+          {"damped too much", scene("tracking_map.toml"), {"coupling.damping=20000"}},
+          {"euler", scene("tracking_map.toml"), {"integrator=euler", "coupling.stiffness=2e6"}},
+          {"long step", scene("tracking_map.toml"), {"step=0.02"}},
+          {"as printed", scene("study_e4.toml"), {"coupling[1].stiffness=500000"}},
+          {"as printed, turning", scene("study_e3.toml"), {"coupling[0].stiffness=200000"}},
+          {"study",
+           scene("study.toml"),
+           {"coupling[0].treatment=explicit", "coupling[0].stiffness=1e8",
+            "coupling[0].target=paper", "robot.q.joint1=1.5707963267948966",
+            "robot.q.joint2=-0.7853981633974483", "coupling[1].target=paper"}},
+          {"held", temporary_scene("held", held).string(), {}}};
+}
+
+}  // namespace
+
+TEST_CASE("remedies: each that is offered holds for two seconds where the run had stopped") {
+  for (const BadScene& bad : bad_scenes()) {
+    INFO(std::string(bad.name));
+    SimulatePlan plan = planned(bad.file, bad.changes, 2000);
+    plan.run.energy_bound = kFarTooMuch;
+    const SimulateResult dead = run_plan(plan.input, plan.run, {});
+    CHECK(dead.post_mortem);
+    if (!dead.post_mortem) continue;
+    const std::vector<Remedy> remedies = remedies_of(plan, *dead.post_mortem);
+    CHECK(!remedies.empty());
+    for (const Remedy& remedy : remedies) {
+      INFO(remedy.words);
+      CHECK(!remedy.words.empty());
+      std::vector<std::string> changes = bad.changes;
+      for (const std::string& change : remedy.changes) {
+        INFO(change);
+        changes.push_back(change);
+      }
+      SimulatePlan again = planned(bad.file, changes);
+      again.run.duration = 2;
+      again.run.energy_bound = kFarTooMuch;
+      const SimulateResult result = run_plan(again.input, again.run, {});
+      CHECK(!result.post_mortem);
+      CHECK(result.end == doctest::Approx(2));
+    }
+  }
+}
+
+TEST_CASE("remedies: a step, a gain and a treatment are offered for a spring that is too stiff") {
+  const BadScene bad = bad_scenes().front();
+  const SimulatePlan plan = planned(bad.file, bad.changes, 2000);
+  std::vector<std::string> first;
+  for (const Remedy& remedy : remedies_of(plan, PostMortem())) first.push_back(remedy.changes[0]);
+  REQUIRE(first.size() == 3);
+  CHECK(first[0].find("step=") == 0);
+  CHECK(first[1].find("].stiffness=") != std::string::npos);
+  CHECK(first[2].find("].treatment=implicit") != std::string::npos);
+}
+
+TEST_CASE("remedies: they follow from the kind and the place of a suspect, whatever its name") {
+  const BadScene stiff = bad_scenes().front();
+  const SimulatePlan coupled = planned(stiff.file, stiff.changes);
+  SimulatePlan damped = planned(stiff.file, {"integrator=euler", "coupling.stiffness=1"});
+  damped.input.robot.model.damping.assign(damped.input.robot.model.nv, 1e4);
+  const auto changes_by = [](const SimulatePlan& plan, const std::vector<Suspect>& suspects) {
+    PostMortem dead;
+    dead.suspects = suspects;
+    std::vector<std::string> changes;
+    for (const Remedy& remedy : remedies_of(plan, dead))
+      changes.insert(changes.end(), remedy.changes.begin(), remedy.changes.end());
+    return changes;
+  };
+  for (const auto& [plan, kind, change] :
+       {std::tuple<const SimulatePlan*, Suspect::Kind, std::string>{
+            &coupled, Suspect::Kind::coupling, "coupling[1].treatment=implicit"},
+        {&damped, Suspect::Kind::joint_damper, "integrator=semi-implicit"}}) {
+    std::vector<Suspect> suspects = find_suspects(*plan);
+    REQUIRE(!suspects.empty());
+    CHECK(suspects.front().kind == kind);
+    for (Suspect& suspect : suspects) suspect.name = "another name";
+    const std::vector<std::string> changes = changes_by(*plan, suspects);
+    std::string offered;
+    for (const std::string& c : changes) offered += c + " ";
+    CAPTURE(offered);
+    CHECK(std::find(changes.begin(), changes.end(), change) != changes.end());
+  }
+}
+
+TEST_CASE("remedies: where nothing is beyond its limit only a shorter step is offered") {
+  const auto folder = read_gallery().front().file.parent_path();
+  const SimulatePlan plan = planned(folder / "tracking_map.toml", {});
+  for (const Remedy& remedy : remedies_of(plan, PostMortem())) {
+    REQUIRE(remedy.changes.size() == 1);
+    CHECK(remedy.changes[0].starts_with("step="));
+  }
+}

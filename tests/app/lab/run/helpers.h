@@ -1,0 +1,139 @@
+// Scenes, and a session with what is remembered of it.
+#pragma once
+
+#include <cmath>
+#include <functional>
+
+#include "app/lab/run/history.h"
+#include "app/lab/run/input_override.h"
+#include "app/lab/run/lab_run.h"
+#include "app/lab/run/mouse_spring.h"
+#include "app/record/record_run.h"
+#include "app/record/replay.h"
+#include "coupling/device/virtual_omni.h"
+#include "solver/dynamics/energy_momentum.h"
+#include "tests/app/scene/model/helpers.h"
+
+namespace twinarm {
+
+inline const char* const kArm = R"(
+step = 0.001
+duration = 1
+[[robot]]
+name = "arm"
+model = "robots/s103/s103.urdf"
+[[body]]
+name = "box"
+shape = { box = { size = [0.1, 0.1, 0.1] } }
+mass = 2
+position = [0.9, 0.5, 0.0505]
+[[body]]
+name = "floor"
+fixed = true
+shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
+[[coupling]]
+name = "one"
+type = "linear"
+link = "arm1"
+point = [0.25, 0, 0.365]
+stiffness = 4000
+damping = 200
+target = "TARGET"
+[[coupling]]
+name = "two"
+type = "linear"
+link = "arm2"
+point = [0.35, 0, 0.1]
+stiffness = 2000
+damping = 100
+target = "TARGET"
+[[coupling]]
+name = "three"
+type = "torsional"
+measure = "joint"
+link = "quill"
+stiffness = 20
+damping = 1
+target = "TARGET"
+)";
+
+inline const char* const kFreeBox = R"(
+step = 0.001
+duration = 1
+gravity = [0, 0, 0]
+[[body]]
+name = "box"
+shape = { box = { size = [0.1, 0.2, 0.3] } }
+mass = 2
+position = [0, 0, 1]
+)";
+
+inline std::string arm_with(const std::string& target) {
+  std::string text = kArm;
+  for (std::size_t at; (at = text.find("TARGET")) != std::string::npos;)
+    text.replace(at, 6, target);
+  return text;
+}
+
+inline SimulateOptions options_of(const TemporaryFolder& folder, const std::string& text) {
+  SimulateOptions options;
+  options.robot.model = folder.write("test.toml", text);
+  return options;
+}
+
+inline LabScene lab_scene(const std::string& text) {
+  const TemporaryFolder folder;  // gone when the scene runs
+  return LabScene(options_of(folder, text));
+}
+
+// A run with what is remembered of it: a frame each 16 steps.
+struct Session {
+  explicit Session(const std::string& text) : scene(lab_scene(text)) {
+    run = std::make_unique<LabRun>(scene, std::vector<Change>{}, hand);
+    history.begin_segment({});
+    history.add(run->frame(names));
+  }
+  void step(long steps) {
+    for (long n = 0; n < steps; ++n) {
+      REQUIRE(run->step());
+      history.add(run->input());
+      if (run->step_count() % 16 == 0) history.add(run->frame(names));
+    }
+  }
+  void change(const std::vector<Change>& changes) {
+    const auto frame = history.add(run->frame(names));
+    run = std::make_unique<LabRun>(scene, changes, hand, *frame);
+    history.begin_segment(changes);
+    history.add(run->frame(names));
+  }
+  LabScene scene;
+  LabHand hand;
+  LabNames names;
+  LabHistory history;
+  std::unique_ptr<LabRun> run;
+};
+
+inline double work_of(const std::vector<LedgerRow>& rows, const std::string& name) {
+  for (const LedgerRow& row : rows)
+    if (row.name == name) return row.work;
+  FAIL("there is no row " << name);
+  return 0;
+}
+inline MomentumRow momentum_of(const std::vector<MomentumRow>& rows, const std::string& name) {
+  for (const MomentumRow& row : rows)
+    if (row.name == name) return row;
+  FAIL("there is no row " << name);
+  return {};
+}
+
+// Where the kinematic robot stood at the start of the last step.
+inline std::vector<double> kvr_of(const LabRun& run) {
+  const SimulateInput& input = run.prepared().input;
+  std::vector<double> q;
+  for (const int body : run.driven())
+    q.push_back(
+        input.couplings->kvr(0).start().x.q[input.robot.model.iq[static_cast<std::size_t>(body)]]);
+  return q;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,124 @@
+// What the lab remembers: gone back to, and saved.
+#include "tests/app/lab/run/helpers.h"
+
+namespace twinarm {
+
+TEST_CASE("lab run: a branch that is moved as before repeats the frames' hashes bit for bit") {
+  Session s(arm_with("device"));
+  s.hand.choose(LabHand::Source::drag);
+  const Vector3 tip = s.run->prepared().input.couplings->kvr(0).start().k.position(
+      s.run->tip()->first, s.run->tip()->second);
+  for (int n = 0; n < 50; ++n) {
+    s.hand.tip(tip + Vector3(-0.1 * std::sin(0.1 * n), 0.2 * std::sin(0.2 * n), 0), n);
+    if (n == 20) REQUIRE(s.run->pull(s.run->driven().back(), Vector3::Zero(), tip, n));
+    if (n == 35) s.run->drop();
+    s.step(20);
+  }
+  const std::size_t from = s.history.at(0.3);
+  const LabHistory left = s.history.cut(from);
+  CHECK(s.history.size() == from + 1);
+  LabRun again(s.scene, {}, s.hand, *left.frame(0));
+  CHECK(again.begun_anew().empty());
+  std::size_t same = 0;
+  for (std::size_t n = 1; n < left.size(); ++n) {
+    while (again.step_count() < left.frame(n)->recorded.step) {
+      const LabInput* input = left.input(again.step_count() + 1);
+      REQUIRE(again.step(input ? *input : LabInput{}));
+    }
+    const LabFrame frame = again.frame(s.names);
+    same += frame.recorded.hash == left.frame(n)->recorded.hash ? 1 : 0;
+    CHECK(frame.recorded.works == left.frame(n)->recorded.works);
+  }
+  CHECK(left.size() > 30);
+  CHECK(same == left.size() - 1);
+  // Then live input goes on from where the robot stands.
+  std::vector<double> before = kvr_of(again);
+  for (int n = 0; n < 200; ++n) {
+    REQUIRE(again.step());
+    const std::vector<double> now = kvr_of(again);
+    for (std::size_t j = 0; j < now.size(); ++j) CHECK(std::abs(now[j] - before[j]) < 0.021);
+    before = now;
+  }
+}
+
+TEST_CASE("lab history: what is saved replays bit for bit, hand and changes and all") {
+  Session s(arm_with("device"));
+  s.hand.choose(LabHand::Source::drag);
+  const TemporaryFolder folder;
+  const auto drag = [&](int moves) {
+    for (int n = 0; n < moves; ++n) {
+      s.hand.tip(Vector3(0.5, 0.2 * std::sin(0.3 * n), 0.4), n);
+      s.step(20);
+    }
+  };
+  const auto check = [&](double from, std::size_t frames) {
+    const std::filesystem::path file = folder.path() / "lab.twinrec";
+    const LabHistory::Saved saved = s.history.save(s.scene, s.names, s.run->led(), file);
+    CHECK(saved.frames >= frames);
+    CHECK(saved.from == doctest::Approx(from).epsilon(1e-9));
+    const Recording recording(file);
+    const Replay again = replay(recording, 0, {});
+    CHECK(again.hash == again.hash_again);
+    CHECK(again.compared == saved.frames - 1);
+    CHECK(again.equal == again.compared);
+  };
+  drag(20);
+  check(0, 20);
+  s.change({{"coupling.stiffness", "700"}, {"gravity", "0,0,-1.6"}});
+  drag(20);
+  check(0.4, 20);
+  // After a pull: what no header describes is left out.
+  REQUIRE(s.run->pull(s.run->driven()[1], Vector3(0.35, 0, 0.1), Vector3(0.2, 0.2, 0.2), 3));
+  drag(5);
+  s.run->drop();
+  drag(20);
+  check(0.912, 20);
+  s.change({{"coupling.stiffness", "700"}, {"step", "0.0004"}});
+  drag(20);
+  check(1.3, 20);
+}
+
+TEST_CASE("lab run: another step length goes on at the same place and time, to be gone back to") {
+  Session s(arm_with("paper"));
+  s.step(500);
+  const State<double> before = s.run->view().simulation().state();
+  s.change({{"step", "0.0003"}});
+  CHECK(s.run->begun_anew().empty());
+  CHECK(s.run->view().simulation().state().q == before.q);
+  s.step(100);
+  CHECK(s.run->time() == doctest::Approx(0.53).epsilon(1e-12));
+  CHECK(s.run->step_count() == 600);
+  const LabFrame half = s.run->frame(s.names);
+  s.step(100);
+  LabRun again(s.scene, {{"step", "0.0003"}}, s.hand, half);
+  for (int n = 0; n < 100; ++n) REQUIRE(again.step());
+  CHECK(again.view().memory() == s.run->view().memory());
+  // Another response of contacts remembers other things: whatever it takes over, it goes on there.
+  const State<double> then = s.run->view().simulation().state();
+  s.change({{"contact", "compliant"}});
+  CHECK(s.run->view().simulation().state().q == then.q);
+  CHECK(s.run->view().simulation().state().qd == then.qd);
+  CHECK(s.run->time() == doctest::Approx(0.56).epsilon(1e-12));
+  s.step(50);
+}
+
+TEST_CASE("lab history: the bound of bytes holds, the oldest goes first, times are found") {
+  Session s(arm_with("device"));
+  s.history = LabHistory(400000);
+  s.history.begin_segment({});
+  s.hand.choose(LabHand::Source::drag);
+  s.step(3000);
+  CHECK(s.history.bytes() <= 400000 + sizeof(LabInput) * 16);
+  CHECK(s.history.bytes() > 300000);
+  CHECK(s.history.size() > 5);
+  CHECK(s.history.frame(0)->recorded.t > 0.5);
+  CHECK(s.history.newest()->recorded.step == 2992);
+  for (std::size_t n = 0; n < s.history.size(); ++n)
+    CHECK(s.history.at(s.history.frame(n)->recorded.t) == n);
+  CHECK(s.history.at(0) == 0);
+  CHECK(s.history.at(1e9) == s.history.size() - 1);
+  CHECK(s.history.input(s.history.frame(0)->recorded.step + 1));
+  CHECK(!s.history.input(5));
+}
+
+}  // namespace twinarm

@@ -1,0 +1,242 @@
+// A run of the lab: the bits of `simulate`, changed on the way, led by a hand, pulled by a mouse.
+#include "app/record/recorded_instant.h"
+#include "tests/app/lab/run/helpers.h"
+
+namespace twinarm {
+
+TEST_CASE("lab run: a run step by step has the bits of `simulate`, its files gone meanwhile") {
+  for (const char* target : {"paper", "device"}) {
+    const TemporaryFolder folder;
+    const SimulateOptions options = options_of(folder, arm_with(target));
+    const SimulatePlan plan = prepare_simulation(options);
+    std::vector<std::string> memories;
+    RunWatch watch;
+    watch.look = [&](RunView& run) {
+      if (run.step() % 100 == 0) memories.push_back(run.memory());
+    };
+    watch.sample = [](double, const State<double>&) {};
+    run_plan(plan.input, plan.run, watch);
+    REQUIRE(memories.size() == 11);
+    const LabScene scene = lab_scene(arm_with(target));
+    LabHand hand;
+    LabRun run(scene, {}, hand);
+    for (long n = 0; n < 1500; ++n) {  // on beyond the end of `simulate`
+      if (n % 100 == 0 && n <= 1000)
+        CHECK(run.view().memory() == memories[static_cast<std::size_t>(n / 100)]);
+      REQUIRE(run.step());
+    }
+    CHECK(run.time() == doctest::Approx(1.5).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("recorded instant: its files can be read again after the recording is closed") {
+  const TemporaryFolder folder;
+  const SimulateOptions options = options_of(folder, arm_with("paper"));
+  const SimulatePlan plan = prepare_simulation(options);
+  const std::filesystem::path file = folder.path() / "run.twinrec";
+  RunRecorder recorder(file, header_of(options, plan, {}), plan, 0.5);
+  RunWatch watch;
+  watch.look = [&](RunView& run) { recorder.look(run); };
+  watch.sample = [](double, const State<double>&) {};
+  run_plan(plan.input, plan.run, watch);
+  recorder.finish("done");
+  const RecordedInstant instant = open_instant(file, {});
+  const SimulateOptions again = instant.files->options();
+  CHECK(again.robot.model.filename() == options.robot.model.filename());
+  CHECK(prepare_simulation(again).input.scene->couplings.size() == 3);
+}
+
+TEST_CASE("lab run: a stiffness changed on the way is the fork of a recording from that frame") {
+  const TemporaryFolder folder;
+  SimulateOptions options = options_of(folder, arm_with("paper"));
+  const SimulatePlan plan = prepare_simulation(options);
+  const std::filesystem::path file = folder.path() / "run.twinrec";
+  RunRecorder recorder(file, header_of(options, plan, {}), plan, 0.05);
+  RunWatch watch;
+  watch.look = [&](RunView& run) { recorder.look(run); };
+  watch.sample = [](double, const State<double>&) {};
+  run_plan(plan.input, plan.run, watch);
+  recorder.finish("done");
+  const Recording recording(file);
+  const std::vector<Change> changes{{"coupling.one.stiffness", "900"}};
+  const Replay fork = replay(recording, 8, changes);
+
+  LabFrame from;
+  from.recorded = recording.frame(8);
+  const LabScene scene{recording.header()};
+  LabHand hand;
+  LabRun run(scene, changes, hand, from);
+  CHECK(run.begun_anew().empty());
+  LabNames names;
+  CHECK(fork.frames.size() == recording.size() - 8);
+  for (const RecordedFrame& frame : fork.frames) {
+    while (run.step_count() < frame.step) REQUIRE(run.step());
+    CHECK(run.frame(names).recorded.hash == frame.hash);
+  }
+  CHECK(fork.frames.back().hash != recording.frame(recording.size() - 1).hash);
+}
+
+TEST_CASE("lab run: whoever moves the robot, it never jumps, and goes where it is told") {
+  Session s(arm_with("paper"));
+  std::vector<double> before;
+  double farthest = 0;
+  const auto run = [&](long steps, const std::function<void(long)>& each) {
+    for (long n = 0; n < steps; ++n) {
+      each(n);
+      s.step(1);
+      const std::vector<double> now = kvr_of(*s.run);
+      for (std::size_t j = 0; j < before.size(); ++j)
+        farthest = std::max(farthest, std::abs(now[j] - before[j]));
+      before = now;
+    }
+  };
+  const auto nothing = [](long) {};
+  run(500, nothing);
+  CHECK(s.run->scene_leads());
+  s.hand.choose(LabHand::Source::drag);
+  const Vector3 goal(0.35, 0.4, 0.4);
+  run(3000, [&](long n) { s.hand.tip(goal, static_cast<double>(n)); });
+  const auto tip = *s.run->tip();
+  const auto tip_now = [&] {
+    return s.run->prepared().input.couplings->kvr(0).end().k.position(tip.first, tip.second);
+  };
+  // As near as the stylus' friction and the force that it feels let the soft arm come, magnified.
+  const Vector3 felt = s.run->frame(s.names).hand->force_W;
+  const double reach = s.hand.mapping().scale * (0.26 + felt.norm()) / ArmImpedance{}.stiffness;
+  CHECK((tip_now() - goal).head<2>().norm() < reach);
+  CHECK(felt.norm() <= OmniFigures{}.peak_force * 1.01);
+  s.hand.release();
+  const Vector3 let_go = tip_now();
+  run(300, nothing);
+  CHECK((tip_now() - let_go).norm() < 0.01);
+  s.hand.choose(LabHand::Source::joints);
+  s.hand.joint(0, -0.6, 1);
+  s.hand.joint(2, 0.3, 2);
+  run(2000, nothing);
+  CHECK(s.run->driven_q()[0] == doctest::Approx(-0.6));
+  CHECK(s.run->driven_q()[2] == doctest::Approx(0.3));
+  s.hand.choose(LabHand::Source::device, "virtual:synthetic:3");
+  run(1000, nothing);
+  CHECK(!s.run->scene_leads());
+  s.hand.choose(LabHand::Source::scene);
+  run(3000, nothing);
+  CHECK(s.run->scene_leads());
+  CHECK(farthest <= 20 * 0.001 * (1 + 1e-9));  // of the mapping; our own limit is below it
+  CHECK(farthest > 1e-4);
+}
+
+TEST_CASE("lab run: a frame between the choice of another hand and the next step is a good one") {
+  Session s(arm_with("device"));
+  s.hand.choose(LabHand::Source::drag);
+  s.step(20);
+  REQUIRE(s.run->frame(s.names).hand->leads);
+  const std::vector<double> q = s.run->driven_q();
+  s.hand.choose(LabHand::Source::joints);  // which has no device
+  CHECK(s.run->frame(s.names).hand->q_K == q);
+  s.hand.choose(LabHand::Source::device, "virtual:step");
+  const LabHandFrame frame = *s.run->frame(s.names).hand;
+  CHECK(frame.q_K == q);
+  CHECK(frame.torque == std::array<double, 3>{});
+}
+
+TEST_CASE("lab run: the gripper stays as it is where keys are released and another device comes") {
+  Session s(arm_with("device"));
+  s.hand.choose(LabHand::Source::drag);
+  s.hand.button(0, true, 1);
+  s.hand.axes({1, 0, 0, 0, 0, 0}, 1);
+  s.step(20);
+  CHECK(s.run->frame(s.names).hand->gripper_closed);
+  s.hand.release();
+  s.step(20);
+  CHECK(s.run->frame(s.names).hand->gripper_closed);
+  s.hand.choose(LabHand::Source::drag);
+  s.step(20);
+  CHECK(s.run->frame(s.names).hand->gripper_closed);
+  s.hand.button(0, false, 2);
+  s.step(20);
+  CHECK_FALSE(s.run->frame(s.names).hand->gripper_closed);
+}
+
+TEST_CASE("lab run: a body on the mouse is a damped oscillator, and both ledgers close") {
+  Session s(kFreeBox);
+  const Vector3 goal(0.1, -0.05, 1.2);
+  REQUIRE(s.run->pull(1, Vector3::Zero(), goal, 7));
+  const double m = 2, h = 0.001, k = m * MousePull::kOmega * MousePull::kOmega,
+               b = 2 * m * MousePull::kOmega;
+  Vector3 x(0, 0, 1), v = Vector3::Zero();
+  double worst = 0, closed_form = 0;
+  for (int n = 1; n <= 400; ++n) {
+    s.step(1);
+    v = (m * v + h * k * (goal - x)) / (m + h * b + h * h * k);  // backward Euler
+    x += h * v;
+    const Vector3 p = s.run->view().simulation().kinematics().X_WL[1].p;
+    worst = std::max(worst, (p - x).norm());
+    const double wt = MousePull::kOmega * n * h;
+    const Vector3 exact = goal + (1 + wt) * std::exp(-wt) * (Vector3(0, 0, 1) - goal);
+    closed_form = std::max(closed_form, (p - exact).norm());
+  }
+  CHECK(worst < 1e-12);
+  CHECK(closed_form < 0.02 * 0.23);  // of the way; an error of order w h = 0.015
+  CHECK(closed_form > 1e-5);
+  const SteppedRun& view = s.run->view();
+  const double energy = kinetic_energy(view.simulation().model(), view.simulation().state());
+  const auto rows = s.run->view().ledger();
+  CHECK(work_of(rows, "mouse") == doctest::Approx(energy).epsilon(1e-9));
+  CHECK(std::abs(work_of(rows, "numerical")) < 1e-9 * energy);
+  const auto momenta = s.run->view().momentum();
+  CHECK((momentum_of(momenta, "mouse").linear - m * v).norm() < 1e-9 * (m * v).norm());
+  CHECK(momentum_of(momenta, "numerical").linear.norm() < 1e-9 * (m * v).norm());
+  CHECK(momentum_of(momenta, "numerical").angular.norm() < 1e-9 * (m * v).norm());
+  CHECK(s.history.newest()->input_stamp == 7);
+}
+
+TEST_CASE(
+    "lab run: a mouse on a link is felt by the ground through the joint, and no force is too "
+    "large for a light body") {
+  Session s(arm_with("device"));
+  const Vector3 goal(0.3, 0.6, 0.5);
+  REQUIRE(s.run->pull(s.run->driven()[1], Vector3(0.35, 0, 0.1), goal, 1));
+  s.step(2000);
+  const auto momenta = s.run->view().momentum();
+  CHECK(momentum_of(momenta, "mouse").linear.norm() > 1);
+  // All rows together are the change of momentum, and what the integrator adds is little of it.
+  CHECK(momentum_of(momenta, "numerical").linear.norm() <
+        1e-3 * momentum_of(momenta, "mouse").linear.norm());
+  CHECK(!s.run->pull(0, Vector3::Zero(), goal, 1));  // the world does not move
+  CHECK(!s.run->pull(99, Vector3::Zero(), goal, 1));
+}
+
+TEST_CASE("lab run: bad changes are refused with all faults, and the run goes on as it was") {
+  Session s(arm_with("paper"));
+  s.step(10);
+  const LabFrame frame = s.run->frame(s.names);
+  try {
+    const LabRun other(s.scene,
+                       {{"step", "-1"}, {"coupling.one.stiffnes", "3"}, {"integrator", "rk5"}},
+                       s.hand, frame);
+    FAIL("it was taken");
+  } catch (const InputError& error) {
+    CHECK(error.faults().size() >= 2);
+  }
+  s.step(10);
+}
+
+TEST_CASE("lab run: a spring beyond its limit stops the run, and says which and what would hold") {
+  Session s(arm_with("paper"));
+  s.step(100);
+  const auto rows = s.run->view().ledger();
+  s.change({{"coupling.one.treatment", "explicit"}, {"coupling.one.stiffness", "3e7"}});
+  long n = 0;
+  while (s.run->step() && n < 2000) ++n;
+  const PostMortem* found = s.run->post_mortem(rows);
+  REQUIRE(found);
+  REQUIRE(!found->suspects.empty());
+  CHECK(found->suspects.front().name == "coupling 'one'");
+  CHECK(found->suspects.front().step > found->suspects.front().largest_step);
+  CHECK(!found->suspects.front().remedy.empty());
+  CHECK(found->words.size() >= 2);
+  CHECK(!found->row.empty());
+  CHECK(!s.run->step());
+}
+
+}  // namespace twinarm

@@ -1,0 +1,269 @@
+// The WebSocket: frames as RFC 6455 says, and newest-only messages that nobody can hold up.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "app/lab/server/mailboxes.h"
+#include "tests/app/lab/server/lab_host.h"
+
+using namespace twinarm;
+
+namespace {
+
+using Frame = RawClient::Frame;
+
+// A message that begins with its number.
+Bytes numbered(int number, std::size_t size) {
+  std::string text = std::to_string(number) + " ";
+  text.resize(size, 'x');
+  return bytes_of(std::move(text));
+}
+
+}  // namespace
+
+TEST_CASE("lab live: the handshake answers the key of RFC 6455's own example") {
+  LabHost lab;
+  RawClient client(lab.server.port());
+  const auto reply = client.ask(lab.upgrade(lab.cookie()));
+  CHECK(reply.status == 101);
+  CHECK(reply.field("Sec-WebSocket-Accept") == "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");
+  CHECK(reply.field("Sec-WebSocket-Extensions").empty());
+}
+
+TEST_CASE("lab live: text in pieces with a ping between is one message; pings are answered") {
+  LabHost lab;
+  RawClient client(lab.server.port());
+  const ClientId number = lab.open(client);
+  client.say(RawClient::frame(RawClient::kText, "h\xc3", false) +
+             RawClient::frame(RawClient::kPing, "are you there") +
+             RawClient::frame(0, "\xa9l", false) + RawClient::frame(0, "lo"));
+  const Frame pong = client.hear_message(), echo = client.hear_message();
+  CHECK(pong.opcode == RawClient::kPong);
+  CHECK(pong.payload == "are you there");
+  CHECK(echo.opcode == RawClient::kText);
+  CHECK(echo.payload == "you said h\xc3\xa9llo");
+  // Lengths at which the form of a frame changes.
+  for (const std::size_t size : {0, 1, 125, 126, 127, 65535, 65536}) {
+    const std::string text(size, 't');
+    REQUIRE(client.say_frame(RawClient::kText, text));
+    CHECK(client.hear_message().payload == "you said " + text);
+  }
+  CHECK(lab.server.traffic(number).received == 8);
+  client.say_frame(RawClient::kClose,
+                   "\x03\xe8"
+                   "bye");
+  CHECK(client.hear_close() == 1000);
+  CHECK(client.hear_end());
+  CHECK(comes_true([&] { return lab.closed == number; }));
+  CHECK(lab.server.traffic(number).received == 0);  // forgotten
+}
+
+TEST_CASE("lab live: what RFC 6455 forbids ends that connection with its code, and no other") {
+  LabHost lab;
+  RawClient good(lab.server.port());
+  lab.open(good);
+  const auto code = [&](const std::string& bytes) {
+    RawClient client(lab.server.port());
+    lab.open(client);
+    client.say(bytes);
+    return client.hear_close();
+  };
+  using Raw = RawClient;
+  CHECK(code(Raw::frame(Raw::kText, "\xff\xfe")) == 1007);            // not UTF-8
+  CHECK(code(Raw::frame(Raw::kText, "\xed\xa0\x80")) == 1007);        // a surrogate
+  CHECK(code(Raw::frame(Raw::kBinary, "abc")) == 1003);               // text only
+  CHECK(code(Raw::frame(Raw::kText, "plain", true, false)) == 1002);  // not masked
+  CHECK(code(Raw::frame(3, "reserved")) == 1002);
+  CHECK(code(Raw::frame(0, "goes on from nothing")) == 1002);
+  CHECK(code(Raw::frame(Raw::kPing, "in pieces", false)) == 1002);
+  CHECK(code(Raw::frame(Raw::kPing, std::string(126, 'p'))) == 1002);
+  CHECK(code(Raw::frame(Raw::kText, std::string((64 << 10) + 1, 'b'))) == 1009);  // too big
+  // Too big in pieces: told before the last has come.
+  std::string pieces = Raw::frame(Raw::kText, std::string(40000, 'b'), false);
+  CHECK(code(pieces + Raw::frame(0, std::string(40000, 'b'), false)) == 1009);
+  // A length of 2^62: told before it is waited for.
+  CHECK(code(std::string("\x81\xff\x40\0\0\0\0\0\0\0mask", 14)) == 1009);
+  good.say_frame(Raw::kText, "still here");
+  CHECK(good.hear_message().payload == "you said still here");
+  CHECK(comes_true([&] { return lab.closed == 11; }));
+  // Who stays on the line after that is hung up on.
+  RawClient stays(lab.server.port());
+  lab.open(stays);
+  stays.say(Raw::frame(Raw::kText, "plain", true, false));
+  CHECK(comes_true([&] { return lab.closed == 12; }));
+}
+
+TEST_CASE("lab live: a client that reads gets every message while another does not read at all") {
+  LabHost lab;
+  RawClient reads(lab.server.port()), stalled(lab.server.port());
+  const ClientId reader = lab.open(reads), staller = lab.open(stalled);
+  constexpr int kMessages = 400;
+  constexpr std::size_t kSize = 200000;
+  double memory = 0;
+  for (int n = 0; n < kMessages; ++n) {
+    lab.server.send_all(2, numbered(n, kSize), true);
+    const Frame frame = reads.hear_message();
+    REQUIRE(frame.opcode == RawClient::kBinary);
+    REQUIRE(std::stoi(frame.payload) == n);
+    REQUIRE(frame.payload.size() == kSize);
+    if (n == 40) memory = resident_memory();
+  }
+  CHECK(lab.server.traffic(reader).sent == kMessages);
+  CHECK(lab.server.traffic(reader).replaced == 0);
+  const LabServer::Traffic traffic = lab.server.traffic(staller);
+  CHECK(traffic.sent <= 5);
+  CHECK(traffic.sent + traffic.replaced + 1 >= kMessages);
+  // 72 MB have been made since; what waits is one message.
+  if (kMemoryTells) CHECK(resident_memory() - memory < 4);
+  // And when it reads again: what was on its way, in order, and then the newest.
+  int last = -1;
+  while (last < kMessages - 1) {
+    const Frame frame = stalled.hear_message();
+    REQUIRE(frame.opcode == RawClient::kBinary);
+    REQUIRE(std::stoi(frame.payload) > last);
+    last = std::stoi(frame.payload);
+  }
+  CHECK(lab.server.traffic(staller).sent <= 6);
+}
+
+TEST_CASE("lab live: faster than anybody reads, messages come in order, and the newest always") {
+  LabHost lab;
+  RawClient client(lab.server.port());
+  const ClientId number = lab.open(client);
+  constexpr int kMessages = 20000;
+  std::thread sender([&] {
+    for (int n = 0; n < kMessages; ++n) {
+      lab.server.send(number, 2, numbered(n, 100), true);
+      lab.server.send(number, 1, numbered(n, 100), false);
+    }
+  });
+  int last_text = -1, last_binary = -1, heard = 0;
+  bool in_order = true;
+  for (; last_text < kMessages - 1 || last_binary < kMessages - 1; ++heard) {
+    const Frame frame = client.hear_message();
+    if (frame.opcode == -1) break;
+    int& last = frame.opcode == RawClient::kText ? last_text : last_binary;
+    const int now = std::stoi(frame.payload);
+    in_order = in_order && now > last;
+    last = now;
+  }
+  sender.join();
+  CHECK(in_order);
+  CHECK(last_text == kMessages - 1);
+  CHECK(last_binary == kMessages - 1);
+  const LabServer::Traffic traffic = lab.server.traffic(number);
+  CHECK(traffic.sent == static_cast<std::uint64_t>(heard));
+  CHECK(traffic.sent + traffic.replaced == 2 * kMessages);
+}
+
+TEST_CASE(
+    "lab live: of places that are always full, each gets its turn, and the first channel goes "
+    "first") {
+  Mailboxes boxes;
+  boxes.open(1);
+  CHECK(boxes.put(1, 3, {bytes_of("c"), true}));
+  CHECK_FALSE(boxes.put(1, 1, {bytes_of("a"), true}));  // has been woken
+  boxes.put(1, 2, {bytes_of("b"), true});
+  boxes.awake();
+  std::string order;
+  for (int n = 0; n < 9; ++n) {
+    const std::string taken = *boxes.take(1)->bytes;
+    order += taken;
+    // A newer one at every place, whoever was taken.
+    for (int channel = 1; channel <= 3; ++channel)
+      boxes.put(1, channel, {bytes_of(std::string(1, static_cast<char>('a' + channel - 1))), true});
+  }
+  CHECK(order.substr(0, 3) == "cab");
+  for (const char channel : {'a', 'b', 'c'})
+    CHECK(std::count(order.begin(), order.end(), channel) == 3);
+  boxes.put(1, 0, {bytes_of("first"), false});
+  CHECK(*boxes.take(1)->bytes == "first");
+  CHECK_FALSE(boxes.put(2, 0, {bytes_of("to nobody"), false}));
+  CHECK_FALSE(boxes.take(2));
+}
+
+TEST_CASE(
+    "lab live: a client that takes nothing is dropped after a while; one that is idle is kept") {
+  ServerOptions options;
+  options.patience = 1;
+  LabHost lab(options);
+  RawClient stalled(lab.server.port()), idle(lab.server.port());
+  lab.open(stalled);
+  const ClientId kept = lab.open(idle);
+  const auto start = std::chrono::steady_clock::now();
+  lab.server.send(1, 2, bytes_of("nobody hears this"), false);
+  // Pings come in silence; who answers is there.
+  std::atomic<bool> stop{false};
+  int pings = 0;
+  std::thread answers([&] {
+    while (!stop) {
+      const Frame frame = idle.hear_frame();
+      if (frame.opcode != RawClient::kPing) return;
+      ++pings;
+      idle.say_frame(RawClient::kPong, frame.payload);
+    }
+  });
+  CHECK(comes_true([&] { return lab.closed == 1; }));
+  CHECK(std::chrono::steady_clock::now() - start > std::chrono::milliseconds(999));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  CHECK(lab.closed == 1);
+  stop = true;
+  lab.server.send(kept, 2, bytes_of("wake up"), false);
+  answers.join();
+  CHECK(pings >= 3);
+}
+
+TEST_CASE("lab live: there is an end to clients, and place again when one leaves") {
+  LabHost lab;
+  std::vector<std::unique_ptr<RawClient>> clients;
+  for (int n = 0; n < 32; ++n) {
+    clients.push_back(std::make_unique<RawClient>(lab.server.port()));
+    lab.open(*clients.back());
+  }
+  const auto refused = RawClient(lab.server.port()).ask(lab.upgrade(lab.cookie()));
+  CHECK(refused.status == 503);
+  CHECK(refused.body.find("32 pages are open") != std::string::npos);
+  CHECK(lab.is_alive());  // requests go on
+  clients.pop_back();
+  CHECK(comes_true([&] { return lab.closed == 1; }));
+  RawClient next(lab.server.port());
+  lab.open(next);
+  lab.server.send_all(2, bytes_of("all"), false);
+  CHECK(next.hear_message().payload == "all");
+  for (const auto& client : clients) CHECK(client->hear_message().payload == "all");
+}
+
+TEST_CASE("lab live: who floods is told so and dropped; the others notice nothing") {
+  ServerOptions options;
+  options.messages_per_second = 100;
+  LabHost lab(options);
+  for (const int opcode : {RawClient::kText, RawClient::kPing, RawClient::kPong}) {
+    RawClient floods(lab.server.port()), other(lab.server.port());
+    const ClientId number = lab.open(floods);
+    lab.open(other);
+    std::string flood;
+    for (int n = 0; n < 3000; ++n) flood += RawClient::frame(opcode, "flood");
+    floods.say(flood);
+    std::string why;
+    CHECK(floods.hear_close(&why) == 1008);
+    CHECK(why == "more than 100 messages a second");
+    CHECK(comes_true([&] { return lab.server.traffic(number).sent == 0 && lab.closed > 0; }));
+    other.say_frame(RawClient::kText, "x");
+    CHECK(other.hear_message().payload == "you said x");
+  }
+}
+
+TEST_CASE("lab live: the server ends with clients of all kinds open") {
+  std::vector<std::unique_ptr<RawClient>> clients;
+  {
+    LabHost lab;
+    for (int n = 0; n < 12; ++n) {
+      clients.push_back(std::make_unique<RawClient>(lab.server.port()));
+      if (n % 3 == 0) clients.back()->say("GET / HT");
+      if (n % 3 == 1) lab.open(*clients.back());
+    }
+    for (int n = 0; n < 50; ++n) lab.server.send_all(2, numbered(n, 1 << 20), true);
+  }
+  for (const auto& client : clients) CHECK(client->hear_end());
+}

@@ -1,0 +1,76 @@
+// The parts of the lab's session by themselves, without a thread that steps.
+#include <doctest/doctest.h>
+
+#include "app/lab/session/session_state.h"
+#include "tests/app/lab/run/helpers.h"
+#include "tests/app/lab/session/built_scene.h"
+
+namespace twinarm {
+namespace {
+
+LabFrame frame_at(long step) {
+  LabFrame frame;
+  frame.recorded.step = step;
+  frame.recorded.t = 0.01 * static_cast<double>(step);
+  return frame;
+}
+
+LabInput input_at(long step) {
+  LabInput input;
+  input.step = step;
+  input.pull = PullInput{};  // one without is not remembered
+  input.stamp = static_cast<double>(step);
+  return input;
+}
+
+TEST_CASE("session parts: a branch knows the inputs that came after its start, until the last") {
+  Timeline timeline(LabHistory::kMostBytes);
+  timeline.begin(std::make_shared<const Built>(built_from(kSlowlyDriven)), {});
+  for (long step = 1; step <= 5; ++step) {
+    timeline.add(frame_at(step), {});
+    timeline.add(input_at(step));
+  }
+  const Timeline::Frame from = timeline.branch(0.03);
+  REQUIRE(from);
+  CHECK(from->recorded.step == 3);
+  CHECK(timeline.view({}).last == doctest::Approx(0.03));
+  CHECK(timeline.known_input(3).goes_on);
+  CHECK(timeline.known_input(4).input.stamp == 4);
+  CHECK(timeline.known_input(4).goes_on);
+  CHECK(timeline.known_input(5).input.stamp == 5);
+  CHECK_FALSE(timeline.known_input(5).goes_on);
+  CHECK(timeline.known_input(6).input.stamp == 0);
+}
+
+TEST_CASE("session parts: an instant before what is remembered begins no branch") {
+  Timeline timeline(LabHistory::kMostBytes);
+  timeline.begin(std::make_shared<const Built>(built_from(kSlowlyDriven)), {});
+  CHECK(timeline.branch(0) == nullptr);
+  timeline.add(frame_at(7), {});
+  CHECK(timeline.branch(0.05) == nullptr);
+  CHECK(timeline.branch(0.07) != nullptr);
+}
+
+TEST_CASE("session parts: of commands that nobody takes, the inbox keeps the first 4096") {
+  Inbox inbox;
+  for (long n = 0; n < 5000; ++n) {
+    LabCommand command;
+    command.count = n;
+    inbox.push(command);
+  }
+  const Inbox::Contents contents = inbox.take();
+  REQUIRE(contents.commands.size() == 4096);
+  CHECK(contents.commands.back().count == 4095);
+  CHECK(inbox.take().commands.empty());
+}
+
+TEST_CASE("session parts: changes are pending until a number that is at least theirs is finished") {
+  PendingChanges pending;
+  for (int n = 0; n < 3; ++n) pending.add({});
+  pending.finish(2);
+  REQUIRE(pending.all().size() == 1);
+  CHECK(pending.all().front().number == 3);
+}
+
+}  // namespace
+}  // namespace twinarm

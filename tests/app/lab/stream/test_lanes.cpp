@@ -1,0 +1,319 @@
+// Runs side by side: each is the run that it would be alone, whatever the others do, and they are
+// remembered together.
+#include "app/lab/run/variants.h"
+
+#include <numbers>
+
+#include "app/film/shown_instant.h"
+#include "app/lab/stream/lab_view.h"
+#include "tests/app/lab/run/helpers.h"
+#include "tests/app/lab/stream/frame_reader.h"
+
+namespace twinarm {
+namespace {
+
+LabScene swinging() {
+  SimulateOptions options;
+  options.robot.model = fs::path(TWINARM_SOURCE_DIR) / "assets/scenes/six_integrators.toml";
+  return LabScene(options);
+}
+
+// Held by an explicit spring, which gains energy from 3.96e6 N m/rad on: slowly at 4e6.
+const char* const kRod = R"(
+step = 0.001
+duration = 1
+[[robot]]
+name = "rod"
+model = "robots/teaching/pendulum.urdf"
+q = { hinge = 0.7 }
+collide = false
+[[coupling]]
+name = "pull"
+type = "torsional"
+measure = "joint"
+link = "bob"
+stiffness = 2000
+damping = 20
+treatment = "explicit"
+target = "device"
+)";
+const LaneSet kOneExplodes{"coupling.stiffness", {"2000", "4e6", "500"}, {}};
+
+// A run with its lanes, as the session has them, and what is remembered: a frame each 4 steps.
+struct SideBySide {
+  SideBySide(const LabScene& of, LaneSet lanes, std::vector<Change> with = {})
+      : scene(of), set(std::move(lanes)), changes(std::move(with)) {
+    begin(nullptr);
+  }
+  std::vector<Change> changes_of(std::size_t lane) const {
+    std::vector<Change> own = changes;
+    put(own, set.change(lane));
+    return own;
+  }
+  void begin(const LabFrame* from) {
+    std::vector<std::unique_ptr<LabScene::Plan>> plans;
+    for (std::size_t lane = 1; lane < set.values.size(); ++lane)
+      plans.push_back(scene.plan(changes_of(lane)));
+    run = std::make_unique<LabRun>(scene.plan(changes_of(0)), hand, from);
+    others = LabLanes(set, std::move(plans), from, names);
+    if (from) run->keep_books(*from, names);
+    history.begin_segment(changes_of(0));
+    history.add(frame());
+  }
+  LabFrame frame() {
+    LabFrame made = run->frame(names);
+    others.add_to(made, names);
+    return made;
+  }
+  void step(long steps, const LabHistory* again = nullptr) {
+    for (long n = 0; n < steps; ++n) {
+      const LabInput* input = again ? again->input(run->step_count() + 1) : nullptr;
+      REQUIRE((again ? run->step(input ? *input : LabInput{}) : run->step()));
+      others.follow(*run);
+      history.add(run->input());
+      if (run->step_count() % 4 == 0) history.add(frame());
+    }
+  }
+  const LabFrame& lane(std::size_t n) const { return *history.newest()->lanes[n - 1].frame; }
+
+  const LabScene& scene;
+  LaneSet set;
+  std::vector<Change> changes;
+  LabHand hand;
+  LabNames names;
+  LabHistory history;
+  std::unique_ptr<LabRun> run;
+  LabLanes others;
+};
+
+// All that the next step reads.
+void check_same_state(const LabFrame& one, const LabFrame& other) {
+  CHECK(one.recorded.t == other.recorded.t);
+  CHECK(one.recorded.step == other.recorded.step);
+  CHECK(one.recorded.memory == other.recorded.memory);
+}
+// And the books.
+void check_same(const LabFrame& one, const LabFrame& other) {
+  check_same_state(one, other);
+  CHECK(one.recorded.works == other.recorded.works);
+}
+
+// The same to rounding: a branch begins its sums at its own instant.
+void check_books(const LabFrame& one, const LabFrame& other) {
+  REQUIRE(one.recorded.works.size() == other.recorded.works.size());
+  for (std::size_t k = 0; k < one.recorded.works.size(); ++k)
+    CHECK(one.recorded.works[k] == doctest::Approx(other.recorded.works[k]).epsilon(1e-9));
+}
+
+// The scene with one lane's changes, alone, up to that step.
+LabFrame alone(SideBySide& s, std::size_t lane, long steps) {
+  LabHand nobody;
+  LabRun run(s.scene, s.changes_of(lane), nobody);
+  while (run.step_count() < steps) REQUIRE(run.step());
+  return run.frame(s.names);
+}
+
+const LaneSet kSix{
+    "integrator", {"semi-implicit", "euler", "implicit-euler", "verlet", "rk4", "midpoint"}, {}};
+
+}  // namespace
+
+TEST_CASE("lanes: each repeats bit for bit what the scene does alone with its value") {
+  const LabScene scene = swinging();
+  SideBySide s(scene, kSix);
+  s.step(640);
+  for (std::size_t lane = 1; lane < 6; ++lane) {
+    CAPTURE(kSix.values[lane]);
+    check_same(s.lane(lane), alone(s, lane, 640));
+    CHECK(s.lane(lane).recorded.memory != s.history.newest()->recorded.memory);
+  }
+  check_same(*s.history.newest(), alone(s, 0, 640));
+}
+
+TEST_CASE("lanes: of other steps each keeps to the run's clock within half a step of its own") {
+  const LabScene scene = swinging();
+  SideBySide s(scene, {"step", {"0.02", "0.0007", "0.05"}, {}});
+  for (int n = 0; n < 20; ++n) {
+    s.step(16);
+    CHECK(std::abs(s.lane(1).recorded.t - s.run->time()) <= 0.5 * 0.0007 + 1e-12);
+    CHECK(std::abs(s.lane(2).recorded.t - s.run->time()) <= 0.5 * 0.05 + 1e-12);
+  }
+  for (std::size_t lane = 1; lane < 3; ++lane)
+    check_same(s.lane(lane), alone(s, lane, s.lane(lane).recorded.step));
+}
+
+// A hand that goes at its fastest from 0.7 rad on: in a step that begins at t it is at
+// 0.7 + kFastest (t + h), h the run's. A lane whose last step began later has gone on with it.
+TEST_CASE("lanes: of shorter steps they see a hand that moves where it is in each of them") {
+  const LabScene scene = lab_scene(kRod);
+  constexpr double h = 0.004, begin = 0.7;
+  SideBySide s(scene, {"step", {"0.004", "0.002", "0.001"}, {}});
+  s.hand.choose(LabHand::Source::joints);
+  s.hand.joint(0, 100, 0);
+  s.step(16);
+  for (std::size_t lane = 0; lane < 3; ++lane) {
+    const LabFrame& own = lane == 0 ? *s.history.newest() : s.lane(lane);
+    const double last_began = 16 * h - h / std::pow(2, lane);
+    CHECK(own.hand->q_K[0] ==
+          doctest::Approx(begin + LabHand::kFastest * (last_began + h)).epsilon(1e-12));
+  }
+}
+
+// Two lanes of the same value must be the same run, whoever moves it.
+TEST_CASE("lanes: hand and mouse do to all what they do to the first") {
+  const LabScene scene = lab_scene(arm_with("device"));
+  SideBySide s(scene, {"coupling.stiffness", {"700", "700", "4000"}, {}});
+  s.hand.choose(LabHand::Source::drag);
+  const Vector3 tip = s.run->prepared().input.couplings->kvr(0).start().k.position(
+      s.run->tip()->first, s.run->tip()->second);
+  for (int n = 0; n < 40; ++n) {
+    s.hand.tip(tip + Vector3(-0.1 * std::sin(0.1 * n), 0.2 * std::sin(0.2 * n), 0), n);
+    if (n == 20) REQUIRE(s.run->pull(s.run->driven().back(), Vector3::Zero(), tip, n));
+    if (n == 30) s.run->drop();
+    s.step(16);
+    check_same(s.lane(1), *s.history.newest());
+    CHECK(s.lane(1).hand->q_K == s.history.newest()->hand->q_K);
+    CHECK(s.lane(2).hand->q_K == s.history.newest()->hand->q_K);
+  }
+  CHECK(s.lane(2).recorded.memory != s.lane(1).recorded.memory);
+}
+
+TEST_CASE("lanes: one that explodes stays where it was, and the others are as they would be") {
+  const LabScene scene = lab_scene(kRod);
+  SideBySide s(scene, kOneExplodes);
+  CHECK(s.others.take_words().empty());
+  s.step(640);
+  const std::vector<std::string> words = s.others.take_words();
+  REQUIRE(words.size() == 1);
+  CHECK(words[0].find("the lane 4e6 stopped at") == 0);
+  CHECK(s.others.take_words().empty());
+  const LaneFrame dead = s.history.newest()->lanes[0];
+  CHECK(dead.stopped);
+  CHECK(dead.frame->recorded.t < 0.5);
+  CHECK(std::isfinite(dead.frame->recorded.values[0]));
+  CHECK_FALSE(s.history.newest()->lanes[1].stopped);
+  check_same(s.lane(2), alone(s, 2, 640));
+  check_same(*s.history.newest(), alone(s, 0, 640));
+  s.step(160);
+  CHECK(s.history.newest()->lanes[0].frame == dead.frame);  // it costs nothing any more
+}
+
+TEST_CASE("lanes: going back and on again repeats them all, the one that explodes too") {
+  const LabScene scene = lab_scene(kRod);
+  SideBySide s(scene, kOneExplodes);
+  s.hand.choose(LabHand::Source::joints);
+  for (int n = 0; n < 40; ++n) {
+    s.hand.joint(0, 0.3 * std::sin(0.2 * n), n);
+    s.step(16);
+  }
+  REQUIRE(s.history.newest()->lanes[0].stopped);
+  std::size_t first_dead = 0;
+  while (!s.history.frame(first_dead)->lanes[0].stopped) ++first_dead;
+  REQUIRE(first_dead > 1);
+  for (const std::size_t from : {first_dead - 1, first_dead + 5}) {
+    const LabHistory left = s.history.cut(from);
+    s.begin(left.frame(0).get());
+    CHECK(s.history.size() == from + 1);
+    s.step(left.newest()->recorded.step - left.frame(0)->recorded.step, &left);
+    REQUIRE(s.history.size() == from + left.size());
+    for (std::size_t n = 0; n < left.size(); ++n) {
+      const LabFrame &was = *left.frame(n), &is = *s.history.frame(from + n);
+      check_same_state(is, was);
+      check_books(is, was);
+      for (std::size_t lane = 0; lane < 2; ++lane) {
+        CHECK(is.lanes[lane].stopped == was.lanes[lane].stopped);
+        check_same_state(*is.lanes[lane].frame, *was.lanes[lane].frame);
+        check_books(*is.lanes[lane].frame, *was.lanes[lane].frame);
+      }
+    }
+  }
+}
+
+TEST_CASE("lanes: what is remembered of them stays within the bound of bytes") {
+  const LabScene scene = swinging();
+  SideBySide s(scene, kSix), single(scene, {"integrator", {"semi-implicit"}, {}});
+  s.history = LabHistory(100000);
+  single.history = LabHistory(100000);
+  for (SideBySide* one : {&s, &single}) {
+    one->history.begin_segment({});
+    one->step(3000);
+  }
+  std::size_t memory = 0;
+  for (std::size_t n = 0; n < s.history.size(); ++n) {
+    memory += s.history.frame(n)->recorded.memory.size();
+    for (const LaneFrame& lane : s.history.frame(n)->lanes)
+      memory += lane.frame->recorded.memory.size() + sizeof(LabFrame);
+  }
+  CHECK(memory < s.history.bytes());
+  CHECK(s.history.bytes() <= 100000);
+  CHECK(s.history.bytes() > 80000);
+  CHECK(single.history.size() > 4 * s.history.size());
+}
+
+TEST_CASE("lanes: a view shows each in its place, and says its joints and energies by name") {
+  const LabScene scene = swinging();
+  SideBySide s(scene, {"integrator", {"semi-implicit", "euler", "rk4"}, Vector3(0, 0.5, 0)});
+  s.step(160);
+  const auto shared = [&](std::size_t lane) {
+    const std::shared_ptr<const LabScene::Plan> plan = scene.plan(s.changes_of(lane));
+    return std::shared_ptr<const SimulatePlan>(plan, &plan->prepared);
+  };
+  LabView view(1, shared(0), scene.header(s.changes_of(0), {}), {},
+               {s.set, {shared(1), shared(2)}});
+  view.name_rows(s.names.rows);
+  const auto channels = texts_in(view.scene_message(), "channels", "name");
+  const auto value = [&](const ReadFrame& of, const std::string& name) {
+    const auto found = std::find(channels.begin(), channels.end(), name);
+    REQUIRE_MESSAGE(found != channels.end(), name);
+    return of.channels[static_cast<std::size_t>(found - channels.begin())];
+  };
+  LabFrame frame = s.frame();
+  const ReadFrame read(view.frame(frame, nullptr, {}, {}));
+  REQUIRE(read.instances() == 9);  // hook, rod and ball of each
+  // 1 kg at 1 m below a hinge at 1.2 m; 2/5 m r^2 about its own middle; energies about the hinge.
+  const double start = -9.81 * std::cos(std::numbers::pi / 3), hinge = 9.81 * 1.2;
+  for (std::size_t lane = 0; lane < 3; ++lane) {
+    CAPTURE(lane);
+    const std::string& name = s.set.values[lane];
+    const LabFrame& own = lane == 0 ? frame : *frame.lanes[lane - 1].frame;
+    const State<double> x = instant_of(own.recorded, scene.plan()->prepared.input.robot.model).x;
+    const double energy = 0.5 * 1.00144 * x.qd[0] * x.qd[0] - 9.81 * std::cos(x.q[0]);
+    CHECK(value(read, "lane/q/hinge/" + name) == x.q[0]);
+    CHECK(value(read, "lane/total_energy/" + name) ==
+          doctest::Approx(hinge + energy).epsilon(1e-9));
+    CHECK(value(read, "lane/numerical/" + name) ==
+          doctest::Approx(energy - start).epsilon(1e-9).scale(1));
+    const std::size_t ball = 3 * lane + 2;
+    CHECK(std::abs(read.position[3 * ball]) == doctest::Approx(std::abs(std::sin(x.q[0]))));
+    CHECK(read.position[3 * ball + 1] == doctest::Approx(0.5 * static_cast<double>(lane)));
+    CHECK(read.position[3 * ball + 2] == doctest::Approx(1.2 - std::cos(x.q[0])));
+    CHECK((read.body[ball] == 65535) == (lane > 0));  // who is clicked at is the first
+  }
+  CHECK(read.text ==
+        "semi-implicit"
+        "euler"
+        "rk4");
+  frame.lanes[0].stopped = true;
+  const ReadFrame after(view.frame(frame, nullptr, {}, {}));
+  CHECK(after.labels_of(0) ==
+        std::vector<std::string>{"semi-implicit", "euler: stopped at 3.2 s", "rk4"});
+  CHECK(after.position == read.position);
+  CHECK(std::isnan(value(after, "lane/total_energy/euler")));
+}
+
+TEST_CASE("lanes: what names no lanes is refused with what to write") {
+  CHECK(parse_lanes("integrator=semi-implicit,rk4").values ==
+        std::vector<std::string>{"semi-implicit", "rk4"});
+  CHECK(parse_lanes("body.position=[0,0,1],[0,0,2]").values ==
+        std::vector<std::string>{"[0,0,1]", "[0,0,2]"});
+  for (const char* text : {"", "integrator", "integrator=rk4", "=a,b", "step=0.1,", "step=1,2,1",
+                           "step=1,2,3,4,5,6,7,8"}) {
+    CAPTURE(text);
+    const std::vector<Fault> faults = faults_of([&] { parse_lanes(text); });
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].where == std::string("--lanes ") + text);
+    CHECK_FALSE(faults[0].remedy.empty());
+  }
+}
+
+}  // namespace twinarm

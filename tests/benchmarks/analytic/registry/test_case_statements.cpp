@@ -1,0 +1,30 @@
+// What the cases say of themselves, for people.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "benchmarks/analytic/registry/analytic_cases.h"
+#include "benchmarks/analytic/registry/case_sources.h"
+
+using namespace twinarm;
+
+TEST_CASE("cases: every one says what is known of it, with a formula") {
+  for (const AnalyticCase& c : analytic_cases()) {
+    CAPTURE(std::string(c.name));
+    REQUIRE(c.statement != nullptr);
+    const std::string statement = c.statement;
+    const std::size_t open = statement.find("<p>"), close = statement.find("</p>");
+    CHECK(open != std::string::npos);
+    CHECK(close != std::string::npos);
+    CHECK(open + 4 < close);
+    CHECK(statement.size() > 20);
+  }
+}
+
+TEST_CASE("cases: the files that a page quotes are those of this folder") {
+  bool found = false;
+  for (const CaseSource& source : case_sources())
+    found |= source.file == "joints/pendulum.cpp" &&
+             source.text.find("TrajectoryCase swing_time()") != std::string_view::npos;
+  CHECK(found);
+}

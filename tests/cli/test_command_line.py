@@ -1,0 +1,274 @@
+#!/usr/bin/env python3
+"""The command line as people and programs meet it: help, exit codes, all faults at once, Ctrl-C.
+
+    test_command_line.py PATH/TO/twinarm
+"""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from waiting import TIMEOUT, processor_time, processor_time_of_ended, wait_for_work  # noqa: E402
+
+PROGRAM = ""
+ASSETS = pathlib.Path(__file__).resolve().parents[2] / "assets"
+HEADER = "t[s],theta1[rad],theta2[rad],theta3[rad],theta4[rad],theta5[rad],theta6[rad]\n"
+
+
+def run(*arguments, timeout=TIMEOUT):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=timeout, cwd=ASSETS.parent)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="twinarm-cli-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def refused(self, result, *words):
+        """Exit code 2 and every one of the words on stderr."""
+        self.assertEqual(result.returncode, 2, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def written(self):
+        return sorted(str(p.relative_to(self.folder)) for p in self.folder.rglob("*")
+                      if p.is_file())
+
+    def trace(self, content):
+        file = self.folder / "hand.csv"
+        file.write_text(content, encoding="utf-8")
+        return file
+
+    def copy_of_assets(self):
+        """All but the meshes to look at, which are large and come after what is tested here."""
+        copy = self.folder / "assets"
+        shutil.copytree(ASSETS, copy, ignore=shutil.ignore_patterns("cad"))
+        return copy
+
+    # The whole study
+
+    def test_a_study_gives_its_json_its_report_and_the_numbers_that_it_must_reach(self):
+        out = self.folder / "new" / "study"
+        trace = ASSETS / "traces" / "synthetic_seed1.csv"
+        result = run("study", "--out", out, "--trace", trace, "--json", timeout=3000)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        study = json.loads(result.stdout)
+        published = {"E3": (16.6, 23.5, 8.6, 5.2), "E4": (3.4, 6.0, 0.3, 0.6)}
+        for name, numbers in published.items():
+            run_ = study["runs"][name]
+            measured = (*run_["max_deg"].values(), *run_["mean_deg"].values())
+            for value, number in zip(measured, numbers):
+                self.assertLess(abs(value / number - 1), 0.15, name)
+            self.assertEqual(set(run_["gains"]) & {"k1", "b1"}, {"k1", "b1"})
+        for obstacle in study["obstacle"]:
+            self.assertLess(obstacle["largest_penetration"], 0.5e-3)
+            self.assertGreater(obstacle["largest_beyond"], 50e-3)
+        names = {variant["name"] for variant in study["variants"]}
+        self.assertLessEqual({"trial/printed-linear/60", "held/printed-linear/60-held",
+                              "implicit/linear/1000", "ablation/folded"}, names)
+        self.assertEqual(len(study["answer"]), 5)
+        self.assertGreaterEqual(len(study["left_open"]), 16)
+        for fit in study["left_open"]:  # what is said of a fit follows from its four numbers
+            numbers = [fit["numbers"][f"{kind}{joint}_deg"]
+                       for kind in ("max", "mean") for joint in (1, 2)]
+            misfit = max(abs(value - number) / 0.05
+                         for value, number in zip(numbers, published[fit["row"]]))
+            self.assertAlmostEqual(fit["misfit"], misfit, delta=1e-9 * misfit, msg=fit)
+            if len(fit["parameters"]) == 5:  # of which four numbers cannot hold a combination
+                self.assertEqual(fit["singular_values"][-1], 0)
+            for parameter in fit["parameters"]:
+                self.assertLessEqual(parameter["low"], parameter["value"] * (1 + 1e-12))
+                self.assertGreaterEqual(parameter["high"], parameter["value"] * (1 - 1e-12))
+        report = pathlib.Path(study["report"]).read_text(encoding="utf-8")
+        for outside in ("src=\"http", "href=\"http", "@import", "<script src"):
+            self.assertNotIn(outside, report)
+        self.assertEqual(report.count("<svg"), 11)
+        self.assertEqual(report.count("data:image/png;base64"), 5)
+        self.assertEqual([f for f in self.written() if f.endswith(".tmp")], [])
+        self.check_recordings({run_["name"]: run_ for run_ in study["recordings"]})
+
+    def check_recordings(self, made):
+        """Scenes that run the study's own laws, and what the other commands make of them."""
+        self.assertEqual(list(made), ["E1", "E2", "E3", "E4", "obstacle_linear",
+                                      "obstacle_torsional"])
+        for name in ("E1", "E2", "E3", "E4"):  # two programs' ways to the same numbers
+            self.assertLess(made[name]["apart_deg"], 1e-9, name)
+        for run_ in made.values():
+            again = run("replay", run_["recording"], "--json", timeout=TIMEOUT)
+            self.assertEqual(again.returncode, 0, run_["name"] + again.stderr)
+            if run_["page"]:
+                self.assertLess(pathlib.Path(run_["page"]).stat().st_size, 5e6)
+        checks = json.loads(run("inspect", made["E3"]["recording"], "--at", 1, "--json",
+                                timeout=TIMEOUT).stdout)
+        self.assertTrue(all(check["pass"] for check in checks["checks"]))
+        sources = {w["source"] for body in checks["balance"] for w in body["wrenches"]}
+        self.assertIn("coupling/pull_joint1", sources)
+        picture = self.folder / "both.png"
+        done = run("render", made["E3"]["recording"], "--beside", made["E4"]["recording"], "--png",
+                   picture, "--plot", "lag", "--size", "320x200", timeout=TIMEOUT)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(picture.exists())
+
+    # Help
+
+    def commands(self):
+        lines = run("--help").stdout.split("Subcommands:")[1].splitlines()
+        return [line.split()[0] for line in lines if line.startswith("  ") and line[2] != " "]
+
+    def test_help_of_the_program_and_of_every_command_ends_with_0_and_shows_an_example(self):
+        self.assertGreaterEqual(len(self.commands()), 3)
+        for command in [[], *([c] for c in self.commands())]:
+            result = run(*command, "--help")
+            self.assertEqual(result.returncode, 0)
+            self.assertIn("Example:  twinarm", result.stdout)
+            self.assertEqual(result.stderr, "")
+
+    # Bad options
+
+    def test_an_unknown_option_or_value_ends_with_2_and_is_named(self):
+        for arguments, named in ((["study", "--speed", "3"], "--speed"),
+                                 (["study", "--device", "mouse"], "mouse"),
+                                 (["study", "--seed", "many"], "many"),
+                                 (["trace", "--out", "/tmp/x.csv", "--rate", "-5"], "--rate"),
+                                 (["fly"], "'fly'"), (["simulat"], "'simulate'")):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertIn(named, result.stderr)
+
+    def test_no_command_or_a_missing_required_option_ends_with_2(self):
+        for arguments in ([], ["trace"], ["make-robot"], ["dynamics"], ["simulate"]):
+            self.assertEqual(run(*arguments).returncode, 2, arguments)
+
+    def test_an_empty_name_of_a_file_is_refused_whichever_option_it_is_given_to(self):
+        files = ("out", "trace", "assets", "state", "html", "png", "frames", "mp4", "gif", "beside",
+                 "svg", "csv", "work", "merge", "record", "post-mortem")
+        tried = 0
+        for command in self.commands():
+            words = run(command, "--help").stdout.split()
+            given = [f"--{name}" for name in files if f"--{name}" in words and
+                     words[words.index(f"--{name}") + 1] == "PATH"]  # not a flag of that name
+            tried += len(given)
+            for option in given:
+                self.refused(run(command, option, ""), option, "the name of a file is empty")
+                self.refused(run(command, f"{option}=", "A1"), f"'{option}='")
+        self.assertGreater(tried, 20)
+        for command in ("dynamics", "export", "map", "make-robot", "replay", "simulate"):
+            self.refused(run(command, ""), "the name of a file is empty")
+        self.refused(run("export", "a", ""), "page: the name of a file is empty")
+        self.refused(run("replay", "a", "--plot", ""), "--plot: the name of a file is empty")
+
+    # Bad files
+
+    def study(self, *arguments):
+        return run("study", "--out", self.folder / "out", *arguments)
+
+    def test_a_trace_that_is_not_there_is_named(self):
+        self.refused(self.study("--trace", self.folder / "nowhere.csv"), "nowhere.csv")
+        self.refused(self.study("--device", "trace"), "--trace")
+        self.assertEqual(self.written(), [])
+
+    def test_all_columns_that_a_trace_lacks_are_named(self):
+        file = self.trace("t[s],theta1[rad],theta3[deg],theta4\n0,0,0,0\n1,0,0,0\n")
+        self.refused(self.study("--trace", file), "hand.csv:1", "theta2[rad]", "theta4[rad]",
+                     "theta5[rad]", "theta6[rad]")
+
+    def test_all_bad_lines_of_a_trace_are_named_with_their_numbers(self):
+        file = self.trace(HEADER + "0,0,0,0,0,0,0\n0.1,0,nan,0,0,0,0\n0.2,0,0,0,0,0,0\n"
+                          "0.15,0,0,0,0,0,0\n0.3,0,0,0,text,0,0\n0.4,0,0,0,0,0,0\n")
+        result = self.study("--trace", file)
+        self.refused(result, "hand.csv:3", "nan", "hand.csv:5", "0.15", "hand.csv:6", "text")
+        for line in (2, 4, 7):
+            self.assertNotIn(f"hand.csv:{line}:", result.stderr)
+        self.assertEqual(self.written(), ["hand.csv"])
+
+    def test_faults_come_as_one_json_object_when_json_is_asked_for(self):
+        file = self.trace(HEADER + "0,0,0,0,0,0,0\n1,x,0,0,0,0,0\n1.5,0,y,0,0,0,0\n")
+        result = self.study("--json", "--trace", file)
+        self.refused(result, "hand.csv:3", "hand.csv:4")
+        errors = json.loads(result.stdout)["errors"]
+        self.assertEqual([error["line"] for error in errors], [3, 4])
+        for error in errors:
+            self.assertEqual(sorted(error), ["code", "file", "line", "remedy", "rule", "where"])
+            self.assertEqual(error["file"], str(file))
+            self.assertTrue(error["rule"])
+
+    def test_a_folder_that_cannot_be_written_is_named_before_any_work_is_done(self):
+        file = self.folder / "taken"
+        file.write_text("a file")
+        before = processor_time_of_ended()
+        self.refused(run("study", "--out", file / "study"), str(file))
+        self.assertLess(processor_time_of_ended() - before, 5)
+        self.assertEqual(file.read_text(), "a file")
+        self.assertEqual(self.written(), ["taken"])
+
+    def test_assets_that_are_not_there_are_named(self):
+        self.refused(self.study("--assets", self.folder / "none"), str(self.folder / "none"))
+
+    def test_two_faults_of_a_robot_are_told_at_once_with_their_lines(self):
+        assets = self.copy_of_assets()
+        urdf = assets / "robots" / "s103" / "s103.urdf"
+        lines = urdf.read_text().splitlines(keepends=True)
+        mass = next(n for n, line in enumerate(lines) if '<link name="arm1">' in line)
+        mass = next(n for n in range(mass, len(lines)) if "<mass" in lines[n])
+        lines[mass] = '      <mass value="-5"/>\n'
+        joint = next(n for n, line in enumerate(lines) if '<joint name="joint2"' in line)
+        axis = next(n for n in range(joint, len(lines)) if "<axis" in lines[n])
+        lines[axis] = '    <axis xyz="0 0 none"/>\n'
+        urdf.write_text("".join(lines))
+        result = self.study("--json", "--assets", assets)
+        self.refused(result, f"s103.urdf:{mass + 1}", f"s103.urdf:{axis + 1}")
+        errors = json.loads(result.stdout)["errors"]
+        self.assertEqual(sorted(error["line"] for error in errors), [mass + 1, axis + 1])
+        self.assertFalse(any("out/" in name for name in self.written()))
+
+    # Traces
+
+    def test_a_trace_is_written_whole_the_same_for_the_same_seed_and_another_for_another(self):
+        files = [self.folder / name for name in ("a.csv", "b.csv", "c.csv")]
+        for file, seed in zip(files, (5, 5, 6)):
+            result = run("trace", "--seed", seed, "--duration", 2, "--rate", 50, "--out", file)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        a, b, c = (file.read_text() for file in files)
+        self.assertEqual(a, b)
+        self.assertNotEqual(a, c)
+        self.assertEqual(len([line for line in a.splitlines() if line[0].isdigit()]), 101)
+        self.assertEqual(self.written(), ["a.csv", "b.csv", "c.csv"])
+
+    # Ctrl-C
+
+    def interrupted(self, *arguments, after):
+        """By Ctrl-C after so many seconds of processor time; it takes at most ten more to end."""
+        before = processor_time_of_ended()
+        process = subprocess.Popen([PROGRAM, "study", "--out", str(self.folder / "out"),
+                                    *map(str, arguments)], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True, cwd=ASSETS.parent)
+        wait_for_work(process, after)
+        process.send_signal(signal.SIGINT)
+        used = processor_time(process)
+        out, err = process.communicate(timeout=TIMEOUT)
+        self.assertEqual(process.returncode, 130, out + err)
+        self.assertLess(processor_time_of_ended() - before - used, 10)
+        self.assertIn("interrupted", err)
+        self.assertEqual([name for name in self.written() if name.endswith(".tmp")], [])
+
+    def test_ctrl_c_in_a_study_ends_with_130_and_leaves_no_half_written_file(self):
+        self.interrupted(after=0.7)
+        self.interrupted(after=2.0)
+
+    def test_ctrl_c_in_a_calibration_ends_with_130_and_leaves_the_old_one_as_it_was(self):
+        assets = self.copy_of_assets()
+        calibration = assets / "study" / "calibration.json"
+        before = calibration.read_bytes()
+        self.interrupted("--recalibrate", "--assets", assets, after=1.5)
+        self.assertEqual(calibration.read_bytes(), before)
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()

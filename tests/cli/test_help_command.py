@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""What the program tells about itself: the manual, completion, its version, and its assets from anywhere.
+
+    test_help_command.py PATH/TO/twinarm
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from waiting import TIMEOUT  # noqa: E402
+
+PROGRAM = ""
+
+
+def run(*arguments, cwd="/"):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=TIMEOUT, cwd=cwd)
+
+
+def options_of(page):
+    """All --options that a help page lists, and not those that its sentences mention."""
+    return set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", page, re.M))
+
+
+class HelpCommand(unittest.TestCase):
+    def commands(self):
+        """Every path of commands, by what --help lists."""
+        def below(path):
+            page = run(*path, "--help").stdout
+            names = re.findall(r"^  ([a-z][\w-]*) ", page.partition("Subcommands:")[2], re.M)
+            return [found for name in names for found in [[*path, name], *below([*path, name])]]
+        paths = below([])
+        self.assertIn(["study"], paths)
+        self.assertIn(["coupling", "predict"], paths)
+        return paths
+
+    def test_the_manual_has_a_section_for_every_command_with_every_option_of_its_help(self):
+        manual = run("help", "--man").stdout.replace("\\-", "-")
+        sections = dict(re.findall(r"^\.SS (.*?)\n(.*?)(?=^\.S)", manual, re.M | re.S))
+        paths = self.commands()
+        self.assertEqual(sorted(sections), sorted(" ".join(path) for path in paths))
+        for path in paths:
+            expected = options_of(run(*path, "--help").stdout) - {"--help"}
+            told = set(re.findall(r"\\fB(--[\w-]+)\\fR", sections[" ".join(path)]))
+            self.assertEqual(told, expected, path)
+
+    def test_help_of_a_command_is_what_its_own_option_prints(self):
+        for path in self.commands():
+            asked, own = run("help", *path), run(*path, "--help")
+            self.assertEqual(asked.returncode, 0)
+            self.assertEqual(asked.stdout.split("Usage:")[0], own.stdout.split("Usage:")[0])
+            self.assertEqual(options_of(asked.stdout), options_of(own.stdout))
+
+    def test_what_an_option_takes_is_told_in_words_and_not_as_a_program_has_it(self):
+        inhuman = re.compile(r"\b(?:FLOAT|U?INT|BOOLEAN|POSITIVE|NONNEGATIVE)\b| in \[")
+        pages = [run(*path, "--help").stdout for path in self.commands()] + [run("help", "--man").stdout]
+        for page in pages:
+            self.assertNotRegex(page, inhuman)
+        lab, manual = run("lab", "--help").stdout, pages[-1].replace("\\-", "-")
+        for page in (lab, manual):
+            self.assertRegex(page, r"--port(?:\\fR \\fI| )N(?:\\fR)?\s+of the server; left out: any that is free "
+                                   r"\(0 to 65535\)")
+        self.assertRegex(lab, r"--remember N +megabytes .* \(1 to 65536; if not given 256\)")
+        self.assertEqual(run("lab", "--port", "70000").returncode, 2)
+
+    def test_help_of_a_command_that_is_none_ends_with_2_and_says_which_there_are(self):
+        for words, told in ((["studdy"], "'study'"), (["coupling", "predcit"], "'predict'"),
+                            (["study", "now"], "'now'")):
+            result = run("help", *words)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(told, result.stderr)
+
+    def completed(self, *words):
+        script = '. "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _twinarm; printf "%s\\n" "${COMPREPLY[@]}"'
+        with tempfile.TemporaryDirectory() as folder:
+            os.mkdir(os.path.join(folder, "my runs"))
+            file = os.path.join(folder, "completion")
+            with open(file, "w", encoding="utf-8") as out:
+                out.write(run("help", "--completion").stdout)
+            done = subprocess.run(["bash", "-c", script, file, *words], capture_output=True, text=True,
+                                  timeout=TIMEOUT, cwd=folder)
+        return sorted(line for line in done.stdout.split("\n") if line)
+
+    def test_the_shell_completes_commands_options_and_files_and_nothing_where_a_number_stands(self):
+        for words, expected in ((["twinarm", "stu"], ["study"]),
+                                (["twinarm", "coupling", "p"], ["predict"]),
+                                (["twinarm", "study", "--seed", "3", "--pa"], ["--paper-view"]),
+                                (["twinarm", "study", "--out", "my"], ["my runs"]),
+                                (["twinarm", "study", "--out", "=", "my"], ["my runs"]),
+                                (["twinarm", "simulate", "my"], ["my runs"]),
+                                (["twinarm", "study", "--device", "trace", "--se"], ["--seed"]),
+                                (["twinarm", "study", "--seed", "my"], [])):
+            self.assertEqual(self.completed(*words), expected, words)
+
+    def test_every_command_and_option_is_completed(self):
+        for path in self.commands():
+            options = options_of(run(*path, "--help").stdout)
+            self.assertEqual(set(self.completed("twinarm", *path, "--")), options, path)
+
+    def test_the_version_is_that_of_the_manual(self):
+        result = run("--version")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stdout, r"^twinarm \d+\.\d+\.\d+\n$")
+        self.assertIn(f'"{result.stdout.strip()}"', run("help", "--man").stdout)
+
+    def test_a_model_of_the_examples_is_found_from_any_folder_unless_one_of_that_name_is_there(self):
+        words = ("dynamics", "assets/robots/teaching/pendulum.urdf", "--json")
+        found = run(*words)
+        self.assertEqual(found.returncode, 0, found.stderr)
+        with tempfile.TemporaryDirectory() as folder:
+            os.makedirs(os.path.join(folder, "assets/robots/teaching"))
+            with open(os.path.join(folder, words[1]), "w", encoding="utf-8") as file:
+                file.write("no robot")
+            self.assertEqual(run(*words, cwd=folder).returncode, 2)
+        missing = run("dynamics", "assets/robots/nowhere.urdf")
+        self.assertEqual(missing.returncode, 2)
+        self.assertIn("assets/robots/nowhere.urdf", missing.stderr)
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()

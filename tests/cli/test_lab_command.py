@@ -1,0 +1,476 @@
+#!/usr/bin/env python3
+"""`twinarm lab`: the whole program over its socket, as pages and strangers meet it.
+
+    test_lab_command.py PROGRAM
+"""
+import json
+import math
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+from live_socket import Frame, Lab  # noqa: E402
+from waiting import TIMEOUT  # noqa: E402
+
+PROGRAM = None
+PENDULUM = """<robot name="rod"><link name="base"/>
+<link name="rod"><inertial><origin xyz="0 0 -0.5"/><mass value="1"/>
+<inertia ixx="0.1" iyy="0.1" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
+<visual><origin xyz="0 0 -0.5"/><geometry><box size="0.1 0.1 1"/></geometry></visual></link>
+<joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint>
+</robot>"""
+SCENE = """duration = 5
+[[robot]]
+name = "rod"
+model = "rod.urdf"
+q = { hinge = 0.7 }
+[[body]]
+name = "ball"
+shape = { sphere = { radius = 0.1 } }
+mass = 1
+position = [2, 0, 3]
+[[body]]
+name = "floor"
+fixed = true
+shape = { halfspace = { normal = [0, 0, 1], offset = -2 } }
+[[coupling]]
+name = "pull"
+type = "torsional"
+measure = "joint"
+link = "rod"
+stiffness = 2000
+damping = 20
+treatment = "explicit"
+target = "device"
+"""
+
+
+def program(*words, code=0):
+    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=TIMEOUT)
+    assert done.returncode == code, f"{done.returncode}: {done.stdout}{done.stderr}"
+    return done.stdout
+
+
+class Running:
+    """The program with a scene, and its page's address."""
+
+    def __init__(self, scene, *words):
+        self.process = subprocess.Popen([PROGRAM, "lab", str(scene), *words, "--json", "--no-browser"],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.url = json.loads(self.process.stdout.readline())["url"]
+
+    def end(self, how=signal.SIGINT):
+        self.process.send_signal(how)
+        _, errors = self.process.communicate(timeout=TIMEOUT)
+        return self.process.returncode, errors
+
+
+class LabTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = pathlib.Path(self.folder.name)
+        (self.path / "rod.urdf").write_text(PENDULUM)
+        self.scene = self.path / "rod.toml"
+        self.scene.write_text(SCENE)
+        self.running = Running(self.scene)
+        self.lab = Lab(self.running.url)
+        self.live = self.lab.live()
+
+    def tearDown(self):
+        self.live.close()
+        self.assertEqual(self.running.end(), (0, ""))
+        self.folder.cleanup()
+
+    def state(self, condition=lambda state: True, live=None):
+        return (live or self.live).wait_for("state", condition)
+
+    def frame(self, condition=lambda frame: True):
+        return self.live.wait_for("frame", condition)
+
+    def stand(self):
+        """The frame at which it stands: one comes, before the state or after it."""
+        self.live.do("play", on=False)
+        self.state(lambda s: not s["playing"])
+        newest = Frame(self.live.newest["frame"])
+        return newest if newest.stands else self.frame(lambda f: f.stands)
+
+    def saved(self, name):
+        file = self.path / name
+        file.write_bytes(self.lab.get("/save").body)
+        return file
+
+    def told(self, state):
+        return " ".join(note["text"] for note in state["notes"])
+
+    def by_step(self, file):
+        """Of a recording: coordinates and link positions by step."""
+        told = json.loads(program("export", file, "--json"))
+        names = [column["name"] for column in told["columns"]]
+        return {frame["step"]: {"t": frame["t"], "values": dict(zip(names, frame["values"]))}
+                for frame in told["frames"]}
+
+    def test_a_newcomer_is_told_everything(self):
+        scene = self.live.wait_for("scene")
+        self.assertEqual([layer["name"] for layer in scene["layers"]][0], "bodies")
+        self.assertEqual([body["name"] for body in scene["bodies"]], ["world", "base", "rod", "ball"])
+        state = self.state()
+        self.assertTrue(state["playing"])
+        self.assertEqual(state["holder"], state["you"])
+        self.assertIn("coupling[0].stiffness", json.dumps(state["knobs"]))
+        frame = self.frame()
+        self.assertEqual(frame.scene, scene["scene"])
+        self.assertEqual(len(frame.channels), len(scene["channels"]))
+        for mesh in scene["meshes"]:
+            self.assertEqual(self.lab.get(f"/mesh/{mesh}").status, 200)
+
+    def test_what_pages_see_is_what_is_recorded_and_the_recording_replays_bit_for_bit(self):
+        names = [c["name"] for c in self.live.wait_for("scene")["channels"]]
+        seen = {}
+        while len(seen) < 90:
+            frame = self.live.wait_for("frame")
+            seen[frame.step] = dict(zip(names, frame.channels))
+        file = self.saved("run.twinrec")
+        self.assertIn("same bits", program("replay", file))
+        recorded = self.by_step(file)
+        both = sorted(set(seen) & set(recorded))
+        self.assertGreater(len(both), 60)
+        for step in both:
+            for name in ("q/hinge", "qd/hinge", "links/rod/x", "kinetic_energy"):
+                self.assertEqual(seen[step][name], recorded[step]["values"][name], name)
+
+    def test_standing_it_is_taken_step_by_step(self):
+        before = self.stand()
+        self.live.do("step", steps=7)
+        after = self.frame(lambda f: f.step == before.step + 7)
+        self.assertAlmostEqual(after.time - before.time, 0.007, places=12)
+        self.live.do("look", at=before.time / 2)
+        old = self.frame(lambda f: f.looked_back)
+        self.assertLessEqual(old.time, before.time / 2)
+        self.live.do("look", at=None)
+        self.assertEqual(self.frame(lambda f: not f.looked_back).step, after.step)
+
+    def test_a_branch_without_a_change_is_the_same_run_and_with_one_another(self):
+        self.frame(lambda f: f.time > 1.5)
+        self.live.do("play", on=False)
+        self.state(lambda s: not s["playing"])
+        first = self.by_step(self.saved("first.twinrec"))
+        compared = {}
+        for changes, is_same in ((["coupling[0].stiffness=2000"], True),
+                                 (["coupling[0].stiffness=3500"], False)):
+            self.live.do("branch", at=0.5, changes=changes)
+            state = self.state(lambda s: s["branch"] and s["branch"]["changes"] == changes)
+            self.assertAlmostEqual(state["branch"]["from"], 0.5, delta=0.02)
+            self.frame(lambda f: f.time > 1.4)
+            self.live.do("play", on=False)
+            self.state(lambda s: not s["playing"])
+            branch = self.by_step(self.saved("branch.twinrec"))
+            both = [step for step in set(first) & set(branch) if first[step]["t"] > 0.6]
+            compared[is_same] = [first[s]["values"] == branch[s]["values"] for s in both]
+        self.assertTrue(compared[True])
+        self.assertTrue(all(compared[True]))
+        self.assertFalse(any(compared[False]))
+
+    def test_an_explosion_stops_the_run_says_why_and_what_would_hold_does(self):
+        self.frame(lambda f: f.time > 0.5)
+        self.live.do("set", changes=["coupling[0].stiffness=1e8"])
+        dead = self.state(lambda s: s["dead"])["dead"]
+        self.assertIn("pull", dead["spring"])
+        self.assertTrue(dead["words"])
+        self.assertTrue(dead["remedies"])
+        self.assertLess(dead["from"], dead["time"])
+        self.assertTrue(self.frame(lambda f: f.is_dead))
+        for remedy in dead["remedies"]:
+            self.live.do("branch", at=dead["from"], changes=remedy["changes"])
+            self.state(lambda s: s["branch"] and not s["dead"])
+            self.frame(lambda f: f.time > 1.5)
+            self.assertIsNone(self.state()["dead"], remedy["words"])
+
+    def test_a_hand_leads_the_robot_and_a_spring_pulls_the_ball(self):
+        scene = self.live.wait_for("scene")
+        names = [c["name"] for c in scene["channels"]]
+        ball = [b["name"] for b in scene["bodies"]].index("ball")
+        self.live.do("joint", index=0, value=-0.4, stamp=42.0)
+        frame = self.frame(lambda f: f.stamp == 42.0)
+        self.assertLess(frame.input_age, 0.2)
+        at = names.index("q/hinge")
+        self.frame(lambda f: abs(f.channels[at] + 0.4) < 0.2)
+        self.live.do("pull", body=ball, point=[0, 0, 0], goal=[2, 1, 1], stamp=43.0)
+        y = names.index("links/ball/y")
+        self.frame(lambda f: f.channels[y] > 0.8)
+        self.live.do("drop")
+
+    def test_inputs_send_no_frames_of_their_own(self):
+        self.frame()
+        start, seen = time.monotonic(), []
+        for n in range(300):
+            self.live.do("joint", index=0, value=0.3 * (n % 2), stamp=1.0 + n)
+            seen += [frame for kind, frame in self.live.messages(0.005) if kind == "frame"]
+        self.assertLess(len(seen), 63 * (time.monotonic() - start) + 3)
+        self.assertEqual(len({frame.step for frame in seen}), len(seen))
+
+    def test_a_page_that_vanishes_holds_nothing_any_more(self):
+        scene = self.live.wait_for("scene")
+        names = [c["name"] for c in scene["channels"]]
+        ball = [b["name"] for b in scene["bodies"]].index("ball")
+        z = names.index("links/ball/z")
+        with self.lab.live() as other:
+            self.live.do("pull", body=ball, point=[0, 0, 0], goal=[2, 0, 4], stamp=1.0)
+            other.wait_for("frame", lambda f: f.time > 2)  # held: it would lie at -1.9 by now
+            self.assertGreater(other.wait_for("frame").channels[z], 2)
+            self.live.close()
+            other.wait_for("frame", lambda f: f.channels[z] < 0)
+            other.do("button", index=0, down=True, stamp=2.0)
+            other.do("hand", source="joints")
+            self.state(lambda s: s["hand"]["gripper"], live=other)
+        self.live = self.lab.live()  # and it finds the gripper as it was
+        self.assertTrue(self.state()["hand"]["gripper"])
+        self.assertEqual(self.state()["hand"]["source"], "joints")
+
+    def test_one_has_the_hand_and_gives_it_to_who_asks(self):
+        you = self.state()["you"]
+        with self.lab.live() as other:
+            second = self.state(live=other)
+            self.assertEqual(second["holder"], you)
+            other.do("set", changes=["coupling[0].stiffness=21"])
+            self.assertIn("hand", self.told(self.state(lambda s: s["notes"], live=other)))
+            other.do("take")
+            self.state(lambda s: s["asked"] == [second["you"]])
+            self.live.do("give", to=second["you"])
+            self.state(lambda s: s["holder"] == second["you"], live=other)
+            other.do("set", changes=["coupling[0].stiffness=21"])
+            self.state(lambda s: s["changes"] == ["coupling[0].stiffness=21"], live=other)
+        self.state(lambda s: s["holder"] == you)  # who is left has it
+
+    def test_what_is_no_command_and_no_scene_is_refused_and_the_run_goes_on(self):
+        for text in ("", "{", "[1, 2]", '{"do": "fly"}', '{"do": "tip", "goal": ["a"]}',
+                     '{"do": "set", "changes": ["coupling[0].colour=red"]}',
+                     '{"do": "set", "changes": ["coupling[0].stiffness=-5"]}',
+                     '{"do": "set", "changes": ["step=0"]}', '{"do": "scene", "name": "nowhere"}',
+                     '{"do": "hand", "source": "device", "spec": "ouija"}'):
+            known = len(self.told(self.state())) if text else 0
+            self.live.say(text)
+            self.state(lambda s: len(self.told(s)) > known)
+        bad = self.lab.upload("bad.toml", "[[robot]]\nmodel = 'no.urdf'\nmass = 3\n", self.live)
+        self.assertEqual(bad.status, 422)
+        self.assertIn("no.urdf", bad.body.decode())
+        for name in ("../../etc/x.toml", "", "a%2f..%2fb.toml"):
+            self.assertEqual(self.lab.upload(name, "x", self.live).status, 422)
+        step = self.frame().step
+        self.frame(lambda f: f.step > step)
+
+    def test_a_robot_is_dropped_onto_the_page(self):
+        number = self.live.wait_for("scene")["scene"]
+        self.assertEqual(self.lab.upload("fresh.urdf", PENDULUM, self.live).status, 200)
+        scene = self.live.wait_for("scene", lambda s: s["scene"] > number)
+        self.assertEqual(scene["file"], "fresh.urdf")
+        self.frame(lambda f: f.scene == scene["scene"])
+
+    def test_only_the_page_that_has_control_uploads_files(self):
+        with self.lab.live() as other:
+            refused = self.lab.upload("fresh.urdf", PENDULUM, other)
+            self.assertEqual((refused.status, refused.body), (403, b"another page has control; ask for it\n"))
+            self.assertEqual(self.lab.post("/open?name=fresh.urdf", PENDULUM).status, 403)
+            self.assertEqual(self.lab.post("/open?name=fresh.urdf&secret=", PENDULUM).status, 403)
+            self.live.do("give", to=self.state(live=other)["you"])
+            self.state(lambda s: s["holder"] == s["you"], live=other)
+            self.assertEqual(self.lab.upload("fresh.urdf", PENDULUM, self.live).status, 403)
+            self.assertEqual(self.lab.upload("fresh.urdf", PENDULUM, other).status, 200)
+
+    def test_the_scene_with_its_changes_and_the_page_to_share_stand_alone(self):
+        self.live.do("set", changes=["coupling[0].stiffness=33"])
+        self.state(lambda s: s["changes"])
+        text = self.lab.get("/scene").body.decode()
+        self.assertIn("33", text)
+        (self.path / "again.toml").write_text(text)
+        program("simulate", self.path / "again.toml", "--json")
+        self.frame(lambda f: f.time > 1)
+        page = self.lab.get("/share")
+        self.assertEqual(page.status, 200)
+        self.assertIn(b"<html", page.body[:200])
+        picture = self.lab.get("/frame.png?width=320&height=200")
+        self.assertEqual(picture.body[:4], b"\x89PNG")
+
+    def test_a_client_that_never_reads_slows_nobody(self):
+        """Compared with itself on the same machine; scripts/measure/lab_load measures how fast it is."""
+        def frames_and_time():
+            times = [frame.time for kind, frame in self.live.messages(2.0) if kind == "frame"]
+            return len(times), times[-1] - times[0]
+        self.frame()
+        without = frames_and_time()
+        with self.lab.stalled():
+            for found, wanted in zip(frames_and_time(), without):
+                self.assertGreater(found, 0.5 * wanted)
+
+
+class LabLanes(unittest.TestCase):
+    """Runs side by side."""
+
+    def start(self, scene, *words):
+        running = Running(scene, *words)
+        self.addCleanup(lambda: self.assertEqual(running.end(), (0, "")))
+        self.lab = Lab(running.url)
+        self.live = self.lab.live()
+        self.addCleanup(self.live.close)
+        self.names = [c["name"] for c in self.live.wait_for("scene")["channels"]]
+
+    def state(self, condition=lambda state: True):
+        return self.live.wait_for("state", condition)
+
+    def stand_at(self, steps):
+        self.live.do("play", on=False)
+        taken = self.live.wait_for("frame", lambda f: f.stands).step
+        self.live.do("step", steps=steps - taken)
+        return self.live.wait_for("frame", lambda f: f.step == steps, timeout=TIMEOUT)
+
+    def test_six_integrators_part_as_the_gallery_says(self):
+        self.start("six_integrators")
+        lanes = self.state(lambda s: s["lanes"])["lanes"]
+        self.stand_at(700)
+        history = self.lab.history()
+        self.assertAlmostEqual(history.time[-1], 14, delta=1e-9)
+
+        def of(lane, quantity):
+            return history.channel(self.names.index(f"lane/{quantity}/{lane}"))
+        gain = {lane: [e - of(lane, "total_energy")[0] for e in of(lane, "total_energy")]
+                for lane in lanes["values"]}
+        for lane, energies in gain.items():  # what was made is what the ledger says was made
+            for made, told in zip(energies, of(lane, "numerical")):
+                self.assertAlmostEqual(made, told, delta=1e-9)
+        late = [i for i, t in enumerate(history.time) if t > 10]
+        self.assertGreater(min(gain["euler"][i] for i in late), 4.905)  # to the height of the hinge
+        self.assertGreater(max(of("euler", "q/hinge")), math.pi)
+        self.assertLess(max(gain["implicit-euler"][i] for i in late), -4.905 / 2)
+        # Of first order in the step: h/2 times the weight's power, g sin q qd, up and down.
+        start = math.radians(60)
+        most = max(0.01 * 9.81 * math.sin(q) * math.sqrt(2 * 9.81 * (math.cos(q) - 0.5))
+                   for q in (start * i / 1000 for i in range(1000)))
+        for found in (max(gain["semi-implicit"]), -min(gain["semi-implicit"])):
+            self.assertAlmostEqual(found, most, delta=0.05 * most)
+        for lane, most in (("verlet", 0.005), ("implicit-midpoint", 0.001), ("rk4", 0.0001)):
+            self.assertLess(max(map(abs, gain[lane])), most)
+            self.assertAlmostEqual(max(of(lane, "q/hinge")[i] for i in late), start, delta=0.01)
+
+    def test_one_explodes_and_is_said_to_and_comes_back_with_a_branch(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)
+            (path / "rod.urdf").write_text(PENDULUM)
+            (path / "rod.toml").write_text(SCENE)
+            self.start(path / "rod.toml", "--lanes", "coupling[0].stiffness=200,1e8,3000")
+        self.assertNotIn("coupling[0].stiffness", [k["path"] for k in self.state()["knobs"]])
+        stopped = self.state(lambda s: s["lanes"]["stopped"][1])["lanes"]["stopped"]
+        self.assertIsNone(stopped[2])
+        frame = self.live.wait_for("frame", lambda f: f.time > stopped[1] + 0.3)
+        self.assertFalse(frame.is_dead)
+        self.assertTrue([t for t in frame.label_texts() if t.startswith("1e8: stopped at")])
+        state = self.state()
+        self.assertTrue(state["playing"])
+        self.assertIn("1e8 stopped at", " ".join(n["text"] for n in state["notes"]))
+        self.live.do("set", changes=["coupling[0].stiffness=7"])
+        self.state(lambda s: "lanes differ" in " ".join(n["text"] for n in s["notes"]))
+        # With damping it holds, if it begins before it exploded; looked back at, it goes.
+        self.live.do("look", at=0.0)
+        self.state(lambda s: s["at"] == 0 and s["lanes"]["stopped"] == [None] * 3)
+        self.live.do("branch", at=0.0, changes=["coupling[0].treatment=implicit"])
+        self.state(lambda s: s["branch"] and s["time"] > 0.5)
+        self.assertEqual(self.state()["lanes"]["stopped"], [None] * 3)
+        self.live.do("reset")
+        state = self.state(lambda s: not s["branch"])
+        self.assertEqual(state["lanes"]["values"], ["200", "1e8", "3000"])
+        # Another scene has none.
+        self.live.do("scene", name="gyroscope")
+        self.state(lambda s: s["name"] == "gyroscope" and s["lanes"] is None)
+
+    def test_what_is_saved_is_the_first(self):
+        self.start("pendulum", "--lanes", "integrator=rk4,euler")
+        last = self.stand_at(100)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "first.twinrec"
+            file.write_bytes(self.lab.get("/save").body)
+            told = json.loads(program("export", file, "--json"))
+        values = dict(zip([c["name"] for c in told["columns"]], told["frames"][-1]["values"]))
+        self.assertEqual(values["q/hinge"], last.channels[self.names.index("lane/q/hinge/rk4")])
+        self.assertNotEqual(values["q/hinge"], last.channels[self.names.index("lane/q/hinge/euler")])
+        self.assertIn('integrator = "rk4"', self.lab.get("/scene").body.decode())
+
+
+class LabEnds(unittest.TestCase):
+    def test_it_ends_with_0_when_it_is_told_and_leaves_nothing(self):
+        scene = ROOT / "assets/scenes/cradle.toml"
+        for how in (signal.SIGINT, signal.SIGTERM):
+            with tempfile.TemporaryDirectory() as folder:
+                running = Running(scene)
+                with Lab(running.url).live() as live:
+                    live.wait_for("frame")
+                self.assertEqual(running.end(how), (0, ""))
+
+    def test_pages_of_other_machines_open_no_files_and_devices_here(self):
+        scene = ROOT / "assets/scenes/hand_and_obstacles.toml"
+        for listen, is_refused in (("0.0.0.0", True), ("127.0.0.1", False)):
+            running = Running(scene, "--listen", listen)
+            self.addCleanup(running.process.kill)
+            with Lab(running.url).live() as live:
+                for spec in ("virtual:trace:/etc/passwd", "gamepad:/dev/nowhere"):
+                    known = len(live.wait_for("state")["notes"])
+                    live.do("hand", source="device", spec=spec)
+                    notes = live.wait_for("state", lambda s: len(s["notes"]) > known)["notes"]
+                    self.assertEqual("other machines" in notes[-1]["text"], is_refused, notes[-1])
+                live.do("hand", source="device", spec="virtual:synthetic")
+                live.wait_for("state", lambda s: s["hand"]["spec"] == "virtual:synthetic")
+            running.end()
+
+    def test_uploads_of_other_machines_name_only_uploads_and_assets(self):
+        secret = "the secret of this machine\n"
+        body = ('[[body]]\nname = "ball"\nmass = 1\nshape = {{ sphere = {{ radius = 0.1 }} }}\n'
+                'position = [0, 0, 1]\n{}')
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)
+            (path / "secret.png").write_text(secret)
+            (path / "rod.urdf").write_text(PENDULUM)
+            running = Running(ROOT / "assets/scenes/bouncing_ball.toml", "--listen", "0.0.0.0")
+            self.addCleanup(running.process.kill)
+            lab = Lab(running.url)
+            with lab.live() as live:
+                for name, text in (
+                        ("a.toml", body.format(f'texture = "{path}/secret.png"')),
+                        ("b.toml", body.format(f'texture = "../../..{path}/secret.png"')),
+                        ("c.toml", f'[[robot]]\nname = "rod"\nmodel = "{path}/rod.urdf"'),
+                        ("d.toml", SCENE.replace("rod.urdf", "robots/s103/s103.urdf").replace(
+                            '"device"', f'"{path}/secret.png"')),
+                        ("e.toml", body.format('texture = "/nowhere/secret.png"'))):
+                    reply = lab.upload(name, text, live)
+                    self.assertEqual(reply.status, 422, name)
+                    self.assertIn("is not among those that this scene may read", reply.body.decode(), name)
+                    self.assertNotIn("of this machine", reply.body.decode())
+                mesh = f'<mesh filename="{path}/secret.png"/>'
+                self.assertEqual(lab.upload("f.urdf", re.sub('<box.*?/>', mesh, PENDULUM), live).status, 200)
+                self.assertFalse(secret.encode() in lab.get("/save").body)
+                # What it may name: uploads, and assets.
+                for name, text in (("rod.urdf", PENDULUM), ("g.toml", SCENE),
+                                   ("h.toml", SCENE.replace("rod.urdf", "robots/puma560/puma560.urdf").replace(
+                                       '"rod"', '"link1"').replace("hinge", "j1"))):
+                    reply = lab.upload(name, text, live)
+                    self.assertEqual(reply.status, 200, reply.body)
+                known = live.wait_for("state", lambda s: s["name"] == "h")["notes"]
+                live.do("set", changes=[f"body[0].texture={path}/secret.png"])
+                notes = live.wait_for("state", lambda s: len(s["notes"]) > len(known))["notes"]
+                self.assertIn("is not among those", notes[-1]["text"])
+            running.end()
+
+    def test_bad_words_are_told(self):
+        self.assertIn("does not exist", program("lab", "nowhere.toml", "--json", code=2))
+        for lanes, said in (("integrator", "missing"), ("integrator=rk4", "2 to 7"),
+                            ("integrator=rk4,rk5", "rk5"), ("colour=red,blue", "colour")):
+            self.assertIn(said, program("lab", "pendulum", "--lanes", lanes, "--json", code=2))
+        self.assertIn("--port", program("lab", "--port", "70000", "--json", code=2))
+        self.assertIn("--listen", program("lab", "--listen", "300.1.1.1", "--json", code=2))
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main()

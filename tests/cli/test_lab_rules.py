@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""`twinarm lab`: what holds whatever pages do with its time, its changes and its files.
+
+    test_lab_rules.py PROGRAM
+"""
+import json
+import os
+import pathlib
+import shutil
+import struct
+import sys
+import time
+import unittest
+
+import test_lab_command as command  # noqa: E402
+from live_socket import Frame, Lab  # noqa: E402
+
+K, B = "coupling[0].stiffness", "coupling[0].damping"
+
+
+class LabRules(unittest.TestCase):
+    setUp, tearDown = command.LabTest.setUp, command.LabTest.tearDown
+    state, frame, told, stand = (command.LabTest.state, command.LabTest.frame, command.LabTest.told,
+                                 command.LabTest.stand)
+
+    def test_a_newcomer_sees_what_stands_and_what_is_looked_back_at(self):
+        self.frame(lambda f: f.time > 0.5)
+        stood = self.stand()
+        self.live.do("look", at=0.25)
+        looked = self.frame(lambda f: f.looked_back)
+        self.assertLess(looked.time, stood.time)
+        with self.lab.live() as other:
+            for _ in other.messages():
+                if {"scene", "state", "frame"} <= other.newest.keys():
+                    break
+            self.assertEqual(json.loads(other.newest["state"])["at"], 0.25)
+            frame, scene = Frame(other.newest["frame"]), json.loads(other.newest["scene"])
+            self.assertEqual((frame.step, frame.scene), (looked.step, scene["scene"]))
+
+    def test_who_looks_back_stops_time_and_who_plays_leaves_the_past(self):
+        self.frame(lambda f: f.time > 0.5)
+        self.live.do("look", at=0.1)
+        self.assertFalse(self.state(lambda s: s["at"] is not None)["playing"])
+        self.live.do("play", on=True)
+        self.assertTrue(self.state(lambda s: s["at"] is None)["playing"])
+        self.frame(lambda f: not f.looked_back and f.time > 0.8)
+
+    def test_a_run_that_is_dead_neither_plays_nor_steps(self):
+        self.live.do("set", changes=[f"{K}=1e8"])
+        time_of_death = self.state(lambda s: s["dead"])["dead"]["time"]
+        self.live.do("play", on=True)
+        self.live.do("step", steps=500)
+        self.live.do("speed", factor=2)
+        state = self.state(lambda s: s["speed"] == 2)
+        self.assertFalse(state["playing"])
+        self.assertTrue(state["dead"])
+        self.assertAlmostEqual(state["time"], time_of_death, delta=0.002)
+        self.live.do("speed", factor=0.001)  # it lives for three steps again: so long that a state tells of it
+        self.live.do("reset")
+        state = self.state(lambda s: not s["dead"])
+        self.assertTrue(state["playing"])
+        self.assertEqual(state["first"], 0)
+
+    def test_one_change_to_a_path_stands_and_none_that_was_refused(self):
+        for changes in ([f"{K}=21"], [f"{K}=22"], [f"{B}=-1"], [f"{B}=3"]):
+            self.live.do("set", changes=changes)
+            if changes == [f"{B}=-1"]:
+                self.state(lambda s: any(n["level"] == "error" for n in s["notes"]))
+            else:
+                self.state(lambda s: changes[0] in s["changes"])
+        self.state(lambda s: s["changes"] == [f"{K}=22", f"{B}=3"])
+        self.assertIn("22", self.lab.get("/scene").body.decode())
+
+    def test_the_ledger_goes_on_over_a_change(self):
+        gravity = self.live.wait_for("scene", lambda s: "gravity" in s["ledger"])["ledger"].index("gravity")
+        self.frame(lambda f: f.time > 0.4)
+        before = self.stand()
+        self.live.do("set", changes=[f"{B}=21"])
+        self.state(lambda s: s["changes"])
+        self.live.do("step", steps=1)
+        after = self.frame(lambda f: f.step == before.step + 1)
+        self.assertGreater(abs(before.works[gravity]), 0.1)
+        self.assertAlmostEqual(after.works[gravity], before.works[gravity], delta=0.1)
+
+    def test_a_branch_shows_the_run_that_was_left_and_whoever_moves_the_robot_outranks_it(self):
+        scene = self.live.wait_for("scene")
+        layer = [one["name"] for one in scene["layers"]].index("before")
+        self.live.do("layers", names=["bodies", "before"])
+        self.live.do("joint", index=0, value=-0.4, stamp=1.0)
+        self.frame(lambda f: f.time > 2)
+        self.live.do("branch", at=0.5, changes=[f"{K}=200"])
+        branch = self.frame(lambda f: f.time < 1 and f.first[layer + 1] > f.first[layer])
+        self.assertLess(branch.time, 1)
+        q = [c["name"] for c in scene["channels"]].index("q/hinge")
+        self.live.do("joint", index=0, value=0.9, stamp=2.0)
+        self.frame(lambda f: f.stamp == 2.0 and f.time < 2)
+        self.frame(lambda f: abs(f.channels[q] - 0.9) < 0.3)
+
+    def test_the_last_twenty_notes_are_told_in_their_order(self):
+        for n in range(30):
+            self.live.do(f"nothing{n}")
+            self.state(lambda s: s["notes"] and f"nothing{n}" in s["notes"][-1]["text"])
+        notes = self.state(lambda s: len(s["notes"]) == 20)["notes"]
+        self.assertEqual([note["n"] for note in notes], list(range(notes[0]["n"], notes[0]["n"] + 20)))
+
+    def test_another_scene_brings_rows_and_instants_of_its_own(self):
+        self.frame(lambda f: f.time > 0.3)
+        (self.path / "ball.toml").write_text('[[body]]\nname = "b"\nshape = { sphere = { radius = 0.1 } }\nmass = 1\n')
+        number = self.live.wait_for("scene")["scene"]
+        self.live.do("play", on=True)
+        self.lab.upload("ball.toml", (self.path / "ball.toml").read_bytes(), self.live)
+        scene = self.live.wait_for("scene", lambda s: s["scene"] > number)
+        self.assertFalse([row for row in scene["ledger"] if "pull" in row or "hinge" in row], scene["ledger"])
+        self.assertLess(self.frame(lambda f: f.scene == scene["scene"]).time, 0.3)
+        self.assertEqual(self.lab.history(0).scene, scene["scene"])
+
+    def test_three_pages_get_thirty_frames_a_second_each(self):
+        with self.lab.live() as second, self.lab.live() as third:
+            for live in (second, third):
+                live.wait_for("frame")
+            self.state(lambda s: s["clients"] == 3)
+            start = time.monotonic()
+            frames = sum(kind == "frame" for kind, _ in self.live.messages(2.0))
+            self.assertLess(frames, 31.5 * (time.monotonic() - start) + 4)
+
+    def test_history_begins_where_it_is_asked_for(self):
+        self.frame(lambda f: f.time > 1)
+        self.stand()
+        all_of_it, late = self.lab.history(), self.lab.history(0.7)
+        self.assertEqual(all_of_it.time[0], 0)
+        self.assertAlmostEqual(late.time[0], 0.7, delta=0.02)
+        self.assertEqual(list(all_of_it.time[-late.frames:]), list(late.time))
+
+    def test_what_is_asked_for_wrongly_is_refused_or_bounded(self):
+        self.assertEqual(self.lab.post("/save", "x").status, 404)
+        self.assertEqual(self.lab.upload("part.stl", "solid", self.live).status, 202)
+        for name in ("/etc/x.toml", "%2ftmp/x.toml", "..%2fx.toml", "a/../../x.toml", ".hidden.toml", "a" * 300):
+            self.assertEqual(self.lab.upload(name, "step = 1", self.live).status, 422, name)
+        for query, size in (("width=1e9&height=1", (1920, 64)), ("width=nan&height=-5", (960, 64)),
+                            ("width=200&height=100", (200, 100))):
+            picture = self.lab.get(f"/frame.png?{query}").body
+            self.assertEqual(struct.unpack(">II", picture[16:24]), size)
+
+    def test_a_preset_brings_its_scene_and_its_values(self):
+        self.live.do("hand", source="joints")
+        for name, source in (("E1", "drag"), ("E3", "scene")):
+            self.live.do("preset", name=name)
+            state = self.state(lambda s: s["name"] == name)
+            self.assertEqual(state["hand"]["source"], source)
+        self.live.do("preset", name="E9")
+        self.state(lambda s: "E9" in self.told(s))
+
+
+class LabLeavesNothing(unittest.TestCase):
+    def test_the_files_that_pages_brought_go_with_it(self):
+        with command.tempfile.TemporaryDirectory() as folder:
+            os.environ["TMPDIR"] = folder
+            running = command.Running(command.ROOT / "assets/scenes/cradle.toml")
+            del os.environ["TMPDIR"]
+            lab = Lab(running.url)
+            with lab.live() as live:
+                self.assertEqual(lab.upload("part.stl", "solid", live).status, 202)
+            self.assertEqual(len(list(pathlib.Path(folder).rglob("part.stl"))), 1)
+            self.assertEqual(running.end(), (0, ""))
+            self.assertEqual(os.listdir(folder), [])
+
+
+class LabOutlivesItsTemporaryFiles(unittest.TestCase):
+    def setUp(self):
+        self.folder = command.tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        os.environ["TMPDIR"] = self.folder.name
+        self.running = command.Running(command.ROOT / "assets/scenes/bouncing_ball.toml")
+        del os.environ["TMPDIR"]
+        self.addCleanup(self.running.process.kill)
+        self.live = Lab(self.running.url).live()
+        self.addCleanup(self.live.close)
+        self.live.wait_for("frame")
+
+    def remove_copies(self):
+        for copies in pathlib.Path(self.folder.name).glob("twinarm-replay-*"):
+            shutil.rmtree(copies)
+            yield copies
+
+    def test_copies_that_were_removed_are_written_again(self):
+        self.assertEqual(len(list(self.remove_copies())), 1)
+        self.live.do("glass", on=True, body=1)
+        self.live.wait_for("glass")
+        list(self.remove_copies())
+        self.live.do("set", changes=["gravity=0,0,-1.62"])
+        self.live.wait_for("state", lambda s: s["changes"] == ["gravity=0,0,-1.62"])
+        self.assertEqual(self.running.end(), (0, ""))
+
+    def test_copies_that_cannot_be_written_again_are_reported_and_the_lab_goes_on(self):
+        places = list(self.remove_copies())
+        for place in places:
+            place.write_text("not a folder")
+        self.live.do("glass", on=True, body=1)
+        notes = self.live.wait_for("state", lambda s: s["notes"])["notes"]
+        self.assertEqual(notes[-1]["level"], "error")
+        self.assertIn("the lab cannot draw this", notes[-1]["text"])
+        step = self.live.wait_for("frame").step
+        self.live.wait_for("frame", lambda f: f.step > step)
+        for place in places:
+            place.unlink()
+        self.live.wait_for("glass")
+        self.assertEqual(self.running.end(), (0, ""))
+
+
+if __name__ == "__main__":
+    command.PROGRAM = sys.argv.pop(1)
+    unittest.main()

@@ -1,0 +1,239 @@
+#!/usr/bin/env python3
+"""`twinarm render`: stills and films, and what is refused.
+
+    test_render_command.py PATH/TO/twinarm
+"""
+import json
+import os
+import pathlib
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+import picture  # noqa: E402
+from waiting import TIMEOUT, wait_while_running  # noqa: E402
+
+PROGRAM = None
+SCENES = sorted((ROOT / "assets/scenes").glob("*.toml"))
+BALL = """
+duration = 0.5
+[[body]]
+name = "ball"
+shape = { sphere = { radius = 0.1 } }
+mass = 1
+position = [0, 0, 1]
+[[body]]
+name = "floor"
+fixed = true
+shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
+"""
+# In place of ffmpeg: writes what it was told and how many bytes it was given; fails on demand.
+FAKE = """#!/bin/sh
+for word in "$@"; do last=$word; done
+if [ -n "$FAIL" ]; then echo "no such codec" >&2; exit 3; fi
+echo "$@" > "$last"
+wc -c >> "$last"
+"""
+
+
+def png_size(data):
+    assert data[:8] == b"\x89PNG\r\n\x1a\n" and data[-8:-4] == b"IEND", "no whole PNG"
+    return struct.unpack(">II", data[16:24])
+
+
+class Render(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+        self.ball = self.folder / "ball.toml"
+        self.ball.write_text(BALL)
+
+    def run_render(self, *words, path=None, **more):
+        environment = dict(os.environ, **more)
+        if path is not None:
+            environment["PATH"] = str(path)
+        return subprocess.run([PROGRAM, "render", *map(str, words)], capture_output=True, text=True,
+                              timeout=TIMEOUT, env=environment)
+
+    def rendered(self, *words, **more):
+        result = self.run_render(*words, "--json", **more)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def refusals(self, *words, **more):
+        result = self.run_render(*words, "--json", **more)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        return json.loads(result.stdout)["errors"]
+
+    def fake_ffmpeg(self):
+        folder = self.folder / "bin"
+        folder.mkdir(exist_ok=True)
+        fake = folder / "ffmpeg"
+        fake.write_text(FAKE)
+        fake.chmod(0o755)
+        return f"{folder}:{os.environ['PATH']}"
+
+    def test_each_scene_gives_a_picture_with_all_overlays(self):
+        self.assertGreater(len(SCENES), 10)
+        for scene in SCENES:
+            with self.subTest(scene=scene.stem):
+                out = self.folder / f"{scene.stem}.png"
+                told = self.rendered(scene, "--png", out, "--size", "321x203", "--quality", "draft",
+                                     "--show", "all")
+                self.assertEqual(png_size(out.read_bytes()), (321, 203))
+                self.assertEqual((told["width"], told["height"], told["pictures"]), (321, 203, 1))
+
+    def test_the_same_picture_twice_has_the_same_bytes_and_another_instant_has_others(self):
+        pictures = []
+        for name, at in (("a", 0.3), ("b", 0.3), ("c", 0.1)):
+            out = self.folder / f"{name}.png"
+            self.rendered(self.ball, "--png", out, "--at", at, "--size", "160x120",
+                          "--camera", "0,10,3", "--show", "none")
+            pictures.append(out.read_bytes())
+        self.assertEqual(pictures[0], pictures[1])
+        self.assertNotEqual(pictures[0], pictures[2])
+
+    def test_a_film_has_its_pictures_at_the_rate_and_slowness_that_are_asked_for(self):
+        out = self.folder / "film"
+        told = self.rendered(self.ball, "--frames", out, "--size", "64x48", "--quality", "draft",
+                             "--from", 0.1, "--to", 0.3, "--slow", 2, "--fps", 10)
+        self.assertEqual(told["pictures"], 5)  # each 0.05 s, both ends
+        self.assertAlmostEqual(told["from"], 0.1, places=9)
+        self.assertAlmostEqual(told["to"], 0.3, places=9)
+        self.assertEqual(sorted(p.name for p in out.iterdir()),
+                         [f"frame_{i:05}.png" for i in range(5)])
+
+    def test_a_recording_gives_the_film_of_its_run(self):
+        recording = self.folder / "run.twinrec"
+        subprocess.run([PROGRAM, "simulate", self.ball, "--record", recording], check=True,
+                       capture_output=True, timeout=TIMEOUT)
+        out = self.folder / "film"
+        told = self.rendered(recording, "--frames", out, "--size", "64x48", "--quality", "draft",
+                             "--fps", 10, "--show", "all")
+        self.assertEqual((told["pictures"], told["from"]), (6, 0))
+        self.assertAlmostEqual(told["to"], 0.5, places=9)
+
+    def record(self, name, **changes):
+        text = BALL
+        for old, new in changes.values():
+            text = text.replace(old, new)
+        scene, recording = self.folder / f"{name}.toml", self.folder / f"{name}.twinrec"
+        scene.write_text(text)
+        subprocess.run([PROGRAM, "simulate", scene, "--record", recording], check=True,
+                       capture_output=True, timeout=TIMEOUT)
+        return recording
+
+    def test_two_recordings_stand_side_by_side_to_the_end_of_the_longer_one(self):
+        left, right = self.record("a"), self.record("b", d=("duration = 0.5", "duration = 0.3"))
+        out = self.folder / "film"
+        told = self.rendered(left, "--beside", right, "--frames", out, "--size", "200x60", "--fps",
+                             10, "--show", "none", "--plot", "energy")
+        self.assertEqual(told["pictures"], 6)
+        pictures = [picture.read_png(p) for p in sorted(out.iterdir())]
+        left_of = [[bytes(row[:3 * 90]) for row in rows] for _, _, rows in pictures]
+        right_of = [[bytes(row[3 * 110:]) for row in rows] for _, _, rows in pictures]
+        self.assertEqual(len({tuple(map(bytes, rows)) for rows in left_of}), 6)
+        self.assertEqual(len({tuple(map(bytes, rows)) for rows in right_of}), 4)  # then it stands
+        self.assertTrue(self.refusals(left, "--beside", self.ball, "--frames", out))
+
+    def test_a_plot_takes_the_foot_of_the_picture_and_its_cursor_goes_with_the_time(self):
+        recording = self.record("a")
+        columns = []
+        for at in (0.1, 0.2, 0.3):
+            out = self.folder / "plot.png"
+            self.rendered(recording, "--png", out, "--at", at, "--size", "640x360", "--quality",
+                          "draft", "--plot", "energy")
+            _, _, rows = picture.read_png(out)
+            # The upright red line: the column that is reddest over some rows of the panel.
+            columns.append(min(range(640), key=lambda x: sum(
+                abs(row[3 * x] - 204) + abs(row[3 * x + 1] - 41) + abs(row[3 * x + 2] - 36)
+                for row in rows[300:330])))
+        self.assertAlmostEqual(columns[1] - columns[0], columns[2] - columns[1], delta=1.01)
+        self.assertGreater(columns[1] - columns[0], 80)  # a fifth of the panel
+
+    def test_ffmpeg_is_given_all_pixels_and_the_film_gets_its_name_at_the_end(self):
+        path = self.fake_ffmpeg()
+        for option, format_word in (("--mp4", "mp4"), ("--gif", "gif")):
+            out = self.folder / f"film.{format_word}"
+            told = self.rendered(self.ball, option, out, "--size", "33x17", "--quality", "draft",
+                                 "--to", 0.2, "--fps", 10, path=path)
+            words, count = out.read_text().splitlines()
+            self.assertEqual(int(count), told["pictures"] * 33 * 17 * 4)
+            self.assertIn("-s 33x17 -r 10", words)
+            self.assertIn(f"-f {format_word} ", words)
+        self.assertEqual(list(self.folder.glob("*.part")), [])
+
+    def test_where_ffmpeg_is_missing_or_fails_it_is_said_and_nothing_stays(self):
+        out = self.folder / "film.mp4"
+        (fault,) = self.refusals(self.ball, "--mp4", out, path=self.folder)
+        self.assertEqual(fault["where"], "--mp4")
+        self.assertIn("apt-get install ffmpeg", fault["remedy"])
+        self.refusals(self.ball, "--mp4", out, "--size", "64x48", path=self.fake_ffmpeg(), FAIL="1")
+        self.assertEqual(list(self.folder.glob("film*")), [])
+
+    def test_ctrl_c_leaves_no_half_film(self):
+        path = self.fake_ffmpeg()
+        out = self.folder / "film.mp4"
+        process = subprocess.Popen([PROGRAM, "render", self.ball, "--mp4", out, "--fps", "1000"],
+                                   env=dict(os.environ, PATH=path), stderr=subprocess.PIPE)
+        wait_while_running(process, (self.folder / "film.mp4.part").exists, "a film that has begun")
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=TIMEOUT)
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(list(self.folder.glob("film*")), [])
+
+    def test_all_faults_of_the_options_are_told_at_once(self):
+        faults = self.refusals(self.ball, "--size", "0x100", "--show", "forcs", "--slow", "0",
+                               "--quality", "best", "--at", "-1", "--plot", "energie",
+                               "--background", "ski")
+        self.assertEqual(sorted(f["where"] for f in faults),
+                         ["--at", "--background", "--plot", "--quality", "--show", "--size", "--slow", "output"])
+        png = self.folder / "a.png"
+        for words in (["--size", "nan"], ["--size", "1e9x2"], ["--size", "16.5x16"],
+                      ["--camera", "nowhere"], ["--camera", "follow:bal"], ["--from", "1"],
+                      ["--mp4", "b.mp4"]):
+            with self.subTest(words=words):
+                self.assertTrue(self.refusals(self.ball, "--png", png, *words))
+                self.assertFalse(png.exists())
+
+    def test_what_cannot_be_is_told_by_the_words_that_were_typed_and_before_the_work(self):
+        run, out, film = self.record("a"), self.folder / "b.png", self.folder / "film"
+        self.assertIn("does not exist", self.refusals(self.folder / "gone.twinrec", "--png",
+                                                      out)[0]["rule"])
+        for words in (["--to", "9"], ["--from", "7", "--to", "9"]):
+            faults = self.refusals(run, "--frames", film, *words)
+            self.assertEqual([(f["where"], f["rule"].split()[0]) for f in faults],
+                             list(zip(words[::2], words[1::2])))
+        for words in (["--png", out, "--at", "9"], ["--frames", film, "--to", "9"]):
+            self.assertIn("neither", self.refusals(run, "--beside", run, *words)[0]["rule"])
+        self.assertIn("--gravity", self.refusals(run, "--png", out, "--gravity", "0,0,-1")[0]["where"])
+        for words in (["--png", self.folder / "a.jpg"], ["--gif", self.folder / "a.mp4"],
+                      ["--frames", run]):
+            faults = self.refusals(self.ball, *words, path=self.fake_ffmpeg())
+            self.assertEqual(len(faults), 1, faults)
+        robot = ROOT / "assets/robots/puma560/puma560.urdf"
+        self.assertEqual(self.refusals(robot, "--frames", film)[0]["where"], "--to")
+        # A run of a day: the camera is looked at first.
+        (fault,) = self.refusals(self.ball, "--frames", film, "--to", "90000", "--fps", "1",
+                                 "--camera", "nowhere")
+        self.assertEqual(fault["where"], "--camera")
+
+    def test_a_link_whose_mesh_is_missing_is_drawn_by_its_collision_shapes_and_that_is_said(self):
+        urdf = self.folder / "rod.urdf"
+        urdf.write_text("""<robot name="rod"><link name="base"><inertial><mass value="1"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+<visual><geometry><mesh filename="gone.stl"/></geometry></visual>
+<collision><geometry><box size="1 1 1"/></geometry></collision></link></robot>""")
+        out = self.folder / "rod.png"
+        told = self.rendered(urdf, "--png", out, "--size", "64x48")
+        self.assertTrue(any("'base'" in w and "collision shapes" in w for w in told["warnings"]))
+
+
+if __name__ == "__main__":
+    PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main()

@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""The same input gives the same bits: today's as those in the table, and whatever the number of threads.
+
+    test_same_bits.py PATH/TO/twinarm
+"""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import tomllib
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+import golden_hashes  # noqa: E402
+from golden_hashes import SCENES, read_table  # noqa: E402
+from waiting import TIMEOUT  # noqa: E402
+
+PROGRAM = ""
+MAP = ["assets/scenes/tracking_map.toml", "--x", "coupling.stiffness:1e4:1e6:40:log", "--y",
+       "step:0.002:0.01:20:log", "--duration", "0.5"]
+
+
+class Table(unittest.TestCase):
+    def test_each_scene_is_in_the_table_and_no_other(self):
+        self.assertEqual(sorted(read_table()), [scene.stem for scene in SCENES])
+
+    def test_what_the_lab_offers_is_in_the_table(self):
+        gallery = tomllib.loads((ROOT / "assets/scenes/gallery/gallery.toml").read_text())
+        files = {pathlib.Path(scene["file"]).stem for scene in gallery["scene"]}
+        self.assertTrue(files)
+        self.assertEqual(files - set(read_table()), set())
+
+    def test_each_scene_has_after_its_steps_the_hash_that_it_had(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for scene in SCENES:
+                with self.subTest(scene=scene.stem):
+                    row = read_table()[scene.stem]
+                    self.assertEqual(golden_hashes.golden(PROGRAM, scene, row["steps"], folder), row["hash"],
+                                     "are these other motions on purpose? then scripts/check/same_bits --renew")
+
+
+class Threads(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+
+    def twinarm(self, *words, processors=None, **environment):
+        """With fewer processors there are fewer threads."""
+        pinned = (lambda: os.sched_setaffinity(0, processors)) if processors else None
+        done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=TIMEOUT, cwd=ROOT,
+                              preexec_fn=pinned, env=dict(os.environ, **environment))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def same(self, results):
+        for result in results[1:]:
+            self.assertEqual(result, results[0])
+
+    def test_a_map_has_the_same_bytes_with_one_two_and_three_threads(self):
+        for way in ([], ["--alone"]):
+            told, files = [], []
+            for threads in (1, 2, 3):
+                file = self.folder / f"{threads}{len(way)}"
+                told.append(self.twinarm("map", *MAP, *way, "--threads", threads, "--work", file, "--csv",
+                                         f"{file}.csv", "--json"))
+                files.append((file.read_bytes(), pathlib.Path(f"{file}.csv").read_bytes()))
+            self.same(told)
+            self.same(files)
+
+    def test_a_picture_has_the_same_bytes_with_none_one_and_three_threads_of_mesa(self):
+        pictures = []
+        for threads in (0, 1, 3):  # 0: the painter's own
+            file = self.folder / f"{threads}.png"
+            self.twinarm("render", "assets/scenes/robot_beside_obstacles.toml", "--png", file, "--at", 0.5,
+                         "--size", "320x200", "--show", "all", LP_NUM_THREADS=str(threads))
+            pictures.append(file.read_bytes())
+        self.same(pictures)
+
+    def test_compare_finds_the_same_numbers_on_one_processor_and_on_all(self):
+        told = []
+        for processors in ({min(os.sched_getaffinity(0))}, None):
+            answer = json.loads(self.twinarm("compare", "A1", "A2", "B1", "C2", "--integrator", "rk4,verlet",
+                                             "--json", processors=processors))
+            for case in answer["cases"]:
+                case.pop("seconds")
+                for lane in case["lanes"]:
+                    lane.pop("seconds")
+            told.append(answer)
+        self.assertGreater(len(told[0]["cases"]), 2)
+        self.same(told)
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()

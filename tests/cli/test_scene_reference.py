@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+"""docs/scenes.md names each key that a scene may have, and no other; docs/study.md each of the study's settings;
+docs/command_line.md each exit code.
+
+    test_scene_reference.py PROGRAM
+
+The program is asked: a scene whose tables have every word that may be a key is told which of them are none.
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import tomllib
+import unittest
+
+from waiting import TIMEOUT  # noqa: E402
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else None
+PAGE = (ROOT / "docs/scenes.md").read_text()
+WORD = re.compile(r"[a-z][a-z_0-9]*")
+CELLS = re.compile(r"(?<!\\)\|")
+ROBOT = '[[robot]]\nname = "arm"\nmodel = "robots/s103/s103.urdf"\n'
+ARM = '[[coupling]]\nlink = "arm1"\nstiffness = 1\n'
+SHAPES = ("halfspace", "box", "sphere", "capsule", "cylinder", "ellipsoid", "hollow_sphere", "hollow_cylinder", "mesh")
+
+
+def spans(text):
+    return re.findall(r"`([^`]+)`", text)
+
+
+def section(heading):
+    return re.search(rf"^## {re.escape(heading)}\n(.*?)(?=^## |\Z)", PAGE, re.M | re.S)[1]
+
+
+def rows(heading):
+    """Of each table of a section: its header's cells and a row's."""
+    found, header = [], None
+    for line in section(heading).splitlines():
+        cells = [cell.strip() for cell in CELLS.split(line)[1:-1]] if line.startswith("|") else None
+        if not cells:
+            header = None
+        elif header is None:
+            header = cells
+        elif not cells[0].startswith("---"):
+            found.append((header, cells))
+    return found
+
+
+def named(heading):
+    """The keys of a table, as its section lists them in columns that are headed so."""
+    return {word for header, cells in rows(heading) for title, cell in zip(header, cells)
+            if title in ("key", "keys", "keys of its own") and header[0] != "shape"
+            for word in spans(cell) if WORD.fullmatch(word)}
+
+
+def named_within(heading, key):
+    """The keys of an inline table, as the examples in its row give them."""
+    text = " ".join(" ".join(cells) for header, cells in rows(heading) if key in spans(cells[0]))
+    return {word for span in spans(text) if "{" in span for word in re.findall(r"(\w+) = ", span)} - {key}
+
+
+def words_of_sources():
+    """What may be a key: each such word in quotes in the reader's sources, and in the page."""
+    text = " ".join(file.read_text() for file in sorted((ROOT / "app/scene").rglob("*.cpp")))
+    quoted = set(re.findall(r'"([a-z][a-z_0-9]*)"', text))
+    in_page = {word for span in spans(PAGE) for word in WORD.findall(span)}
+    return sorted(quoted | in_page)
+
+
+def known(before, skip=(), inside=None):
+    """Those of all words that the program takes as keys of the table that ends `before`."""
+    taken = set()
+    words = [word for word in words_of_sources() if word not in skip]
+    # So few at once that all faults are told: the program stops at 200.
+    for first in range(0, len(words), 80):
+        some = words[first:first + 80]
+        body = inside % ", ".join(f"{word} = []" for word in some) if inside else "\n".join(f"{w} = []" for w in some)
+        with tempfile.TemporaryDirectory() as place:
+            file = pathlib.Path(place) / "scene.toml"
+            file.write_text(f"{before}\n{body}\n")
+            ran = subprocess.run([PROGRAM, "simulate", file, "--duration", "0.001"], capture_output=True, text=True,
+                                 timeout=TIMEOUT)
+        if ran.returncode != 2:
+            raise AssertionError(f"the scene was not refused: {ran.stderr[:500]}")
+        refused = set(re.findall(r", (\w+): (?:this key is not known here|there is no such)", ran.stderr))
+        taken |= set(some) - refused
+    return taken | set(skip)
+
+
+class Keys(unittest.TestCase):
+    maxDiff = None
+
+    def check(self, heading, found, said=None):
+        said = named(heading) if said is None else said
+        self.assertEqual(sorted(found - said), [], f"docs/scenes.md, {heading}: not said, though there")
+        self.assertEqual(sorted(said - found), [], f"docs/scenes.md, {heading}: said, though there is none")
+
+    def test_the_top(self):
+        lists = {"robot", "body", "pair", "coupling", "constraint"}
+        self.check("The top", known("") - lists)
+        for name in lists:
+            self.assertIn(f"## `[[{name}]]`", PAGE)
+
+    def test_a_robot(self):
+        self.check("`[[robot]]`", known(ROBOT, skip=("name", "model")))
+
+    def test_a_body(self):
+        self.check("`[[body]]`", known("[[body]]"))
+
+    def test_a_pair(self):
+        self.check("`[[pair]]`", known("[[pair]]"))
+
+    def test_a_coupling(self):
+        self.check("`[[coupling]]`", known(ROBOT + "[[coupling]]"))
+
+    def test_a_constraint(self):
+        self.check("`[[constraint]]`", known("[[constraint]]"))
+
+    def test_tables_within_tables(self):
+        for heading, key, before, inside, extra in (
+                ("`[[robot]]`", "payload", ROBOT, "payload = [{ %s }]", ()),
+                ("`[[body]]`", "motion", "[[body]]", "motion = { %s }", ()),
+                ("`[[coupling]]`", "gripper", ROBOT + ARM + 'target = "paper"', "gripper = { %s }", ())):
+            with self.subTest(key):
+                self.check(heading, known(before, inside=inside), named_within(heading, key))
+
+    def test_each_shape(self):
+        told = {shape: set(spans(cells[1])) for header, cells in rows("`[[body]]`") if header[0] == "shape"
+                for shape in spans(cells[0])}
+        self.assertEqual(sorted(told), sorted(SHAPES))
+        for shape, keys in told.items():
+            with self.subTest(shape):
+                self.check(f"shape {shape}", known("[[body]]", inside=f"shape = {{ {shape} = {{ %s }} }}"), keys)
+
+
+class Settings(unittest.TestCase):
+    """The study needs all of its settings: of a file that has none it misses each."""
+
+    def missed(self):
+        with tempfile.TemporaryDirectory() as place:
+            assets = pathlib.Path(place) / "assets"
+            (assets / "study").mkdir(parents=True)
+            (assets / "robots").symlink_to(ROOT / "assets/robots")
+            (assets / "study/settings.toml").write_text("[[robot.mount]]\n" * 2)
+            ran = subprocess.run([PROGRAM, "study", "--assets", assets, "--out", pathlib.Path(place) / "out", "--json"],
+                                 capture_output=True, text=True, timeout=TIMEOUT)
+        self.assertEqual(ran.returncode, 2, ran.stderr)
+        return {re.sub(r"\[\d\]", "[]", fault["where"]) for fault in json.loads(ran.stdout)["errors"]
+                if fault["file"].endswith("settings.toml")}
+
+    def test_each_setting_is_in_docs_study_and_in_the_file_and_no_other(self):
+        text = re.search(r"^## Settings.*?\n(.*?)(?=^## )", (ROOT / "docs/study.md").read_text(), re.M | re.S)[1]
+        said = {key for line in text.splitlines() if line.startswith("| `") for key in spans(CELLS.split(line)[1])}
+        self.assertEqual(sorted(said), sorted(self.missed()))
+        shipped = set()
+        for table, entries in tomllib.loads((ROOT / "assets/study/settings.toml").read_text()).items():
+            for key, value in entries.items():
+                tables = isinstance(value, list) and isinstance(value[0], dict)
+                shipped |= {f"{table}.{key}[].{inner}" for inner in value[0]} if tables else {f"{table}.{key}"}
+        self.assertEqual(shipped, said)
+
+
+class ExitCodes(unittest.TestCase):
+    def test_each_code_of_the_sources_is_in_the_table_and_no_other(self):
+        table = re.search(r"^## Exit codes\n(.*?)(?=^## )", (ROOT / "docs/command_line.md").read_text(), re.M | re.S)[1]
+        said = {int(code) for code in re.findall(r"^\| (\d+) \|", table, re.M)}
+        there = {0, 1}  # of commands whose result can fall short: no name of their own
+        for file in (ROOT / "app").rglob("*.cpp"):
+            text = file.read_text()
+            for codes in re.findall(r"enum ExitCode \{([^}]*)\}", text):
+                there |= {int(code) for code in re.findall(r"= (\d+)", codes)}
+            there |= {int(code) for code in re.findall(r"constexpr int kStopped = (\d+);", text)}
+        self.assertEqual(said, there)
+
+
+if __name__ == "__main__":
+    unittest.main()

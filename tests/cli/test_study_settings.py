@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""Faults of the study's settings: all at once, each with its key, line and remedy.
+
+    test_study_settings.py PATH/TO/twinarm
+"""
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from waiting import TIMEOUT  # noqa: E402
+
+ASSETS = pathlib.Path(__file__).resolve().parents[2] / "assets"
+SHIPPED = (ASSETS / "study/settings.toml").read_text()
+PROGRAM = ""
+
+
+class Settings(unittest.TestCase):
+    def faults_of(self, text):
+        """By key."""
+        with tempfile.TemporaryDirectory(prefix="twinarm-settings-") as place:
+            assets = pathlib.Path(place) / "assets"
+            shutil.copytree(ASSETS / "study", assets / "study")
+            (assets / "robots").symlink_to(ASSETS / "robots")
+            file = assets / "study/settings.toml"
+            file.write_text(text)
+            ran = subprocess.run([PROGRAM, "study", "--assets", assets, "--out", pathlib.Path(place) / "out", "--json"],
+                                 capture_output=True, text=True, timeout=TIMEOUT)
+            self.assertEqual(ran.returncode, 2, ran.stderr)
+            errors = json.loads(ran.stdout)["errors"]
+            self.assertEqual({error["file"] for error in errors}, {str(file)})
+        return {error["where"]: error for error in errors}
+
+    def test_settings_with_faults_are_refused_with_all_of_them(self):
+        text = SHIPPED
+        for key in ("rate_hz", "contact_stiffness"):
+            self.assertIn(f"\n{key} = ", text)
+            text = text.replace(f"\n{key} = ", f"\nno_{key} = ")
+        self.assertLessEqual({"obstacle.rate_hz", "obstacle.contact_stiffness"}, self.faults_of(text).keys())
+
+    def test_settings_that_nothing_reads_are_told_with_their_lines_and_the_nearest_key(self):
+        lines = []
+        wanted = {}  # by where: line, nearest key
+        for line in SHIPPED.splitlines():
+            lines.append(line)
+            for after, where, nearest in (("friction = ", "obstacle.fricton", "friction"),
+                                          ('link = "arm2"', "robot.mount[1].pont", "point"),
+                                          ("[operator]", "operator.sead", "seed")):
+                if line.startswith(after):
+                    lines.append(where.split(".")[-1] + " = 1")
+                    wanted[where] = (len(lines), nearest)
+        lines.append("[protocoll]")
+        wanted["protocoll"] = (len(lines), "protocol")
+        errors = self.faults_of("\n".join([*lines, "rates_hz = [60]"]) + "\n")
+        self.assertEqual({where: error["line"] for where, error in errors.items()},
+                         {where: line for where, (line, _) in wanted.items()})
+        for where, (_, nearest) in wanted.items():
+            self.assertEqual(errors[where]["rule"], "this key is not known here")
+            self.assertIn(f"did you mean '{nearest}'?", errors[where]["remedy"])
+
+    def test_lists_of_settings_of_the_wrong_kind_or_length_are_refused(self):
+        text = SHIPPED
+        second = text[text.rindex("[[robot.mount]]"):text.index("# Joint 3")]
+        for before, after in (("\nrates_hz = [30, 60,", '\nrates_hz = [30, "60",'),
+                              ("\nsweep_times = [0.87,", "\nsweep_times = [nan,"),
+                              (', "joint3"]', "]"), (second, ""), ("\nfriction = 0.3", "\nfriction = inf"),
+                              ("[0.90, 0.16, 0.42]", "[0.90, 0.16]")):
+            self.assertEqual(text.count(before), 1, before)
+            text = text.replace(before, after)
+        errors = {where: error["rule"] for where, error in self.faults_of(text).items()}
+        self.assertEqual(errors, {"protocol.rates_hz": "must be a list of finite numbers",
+                                  "protocol.sweep_times": "must be a list of finite numbers",
+                                  "robot.turned": "must be a list of 3 texts",
+                                  "robot.mount": "must be 2 tables [[robot.mount]]",
+                                  "obstacle.friction": "must be a finite number",
+                                  "obstacle.size": "must be three finite numbers"})
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main()

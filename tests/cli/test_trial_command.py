@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+"""`twinarm trial`: a protocol with a person, here done by a hand that is a trace.
+
+    test_trial_command.py PROGRAM
+"""
+import csv
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from waiting import TIMEOUT  # noqa: E402
+
+PROGRAM = None
+L1, L2 = 0.25, 0.35  # of the S-103's arms [m]
+OBJECT, GOAL = (0.42, 0.28), (0.42, -0.28)
+
+
+def angles_at(place):
+    """Of the robot's joints 1 and 2, elbow to the left."""
+    x, y = place
+    cosine = (x * x + y * y - L1 * L1 - L2 * L2) / (2 * L1 * L2)
+    q2 = -math.acos(cosine)
+    return math.atan2(y, x) - math.atan2(L2 * math.sin(q2), L1 + L2 * math.cos(q2)), q2
+
+
+def trace_of(stops):
+    """CSV of a hand: [(time, robot angles, button)], with minimum-jerk ways in between."""
+    lines = ["t[s],theta1[rad],theta2[rad],theta3[rad],theta4[rad],theta5[rad],theta6[rad],button"]
+    n = 0
+    for (t0, a, _), (t1, b, _) in zip(stops, stops[1:]):
+        while n * 0.005 < t1:
+            s = (n * 0.005 - t0) / (t1 - t0)
+            s = s**3 * (10 - 15 * s + 6 * s * s)
+            q1, q2 = (a[i] + s * (b[i] - a[i]) for i in range(2))
+            button = [pressed for t, _, pressed in stops if t <= n * 0.005][-1]
+            lines.append(f"{n * 0.005:.4f},{q1 / 2:.6f},0.9,0.2,{q2:.6f},0.3,0,{button}")
+            n += 1
+    return "\n".join(lines) + "\n"
+
+
+def run(*arguments, code=0):
+    done = subprocess.run([PROGRAM, "trial", *map(str, arguments)], capture_output=True, text=True,
+                          timeout=TIMEOUT, stdin=subprocess.DEVNULL)
+    assert done.returncode == code, f"{done.returncode}: {done.stdout}{done.stderr}"
+    return done
+
+
+class Trial(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.out = pathlib.Path(self.folder.name) / "trial"
+        self.hand = pathlib.Path(self.folder.name) / "hand.csv"
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def trial(self, *more):
+        done = run("--device", f"virtual:trace:{self.hand}", "--simulated", "--json", "--out",
+                   self.out, *more)
+        return json.loads(done.stdout)
+
+    def carries(self, to=GOAL, rest=1.5):
+        there, away = angles_at(OBJECT), angles_at(to)
+        self.hand.write_text(trace_of([(0, (0, 0), 0), (1.5, there, 0), (1.5 + rest, there, 1),
+                                       (4.5 + rest, away, 1), (6 + rest, away, 0),
+                                       (8 + rest, away, 0)]))
+
+    def test_a_hand_that_brings_the_object_to_its_goal_has_done_the_task_when_it_lets_go(self):
+        self.carries()
+        told = self.trial("--tasks", "pick-and-place", "--most", 20)
+        self.assertEqual([r["condition"] for r in told["results"]],
+                         ["torsional", "linear", "kinematic"])
+        for result in told["results"]:
+            self.assertTrue(result["done"], result)
+            self.assertEqual((result["picks"], result["drops"]), (1, 0))
+            self.assertLess(abs(result["seconds"] - 7.5), 0.1)  # the button goes up at 7.5 s
+            self.assertLess(abs(result["picked_at"] - 3.0), 0.1)
+            self.assertLess(result["off_mm"], 30)
+        self.assertEqual(told["results"][2]["max_deg"], [])  # the kinematic robot has no error
+        self.assertGreater(told["results"][0]["max_deg"][0], 0.1)
+
+    def test_an_object_let_go_beside_the_goal_is_a_drop_and_no_success(self):
+        self.carries(to=(0.45, -0.15))
+        told = self.trial("--tasks", "pick-and-place", "--most", 12, "--conditions", "kinematic")
+        result = told["results"][0]
+        self.assertFalse(result["done"])
+        self.assertEqual((result["picks"], result["drops"]), (1, 1))
+        self.assertAlmostEqual(result["seconds"], 12, delta=0.01)
+        self.assertAlmostEqual(result["off_mm"], 1e3 * math.hypot(0.03, 0.13), delta=10)
+
+    def test_the_table_of_all_subjects_grows_and_names_nobody(self):
+        self.carries()
+        first = self.trial("--tasks", "free", "--seconds", 1)
+        self.assertEqual(first["subject"], "S1")
+        second = self.trial("--tasks", "free", "--seconds", 1, "--seed", 2)
+        self.assertEqual(second["subject"], "S2")
+        rows = list(csv.DictReader((self.out / "results.csv").read_text().splitlines()))
+        self.assertEqual([row["subject"] for row in rows], ["S1"] * 3 + ["S2"] * 3)
+        self.assertEqual({row["condition"] for row in rows[3:]},
+                         {"torsional", "linear", "kinematic"})
+        self.assertAlmostEqual(float(rows[0]["joint1_max[deg]"]),
+                               first["results"][0]["max_deg"][0], delta=1e-4)
+
+    def test_the_log_of_a_task_makes_the_run_again(self):
+        self.carries()
+        told = self.trial("--tasks", "free", "--seconds", 3, "--conditions", "linear")
+        scene = self.out / "S1/linear.toml"
+        log = told["results"][0]["log"]
+        scene.write_text(scene.read_text().replace('"device"', f'"{log}"'))
+        done = subprocess.run([PROGRAM, "simulate", str(scene), "--duration", "3", "--json"],
+                              capture_output=True, text=True, timeout=TIMEOUT)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        sample = json.loads(done.stdout)["samples"][-1]
+        # It has gone to the object (1.5 s) and waits there.
+        for joint, angle in zip(("joint1", "joint2"), angles_at(OBJECT)):
+            self.assertAlmostEqual(sample["q"][joint], angle, delta=0.05)
+
+    def test_bad_input_is_told_with_its_remedy(self):
+        self.out.mkdir()
+        (self.out / "results.csv").write_text("something else\n")
+        for arguments, words in ((("--conditions", "elastic"), "torsional,linear,kinematic"),
+                                 (("--tasks", "dance"), "free,pick-and-place"),
+                                 (("--mapping", "cartesian"), "paper or arm"),
+                                 (("--device", "keyboard", "--simulated"), "no simulated time"),
+                                 (("--device", "omni"), "omni"),
+                                 (("--device", "virtual", "--simulated"), "another folder"),
+                                 (("--device", "virtual", "--subject", "S1", "--simulated",
+                                   "--tasks", "free", "--seconds", "0.1"), "another folder")):
+            self.assertIn(words, run(*arguments, "--out", self.out, code=2).stderr)
+        self.assertEqual((self.out / "results.csv").read_text(), "something else\n")
+
+    def test_a_subject_that_leaves_the_folder_is_refused(self):
+        for subject in ("../../x", str(self.out.parent / "x"), "a/b", "..", "x y"):
+            error = run("--device", "virtual", "--simulated", "--subject", subject, "--out", self.out, code=2)
+            self.assertIn("--subject", error.stderr)
+        self.assertEqual(os.listdir(self.folder.name), [])
+
+    def test_results_of_finished_tasks_are_kept_when_a_later_task_fails(self):
+        done = subprocess.run([PROGRAM, "trial", "--device", "virtual", "--tasks", "free", "--seconds", "0.2",
+                               "--out", str(self.out)], input="\n", capture_output=True, text=True, timeout=100)
+        self.assertEqual(done.returncode, 2, done.stderr)  # there is no second line to read
+        rows = list(csv.DictReader((self.out / "results.csv").read_text().splitlines()))
+        self.assertEqual([(row["order"], row["condition"]) for row in rows], [("1", "torsional")])
+
+    def test_without_a_terminal_it_asks_for_yes(self):
+        done = run("--device", "virtual", "--tasks", "free", "--out", self.out, code=2)
+        self.assertIn("--yes", done.stderr)
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()

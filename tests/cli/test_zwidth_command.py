@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+"""`twinarm zwidth`: figures against closed forms, pictures, faults.
+
+    test_zwidth_command.py PATH/TO/twinarm
+"""
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from waiting import TIMEOUT  # noqa: E402
+
+PROGRAM = ""
+ANSWERS = {}
+
+
+def run(*options):
+    return subprocess.run([PROGRAM, "zwidth", *options], capture_output=True, text=True,
+                          timeout=TIMEOUT, check=False)
+
+
+def answer():
+    """One run for all tests: it takes seconds."""
+    if "it" not in ANSWERS:
+        with tempfile.TemporaryDirectory() as folder:
+            done = run("--json", "--svg", f"{folder}/plane.svg")
+            assert done.returncode == 0, done.stderr
+            ANSWERS["it"] = json.loads(done.stdout)
+            ANSWERS["svg"] = pathlib.Path(folder, "plane.svg").read_text(encoding="utf-8")
+    return ANSWERS["it"]
+
+
+class Zwidth(unittest.TestCase):
+    def test_the_published_device_has_its_limits_of_stability(self):
+        rows = {(row["rate"], row["delay_ticks"], row["damping"]): row for row in answer()["walls"]}
+        for delay, exact, law in ((0, 2152.5, 2200), (1, 715.7, 2200 / 3)):
+            row = rows[1000, delay, 0.1]
+            self.assertLess(abs(row["stable_stiffness"] / exact - 1), 0.02)
+            self.assertAlmostEqual(row["stable_stiffness_law"], law, 6)
+
+    def test_no_energy_comes_out_of_a_wall_up_to_colgates_line(self):
+        for row in answer()["walls"]:
+            law = row["damping"] * row["rate"] / (row["delay_ticks"] + 0.5)
+            self.assertLess(abs(row["passive_stiffness"] / law - 1), 0.01)
+        plane = answer()["plane"]
+        for B, K in zip(plane["passive_B"], plane["passive_K"]):
+            self.assertLess(abs(K - 2000 * (0.1 - B)), 0.01 * K)
+        self.assertEqual(len(plane["stable_B"]), len(plane["stable_K"]))
+
+    def test_steps_of_the_encoder_cost_stiffness_by_abbott_and_okamura(self):
+        seen = 0
+        for row in answer()["walls"]:
+            if row["delay_ticks"]:
+                self.assertIsNone(row["stepped_stiffness"])
+                continue
+            law = min(2 * row["damping"] * row["rate"], 2 * 0.26 / 5.5e-5)
+            self.assertLess(abs(row["stepped_stiffness"] / law - 1), 0.02)
+            seen += law < 2 * row["damping"] * row["rate"]
+        self.assertGreater(seen, 0)
+
+    def test_a_wall_through_a_coupling_feels_like_both_springs_in_series(self):
+        self.assertEqual(len(answer()["series"]), 9)
+        for row in answer()["series"]:
+            law = row["coupling"] * row["wall"] / (row["coupling"] + row["wall"])
+            self.assertLess(abs(row["felt"] / law - 1), 0.005)
+
+    def test_a_hundred_milliseconds_stay_passive_with_the_controller_and_not_without(self):
+        rows = {(row["name"], row["control"]): row for row in answer()["delays"]}
+        for (name, control), row in rows.items():
+            # Its own count of energy, against a tick's work that it can at most be behind.
+            if control:
+                self.assertTrue(row["passive"], name)
+                self.assertGreaterEqual(row["lowest_energy"], -row["tick_work"], name)
+        self.assertFalse(rows["100 ms", False]["passive"])
+        self.assertLess(rows["100 ms", False]["lowest_energy"], -0.01)
+        self.assertLess(rows["100 ms", True]["swing"], rows["100 ms", False]["swing"])
+        # Without delay a wall is a wall: the controller leaves it alone.
+        self.assertLess(abs(rows["none", True]["force"] - rows["none", False]["force"]), 0.05)
+
+    def test_the_puma_follows_with_six_couplings(self):
+        rows = [row for row in answer()["following"] if row["robot"] == "PUMA 560"]
+        self.assertEqual({row["joint"] for row in rows}, {f"j{n}" for n in range(1, 7)})
+        self.assertEqual(len(rows), 12)
+        for row in rows:
+            self.assertLess(row["max"], math.radians(30))
+            self.assertLessEqual(row["mean"], row["max"])
+
+    def test_the_picture_is_drawn_and_named(self):
+        answer()
+        self.assertIn("walls that a hand device can render", ANSWERS["svg"])
+        self.assertIn("Colgate", ANSWERS["svg"])
+
+    def test_all_faults_are_told_at_once(self):
+        done = run("--mass=0", "--damping=-1", "--rate=nan", "--delay=-2", "--svg",
+                   "/nowhere/at/all.png", "--json")
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(len(json.loads(done.stdout)["errors"]), 6)
+        for word in ("--mass", "--damping", "--rate", "--delay", "--svg"):
+            self.assertIn(word, done.stderr)
+
+    def test_help_begins_with_an_example(self):
+        done = run("--help")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("Example:  twinarm zwidth", done.stdout)
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main()

@@ -1,0 +1,237 @@
+// Files in the styles that users bring (tests/collision/import/urdf/wild). The oracle is a reader
+// of its own, in another language, whose counts and sums stand in the table of wild/README.md.
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "collision/import/robot/robot_check.h"
+#include "collision/import/urdf/urdf.h"
+#include "collision/import/urdf/urdf_writer.h"
+#include "tests/collision/import/robot/helpers.h"
+
+namespace twinarm {
+namespace {
+
+const fs::path kWild = fs::path(TWINARM_SOURCE_DIR) / "tests/collision/import/urdf/wild";
+constexpr RobotFileOptions kWithoutMeshes{RobotFileOptions::Geometry::optional, false};
+
+struct Expected {
+  const char* name;
+  int links, without_inertial, joints, fixed, mimic, listed, dofs;
+  double mass;
+  int meshes;
+  const char* root;
+  Vector3 com;
+  Vector3 moments;   // Ixx, Iyy, Izz about the world's origin at q = 0
+  Vector3 products;  // Ixy, Ixz, Iyz: the entries of the matrix
+  const char* frame;
+  Vector3 p_W;
+};
+
+const Expected kExpected[] = {
+    {"cad_welder",
+     8,
+     0,
+     7,
+     1,
+     0,
+     6,
+     6,
+     132.5240047962221,
+     16,
+     "base_link",
+     {0.18646766977133514, -0.028329121878506131, 0.46771260629307027},
+     {54.386591353419767, 66.386997875902566, 14.541659951440554},
+     {0.72015230595883628, -20.919967992322348, 2.9022590213149373},
+     "Antorcha MIG",
+     {0.7303362574962297, -1.5935243176986934e-06, 1.2913304262111973}},
+    {"xacro_arm_gripper",
+     16,
+     3,
+     15,
+     6,
+     1,
+     8,
+     8,
+     18.822,
+     11,
+     "world",
+     {0.11422030548641958, -0.1935274993642675, 1.3232719158431625},
+     {35.862714798563701, 35.398572022369798, 1.0527826775334865},
+     {0.42101685192396426, -2.9973241884542583, 4.774823991918165},
+     "lyra_hand_tcp",
+     {0.1865, -0.2, 1.5746}},
+    {"humanoid_pilar",
+     48,
+     25,
+     47,
+     24,
+     1,
+     22,
+     27,
+     7.6211,
+     46,
+     "base_footprint",
+     {0.025486072699479074, 0, 0.36561704782249282},
+     {1.3779091620736821, 1.3746172790477535, 0.099488798448908025},
+     {9.8892900000003113e-06, -0.096135742037391295, 7.639792100000576e-05},
+     "l_sole",
+     {0, 0.0615, 0.00001}},
+    {"mobile_carrito",
+     12,
+     3,
+     11,
+     2,
+     0,
+     9,
+     16,
+     43.2,
+     1,
+     "odom",
+     {-0.032645727406168605, 0.0012388405077770387, 0.20272569444444444},
+     {3.2806443001794552, 4.4536563650312484, 3.2524069152107034},
+     {-0.011718480399752776, 0.38858655551314258, -0.0058420522662368662},
+     "laser",
+     {-0.3, 0, 0.7725}}};
+
+RobotDescription wild(const std::string& name, const RobotFileOptions& options = kWithoutMeshes) {
+  return read_urdf(kWild / (name + ".urdf"), options);
+}
+
+std::map<std::string, Pose> poses_at_zero(const RobotDescription& robot) {
+  std::map<std::string, Pose> X_WL;
+  X_WL[robot.root] = {};
+  for (const std::size_t j : joints_from_root(robot))
+    X_WL[robot.joints[j].child] = X_WL.at(robot.joints[j].parent) * robot.joints[j].X_PJ();
+  return X_WL;
+}
+
+// Mass, first moment and inertia about the world's origin.
+struct Sums {
+  double mass = 0;
+  Vector3 moment = Vector3::Zero();
+  Matrix3 inertia = Matrix3::Zero();
+};
+
+Sums sums(const RobotDescription& robot) {
+  const auto X_WL = poses_at_zero(robot);
+  Sums s;
+  for (const LinkDescription& link : robot.links) {
+    const Pose& X = X_WL.at(link.name);
+    const Vector3 c = X * link.com;
+    s.mass += link.mass;
+    s.moment += link.mass * c;
+    s.inertia += X.R * link.inertia * X.R.transpose() +
+                 link.mass * (c.squaredNorm() * Matrix3::Identity() - c * c.transpose());
+  }
+  return s;
+}
+
+TEST_CASE("files in the wild: links, joints and meshes are as many as another reader counts") {
+  for (const Expected& e : kExpected) {
+    INFO(e.name);
+    const RobotDescription robot = wild(e.name);
+    CHECK(robot.root == e.root);
+    CHECK(static_cast<int>(robot.links.size()) == e.links);
+    CHECK(static_cast<int>(robot.joints.size()) == e.joints);
+    int bare = 0, fixed = 0, mimic = 0, listed = 0, dofs = 0, meshes = 0;
+    for (const LinkDescription& link : robot.links) {
+      bare += !link.has_inertia;
+      for (const auto& part : link.visuals)
+        meshes += std::holds_alternative<MeshGeometry>(part.geometry);
+      for (const auto& part : link.collisions)
+        meshes += std::holds_alternative<MeshGeometry>(part.geometry);
+    }
+    for (const JointDescription& joint : robot.joints) {
+      fixed += joint.type == JointDescription::Type::fixed;
+      mimic += joint.mimic.has_value();
+      if (joint.mimic || joint.dofs() == 0) continue;
+      ++listed;
+      dofs += joint.dofs();
+    }
+    CHECK(bare == e.without_inertial);
+    CHECK(fixed == e.fixed);
+    CHECK(mimic == e.mimic);
+    CHECK(listed == e.listed);
+    CHECK(dofs == e.dofs);
+    CHECK(meshes == e.meshes);
+  }
+}
+
+TEST_CASE(
+    "files in the wild: mass, centre, inertia and a frame are where another reader has them") {
+  for (const Expected& e : kExpected) {
+    INFO(e.name);
+    const RobotDescription robot = wild(e.name);
+    const Sums s = sums(robot);
+    CHECK(s.mass == doctest::Approx(e.mass).epsilon(1e-14));
+    CHECK((s.moment / s.mass - e.com).norm() < 1e-13);
+    Matrix3 expected = e.moments.asDiagonal();
+    expected(0, 1) = expected(1, 0) = e.products[0];
+    expected(0, 2) = expected(2, 0) = e.products[1];
+    expected(1, 2) = expected(2, 1) = e.products[2];
+    CHECK((s.inertia - expected).norm() < 1e-13 * expected.norm());
+    CHECK((poses_at_zero(robot).at(e.frame).p - e.p_W).norm() < 1e-13);
+  }
+}
+
+TEST_CASE("files in the wild: what has no effect here is told once for each kind") {
+  const std::map<std::string, std::vector<std::string>> kinds = {
+      {"cad_welder", {"mesh file", "<calibration>", "<safety_controller>", "<axis>"}},
+      {"xacro_arm_gripper",
+       {"mesh file", "<transmission>", "<gazebo>", "<ros2_control>", "<safety_controller>",
+        "<axis>"}},
+      {"humanoid_pilar", {"mesh file", "<calibration>", "<axis> has no effect on a floating"}},
+      {"mobile_carrito",
+       {"mesh file", "texture file", "<contact>", "<sensor>", "<gazebo>", "'rpy' of <axis>",
+        "its axis has length 3"}}};
+  for (const auto& [name, expected] : kinds) {
+    const RobotDescription robot = wild(name);
+    INFO(listing(robot.warnings));
+    for (const std::string& words : expected) {
+      int found = 0;
+      for (const Fault& warning : robot.warnings)
+        found += warning.line > 0 && warning.rule.find(words) != std::string::npos;
+      CHECK_MESSAGE(found == 1, words);
+    }
+    CHECK(robot.warnings.size() == expected.size());
+  }
+}
+
+TEST_CASE("files in the wild: written and read again they are the same to the last bit") {
+  const TemporaryFolder folder;
+  for (const Expected& e : kExpected) {
+    const RobotDescription robot = wild(e.name);
+    write_urdf(robot, folder.path() / "out.urdf");
+    check_same(read_urdf(folder.path() / "out.urdf", kWithoutMeshes), robot, 0.0);
+  }
+}
+
+TEST_CASE("files in the wild: a mesh that is missing is refused where it is to be drawn") {
+  for (const Expected& e : kExpected) {
+    const auto faults = faults_of([&] { wild(e.name, {}); });
+    CHECK(static_cast<int>(faults.size()) == e.meshes);
+  }
+}
+
+TEST_CASE("files in the wild: a student's first file is told all its faults at once") {
+  const auto lines_of = [](const std::vector<Fault>& faults) {
+    std::vector<int> lines;
+    for (const Fault& fault : faults) lines.push_back(fault.line);
+    return lines;
+  };
+  const std::string name = "student_two_link";
+  const RobotFileOptions all{RobotFileOptions::Geometry::required, true};
+  const auto faults = faults_of([&] { wild(name, all); });
+  INFO(listing(faults));
+  CHECK(lines_of(faults) ==
+        std::vector<int>{7, 14, 22, 27, 32, 36, 47, 48, 50, 56, 56, 57, 59, 62});
+  CHECK(tells(faults, 27, "urdf.number", "'0,2'"));
+  CHECK(tells(faults, 36, "robot.two-roots", "'table'"));
+  CHECK(lines_of(faults_of([&] { wild(name); })) ==
+        std::vector<int>{14, 27, 36, 47, 48, 50, 56, 56, 57, 59, 62});
+}
+
+}  // namespace
+}  // namespace twinarm

@@ -1,0 +1,102 @@
+#include "collision/geometry/convex_hull.h"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "collision/mesh_files/mesh_file.h"
+#include "solver/support/diagnostics.h"
+#include "tests/collision/narrow_phase/oracle.h"
+
+using namespace twinarm;
+using namespace twinarm::test;
+
+namespace {
+
+double highest_outside(const ConvexHull& hull, const std::vector<Vector3>& points) {
+  double worst = -1e300;
+  for (std::size_t f = 0; f < hull.faces.size(); ++f) {
+    for (const Vector3& p : points) {
+      worst = std::max(worst, hull.normals[f].dot(p) - hull.offsets[f]);
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("a cube with points inside and on its sides has 8 vertices and 6 square faces") {
+  Random random(1);
+  std::vector<Vector3> points = box_mesh({2, 2, 2}).vertices;
+  for (int i = 0; i < 200; ++i) {
+    Vector3 p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    if (i % 2 == 0) p[i % 3] = 1;
+    points.push_back(p);
+  }
+  const ConvexHull hull = convex_hull(points);
+  CHECK(hull.vertices.size() == 8);
+  REQUIRE(hull.faces.size() == 6);
+  for (const auto& face : hull.faces) CHECK(face.size() == 4);
+  CHECK(hull.triangles.size() == 12);
+}
+
+TEST_CASE("a turned cube from single-precision coordinates still has 6 faces") {
+  Random random(2);
+  for (int k = 0; k < 100; ++k) {
+    std::vector<Vector3> points = moved(box_mesh({0.2, 0.1, 0.3}), random_pose(random)).vertices;
+    for (Vector3& p : points) p = p.cast<float>().cast<double>();
+    CHECK(convex_hull(points).faces.size() == 6);
+  }
+}
+
+TEST_CASE("every point of a random cloud is inside all planes to 1e-12, and the planes are tight") {
+  Random random(3);
+  for (int k = 0; k < 50; ++k) {
+    std::vector<Vector3> points;
+    for (int i = 0; i < 200; ++i) {
+      points.push_back(random.direction() * std::cbrt(random.uniform(0, 1)));
+    }
+    const ConvexHull hull = convex_hull(points);
+    CHECK(highest_outside(hull, points) < 1e-12);
+    double looseness = 0;  // of the corners of a face from its own plane
+    for (std::size_t f = 0; f < hull.faces.size(); ++f) {
+      for (int v : hull.faces[f]) {
+        looseness = std::max(looseness, hull.offsets[f] - hull.normals[f].dot(hull.vertices[v]));
+      }
+    }
+    CHECK(looseness < 1e-6);
+  }
+}
+
+TEST_CASE("the triangles of a hull are a closed outward surface, with V - E + F = 2") {
+  Random random(4);
+  for (int k = 0; k < 50; ++k) {
+    const ConvexHull hull = random_hull(random);
+    CHECK(is_closed({hull.vertices, hull.triangles}));
+    const std::size_t sides = std::accumulate(
+        hull.faces.begin(), hull.faces.end(), std::size_t{0},
+        [](std::size_t sum, const std::vector<int>& face) { return sum + face.size(); });
+    CHECK(hull.vertices.size() + hull.faces.size() == sides / 2 + 2);
+    for (std::size_t f = 0; f < hull.faces.size(); ++f) CHECK(hull.offsets[f] > 0);
+  }
+}
+
+TEST_CASE("points without a volume are refused with a remedy") {
+  const std::vector<Vector3> flat = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5, 0.2, 0}};
+  const std::vector<Vector3> few = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<Vector3> same(5, Vector3(1, 2, 3));
+  std::vector<Vector3> bad = box_mesh({1, 1, 1}).vertices;
+  bad[3].x() = std::nan("");
+  for (const auto& points : {flat, few, same, bad}) {
+    try {
+      convex_hull(points);
+      FAIL("no error");
+    } catch (const InputError& error) {
+      CHECK(!error.faults().at(0).rule.empty());
+      CHECK(!error.faults().at(0).remedy.empty());
+    }
+  }
+}

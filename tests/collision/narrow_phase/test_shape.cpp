@@ -1,0 +1,76 @@
+#include "collision/shapes/shape.h"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "solver/support/diagnostics.h"
+#include "tests/collision/narrow_phase/oracle.h"
+
+using namespace twinarm;
+using namespace twinarm::test;
+
+TEST_CASE("the support of every bounded shape is its highest point along a direction") {
+  Random random(6);
+  const std::vector<Shape> shapes = {Sphere{0.06}, Box{{0.2, 0.14, 0.1}}, Capsule{0.05, 0.2},
+                                     Cylinder{0.06, 0.15}, random_hull(random)};
+  for (const Shape& shape : shapes) {
+    CAPTURE(shape_name(shape));
+    for (int k = 0; k < 500; ++k) {
+      const Vector3 d = random.uniform(0.1, 10) * random.direction();
+      const double height = support(shape, d).dot(d.normalized());
+      double oracle = -1e300;
+      for (const Vector3& v : core_vertices(shape))
+        oracle = std::max(oracle, v.dot(d.normalized()));
+      oracle += core_radius(shape);
+      const double sagitta = std::holds_alternative<Cylinder>(shape) ? 1.5e-4 : 0;
+      CHECK(height > oracle - 1e-14);
+      CHECK(height < oracle + sagitta + 1e-14);
+    }
+  }
+}
+
+TEST_CASE("shapes with impossible numbers say what is wrong") {
+  CHECK(shape_fault(Sphere{-1}).find("radius") != std::string::npos);
+  CHECK(shape_fault(Box{{1, 0, 1}}).find("size") != std::string::npos);
+  CHECK(shape_fault(Capsule{0.1, std::nan("")}).find("length") != std::string::npos);
+  CHECK(shape_fault(HalfSpace{{0, 0, 2}, 0}).find("normal") != std::string::npos);
+  CHECK(!shape_fault(ConvexHull{}).empty());
+  CHECK(shape_fault(Cylinder{0.1, 0.2}).empty());
+}
+
+// Those that are added to AnyShape are in here by themselves.
+TEST_CASE("supports, polytopes, patches and mass properties of every shape agree") {
+  Random random(5);
+  for_each_shape([&](const auto& known) {
+    const Shape shape = known;
+    CAPTURE(shape_name(shape));
+    CHECK(shape_fault(shape).empty());
+    CHECK(std::string(known.key).find(' ') == std::string::npos);
+    const Polytope core = make_polytope(shape);
+    const Patches patches = make_patches(shape, core);
+    for (int k = 0; k < 100 && !patches.rounds.empty(); ++k) {
+      const Vector3 d = random.direction();
+      const double height = support(shape, d).dot(d);
+      CHECK(height >= support(shape, random.direction()).dot(d) - 1e-12);
+      double highest = -1e300;
+      for (const Patches::Round& round : patches.rounds)
+        highest = std::max(highest, round.p.dot(d) + std::sqrt(d.dot(round.Q * d)));
+      CHECK(std::abs(highest + patches.roundness - height) < 1e-12);
+    }
+    if constexpr (requires { known.solid(1000.0); }) {
+      const MassProperties solid = mass_properties(shape, 1000);
+      CHECK(solid.mass > 0);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3 e = Vector3::Unit(axis);
+        CHECK(solid.com[axis] < support(shape, e)[axis]);
+        CHECK(solid.com[axis] > support(shape, -e)[axis]);
+      }
+    } else {
+      CHECK_THROWS_AS(mass_properties(shape, 1000), InputError);
+    }
+  });
+}

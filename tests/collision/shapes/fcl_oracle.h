@@ -1,0 +1,33 @@
+// FCL's distance of two cores (collision/narrow_phase/gjk.h), as a second opinion.
+#pragma once
+
+#include <memory>
+
+#include "collision/geometry/polytope.h"
+#include "collision/shapes/shape.h"
+#include "solver/spatial/pose.h"
+
+namespace twinarm::test {
+
+// FCL's geometry of one shape, without the radius of spheres and capsules (they are a point and a
+// segment). Shared and const: may be asked from several threads.
+class FclShape {
+ public:
+  FclShape(const Shape& shape, const Polytope& core);
+  struct Impl;
+  const Impl* impl() const { return impl_.get(); }
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+};
+
+struct FclDistance {
+  double distance = 0;             // between the cores; 0 where they overlap, or FCL failed [m]
+  Vector3 p_WA = Vector3::Zero();  // nearest points
+  Vector3 p_WB = Vector3::Zero();
+};
+
+// Unsigned distance (GJK). 1-15 us.
+FclDistance core_distance(const FclShape& a, const Pose& X_WA, const FclShape& b, const Pose& X_WB);
+
+}  // namespace twinarm::test

@@ -1,0 +1,47 @@
+// Which of many points lies farthest: against asking them one by one.
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "collision/geometry/support_vertices.h"
+
+namespace twinarm {
+namespace {
+
+std::size_t one_by_one(const std::vector<Vector3>& points, const Vector3& d) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (points[i].dot(d) > points[best].dot(d)) best = i;
+  return best;
+}
+
+TEST_CASE("a table of points names the first of the farthest") {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  std::uniform_int_distribution<int> few(-2, 2);
+  for (const int count : {1, 2, 31, 32, 33, 170}) {
+    std::vector<Vector3> points, corners;  // corners: many are equally far along a direction
+    for (int i = 0; i < count; ++i) {
+      points.emplace_back(normal(random), normal(random), normal(random));
+      corners.emplace_back(few(random), few(random), few(random));
+    }
+    const VertexTable of_points(points), of_corners(corners);
+    for (int k = 0; k < 500; ++k) {
+      const Vector3 d(normal(random), normal(random), normal(random));
+      CHECK(of_points.farthest(d) == one_by_one(points, d));
+      const Vector3 along(few(random), few(random), few(random));
+      CHECK(of_corners.farthest(along) == one_by_one(corners, along));
+    }
+  }
+}
+
+TEST_CASE("of a direction that is no number a table names its first point") {
+  const std::vector<Vector3> points(40, Vector3::Ones());
+  const Vector3 d = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  CHECK(VertexTable(points).farthest(d) == 0);
+}
+
+}  // namespace
+}  // namespace twinarm

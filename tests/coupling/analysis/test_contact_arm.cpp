@@ -1,0 +1,120 @@
+// The twin arm against a fixed box: the hand drives the kinematic robot into it and stops inside;
+// the dynamic one is stopped outside, by each coupling, at the speed of the paper's experiments.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "collision/contact/contact_constraints.h"
+#include "tests/coupling/analysis/one_joint.h"
+
+using namespace twinarm;
+using namespace twinarm::testing;
+
+namespace {
+
+constexpr double kArm = 0.25, kFore = 0.35, kSpeed = 2.0, kTime = 0.45;  // m, m, rad/s, s
+
+Model<double> two_arms() {
+  const auto rod = [](double m, double l) {
+    const double I = m * l * l / 12;
+    return BodyInertia{m, {l / 2, 0, 0}, Vector3(0.1 * I, I, I).asDiagonal()};
+  };
+  ModelBuilder builder;
+  builder.set_gravity(Vector3::Zero());
+  builder.add_body("arm1", 0, "joint1", JointType::revolute, {}, Vector3::UnitZ(), rod(5, kArm));
+  builder.add_body("arm2", 1, "joint2", JointType::revolute, {Matrix3::Identity(), {kArm, 0, 0}},
+                   Vector3::UnitZ(), rod(3, kFore));
+  return builder.build();
+}
+
+// Turns joint 1 at kSpeed for kTime, then holds.
+class StoppingHand final : public HandSource {
+ public:
+  HandSample sample(double t, double) const override {
+    HandSample hand;
+    const bool moves = t < kTime;
+    SteadyHand::mapping().set_robot_angle(hand, 0, -0.9 + kSpeed * std::min(t, kTime),
+                                          moves ? kSpeed : 0);
+    SteadyHand::mapping().set_robot_angle(hand, 1, 0.3, 0);
+    return hand;
+  }
+  double duration() const override { return 10; }
+  std::string description() const override { return "moves, then stops"; }
+};
+
+CouplingSpec coupling_of(int kind) {
+  CouplingSpec spec;
+  spec.treatment = Treatment::implicit;
+  if (kind == 0) {
+    spec.type = CouplingSpec::Type::linear;
+    spec.springs = {{"arm1", 1, {kArm / 2, 0, 0}, 4000, 60}, {"arm2", 2, {0.3, 0, 0}, 1500, 40}};
+  } else {
+    spec.type = CouplingSpec::Type::torsional;
+    spec.measure = kind == 1 ? Measure::world : Measure::joint;
+    spec.springs = {{"arm1", 1, {}, 150, 6}, {"arm2", 2, {}, 40, 1.5}};
+  }
+  return spec;
+}
+
+// Generalised force of the coupling where everything is at rest, from its definition: springs
+// alone.
+std::array<double, 2> pull(int kind, const CouplingSpec& spec, const std::vector<double>& q,
+                           double q1_K, double q2_K) {
+  const double k1 = spec.springs[0].k, k2 = spec.springs[1].k;
+  const double e1 = q1_K - q[0], e12 = q1_K + q2_K - q[0] - q[1];
+  if (kind == 1) return {k1 * e1 + k2 * e12, k2 * e12};  // couples on the links, in the world
+  if (kind == 2) return {k1 * e1, k2 * (q2_K - q[1])};
+  const auto along = [](double angle, double r) {
+    return Vector3(r * std::cos(angle), r * std::sin(angle), 0);
+  };
+  const Vector3 F1 = k1 * (along(q1_K, kArm / 2) - along(q[0], kArm / 2));
+  const Vector3 elbow = along(q[0], kArm), fore = along(q[0] + q[1], 0.3);
+  const Vector3 F2 = k2 * (along(q1_K, kArm) + along(q1_K + q2_K, 0.3) - elbow - fore);
+  return {along(q[0], kArm / 2).cross(F1).z() + (elbow + fore).cross(F2).z(), fore.cross(F2).z()};
+}
+
+}  // namespace
+
+TEST_CASE("an arm pushed against a box stays outside, and rests on it with the coupling's force") {
+  for (int kind = 0; kind < 3; ++kind) {
+    CAPTURE(kind);
+    const Model<double> model = two_arms();
+    StoppingHand hand;
+    KinematicRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1", "joint2"}, "", 0, 0});
+    const CouplingSpec spec = coupling_of(kind);
+    const auto coupling = make_coupling(spec, model, kvr);
+    Simulation simulation(model, state_of(model, {-0.9, 0.3}, {kSpeed, 0}));
+    simulation.add(*coupling);
+    ContactConstraints contacts(model, ContactResponse::rigid);
+    ContactSurface surface;
+    surface.friction = 0.3;
+    const Pose fore{Matrix3::Identity(), {kFore / 2, 0, 0}};
+    contacts.add({"fore", 2, fore, Box{{kFore, 0.04, 0.05}}, surface, 0});
+    contacts.add({"post", 0, {Matrix3::Identity(), {0.5, 0, 0}}, Box{{0.1, 0.1, 0.5}}, surface, 0});
+    simulation.add(contacts);
+
+    double deepest = 0, least = 1e300, most = 0;
+    int refused = 0;
+    for (int n = 0; n < 3000; ++n) {
+      refused += !simulation.step(1e-3).ok();
+      double force = 0;
+      for (const ContactPoint& point : contacts.points()) {
+        deepest = std::max(deepest, point.contact.depth);
+        force += point.force_W.norm();
+      }
+      if (n < 2000) continue;  // the arm has come to rest on the post
+      least = std::min(least, force), most = std::max(most, force);
+    }
+    CHECK(refused == 0);
+    CHECK(deepest < 1e-4);
+    CHECK(most > 1);
+    CHECK(most - least < 0.01 * most);                                  // no chatter
+    CHECK(kvr.end().x.q[0] == doctest::Approx(-0.9 + kSpeed * kTime));  // inside the post
+    const std::vector<double>& q = simulation.state().q;
+    const std::array<double, 2> expected = pull(kind, spec, q, -0.9 + kSpeed * kTime, 0.3);
+    for (std::size_t j = 0; j < 2; ++j)
+      CHECK(simulation.constraints().constraint_force()[j] ==
+            doctest::Approx(-expected[j]).epsilon(1e-6));
+  }
+}

@@ -1,0 +1,67 @@
+// A fast arm with stiff couplings whips past the corner of a post: where rounds that do not
+// converge would let it in.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "collision/contact/contact_force.h"
+#include "tests/coupling/analysis/one_joint.h"
+
+using namespace twinarm;
+using namespace twinarm::testing;
+
+namespace {
+
+Model<double> long_arms() {
+  const auto rod = [](double m, double l) {
+    const double I = m * l * l / 12;
+    return BodyInertia{m, {l / 2, 0, 0}, Vector3(0.1 * I, I, I).asDiagonal()};
+  };
+  ModelBuilder builder;
+  builder.set_gravity(Vector3::Zero());
+  builder.add_body("arm1", 0, "joint1", JointType::revolute, {}, Vector3::UnitZ(), rod(5, 0.25));
+  builder.add_body("arm2", 1, "joint2", JointType::revolute, {Matrix3::Identity(), {0.25, 0, 0}},
+                   Vector3::UnitZ(), rod(3, 0.35));
+  return builder.build();
+}
+
+// Largest depth while a hand that turns steadily drags the arm against the post [m].
+double deepest_on_the_way(const Model<double>& model, double friction, double speed, double q2,
+                          double direction) {
+  ContactForce contact(model, {1e8, 1, friction, 1e-3});
+  contact.add(2, {Matrix3::Identity(), {0.2, 0, 0}}, "fore", Box{{0.4, 0.05, 0.06}});
+  contact.add(1, {Matrix3::Identity(), {0.125, 0, 0}}, "upper", Box{{0.25, 0.06, 0.06}});
+  contact.add(0, {Matrix3::Identity(), {0.45, 0, 0}}, "post", Box{{0.12, 0.12, 0.5}});
+  const double q1 = -1.6 * direction, w1 = direction * speed, w2 = 0.5 * w1;
+  SteadyHand hand;
+  hand.angle = {q1, q2, 0};
+  hand.rate = {w1, w2, 0};
+  CouplingSpec spec;
+  spec.type = CouplingSpec::Type::linear;
+  spec.treatment = Treatment::implicit;
+  spec.springs = {{"arm1", 1, {0.125, 0, 0}, 5e4, 500}, {"arm2", 2, {0.2, 0, 0}, 5e4, 500}};
+  const State<double> start = state_of(model, {q1, q2}, {w1, w2});
+  Coupled system(model, hand, {"joint1", "joint2"}, spec, start);
+  system.simulation.add(contact);
+  if (contact.deepest(system.simulation.kinematics()) > 0) return 0;  // begins inside: no case
+  double deepest = 0;
+  for (int n = 0; n < static_cast<int>(3200 / speed); ++n) {
+    system.simulation.step(1e-3);
+    deepest = std::max(deepest, contact.deepest(system.simulation.kinematics()));
+  }
+  return deepest;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "an arm that is whipped against a post with friction enters it by less than a millimetre") {
+  const Model<double> model = long_arms();
+  double worst = 0;
+  for (double speed : {3.0, 6.0, 12.0})
+    for (double q2 = -2; q2 <= 2; q2 += 0.25)
+      for (double direction : {-1.0, 1.0})
+        worst = std::max(worst, deepest_on_the_way(model, 0.3, speed, q2, direction));
+  MESSAGE("deepest " << 1e3 * worst << " mm");
+  CHECK(worst < 1e-3);
+}

@@ -1,0 +1,236 @@
+// Contracts of the forces themselves: the consistent laws are what they say, action is minus
+// reaction, dampers take energy, and the implicit treatments become the explicit one as h -> 0.
+// Each law that breaks one of them is named with what it does instead: a finding, not a flaw of the
+// program (docs/coupling.md, 12).
+#include <doctest/doctest.h>
+
+#include "tests/coupling/analysis/laws.h"
+
+using namespace twinarm;
+using namespace twinarm::testing;
+
+namespace {
+
+// What acts on the DVR from outside, about the world's origin, and at its joints.
+struct Action {
+  Vector3 force = Vector3::Zero(), moment = Vector3::Zero(), joints = Vector3::Zero();
+};
+Action action_of(const Evaluated& all) {
+  Action sum;
+  for (std::size_t i = 1; i < all.forces.f_ext.size(); ++i) {
+    const Vector3 f = all.D.R_WB[i] * to_eigen(all.forces.f_ext[i].f);
+    sum.force += f;
+    sum.moment += all.D.X_WL[i].p.cross(f) + all.D.R_WB[i] * to_eigen(all.forces.f_ext[i].n);
+  }
+  sum.joints = {all.forces.tau[0], all.forces.tau[1], all.forces.tau[2]};
+  return sum;
+}
+// On the DVR, and what the KVR would feel: the same law with the robots' roles exchanged.
+std::pair<Action, Action> action_and_reaction(const CouplingSpec& spec, const Model<double>& model,
+                                              const Vector3& q_K, const Vector3& qd_K,
+                                              const Vector3& q, const Vector3& qd) {
+  return {action_of(evaluated(spec, model, hand_at(q_K, qd_K), q, qd)),
+          action_of(evaluated(spec, model, hand_at(q, qd), q_K, qd_K))};
+}
+
+// v_D - v_K of what spring s measures.
+Vector3 relative_velocity(const Law& law, const Model<double>& model, const Evaluated& all,
+                          const Spring& s, const Vector3& qd_K, const Vector3& qd, bool turn) {
+  const auto i = static_cast<std::size_t>(s.body);
+  if (law.on_joint()) return {qd[s.body - 1] - qd_K[s.body - 1], 0, 0};
+  if (law.is(CouplingType::matched))
+    return point_jacobian(model, all.K, s.body, all.K.position(s.body, s.p_L)) * (qd - qd_K);
+  if (turn) return all.D.w_WL[i] - all.K.w_WL[i];
+  return all.D.velocity(s.body, all.D.position(s.body, s.p_L)) -
+         all.K.velocity(s.body, all.K.position(s.body, s.p_L));
+}
+bool is_consistent(const Law& law) {
+  return !law.printed && law.facts.is_spring_damper;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the consistent couplings pull with J^T (k e + b e') at the DVR's end, KVR moving or not") {
+  Random random(7);
+  for (const Law& law : all_laws()) {
+    if (!is_consistent(law) || law.own || law.is(CouplingType::matched) ||
+        law.is(CouplingType::weld_like) || law.treatment != Treatment::explicit_)
+      continue;
+    CAPTURE(law.name);
+    const CouplingSpec spec = spec_of(law, chain_springs(10, 2));
+    for (unsigned seed = 0; seed < 10; ++seed) {
+      const Model<double> model = chain_of_three(seed);
+      const Vector3 q_K = random.vector(2), q = q_K + random.vector(0.9), qd = random.vector(3);
+      const Vector3 qd_K = random.vector(3);
+      const SteadyHand hand = hand_at(q_K, qd_K);
+      Kinematics K(model), D(model);
+      forward_kinematics(model, three_state(model, q_K, qd_K), K);
+      forward_kinematics(model, three_state(model, q, qd), D);
+      Vector3 expected = Vector3::Zero();
+      const auto add_turn = [&](const Spring& s, double k, double b) {
+        const auto i = static_cast<std::size_t>(s.body);
+        const Eigen::AngleAxisd turn(K.X_WL[i].R * D.X_WL[i].R.transpose());
+        const Vector3 T = k * turn.angle() * turn.axis() + b * (K.w_WL[i] - D.w_WL[i]);
+        expected += rotation_jacobian(model, D, s.body).transpose() * T;
+      };
+      for (const Spring& s : spec.springs) {
+        const Eigen::Index j = s.body - 1;
+        if (law.is(CouplingType::linear) || law.in_six_dimensions()) {
+          const Vector3 p_K = K.position(s.body, s.p_L), p_D = D.position(s.body, s.p_L);
+          const Vector3 F =
+              s.k * (p_K - p_D) + s.b * (K.velocity(s.body, p_K) - D.velocity(s.body, p_D));
+          expected += point_jacobian(model, D, s.body, p_D).transpose() * F;
+        }
+        if (law.in_six_dimensions()) add_turn(s, s.k_turn, s.b_turn);
+        if (law.on_orientation()) add_turn(s, s.k, s.b);
+        if (law.on_joint()) expected[j] += s.k * (q_K[j] - q[j]) + s.b * (qd_K[j] - qd[j]);
+      }
+      CHECK((generalised_force(spec, model, hand, q, qd) - expected).norm() <
+            1e-10 * expected.norm());
+    }
+  }
+}
+
+TEST_CASE("action is minus reaction: springs of all laws but the matched one, force and moment") {
+  Random random(8);
+  const Vector3 rest = Vector3::Zero();
+  for (const Law& law : all_laws()) {
+    if (law.is(CouplingType::god_object)) continue;  // a way to go, not a force between two
+    CAPTURE(law.name);
+    for (unsigned seed = 0; seed < 10; ++seed) {
+      const Model<double> model = chain_of_three(seed);
+      const Vector3 q_K = random.vector(2), q = q_K + random.vector(0.5);
+      const auto [on, back] =
+          action_and_reaction(spec_of(law, chain_springs(10, 2)), model, q_K, rest, q, rest);
+      const double size = on.force.norm() + on.moment.norm() + on.joints.norm();
+      CHECK(size > 0.01);
+      CHECK((on.force + back.force).norm() < 1e-12 * size);
+      CHECK((on.moment + back.moment).norm() < 1e-12 * size);
+      // The matched law has its stiffness from the KVR's pose: the KVR would feel another.
+      if (law.is(CouplingType::matched))
+        CHECK((on.joints + back.joints).norm() > 1e-3 * size);
+      else
+        CHECK((on.joints + back.joints).norm() < 1e-12 * size);
+    }
+  }
+}
+
+TEST_CASE("action is minus reaction of a relative damper; between two points but for e x F") {
+  Random random(9);
+  for (const Law& law : all_laws()) {
+    if (!is_consistent(law) || law.is(CouplingType::matched) ||
+        law.treatment != Treatment::explicit_)
+      continue;
+    CAPTURE(law.name);
+    const CouplingSpec spec = spec_of(law, chain_springs(0, 2));
+    for (unsigned seed = 0; seed < 10; ++seed) {
+      const Model<double> model = chain_of_three(seed);
+      const Vector3 q_K = random.vector(2), q = q_K + random.vector(0.5);
+      const Vector3 qd_K = random.vector(3), qd = random.vector(3);
+      const auto [on, back] = action_and_reaction(spec, model, q_K, qd_K, q, qd);
+      const double size = on.force.norm() + on.moment.norm() + on.joints.norm();
+      if (law.is(CouplingType::weld_like)) {  // it does not see the KVR's velocity
+        CHECK((on.force + back.force).norm() > 1e-3 * size);
+        continue;
+      }
+      // F at p_D and -F at p_K make a couple where F is not along p_K - p_D: nobody's reaction.
+      Vector3 left = Vector3::Zero();
+      if (law.is(CouplingType::linear) || law.in_six_dimensions()) {
+        const Evaluated all = evaluated(spec, model, hand_at(q_K, qd_K), q, qd);
+        for (std::size_t s = 0; s < 3; ++s)
+          left += (all.readings[s].p_D - all.readings[s].p_K).cross(all.readings[s].pull);
+        CHECK(left.norm() > 1e-4 * size);
+      }
+      CHECK((on.force + back.force).norm() < 1e-12 * size);
+      CHECK((on.moment + back.moment - left).norm() < 1e-12 * size);
+      CHECK((on.joints + back.joints).norm() < 1e-12 * size);
+    }
+  }
+}
+
+TEST_CASE("a damper alone, against a KVR at rest, never does work on the DVR") {
+  Random random(4);
+  for (const Law& law : all_laws()) {
+    if (!is_consistent(law) || law.is(CouplingType::weld_like)) continue;  // test_weld_like.cpp
+    CAPTURE(law.name);
+    const CouplingSpec spec = spec_of(law, chain_springs(0, 5));
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      const Model<double> model = chain_of_three(seed);
+      const Vector3 q = random.vector(3), qd = random.vector(10);
+      const SteadyHand hand = hand_at(q + random.vector(0.5));
+      CHECK(qd.dot(generalised_force(spec, model, hand, q, qd)) < 0);  // power
+    }
+  }
+}
+
+TEST_CASE("a relative damper takes energy from the relative motion, whatever moves the KVR") {
+  Random random(10);
+  for (const Law& law : all_laws()) {
+    if (!is_consistent(law) || law.is(CouplingType::weld_like)) continue;
+    CAPTURE(law.name);
+    const CouplingSpec spec = spec_of(law, chain_springs(0, 5));
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      const Model<double> model = chain_of_three(seed);
+      const Vector3 q = random.vector(3), qd = random.vector(10), qd_K = random.vector(10);
+      const Evaluated all = evaluated(spec, model, hand_at(q + random.vector(0.5), qd_K), q, qd);
+      for (std::size_t r = 0; r < all.readings.size(); ++r) {
+        const SpringReading& reading = all.readings[r];
+        const bool turn = r >= 3 || law.on_orientation();
+        const Vector3 pull = law.on_joint() ? Vector3(reading.size, 0, 0) : reading.pull;
+        const Vector3 v = relative_velocity(law, model, all, spec.springs[r % 3], qd_K, qd, turn);
+        // Targets at the end of the step have turned on by h.
+        CHECK(pull.dot(v) < 1e-2 * pull.norm() * v.norm());
+        if (law.treatment == Treatment::explicit_ && !law.own)
+          CHECK(pull.dot(v) == doctest::Approx(-pull.norm() * v.norm()).epsilon(1e-12));
+      }
+    }
+  }
+}
+
+TEST_CASE("the printed torsional damper drives a DVR that follows too fast: power > 0") {
+  // A hinge turns faster than its KVR, both in the KVR's sense. The damper knows neither who is
+  // faster nor against what: with the sign along the KVR's motion it pushes on.
+  const Model<double> model = one_joint(JointType::revolute, 0.7);
+  for (const double sign : {1.0, -1.0}) {
+    CouplingSpec spec;
+    spec.printed = true;
+    spec.options.damping_sign = sign;
+    spec.springs = {{"spring", 1, Vector3::Zero(), 0, 2}};
+    SteadyHand hand;
+    hand.rate[0] = 0.5;
+    Coupled system(model, hand, {"joint1"}, spec, state_of(model, {0}, {sign > 0 ? 1.0 : 0.2}));
+    for (int n = 0; n < 2; ++n) system.simulation.step(1e-4);  // velocities are differences
+    const double relative = system.simulation.state().qd[0] - 0.5;
+    const double pull = system.coupling->readings()[0].pull.z();
+    CHECK(pull * relative > 0.1);
+  }
+}
+
+TEST_CASE("the implicit treatments become the explicit one as h -> 0, in first order") {
+  Random random(11);
+  for (const Law& law : all_laws()) {
+    if (law.treatment == Treatment::explicit_ && !law.is(CouplingType::stable_pd)) continue;
+    CAPTURE(law.name);
+    Law plain = law;
+    plain.treatment = Treatment::explicit_;
+    if (law.own) plain.type = CouplingType::torsional, plain.measure = Measure::joint;
+    for (unsigned seed = 0; seed < 3; ++seed) {
+      const Model<double> model = chain_of_three(seed);
+      const Vector3 q_K = random.vector(1), q = q_K + random.vector(0.3), qd = random.vector(2);
+      const SteadyHand hand = hand_at(q_K, {1, -2, 1.5});
+      const auto end = [&](const Law& of, int steps) {
+        Coupled system(model, hand, kThreeJoints, spec_of(of, chain_springs(20, 1)),
+                       three_state(model, q, qd));
+        for (int n = 0; n < steps; ++n) system.simulation.step(0.08 / steps);
+        const State<double>& x = system.simulation.state();
+        return Vector3(x.q[0], x.q[1], x.q[2]);
+      };
+      const double coarse = (end(law, 800) - end(plain, 800)).norm();
+      const double fine = (end(law, 1600) - end(plain, 1600)).norm();
+      CHECK(coarse > 1e-9);
+      CHECK(coarse < 1e-2);
+      CHECK(coarse / fine == doctest::Approx(2).epsilon(0.05));
+    }
+  }
+}

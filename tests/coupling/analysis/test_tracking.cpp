@@ -1,0 +1,125 @@
+// The coupled two-link arm against continuous-time references that were computed by an independent
+// code (docs/cases_robots.md, F3), and against the claims about the paper (docs/findings.md).
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/coupling/analysis/two_link.h"
+
+using namespace twinarm;
+using namespace twinarm::testing;
+
+TEST_CASE("rk4 at 0.1 ms meets the continuous reference of four couplings (CASES F3)") {
+  const TwoLink arm;
+  struct Row {
+    const char* name;
+    CouplingSpec spec;
+    double max1, max2, mean1, mean2, q1, q2, qd1, qd2;
+  };
+  const Row rows[] = {
+      {"torsional world 1200 40", torsional(arm.springs(1200, 40), Measure::world), 4.5491672,
+       3.5904684, 0.23450014, 0.20688893, -1.5705486491534029, 0.7841626280637461,
+       -3.141160562738077, 1.5686390200655729},
+      {"torsional joint 1200 40", torsional(arm.springs(1200, 40), Measure::joint), 5.0608814,
+       1.0008448, 0.33861819, 0.082941202, -1.5715393942737186, 0.7844085374252503,
+       -3.142889748161778, 1.56906998525831},
+      {"linear 22000 400", linear(arm.springs(22000, 400)), 2.2315105, 2.147409, 0.11838638,
+       0.33044263, -1.5697393065367373, 0.7799431084388347, -3.143398821147832, 1.5750229081762126},
+      {"torsional world 300 0", torsional(arm.springs(300, 0), Measure::world), 13.51285, 11.86284,
+       6.1254053, 4.6802616, -1.542622579885601, 0.7725853769809631, -0.8066396833891154,
+       -0.6629241236732122}};
+  for (const Row& row : rows) {
+    CAPTURE(row.name);
+    const Tracking run = track(arm, row.spec, 1e-4, Integrator::rk4);
+    CHECK(std::abs(run.error.max[0] - row.max1) < 1e-4);
+    CHECK(std::abs(run.error.max[1] - row.max2) < 1e-4);
+    CHECK(std::abs(run.error.mean[0] - row.mean1) < 1e-5);
+    CHECK(std::abs(run.error.mean[1] - row.mean2) < 1e-5);
+    const double reference[] = {row.q1, row.q2, row.qd1, row.qd2};
+    for (std::size_t s = 0; s < 4; ++s) CHECK(std::abs(run.end[s] - reference[s]) < 1e-8);
+  }
+}
+
+namespace {
+using Type = CouplingSpec::Type;
+
+// The search protocol of the findings: five sweep times T, errors weighted by T so that resonance
+// with one T is not exploited.
+struct Protocol {
+  double max1 = 0, max2 = 0, mean1 = 0, mean2 = 0;
+};
+Protocol protocol(const TwoLink& arm, const CouplingSpec& spec, double rate) {
+  Protocol row;
+  for (double T : {0.87, 0.95, 1.0, 1.06, 1.17}) {
+    const Tracking run =
+        track(arm, spec, 1 / rate, Integrator::semi_implicit, KvrRates::backward_difference, T);
+    row.max1 = std::max(row.max1, T * run.error.max[0]);
+    row.max2 = std::max(row.max2, T * run.error.max[1]);
+    row.mean1 += T * run.error.mean[0] / 5;
+    row.mean2 += T * run.error.mean[1] / 5;
+  }
+  return row;
+}
+}  // namespace
+
+TEST_CASE("60 Hz, best gains: torsional errs 17.2/14.6 deg, linear 4.8/4.4, k2 = 0.2 k1 7.4/2.8") {
+  const TwoLink arm;
+  const Protocol world = protocol(arm, torsional(arm.springs(295.1, 3.541), Measure::world), 60);
+  CHECK(world.max1 == doctest::Approx(17.24).epsilon(0.002));
+  CHECK(world.max2 == doctest::Approx(14.58).epsilon(0.002));
+  CHECK(world.mean1 == doctest::Approx(3.97).epsilon(0.005));
+  CHECK(world.mean2 == doctest::Approx(3.23).epsilon(0.005));
+  const Protocol points = protocol(arm, linear(arm.springs(475.8, 339.2)), 60);
+  CHECK(points.max1 == doctest::Approx(4.77).epsilon(0.002));
+  CHECK(points.max2 == doctest::Approx(4.46).epsilon(0.002));
+  CHECK(points.mean1 == doctest::Approx(1.735).epsilon(0.005));
+  CHECK(points.mean2 == doctest::Approx(2.28).epsilon(0.005));
+  const Protocol ratio = protocol(
+      arm, torsional(arm.springs(768.4, 17.41, 0.2 * 768.4, 0.2 * 17.41), Measure::world), 60);
+  CHECK(ratio.max1 == doctest::Approx(7.44).epsilon(0.002));
+  CHECK(ratio.max2 == doctest::Approx(2.75).epsilon(0.02));
+  CHECK(ratio.mean1 == doctest::Approx(0.625).epsilon(0.005));
+  CHECK(ratio.mean2 == doctest::Approx(0.460).epsilon(0.005));
+}
+
+TEST_CASE("the printed unfolded damper diverges at 1 kHz, the folded one stays bounded") {
+  const TwoLink arm;
+  PrintedOptions options;
+  options.damping_sign = 1;
+  const Tracking folded =
+      track(arm, printed(Type::torsional, arm.springs(1200, 40), options), 1e-3);
+  CHECK(folded.finite);
+  CHECK(folded.error.max[0] == doctest::Approx(14.6).epsilon(0.01));
+  CHECK(folded.error.max[1] == doctest::Approx(24.2).epsilon(0.01));
+  options.damper = Damper::unsigned_;
+  for (double sign : {-1.0, 1.0}) {
+    options.damping_sign = sign;
+    CHECK_FALSE(track(arm, printed(Type::torsional, arm.springs(1200, 40), options), 1e-3).finite);
+  }
+}
+
+TEST_CASE("an angle per frame that is not divided by h leaves the coupling almost undamped") {
+  const TwoLink arm;
+  PrintedOptions options;
+  options.damper = Damper::vector_;
+  options.difference = Difference::per_frame;
+  const Tracking run = track(arm, printed(Type::torsional, arm.springs(1200, 40), options), 1e-3);
+  CHECK(run.error.max[0] == doctest::Approx(10.07).epsilon(0.002));
+  CHECK(run.error.max[1] == doctest::Approx(8.74).epsilon(0.002));
+  CHECK(run.error.mean[0] == doctest::Approx(4.81).epsilon(0.005));
+}
+
+TEST_CASE(
+    "10 : 14 arms: the printed torsional law comes near E3, the printed linear law meets E4") {
+  const TwoLink arm{5, 3, 0.25, 0.35};
+  const Tracking e3 =
+      track(arm, printed(Type::torsional, arm.springs(195.137, 2.7316), {}), 1.0 / 60);
+  CHECK(e3.error.max[0] == doctest::Approx(18.49).epsilon(0.02));
+  CHECK(e3.error.mean[0] == doctest::Approx(8.29).epsilon(0.02));
+  const Tracking e4 =
+      track(arm, printed(Type::linear, arm.springs(87140, 96.6, 22130, 63.0), {}), 1.0 / 125);
+  CHECK(e4.error.max[0] == doctest::Approx(3.389).epsilon(0.001));
+  CHECK(e4.error.max[1] == doctest::Approx(6.011).epsilon(0.001));
+  CHECK(e4.error.mean[0] == doctest::Approx(0.298).epsilon(0.005));
+  CHECK(e4.error.mean[1] == doctest::Approx(0.598).epsilon(0.005));
+}

@@ -1,0 +1,132 @@
+// A step with couplings among the sources takes nothing from the heap and gives the same bits.
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+#include "tests/coupling/analysis/laws.h"
+#include "tests/coupling/analysis/one_joint.h"
+#include "tests/coupling/analysis/two_link.h"
+#include "tests/coupling/batch/one_by_one.h"
+#include "tests/support/count_allocations.h"
+
+using namespace twinarm;
+using namespace twinarm::testing;
+
+namespace {
+
+struct Run {
+  CouplingSpec spec;
+  Integrator integrator;
+};
+std::vector<Run> runs() {
+  const TwoLink arm;
+  std::vector<Run> list;
+  for (const Law& law : all_laws()) {
+    std::vector<Spring> springs =
+        law.on_joint() || law.on_orientation() ? arm.springs(1200, 40) : arm.springs(22000, 400);
+    for (Spring& spring : springs) spring.k_turn = 1200, spring.b_turn = 40;
+    const bool in_stages =
+        law.treatment == Treatment::explicit_ && !law.own && !law.is(CouplingType::weld_like);
+    for (const Integrator integrator :
+         {Integrator::euler, Integrator::semi_implicit, Integrator::rk4})
+      if (in_stages || integrator == Integrator::semi_implicit)
+        list.push_back({spec_of(law, springs), integrator});
+  }
+  return list;
+}
+
+struct System {
+  Model<double> model = TwoLink().model();
+  AutomaticMotion hand{HandMapping{}, 0.05};  // corners within the run
+  std::unique_ptr<TrackingSystem> system;
+  explicit System(const Run& run, KvrRates rates) {
+    TrackingSetup setup;
+    setup.kvr_model = setup.dvr_model = &model;
+    setup.hand = &hand;
+    setup.joints.turned = {"joint1", "joint2"};
+    setup.couplings = {run.spec};
+    setup.integrator = run.integrator;
+    setup.kvr_rates = rates;
+    system = std::make_unique<TrackingSystem>(setup);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a step with a coupling takes nothing from the heap: all laws, treatments, integrators") {
+  for (const Run& run : runs())
+    for (const KvrRates rates : {KvrRates::from_hand, KvrRates::backward_difference}) {
+      System s(run, rates);
+      CAPTURE(static_cast<int>(run.integrator));
+      CAPTURE(run.spec.name);
+      CHECK(allocations_in([&] {
+              for (int n = 0; n < 160; ++n) s.system->simulation().step(1e-3);
+            }) == 0);
+    }
+}
+
+TEST_CASE("what a coupling remembers, put back into another, lets the run go on with its bits") {
+  for (Run run : runs()) {
+    CAPTURE(run.spec.name);
+    if (!run.spec.printed && run.spec.treatment == Treatment::explicit_) run.spec.hold_steps = 7;
+    run.spec.options.hold_steps = 7;
+    run.spec.options.difference = Difference::older;  // it needs the last two evaluations
+    if (run.integrator != Integrator::semi_implicit) continue;
+    System first(run, KvrRates::from_hand), second(run, KvrRates::from_hand);
+    for (int n = 0; n < 59; ++n) first.system->simulation().step(1e-3);
+    Memory written;
+    first.system->coupling(0).visit_memory(written);
+    Memory read(written.bytes());
+    second.system->coupling(0).visit_memory(read);
+    CHECK(read.at_end());
+    second.system->simulation().set_state(first.system->simulation().state());
+    for (int n = 0; n < 40; ++n) {
+      first.system->simulation().step(1e-3);
+      second.system->simulation().step(1e-3);
+    }
+    const State<double>&a = first.system->simulation().state(),
+          &b = second.system->simulation().state();
+    CHECK(std::memcmp(a.q.data(), b.q.data(), 2 * sizeof(double)) == 0);
+    CHECK(std::memcmp(a.qd.data(), b.qd.data(), 2 * sizeof(double)) == 0);
+  }
+}
+
+TEST_CASE("a coupled run gives the same bits when it is run again") {
+  for (const Run& run : runs()) {
+    const auto end = [&] {
+      System s(run, KvrRates::from_hand);
+      for (int n = 0; n < 160; ++n) s.system->simulation().step(1e-3);
+      return s.system->simulation().state();
+    };
+    const State<double> a = end(), b = end();
+    CHECK(std::memcmp(a.q.data(), b.q.data(), 2 * sizeof(double)) == 0);
+    CHECK(std::memcmp(a.qd.data(), b.qd.data(), 2 * sizeof(double)) == 0);
+  }
+}
+
+TEST_CASE("a coupling that is implicit in the step is refused by rk4 and by explicit Euler") {
+  for (const Law& law : all_laws()) {
+    const bool in_stages =
+        law.treatment == Treatment::explicit_ && !law.own && !law.is(CouplingType::weld_like);
+    if (in_stages) continue;
+    CAPTURE(law.name);
+    for (const Integrator integrator : {Integrator::rk4, Integrator::euler})
+      CHECK_THROWS_AS(
+          System({spec_of(law, TwoLink().springs(1, 1)), integrator}, KvrRates::from_hand),
+          std::invalid_argument);
+  }
+}
+
+TEST_CASE("runs side by side take nothing from the heap in a step: a longer run takes no more") {
+  Random random(86);
+  CellBench bench(tree_for_lanes(random, Axes::any), kBatchLaws[0], Treatment::implicit, false);
+  const std::vector<BatchCell> cells(9, bench.random_cell(random));
+  std::vector<BatchResult> results(cells.size());
+  const auto allocations_over = [&](double duration) {
+    bench.setup.duration = duration;
+    BatchRun batch(bench.setup);
+    batch.run(cells, results);  // results have their sizes from now on
+    return allocations_in([&] { batch.run(cells, results); });
+  };
+  CHECK(allocations_over(0.4) == allocations_over(0.1));
+}

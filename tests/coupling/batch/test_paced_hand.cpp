@@ -1,0 +1,87 @@
+// A hand seen late and played faster, against the same motion written down for that delay and
+// speed.
+#include "coupling/target/delayed_motion.h"
+
+#include <doctest/doctest.h>
+
+#include <memory>
+
+#include "coupling/target/automatic_motion.h"
+#include "tests/coupling/batch/one_by_one.h"
+
+using namespace twinarm;
+using namespace twinarm::testing;
+
+namespace {
+
+const HandMapping kPacedMapping;
+
+// 0.3 + 2 t: not zero at its beginning, and moving there.
+class PacedRamp final : public HandSource {
+ public:
+  HandSample sample(double t, double) const override {
+    HandSample hand;
+    kPacedMapping.set_robot_angle(hand, 0, 0.3 + 2 * t, 2);
+    return hand;
+  }
+  double duration() const override { return 3; }
+  std::string description() const override { return "ramp"; }
+};
+
+double paced_angle(const HandSource& hand, double t, double toward) {
+  return kPacedMapping.robot_angle(hand.sample(t, toward), 0);
+}
+double paced_rate(const HandSource& hand, double t, double toward) {
+  return kPacedMapping.robot_rate(hand.sample(t, toward), 0);
+}
+
+}  // namespace
+
+TEST_CASE("a paced hand is at s = speed (t - delay) of the other, and moves speed times as fast") {
+  Random random(91);
+  const WavingHand waving;
+  for (int n = 0; n < 300; ++n) {
+    const double delay = random.uniform(0, 0.3), speed = random.uniform(0.2, 4);
+    const double t = random.uniform(0, 1.5);
+    if (std::abs(t - delay) < 1e-6) continue;
+    const HandSample seen = PacedHand(waving, delay, speed).sample(t, t + 1e-3);
+    const HandSample wanted = WavingHand(speed, delay).sample(t, t + 1e-3);
+    for (std::size_t j = 0; j < 3; ++j) {
+      CHECK(std::abs(kPacedMapping.robot_angle(seen, j) - kPacedMapping.robot_angle(wanted, j)) <
+            1e-13);
+      CHECK(std::abs(kPacedMapping.robot_rate(seen, j) - kPacedMapping.robot_rate(wanted, j)) <
+            1e-12);
+    }
+  }
+}
+
+TEST_CASE("before its delay has passed a paced hand rests at the beginning") {
+  const PacedHand hand(std::make_unique<PacedRamp>(), 0.3, 1.5);
+  for (const double t : {0.0, 0.1, 0.2999}) {
+    CHECK(paced_angle(hand, t, t + 1e-4) == doctest::Approx(0.3).epsilon(1e-15));
+    CHECK(paced_rate(hand, t, t + 1e-4) == 0);
+  }
+  const double met = 0.1 + 0.1 + 0.1;  // 0.30000000000000004, by a sum of steps
+  for (const double t : {0.3, met, 0.6 - met}) {
+    CHECK(paced_angle(hand, t, t + 0.1) == doctest::Approx(0.3).epsilon(1e-14));
+    CHECK(paced_rate(hand, t, t - 0.1) == 0);
+    CHECK(paced_rate(hand, t, t + 0.1) == doctest::Approx(3).epsilon(1e-15));
+  }
+  CHECK(paced_angle(hand, 0.5, 0.6) == doctest::Approx(0.3 + 2 * 1.5 * 0.2).epsilon(1e-14));
+  CHECK(hand.duration() == doctest::Approx(0.3 + 3 / 1.5).epsilon(1e-15));
+}
+
+TEST_CASE("the corners of a paced hand are those of the other, and each step belongs to its side") {
+  const AutomaticMotion motion{kPacedMapping};  // sweeps of a second
+  const PacedHand hand(motion, 0.25, 4);
+  for (const double corner : {1.0, 2.0}) {
+    const double t = 0.25 + corner / 4;
+    CHECK(paced_rate(hand, t, t - 0.01) ==
+          doctest::Approx(4 * paced_rate(motion, corner, corner - 0.01)));
+    CHECK(paced_rate(hand, t, t + 0.01) ==
+          doctest::Approx(4 * paced_rate(motion, corner, corner + 0.01)));
+    CHECK(paced_rate(hand, t, t - 0.01) == doctest::Approx(-paced_rate(hand, t, t + 0.01)));
+    CHECK(paced_angle(hand, t, t + 0.01) ==
+          doctest::Approx(paced_angle(motion, corner, corner + 0.01)));
+  }
+}

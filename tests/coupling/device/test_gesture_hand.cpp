@@ -1,0 +1,171 @@
+// Mouse, keys and sticks as a hand; scripted hands; what all hands and devices have in common.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <thread>
+
+#include "coupling/device/desktop_input.h"
+#include "coupling/device/virtual_omni.h"
+#include "coupling/target/scripted_motion.h"
+#include "tests/support/count_allocations.h"
+
+using namespace twinarm;
+
+namespace {
+
+Vector3 point_of(const HandSample& hand) {
+  return omni_position({}, hand.theta);
+}
+Vector3 velocity_of(const HandSample& hand) {
+  const auto& rate = hand.theta_dot;
+  return omni_jacobian({}, hand.theta) * Vector3(rate[0], rate[1], rate[2]);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "gestures: a drag moves the place in the plane of the view, the wheel away from the eye") {
+  GestureHand hand{OmniFigures{}};
+  const Vector3 start = point_of(hand.sample(0, 1));
+  CHECK((start - omni_position({}, GestureSettings{}.start)).norm() < 1e-12);
+  hand.drag(20, -10, {});  // right and upwards on the screen
+  CHECK((point_of(hand.sample(0, 1)) - start - Vector3(0.010, 0.005, 0)).norm() < 1e-12);
+  hand.drag(-20, 10, {});
+  // From the user's right: the picture's right is away from the user.
+  const ViewPlane from_right{-Vector3::UnitZ(), Vector3::UnitY(), 0.001};
+  hand.drag(10, 0, from_right);
+  CHECK((point_of(hand.sample(0, 1)) - start - Vector3(0, 0, -0.010)).norm() < 1e-12);
+  hand.drag(-10, 0, from_right);
+  hand.wheel(2, {});
+  CHECK((point_of(hand.sample(0, 1)) - start - Vector3(0, 0, -0.008)).norm() < 1e-12);
+  hand.wheel(2, from_right);
+  CHECK((point_of(hand.sample(0, 1)) - start - Vector3(-0.008, 0, -0.008)).norm() < 1e-12);
+  hand.turn_stylus(100, 50);
+  hand.roll_stylus(-1);
+  const HandSample turned = hand.sample(0, 1);
+  CHECK(turned.theta[3] == doctest::Approx(0.6));
+  CHECK(turned.theta[4] == doctest::Approx(0.6 - 0.3));
+  CHECK(turned.theta[5] == doctest::Approx(-0.12));
+}
+
+TEST_CASE("gestures: keys and sticks move evenly in the time of the one who asks, until released") {
+  GestureHand hand{OmniFigures{}};
+  const Vector3 start = point_of(hand.sample(5, 6));
+  hand.key(HandAxis::right, true, true);
+  hand.axes(
+      {0.05, 0.54, 0, 0, 0, 1.5});  // at rest within the dead zone; half of the rest; too much
+  const HandSample later = hand.sample(5.2, 6);
+  CHECK((point_of(later) - start - Vector3(0.020, 0.010, 0)).norm() < 1e-12);
+  CHECK((velocity_of(later) - Vector3(0.1, 0.05, 0)).norm() < 1e-3);
+  CHECK(later.theta[5] == doctest::Approx(0.2 * 1.5));
+  CHECK(later.theta_dot[5] == doctest::Approx(1.5));
+  hand.key(HandAxis::right, false, true);  // both keys: neither
+  CHECK((point_of(hand.sample(5.3, 6)) - start - Vector3(0.020, 0.015, 0)).norm() < 1e-12);
+  hand.key(HandAxis::right, true, false);
+  CHECK((point_of(hand.sample(5.4, 6)) - start - Vector3(0.010, 0.020, 0)).norm() < 1e-12);
+  hand.button(0, true);
+  hand.button(1, true);
+  CHECK(hand.sample(5.4, 6).button);
+  CHECK(hand.sample(5.4, 6).clutch);
+  hand.release();
+  const HandSample rest = hand.sample(9, 10);
+  CHECK((point_of(rest) - start - Vector3(0.010, 0.020, 0)).norm() < 1e-12);
+  CHECK(rest.theta_dot == std::array<double, 6>{});
+  CHECK_FALSE(rest.button);
+  CHECK_FALSE(rest.clutch);
+}
+
+TEST_CASE("gestures: out of reach the goal is the nearest place, and it comes back at once") {
+  const OmniFigures omni;
+  GestureHand hand{omni};
+  const Vector3 start = point_of(hand.sample(0, 1));
+  hand.drag(4000, 0, {});  // two metres
+  const HandSample edge = hand.sample(0, 1);
+  const auto expected = omni_nearest(omni, start + Vector3(2, 0, 0));
+  CHECK((point_of(edge) - omni_position(omni, {expected[0], expected[1], expected[2]})).norm() <
+        1e-12);
+  hand.drag(-20, 0, {});
+  CHECK((point_of(hand.sample(0, 1)) - point_of(edge) - Vector3(-0.010, 0, 0)).norm() < 1e-9);
+  // A key that is held at the edge winds nothing up either.
+  hand.drag(4000, 0, {});
+  hand.key(HandAxis::right, true, true);
+  hand.sample(10, 11);
+  hand.key(HandAxis::right, true, false);
+  const Vector3 held = point_of(hand.sample(10, 11));
+  hand.key(HandAxis::right, false, true);
+  CHECK((point_of(hand.sample(10.1, 11)) - held - Vector3(-0.010, 0, 0)).norm() < 1e-9);
+  hand.drag(4000, 0, {});  // against the key that is held: it moves back from the edge
+  const Vector3 pushed = point_of(hand.sample(10.1, 11));
+  CHECK((point_of(hand.sample(10.2, 11)) - pushed - Vector3(-0.010, 0, 0)).norm() < 1e-9);
+  hand.release();
+  for (int n = 0; n < 400; ++n) {  // whatever is done, it stays within the ranges
+    hand.drag(300 * std::sin(1.7 * n), 300 * std::cos(0.9 * n), {});
+    hand.wheel(20 * std::sin(2.3 * n), {});
+    hand.turn_stylus(500 * std::sin(n), 400 * std::cos(n));
+    hand.roll_stylus(20 * std::cos(3.1 * n));
+    const HandSample now = hand.sample(12 + 0.01 * n, 20);
+    for (std::size_t j = 0; j < 6; ++j)
+      CHECK_UNARY(now.theta[j] >= omni.lower[j] && now.theta[j] <= omni.upper[j]);
+  }
+}
+
+TEST_CASE("gestures: what is not finite is not heard, and nothing takes from the heap") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  GestureHand hand{OmniFigures{}};
+  const Vector3 start = point_of(hand.sample(0, 1));
+  const long taken = testing::allocations_in([&] {
+    hand.drag(nan, 0, {});
+    hand.wheel(-nan, {});
+    hand.turn_stylus(0, nan);
+    hand.roll_stylus(nan);
+    hand.axes({nan, nan, 0, 0, nan, 1e300});
+    hand.button(7, true);
+    hand.sample(0, 1);
+  });
+  CHECK(taken == 0);
+  CHECK((point_of(hand.sample(0, 1)) - start).norm() < 1e-12);
+}
+
+TEST_CASE("gestures move the virtual Omni's stylus to the place, through the arm") {
+  const auto hand = std::make_shared<GestureHand>(OmniFigures{});
+  VirtualOmniSettings settings;
+  settings.figures.friction = 0;
+  VirtualOmni omni(hand, settings);
+  omni.poll(0);
+  const Vector3 start = omni.truth().position;
+  hand->drag(60, 0, {});
+  hand->button(1, true);
+  DeviceState seen;
+  for (int n = 0; n < 1000; ++n) seen = omni.poll(1e-3 * n);
+  CHECK((omni.truth().position - start - Vector3(0.030, 0, 0)).norm() < 1e-6);
+  CHECK(seen.buttons == std::array<bool, 2>{false, true});
+}
+
+TEST_CASE("newest value: values are never torn, never old after new, and the last one arrives") {
+  struct Pair {
+    long a, b;
+    std::array<long, 30> more;
+  };
+  constexpr long kLast = 200000;
+  Newest<Pair> newest(Pair{0, 0, {}});
+  std::thread writer([&] {
+    for (long n = 1; n <= kLast; ++n) {
+      Pair next{n, -n, {}};
+      next.more.fill(n);
+      newest.write(next);
+    }
+  });
+  long last = 0;
+  bool good = true;
+  for (long reads = 0; last < kLast && reads < 2000000000; ++reads) {
+    const Pair& pair = newest.read();
+    good = good && pair.b == -pair.a && pair.a >= last;
+    for (const long more : pair.more) good = good && more == pair.a;
+    last = pair.a;
+  }
+  writer.join();
+  CHECK(good);
+  CHECK(last == kLast);
+}

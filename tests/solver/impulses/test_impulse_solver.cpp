@@ -1,0 +1,309 @@
+// The solver of impulses against the laws in their plain form, and against closed forms.
+#include "solver/impulses/impulse_solver.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "tests/solver/impulses/found_impulses.h"
+#include "tests/solver/impulses/found_stack.h"
+#include "tests/solver/impulses/found_wedges.h"
+#include "tests/solver/impulses/impulse_problems.h"
+#include "tests/support/count_allocations.h"
+
+using namespace twinarm;
+using namespace twinarm::testing;
+
+namespace {
+
+// One point mass on a plane z = 0, contact rows z, x, y.
+ImpulseProblem point_on_plane(double mu, std::array<double, 3> v) {
+  ImpulseProblem problem;
+  problem.add_tree(3);
+  for (int k = 0; k < 3; ++k) problem.M(0)[4 * k] = 2, problem.v0(0)[k] = v[k];
+  ImpulseConstraint& c = problem.add(ImpulseLaw::coulomb, 3, 0, ImpulseConstraint::no_tree);
+  c.mu = mu;
+  problem.J(c, 0)[2] = problem.J(c, 0)[3] = problem.J(c, 0)[7] = 1;
+  return problem;
+}
+
+// More contacts than velocities, friction to 5, masses 10^4 apart. All contacts can part (b >= 0),
+// so there is a solution; without central_path.cpp 105 of 500 are not found.
+ImpulseProblem hard_problem(unsigned seed) {
+  const int bodies = 1 + static_cast<int>(seed % 5);
+  const int contacts = 2 * bodies * (1 + static_cast<int>(seed % 3));
+  ImpulseProblem problem = random_problem(seed, bodies, contacts, 1e4, true);
+  Random random(seed + 77);
+  for (ImpulseConstraint& c : problem.constraints()) c.mu = random.uniform(0.1, 5);
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("1000 random problems of every law end in velocities and impulses that obey them") {
+  double worst_breach = 0, worst_balance = 0;
+  int unsolved = 0;
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    ImpulseProblem problem = random_problem(seed, 1 + seed % 5, 1 + seed % 9, 100);
+    ImpulseSolver solver;
+    const ImpulseReport report = solver.solve(problem);
+    unsolved += !report.converged;
+    if (!report.converged) continue;
+    worst_balance = std::max(worst_balance, imbalance(problem));
+    for (const ImpulseConstraint& c : problem.constraints())
+      worst_breach = std::max(worst_breach, breach(problem, c));
+  }
+  CHECK(worst_breach < 1e-7);  // residual 5e-9 m/s, impulses of masses up to 100
+  CHECK(worst_balance < 1e-12);
+  CHECK(unsolved == 0);
+}
+
+TEST_CASE("500 random problems of hard friction, over-determined, end in what obeys their laws") {
+  double worst_breach = 0, worst_residual = 0;
+  for (unsigned seed = 0; seed < 500; ++seed) {
+    ImpulseProblem problem = hard_problem(seed);
+    ImpulseSolver solver;
+    worst_residual = std::max(worst_residual, solver.solve(problem).residual);
+    double largest = 1;  // impulse
+    for (const ImpulseConstraint& c : problem.constraints()) largest = std::max(largest, c.p[0]);
+    for (const ImpulseConstraint& c : problem.constraints())
+      worst_breach = std::max(worst_breach, breach(problem, c) / largest);
+  }
+  CHECK(worst_residual <= 1e-8);
+  CHECK(worst_breach < 1e-7);
+}
+
+// Four laws to a body, which redundant contacts and discs of their own are among. Before rounds
+// went back to their best and on from there, four of these were not found.
+TEST_CASE("600 random problems of every law, over-determined, end in what obeys their laws") {
+  double worst_breach = 0, worst_residual = 0;
+  for (unsigned seed = 0; seed < 600; ++seed) {
+    ImpulseProblem problem =
+        seed < 300 ? random_problem(seed, 3, 12, 1e3) : random_problem(seed - 300, 6, 18, 100);
+    ImpulseSolver solver;
+    worst_residual = std::max(worst_residual, solver.solve(problem).residual);
+    double largest = 1;  // impulse
+    for (const ImpulseConstraint& c : problem.constraints()) largest = std::max(largest, c.p[0]);
+    for (const ImpulseConstraint& c : problem.constraints())
+      worst_breach = std::max(worst_breach, breach(problem, c) / largest);
+  }
+  CHECK(worst_residual <= 1e-8);
+  CHECK(worst_breach < 1e-6);  // residual 1e-8 m/s, impulses of masses up to 1000
+}
+
+// Limits of rolling and turning that follow their contact's impulse: held from one round to the
+// next they left 4e-8 m/s here, up to 1.4e-6 elsewhere.
+TEST_CASE("problems that shoved scenes met are solved, with and without the guess they came with") {
+  for (const char* text : {rolling_pair, rolling_corner, rolling_rest, leaning_stack})
+    for (const bool guess : {true, false}) {
+      ImpulseProblem problem = read_problem(text);
+      CAPTURE(problem.constraints().size());
+      REQUIRE(problem.constraints().size() >= 8);
+      if (!guess)
+        for (ImpulseConstraint& c : problem.constraints()) c.p = {};
+      ImpulseSolver solver;
+      CHECK(solver.solve(problem).residual <= 1e-8);
+      for (const ImpulseConstraint& c : problem.constraints()) CHECK(breach(problem, c) < 2e-8);
+      CHECK(imbalance(problem) < 1e-12);
+    }
+}
+
+// From the middle of all impulses one comes to the jam, whose impulses only seem to do; from the
+// guess, or from none, to what slides.
+TEST_CASE("a body that may slide in a wedge is not jammed there by endless impulses") {
+  for (const char* text : {sliding_wedge, sliding_wedge_next, bouncing_wedge, wedge_in_heap})
+    for (const bool guess : {true, false}) {
+      if (!guess && text == wedge_in_heap) continue;  // is not found from none
+      ImpulseProblem problem = read_problem(text);
+      REQUIRE(problem.constraints().size() >= 3);
+      if (!guess)
+        for (ImpulseConstraint& c : problem.constraints()) c.p = {};
+      ImpulseSolver solver;
+      CHECK(solver.solve(problem).residual <= 1e-8);
+      for (const ImpulseConstraint& c : problem.constraints()) {
+        CHECK(breach(problem, c) < 2e-8);
+        CHECK(c.p[0] < 0.1);
+      }
+      CHECK(imbalance(problem) < 1e-12);
+    }
+}
+
+// Found by halving the restitution: what is left of the law falls with it, and only at none is
+// there a solution, as in the groove below.
+TEST_CASE(
+    "a bounce out of a wedge that holds by friction has no solution; without it there is one") {
+  for (const char* text : {jammed_bounce, jammed_rod})
+    for (const double part : {0.0, 0.01, 1.0}) {
+      CAPTURE(part);
+      ImpulseProblem problem = read_problem(text);
+      REQUIRE(problem.constraints().size() >= 2);
+      for (ImpulseConstraint& c : problem.constraints()) c.b[0] *= part;
+      ImpulseSolver solver;
+      const ImpulseReport report = solver.solve(problem);
+      CHECK(report.converged == (part == 0));
+      CHECK(solver.residual_of(0) == report.residual);
+      for (const double v : {problem.v(0)[3], problem.v(0)[4], problem.v(0)[5]})
+        CHECK(std::isfinite(v));
+    }
+}
+
+// Up to 256 contacts, with many sets of impulses for the same velocities. Four of these (seed 17 of
+// five levels, all of eight) were left at 3e-6 to 2e-5 m/s before rounds counted what their inner
+// problem leaves open, and several paths were tried.
+TEST_CASE("pyramids that are struck end in what obeys their laws") {
+  const auto check = [](unsigned seed, int levels) {
+    CAPTURE(seed);
+    ImpulseProblem problem = struck_pyramid(seed, levels);
+    ImpulseSolver solver;
+    CHECK(solver.solve(problem).residual <= 1e-8);
+    double worst = 0;
+    for (const ImpulseConstraint& c : problem.constraints())
+      worst = std::max(worst, breach(problem, c));
+    CHECK(worst < 2e-8);
+    CHECK(imbalance(problem) < 1e-12);
+  };
+  for (unsigned seed = 0; seed < 40; ++seed) check(seed, 5);
+  for (const unsigned seed : {3u, 217u, 440u}) check(seed, 8);
+}
+
+// Normals along x and y, both of which are to leave at 1 m/s: so v_x, v_y >= 1 and friction pulls
+// against both. By symmetry m = (1 - mu) p. From mu = 1 on the sum of all impulses points into the
+// groove: no solution.
+TEST_CASE("a bounce in a groove: p = m / (1 - mu), and none from mu = 1 on") {
+  for (const double mu : {0.0, 0.5, 0.9, 1.1, 3.0}) {
+    CAPTURE(mu);
+    ImpulseProblem problem = point_on_plane(std::max(mu, 1e-12), {0, 0, 0});
+    problem.add(ImpulseLaw::coulomb, 3, 0, ImpulseConstraint::no_tree);
+    ImpulseConstraint &a = problem.constraints()[0], &b = problem.constraints()[1];
+    b.mu = a.mu;
+    a.b[0] = b.b[0] = -1;
+    // a: normal z, as it was; b: normal x
+    problem.J(b, 0)[0] = problem.J(b, 0)[4] = problem.J(b, 0)[8] = 1;
+    ImpulseSolver solver;
+    const ImpulseReport report = solver.solve(problem);
+    CHECK(report.converged == (mu < 1));
+    for (const double v : {problem.v(0)[0], problem.v(0)[1], problem.v(0)[2]})
+      CHECK(std::isfinite(v));
+    if (mu < 1) CHECK(a.p[0] == doctest::Approx(2 / (1 - mu)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a point that slides stops or slows by mu g, and never lifts") {
+  for (const double mu : {0.0, 0.3, 1.0, 2.0}) {
+    CAPTURE(mu);
+    const double down = 0.1, along = 0.15;
+    ImpulseProblem problem =
+        point_on_plane(mu, {along * std::cos(0.5), along * std::sin(0.5), -down});
+    if (mu == 0) problem.constraints()[0].mu = 1e-12;
+    ImpulseSolver solver;
+    CHECK(solver.solve(problem).converged);
+    const double rest = std::max(0.0, along - mu * down);
+    CHECK(problem.v(0)[0] == doctest::Approx(rest * std::cos(0.5)).epsilon(1e-9));
+    CHECK(problem.v(0)[1] == doctest::Approx(rest * std::sin(0.5)).epsilon(1e-9));
+    CHECK(std::abs(problem.v(0)[2]) < 1e-9);
+    CHECK(problem.constraints()[0].p[0] == doctest::Approx(2 * down).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("what parts feels nothing; a gap may close and no more") {
+  ImpulseProblem parting = point_on_plane(0.5, {1, 0, 0.2});
+  ImpulseSolver solver;
+  solver.solve(parting);
+  CHECK(parting.constraints()[0].p == std::array<double, 3>{0, 0, 0});
+  ImpulseProblem closing = point_on_plane(0.5, {0, 0, -0.2});
+  closing.constraints()[0].b[0] = 0.05;  // gap / h
+  solver.solve(closing);
+  CHECK(closing.v(0)[2] == doctest::Approx(-0.05).epsilon(1e-9));
+}
+
+TEST_CASE("the same contact many times over changes no velocity") {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    CAPTURE(seed);
+    ImpulseProblem once = random_problem(seed, 3, 4, 10, true);
+    ImpulseProblem often = once;
+    for (int copy = 0; copy < 7; ++copy)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const ImpulseConstraint original = often.constraints()[i];
+        ImpulseConstraint& c =
+            often.add(original.law, original.rows, original.tree[0], original.tree[1]);
+        c.mu = original.mu, c.b = original.b;
+        for (int side = 0; side < 2; ++side)
+          if (c.tree[side] != ImpulseConstraint::no_tree)
+            std::copy_n(often.J(original, side), c.rows * often.size(c.tree[side]),
+                        often.J(c, side));
+      }
+    ImpulseSolver solver;
+    REQUIRE(solver.solve(once).converged);
+    REQUIRE(solver.solve(often).converged);
+    // Coulomb's law can have several solutions; with the first as a guess it is to stay.
+    for (std::size_t k = 0; k < once.nv(); ++k)
+      CHECK(often.v(0)[k] == doctest::Approx(once.v(0)[k]).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("a solution as the guess is found to do; the same problem gives the same bits") {
+  ImpulseProblem problem = random_problem(3, 6, 12, 10);
+  ImpulseSolver solver, other;
+  solver.solve(problem);
+  const std::vector<double> v(problem.v(0), problem.v(0) + problem.nv());
+  ImpulseProblem again = random_problem(3, 6, 12, 10);
+  other.solve(again);
+  CHECK(std::equal(v.begin(), v.end(), again.v(0)));
+  ImpulseSolver fresh;
+  CHECK(fresh.solve(problem).solved == 0);
+}
+
+TEST_CASE("islands do not feel one another") {
+  ImpulseProblem both = random_problem(11, 3, 5, 10, true);
+  ImpulseProblem first = both;
+  const std::size_t nv = first.nv();
+  // The same once more beside it, on trees of its own.
+  const std::size_t count = both.constraints().size();
+  for (int t = 0; t < 3; ++t) {
+    const int copy = both.add_tree(both.size(t));
+    std::copy_n(both.M(t), both.size(t) * both.size(t), both.M(copy));
+    std::copy_n(both.v0(t), both.size(t), both.v0(copy));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const ImpulseConstraint original = both.constraints()[i];
+    const auto moved = [](int t) { return t == ImpulseConstraint::no_tree ? t : t + 3; };
+    ImpulseConstraint& c =
+        both.add(original.law, original.rows, moved(original.tree[0]), moved(original.tree[1]));
+    c.mu = original.mu, c.b = original.b;
+    for (int side = 0; side < 2; ++side)
+      if (c.tree[side] != ImpulseConstraint::no_tree)
+        std::copy_n(both.J(original, side), c.rows * both.size(c.tree[side]), both.J(c, side));
+  }
+  ImpulseSolver solver;
+  solver.solve(first);
+  solver.solve(both);
+  for (std::size_t k = 0; k < nv; ++k) {
+    CHECK(both.v(0)[k] == first.v(0)[k]);
+    CHECK(both.v(0)[nv + k] == first.v(0)[k]);
+  }
+}
+
+TEST_CASE("a solver that has seen a problem of this size allocates nothing") {
+  ImpulseProblem problem = random_problem(5, 8, 30, 10);
+  ImpulseSolver solver;
+  solver.solve(problem);
+  for (ImpulseConstraint& c : problem.constraints()) c.p = {};
+  CHECK(allocations_in([&] { solver.solve(problem); }) == 0);
+}
+
+TEST_CASE("a problem that takes the longest way is solved without the heap, too") {
+  ImpulseSolver solver;
+  int steps = 0;
+  const auto solve_all = [&](bool count) {
+    std::size_t taken = 0;
+    for (unsigned seed = 0; seed < 30; ++seed) {
+      ImpulseProblem problem = hard_problem(seed);
+      taken += allocations_in([&] { steps += solver.solve(problem).path; });
+    }
+    if (count) CHECK(taken == 0);
+  };
+  solve_all(false);
+  CHECK(steps > 0);
+  solve_all(false);  // its buffers change places
+  solve_all(true);
+}

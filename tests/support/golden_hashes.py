@@ -1,0 +1,75 @@
+"""The hash of a scene's whole memory (docs/recording.md) after some steps, and the table of what it was.
+
+At one level of the instruction set the same input gives the same bits. Levels differ by rounding, and so
+do the sines of the C library, which takes fused multiply-adds where the processor has them: so both are
+held to what every x86-64 can.
+"""
+import os
+import pathlib
+import subprocess
+import sys
+import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+import recording_format  # noqa: E402
+
+SCENES = sorted((ROOT / "assets/scenes").glob("*.toml"))
+TABLE = ROOT / "tests/cli/golden_hashes.toml"
+STEPS = 500  # of a scene that is new in the table, or all that it has
+GENERIC = dict(os.environ, TWINARM_ISA="generic", GLIBC_TUNABLES="glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4")
+HEAD = """# Of each scene in assets/scenes: after so many steps, FNV-1a (64 bits) of all that the next step reads
+# (docs/recording.md). A change that is meant to change no motion changes no line here. Where one is meant
+# to: scripts/check/same_bits --renew writes the table anew; say in the message of the commit why.
+# At the generic level and with the C library's plain functions (golden_hashes.py), so the same on
+# every x86-64. Whether g++ and clang agree: scripts/check/same_bits.
+"""
+
+
+def read_table():
+    return tomllib.loads(TABLE.read_text())
+
+
+def write_table(rows):
+    width = max(map(len, rows))
+    TABLE.write_text(HEAD + "".join(f'{name:{width}} = {{ steps = {row["steps"]}, hash = "{row["hash"]}" }}\n'
+                                    for name, row in sorted(rows.items())))
+
+
+def run(program, scene, steps, file, every_step=False, environment=GENERIC):
+    """Records so many steps of a scene into `file`."""
+    step = tomllib.loads(scene.read_text())["step"]
+    duration = steps * step
+    words = [program, "simulate", scene, "--duration", repr(duration), "--record", file, "--json"]
+    if not every_step:
+        words += ["--record-every", repr(duration)]
+    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=600, cwd=ROOT,
+                          env=environment)
+    if done.returncode != 0:
+        raise RuntimeError(f"{scene.name}: exit code {done.returncode}\n{done.stderr}")
+
+
+def steps_of(scene):
+    told = tomllib.loads(scene.read_text())
+    return min(STEPS, round(told["duration"] / told["step"]))
+
+
+def frames(file):
+    """[(step, time, hash, values, memory)] of a recording."""
+    found = [recording_format.decoded(recording_format.FRAME, payload)
+             for kind, payload in recording_format.blocks(file.read_bytes()) if kind == "F"]
+    return [(f[0], f[1], f"{f[2]:016x}", f[3], f[-1]) for f in found]
+
+
+def columns(file):
+    header = recording_format.header(recording_format.blocks(file.read_bytes()))
+    return [column["name"] for column in header["columns"]]
+
+
+def golden(program, scene, steps, folder, environment=GENERIC):
+    """The hash after so many steps."""
+    file = pathlib.Path(folder) / f"{scene.stem}.twinrec"
+    run(program, scene, steps, file, environment=environment)
+    step, _, found, _, _ = frames(file)[-1]
+    if step != steps:
+        raise RuntimeError(f"{scene.name}: {step} steps, not {steps}")
+    return found
