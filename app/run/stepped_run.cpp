@@ -6,17 +6,14 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "app/run/drift_warning.h"
 #include "app/run/run_end.h"
+#include "app/run/run_warnings.h"
 #include "app/run/time_grid.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
-
-// Bodies that stand deeper in one another at the start are told of [m].
-constexpr double kDeepStart = 1e-4;
 
 // Between two checkpoints, from the earlier of which a post-mortem is computed again.
 constexpr long kCheckpoint = 1000;
@@ -62,10 +59,9 @@ SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, cons
   sim_.set_interrupted(watch.interrupted);
   if (simulated.scene) {
     contacts_.emplace(*simulated.scene, sim_);
-    if (contacts_->deepest_at_start() > kDeepStart)
-      warn_of_deep_start(simulated.scene->description.contact);
+    warn(deep_start_warning(*contacts_, simulated.scene->description.contact));
   }
-  if (const std::string drift = drift_warning(sim_, plan); !drift.empty()) warn(drift);
+  warn(drift_warning(sim_, plan));
   if (plan.is_adaptive()) sim_.set_tolerance(plan.tolerance);
   sim_.keep_account();
   momentum_.emplace(input_, wrenches_, simulated.couplings.get(), plan.integrator,
@@ -131,7 +127,9 @@ std::string SteppedRun::memory() {
 SimulateResult SteppedRun::finish() {
   if (!result_.post_mortem && result_.steps < last_step_)  // what is left is the end
     for (; next_ < plan_.times.size(); ++next_) watch_.sample(plan_.times[next_], sim_.state());
-  warn_of_steps();
+  for (const std::string& text :
+       {unsolved_warning(unsolved_, result_.steps), unlocated_warning(unlocated_, result_.steps)})
+    if (!text.empty()) result_.warnings.push_back(text);
   result_.ledger = ledger();
   result_.momentum = momentum();
   if (contacts_) result_.contacts = contacts_->contact_count();
@@ -141,29 +139,9 @@ SimulateResult SteppedRun::finish() {
 }
 
 void SteppedRun::warn(std::string text) {
+  if (text.empty()) return;
   result_.warnings.push_back(std::move(text));
   if (watch_.warn) watch_.warn(result_.warnings.back());
-}
-
-void SteppedRun::warn_of_deep_start(ContactMode mode) {
-  warn(fmt::format("{} stand {} m deep in one another at the start, deeper than any others: {}",
-                   contacts_->deepest_pair(), short_number_text(contacts_->deepest_at_start()),
-                   mode == ContactMode::compliant
-                       ? "their springs throw them apart; place them apart, or give --contact rigid"
-                       : "what overlaps is moved apart, no faster than 0.5 m/s"));
-}
-
-void SteppedRun::warn_of_steps() {
-  if (unsolved_ > 0)
-    result_.warnings.push_back(
-        fmt::format("in {} of {} steps the equation of the step was not solved to rounding",
-                    unsolved_, result_.steps));
-  if (unlocated_ > 0)
-    result_.warnings.push_back(fmt::format(
-        "in {} of {} steps there were too many events to locate them all (bound: {} laws solved): "
-        "what was left of these steps was taken as one step of fixed size, of first order; give "
-        "--contact rigid, or a shorter --step",
-        unlocated_, result_.steps, EventStep::kMostLaws));
 }
 
 void SteppedRun::visit_memory(Memory& memory) {

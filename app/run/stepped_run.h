@@ -51,8 +51,6 @@ class SteppedRun final : public RunView {
  private:
   void add_forces(const SimulateInput& simulated);
   void warn(std::string text);
-  void warn_of_deep_start(ContactMode mode);
-  void warn_of_steps();
   void visit_memory(Memory& memory);
   void take_back(const std::string& bytes);
   void go_on_from(const RunStart& start);
