@@ -1,11 +1,12 @@
 // One case of the page.
 #include <fmt/format.h>
 
+#include <regex>
+
 #include "app/compare/page/case_code.h"
 #include "app/compare/page/curves.h"
 #include "app/compare/page/page.h"
 #include "app/compare/page/plots.h"
-#include "app/compare/page/small_svg.h"
 #include "app/data/html_page.h"
 #include "app/data/html_text.h"
 #include "benchmarks/analytic/registry/analytic_cases.h"
@@ -13,8 +14,14 @@
 namespace twinarm::compare_page {
 namespace {
 
+// gnuplot opens a group at each change of its pen, and says again what the style sheet says of all
+// figures (page_style.h, `figure svg`): half of a page of hundreds of figures. Its names of plots
+// are not unique in the page, and would be shown where the pointer is.
 std::string figure(const std::string& drawn, const std::string& caption, const char* kind = "") {
-  return drawn.empty() ? "" : html_figure(small_svg(drawn), caption, kind);
+  static const std::regex kIdle(
+      R"re(<g fill="none"[^>]*>\s*</g>\s*|<title>[^<]*</title>| id="gnuplot_plot[^"]*")re"
+      R"re(| stroke-line(cap|join)="round"| font-family="[^"]*"| stroke-width="1.00"|\n\s+)re");
+  return drawn.empty() ? "" : html_figure(std::regex_replace(drawn, kIdle, " "), caption, kind);
 }
 
 // HTML; formulas stand in paragraphs of their own.
