@@ -1,49 +1,40 @@
 #include "app/study/findings/predictions.h"
 
-#include <toml++/toml.h>
-
-#include "collision/import/toml/toml_file.h"
-#include "solver/support/diagnostics.h"
+#include "app/data/toml_tree.h"
 
 namespace twinarm {
 namespace {
 
-std::optional<std::array<double, 2>> pair_of(const toml::table& table, const char* key) {
-  const auto* array = table[key].as_array();
-  if (!array || array->size() != 2) return {};
-  return std::array<double, 2>{array->get(0)->value_or(0.0), array->get(1)->value_or(0.0)};
+std::string text_of(const TomlValue& table, const char* key) {
+  const TomlValue* value = table.find(key);
+  return value ? value->text : "";
+}
+
+std::optional<std::array<double, 2>> pair_of(const TomlValue& table, const char* key) {
+  const TomlValue* list = table.find(key);
+  if (!list || list->items.size() != 2) return {};
+  return std::array<double, 2>{list->items[0].number, list->items[1].number};
 }
 
 }  // namespace
 
 Predictions read_predictions(const std::filesystem::path& assets) {
-  const std::filesystem::path file = assets / "study" / "predictions.toml";
+  const TomlValue root = read_toml(assets / "study" / "predictions.toml");
   Predictions predictions;
-  try {
-    const toml::table root = toml::parse(read_toml_text(file), file.string());
-    if (const auto* rows = root["row"].as_array())
-      for (const auto& entry : *rows) {
-        if (!entry.is_table()) continue;
-        const toml::table& table = *entry.as_table();
-        PredictedRow row{table["robot"].value_or(std::string()),
-                         table["law"].value_or(std::string()), table["rate"].value_or(0.0),
-                         pair_of(table, "max").value_or(std::array<double, 2>{}),
-                         pair_of(table, "mean")};
-        predictions.rows.push_back(row);
-      }
-    if (const auto* modes = root["modes"].as_array())
-      for (const auto& entry : *modes) {
-        if (!entry.is_table()) continue;
-        const toml::table& table = *entry.as_table();
-        PredictedModes mode{table["robot"].value_or(std::string()), {}};
-        for (const char* law : {"world", "joint", "linear"})
-          if (const auto ratio = table[law].value<double>()) mode.ratio[law] = *ratio;
-        predictions.modes.push_back(mode);
-      }
-  } catch (const toml::parse_error& error) {
-    throw InputError({{file.string(), static_cast<int>(error.source().begin.line), "",
-                       std::string(error.description()), "mend the file, or give --assets"}});
-  }
+  if (const TomlValue* rows = root.find("row"))
+    for (const TomlValue& row : rows->items) {
+      const TomlValue* rate = row.find("rate");
+      predictions.rows.push_back(
+          {text_of(row, "robot"), text_of(row, "law"), rate ? rate->number : 0,
+           pair_of(row, "max").value_or(std::array<double, 2>{}), pair_of(row, "mean")});
+    }
+  if (const TomlValue* modes = root.find("modes"))
+    for (const TomlValue& table : modes->items) {
+      PredictedModes& mode = predictions.modes.emplace_back();
+      mode.robot = text_of(table, "robot");
+      for (const char* law : {"world", "joint", "linear"})
+        if (const TomlValue* ratio = table.find(law)) mode.ratio[law] = ratio->number;
+    }
   return predictions;
 }
 
