@@ -238,7 +238,7 @@ int run_study(const StudyOptions& options) {
   progress.advance(0.6);
   write_csv(results, options.out / "csv");
   results.seconds = steady_seconds() - start;
-  write_report(results, options.out);
+  write_report(results, assets, options.out);
   const std::filesystem::path report = options.out / "report.html";
   const std::string as_json = study_json(results, report.string());
   write_whole_file(options.out / "study.json", as_json + "\n");

@@ -153,9 +153,7 @@ std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std
   }
   page.contents.emplace_back("code", "Code");
   page.main += "<h2 id=code>Code</h2>\n" + code_of(names);
-  page.footer = fmt::format(
-      "Made by <code>{}</code> in {:.0f} s. Every number on this page was computed in that run.",
-      escaped(command), seconds);
+  page.footer = made_by(command, seconds) + " Every number on this page was computed in that run.";
   return page.html();
 }
 

@@ -21,7 +21,9 @@ std::string figure(const std::string& drawn, const std::string& caption, const c
   static const std::regex kIdle(
       R"re(<g fill="none"[^>]*>\s*</g>\s*|<title>[^<]*</title>| id="gnuplot_plot[^"]*")re"
       R"re(| stroke-line(cap|join)="round"| font-family="[^"]*"| stroke-width="1.00"|\n\s+)re");
-  return drawn.empty() ? "" : html_figure(std::regex_replace(drawn, kIdle, " "), caption, kind);
+  if (drawn.empty()) return "";
+  return fmt::format("<figure{}>{}<figcaption>{}</figcaption></figure>\n", kind,
+                     inline_svg(std::regex_replace(drawn, kIdle, " ")), caption);
 }
 
 // HTML; formulas stand in paragraphs of their own.

@@ -7,9 +7,10 @@
 
 namespace twinarm {
 
-// Writes folder/report.html, self-contained: the SVGs of folder/figures (write_figures) and the
-// PNGs of folder/pictures are inside, the style too; no script, no network. A figure or picture
-// that is not there is left out.
-void write_report(const StudyResults& results, const std::filesystem::path& folder);
+// Writes folder/report.html, self-contained: assets/study/report.html with the numbers, tables, and
+// SVGs and PNGs of folder/figures (write_figures) and folder/pictures in their places; no script,
+// no network. Throws InputError where the text has a place for which there is nothing.
+void write_report(const StudyResults& results, const std::filesystem::path& assets,
+                  const std::filesystem::path& folder);
 
 }  // namespace twinarm
