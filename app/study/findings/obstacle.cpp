@@ -1,5 +1,3 @@
-#include "app/study/findings/obstacle.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>

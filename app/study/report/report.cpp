@@ -8,6 +8,7 @@
 
 #include "app/data/html_page.h"
 #include "app/study/report/report_slots.h"
+#include "app/support/output_file.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 
