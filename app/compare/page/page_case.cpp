@@ -3,10 +3,8 @@
 
 #include <regex>
 
-#include "app/compare/page/case_code.h"
 #include "app/compare/page/curves.h"
 #include "app/compare/page/page.h"
-#include "app/compare/page/plots.h"
 #include "app/data/html_page.h"
 #include "app/data/html_text.h"
 #include "benchmarks/analytic/registry/analytic_cases.h"
@@ -129,6 +127,14 @@ std::string command_of(const CompareRow& row, const std::vector<Lane>& lanes) {
     command += fmt::format(" --integrator {},dopri5 --step {:g},{:g}",
                            integrator_name(c->lane.integrator), c->lane.step, 2 * c->lane.step);
   return "<pre class=command>" + escaped(command) + "</pre>\n";
+}
+
+std::string link_to_code(const std::string& case_name) {
+  const CasePlace place = place_of(case_name);
+  if (place.file.empty()) return "";
+  return fmt::format(
+      "<p class=note>Code: <a href=\"#code-{0}\">benchmarks/analytic/{0}</a>, line {1}</p>\n",
+      place.file, place.line);
 }
 
 }  // namespace
