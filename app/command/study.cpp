@@ -10,10 +10,6 @@
 #include "app/study/calibration/calibrate.h"
 #include "app/study/findings/findings.h"
 #include "app/study/findings/variants.h"
-#include "app/study/report/figures.h"
-#include "app/study/report/output_csv.h"
-#include "app/study/report/output_json.h"
-#include "app/study/report/pictures.h"
 #include "app/study/report/recordings.h"
 #include "app/study/report/report.h"
 #include "app/support/find_assets.h"
@@ -153,11 +149,14 @@ StudyResults compute(const StudyOptions& options, const StudyInputs& inputs, con
   progress.stage("findings", 0.15);
   derive_findings(inputs, results, progress);
   results.answer = answer_in_words(results);
-  progress.stage("the obstacle, and pictures", 0.4);
-  run_obstacles_and_paint(inputs, robot, results, options.out, options.paper_view, progress);
+  progress.stage("the obstacle", 0.2);
+  for (const auto type : {CouplingSpec::Type::linear, CouplingSpec::Type::torsional})
+    results.obstacle.push_back(run_obstacle(inputs, robot, type));
   progress.stage("recordings", 0.1);
   results.recordings = write_recordings(inputs, robot, scene_hand(options, inputs.settings, hand),
                                         results, options.out / "recordings", progress);
+  progress.stage("pictures", 0.2);
+  paint_pictures(results, options.out / "pictures", options.paper_view, progress);
   return results;
 }
 
@@ -235,7 +234,7 @@ int run_study(const StudyOptions& options) {
   progress.advance(0.6);
   write_csv(results, options.out / "csv");
   results.seconds = steady_seconds() - start;
-  write_report(results, options.out);
+  write_report(results, assets, options.out);
   const std::filesystem::path report = options.out / "report.html";
   const std::string as_json = study_json(results, report.string());
   write_whole_file(options.out / "study.json", as_json + "\n");

@@ -1,10 +1,103 @@
+// Which cases, in which lanes, and how one is run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
 #include "app/compare/compare.h"
+#include "app/support/nearest_name.h"
 #include "app/support/seconds.h"
 #include "benchmarks/analytic/registry/analytic_cases.h"
 
-#include <algorithm>
-
 namespace twinarm {
+namespace {
+
+bool means(const std::string& asked, const std::string& name, const std::string& group) {
+  if (name == asked || group == asked || name.rfind(asked + "-", 0) == 0) return true;
+  return asked.size() == 1 && name.size() > 1 && asked[0] == name[0] &&
+         std::isdigit(static_cast<unsigned char>(name[1])) != 0;
+}
+
+template <class F>
+void for_each_name(F&& f) {
+  for (const AnalyticCase& c : analytic_cases()) f(c.name, c.group);
+  for (const SkippedCase& c : skipped_cases()) f(c.name, c.group);
+}
+
+}  // namespace
+
+CaseSelection select_cases(const std::vector<std::string>& names, const std::string& group,
+                           FaultList& faults) {
+  std::vector<std::string> known, groups;
+  for_each_name([&](const char* name, const char* of) {
+    known.push_back(name);
+    if (std::find(groups.begin(), groups.end(), of) == groups.end()) groups.push_back(of);
+  });
+  std::vector<std::string> both = known;
+  both.insert(both.end(), groups.begin(), groups.end());
+
+  for (const std::string& name : names) {
+    bool found = false;
+    for_each_name([&](const char* one, const char* of) { found |= means(name, one, of); });
+    if (!found)
+      faults.add({"", 0, "command line", fmt::format("there is no case or group '{}'", name),
+                  name_remedy(name, both, "cases and groups")});
+  }
+  if (!group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
+    faults.add({"", 0, "--group", fmt::format("there is no group '{}'", group),
+                name_remedy(group, groups, "groups")});
+
+  const auto chosen = [&](const char* name, const char* of) {
+    return (names.empty() && group.empty()) || group == of ||
+           std::any_of(names.begin(), names.end(),
+                       [&](const std::string& asked) { return means(asked, name, of); });
+  };
+  CaseSelection selection;
+  for (const AnalyticCase& c : analytic_cases())
+    if (chosen(c.name, c.group)) selection.cases.push_back(&c);
+  for (const SkippedCase& c : skipped_cases())
+    if (chosen(c.name, c.group)) selection.skipped.push_back(&c);
+  return selection;
+}
+
+std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
+                             const std::vector<double>& steps, FaultList& faults) {
+  std::vector<std::string> known;
+  for (const IntegratorFacts& facts : all_integrators) known.push_back(facts.name);
+  std::vector<Integrator> found;
+  for (const std::string& name : integrators) {
+    if (const auto integrator = find_integrator(name))
+      found.push_back(*integrator);
+    else
+      faults.add({"", 0, "--integrator", fmt::format("there is no integrator '{}'", name),
+                  name_remedy(name, known, "integrators")});
+  }
+  for (const double step : steps)
+    if (!(step > 0) || !std::isfinite(step))
+      faults.add({"", 0, "--step", fmt::format("a step is a positive time, not {}", step),
+                  "give seconds, as in --step 0.001,0.0005"});
+
+  std::vector<Lane> lanes;
+  if (integrators.empty() && steps.empty()) return lanes;
+  if (found.empty()) found.push_back(Integrator::rk4);
+  for (const Integrator integrator : found) {
+    if (integrator == Integrator::dopri5) {
+      lanes.push_back(dopri5_lane());
+      continue;
+    }
+    for (const double step : steps.empty() ? std::vector{1e-3} : steps)
+      lanes.push_back({integrator, step, 0});
+  }
+  return lanes;
+}
+
+std::string lane_name(const Lane& lane) {
+  const bool adaptive = lane.integrator == Integrator::dopri5;
+  return fmt::format("{} {:g}", integrator_name(lane.integrator),
+                     adaptive ? lane.tolerance : lane.step);
+}
+
 CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& lanes) {
   const double start = steady_seconds();
   CompareRow row{&test, run_case(test), 0, {}};

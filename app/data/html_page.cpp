@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "app/data/html_text.h"
 #include "app/data/page_style.h"
 
 namespace twinarm {
@@ -20,13 +21,13 @@ std::string HtmlPage::html() const {
          "</footer>\n</body></html>\n";
 }
 
-std::string html_figure(const std::string& content, const std::string& caption,
-                        const std::string& attributes) {
-  const std::size_t begin = content.find("<svg");  // without the XML declaration
-  const std::string shown =
-      begin == std::string::npos ? content : "<svg role=img" + content.substr(begin + 4);
-  return fmt::format("<figure{}>{}<figcaption>{}</figcaption></figure>\n", attributes, shown,
-                     caption);
+std::string inline_svg(const std::string& file) {
+  const std::size_t begin = file.find("<svg");  // without the XML declaration
+  return begin == std::string::npos ? "" : "<svg role=img" + file.substr(begin + 4);
+}
+
+std::string made_by(const std::string& command, double seconds) {
+  return fmt::format("Made by <code>{}</code> in {:.0f} s.", escaped(command), seconds);
 }
 
 std::string base64_of(const std::string& bytes) {

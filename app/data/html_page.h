@@ -16,10 +16,10 @@ struct HtmlPage {
   std::string html() const;
 };
 
-// `content`: an image, or an SVG file, which is put into the page. `attributes` of the frame:
-// " class=wide".
-std::string html_figure(const std::string& content, const std::string& caption,
-                        const std::string& attributes = "");
+// An SVG file, to stand in a page.
+std::string inline_svg(const std::string& file);
+// The beginning of a footer: the command, and how long it took.
+std::string made_by(const std::string& command, double seconds);
 
 std::string base64_of(const std::string& bytes);
 

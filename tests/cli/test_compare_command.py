@@ -185,17 +185,13 @@ class Drawing:
     def of(section):
         svg = re.search(r"<svg.*?</svg>", section, re.S).group(0)
         circles = [(float(x), float(y)) for x, y in re.findall(
-            r"<circle class=o cx=([-0-9.]+) cy=([-0-9.]+)", svg)]
+            r"_gpPt5' transform='translate\(([-0-9.]+),([-0-9.]+)\)", svg)]
         lines = []
-        for d in re.findall(r"<path stroke='[^']*'[^>]*? d='([^']+)'", svg):
+        for colour, d in re.findall(r"<path stroke='([^']*)'[^>]*? d='([^']+)'", svg):
+            if colour in ("rgb(228, 228, 228)", "rgb( 85,  85,  85)"):  # of the grid, of the axes
+                continue
             for part in re.findall(r"M([^M]+)", d):
-                start, _, steps = part.partition("l")
-                numbers = [[float(n) for n in re.findall(r"-?[0-9.]+", text)]
-                           for text in (start, steps)]
-                line = [tuple(numbers[0])]
-                for dx, dy in zip(numbers[1][::2], numbers[1][1::2]):
-                    line.append((line[-1][0] + dx, line[-1][1] + dy))
-                lines.append(line)
+                lines.append([(float(x), float(y)) for x, y in re.findall(r"([-0-9.]+),([-0-9.]+)", part)])
         return [c for c in circles if c[0] < Drawing.LEGEND], lines
 
     @staticmethod

@@ -39,21 +39,21 @@ class Settings(unittest.TestCase):
         for key in ("rate_hz", "contact_stiffness"):
             self.assertIn(f"\n{key} = ", text)
             text = text.replace(f"\n{key} = ", f"\nno_{key} = ")
-        self.assertLessEqual({"obstacle.rate_hz", "obstacle.contact_stiffness"}, self.faults_of(text).keys())
+        self.assertLessEqual({"obstacle, rate_hz", "obstacle, contact_stiffness"}, self.faults_of(text).keys())
 
     def test_settings_that_nothing_reads_are_told_with_their_lines_and_the_nearest_key(self):
         lines = []
         wanted = {}  # by where: line, nearest key
         for line in SHIPPED.splitlines():
             lines.append(line)
-            for after, where, nearest in (("friction = ", "obstacle.fricton", "friction"),
-                                          ('link = "arm2"', "robot.mount[1].pont", "point"),
-                                          ("[operator]", "operator.sead", "seed")):
+            for after, where, nearest in (("friction = ", "obstacle, fricton", "friction"),
+                                          ('link = "arm2"', "robot.mount, pont", "point"),
+                                          ("[operator]", "operator, sead", "seed")):
                 if line.startswith(after):
-                    lines.append(where.split(".")[-1] + " = 1")
+                    lines.append(where.split(", ")[-1] + " = 1")
                     wanted[where] = (len(lines), nearest)
         lines.append("[protocoll]")
-        wanted["protocoll"] = (len(lines), "protocol")
+        wanted["settings, protocoll"] = (len(lines), "protocol")
         errors = self.faults_of("\n".join([*lines, "rates_hz = [60]"]) + "\n")
         self.assertEqual({where: error["line"] for where, error in errors.items()},
                          {where: line for where, (line, _) in wanted.items()})
@@ -71,12 +71,12 @@ class Settings(unittest.TestCase):
             self.assertEqual(text.count(before), 1, before)
             text = text.replace(before, after)
         errors = {where: error["rule"] for where, error in self.faults_of(text).items()}
-        self.assertEqual(errors, {"protocol.rates_hz": "must be a list of finite numbers",
-                                  "protocol.sweep_times": "must be a list of finite numbers",
-                                  "robot.turned": "must be a list of 3 texts",
-                                  "robot.mount": "must be 2 tables [[robot.mount]]",
-                                  "obstacle.friction": "must be a finite number",
-                                  "obstacle.size": "must be three finite numbers"})
+        self.assertEqual(errors, {"protocol, rates_hz": "must be a list of finite numbers",
+                                  "protocol, sweep_times": "must be a list of finite numbers",
+                                  "robot, turned": "must be a list of 3 texts",
+                                  "robot, mount": "must be 2 tables [[robot.mount]]",
+                                  "obstacle, friction": "must be finite, is inf",
+                                  "obstacle, size": "must be a list of 3 finite numbers, is a list of 2"})
 
 
 if __name__ == "__main__":

@@ -2,15 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <set>
 #include <utility>
 
-#include "app/compare/page/case_code.h"
 #include "app/compare/page/page_style.h"
 #include "app/data/html_page.h"
 #include "app/data/html_text.h"
 #include "app/plot/gnuplot.h"
 #include "app/support/output_file.h"
+#include "benchmarks/analytic/registry/case_sources.h"
 
 namespace twinarm::compare_page {
 namespace {
@@ -98,7 +100,35 @@ constexpr const char* kHowToRead =
     "<p><b>The code</b> of all cases stands at the end, as it was compiled. A case of your own is "
     "one file: docs/adding_a_case.md. What is measured, and how: docs/cases.md.</p>\n";
 
+// What the links lead to: each file once, whole, to be unfolded.
+std::string code_of(const std::vector<std::string>& case_names) {
+  std::set<std::string> files;
+  for (const std::string& name : case_names) files.insert(place_of(name).file);
+  std::string html;
+  for (const CaseSource& source : case_sources())
+    if (files.count(std::string(source.file)))
+      html += fmt::format(
+          "<details><summary id=\"code-{0}\">benchmarks/analytic/{0}</summary>\n<pre>{1}</pre>"
+          "</details>\n",
+          source.file, escaped(std::string(source.text)));
+  return html;
+}
+
 }  // namespace
+
+// The name may be put together from a beginning that ends with a hyphen. The mechanism's own name
+// may stand before; what registers comes last.
+CasePlace place_of(const std::string& case_name) {
+  for (std::string name = case_name; name.size() >= 2; name.pop_back())
+    for (const CaseSource& source : case_sources()) {
+      if (source.text.find("\nCaseFamily ") == std::string_view::npos) continue;
+      const std::size_t at = source.text.rfind("\"" + name + "\"");
+      if (at == std::string_view::npos) continue;
+      const auto begin = source.text.begin(), end = begin + static_cast<std::ptrdiff_t>(at);
+      return {std::string(source.file), 1 + static_cast<std::size_t>(std::count(begin, end, '\n'))};
+    }
+  return {};
+}
 
 std::string in_unicode(std::string words) {
   constexpr std::pair<const char*, const char*> kSigns[] = {
@@ -153,9 +183,7 @@ std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std
   }
   page.contents.emplace_back("code", "Code");
   page.main += "<h2 id=code>Code</h2>\n" + code_of(names);
-  page.footer = fmt::format(
-      "Made by <code>{}</code> in {:.0f} s. Every number on this page was computed in that run.",
-      escaped(command), seconds);
+  page.footer = made_by(command, seconds) + " Every number on this page was computed in that run.";
   return page.html();
 }
 

@@ -19,6 +19,13 @@ void check_page(const std::filesystem::path& file, FaultList& faults);
 // What a terminal shows as "mu" or "rad/s^2"; escaped.
 std::string in_unicode(std::string words);
 
+// Where a case is written, of the files as they were compiled.
+struct CasePlace {
+  std::string file;  // "joints/pendulum.cpp", of benchmarks/analytic/; empty: not found
+  std::size_t line = 0;
+};
+CasePlace place_of(const std::string& case_name);
+
 // The section of one case: statement, figures, place of its code. Runs it again to be looked at,
 // and all integrators beside; takes a temporary folder.
 std::string case_section(const CompareRow& row, const std::vector<Lane>& lanes);

@@ -1,11 +1,10 @@
 // One case of the page.
 #include <fmt/format.h>
 
-#include "app/compare/page/case_code.h"
+#include <regex>
+
 #include "app/compare/page/curves.h"
 #include "app/compare/page/page.h"
-#include "app/compare/page/plots.h"
-#include "app/compare/page/small_svg.h"
 #include "app/data/html_page.h"
 #include "app/data/html_text.h"
 #include "benchmarks/analytic/registry/analytic_cases.h"
@@ -13,8 +12,16 @@
 namespace twinarm::compare_page {
 namespace {
 
+// gnuplot opens a group at each change of its pen, and says again what the style sheet says of all
+// figures (page_style.h, `figure svg`): half of a page of hundreds of figures. Its names of plots
+// are not unique in the page, and would be shown where the pointer is.
 std::string figure(const std::string& drawn, const std::string& caption, const char* kind = "") {
-  return drawn.empty() ? "" : html_figure(small_svg(drawn), caption, kind);
+  static const std::regex kIdle(
+      R"re(<g fill="none"[^>]*>\s*</g>\s*|<title>[^<]*</title>| id="gnuplot_plot[^"]*")re"
+      R"re(| stroke-line(cap|join)="round"| font-family="[^"]*"| stroke-width="1.00"|\n\s+)re");
+  if (drawn.empty()) return "";
+  return fmt::format("<figure{}>{}<figcaption>{}</figcaption></figure>\n", kind,
+                     inline_svg(std::regex_replace(drawn, kIdle, " ")), caption);
 }
 
 // HTML; formulas stand in paragraphs of their own.
@@ -120,6 +127,14 @@ std::string command_of(const CompareRow& row, const std::vector<Lane>& lanes) {
     command += fmt::format(" --integrator {},dopri5 --step {:g},{:g}",
                            integrator_name(c->lane.integrator), c->lane.step, 2 * c->lane.step);
   return "<pre class=command>" + escaped(command) + "</pre>\n";
+}
+
+std::string link_to_code(const std::string& case_name) {
+  const CasePlace place = place_of(case_name);
+  if (place.file.empty()) return "";
+  return fmt::format(
+      "<p class=note>Code: <a href=\"#code-{0}\">benchmarks/analytic/{0}</a>, line {1}</p>\n",
+      place.file, place.line);
 }
 
 }  // namespace

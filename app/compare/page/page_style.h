@@ -26,13 +26,6 @@ section.case figure { margin: .7rem 0; }
 .facts span { color: var(--soft); }
 figure svg { font: 13px "DejaVu Sans", Verdana, sans-serif; stroke-linecap: round;
   stroke-linejoin: round; }
-.l { fill: none; stroke: currentColor; }
-.g { fill: none; stroke: #e4e4e4; }
-.k { fill: none; stroke: #555; }
-.o { fill: none; stroke: #111; stroke-width: .65px; }
-figure text { fill: #333; stroke: none; }
-text.e { text-anchor: end; }
-text.m { text-anchor: middle; }
 .pair > .note { align-self: center; margin: 0; }
 section.case p sub, section.case p sup { line-height: 0; font-size: .72em; }
 .readings { width: auto; }

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
-#include <mutex>
 #include <numbers>
 
-#include "app/support/interrupt.h"
+#include "app/support/parallel_for.h"
 
 namespace twinarm {
 namespace {
@@ -42,13 +40,6 @@ std::vector<Parameter> bounds(const StudyRobot& robot, const RunSpec& spec, doub
   return {{"k", std::min(k_low, 0.1 * k_high), k_high, 0}, {"b", 1e-4 * b_high, b_high, 0}};
 }
 
-void keep(CalibrationEntry& entry, const RunResult& result) {
-  entry.numbers["max1_deg"] = result.max_deg[0];
-  entry.numbers["max2_deg"] = result.max_deg[1];
-  entry.numbers["mean1_deg"] = result.mean_deg[0];
-  entry.numbers["mean2_deg"] = result.mean_deg[1];
-}
-
 // Worst error when one gain of all springs moves up or down by kShift.
 double error_when_shifted(const StudyRobot& robot, RunSpec spec, const PaperRow& row) {
   const AutomaticMotion hand{HandMapping{}};
@@ -67,7 +58,7 @@ void finish_fit(CalibrationEntry& entry, const StudyRobot& robot, const RunSpec&
                 const PaperRow& row) {
   const AutomaticMotion hand{HandMapping{}};
   const RunResult result = run(robot, hand, spec);
-  keep(entry, result);
+  entry.keep(result.max_deg, result.mean_deg);
   entry.numbers["worst_error"] = worst_relative_error(result, row);
   entry.numbers["worst_error_shifted"] = error_when_shifted(robot, spec, row);
 }
@@ -143,37 +134,24 @@ Job trial_job(const std::string& name, const RunSpec& spec, const StudyRobot& ro
   job.objective = [=](const CalibrationEntry& entry) { return errors(entry).objective; };
   job.finish = [=](CalibrationEntry& entry) {
     const ProtocolErrors e = errors(entry);
-    entry.numbers["max1_deg"] = e.max_deg[0];
-    entry.numbers["max2_deg"] = e.max_deg[1];
-    entry.numbers["mean1_deg"] = e.mean_deg[0];
-    entry.numbers["mean2_deg"] = e.mean_deg[1];
+    entry.keep(e.max_deg, e.mean_deg);
   };
   return job;
 }
 
-// Two workers; every job seeds its own search, so the order does not matter.
+constexpr unsigned kWorkers = 2;
+
+// Every job seeds its own search, so the order does not matter.
 void run_jobs(std::vector<Job>& jobs, Calibration& calibration, Progress& progress) {
-  std::mutex mutex;
-  std::size_t next = 0, done = 0;
-  const auto work = [&] {
-    for (;;) {
-      std::size_t mine = 0;
-      {
-        const std::scoped_lock lock(mutex);
-        if (next == jobs.size()) return;
-        mine = next++;
-      }
-      minimise(jobs[mine].entry, jobs[mine].method, kSeed, jobs[mine].evaluations,
-               jobs[mine].objective);
-      jobs[mine].finish(jobs[mine].entry);
-      const std::scoped_lock lock(mutex);
-      calibration.entries[jobs[mine].entry.name] = jobs[mine].entry;
-      progress.advance(static_cast<double>(++done) / static_cast<double>(jobs.size()));
-    }
+  const auto work = [&](std::size_t i) {
+    minimise(jobs[i].entry, jobs[i].method, kSeed, jobs[i].evaluations, jobs[i].objective);
+    jobs[i].finish(jobs[i].entry);
   };
-  auto second = std::async(std::launch::async, work);
-  work();
-  second.get();
+  const auto tick = [&](std::size_t done) {
+    progress.advance(static_cast<double>(done) / static_cast<double>(jobs.size()));
+  };
+  parallel_for(jobs.size(), work, tick, kWorkers);
+  for (const Job& job : jobs) calibration.entries[job.entry.name] = job.entry;
   jobs.clear();
 }
 

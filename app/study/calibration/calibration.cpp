@@ -1,18 +1,57 @@
-#include "app/study/calibration/calibration.h"
-
 #include <fmt/format.h>
 
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/study/calibration/whole_number.h"
-#include "app/support/output_file.h"
+#include "app/study/calibration/identify.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
+namespace {
 
 using nlohmann::ordered_json;
+
+// Throws the library's own exception where the value is no whole number that fits.
+template <class Number>
+Number whole(const nlohmann::json& value) {
+  const double number = value.get<double>();
+  if (!value.is_number_integer() ||
+      number < static_cast<double>(std::numeric_limits<Number>::min()) ||
+      number >= static_cast<double>(std::numeric_limits<Number>::max()))
+    throw nlohmann::json::other_error::create(501, "a whole number is wanted", &value);
+  return value.get<Number>();
+}
+
+// What both files have of a fit; the keys of what was reached differ.
+void read_fit(const nlohmann::json& item, const char* objective, CalibrationEntry& fit) {
+  fit.rate = item.at("rate_hz");
+  for (const nlohmann::json& p : item.at("parameters"))
+    fit.parameters.push_back({p.at("name"), p.at("low"), p.at("high"), p.at("value")});
+  fit.objective = item.at(objective);
+  fit.evaluations = whole<long>(item.at("evaluations"));
+  fit.numbers = item.at("numbers").get<std::map<std::string, double>>();
+}
+
+// `read` takes the whole document. `thing`: "calibration"; `option` makes the file again.
+template <class Read>
+auto read_file(const std::filesystem::path& file, const char* article, const std::string& thing,
+               const char* option, Read&& read) {
+  const auto fail = [&](const std::string& rule) {
+    return InputError(
+        {{file.string(), 0, "", rule, fmt::format("run `twinarm study {}`", option)}});
+  };
+  std::ifstream stream(file);
+  if (!stream) throw fail("the " + thing + " cannot be opened");
+  try {
+    return read(nlohmann::json::parse(stream));
+  } catch (const nlohmann::json::exception& error) {
+    throw fail(fmt::format("it is not {} {}: {}", article, thing, error.what()));
+  }
+}
+
+}  // namespace
 
 double CalibrationEntry::value(const std::string& parameter) const {
   for (const Parameter& p : parameters)
@@ -33,6 +72,14 @@ Gains CalibrationEntry::gains() const {
   return {k, b, r * k, r * b};
 }
 
+void CalibrationEntry::keep(const std::array<double, 2>& max_deg,
+                            const std::array<double, 2>& mean_deg) {
+  for (std::size_t j = 0; j < 2; ++j) {
+    numbers[fmt::format("max{}_deg", j + 1)] = max_deg[j];
+    numbers[fmt::format("mean{}_deg", j + 1)] = mean_deg[j];
+  }
+}
+
 const CalibrationEntry& Calibration::entry(const std::string& name) const {
   const auto found = entries.find(name);
   if (found == entries.end())
@@ -42,31 +89,41 @@ const CalibrationEntry& Calibration::entry(const std::string& name) const {
 }
 
 Calibration read_calibration(const std::filesystem::path& file) {
-  const auto fail = [&](const std::string& rule) {
-    return InputError({{file.string(), 0, "", rule, "run `twinarm study --recalibrate`"}});
-  };
-  std::ifstream stream(file);
-  if (!stream) throw fail("the calibration cannot be opened");
-  try {
-    const nlohmann::json root = nlohmann::json::parse(stream);
+  return read_file(file, "a", "calibration", "--recalibrate", [](const nlohmann::json& root) {
     Calibration calibration;
     calibration.optimiser = root.at("optimiser");
     calibration.seed = whole<unsigned>(root.at("seed"));
     for (const nlohmann::json& item : root.at("entries")) {
+      const std::string name = item.at("name");
       CalibrationEntry entry;
-      entry.name = item.at("name");
-      entry.rate = item.at("rate_hz");
-      for (const nlohmann::json& p : item.at("parameters"))
-        entry.parameters.push_back({p.at("name"), p.at("low"), p.at("high"), p.at("value")});
-      entry.objective = item.at("objective");
-      entry.evaluations = whole<long>(item.at("evaluations"));
-      entry.numbers = item.at("numbers").get<std::map<std::string, double>>();
-      calibration.entries[entry.name] = entry;
+      entry.name = name;
+      read_fit(item, "objective", entry);
+      calibration.entries[name] = entry;
     }
     return calibration;
-  } catch (const nlohmann::json::exception& error) {
-    throw fail(fmt::format("it is not a calibration: {}", error.what()));
-  }
+  });
+}
+
+std::vector<Identification> read_identifications(const std::filesystem::path& file) {
+  return read_file(file, "an", "identification", "--identify", [](const nlohmann::json& root) {
+    std::vector<Identification> all;
+    for (const nlohmann::json& item : root.at("entries")) {
+      Identification& found = all.emplace_back();
+      found.row = item.at("row");
+      found.law = item.at("law");
+      found.fit.name = fmt::format("{}/{}", found.row, found.law);
+      read_fit(item, "misfit", found.fit);
+      found.singular_values = item.at("singular_values").get<std::vector<double>>();
+      found.directions = item.at("directions").get<std::vector<std::vector<double>>>();
+      for (const nlohmann::json& p : item.at("profiles")) {
+        Profile& profile = found.profiles.emplace_back();
+        profile.parameter = p.at("parameter");
+        for (const nlohmann::json& point : p.at("points"))
+          profile.points.push_back({point.at(0), point.at(1), {point.at(2), point.at(3)}});
+      }
+    }
+    return all;
+  });
 }
 
 void write_calibration(const Calibration& calibration, const std::filesystem::path& file) {
@@ -89,6 +146,39 @@ void write_calibration(const Calibration& calibration, const std::filesystem::pa
   }
   root["optimiser"] = calibration.optimiser;
   root["seed"] = calibration.seed;
+  write_whole_file(file, root.dump(1) + "\n");
+}
+
+void write_identifications(const std::vector<Identification>& all,
+                           const std::filesystem::path& file) {
+  ordered_json root;
+  root["about"] =
+      "What Table 2 leaves open of a coupling's gains. Made by `twinarm study --identify`; what "
+      "stands here: docs/study.md.";
+  root["optimiser"] = optimiser_name();
+  root["entries"] = ordered_json::array();
+  for (const Identification& found : all) {
+    ordered_json item = {{"row", found.row},
+                         {"law", found.law},
+                         {"rate_hz", found.fit.rate},
+                         {"misfit", found.fit.objective},
+                         {"evaluations", found.fit.evaluations},
+                         {"numbers", found.fit.numbers},
+                         {"singular_values", found.singular_values},
+                         {"directions", found.directions},
+                         {"parameters", ordered_json::array()},
+                         {"profiles", ordered_json::array()}};
+    for (const Parameter& p : found.fit.parameters)
+      item["parameters"].push_back(
+          {{"name", p.name}, {"low", p.low}, {"high", p.high}, {"value", p.value}});
+    for (const Profile& profile : found.profiles) {
+      ordered_json points = ordered_json::array();
+      for (const ProfilePoint& p : profile.points)
+        points.push_back({p.value, p.misfit, p.other_max_deg[0], p.other_max_deg[1]});
+      item["profiles"].push_back({{"parameter", profile.parameter}, {"points", points}});
+    }
+    root["entries"].push_back(item);
+  }
   write_whole_file(file, root.dump(1) + "\n");
 }
 

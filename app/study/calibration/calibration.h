@@ -30,6 +30,8 @@ struct CalibrationEntry {
   std::map<std::string, double> numbers;  // what the parameters give: max1, mean1, robust, ...
 
   double value(const std::string& parameter) const;  // throws std::out_of_range
+  // As max1_deg, max2_deg, mean1_deg, mean2_deg of the numbers.
+  void keep(const std::array<double, 2>& max_deg, const std::array<double, 2>& mean_deg);
   Gains gains() const;  // from k, b, or k1, b1, k2, b2, or k, b and ratio
 };
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <future>
-#include <mutex>
 
 #include "app/support/interrupt.h"
+#include "app/support/parallel_for.h"
+#include "app/support/text_fields.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/support/diagnostics.h"
 
@@ -167,10 +167,7 @@ Identification Question::answer() const {
     found.fit = better;
   }
   const RunResult best = run_with(found.fit, 1);
-  found.fit.numbers = {{"max1_deg", best.max_deg[0]},
-                       {"max2_deg", best.max_deg[1]},
-                       {"mean1_deg", best.mean_deg[0]},
-                       {"mean2_deg", best.mean_deg[1]}};
+  found.fit.keep(best.max_deg, best.mean_deg);
   // Rows and columns of zeros make it square: the directions that they add move nothing, and of
   // five parameters four numbers leave one such direction for certain.
   const auto count = static_cast<Eigen::Index>(found.fit.parameters.size());
@@ -190,19 +187,18 @@ Identification Question::answer() const {
 }  // namespace
 
 Identification ask(const StudyInputs& inputs, const std::string& question) {
-  const std::size_t first = question.find('/'), last = question.rfind('/');
   FaultList faults;
   const auto fault = [&](std::string rule, std::string remedy) {
     faults.add({"", 0, "--ask", std::move(rule), std::move(remedy)});
   };
-  if (first == std::string::npos || first == last) {
+  const std::vector<std::string> parts = split(question, '/');
+  if (parts.size() != 3) {
     fault("'" + question + "' is not ROW/LAW/RATE", "give one as E4/linear/60");
     faults.check();
   }
-  const std::string row = question.substr(0, first),
-                    law = question.substr(first + 1, last - first - 1);
+  const std::string &row = parts[0], &law = parts[1], &number = parts[2];
   char* end = nullptr;
-  const double rate = std::strtod(question.c_str() + last + 1, &end);
+  const double rate = std::strtod(number.c_str(), &end);
   std::string laws;
   bool is_known = false;
   for (const FamilyLaw& known : family_laws()) {
@@ -212,7 +208,7 @@ Identification ask(const StudyInputs& inputs, const std::string& question) {
   if (row != "E3" && row != "E4") fault("there is no row '" + row + "'", "give E3 or E4");
   if (!is_known) fault("there is no law '" + law + "'", "give one of " + laws);
   if (!(rate >= 10 && rate <= 1e5) || *end != 0)
-    fault("'" + question.substr(last + 1) + "' is no rate", "give one of 10 to 100000 Hz");
+    fault("'" + number + "' is no rate", "give one of 10 to 100000 Hz");
   faults.check();
   return Question(inputs, family_law(law), row, rate).answer();
 }
@@ -230,28 +226,16 @@ std::vector<Identification> identify(const StudyInputs& inputs, Progress& progre
     for (const char* row : {"E3", "E4"})
       for (const FamilyLaw& law : family_laws()) asked.push_back({row, &law, rate});
   std::vector<Identification> found(asked.size());
-  double all = 0, done = 0;  // in steps of the simulation
-  for (const Asked& a : asked) all += a.rate;
   progress.stage("what Table 2 leaves open", 1);
-  std::mutex mutex;
-  std::size_t next = 0;
-  const auto work = [&] {
-    for (;;) {
-      std::size_t mine = 0;
-      {
-        const std::scoped_lock lock(mutex);
-        if (next == asked.size()) return;
-        mine = next++;
-      }
-      const Asked& a = asked[mine];
-      found[mine] = Question(inputs, *a.law, a.row, a.rate).answer();
-      const std::scoped_lock lock(mutex);
-      progress.advance((done += a.rate) / all);
-    }
-  };
-  auto second = std::async(std::launch::async, work);
-  work();
-  second.get();
+  constexpr unsigned kWorkers = 2;
+  std::vector<double> all{0};  // steps of the simulation up to each
+  for (const Asked& a : asked) all.push_back(all.back() + a.rate);
+  parallel_for(
+      asked.size(),
+      [&](std::size_t i) {
+        found[i] = Question(inputs, *asked[i].law, asked[i].row, asked[i].rate).answer();
+      },
+      [&](std::size_t done) { progress.advance(all[done] / all.back()); }, kWorkers);
   return found;
 }
 

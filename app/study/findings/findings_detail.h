@@ -1,17 +1,38 @@
 // Parts of findings.cpp: claims about one question each, and what they share.
 #pragma once
 
-#include "app/study/findings/predictions.h"
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "app/study/findings/results.h"
 
 namespace twinarm {
 
-// findings_gains.cpp: what equal gains do, and which gains make the two couplings equal.
+// What was predicted before: assets/study/predictions.toml. Data, so that no number is in the code.
+struct PredictedRow {
+  std::string robot, law;
+  double rate = 0;
+  std::array<double, 2> max_deg{};
+  std::optional<std::array<double, 2>> mean_deg;
+};
+struct PredictedModes {
+  std::string robot;
+  std::map<std::string, double> ratio;  // by law: world, joint, linear
+};
+struct Predictions {
+  std::vector<PredictedRow> rows;
+  std::vector<PredictedModes> modes;
+};
+
+// claims.cpp: what equal gains do, and which gains make the two couplings equal.
 void add_equal_gains(const StudyInputs& inputs, const Predictions& predictions,
                      std::vector<Finding>& findings);
 void add_matched_gains(const StudyResults& results, std::vector<Finding>& findings);
 
-// findings_damping.cpp: signs and differences of the damping term, and the largest stable step.
+// Signs and differences of the damping term, and the largest stable step.
 void add_damping(const StudyInputs& inputs, std::vector<Finding>& findings);
 void add_differences(const StudyInputs& inputs, const StudyResults& results,
                      std::vector<Finding>& findings);

@@ -1,5 +1,3 @@
-#include "app/study/findings/obstacle.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,8 +23,8 @@ void add_geometry(const StudyInputs& inputs, const Model<double>& model, Contact
                   convex_hull(load_mesh(*mesh).vertices));
     }
   }
-  const ObstacleScene scene = obstacle_scene(inputs.settings);
-  contact.add(0, scene.X_WB, "obstacle", Box{scene.size});
+  const StudySettings::Obstacle& box = inputs.settings.obstacle;
+  contact.add(0, {Matrix3::Identity(), box.position}, "obstacle", Box{box.size});
 }
 
 // How far the KVR's copy of a touching point lies beyond the face that stops the DVR's.
@@ -76,13 +74,8 @@ void find_contact_interval(ObstacleRun& run) {
 
 }  // namespace
 
-ObstacleScene obstacle_scene(const StudySettings& settings) {
-  return {{Matrix3::Identity(), settings.obstacle.position}, settings.obstacle.size};
-}
-
 ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
-                         CouplingSpec::Type type,
-                         const std::function<void(TrackingSystem&)>& at_picture) {
+                         CouplingSpec::Type type) {
   const StudySettings::Obstacle& o = inputs.settings.obstacle;
   const Model<double>& model = robot.dvr_model(type);
   const bool linear = type == CouplingSpec::Type::linear;
@@ -115,8 +108,6 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
   add_geometry(inputs, model, contact);
   system.simulation().add(contact);
 
-  // The ends of the sweeps are where the KVR is farthest beyond: the picture is taken at the first.
-  const double picture_time = 0.95;
   double nearest = 0;
   const TrackingSeries series = system.run([&](double t) {
     const Kinematics& k = system.simulation().kinematics();
@@ -135,10 +126,6 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
     if (linear && t > 0)
       watch_target_radius(system.coupling(0), model, system.simulation().state(), k, setup.h,
                           result, nearest);
-    if (result.picture_time == 0 && t >= picture_time) {
-      result.picture_time = t;
-      if (at_picture) at_picture(system);
-    }
   });
   result.t = series.t;
   for (std::size_t n = 0; n < series.t.size(); ++n) {

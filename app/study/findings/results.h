@@ -36,7 +36,6 @@ struct ObstacleRun {
   double target_radius_ratio = 0;               // largest R_K / r that occurred (linear)
   double target_radius_limit = 0;               // largest stable R_K / r (linear)
   double contact_begin = -1, contact_end = -1;  // [s], of the longest contact
-  double picture_time = 0;                      // [s], in the middle of it
 };
 
 // One line of the table of all rates, of the fits on E3 and E4.

@@ -21,6 +21,11 @@ std::vector<RunResult> run_variants(const StudyInputs& inputs, const StudyRobot&
 Gains gains_from_frequency(const StudyRobot& robot, const CouplingSpec& coupling,
                            double frequency_hz, double damping_ratio);
 
+// obstacle.cpp: the automatic motion with a box in the way; the DVR stops at it, the KVR goes on
+// through it. One coupling, linear or torsional (world), implicit at the obstacle's rate.
+ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
+                         CouplingSpec::Type type);
+
 const RunResult* find_run(const std::vector<RunResult>& runs, const std::string& name);
 
 }  // namespace twinarm

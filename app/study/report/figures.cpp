@@ -1,5 +1,4 @@
-#include "app/study/report/figures.h"
-
+// Figures over rates and variants.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +6,7 @@
 #include <map>
 
 #include "app/study/report/figures_detail.h"
+#include "app/study/report/report.h"
 
 namespace twinarm {
 namespace {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
+#include "app/film/rendering.h"
 #include "app/page/replay_page.h"
 #include "app/record/record_run.h"
 #include "app/run/run.h"
@@ -115,6 +117,18 @@ class Recorder {
   std::vector<StudyRecording> all_;
 };
 
+// When joint 1 errs most, or joint 2 if that is more.
+double time_of_largest_error(const TrackingSeries& series) {
+  double largest = 0, at = 0;
+  for (std::size_t n = 0; n < series.t.size(); ++n)
+    for (std::size_t j = 0; j < 2; ++j)
+      if (const double error = std::abs(series.q_K[j][n] - series.q_D[j][n]); error > largest) {
+        largest = error;
+        at = series.t[n];
+      }
+  return at;
+}
+
 }  // namespace
 
 std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const StudyRobot& robot,
@@ -139,6 +153,44 @@ std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const St
     progress.advance(++done / count);
   }
   return add.take();
+}
+
+void paint_pictures(const StudyResults& results, const std::filesystem::path& folder,
+                    bool paper_view, Progress& progress) {
+  // At the end of the first sweep the KVR is farthest beyond the box.
+  constexpr double kStopped = 0.952, kAnyPose = 0.3;
+  const char* const kFromLeft = "-60,30,2.3";
+  const char* const kFaceOfBox = "30,26,2.75";
+  const double e3 = time_of_largest_error(results.reproduction.at(2).series);
+  const double e4 = time_of_largest_error(results.reproduction.at(3).series);
+  const std::vector<std::tuple<const char*, const char*, double, const char*>> pictures{
+      {"robot", "E4", kAnyPose, "-52,22,2.35"},
+      {"E3", "E3", e3, kFromLeft},
+      {"E4", "E4", e4, kFromLeft},
+      {"obstacle-linear", "obstacle_linear", kStopped, kFaceOfBox},
+      {"obstacle-torsional", "obstacle_torsional", kStopped, kFaceOfBox}};
+  double done = 0;
+  for (const auto& [name, run, time, camera] : pictures) {
+    check_interrupt();
+    const auto made = std::find_if(results.recordings.begin(), results.recordings.end(),
+                                   [&](const StudyRecording& r) { return r.name == run; });
+    const bool portrait = name == std::string("robot");
+    RobotOptions options;
+    options.model = made->recording;
+    FilmTimes times;
+    times.at = time;
+    Progress quiet(true);
+    const FilmedRun shown = film_run(options, times, camera, quiet);
+    PictureWish wish;
+    wish.width = 1280;
+    wish.height = 720;
+    wish.background = studio_background();
+    if (portrait) wish.quality = Quality::studio;
+    wish.camera = camera;
+    if (!portrait && !paper_view) wish.overlays = {"ghost", "couplings"};
+    write_png((folder / (std::string(name) + ".png")).string(), Rendering(wish, {&shown}).paint(0));
+    progress.advance(++done / static_cast<double>(pictures.size()));
+  }
 }
 
 }  // namespace twinarm

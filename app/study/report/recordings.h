@@ -17,4 +17,10 @@ std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const St
                                              const std::filesystem::path& folder,
                                              Progress& progress);
 
+// Of results.recordings: robot.png, E3.png and E4.png (at the largest error of each),
+// obstacle-linear.png and obstacle-torsional.png (while the DVR is stopped), painted without
+// display or GPU. paper_view leaves the KVR and the springs out.
+void paint_pictures(const StudyResults& results, const std::filesystem::path& folder,
+                    bool paper_view, Progress& progress);
+
 }  // namespace twinarm

@@ -1,61 +1,68 @@
 #include "app/study/report/report.h"
 
+#include <fmt/args.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "app/data/html_page.h"
-#include "app/study/report/report_sections.h"
+#include "app/study/report/report_slots.h"
 #include "app/support/output_file.h"
 #include "solver/support/atomic_file.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {
 
-// What the paper's question is, from its own table.
-std::string introduction() {
-  const PaperRow &e3 = paper_table().at("E3"), &e4 = paper_table().at("E4");
-  return fmt::format(
-      "<p class=lead>A hand moves a kinematic robot (KVR). Spring-dampers pull a simulated robot "
-      "(DVR) after it. The paper couples the two in two ways, and reports that linear springs hold "
-      "the DVR {:.1f} times (joint 1) and {:.1f} times (joint 2) closer than torsional ones: "
-      "{:.1f} "
-      "and {:.1f} degrees at most, instead of {:.1f} and {:.1f}. It does not publish gains, "
-      "masses, "
-      "or the step. This page runs its four experiments again, and asks whether linear holds "
-      "better, under which conditions, and why.</p>\n",
-      e3.max_deg[0] / e4.max_deg[0], e3.max_deg[1] / e4.max_deg[1], e4.max_deg[0], e4.max_deg[1],
-      e3.max_deg[0], e3.max_deg[1]);
-}
-
-std::string answer_section(const StudyResults& results) {
-  if (results.answer.empty()) return "";
-  std::string html = "<h2 id=answer>The answer</h2>\n<div class=answer><ol>\n";
-  for (const std::string& sentence : results.answer) html += "<li>" + escaped(sentence) + "</li>\n";
-  return html + "</ol></div>\n";
-}
-
-struct Section {
-  const char* id;
-  const char* name;  // in the table of contents
-  std::string html;
-};
-
-std::string page(const StudyResults& results, const std::vector<Section>& sections) {
-  HtmlPage page;
-  page.title = "Linear or torsional? The study of the coupled S-103";
-  page.header = "<h1>Linear or torsional? The coupled S-103, run again</h1>\n" + introduction();
-  page.footer = "Made by <code>" + escaped(results.command) + "</code>";
-  for (const auto& [id, name, html] : sections) {
-    if (!html.empty()) page.contents.emplace_back(id, name);
-    page.main += html;
+void add_findings(const StudyResults& results, Slots& slots) {
+  for (const std::string& sentence : results.answer)
+    slots["answer"] += "<li>" + escaped(sentence) + "</li>\n";
+  const std::vector<Finding>& all = results.findings;
+  slots["claims"] = fmt::format("{}", all.size());
+  slots["holding"] = fmt::format(
+      "{}", std::count_if(all.begin(), all.end(), [](const Finding& f) { return f.holds; }));
+  std::vector<std::pair<std::string, std::string>> rows;  // by section, in order of appearance
+  for (const Finding& finding : all) {
+    auto section = std::find_if(rows.begin(), rows.end(),
+                                [&](const auto& some) { return some.first == finding.section; });
+    if (section == rows.end()) section = rows.insert(rows.end(), {finding.section, ""});
+    section->second +=
+        fmt::format("<tr><td style=\"width:58%\">{}</td><td class=text>{}</td><td>{}</td></tr>\n",
+                    escaped(finding.claim), escaped(finding.measured),
+                    yes_no(finding.holds, "holds", "does not"));
   }
-  if (results.seconds > 0) page.footer += fmt::format(" in {:.0f} s", results.seconds);
-  page.footer +=
-      ". Every number on this page was computed in that run, except where it says "
-      "published or calibrated.";
-  return page.html();
+  for (auto& [section, claims] : rows) {
+    section[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(section[0])));
+    slots["findings"] += "<h3>" + escaped(section) +
+                         "</h3>\n<table class=claims><thead><tr><th>claim</th><th class=text>"
+                         "measured</th><th>holds</th></tr></thead><tbody>\n" +
+                         claims + "</tbody></table>\n";
+  }
+}
+
+// By their names, with underscores for hyphens.
+void add_images(const std::filesystem::path& folder, Slots& slots) {
+  for (const char* part : {"figures", "pictures"})
+    for (const auto& entry : std::filesystem::directory_iterator(folder / part)) {
+      std::string name = entry.path().stem().string();
+      std::replace(name.begin(), name.end(), '-', '_');
+      const std::string content = read_whole_file(entry.path());
+      slots[name] = entry.path().extension() == ".svg"
+                        ? inline_svg(content)
+                        : fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">",
+                                      escaped(name), base64_of(content));
+    }
+}
+
+std::string filled(const std::filesystem::path& file, const Slots& slots) {
+  fmt::dynamic_format_arg_store<fmt::format_context> places;
+  for (const auto& [name, html] : slots) places.push_back(fmt::arg(name.c_str(), html));
+  try {
+    return fmt::vformat(read_whole_file(file), places);
+  } catch (const fmt::format_error& error) {
+    throw InputError({{file.string(), 0, "", error.what(), "see the file as it was shipped"}});
+  }
 }
 
 }  // namespace
@@ -83,48 +90,37 @@ std::string gains_words(double first, double second) {
   return first == second ? rounded(first) : rounded(first) + "; " + rounded(second);
 }
 
-std::string Gallery::figure(const std::string& name, const std::string& caption) const {
-  for (const auto& file : {folder_ / "figures" / (name + ".svg"), folder_ / (name + ".svg")}) {
-    if (!std::filesystem::exists(file)) continue;
-    const std::string svg = read_whole_file(file);
-    if (svg.find("<svg") != std::string::npos) return html_figure(svg, caption);
-  }
-  return "";
-}
-
-std::string Gallery::picture(const std::string& name, const std::string& caption) const {
-  const auto file = folder_ / "pictures" / (name + ".png");
-  if (!std::filesystem::exists(file)) return "";
-  return html_figure(fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", escaped(name),
-                                 base64_of(read_whole_file(file))),
-                     caption);
-}
-
-std::vector<std::string> Gallery::pictures() const {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& file : std::filesystem::directory_iterator(folder_ / "pictures", error))
-    if (file.path().extension() == ".png") names.push_back(file.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-void write_report(const StudyResults& results, const std::filesystem::path& folder) {
-  const Gallery gallery(folder);
-  const std::vector<Section> sections{
-      {"answer", "Answer", answer_section(results)},
-      {"table2", "Table 2", table_2_section(results)},
-      {"angles", "Figures 6 and 7", angles_section(results, gallery)},
-      {"scene", "Pictures", pictures_section(gallery)},
-      {"why", "Why", findings_section(results, gallery)},
-      {"rates", "Update rates", rates_section(results, gallery)},
-      {"variants", "Variants", variants_section(results, gallery)},
-      {"obstacle", "Obstacle", obstacle_section(results, gallery)},
-      {"recordings", "Recordings", recordings_section(results)},
-      {"search", "Search", search_section(results, gallery)},
-      {"open", "What stays open", identification_section(results, gallery)},
-      {"parameters", "Parameters", parameters_section(results)}};
-  write_whole_file(folder / "report.html", page(results, sections));
+void write_report(const StudyResults& results, const std::filesystem::path& assets,
+                  const std::filesystem::path& folder) {
+  Slots slots;
+  add_findings(results, slots);
+  add_reproduction(results, slots);
+  add_other_runs(results, slots);
+  add_search(results, slots);
+  add_identification(results, slots);
+  add_images(folder, slots);
+  const std::string text = filled(assets / "study" / "report.html", slots);
+  const std::size_t main = text.find("<!-- main -->");
+  HtmlPage page;
+  page.title = "Linear or torsional? The study of the coupled S-103";
+  page.header = text.substr(0, main);
+  page.main = main == std::string::npos ? "" : text.substr(main);
+  page.contents = {{"answer", "Answer"},
+                   {"table2", "Table 2"},
+                   {"angles", "Figures 6 and 7"},
+                   {"scene", "Pictures"},
+                   {"why", "Why"},
+                   {"rates", "Update rates"},
+                   {"variants", "Variants"},
+                   {"obstacle", "Obstacle"},
+                   {"recordings", "Recordings"},
+                   {"search", "Search"},
+                   {"open", "What stays open"},
+                   {"parameters", "Parameters"}};
+  page.footer = made_by(results.command, results.seconds) +
+                " Every number on this page was computed in that run, except where it says "
+                "published or calibrated.";
+  write_whole_file(folder / "report.html", page.html());
 }
 
 }  // namespace twinarm

@@ -1,15 +1,44 @@
-// The study's report: one page that holds everything it shows.
+// What the study leaves in its folder: figures, CSV, JSON, and a report that holds all of it.
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "app/study/findings/results.h"
 
 namespace twinarm {
 
-// Writes folder/report.html, self-contained: the SVGs of folder/figures (write_figures) and the
-// PNGs of folder/pictures are inside, the style too; no script, no network. A figure or picture
-// that is not there is left out.
-void write_report(const StudyResults& results, const std::filesystem::path& folder);
+// Writes the figures, as SVG by gnuplot, into the folder. Throws InputError where gnuplot or the
+// folder is missing.
+//   fig6a fig6b fig7c fig7d  angles of KVR and DVR over time (the paper's Figures 6 and 7)
+//   errors                   |error| over time, E3 beside E4
+//   rates                    largest error against the update rate, gains by trial
+//   search                   best fit to the paper's rows against the rate
+//   ablations                largest error of each change to the law
+//   prediction               predicted peak after a reversal beside the measured maximum
+//   identify                 how far the paper's rows hold each parameter
+//   obstacle                 the run into the box, both couplings
+void write_figures(const StudyResults& results, const std::filesystem::path& folder);
+
+// Writes NAME.csv for each run of the reproduction and of the variants, obstacle_NAME.csv for the
+// obstacle; slashes in names become underscores. Columns `name[unit]`: t[s], q_K/joint1[rad], ...,
+// q_D/joint1[rad], ..., pull/joint1[N] or [N m]. Numbers: the shortest text that reads back to the
+// same double. Throws InputError where the folder cannot be written.
+void write_csv(const StudyResults& results, const std::filesystem::path& folder);
+
+// The study as one JSON object, for programs (the contract: docs/command_line.md).
+// {"runs": {"E1": {"max_deg": {"joint1", "joint2"}, "mean_deg", "paper", "gains", "step", ...}},
+//  "variants": [..], "findings": [..], "obstacle": [..], "answer": [..], "report": PATH, ...}.
+// Lengths in m, times in s, rates in Hz; angles in degrees where the key says so. What is not
+// finite is null.
+std::string study_json(const StudyResults& results, const std::string& report_path);
+// One answer of `--ask`, with its profiles and directions.
+std::string answer_json(const Identification& found);
+
+// Writes folder/report.html, self-contained: assets/study/report.html with the numbers, tables, and
+// SVGs and PNGs of folder/figures and folder/pictures in their places; no script, no network.
+// Throws InputError where the text has a place for which there is nothing.
+void write_report(const StudyResults& results, const std::filesystem::path& assets,
+                  const std::filesystem::path& folder);
 
 }  // namespace twinarm

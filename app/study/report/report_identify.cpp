@@ -1,10 +1,10 @@
-// The report's section on what the paper's Table 2 leaves open.
+// Slots of the report on what the paper's Table 2 leaves open.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/study/report/report_sections.h"
+#include "app/study/report/report_slots.h"
 
 namespace twinarm {
 namespace {
@@ -106,7 +106,6 @@ std::string row_table(const std::vector<Identification>& all, const std::string&
   for (const FamilyLaw& law : family_laws())
     for (const Identification& found : all)
       if (found.row == row && found.law == law.name) rows += law_row(found);
-  if (rows.empty()) return "";
   const PaperRow& paper = paper_table().at(row);
   const std::string published = "<tr><td class=text><b>published</b></td><td></td><td></td>" +
                                 number_cells(paper.max_deg, paper.mean_deg) +
@@ -122,8 +121,8 @@ std::string row_table(const std::vector<Identification>& all, const std::string&
 }
 
 // What the rows say of all laws together.
-std::string verdict(const std::vector<Identification>& all) {
-  std::string html = "<ul>\n";
+std::string open_sums(const std::vector<Identification>& all) {
+  std::string html;
   for (const char* row : {"E3", "E4"}) {
     int asked = 0, agree = 0, open = 0;
     for (const Identification& found : all) {
@@ -138,31 +137,15 @@ std::string verdict(const std::vector<Identification>& all) {
         "those leave a combination of their parameters open.</li>\n",
         row, agree, asked, open);
   }
-  return html + "</ul>\n";
+  return html;
 }
 
 }  // namespace
 
-std::string identification_section(const StudyResults& results, const Gallery& gallery) {
+void add_identification(const StudyResults& results, Slots& slots) {
   const std::vector<Identification>& all = results.identifications;
-  if (all.empty()) return "";
-  return "<h2 id=open>What Table 2 leaves open</h2>\n<p>For each law with its own gains per link "
-         "and one unknown mass m (of arm 2, over the assumed one): five parameters, and four "
-         "published numbers to a tenth of a degree. <b>Misfit</b>: the largest distance of the "
-         "four in half digits (0.05°); up to 1 "
-         "the row cannot tell. In brackets: how far the parameter can go while all others are "
-         "fitted again and the misfit stays within 1 (or twice the best one, where none agrees); "
-         "<span class=no>open</span>: over the whole range that was asked. <b>Not held</b>: "
-         "products of parameters that can change by a quarter before the row shows it. "
-         "<b>Max at half speed</b>: what all these parameters, equally good on the row, say of "
-         "sweeps of 2 s.</p>\n" +
-         verdict(all) + row_table(all, "E3") + row_table(all, "E4") +
-         gallery.figure(
-             "identify",
-             "How far each parameter can go, relative to its best value, per law; "
-             "within a law the lower rate stands above. E3 above, E4 below. Wide and "
-             "coloured: the law agrees with the row to the digit. Thin and grey: it does "
-             "not. A bar that ends at the frame is open.");
+  slots["open_sums"] = open_sums(all);
+  for (const char* row : {"E3", "E4"}) slots[std::string("open_") + row] = row_table(all, row);
 }
 
 }  // namespace twinarm

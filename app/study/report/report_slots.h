@@ -1,0 +1,25 @@
+// Parts of report.cpp: what stands in the places {NAME} of assets/study/report.html.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "app/data/html_text.h"
+#include "app/study/findings/results.h"
+
+namespace twinarm {
+
+using Slots = std::map<std::string, std::string>;  // HTML by name
+
+// A few significant digits for people, "infinite" and "none" in words.
+std::string rounded(double value, int digits = 3);
+std::string degrees(double value);                     // two decimals; more for a tiny one
+std::string gains_words(double first, double second);  // "12.3", or "12.3; 4.56"
+
+void add_reproduction(const StudyResults& results, Slots& slots);  // Table 2, Figures 6 and 7
+// What was run beside E1 to E4: update rates, variants, the box in the way, recordings.
+void add_other_runs(const StudyResults& results, Slots& slots);
+void add_search(const StudyResults& results, Slots& slots);  // and all parameters
+void add_identification(const StudyResults& results, Slots& slots);
+
+}  // namespace twinarm
