@@ -217,38 +217,31 @@ Model<double> ModelBuilder::build() const {
 }
 
 void ModelBuilder::add_mimics_to(Model<double>& model, FaultList& faults) const {
-  for (const MimicByName& mimic : mimics_) {
-    Mimic found;
-    double ratio = mimic.ratio, offset = mimic.offset;
-    std::string leader = mimic.leader;
-    bool again = true;
-    for (std::size_t hops = 0; again; ++hops) {  // to the leader that follows nobody
-      again = false;
-      for (const MimicByName& other : mimics_)
-        if (other.follower == leader) {
-          offset += ratio * other.offset;
-          ratio *= other.ratio;
-          leader = other.leader;
-          again = true;
-          break;
-        }
-      if (hops > mimics_.size()) {
-        faults.add({"", 0, joint_called(mimic.follower), "it follows itself", "break the circle",
-                    "model.mimic-loop"});
-        return;
-      }
-    }
-    const int f = model.find_joint(mimic.follower), l = model.find_joint(leader);
-    if (f < 0 || l < 0 || model.dofs(static_cast<std::size_t>(f)) != 1 ||
-        model.dofs(static_cast<std::size_t>(l)) != 1) {
-      faults.add({"", 0, joint_called(mimic.follower),
-                  "it follows joint '" + leader + "', and both must exist and have one dof",
-                  "name a revolute, prismatic or screw joint", "model.mimic"});
-      continue;
-    }
+  const auto leader_of = [&](MimicByName& mimic) {
+    const auto next = std::find_if(mimics_.begin(), mimics_.end(), [&](const MimicByName& other) {
+      return other.follower == mimic.leader;
+    });
+    if (next == mimics_.end()) return false;
+    mimic.offset += mimic.ratio * next->offset;
+    mimic.ratio *= next->ratio;
+    mimic.leader = next->leader;
+    return true;
+  };
+  for (MimicByName mimic : mimics_) {
+    std::size_t hops = 0;
+    while (hops <= mimics_.size() && leader_of(mimic)) ++hops;  // to the leader that follows nobody
+    if (hops > mimics_.size())
+      return faults.add({"", 0, joint_called(mimic.follower), "it follows itself",
+                         "break the circle", "model.mimic-loop"});
+    const int f = model.find_joint(mimic.follower), l = model.find_joint(mimic.leader);
     const auto fi = static_cast<std::size_t>(f), li = static_cast<std::size_t>(l);
-    found = {model.iv[fi], model.iv[li], model.iq[fi], model.iq[li], ratio, offset};
-    model.mimics.push_back(found);
+    if (f < 0 || l < 0 || model.dofs(fi) != 1 || model.dofs(li) != 1)
+      faults.add({"", 0, joint_called(mimic.follower),
+                  "it follows joint '" + mimic.leader + "', and both must exist and have one dof",
+                  "name a revolute, prismatic or screw joint", "model.mimic"});
+    else
+      model.mimics.push_back(
+          {model.iv[fi], model.iv[li], model.iq[fi], model.iq[li], mimic.ratio, mimic.offset});
   }
 }
 
