@@ -5,7 +5,7 @@
 
 #include "coupling/analysis/joint_space_stiffness.h"
 #include "coupling/analysis/step_matrix.h"
-#include "solver/support/step_size.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 

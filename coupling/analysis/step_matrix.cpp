@@ -7,7 +7,7 @@
 #include "coupling/analysis/joint_space_stiffness.h"
 #include "coupling/analysis/stability_limits.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/support/step_size.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

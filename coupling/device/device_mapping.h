@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "coupling/device/input_device.h"
-#include "coupling/target/paper_mapping.h"
+#include "coupling/target/operator_motion.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/model/model.h"
 

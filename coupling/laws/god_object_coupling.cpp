@@ -13,7 +13,6 @@
 //
 // All joints of a robot at once: those that were left out would be thrown about by the others.
 // Joints of one degree of freedom only. It belongs to the semi-implicit step: no other treatment.
-#include "coupling/laws/god_object.h"
 
 #include "coupling/laws/coupling_spec.h"
 #include "solver/dynamics/dynamics.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "solver/dynamics/dynamics.h"
-#include "solver/loops/loop_checks.h"
+#include "solver/loops/loop_closure.h"
 #include "solver/loops/loop_forces.h"
 #include "solver/model/configuration.h"
 #include "solver/model/mimic.h"

@@ -58,4 +58,8 @@ class FaultList {
   std::vector<Fault> faults_;
 };
 
+// The one check of a step size, for all functions that take one from a caller: throws InputError
+// unless h [s] is positive and finite.
+void check_step_size(double h);
+
 }  // namespace twinarm

@@ -43,7 +43,7 @@ TEST_CASE(
   hand.wheel(2, from_right);
   CHECK((point_of(hand.sample(0, 1)) - start - Vector3(-0.008, 0, -0.008)).norm() < 1e-12);
   hand.turn_stylus(100, 50);
-  hand.roll_stylus(-1);
+  hand.turn_stylus({0, 0, -0.12});
   const HandSample turned = hand.sample(0, 1);
   CHECK(turned.theta[3] == doctest::Approx(0.6));
   CHECK(turned.theta[4] == doctest::Approx(0.6 - 0.3));
@@ -104,7 +104,7 @@ TEST_CASE("gestures: out of reach the goal is the nearest place, and it comes ba
     hand.drag(300 * std::sin(1.7 * n), 300 * std::cos(0.9 * n), {});
     hand.wheel(20 * std::sin(2.3 * n), {});
     hand.turn_stylus(500 * std::sin(n), 400 * std::cos(n));
-    hand.roll_stylus(20 * std::cos(3.1 * n));
+    hand.turn_stylus({0, 0, 2.4 * std::cos(3.1 * n)});
     const HandSample now = hand.sample(12 + 0.01 * n, 20);
     for (std::size_t j = 0; j < 6; ++j)
       CHECK_UNARY(now.theta[j] >= omni.lower[j] && now.theta[j] <= omni.upper[j]);
@@ -119,7 +119,7 @@ TEST_CASE("gestures: what is not finite is not heard, and nothing takes from the
     hand.drag(nan, 0, {});
     hand.wheel(-nan, {});
     hand.turn_stylus(0, nan);
-    hand.roll_stylus(nan);
+    hand.turn_stylus({0, 0, nan});
     hand.axes({nan, nan, 0, 0, nan, 1e300});
     hand.button(7, true);
     hand.sample(0, 1);
