@@ -52,15 +52,9 @@ void ContactActiveSet::hold_again(std::vector<ContactPoint>& points) noexcept {
 
 void ContactActiveSet::look(const ConstraintFrame& frame, const std::vector<ContactPoint>& points,
                             EventSource::Nearest& nearest) const noexcept {
-  for (const ContactPoint& p : points) {
-    if (p.is_held) continue;
-    const double gap = -p.contact.depth;
-    const double u = p.contact.n_W.dot(bodies_.approach(p.contact, frame.k));
-    const bool closes = u < -EventSource::kRest;
-    if (closes) nearest.time = std::min(nearest.time, std::max(0.0, gap) / -u);
-    const bool passed = gap < -10 * EventSource::kClosed;
-    if ((closes || passed) && gap < nearest.gap) nearest.gap = gap, nearest.closes = closes;
-  }
+  for (const ContactPoint& p : points)
+    if (!p.is_held)
+      nearest.see(-p.contact.depth, p.contact.n_W.dot(bodies_.approach(p.contact, frame.k)));
 }
 
 void ContactActiveSet::take_flow(ContactPoint& point, const ImpulseConstraint& c, double h,

@@ -68,30 +68,11 @@ void GestureHand::place(const Vector3& p) noexcept {
   end();
 }
 
-void GestureHand::move_by(const Vector3& shift) noexcept {
-  if (!shift.allFinite()) return;
-  begin();
-  goal_.p += shift;
-  end();
-}
-
-void GestureHand::drag(double dx_px, double dy_px, const ViewPlane& view) noexcept {
-  move_by(view.metres_per_px * (dx_px * view.right - dy_px * view.up));
-}
-
-void GestureHand::wheel(double notches, const ViewPlane& view) noexcept {
-  move_by(-settings_.metres_per_notch * notches * view.right.cross(view.up));
-}
-
 void GestureHand::turn_stylus(const Vector3& by) noexcept {
   if (!by.allFinite()) return;
   begin();
   for (std::size_t j = 0; j < 3; ++j) goal_.gimbal[j] += by[static_cast<Eigen::Index>(j)];
   end();
-}
-
-void GestureHand::turn_stylus(double dx_px, double dy_px) noexcept {
-  turn_stylus({settings_.radians_per_px * dx_px, -settings_.radians_per_px * dy_px, 0});
 }
 
 void GestureHand::key(HandAxis axis, bool positive, bool down) noexcept {

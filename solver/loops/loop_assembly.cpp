@@ -1,5 +1,4 @@
-#include "solver/loops/loop_assembly.h"
-
+// A mechanism put together: close_loops() of loop_closure.h.
 #include <algorithm>
 #include <cmath>
 

@@ -19,6 +19,18 @@ JointProperties properties_of(const JointDescription& joint) {
   return properties;
 }
 
+BodyInertia plus_point_mass(const BodyInertia& body, const Vector3& p, double mass) {
+  BodyInertia sum;
+  sum.mass = body.mass + mass;
+  sum.com = (body.mass * body.com + mass * p) / sum.mass;
+  const auto shifted = [&](double m, const Vector3& c) -> Matrix3 {
+    const Vector3 r = c - sum.com;
+    return m * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose());
+  };
+  sum.inertia = body.inertia + shifted(body.mass, body.com) + shifted(mass, p);
+  return sum;
+}
+
 // The robot with everything in it that the options ask for, and the faults of these.
 class Weighted {
  public:
@@ -85,18 +97,6 @@ Model<double> build(const ModelBuilder& builder, const RobotDescription& robot) 
 }
 
 }  // namespace
-
-BodyInertia plus_point_mass(const BodyInertia& body, const Vector3& p, double mass) {
-  BodyInertia sum;
-  sum.mass = body.mass + mass;
-  sum.com = (body.mass * body.com + mass * p) / sum.mass;
-  const auto shifted = [&](double m, const Vector3& c) -> Matrix3 {
-    const Vector3 r = c - sum.com;
-    return m * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose());
-  };
-  sum.inertia = body.inertia + shifted(body.mass, body.com) + shifted(mass, p);
-  return sum;
-}
 
 std::string root_joint_name(const RobotDescription& robot, bool floating) {
   std::string name = floating ? "base" : robot.root + "_on_world";
