@@ -6,6 +6,26 @@
 
 namespace twinarm {
 
+ContactWork& ContactWorks::of(int a, int b) {
+  const std::pair pair(a, b);
+  auto w = std::lower_bound(all.begin(), all.end(), pair, [](const ContactWork& work, auto ab) {
+    return std::pair(work.a, work.b) < ab;
+  });
+  if (w == all.end() || std::pair(w->a, w->b) != pair)
+    w = all.insert(w, {a, b, 0, 0, 0, Vector3::Zero(), Vector3::Zero()});
+  return *w;
+}
+
+void ContactWorks::visit_memory(Memory& memory, std::size_t count) {
+  constexpr std::size_t kWork = 9 * sizeof(double);  // bytes, at least
+  memory.resize(all, kWork);
+  for (ContactWork& work : all) {
+    for (int* id : {&work.a, &work.b}) memory.visit_index(*id, count);
+    for (double* joules : {&work.normal, &work.friction, &work.impact}) memory.visit(*joules);
+    memory.visit(work.impulse_W), memory.visit(work.moment_W);
+  }
+}
+
 void ContactActiveSet::hold(const ConstraintFrame& frame, bool struck,
                             std::vector<ContactPoint>& points) noexcept {
   bodies_.locates = true;
@@ -32,15 +52,9 @@ void ContactActiveSet::hold_again(std::vector<ContactPoint>& points) noexcept {
 
 void ContactActiveSet::look(const ConstraintFrame& frame, const std::vector<ContactPoint>& points,
                             EventSource::Nearest& nearest) const noexcept {
-  for (const ContactPoint& p : points) {
-    if (p.is_held) continue;
-    const double gap = -p.contact.depth;
-    const double u = p.contact.n_W.dot(bodies_.approach(p.contact, frame.k));
-    const bool closes = u < -EventSource::kRest;
-    if (closes) nearest.time = std::min(nearest.time, std::max(0.0, gap) / -u);
-    const bool passed = gap < -10 * EventSource::kClosed;
-    if ((closes || passed) && gap < nearest.gap) nearest.gap = gap, nearest.closes = closes;
-  }
+  for (const ContactPoint& p : points)
+    if (!p.is_held)
+      nearest.see(-p.contact.depth, p.contact.n_W.dot(bodies_.approach(p.contact, frame.k)));
 }
 
 void ContactActiveSet::take_flow(ContactPoint& point, const ImpulseConstraint& c, double h,

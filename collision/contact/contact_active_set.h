@@ -7,10 +7,22 @@
 #include <vector>
 
 #include "collision/contact/contact_bodies.h"
-#include "collision/contact/contact_work.h"
 #include "solver/impulses/event_source.h"
+#include "solver/support/state_archive.h"
 
 namespace twinarm {
+
+// Work and impulses of all contacts so far, by pair of geometries.
+class ContactWorks {
+ public:
+  ContactWorks() { all.reserve(256); }  // so that a pair that touches for the first time takes none
+
+  // Those of pairs that have worked before are found, others come in.
+  ContactWork& of(int a, int b);
+  void visit_memory(Memory& memory, std::size_t geometries);
+
+  std::vector<ContactWork> all;  // ascending by (a, b)
+};
 
 class ContactActiveSet {
  public:

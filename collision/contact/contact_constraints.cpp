@@ -136,11 +136,6 @@ void ContactConstraints::modes(std::vector<char>& modes) const noexcept {
   modes.insert(modes.end(), active_.modes().begin(), active_.modes().end());
 }
 
-void ContactConstraints::go_back() noexcept {
-  std::swap(found_.points, kept_.points);
-  std::swap(works_.all, kept_.work);
-}
-
 // What contacts remember from step to step (solver/support/state_archive.h).
 void ContactConstraints::visit_memory(Memory& memory) {
   memory.visit(bodies_.locates);

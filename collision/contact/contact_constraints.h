@@ -18,7 +18,6 @@
 #include "collision/contact/contact_bodies.h"
 #include "collision/contact/contact_manifolds.h"
 #include "collision/contact/contact_rows.h"
-#include "collision/contact/contact_work.h"
 #include "solver/impulses/event_source.h"
 #include "solver/support/checkpointable.h"
 
@@ -51,8 +50,6 @@ class ContactConstraints final : public EventSource, public Rewindable {
   std::span<double> works() noexcept override { return active_.works(); }
   void count_works() noexcept override { active_.count_works(works_); }
 
-  void keep() override { kept_ = {found_.points, works_.all}; }
-  void go_back() noexcept override;
   void visit_memory(Memory& memory) override;
 
   const std::vector<ContactPoint>& points() const { return found_.points; }
@@ -62,10 +59,6 @@ class ContactConstraints final : public EventSource, public Rewindable {
   static constexpr double kSlop = ContactRows::kSlop;
 
  private:
-  struct Kept {
-    std::vector<ContactPoint> points;
-    std::vector<ContactWork> work;
-  };
   void take_step(const ConstraintFrame& frame, const ImpulseProblem& problem,
                  const ContactRows::Part& part, const Matrix3& axes);
 
@@ -75,7 +68,6 @@ class ContactConstraints final : public EventSource, public Rewindable {
   ContactRows rows_;
   ContactActiveSet active_;
   ContactWorks works_;
-  Kept kept_;
 };
 
 }  // namespace twinarm

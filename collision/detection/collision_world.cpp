@@ -6,7 +6,7 @@
 #include <cassert>
 #include <tuple>
 
-#include "collision/narrow_phase/half_space_contact.h"
+#include "collision/narrow_phase/closed_forms.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -55,11 +55,11 @@ int CollisionWorld::add(Geometry geometry) {
   FaultList faults;
   const std::string fault = shape_fault(geometry.shape);
   if (!fault.empty()) {
-    faults.add({"", 0, where, shape_name(geometry.shape) + ": " + fault, "correct the shape"});
+    faults.add(where, shape_name(geometry.shape) + ": " + fault, "correct the shape");
   }
   if (geometry.group < 0 || geometry.group >= group_count) {
-    faults.add({"", 0, where, "group is " + std::to_string(geometry.group),
-                "give a group from 0 to " + std::to_string(group_count - 1)});
+    faults.add(where, "group is " + std::to_string(geometry.group),
+               "give a group from 0 to " + std::to_string(group_count - 1));
   }
   faults.check();
 

@@ -31,6 +31,17 @@ struct Patches {
 };
 
 // In the frame of the core; empty where it does not exist.
-Patches make_patches(const Polytope& core);
+inline Patches make_patches(const Polytope& core) {
+  Patches patches;
+  if (!core.exists) return patches;
+  const std::vector<Vector3>& vertices = core.hull.vertices;
+  patches.flats = core.hull.normals;
+  for (const Polytope::Edge& edge : core.edges) {
+    patches.ridges.push_back({vertices[edge.v0], vertices[edge.v1], 0});
+  }
+  for (const Vector3& v : vertices) patches.rounds.push_back({v, Matrix3::Zero()});
+  patches.roundness = core.radius;
+  return patches;
+}
 
 }  // namespace twinarm

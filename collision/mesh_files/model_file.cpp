@@ -222,7 +222,7 @@ std::string read_packed(const fs::path& file) {
   const std::string extension = lower_extension(file);
   Taker taker(*scene, *folder, extension == ".gltf" || extension == ".glb");
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) taker.add(*scene->mMeshes[i]);
-  return " " + pack(taker.model);
+  return " " + pack(std::move(taker.model));
 }
 
 void check_parts(const fs::path& file, const ModelFile& model) {
@@ -257,7 +257,7 @@ ModelFile read_model(const fs::path& file, const ChildLimits& limits) {
            "export the mesh again, best as STL, OBJ or GLB");
   if (result.bytes.starts_with('!'))
     refuse(file, "cannot be read: " + result.bytes.substr(1), "export the mesh again");
-  std::optional<ModelFile> model = unpack_model(std::string_view(result.bytes).substr(1));
+  std::optional<ModelFile> model = unpack_model(result.bytes.substr(1));
   if (!model) refuse(file, "the reader of this format fails on it", "export the mesh again");
   check_parts(file, *model);
   return std::move(*model);

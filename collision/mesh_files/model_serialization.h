@@ -3,15 +3,14 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "collision/mesh_files/model_file.h"
 
 namespace twinarm {
 
-std::string pack(const ModelFile& model);
+std::string pack(ModelFile model);
 // Empty where the bytes are no such model: whoever sent them may have been broken. Indices are not
 // looked at.
-std::optional<ModelFile> unpack_model(std::string_view bytes);
+std::optional<ModelFile> unpack_model(std::string bytes);
 
 }  // namespace twinarm

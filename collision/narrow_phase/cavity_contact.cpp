@@ -11,7 +11,7 @@
 // farthest point, the next one below the largest s_i^2 the other tip (D. Eberly, "Distance from a
 // point to an ellipse, an ellipsoid, or a hyperellipsoid", 2013, for the nearest).
 // Cost: 0.1-1 us.
-#include "collision/narrow_phase/cavity_contact.h"
+#include "collision/narrow_phase/closed_forms.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

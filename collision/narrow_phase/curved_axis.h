@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "collision/narrow_phase/closed_forms.h"
 #include "collision/narrow_phase/posed_shape.h"
-#include "collision/narrow_phase/round_contact.h"
 #include "collision/narrow_phase/sphere_minimization.h"
 
 namespace twinarm {

@@ -3,7 +3,7 @@
 // the rims of a cylinder, the lowest point of an ellipsoid. depth = offset - n . p. FCL gives one
 // point here, which jumps from the middle of a face to a corner when the body tilts by 1e-9.
 // O(vertices).
-#include "collision/narrow_phase/half_space_contact.h"
+#include "collision/narrow_phase/closed_forms.h"
 
 #include "collision/narrow_phase/manifold.h"
 

@@ -17,9 +17,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/narrow_phase/cavity_contact.h"
+#include "collision/narrow_phase/closed_forms.h"
 #include "collision/narrow_phase/gjk.h"
-#include "collision/narrow_phase/half_space_contact.h"
 #include "collision/narrow_phase/support_direction.h"
 
 namespace twinarm {

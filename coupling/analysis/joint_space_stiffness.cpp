@@ -85,6 +85,9 @@ VectorXd squared_frequencies(const MatrixXd& M, const MatrixXd& K) {
   return generalized_eigenvalues(K, M);
 }
 
+double SpringModes::fastest_rate() const {
+  return std::max(std::sqrt(squares.cwiseAbs().maxCoeff()), damping.cwiseAbs().maxCoeff());
+}
 double SpringModes::omega(Index i) const {
   return squares[i] > 0 ? std::sqrt(squares[i]) : 0;
 }

@@ -45,6 +45,7 @@ struct SpringModes {
   Eigen::MatrixXd shapes;   // columns with x^T M x = 1
   Eigen::MatrixXd damping;  // X^T B X [1/s]; its diagonal is 2 z w of each mode by itself
   Eigen::Index size() const { return squares.size(); }
+  double fastest_rate() const;         // of what is fastest [1/s]
   double omega(Eigen::Index i) const;  // [rad/s]; 0 where w^2 is not positive
   double zeta(Eigen::Index i) const;   // damping / (2 w); exact where B goes with K and M
 };

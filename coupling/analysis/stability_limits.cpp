@@ -5,7 +5,7 @@
 
 #include "coupling/analysis/joint_space_stiffness.h"
 #include "coupling/analysis/step_matrix.h"
-#include "solver/support/step_size.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 
@@ -53,12 +53,6 @@ bool contracts(const MatrixXd& alpha, const MatrixXd& beta, Scheme scheme) {
   return growth_of_modes({part}, facts.integrator, 1) <= 1 + kRounding;
 }
 
-// The rate [1/s] of what is fastest.
-double fastest_rate(const SpringModes& modes) {
-  return std::max(std::sqrt(modes.squares.cwiseAbs().maxCoeff()),
-                  modes.damping.cwiseAbs().maxCoeff());
-}
-
 }  // namespace
 
 const char* name_of(Scheme scheme) {
@@ -69,7 +63,7 @@ double largest_stable_step(const MatrixXd& M, const MatrixXd& K, const MatrixXd&
   const SpringModes modes = spring_modes(M, K, B);
   if (modes.size() == 0) return kNoLimit;
   const MatrixXd squares = modes.squares.asDiagonal();
-  const double rate = fastest_rate(modes);
+  const double rate = modes.fastest_rate();
   return largest_stable(
       [&](double h) { return contracts(h * h * squares, h * modes.damping, scheme); }, 1e-4 / rate,
       1e4 / rate);
@@ -85,7 +79,7 @@ double largest_stiffness_factor(const MatrixXd& M, const MatrixXd& K, const Matr
     const double of_b = keep == Keep::damping_ratio ? std::sqrt(factor) : factor;
     return contracts(factor * h * h * squares, of_b * h * modes.damping, scheme);
   };
-  const double product = std::max(fastest_rate(modes) * h, 1e-12);
+  const double product = std::max(modes.fastest_rate() * h, 1e-12);
   return largest_stable(stable, 1e-6 / (product * product), 1e8);
 }
 

@@ -7,7 +7,7 @@
 #include "coupling/analysis/joint_space_stiffness.h"
 #include "coupling/analysis/stability_limits.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/support/step_size.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {
@@ -161,8 +161,7 @@ Reduced reduced(const MatrixXd& M, const std::vector<StepPart>& parts) {
   for (const StepPart& part : parts)
     found.parts.push_back({by_modes(part.K), by_modes(part.K_zero), by_modes(part.B),
                            part.treatment, part.hold_steps, part.law, part.older});
-  found.rate =
-      std::max(std::sqrt(modes.squares.cwiseAbs().maxCoeff()), modes.damping.cwiseAbs().maxCoeff());
+  found.rate = modes.fastest_rate();
   return found;
 }
 

@@ -1,8 +1,8 @@
 #include "coupling/analysis/tracking_error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "coupling/analysis/joint_space_stiffness.h"
@@ -62,37 +62,8 @@ double mocap_weld_lag(double v, double timeconst) {
 }
 
 const char* name_of(TargetMove move) {
-  switch (move) {
-    case TargetMove::ramp:
-      return "constant speed";
-    case TargetMove::cubic:
-      return "cubic";
-    case TargetMove::quintic:
-      return "quintic";
-    case TargetMove::cosine:
-      return "cosine";
-    case TargetMove::bang_bang:
-      return "bang-bang";
-  }
-  return "";
-}
-
-double largest_acceleration(TargetMove move, double distance, double time) {
-  constexpr double pi = std::numbers::pi;
-  const double unit = std::abs(distance) / (time * time);
-  switch (move) {
-    case TargetMove::cubic:
-      return 6 * unit;
-    case TargetMove::quintic:
-      return 10 / std::sqrt(3.0) * unit;
-    case TargetMove::cosine:
-      return pi * pi / 2 * unit;
-    case TargetMove::bang_bang:
-      return 4 * unit;
-    case TargetMove::ramp:
-      break;
-  }
-  return std::numeric_limits<double>::infinity();
+  constexpr std::array names{"constant speed", "cubic", "quintic", "cosine", "bang-bang"};
+  return names[static_cast<std::size_t>(move)];
 }
 
 std::vector<MovePiece> pieces_of(TargetMove move, double D, double T) {

@@ -45,8 +45,6 @@ enum class TargetMove {
   bang_bang,  // the largest acceleration, one half each way
 };
 const char* name_of(TargetMove move);
-// 6, 10/sqrt(3), pi^2/2, 4 D/T^2; infinite for the ramp.
-double largest_acceleration(TargetMove move, double distance, double time);
 
 // The move itself: from `start` on, with s = t - start and W = pi/time, velocity and acceleration
 // are sum_n power[n] s^n + c cos(W s) + d sin(W s). The last piece is the rest after the move.

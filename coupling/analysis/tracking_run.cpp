@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/support/step_size.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 

@@ -7,7 +7,7 @@
 #include "coupling/batch/lane_results.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/model/convert_model.h"
-#include "solver/support/step_size.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 

@@ -4,6 +4,7 @@
 #include "coupling/batch/batch_run.h"
 #include "coupling/batch/kernel/batch_state.h"
 #include "coupling/batch/simd_access.h"
+#include "solver/forces/spring.h"
 
 namespace twinarm {
 
@@ -27,10 +28,7 @@ inline double m_star(Treatment treatment, double h, const BatchCell::Gains& gain
 // A weightless flywheel, or a particle at p.
 inline Inertia<double> weightless(PullKind kind, double m, const Vec3<double>& p) {
   if (kind == PullKind::world) return {0, {}, Sym3<double>::scaled_identity(m)};
-  return {m,
-          m * p,
-          {m * (p.y * p.y + p.z * p.z), m * (p.x * p.x + p.z * p.z), m * (p.x * p.x + p.y * p.y),
-           -m * p.x * p.y, -m * p.x * p.z, -m * p.y * p.z}};
+  return particle_inertia(m, p);
 }
 
 // p: its point in body axes. What the treatment makes the body feel is added to `felt`, or to the

@@ -61,14 +61,6 @@ void GestureHand::end() noexcept {
   newest_.write(goal_);
 }
 
-void GestureHand::drag(double dx_px, double dy_px, const ViewPlane& view) noexcept {
-  const Vector3 shift = view.metres_per_px * (dx_px * view.right - dy_px * view.up);
-  if (!shift.allFinite()) return;
-  begin();
-  goal_.p += shift;
-  end();
-}
-
 void GestureHand::place(const Vector3& p) noexcept {
   if (!p.allFinite()) return;
   begin();
@@ -76,33 +68,10 @@ void GestureHand::place(const Vector3& p) noexcept {
   end();
 }
 
-void GestureHand::wheel(double notches, const ViewPlane& view) noexcept {
-  const Vector3 shift = -settings_.metres_per_notch * notches * view.right.cross(view.up);
-  if (!shift.allFinite()) return;
-  begin();
-  goal_.p += shift;
-  end();
-}
-
-void GestureHand::turn_stylus(double dx_px, double dy_px) noexcept {
-  if (!std::isfinite(dx_px) || !std::isfinite(dy_px)) return;
-  begin();
-  goal_.gimbal[0] += settings_.radians_per_px * dx_px;
-  goal_.gimbal[1] -= settings_.radians_per_px * dy_px;
-  end();
-}
-
 void GestureHand::turn_stylus(const Vector3& by) noexcept {
   if (!by.allFinite()) return;
   begin();
   for (std::size_t j = 0; j < 3; ++j) goal_.gimbal[j] += by[static_cast<Eigen::Index>(j)];
-  end();
-}
-
-void GestureHand::roll_stylus(double notches) noexcept {
-  if (!std::isfinite(notches)) return;
-  begin();
-  goal_.gimbal[2] += settings_.radians_per_notch * notches;
   end();
 }
 

@@ -19,17 +19,9 @@ namespace twinarm {
 // What keys, sticks and a space mouse move.
 enum class HandAxis { right, up, toward, yaw, pitch, roll };
 
-// Of the picture that a mouse drags in: unit vectors in device axes (device_from_world).
-struct ViewPlane {
-  Vector3 right = Vector3::UnitX(), up = Vector3::UnitY();
-  double metres_per_px = 0.0005;
-};
-
 struct GestureSettings {
   double speed = 0.1, turn_rate = 1.5;  // of a key, or an axis at 1 [m/s], [rad/s]
-  double metres_per_notch = 0.004;      // of the wheel
-  double radians_per_px = 0.006, radians_per_notch = 0.12;  // of the stylus
-  double dead_zone = 0.08;                                  // of axes, which never quite rest
+  double dead_zone = 0.08;              // of axes, which never quite rest
   OmniAngles start{0, 0.7, 0.2, 0, 0.6, 0};
 };
 
@@ -38,12 +30,8 @@ class GestureHand final : public HandSource {
   explicit GestureHand(const OmniFigures& omni, const GestureSettings& settings = {});
 
   // For the thread of events, one at a time. What is not finite is not heard.
-  void drag(double dx_px, double dy_px, const ViewPlane& view) noexcept;  // dy downwards
-  void place(const Vector3& p) noexcept;                                  // there, device axes [m]
-  void wheel(double notches, const ViewPlane& view) noexcept;  // positive: away from the viewer
-  void turn_stylus(double dx_px, double dy_px) noexcept;       // yaw, pitch: a drag with a modifier
-  void turn_stylus(const Vector3& by) noexcept;                // yaw, pitch, roll [rad]
-  void roll_stylus(double notches) noexcept;                   // the wheel with it
+  void place(const Vector3& p) noexcept;         // there, device axes [m]
+  void turn_stylus(const Vector3& by) noexcept;  // yaw, pitch, roll [rad]
   void key(HandAxis axis, bool positive, bool down) noexcept;
   void axes(const std::array<double, 6>& rates) noexcept;  // in [-1, 1], by HandAxis
   void button(std::size_t index, bool down) noexcept;      // 0: gripper, 1: clutch

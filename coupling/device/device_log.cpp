@@ -10,6 +10,7 @@
 #include "coupling/target/recorded_trace.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -20,8 +21,11 @@ constexpr std::size_t kLogColumns = 15;                      // t, h, six angles
 // All numbers of the line; empty where it is torn or holds something else.
 std::vector<double> log_numbers(const std::string& line) {
   std::vector<double> values;
-  for (const std::string_view cell : csv_cells(line))
-    if (!csv_number(cell, values.emplace_back())) return {};
+  for (const std::string_view cell : csv_cells(line)) {
+    const auto number = parse_number(cell);
+    if (!number) return {};
+    values.push_back(*number);
+  }
   return values;
 }
 

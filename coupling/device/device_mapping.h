@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "coupling/device/input_device.h"
-#include "coupling/target/paper_mapping.h"
+#include "coupling/target/operator_motion.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/model/model.h"
 
@@ -49,6 +49,22 @@ struct MappedRobot {
   std::vector<double> lower, upper;      // their ranges [rad, m]; empty: none
   int body = 0;                          // the point, of cartesian: on this body,
   Vector3 p_L = Vector3::Zero();         // link axes [m]
+};
+
+// By velocity of the model: which of the driven joints moves it, or -1, and how fast, as a mimic.
+struct DrivenDofs {
+  std::vector<int> joint;
+  std::vector<double> ratio;
+  DrivenDofs(const Model<double>& model, const std::vector<int>& turned)
+      : joint(model.nv, -1), ratio(model.nv, 1.0) {
+    for (std::size_t j = 0; j < turned.size(); ++j)
+      joint[model.iv[static_cast<std::size_t>(turned[j])]] = static_cast<int>(j);
+    for (const Mimic& mimic : model.mimics)
+      if (joint[mimic.leader] >= 0) {
+        joint[mimic.follower] = joint[mimic.leader];
+        ratio[mimic.follower] = mimic.ratio;
+      }
+  }
 };
 
 // Where the hand wants the robot. Joints in the order of MappedRobot::turned.

@@ -12,7 +12,6 @@
 
 #include "coupling/device/device_mapping.h"
 #include "coupling/target/operator_motion.h"
-#include "coupling/target/paper_mapping.h"
 
 namespace twinarm {
 

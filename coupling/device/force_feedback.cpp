@@ -13,15 +13,7 @@ constexpr double kLeastLever = 0.1;  // of the stylus about the motors, for thei
 }  // namespace
 
 CouplingReaction::CouplingReaction(const Model<double>& model, const std::vector<int>& turned)
-    : model_(model), joint_of_(model.nv, -1), ratio_(model.nv, 1.0), tau_(turned.size()) {
-  for (std::size_t j = 0; j < turned.size(); ++j)
-    joint_of_[model.iv[static_cast<std::size_t>(turned[j])]] = static_cast<int>(j);
-  for (const Mimic& mimic : model.mimics)
-    if (joint_of_[mimic.leader] >= 0) {
-      joint_of_[mimic.follower] = joint_of_[mimic.leader];
-      ratio_[mimic.follower] = mimic.ratio;
-    }
-}
+    : model_(model), driven_(model, turned), tau_(turned.size()) {}
 
 void CouplingReaction::add(const CouplingSpec& spec, const Coupling& coupling) {
   const CouplingFacts& facts = facts_of(spec.type, spec.printed);
@@ -53,15 +45,17 @@ void CouplingReaction::add_reaction(const Part& part, const Vector3& pull, doubl
   const Spring& spring = part.coupling->springs()[part.spring];
   if (part.kind == Kind::joint) {
     const std::size_t dof = model_.iv[static_cast<std::size_t>(spring.body)];
-    if (joint_of_[dof] >= 0) tau_[static_cast<std::size_t>(joint_of_[dof])] -= ratio_[dof] * size;
+    if (driven_.joint[dof] >= 0)
+      tau_[static_cast<std::size_t>(driven_.joint[dof])] -= driven_.ratio[dof] * size;
     return;
   }
   const Vector3& p = part.coupling->readings()[part.reading].p_K;
   for_each_dof_below(model_, K, spring.body,
                      [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
-                       if (joint_of_[dof] < 0) return;
+                       if (driven_.joint[dof] < 0) return;
                        const Vector3 J = part.kind == Kind::turn ? w : Vector3(v + w.cross(p - o));
-                       tau_[static_cast<std::size_t>(joint_of_[dof])] -= ratio_[dof] * J.dot(pull);
+                       tau_[static_cast<std::size_t>(driven_.joint[dof])] -=
+                           driven_.ratio[dof] * J.dot(pull);
                      });
 }
 

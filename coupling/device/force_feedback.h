@@ -41,8 +41,7 @@ class CouplingReaction {
   void add_reaction(const Part& part, const Vector3& pull, double size, const Kinematics& K);
 
   const Model<double>& model_;
-  std::vector<int> joint_of_;  // by velocity: which driven joint moves it, or -1
-  std::vector<double> ratio_;  // by velocity: how fast, as a mimic
+  DrivenDofs driven_;
   std::vector<Part> parts_;
   std::vector<double> tau_;
 };

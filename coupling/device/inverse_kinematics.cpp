@@ -25,8 +25,7 @@ PointInverse::PointInverse(const MappedRobot& robot)
       p_L_(robot.p_L),
       x_(robot.stand.q.size() == robot.model->nq ? robot.stand : State<double>(*robot.model)),
       k_(*robot.model),
-      joint_of_(robot.model->nv, -1),
-      ratio_(robot.model->nv, 1.0),
+      driven_(*robot.model, robot.turned),
       lower_(robot.lower),
       upper_(robot.upper),
       G_(robot.turned.size()) {
@@ -37,14 +36,8 @@ PointInverse::PointInverse(const MappedRobot& robot)
   for (std::size_t j = 0; j < n; ++j) {
     const auto b = static_cast<std::size_t>(robot.turned[j]);
     iq_.push_back(model_.iq[b]);
-    joint_of_[model_.iv[b]] = static_cast<int>(j);
     q_.push_back(std::clamp(x_.q[iq_[j]], lower_[j], upper_[j]));
   }
-  for (const Mimic& mimic : model_.mimics)
-    if (joint_of_[mimic.leader] >= 0) {
-      joint_of_[mimic.follower] = joint_of_[mimic.leader];
-      ratio_[mimic.follower] = mimic.ratio;
-    }
   before_ = gradient_ = dq_ = low_ = high_ = q_;
   free_.assign(n, 1);
   chain_.reserve(model_.nv);
@@ -71,10 +64,10 @@ void PointInverse::look(const Vector3& goal) {
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
   for_each_dof_below(model_, k_, body_,
                      [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
-                       if (joint_of_[dof] < 0) return;
-                       const auto joint = static_cast<std::size_t>(joint_of_[dof]);
-                       chain_.push_back({w, v + w.cross(p_ - o), ratio_[dof], joint});
-                       gradient_[joint] += ratio_[dof] * chain_.back().J.dot(e_);
+                       if (driven_.joint[dof] < 0) return;
+                       const auto joint = static_cast<std::size_t>(driven_.joint[dof]);
+                       chain_.push_back({w, v + w.cross(p_ - o), driven_.ratio[dof], joint});
+                       gradient_[joint] += driven_.ratio[dof] * chain_.back().J.dot(e_);
                      });
   for (std::size_t j = 0; j < q_.size(); ++j)
     free_[j] = !(q_[j] <= low_[j] && gradient_[j] < 0) && !(q_[j] >= high_[j] && gradient_[j] > 0);

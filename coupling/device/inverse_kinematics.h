@@ -57,8 +57,7 @@ class PointInverse {
   State<double> x_;
   Kinematics k_;
   std::vector<std::size_t> iq_;
-  std::vector<int> joint_of_;  // by velocity: which driven joint moves it, or -1
-  std::vector<double> ratio_;  // by velocity: how fast, as a mimic
+  DrivenDofs driven_;
   std::vector<double> lower_, upper_;
   std::vector<double> q_, before_, gradient_, dq_, low_, high_;
   std::vector<char> free_;

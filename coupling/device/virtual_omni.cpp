@@ -19,8 +19,8 @@ void check_settings(const VirtualOmniSettings& s) {
   const OmniFigures& o = s.figures;
   const auto demand = [&](bool holds, const char* where, double value, const char* rule) {
     if (!holds)
-      faults.add({"", 0, where, "is " + std::to_string(value) + ", must be " + rule,
-                  std::string("the device's own figure is in docs/hand.md")});
+      faults.add(where, "is " + std::to_string(value) + ", must be " + rule,
+                 std::string("the device's own figure is in docs/hand.md"));
   };
   const auto at_least_zero = [&](const char* where, double value) {
     demand(std::isfinite(value) && value >= 0, where, value, "zero or more");

@@ -14,11 +14,11 @@ Coupling::Coupling(const CouplingSpec& spec, const Model<double>& model, Kinemat
   for (const Spring& spring : springs_) {
     const std::string where = "coupling '" + name_ + "', spring '" + spring.name + "'";
     if (spring.body <= 0 || spring.body >= model.body_count())
-      faults.add({"", 0, where, "it names no moving link", "name a link of the robot"});
+      faults.add(where, "it names no moving link", "name a link of the robot");
     const auto check = [&](double gain, const std::string& what) {
       if (gain >= 0) return;
-      faults.add({"", 0, where, what + " is " + std::to_string(gain) + ", must not be negative",
-                  "give a " + what + " of at least 0"});
+      faults.add(where, what + " is " + std::to_string(gain) + ", must not be negative",
+                 "give a " + what + " of at least 0");
     };
     check(spring.k, "stiffness");
     check(spring.b, "damping");
@@ -44,9 +44,9 @@ void Coupling::check_one_dof() const {
   for (const Spring& spring : springs_) {
     const auto i = static_cast<std::size_t>(spring.body);
     if (model_.dofs(i) == 1) continue;
-    faults.add({"", 0, "coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
-                "the joint has " + std::to_string(model_.dofs(i)) + " degrees of freedom, not one",
-                "name links on revolute, prismatic or screw joints"});
+    faults.add("coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
+               "the joint has " + std::to_string(model_.dofs(i)) + " degrees of freedom, not one",
+               "name links on revolute, prismatic or screw joints");
   }
   faults.check();
 }

@@ -81,4 +81,8 @@ inline std::unique_ptr<Coupling> make_coupling(const CouplingSpec& spec, const M
   return facts_of(spec.type, spec.printed).make(spec, model, kvr);
 }
 
+// What a god object drives: a spring without gains for each joint with degrees of freedom among the
+// bodies, which are all of a robot.
+std::vector<Spring> god_object_joints(const Model<double>& model, int first_body, int last_body);
+
 }  // namespace twinarm

@@ -38,9 +38,9 @@ MatchedTorsional::MatchedTorsional(const CouplingSpec& spec, const Model<double>
     for (int body = spring.body; body > 0; body = model.parent[static_cast<std::size_t>(body)]) {
       const auto i = static_cast<std::size_t>(body);
       if (model.dofs(i) > 1)
-        faults.add({"", 0, "coupling '" + name_ + "', joint '" + model.joint_name[i] + "'",
-                    "the joint has " + std::to_string(model.dofs(i)) + " degrees of freedom",
-                    "the matched law takes joints of one; choose a linear coupling"});
+        faults.add("coupling '" + name_ + "', joint '" + model.joint_name[i] + "'",
+                   "the joint has " + std::to_string(model.dofs(i)) + " degrees of freedom",
+                   "the matched law takes joints of one; choose a linear coupling");
     }
   faults.check();
 }

@@ -13,7 +13,6 @@
 //
 // All joints of a robot at once: those that were left out would be thrown about by the others.
 // Joints of one degree of freedom only. It belongs to the semi-implicit step: no other treatment.
-#include "coupling/laws/god_object.h"
 
 #include "coupling/laws/coupling_spec.h"
 #include "solver/dynamics/dynamics.h"
@@ -56,8 +55,8 @@ void GodObject::check_joints() const {
   for (const Spring& joint : springs_) driven[static_cast<std::size_t>(joint.body)] = 1;
   FaultList faults;
   const auto fault = [&](std::size_t i) {
-    faults.add({"", 0, "coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
-                "it is left out, but its neighbours are driven", "drive all joints of the robot"});
+    faults.add("coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
+               "it is left out, but its neighbours are driven", "drive all joints of the robot");
   };
   for (std::size_t i = 1; i < driven.size(); ++i) {
     const auto parent = static_cast<std::size_t>(model_.parent[i]);

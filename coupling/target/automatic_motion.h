@@ -4,7 +4,6 @@
 #pragma once
 
 #include "coupling/target/operator_motion.h"
-#include "coupling/target/paper_mapping.h"
 
 namespace twinarm {
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 
 #include "solver/support/diagnostics.h"
 
@@ -31,12 +29,6 @@ std::vector<std::string_view> csv_cells(std::string_view line) {
     line.remove_prefix(std::min(end + 1, line.size()));
   }
   return cells;
-}
-
-bool csv_number(std::string_view cell, double& value) {
-  const char* const end = cell.data() + cell.size();
-  const auto [next, error] = std::from_chars(cell.data(), end, value);
-  return error == std::errc() && next == end && std::isfinite(value);
 }
 
 }  // namespace twinarm

@@ -14,7 +14,5 @@ bool next_line(std::istream& stream, std::string& line, const std::string& file,
 
 // What stands between its commas, without the blanks about it.
 std::vector<std::string_view> csv_cells(std::string_view line);
-// Whether all of the cell is one finite number.
-bool csv_number(std::string_view cell, double& value);
 
 }  // namespace twinarm

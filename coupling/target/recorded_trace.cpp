@@ -10,6 +10,7 @@
 #include "coupling/target/csv_lines.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -116,8 +117,8 @@ void TraceReader::read_sample(int line, const Cells& cells) {
   for (std::size_t c = 0; c < (have_button_ ? 8u : 7u); ++c) {
     double& value = c == 0 ? sample.t : c == 7 ? button : sample.theta[c - 1];
     const std::string_view cell = column_[c] < cells.size() ? cells[column_[c]] : "";
-    if (csv_number(cell, value)) {
-      if (c > 0 && c < 7 && in_degrees_[c - 1]) value *= kDegree;
+    if (const auto number = parse_number(cell)) {
+      value = c > 0 && c < 7 && in_degrees_[c - 1] ? *number * kDegree : *number;
       continue;
     }
     good = false;

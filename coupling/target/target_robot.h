@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "coupling/target/operator_motion.h"
-#include "coupling/target/paper_mapping.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/model/model.h"
 

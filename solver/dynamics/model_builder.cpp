@@ -31,12 +31,11 @@ bool has_axis(JointType type) {
 
 void check_inertia(const std::string& where, const BodyInertia& body, FaultList& faults) {
   if (!std::isfinite(body.mass) || !body.com.allFinite() || !body.inertia.allFinite())
-    faults.add({"", 0, where, "mass, centre of mass or inertia is not a finite number", "",
-                "model.not-finite"});
+    faults.add(where, "mass, centre of mass or inertia is not a finite number", "",
+               "model.not-finite");
   else if (body.mass < 0)
-    faults.add({"", 0, where,
-                "mass is " + short_number_text(body.mass) + " kg, must not be negative",
-                "give the link its mass", "model.negative"});
+    faults.add(where, "mass is " + short_number_text(body.mass) + " kg, must not be negative",
+               "give the link its mass", "model.negative");
 }
 void check_properties(const std::string& joint, const JointProperties& p, FaultList& faults) {
   for (const auto& [what, value] : {std::pair{"armature", p.armature},
@@ -44,12 +43,11 @@ void check_properties(const std::string& joint, const JointProperties& p, FaultL
                                     {"Coulomb friction", p.coulomb_plus},
                                     {"Coulomb friction", p.coulomb_minus}})
     if (!(value >= 0 && std::isfinite(value)))
-      faults.add({"", 0, joint_called(joint),
-                  std::string(what) + " is " + short_number_text(value) + ", must not be negative",
-                  "give zero or a positive number", "model.negative"});
+      faults.add(joint_called(joint),
+                 std::string(what) + " is " + short_number_text(value) + ", must not be negative",
+                 "give zero or a positive number", "model.negative");
   if (!std::isfinite(p.pitch))
-    faults.add(
-        {"", 0, joint_called(joint), "its pitch is not a finite number", "", "model.not-finite"});
+    faults.add(joint_called(joint), "its pitch is not a finite number", "", "model.not-finite");
 }
 
 Inertia<double> about_origin(const BodyInertia& body, const Matrix3& R_BL) {
@@ -95,7 +93,7 @@ std::vector<double> felt_inertia_by_dof(const Model<double>& model) {
 void check_felt_inertia(const Model<double>& model, FaultList& faults) {
   Model<double> mended = model;
   std::vector<bool> told(model.parent.size());
-  for (bool found = true; found;) {
+  for (bool found = true; found && !faults.is_full();) {
     found = false;
     const std::vector<double> felt = felt_inertia_by_dof(mended);
     std::vector<bool> spoilt(model.parent.size());
@@ -104,12 +102,12 @@ void check_felt_inertia(const Model<double>& model, FaultList& faults) {
                  last = first + static_cast<std::ptrdiff_t>(model.dofs(i));
       const bool lacks = std::any_of(first, last, [](double inertia) { return !(inertia > 0); });
       if (lacks && !spoilt[i] && !told[i]) {
-        faults.add({"", 0, joint_called(model.joint_name[i]),
-                    "what it moves has no inertia in its direction, so that no acceleration can be "
-                    "computed",
-                    "give link '" + model.body_name[i] +
-                        "' or a link beyond it mass and inertia, or the joint an armature",
-                    "model.no-inertia"});
+        faults.add(joint_called(model.joint_name[i]),
+                   "what it moves has no inertia in its direction, so that no acceleration can be "
+                   "computed",
+                   "give link '" + model.body_name[i] +
+                       "' or a link beyond it mass and inertia, or the joint an armature",
+                   "model.no-inertia");
         for (std::size_t k = 0; k < model.dofs(i); ++k) mended.armature[model.iv[i] + k] = 1;
         told[i] = found = true;
       }
@@ -142,17 +140,16 @@ void ModelBuilder::add_mimic(const std::string& follower, const std::string& lea
 void ModelBuilder::check(const Body& body, int index, Names& taken, FaultList& faults) {
   const std::string where = link_called(body.name);
   if (body.parent < 0 || body.parent >= index)
-    faults.add(
-        {"", 0, where, "its parent is not a body that was added before it", "", "model.parent"});
+    faults.add(where, "its parent is not a body that was added before it", "", "model.parent");
   if (!taken.links.insert(body.name).second)
-    faults.add({"", 0, where, "the name is taken already", "give each link its own name",
-                "model.name-taken"});
+    faults.add(where, "the name is taken already", "give each link its own name",
+               "model.name-taken");
   if (!taken.joints.insert(body.joint_name).second)
-    faults.add({"", 0, joint_called(body.joint_name), "the name is taken already",
-                "give each joint its own name", "model.name-taken"});
+    faults.add(joint_called(body.joint_name), "the name is taken already",
+               "give each joint its own name", "model.name-taken");
   if (has_axis(body.type) && !is_direction(body.axis))
-    faults.add({"", 0, joint_called(body.joint_name), "its axis has no direction",
-                "give an axis that is not zero", "model.axis-zero"});
+    faults.add(joint_called(body.joint_name), "its axis has no direction",
+               "give an axis that is not zero", "model.axis-zero");
   check_inertia(where, body.inertia, faults);
   check_properties(body.joint_name, body.properties, faults);
 }
@@ -217,38 +214,31 @@ Model<double> ModelBuilder::build() const {
 }
 
 void ModelBuilder::add_mimics_to(Model<double>& model, FaultList& faults) const {
-  for (const MimicByName& mimic : mimics_) {
-    Mimic found;
-    double ratio = mimic.ratio, offset = mimic.offset;
-    std::string leader = mimic.leader;
-    bool again = true;
-    for (std::size_t hops = 0; again; ++hops) {  // to the leader that follows nobody
-      again = false;
-      for (const MimicByName& other : mimics_)
-        if (other.follower == leader) {
-          offset += ratio * other.offset;
-          ratio *= other.ratio;
-          leader = other.leader;
-          again = true;
-          break;
-        }
-      if (hops > mimics_.size()) {
-        faults.add({"", 0, joint_called(mimic.follower), "it follows itself", "break the circle",
-                    "model.mimic-loop"});
-        return;
-      }
-    }
-    const int f = model.find_joint(mimic.follower), l = model.find_joint(leader);
-    if (f < 0 || l < 0 || model.dofs(static_cast<std::size_t>(f)) != 1 ||
-        model.dofs(static_cast<std::size_t>(l)) != 1) {
-      faults.add({"", 0, joint_called(mimic.follower),
-                  "it follows joint '" + leader + "', and both must exist and have one dof",
-                  "name a revolute, prismatic or screw joint", "model.mimic"});
-      continue;
-    }
+  const auto leader_of = [&](MimicByName& mimic) {
+    const auto next = std::find_if(mimics_.begin(), mimics_.end(), [&](const MimicByName& other) {
+      return other.follower == mimic.leader;
+    });
+    if (next == mimics_.end()) return false;
+    mimic.offset += mimic.ratio * next->offset;
+    mimic.ratio *= next->ratio;
+    mimic.leader = next->leader;
+    return true;
+  };
+  for (MimicByName mimic : mimics_) {
+    std::size_t hops = 0;
+    while (hops <= mimics_.size() && leader_of(mimic)) ++hops;  // to the leader that follows nobody
+    if (hops > mimics_.size())
+      return faults.add(joint_called(mimic.follower), "it follows itself", "break the circle",
+                        "model.mimic-loop");
+    const int f = model.find_joint(mimic.follower), l = model.find_joint(mimic.leader);
     const auto fi = static_cast<std::size_t>(f), li = static_cast<std::size_t>(l);
-    found = {model.iv[fi], model.iv[li], model.iq[fi], model.iq[li], ratio, offset};
-    model.mimics.push_back(found);
+    if (f < 0 || l < 0 || model.dofs(fi) != 1 || model.dofs(li) != 1)
+      faults.add(joint_called(mimic.follower),
+                 "it follows joint '" + mimic.leader + "', and both must exist and have one dof",
+                 "name a revolute, prismatic or screw joint", "model.mimic");
+    else
+      model.mimics.push_back(
+          {model.iv[fi], model.iv[li], model.iq[fi], model.iq[li], mimic.ratio, mimic.offset});
   }
 }
 

@@ -29,15 +29,15 @@ class JointStops final : public SpringSource {
     for (const Stop& stop : stops_) {
       const std::string where = "coupling '" + name + "'";
       if (!(stop.k >= 0 && stop.b >= 0))
-        faults.add({"", 0, where, "a gain of a stop is negative", "give gains of at least 0"});
+        faults.add(where, "a gain of a stop is negative", "give gains of at least 0");
       const auto i = static_cast<std::size_t>(stop.body);
       if (stop.body <= 0 || stop.body >= model.body_count())
-        faults.add({"", 0, where, "it names no moving link", "name a link of the robot"});
+        faults.add(where, "it names no moving link", "name a link of the robot");
       else if (model.dofs(i) != 1)
         faults.add(
-            {"", 0, where + ", joint '" + model.joint_name[i] + "'",
-             "the joint has " + std::to_string(model.dofs(i)) + " degrees of freedom, not one",
-             "name links on revolute, prismatic or screw joints"});
+            where + ", joint '" + model.joint_name[i] + "'",
+            "the joint has " + std::to_string(model.dofs(i)) + " degrees of freedom, not one",
+            "name links on revolute, prismatic or screw joints");
     }
     faults.check();
   }

@@ -34,13 +34,8 @@ void add_couple(const Kinematics& k, int body, const Vector3& n_W, Forces<double
 
 void add_particle(const Kinematics& k, int body, const Vector3& p_W, double mass,
                   Forces<double>& forces) {
-  const Vec3<double> r = arm(k, body, p_W);
-  const Inertia<double> particle{
-      mass,
-      mass * r,
-      {mass * (r.y * r.y + r.z * r.z), mass * (r.x * r.x + r.z * r.z),
-       mass * (r.x * r.x + r.y * r.y), -mass * r.x * r.y, -mass * r.x * r.z, -mass * r.y * r.z}};
-  add_weightless(k, body, ArticulatedInertia<double>(particle), forces);
+  add_weightless(k, body, ArticulatedInertia<double>(particle_inertia(mass, arm(k, body, p_W))),
+                 forces);
 }
 
 void add_particle_along(const Kinematics& k, int body, const Vector3& p_W, const Vector3& n_W,
@@ -54,14 +49,11 @@ void add_flywheel(const Kinematics& k, int body, double inertia, Forces<double>&
   add_weightless(k, body, {Sym3<double>::scaled_identity(inertia), {}, {}}, forces);
 }
 
-Vector3 angular_acceleration_of_qdd(const Kinematics& k, const Workspace<double>& w, int body) {
-  return k.R_WB[at(body)] * to_eigen(w.a[at(body)].w - k.a_bias[at(body)].w);
-}
-
 Vector3 point_acceleration_of_qdd(const Kinematics& k, const Workspace<double>& w, int body,
                                   const Vector3& p_W) {
   const Vector3 linear = k.R_WB[at(body)] * to_eigen(w.a[at(body)].v - k.a_bias[at(body)].v);
-  return linear + angular_acceleration_of_qdd(k, w, body).cross(p_W - k.X_WL[at(body)].p);
+  const Vector3 angular = k.R_WB[at(body)] * to_eigen(w.a[at(body)].w - k.a_bias[at(body)].w);
+  return linear + angular.cross(p_W - k.X_WL[at(body)].p);
 }
 
 }  // namespace twinarm

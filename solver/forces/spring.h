@@ -22,6 +22,15 @@
 
 namespace twinarm {
 
+// Of a particle at r from the body's origin, body axes.
+inline Inertia<double> particle_inertia(double mass, const Vec3<double>& r) {
+  return {
+      mass,
+      mass * r,
+      {mass * (r.y * r.y + r.z * r.z), mass * (r.x * r.x + r.z * r.z),
+       mass * (r.x * r.x + r.y * r.y), -mass * r.x * r.y, -mass * r.x * r.z, -mass * r.y * r.z}};
+}
+
 void add_point_force(const Kinematics& k, int body, const Vector3& p_W, const Vector3& f_W,
                      Forces<double>& forces);
 void add_couple(const Kinematics& k, int body, const Vector3& n_W, Forces<double>& forces);
@@ -34,10 +43,9 @@ void add_particle_along(const Kinematics& k, int body, const Vector3& p_W, const
 // The weightless isotropic flywheel m* [kg m^2].
 void add_flywheel(const Kinematics& k, int body, double inertia, Forces<double>& forces);
 
-// J qdd of the link's point at p_W, and of its orientation, from the accelerations that ABA left
-// in the workspace [m/s^2, rad/s^2]: h times it is how the velocity changes over the step.
+// J qdd of the link's point at p_W, from the accelerations that ABA left in the workspace [m/s^2]:
+// h times it is how the velocity changes over the step.
 Vector3 point_acceleration_of_qdd(const Kinematics& k, const Workspace<double>& w, int body,
                                   const Vector3& p_W);
-Vector3 angular_acceleration_of_qdd(const Kinematics& k, const Workspace<double>& w, int body);
 
 }  // namespace twinarm

@@ -2,7 +2,6 @@
 // the last evaluation can be read, put aside and written down.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "solver/forces/force_source.h"
@@ -33,21 +32,9 @@ class SpringSource : public ForceSource, public Rewindable {
       memory.visit(reading.m_star);
     }
   }
-  void keep() final {
-    Memory memory;
-    visit_memory(memory);
-    kept_ = memory.bytes();
-  }
-  void go_back() noexcept final {
-    Memory memory(kept_);
-    visit_memory(memory);
-  }
 
  protected:
   std::vector<SpringReading> readings_;
-
- private:
-  std::string kept_;
 };
 
 }  // namespace twinarm

@@ -6,6 +6,7 @@
 // throughout. Everything else is free, until the first gap closes.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <vector>
@@ -35,6 +36,13 @@ class EventSource : public ConstraintSource {
     double gap = std::numeric_limits<double>::infinity();   // the least [m], negative: beyond
     double time = std::numeric_limits<double>::infinity();  // the least, at the present speeds [s]
     bool closes = true;  // the one with the least gap comes nearer
+
+    // One more gap [m], which opens at `rate` [m/s].
+    void see(double gap_now, double rate) {
+      const bool comes = rate < -kRest;
+      if (comes) time = std::min(time, std::max(0.0, gap_now) / -rate);
+      if ((comes || gap_now < -10 * kClosed) && gap_now < gap) gap = gap_now, closes = comes;
+    }
   };
   virtual void look(const ConstraintFrame& frame, Nearest& nearest) const noexcept = 0;
 

@@ -37,8 +37,6 @@ class JointLimits final : public EventSource, public Rewindable {
   std::span<double> works() noexcept override { return flow_works_; }
   void count_works() noexcept override;
 
-  void keep() override { kept_limits_ = limits_, kept_held_ = held_; }
-  void go_back() noexcept override { limits_.swap(kept_limits_), held_.swap(kept_held_); }
   void visit_memory(Memory& memory) override {
     for (Limit& limit : limits_) memory.visit(limit.force), memory.visit(limit.work);
     memory.resize(held_, 2 * sizeof(double));
@@ -64,9 +62,9 @@ class JointLimits final : public EventSource, public Rewindable {
   const Held* held(const Row& row) const;
   double speed(const Row& row, const State<double>& x) const;
   const Model<double>* model_;
-  std::vector<Limit> limits_, kept_limits_;
+  std::vector<Limit> limits_;
   std::vector<Row> rows_;  // that can be reached in this step
-  std::vector<Held> held_, held_before_, kept_held_;
+  std::vector<Held> held_, held_before_;
   std::vector<double> flow_works_;  // of each held
 };
 

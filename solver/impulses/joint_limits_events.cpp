@@ -47,14 +47,8 @@ void JointLimits::hold_again() noexcept {
 }
 
 void JointLimits::look(const ConstraintFrame& frame, Nearest& nearest) const noexcept {
-  for (const Row& row : rows_) {
-    if (held(row)) continue;
-    const double u = speed(row, frame.x);
-    const bool closes = u < -kRest;
-    if (closes) nearest.time = std::min(nearest.time, std::max(0.0, row.gap) / -u);
-    if ((closes || row.gap < -10 * kClosed) && row.gap < nearest.gap)
-      nearest.gap = row.gap, nearest.closes = closes;
-  }
+  for (const Row& row : rows_)
+    if (!held(row)) nearest.see(row.gap, speed(row, frame.x));
 }
 
 void JointLimits::modes(std::vector<char>& modes) const noexcept {

@@ -17,8 +17,6 @@
 
 #include "solver/integration/integration_state.h"
 
-#include "solver/integration/integration_state.h"
-
 namespace twinarm {
 
 // g of a step: start() at m.x after m.accelerate(), then as a function of where the step led, with

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "solver/dynamics/dynamics.h"
-#include "solver/loops/loop_checks.h"
+#include "solver/loops/loop_closure.h"
 #include "solver/model/mimic.h"
 
 namespace twinarm {

@@ -54,6 +54,10 @@ constexpr const IntegratorFacts& facts_of(Integrator integrator) {
 constexpr const char* integrator_name(Integrator integrator) {
   return facts_of(integrator).name;
 }
-std::optional<Integrator> find_integrator(std::string_view name);
+constexpr std::optional<Integrator> find_integrator(std::string_view name) {
+  for (const IntegratorFacts& facts : all_integrators)
+    if (name == facts.name) return facts.integrator;
+  return std::nullopt;
+}
 
 }  // namespace twinarm

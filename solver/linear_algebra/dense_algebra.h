@@ -11,13 +11,6 @@ namespace twinarm {
 
 // M^-1 B, M symmetric, by L D L^T.
 Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& M, const Eigen::MatrixXd& B);
-// L L^T of a symmetric positive definite matrix, for many right-hand sides.
-struct Cholesky {
-  explicit Cholesky(const Eigen::MatrixXd& M);
-  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  Eigen::MatrixXd inverse() const;
-  Eigen::MatrixXd L;  // lower triangle
-};
 // A^-1 b, by LU with complete pivoting; one of the solutions where A is singular.
 Eigen::VectorXd solve_pivoted(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 // A^-1, by LU with partial pivoting.

@@ -17,20 +17,6 @@ MatrixXd solve_symmetric(const MatrixXd& M, const MatrixXd& B) {
   return M.ldlt().solve(B);
 }
 
-Cholesky::Cholesky(const MatrixXd& M) : L(M.llt().matrixL()) {}
-VectorXd Cholesky::solve(const VectorXd& b) const {
-  VectorXd x = b;
-  L.triangularView<Eigen::Lower>().solveInPlace(x);
-  L.triangularView<Eigen::Lower>().adjoint().solveInPlace(x);
-  return x;
-}
-MatrixXd Cholesky::inverse() const {
-  MatrixXd X = MatrixXd::Identity(L.rows(), L.cols());
-  L.triangularView<Eigen::Lower>().solveInPlace(X);
-  L.triangularView<Eigen::Lower>().adjoint().solveInPlace(X);
-  return X;
-}
-
 VectorXd solve_pivoted(const MatrixXd& A, const VectorXd& b) {
   if (A.size() == 0) return VectorXd::Zero(A.cols());
   return A.fullPivLu().solve(b);

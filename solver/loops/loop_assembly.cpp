@@ -1,10 +1,9 @@
-#include "solver/loops/loop_assembly.h"
-
+// A mechanism put together: close_loops() of loop_closure.h.
 #include <algorithm>
 #include <cmath>
 
 #include "solver/dynamics/dynamics.h"
-#include "solver/loops/loop_checks.h"
+#include "solver/loops/loop_closure.h"
 #include "solver/loops/loop_forces.h"
 #include "solver/model/configuration.h"
 #include "solver/model/mimic.h"

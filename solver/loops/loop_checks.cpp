@@ -1,4 +1,4 @@
-#include "solver/loops/loop_checks.h"
+// What can be wrong with loop closures, reported before a run.
 
 #include <cmath>
 #include <sstream>

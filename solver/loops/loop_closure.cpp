@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "solver/loops/loop_checks.h"
 #include "solver/loops/loop_types.h"
 
 namespace twinarm {

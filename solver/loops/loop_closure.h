@@ -87,7 +87,7 @@ using LoopJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen
 class LoopClosures {
  public:
   LoopClosures() = default;  // none
-  // Throws InputError with all faults (loop_checks.h). The model must outlive it.
+  // Throws InputError with all faults (check_loops). The model must outlive it.
   LoopClosures(const Model<double>& model, std::vector<LoopClosure> loops);
 
   bool any() const { return !loops_.empty(); }
@@ -119,5 +119,24 @@ class LoopClosures {
   Eigen::VectorXd g_, rate_, gamma_;
   LoopJacobian J_;
 };
+
+// What a start may be open by; the first step closes the rest [m, rad].
+inline constexpr double kOpenAtStart = 1e-6;
+
+// Throws one InputError with all faults: bodies that are not there, ends that cannot move against
+// each other, frames that are none, lengths, joints of more than one dof, two loops that are the
+// same.
+void check_loops(const Model<double>& model, const std::vector<LoopClosure>& loops);
+// The same, and which loops are open at x by more than kOpenAtStart.
+void check_loops(const Model<double>& model, const std::vector<LoopClosure>& loops,
+                 const State<double>& x);
+
+// Puts a mechanism together (loop_assembly.cpp): a state nearby in which its loops are closed. It
+// comes from x by Gauss-Newton steps that are the shortest in the metric of M, each as long as it
+// brings the loops nearer. Velocities go to the nearest that the loops allow. Followers go to their
+// leaders. Closed to 1e-12, or to rounding where that is more.
+// Throws InputError: loops that are no loops (check_loops), or that cannot be closed from there.
+State<double> close_loops(const Model<double>& model, const std::vector<LoopClosure>& loops,
+                          State<double> x);
 
 }  // namespace twinarm

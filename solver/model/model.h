@@ -76,9 +76,10 @@ void visit_joint(const Model<S>& model, std::size_t i, F&& f) {
   visit_joint<S>(model.joint[i], model.pitch[i], std::forward<F>(f));
 }
 
-// The same with how its Ia is formed: a hinge is told apart from a geared one.
-template <class S, class F>
-void visit_joint(const Model<S>& model, const std::vector<S>& more_armature, std::size_t i, F&& f) {
+// The same with how its Ia is formed: a hinge is told apart from a geared one. M: a Model, or what
+// can be asked the same.
+template <class M, class S, class F>
+void visit_joint(const M& model, const std::vector<S>& more_armature, std::size_t i, F&& f) {
   if (model.joint[i] == JointType::revolute &&
       !is_nonzero(model.armature[model.iv[i]] + more_armature[model.iv[i]]))
     return f(RevoluteJoint<S>{}, HingeZeros{});

@@ -1,32 +1,18 @@
 #include "solver/model/non_finite.h"
 
+#include <array>
+#include <bit>
+
 namespace twinarm {
 namespace {
 
-// Zero where all is finite, else NaN.
-double rest_of(double a) {
-  return a * 0;
-}
-double rest_of(const Vec3<double>& a) {
-  return a.x * 0 + a.y * 0 + a.z * 0;
-}
-double rest_of(const Mat3<double>& a) {
-  return rest_of(a.r0) + rest_of(a.r1) + rest_of(a.r2);
-}
-double rest_of(const Sym3<double>& a) {
-  return rest_of(full(a));
-}
-double rest_of(const Motion<double>& a) {
-  return rest_of(a.w) + rest_of(a.v);
-}
-double rest_of(const Force<double>& a) {
-  return rest_of(a.n) + rest_of(a.f);
-}
-double rest_of(const Transform<double>& a) {
-  return rest_of(a.E) + rest_of(a.r);
-}
-double rest_of(const ArticulatedInertia<double>& a) {
-  return rest_of(a.I) + rest_of(a.H) + rest_of(a.M);
+// Zero where all is finite, else NaN. T is made of doubles alone.
+template <class T>
+double rest_of(const T& a) {
+  double rest = 0;
+  for (const double x : std::bit_cast<std::array<double, sizeof(T) / sizeof(double)>>(a))
+    rest += x * 0;
+  return rest;
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solver/loops/loop_checks.h"
+#include "solver/loops/loop_closure.h"
 #include "solver/stepping/step_checks.h"
-#include "solver/support/step_size.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 

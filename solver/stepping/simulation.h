@@ -42,7 +42,7 @@ class Simulation {
   // (StepReport::interrupted), and the state stands before its end.
   void set_interrupted(EventStep::Interrupted ask) { interrupted_ = ask; }
   // Bilateral constraints, in place of those before. Throws InputError with all faults; loops must
-  // be closed where the mechanism stands (close_loops in loop_assembly.h finds such a place).
+  // be closed where the mechanism stands (close_loops finds such a place).
   // Velocities that they do not allow go to the nearest that they do, as in an impact. From then
   // on set_state and prescribe throw likewise where they would open a loop.
   void set_loops(std::vector<LoopClosure> loops);

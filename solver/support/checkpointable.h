@@ -1,6 +1,7 @@
 // Sources and the steps that are thrown away (Simulation::side_step).
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -9,17 +10,25 @@
 namespace twinarm {
 
 // A source that is asked for a step which then is not taken must be as before. What it remembers
-// from step to step (held forces, last positions, stick anchors, warm starts) it puts aside in
-// keep() and takes back in go_back(); a source that remembers nothing leaves both as they are. A
-// source that is not Rewindable refuses side steps.
+// from step to step (held forces, last positions, stick anchors, warm starts) it names in
+// visit_memory(): it is put aside and taken back by that, or written down for a restart elsewhere
+// (solver/support/state_archive.h). A source that is not Rewindable refuses side steps.
 class Rewindable {
  public:
   virtual ~Rewindable() = default;
-  virtual void keep() {}
-  virtual void go_back() noexcept {}
-  // The same fields, written down or taken back, for a restart elsewhere
-  // (solver/support/state_archive.h).
   virtual void visit_memory(Memory&) {}
+  virtual void keep() {
+    Memory memory;
+    visit_memory(memory);
+    kept_memory_ = memory.bytes();
+  }
+  virtual void go_back() noexcept {
+    Memory memory(kept_memory_);
+    visit_memory(memory);
+  }
+
+ private:
+  std::string kept_memory_;
 };
 
 // Keeps what sources remember, and takes it back at the end of its scope.

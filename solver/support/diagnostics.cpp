@@ -1,6 +1,9 @@
 #include "solver/support/diagnostics.h"
 
+#include <cmath>
 #include <utility>
+
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -71,6 +74,12 @@ void FaultList::add(const std::vector<Fault>& more) {
 }
 void FaultList::check() const {
   if (!faults_.empty()) throw InputError(faults_);
+}
+
+void check_step_size(double h) {
+  if (h > 0 && std::isfinite(h)) return;
+  throw InputError({{"", 0, "step size", "is " + number_text(h) + " s, must be positive and finite",
+                     "give a step size in seconds, such as 0.001"}});
 }
 
 }  // namespace twinarm

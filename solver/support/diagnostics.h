@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace twinarm {
@@ -48,6 +49,10 @@ class InputError : public std::runtime_error {
 class FaultList {
  public:
   void add(Fault fault);
+  // Of no file.
+  void add(std::string where, std::string rule, std::string remedy, std::string_view code = {}) {
+    add(Fault{"", 0, std::move(where), std::move(rule), std::move(remedy), code});
+  }
   void add(const std::vector<Fault>& more);
   bool empty() const { return faults_.empty(); }
   bool is_full() const { return faults_.size() > kMostFaults; }
@@ -57,5 +62,9 @@ class FaultList {
  private:
   std::vector<Fault> faults_;
 };
+
+// The one check of a step size, for all functions that take one from a caller: throws InputError
+// unless h [s] is positive and finite.
+void check_step_size(double h);
 
 }  // namespace twinarm

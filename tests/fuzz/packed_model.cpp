@@ -5,7 +5,7 @@
 namespace twinarm::fuzz {
 
 void packed_model(Bytes bytes) {
-  if (const auto model = unpack_model(bytes))
+  if (const auto model = unpack_model(std::string(bytes)))
     require(pack(*model) == bytes, "a packed model is not what was unpacked");
 }
 

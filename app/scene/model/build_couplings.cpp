@@ -1,7 +1,7 @@
 // Couplings, from names to bodies of the model, and into their pulls.
 #include "app/robot/coordinates.h"
 #include "app/scene/model/scene_builder.h"
-#include "coupling/laws/god_object.h"
+#include "coupling/laws/coupling_spec.h"
 #include "coupling/laws/mujoco_weld.h"
 #include "solver/support/diagnostics.h"
 

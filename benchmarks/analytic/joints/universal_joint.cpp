@@ -8,7 +8,7 @@
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/loops/loop_assembly.h"
+#include "solver/loops/loop_closure.h"
 
 namespace twinarm {
 namespace {

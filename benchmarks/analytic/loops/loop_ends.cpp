@@ -10,7 +10,7 @@
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/kinematics.h"
-#include "solver/loops/loop_assembly.h"
+#include "solver/loops/loop_closure.h"
 #include "solver/stepping/simulation.h"
 
 namespace twinarm {

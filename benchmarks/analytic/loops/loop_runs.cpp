@@ -15,7 +15,7 @@
 #include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/loops/loop_assembly.h"
+#include "solver/loops/loop_closure.h"
 #include "solver/stepping/simulation.h"
 
 namespace twinarm {

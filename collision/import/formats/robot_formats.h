@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "collision/import/robot/file_search.h"
 #include "collision/import/robot/robot_description.h"
-#include "collision/import/robot/robot_file_options.h"
 
 namespace twinarm {
 

@@ -1,4 +1,4 @@
-// Where the file of a mesh or texture lies that a robot's file names.
+// How strictly a robot's file is read, and where the file of a mesh or texture lies that it names.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +13,17 @@ namespace twinarm {
 using FileRoots = std::optional<std::vector<std::filesystem::path>>;
 // Follows "..", and links.
 bool may_name(const FileRoots& roots, const std::filesystem::path& file);
+
+struct RobotFileOptions {
+  // What collides and what is drawn. `optional` (enough for dynamics): a mesh that is missing and a
+  // shape that cannot be read are warnings; the former stays in the description with an empty
+  // `file`, the latter is left out. `required` (study, rendering, collision): they are faults.
+  enum class Geometry { required, optional };
+  Geometry geometry = Geometry::required;
+  // An inertia that no rigid body can have is a fault, and not only a warning.
+  bool strict = false;
+  FileRoots roots = {};  // of meshes and textures
+};
 
 struct FilePlace {
   std::filesystem::path file;  // absolute; empty where it was not found

@@ -38,8 +38,4 @@ std::string find_root(const RobotDescription& robot);
 // that are ready at the same time, in the order of the file. The robot must have passed the check.
 std::vector<std::size_t> joints_from_root(const RobotDescription& robot);
 
-// Joints that carry nothing: neither the child link nor any link outward of it has mass or inertia.
-// Nothing tells how such a joint accelerates. The robot must have passed the check.
-std::vector<std::size_t> joints_without_inertia(const RobotDescription& robot);
-
 }  // namespace twinarm

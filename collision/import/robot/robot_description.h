@@ -52,24 +52,19 @@ struct MeshGeometry {               // collision/import/robot/mesh_geometry.h lo
 };
 using ShapeDescription = AnyShape<MeshGeometry>;
 
-struct VisualPart {
-  std::string name;
-  int line = 0;
-  Origin origin;
-  ShapeDescription geometry;
-  std::string material;               // its name; may be empty
-  Vector4 color{0.7, 0.7, 0.7, 1.0};  // red, green, blue, opacity in [0, 1]; times the texture
-  std::string texture_name;           // as the file calls it; may be empty
-  std::filesystem::path texture;      // absolute; empty for none, and where it was not found
-  Pose X_LG() const { return origin.pose(); }
-};
-
 struct CollisionPart {
   std::string name;
   int line = 0;
   Origin origin;
   ShapeDescription geometry;
   Pose X_LG() const { return origin.pose(); }
+};
+
+struct VisualPart : CollisionPart {
+  std::string material;               // its name; may be empty
+  Vector4 color{0.7, 0.7, 0.7, 1.0};  // red, green, blue, opacity in [0, 1]; times the texture
+  std::string texture_name;           // as the file calls it; may be empty
+  std::filesystem::path texture;      // absolute; empty for none, and where it was not found
 };
 
 struct LinkDescription {

@@ -19,6 +19,18 @@ JointProperties properties_of(const JointDescription& joint) {
   return properties;
 }
 
+BodyInertia plus_point_mass(const BodyInertia& body, const Vector3& p, double mass) {
+  BodyInertia sum;
+  sum.mass = body.mass + mass;
+  sum.com = (body.mass * body.com + mass * p) / sum.mass;
+  const auto shifted = [&](double m, const Vector3& c) -> Matrix3 {
+    const Vector3 r = c - sum.com;
+    return m * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose());
+  };
+  sum.inertia = body.inertia + shifted(body.mass, body.com) + shifted(mass, p);
+  return sum;
+}
+
 // The robot with everything in it that the options ask for, and the faults of these.
 class Weighted {
  public:
@@ -41,7 +53,7 @@ class Weighted {
       if (!options.armature) joint.armature = 0;
       if (!options.friction) joint.damping = joint.coulomb_plus = joint.coulomb_minus = 0;
     }
-    check(options.floating);
+    throw_in_line_order(faults_);
   }
 
   const RobotDescription& robot() const { return robot_; }
@@ -58,22 +70,6 @@ class Weighted {
     faults_.push_back({robot_.file.string(), 0, option, "'" + name + "' is no link of this robot",
                        "name one of its links"});
     return nullptr;
-  }
-
-  void check(bool floating) {
-    for (const std::size_t j : joints_without_inertia(robot_)) {
-      const JointDescription& joint = robot_.joints[j];
-      faults_.push_back({robot_.file.string(), joint.line, "joint '" + joint.name + "'",
-                         "neither link '" + joint.child +
-                             "' nor anything outward of it has mass: its acceleration is not "
-                             "determined",
-                         "give mass and inertia, or make the joint fixed"});
-    }
-    const auto is_heavy = [](const LinkDescription& link) { return link.mass > 0; };
-    if (floating && std::none_of(robot_.links.begin(), robot_.links.end(), is_heavy))
-      faults_.push_back({robot_.file.string(), 0, "robot '" + robot_.name + "'",
-                         "nothing of it has mass: it cannot float", "give mass and inertia"});
-    throw_in_line_order(faults_);
   }
 
   RobotDescription robot_;
@@ -101,18 +97,6 @@ Model<double> build(const ModelBuilder& builder, const RobotDescription& robot) 
 }
 
 }  // namespace
-
-BodyInertia plus_point_mass(const BodyInertia& body, const Vector3& p, double mass) {
-  BodyInertia sum;
-  sum.mass = body.mass + mass;
-  sum.com = (body.mass * body.com + mass * p) / sum.mass;
-  const auto shifted = [&](double m, const Vector3& c) -> Matrix3 {
-    const Vector3 r = c - sum.com;
-    return m * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose());
-  };
-  sum.inertia = body.inertia + shifted(body.mass, body.com) + shifted(mass, p);
-  return sum;
-}
 
 std::string root_joint_name(const RobotDescription& robot, bool floating) {
   std::string name = floating ? "base" : robot.root + "_on_world";

@@ -44,6 +44,4 @@ Model<double> build_model(const RobotDescription& robot, const ModelOptions& opt
 void add_robot(ModelBuilder& builder, const RobotDescription& robot, const ModelOptions& options,
                const std::string& prefix, const Pose& X_WR);
 
-BodyInertia plus_point_mass(const BodyInertia& body, const Vector3& p, double mass);
-
 }  // namespace twinarm

@@ -124,13 +124,22 @@ class TreeRules {
     }
   }
 
-  // A warning only: what is drawn or only moved needs no mass, and payloads may be added later.
+  // A warning only: what is drawn or only moved needs no mass, and payloads may be added later. The
+  // model builder refuses every joint whose acceleration nothing determines.
   void moving_links_have_mass() {
-    for (const std::size_t j : joints_without_inertia(robot_)) {
-      const JointDescription& joint = robot_.joints[j];
-      book_.warn(joint.line, of(joint),
-                 "neither link '" + joint.child + "' nor anything outward of it has mass",
-                 "dynamics needs mass and inertia there, or a fixed joint");
+    std::set<std::string> heavy;
+    for (const LinkDescription& link : robot_.links)
+      if (link.has_inertia && (link.mass > 0 || !link.inertia.isZero(0))) heavy.insert(link.name);
+    const std::vector<std::size_t> order = joints_from_root(robot_);
+    for (auto j = order.rbegin(); j != order.rend(); ++j)
+      if (heavy.count(robot_.joints[*j].child)) heavy.insert(robot_.joints[*j].parent);
+    for (const JointDescription& joint : robot_.joints) {
+      // A rotor is an inertia too, and a joint that follows another has no motion of its own.
+      const bool moves = joint.dofs() > 0 && joint.armature == 0 && !joint.mimic;
+      if (moves && !heavy.count(joint.child))
+        book_.warn(joint.line, of(joint),
+                   "neither link '" + joint.child + "' nor anything outward of it has mass",
+                   "dynamics needs mass and inertia there, or a fixed joint");
     }
   }
 
@@ -247,23 +256,6 @@ std::vector<std::size_t> joints_from_root(const RobotDescription& robot) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return sweep[a] < sweep[b]; });
   return order;
-}
-
-std::vector<std::size_t> joints_without_inertia(const RobotDescription& robot) {
-  std::set<std::string> heavy;
-  for (const LinkDescription& link : robot.links)
-    if (link.has_inertia && (link.mass > 0 || !link.inertia.isZero(0))) heavy.insert(link.name);
-  const std::vector<std::size_t> order = joints_from_root(robot);
-  for (auto j = order.rbegin(); j != order.rend(); ++j)
-    if (heavy.count(robot.joints[*j].child)) heavy.insert(robot.joints[*j].parent);
-  std::vector<std::size_t> found;
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    const JointDescription& joint = robot.joints[j];
-    // A rotor is an inertia too, and a joint that follows another has no motion of its own.
-    const bool moves = joint.dofs() > 0 && joint.armature == 0 && !joint.mimic;
-    if (moves && !heavy.count(joint.child)) found.push_back(j);
-  }
-  return found;
 }
 
 }  // namespace twinarm

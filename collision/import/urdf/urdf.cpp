@@ -9,9 +9,7 @@
 #include <utility>
 
 #include "collision/import/robot/robot_check.h"
-#include "collision/import/urdf/urdf_elements.h"
-#include "collision/import/urdf/urdf_joint.h"
-#include "collision/import/urdf/urdf_shapes.h"
+#include "collision/import/urdf/urdf_parts.h"
 #include "collision/import/urdf/urdf_xml.h"
 
 namespace twinarm {

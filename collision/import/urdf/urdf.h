@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "collision/import/robot/file_search.h"
 #include "collision/import/robot/robot_description.h"
-#include "collision/import/robot/robot_file_options.h"
 
 namespace twinarm {
 

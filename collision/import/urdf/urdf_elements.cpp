@@ -1,4 +1,4 @@
-#include "collision/import/urdf/urdf_elements.h"
+#include "collision/import/urdf/urdf_parts.h"
 
 #include <tinyxml2.h>
 

@@ -1,5 +1,5 @@
 // The <joint> of a URDF.
-#include "collision/import/urdf/urdf_joint.h"
+#include "collision/import/urdf/urdf_parts.h"
 
 #include <tinyxml2.h>
 

@@ -1,5 +1,5 @@
 // The shapes of a URDF link.
-#include "collision/import/urdf/urdf_shapes.h"
+#include "collision/import/urdf/urdf_parts.h"
 
 #include <tinyxml2.h>
 

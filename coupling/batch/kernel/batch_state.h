@@ -36,14 +36,6 @@ void visit_joint(const LaneModel<S>& model, std::size_t i, F&& f) {
       return f(ScrewJoint<S>{{}, model.pitch[i]});
   }
 }
-template <class S, class F>
-void visit_joint(const LaneModel<S>& model, const std::vector<S>& more_armature, std::size_t i,
-                 F&& f) {
-  if (model.joint[i] == JointType::revolute &&
-      !is_nonzero(model.armature[model.iv[i]] + more_armature[model.iv[i]]))
-    return f(RevoluteJoint<S>{}, HingeZeros{});
-  visit_joint(model, i, [&](auto joint) { f(joint, FullInertia{}); });
-}
 
 // One spring-damper. In a row of the motion:
 //   world   E (9, from world to body axes of the KVR's link), angular velocity (3, world axes)

@@ -8,7 +8,7 @@
 #include "app/inspect/cross_checks.h"
 #include "solver/dynamics/mass_matrix.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/loops/loop_checks.h"
+#include "solver/loops/loop_closure.h"
 #include "tests/solver/dynamics/random_tree.h"
 
 using namespace twinarm;

@@ -224,6 +224,6 @@ TEST_CASE("a packed model comes back whole; one that is cut anywhere does not") 
   CHECK(again->textures[0].bytes == "bytes");
   CHECK(again->notes == model.notes);
   for (std::size_t size = 0; size < bytes.size(); ++size)
-    CHECK(!unpack_model(std::string_view(bytes).substr(0, size)));
+    CHECK(!unpack_model(bytes.substr(0, size)));
   CHECK(!unpack_model(bytes + "x"));
 }

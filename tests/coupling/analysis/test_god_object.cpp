@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "collision/contact/contact_constraints.h"
-#include "coupling/laws/god_object.h"
+#include "coupling/laws/coupling_spec.h"
 #include "solver/impulses/joint_limits.h"
 #include "solver/support/diagnostics.h"
 #include "tests/coupling/analysis/laws.h"

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "coupling/analysis/prediction.h"
-#include "coupling/analysis/target_radius.h"
+#include "coupling/analysis/static_deflection.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "tests/coupling/analysis/one_joint.h"

@@ -2,7 +2,7 @@
 // against closed forms, and against where runs of the real stepper begin to grow, by bisection.
 #include <doctest/doctest.h>
 
-#include "coupling/laws/god_object.h"
+#include "coupling/laws/coupling_spec.h"
 #include "tests/coupling/analysis/growth.h"
 #include "tests/coupling/analysis/two_link.h"
 

@@ -23,27 +23,20 @@ Vector3 velocity_of(const HandSample& hand) {
   return omni_jacobian({}, hand.theta) * Vector3(rate[0], rate[1], rate[2]);
 }
 
+// From where it is at the time t.
+void move(GestureHand& hand, const Vector3& by, double t = 0) {
+  hand.place(point_of(hand.sample(t, t + 1)) + by);
+}
+
 }  // namespace
 
-TEST_CASE(
-    "gestures: a drag moves the place in the plane of the view, the wheel away from the eye") {
+TEST_CASE("gestures: the stylus goes to a place, and turns by angles") {
   GestureHand hand{OmniFigures{}};
   const Vector3 start = point_of(hand.sample(0, 1));
   CHECK((start - omni_position({}, GestureSettings{}.start)).norm() < 1e-12);
-  hand.drag(20, -10, {});  // right and upwards on the screen
-  CHECK((point_of(hand.sample(0, 1)) - start - Vector3(0.010, 0.005, 0)).norm() < 1e-12);
-  hand.drag(-20, 10, {});
-  // From the user's right: the picture's right is away from the user.
-  const ViewPlane from_right{-Vector3::UnitZ(), Vector3::UnitY(), 0.001};
-  hand.drag(10, 0, from_right);
-  CHECK((point_of(hand.sample(0, 1)) - start - Vector3(0, 0, -0.010)).norm() < 1e-12);
-  hand.drag(-10, 0, from_right);
-  hand.wheel(2, {});
-  CHECK((point_of(hand.sample(0, 1)) - start - Vector3(0, 0, -0.008)).norm() < 1e-12);
-  hand.wheel(2, from_right);
-  CHECK((point_of(hand.sample(0, 1)) - start - Vector3(-0.008, 0, -0.008)).norm() < 1e-12);
-  hand.turn_stylus(100, 50);
-  hand.roll_stylus(-1);
+  hand.place(start + Vector3(0.010, 0.005, -0.008));
+  CHECK((point_of(hand.sample(0, 1)) - start - Vector3(0.010, 0.005, -0.008)).norm() < 1e-12);
+  hand.turn_stylus({0.6, -0.3, -0.12});
   const HandSample turned = hand.sample(0, 1);
   CHECK(turned.theta[3] == doctest::Approx(0.6));
   CHECK(turned.theta[4] == doctest::Approx(0.6 - 0.3));
@@ -81,30 +74,29 @@ TEST_CASE("gestures: out of reach the goal is the nearest place, and it comes ba
   const OmniFigures omni;
   GestureHand hand{omni};
   const Vector3 start = point_of(hand.sample(0, 1));
-  hand.drag(4000, 0, {});  // two metres
+  move(hand, {2, 0, 0});
   const HandSample edge = hand.sample(0, 1);
   const auto expected = omni_nearest(omni, start + Vector3(2, 0, 0));
   CHECK((point_of(edge) - omni_position(omni, {expected[0], expected[1], expected[2]})).norm() <
         1e-12);
-  hand.drag(-20, 0, {});
+  move(hand, {-0.010, 0, 0});
   CHECK((point_of(hand.sample(0, 1)) - point_of(edge) - Vector3(-0.010, 0, 0)).norm() < 1e-9);
   // A key that is held at the edge winds nothing up either.
-  hand.drag(4000, 0, {});
+  move(hand, {2, 0, 0});
   hand.key(HandAxis::right, true, true);
   hand.sample(10, 11);
   hand.key(HandAxis::right, true, false);
   const Vector3 held = point_of(hand.sample(10, 11));
   hand.key(HandAxis::right, false, true);
   CHECK((point_of(hand.sample(10.1, 11)) - held - Vector3(-0.010, 0, 0)).norm() < 1e-9);
-  hand.drag(4000, 0, {});  // against the key that is held: it moves back from the edge
+  move(hand, {2, 0, 0}, 10.1);  // against the key that is held: it moves back from the edge
   const Vector3 pushed = point_of(hand.sample(10.1, 11));
   CHECK((point_of(hand.sample(10.2, 11)) - pushed - Vector3(-0.010, 0, 0)).norm() < 1e-9);
   hand.release();
   for (int n = 0; n < 400; ++n) {  // whatever is done, it stays within the ranges
-    hand.drag(300 * std::sin(1.7 * n), 300 * std::cos(0.9 * n), {});
-    hand.wheel(20 * std::sin(2.3 * n), {});
-    hand.turn_stylus(500 * std::sin(n), 400 * std::cos(n));
-    hand.roll_stylus(20 * std::cos(3.1 * n));
+    move(hand, {0.15 * std::sin(1.7 * n), 0.15 * std::cos(0.9 * n), 0.08 * std::sin(2.3 * n)},
+         12 + 0.01 * n);
+    hand.turn_stylus({3 * std::sin(n), 2.4 * std::cos(n), 2.4 * std::cos(3.1 * n)});
     const HandSample now = hand.sample(12 + 0.01 * n, 20);
     for (std::size_t j = 0; j < 6; ++j)
       CHECK_UNARY(now.theta[j] >= omni.lower[j] && now.theta[j] <= omni.upper[j]);
@@ -116,10 +108,8 @@ TEST_CASE("gestures: what is not finite is not heard, and nothing takes from the
   GestureHand hand{OmniFigures{}};
   const Vector3 start = point_of(hand.sample(0, 1));
   const long taken = testing::allocations_in([&] {
-    hand.drag(nan, 0, {});
-    hand.wheel(-nan, {});
-    hand.turn_stylus(0, nan);
-    hand.roll_stylus(nan);
+    hand.place({nan, 0, 0});
+    hand.turn_stylus({0, 0, nan});
     hand.axes({nan, nan, 0, 0, nan, 1e300});
     hand.button(7, true);
     hand.sample(0, 1);
@@ -135,7 +125,7 @@ TEST_CASE("gestures move the virtual Omni's stylus to the place, through the arm
   VirtualOmni omni(hand, settings);
   omni.poll(0);
   const Vector3 start = omni.truth().position;
-  hand->drag(60, 0, {});
+  move(*hand, {0.030, 0, 0});
   hand->button(1, true);
   DeviceState seen;
   for (int n = 0; n < 1000; ++n) seen = omni.poll(1e-3 * n);

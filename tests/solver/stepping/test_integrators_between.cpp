@@ -25,14 +25,13 @@ struct Implicit final : ForceSource {
 
 // A torque that grows with every step that was begun: memory.
 struct Counter final : ForceSource, Rewindable {
-  int steps = 0, kept = 0;
+  int steps = 0;
   void begin_step(const Kinematics&, double, double) noexcept override { ++steps; }
   void add_forces(const State<double>&, const Kinematics&,
                   Forces<double>& forces) noexcept override {
     forces.tau.back() += 0.01 * steps;
   }
-  void keep() override { kept = steps; }
-  void go_back() noexcept override { steps = kept; }
+  void visit_memory(Memory& memory) override { memory.visit(steps); }
 };
 
 }  // namespace

@@ -197,13 +197,12 @@ namespace {
 
 // Pushes with every moment that was begun; they can be taken back.
 struct Counting final : ForceSource, Rewindable {
-  double begun = 0, kept = 0;
+  double begun = 0;
   void begin_step(const Kinematics&, double, double) noexcept override { ++begun; }
   void add_forces(const State<double>&, const Kinematics&, Forces<double>& f) noexcept override {
     f.tau[0] += begun;
   }
-  void keep() override { kept = begun; }
-  void go_back() noexcept override { begun = kept; }
+  void visit_memory(Memory& memory) override { memory.visit(begun); }
 };
 
 }  // namespace

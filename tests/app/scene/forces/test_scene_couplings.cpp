@@ -3,7 +3,7 @@
 
 #include "app/scene/forces/scene_couplings.h"
 #include "coupling/analysis/prediction.h"
-#include "coupling/laws/god_object.h"
+#include "coupling/laws/coupling_spec.h"
 #include "solver/stepping/simulation.h"
 #include "tests/app/scene/model/helpers.h"
 

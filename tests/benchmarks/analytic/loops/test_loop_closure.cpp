@@ -6,7 +6,7 @@
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
 #include "solver/linear_algebra/pivoted_cholesky.h"
-#include "solver/loops/loop_checks.h"
+#include "solver/loops/loop_closure.h"
 #include "solver/model/configuration.h"
 #include "tests/solver/dynamics/random_tree.h"
 #include "tests/support/count_allocations.h"

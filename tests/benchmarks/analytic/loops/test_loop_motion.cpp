@@ -11,7 +11,7 @@
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/loops/loop_assembly.h"
+#include "solver/loops/loop_closure.h"
 #include "solver/stepping/simulation.h"
 #include "tests/support/count_allocations.h"
 

@@ -1,4 +1,4 @@
-// The shapes of a URDF link: what is drawn and what collides.
+// The parts of the URDF reader: vocabulary, <joint>, and what a <link> shows and collides with.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,14 @@
 #include "collision/import/urdf/urdf_xml.h"
 
 namespace twinarm {
+
+// Which elements and attributes URDF has, so that nothing is left out in silence. Goes through the
+// whole file. What other programs need and what has no effect here, and what nobody knows (a slip
+// of the pen?), becomes one warning per kind; what a macro should have replaced (xacro) is a fault.
+// Bounded in depth: what is not known is not entered.
+void check_vocabulary(const tinyxml2::XMLElement& robot, UrdfSource& source);
+
+JointDescription read_joint(const tinyxml2::XMLElement& element, UrdfSource& source);
 
 struct UrdfMaterial {
   Vector4 color = VisualPart().color;
