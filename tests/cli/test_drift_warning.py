@@ -4,13 +4,9 @@
     test_drift_warning.py PATH/TO/twinarm
 """
 import json
-import pathlib
-import subprocess
-import sys
-import unittest
 
-import robot_command
-from robot_command import joint, link, robot
+from program import data, main
+from robot_command import RobotCommand, joint, link, robot
 
 BOX = '<collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>'
 
@@ -39,19 +35,15 @@ qd = { j1 = 3, j2 = -5 }
 FLOATS = 'base = "floating"'
 
 
-class DriftWarning(robot_command.RobotCommand):
+class DriftWarning(RobotCommand):
     command = "simulate"
 
     def simulate(self, *options, urdf=None, gravity=0, base=FLOATS, keys=""):
-        (self.folder / "arm.urdf").write_text(urdf or arm())
-        scene = self.folder / "scene.toml"
+        self.write("arm.urdf", urdf or arm())
         text = SCENE % (gravity, keys, base)
         if base != FLOATS:
             text = "".join(line for line in text.splitlines(True) if "r_velocity" not in line)
-        scene.write_text(text)
-        result = subprocess.run([robot_command.PROGRAM, "simulate", str(scene), "--json",
-                                 *map(str, options)], capture_output=True, text=True, timeout=300)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.twinarm("simulate", self.write("scene.toml", text), "--json", *options)
         answer = json.loads(result.stdout)
         warnings = [w for w in answer["warnings"] if "floating base" in w]
         self.assertEqual("floating base" in result.stderr, bool(warnings))
@@ -81,19 +73,14 @@ class DriftWarning(robot_command.RobotCommand):
         self.assertEqual(self.simulate("--contact", "event")[1], [])
         self.assertEqual(self.simulate(base="")[1], [])
         self.assertEqual(len(self.simulate(gravity=-9.81)[1]), 1)  # it falls, and nothing is there
-        stiff = arm().replace('type="continuous"', 'type="fixed"')
-        (self.folder / "arm.urdf").write_text(stiff)
-        scene = self.folder / "scene.toml"
-        scene.write_text("".join(line for line in (SCENE % (0, "", FLOATS)).splitlines(True)
-                                 if not line.startswith("q")))
-        result = subprocess.run([robot_command.PROGRAM, "simulate", str(scene)],
-                                capture_output=True, text=True, timeout=60)
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.write("arm.urdf", arm().replace('type="continuous"', 'type="fixed"'))
+        scene = self.write("scene.toml", "".join(line for line in (SCENE % (0, "", FLOATS)).splitlines(True)
+                                                 if not line.startswith("q")))
+        self.assertEqual(self.twinarm("simulate", scene).stderr, "")
 
     def test_where_shapes_may_touch_the_remedy_is_event_steps_and_gravity_silences_it(self):
         urdf = arm().replace("</link>", BOX)
-        floor = ('[[body]]\nname = "floor"\nfixed = true\n'
-                 'shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }\n')
+        floor = data("floor.toml")
         _, warnings = self.simulate(urdf=urdf, keys=floor)
         self.assertEqual(len(warnings), 1)
         self.assertIn("--contact event", warnings[0])
@@ -108,5 +95,4 @@ class DriftWarning(robot_command.RobotCommand):
 
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
-    unittest.main()
+    main()

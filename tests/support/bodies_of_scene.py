@@ -4,7 +4,7 @@ import math
 import tomllib
 import xml.etree.ElementTree as xml
 
-from robot_command import ROOT
+from program import ROOT
 
 GRAVITY = (0, 0, -9.81)
 
