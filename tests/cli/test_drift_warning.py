@@ -4,6 +4,7 @@
     test_drift_warning.py PATH/TO/twinarm
 """
 import json
+import re
 
 from program import data, main
 from robot_command import RobotCommand, joint, link, robot
@@ -19,30 +20,17 @@ def arm():
                  joint("j2", "continuous", "a", "b", xyz="0.5 0 0", axis="0.6 0 0.8"))
 
 
-SCENE = """gravity = [0, 0, %s]
-duration = 0.01
-%s
-[[robot]]
-name = "r"
-model = "arm.urdf"
-%s
-position = [1, 2, 3]
-linear_velocity = [0.5, -0.2, 0.1]
-angular_velocity = [1, 2, -1.5]
-q = { j1 = 0.3, j2 = -0.8 }
-qd = { j1 = 3, j2 = -5 }
-"""
-FLOATS = 'base = "floating"'
+def scene(gravity=0, without="nothing"):
+    """Without the keys of the robot that the expression matches."""
+    return re.sub(rf"(?m)^({without}) = .*\n", "", data("floating_arm.toml", gravity=[0, 0, gravity]))
 
 
 class DriftWarning(RobotCommand):
     command = "simulate"
 
-    def simulate(self, *options, urdf=None, gravity=0, base=FLOATS, keys=""):
+    def simulate(self, *options, urdf=None, gravity=0, without="nothing", more=""):
         self.write("arm.urdf", urdf or arm())
-        text = SCENE % (gravity, keys, base)
-        if base != FLOATS:
-            text = "".join(line for line in text.splitlines(True) if "r_velocity" not in line)
+        text = scene(gravity, without) + more
         result = self.twinarm("simulate", self.write("scene.toml", text), "--json", *options)
         answer = json.loads(result.stdout)
         warnings = [w for w in answer["warnings"] if "floating base" in w]
@@ -71,22 +59,20 @@ class DriftWarning(RobotCommand):
         for integrator in ("rk4", "implicit-midpoint", "verlet", "dopri5"):
             self.assertEqual(self.simulate("--integrator", integrator)[1], [], integrator)
         self.assertEqual(self.simulate("--contact", "event")[1], [])
-        self.assertEqual(self.simulate(base="")[1], [])
+        self.assertEqual(self.simulate(without="base|\\w+_velocity")[1], [])
         self.assertEqual(len(self.simulate(gravity=-9.81)[1]), 1)  # it falls, and nothing is there
         self.write("arm.urdf", arm().replace('type="continuous"', 'type="fixed"'))
-        scene = self.write("scene.toml", "".join(line for line in (SCENE % (0, "", FLOATS)).splitlines(True)
-                                                 if not line.startswith("q")))
-        self.assertEqual(self.twinarm("simulate", scene).stderr, "")
+        self.assertEqual(self.twinarm("simulate", self.write("scene.toml", scene(without="q|qd"))).stderr, "")
 
     def test_where_shapes_may_touch_the_remedy_is_event_steps_and_gravity_silences_it(self):
         urdf = arm().replace("</link>", BOX)
         floor = data("floor.toml")
-        _, warnings = self.simulate(urdf=urdf, keys=floor)
+        _, warnings = self.simulate(urdf=urdf, more=floor)
         self.assertEqual(len(warnings), 1)
         self.assertIn("--contact event", warnings[0])
         self.assertNotIn("rk4", warnings[0])
-        self.assertEqual(self.simulate(urdf=urdf, keys=floor, gravity=-9.81)[1], [])
-        self.assertEqual(self.simulate("--contact", "event", urdf=urdf, keys=floor)[1], [])
+        self.assertEqual(self.simulate(urdf=urdf, more=floor, gravity=-9.81)[1], [])
+        self.assertEqual(self.simulate("--contact", "event", urdf=urdf, more=floor)[1], [])
 
     def test_a_floating_urdf_alone_is_warned_of_too(self):
         result = self.run_it(arm(), "--floating", "--duration", 0.1, "--json")

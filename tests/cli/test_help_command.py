@@ -45,7 +45,8 @@ class HelpCommand(unittest.TestCase):
             told = set(re.findall(r"\\fB(--[\w-]+)\\fR", sections[" ".join(path)]))
             self.assertEqual(told, expected, path)
 
-    def test_help_of_a_command_is_what_its_own_option_prints(self):
+    def test_help_of_a_command_is_what_its_own_option_prints_and_shows_an_example(self):
+        self.assertIn("Example:  twinarm", run("--help").stdout)
         for path in self.commands():
             asked, own = run("help", *path), run(*path, "--help")
             self.assertEqual((asked.returncode, own.returncode, own.stderr), (0, 0, ""))

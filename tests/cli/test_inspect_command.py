@@ -3,7 +3,6 @@
 
     test_inspect_command.py PATH/TO/twinarm
 """
-import json
 import math
 import re
 

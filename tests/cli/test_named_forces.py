@@ -4,7 +4,6 @@ chosen axes and about a chosen point: against what statics and Newton say.
 
     test_named_forces.py PATH/TO/twinarm
 """
-import json
 import math
 
 from program import SCENES, data, main

@@ -3,6 +3,7 @@
 
     test_recording_format.py PATH/TO/twinarm
 """
+import json
 import random
 
 import recording_format as form
@@ -49,13 +50,35 @@ class Bytes(RecordingCommand):
         file.write_bytes(form.file_of(form.with_header(found, header)))
         self.assertEqual(self.exported(file), before)
 
-    def test_frames_of_another_layout_are_refused(self):
+    def test_a_header_is_read_within_its_bounds_and_refused_beyond_them_or_without_a_key(self):
+        """At most 32 MiB, and 8 deep; its checksum is right."""
         file = self.record(BOXES, "--duration", 0.02)
         found = form.blocks(file.read_bytes())
         header = form.header(found)
-        header["frame"].append("temperature float64 K")
-        file.write_bytes(form.file_of(form.with_header(found, header)))
-        self.refused("export", file)
+        run_ = header["run"]
+
+        def with_text(text):
+            file.write_bytes(form.file_of([("H", text.encode()), *found[1:]]))
+
+        def nested(depth):
+            return json.dumps(header | {"new": json.loads("[" * (depth - 1) + "]" * (depth - 1))})
+
+        def without(table, key):
+            return {name: value for name, value in table.items() if name != key}
+        whole, most = json.dumps(header), 32 << 20
+        for text in (nested(8), whole.ljust(most)):
+            with_text(text)
+            self.assertEqual(self.exported(file)["format"], 3)
+        refused = {"9 deep": nested(9), "100,000 deep": "[" * 100_000, "32 MiB and a byte": whole.ljust(most + 1),
+                   "no object": "[]", "cut short": whole[:-1],
+                   "frames of another layout": json.dumps(header | {"frame": [*header["frame"], "heat float64 K"]}),
+                   **{f"no {key}": json.dumps(without(header, key)) for key in header},
+                   **{f"no run.{key}": json.dumps(header | {"run": without(run_, key)}) for key in run_},
+                   **{f"{key} of another type": json.dumps(header | {key: {}}) for key in header}}
+        for name, text in refused.items():
+            with self.subTest(name):
+                with_text(text)
+                self.assertIn(str(file), self.refused_as("recording.cut-short", "export", file))
 
     def test_a_recording_of_version_2_is_read_and_replayed(self):
         """As programs wrote it before headers described themselves."""

@@ -6,7 +6,7 @@
 import json
 import math
 
-from program import data, main, run
+from program import data, main
 from robot_command import HINGE, HINGE_INERTIA, STEADY_HAND, RobotCommand, add, joint, link, robot, scale
 
 BALL = data("ball.toml")

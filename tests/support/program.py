@@ -30,6 +30,14 @@ def run(*words, **more):
                           **{"capture_output": True, "text": True, "timeout": TIMEOUT, "cwd": ROOT, **more})
 
 
+def twinarm(*words, code=0, **more):
+    """The finished process, which has ended with that code."""
+    done = run(*words, **more)
+    if done.returncode != code:
+        raise AssertionError(f"{words}: {done.returncode}, not {code}: {done.stderr[-2000:]}{done.stdout[:2000]}")
+    return done
+
+
 def start(*words, **more):
     """The running process."""
     return subprocess.Popen([PROGRAM, *map(str, words)],
@@ -55,7 +63,7 @@ class ProgramTest(unittest.TestCase):
     cwd = ROOT  # of the program
 
     def setUp(self):
-        holder = tempfile.TemporaryDirectory(prefix="twinarm-test-")
+        holder = tempfile.TemporaryDirectory(prefix="twinarm-test-", ignore_cleanup_errors=True)
         self.addCleanup(holder.cleanup)
         self.folder = pathlib.Path(holder.name)
 
@@ -65,9 +73,7 @@ class ProgramTest(unittest.TestCase):
 
     def twinarm(self, *words, code=0, **more):
         """The finished process, which has ended with that code."""
-        done = run(*words, **{"cwd": self.cwd, **more})
-        self.assertEqual(done.returncode, code, f"{words}: {done.stderr[-2000:]}{done.stdout[:2000]}")
-        return done
+        return twinarm(*words, code=code, **{"cwd": self.cwd, **more})
 
     def json_of(self, *words, code=0, **more):
         return json.loads(self.twinarm(*words, "--json", code=code, **more).stdout)
