@@ -7,30 +7,13 @@ import csv
 import json
 import struct
 
-from map_command import ARM, MapCommand
+from map_command import ARM, MEASURES, MapCommand
 from program import ROOT, data, main, run
 from whole_files import fnv
 
-MEASURES = ("stable", "max_error", "mean_error", "energy", "passivity")
 
 
 class Planes(MapCommand):
-    def both_ways(self, scene, *options):
-        """By measure, the plane side by side and the plane one by one."""
-        return {m: [self.map(scene, *options, "--measure", m, *way, name="".join(way) or "lanes")
-                    ["values"] for way in ([], ["--alone"])] for m in MEASURES}
-
-    def check_both_ways(self, scene, *options):
-        planes = self.both_ways(scene, *options)
-        for measure, (lanes, alone) in planes.items():
-            for row, other in zip(lanes, alone):
-                for value, wanted in zip(row, other):
-                    self.assertEqual(value is None, wanted is None, measure)
-                    if wanted is not None:
-                        self.assertAlmostEqual(value, wanted, delta=1e-9 * max(1, abs(wanted)),
-                                               msg=measure)
-        return {measure: lanes for measure, (lanes, _) in planes.items()}
-
     def errors(self, opened, y):
         """By joint, the largest |q_K - q_D| of the run of an opened cell."""
         samples = json.loads(run(*opened["command"].split()[1:], "--every", y, "--json").stdout)["samples"]
@@ -136,7 +119,6 @@ class Planes(MapCommand):
             planes = self.check_both_ways(scene, "--x", "coupling.damping:0.1:60:3", "--y",
                                           "step:0.001:0.002:2")
             self.assertLess(planes["mean_error"][0][0], 0.004)  # free, it would swing by 0.01
-            (self.folder / "lanes").unlink(), (self.folder / "--alone").unlink()
 
     def test_couplings_that_see_their_twin_each_in_its_own_time_are_run_as_they_are(self):
         self.check_both_ways(ARM, "--x", "coupling[0].delay:0:0.1:3", "--y", "coupling[0].speed:1:2:2",

@@ -12,11 +12,11 @@ import signal
 import struct
 import unittest
 import xml.etree.ElementTree
-import zlib
 
 from program import SCENES, main
 from recording_command import BOXES, DOUBLE, DRIVEN, RecordingCommand, held
 from robot_command import PENDULUM, joint, link, robot
+from whole_files import recorded_blocks
 
 
 class Recordings(RecordingCommand):
@@ -240,23 +240,10 @@ class Recordings(RecordingCommand):
 
 
 class Damage(RecordingCommand):
-    def frame_ends(self, data):
-        """(offset behind each block, its kind), by the layout in docs/recording.md."""
-        at, ends = 12, []
-        while at < len(data):
-            size = struct.unpack_from("<I", data, at + 1)[0]
-            payload_end = at + 5 + size
-            self.assertEqual(struct.unpack_from("<I", data, payload_end)[0],
-                             zlib.crc32(data[at:payload_end]))
-            ends.append((payload_end + 4, chr(data[at])))
-            at = payload_end + 4
-        return ends
-
     def test_what_is_whole_of_a_file_cut_short_anywhere_is_kept_and_said(self):
         file = self.record(PENDULUM, "--duration", 0.05, "--step", 0.01, state={"q": {"hinge": 1}})
         data = file.read_bytes()
-        ends = self.frame_ends(data)
-        frames = [end for end, kind in ends if kind == "F"]
+        frames = [end for kind, _, end in recorded_blocks(data) if kind == "F"]
         self.assertEqual(len(frames), 6)
         for cut in (frames[0], frames[2] + 1, frames[4] - 1, len(data) - 1):
             file.write_bytes(data[:cut])
@@ -278,7 +265,7 @@ class Damage(RecordingCommand):
     def test_a_flipped_bit_ends_what_is_read_and_is_said(self):
         file = self.record(PENDULUM, "--duration", 0.05, "--step", 0.01, state={"q": {"hinge": 1}})
         data = bytearray(file.read_bytes())
-        frames = [end for end, kind in self.frame_ends(bytes(data)) if kind == "F"]
+        frames = [end for kind, _, end in recorded_blocks(data) if kind == "F"]
         data[frames[2] + 30] ^= 4
         file.write_bytes(data)
         exported = self.exported(file)

@@ -4,6 +4,7 @@ import math
 from program import ProgramTest, data, line_of
 
 INERTIA = 0.5  # of hinge.urdf
+MEASURES = ("stable", "max_error", "mean_error", "energy", "passivity")
 ARM = "assets/scenes/tracking_map.toml"
 
 
@@ -36,3 +37,17 @@ class MapCommand(ProgramTest):
 
     def tells(self, faults, code, value):
         self.assertTrue(any(f["code"] == code and value in line_of(f) for f in faults), (code, value, faults))
+
+    def check_both_ways(self, scene, *options):
+        """Cells side by side are those that run one by one; by measure, the plane."""
+        planes, number = {}, len(list(self.folder.iterdir()))  # a work file of each way holds all measures
+        for measure in MEASURES:
+            planes[measure], alone = (
+                self.map(scene, *options, "--measure", measure, *way, name=f"{number}{way}")["values"]
+                for way in ([], ["--alone"]))
+            for row, other in zip(planes[measure], alone):
+                for value, wanted in zip(row, other):
+                    self.assertEqual(value is None, wanted is None, measure)
+                    if wanted is not None:
+                        self.assertAlmostEqual(value, wanted, delta=1e-9 * max(1, abs(wanted)), msg=measure)
+        return planes
