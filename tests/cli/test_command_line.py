@@ -4,32 +4,17 @@
     test_command_line.py PATH/TO/twinarm
 """
 import json
-import os
 import pathlib
 import shutil
-import signal
-import subprocess
-import sys
-import tempfile
-import unittest
 
-from waiting import TIMEOUT, processor_time, processor_time_of_ended, wait_for_work  # noqa: E402
+from program import ROOT, ProgramTest, main, run
+from robot_command import HAND_COLUMNS
+from waiting import processor_time, processor_time_of_ended
 
-PROGRAM = ""
-ASSETS = pathlib.Path(__file__).resolve().parents[2] / "assets"
-HEADER = "t[s],theta1[rad],theta2[rad],theta3[rad],theta4[rad],theta5[rad],theta6[rad]\n"
+ASSETS = ROOT / "assets"
 
 
-def run(*arguments, timeout=TIMEOUT):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
-                          timeout=timeout, cwd=ASSETS.parent)
-
-
-class CommandLine(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="twinarm-cli-"))
-        self.addCleanup(shutil.rmtree, self.folder)
-
+class CommandLine(ProgramTest):
     def refused(self, result, *words):
         """Exit code 2 and every one of the words on stderr."""
         self.assertEqual(result.returncode, 2, result.stderr)
@@ -39,11 +24,6 @@ class CommandLine(unittest.TestCase):
     def written(self):
         return sorted(str(p.relative_to(self.folder)) for p in self.folder.rglob("*")
                       if p.is_file())
-
-    def trace(self, content):
-        file = self.folder / "hand.csv"
-        file.write_text(content, encoding="utf-8")
-        return file
 
     def copy_of_assets(self):
         """All but the meshes to look at, which are large and come after what is tested here."""
@@ -56,9 +36,7 @@ class CommandLine(unittest.TestCase):
     def test_a_study_gives_its_json_its_report_and_the_numbers_that_it_must_reach(self):
         out = self.folder / "new" / "study"
         trace = ASSETS / "traces" / "synthetic_seed1.csv"
-        result = run("study", "--out", out, "--trace", trace, "--json", timeout=3000)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        study = json.loads(result.stdout)
+        study = self.json_of("study", "--out", out, "--trace", trace, timeout=3000)
         published = {"E3": (16.6, 23.5, 8.6, 5.2), "E4": (3.4, 6.0, 0.3, 0.6)}
         for name, numbers in published.items():
             run_ = study["runs"][name]
@@ -100,50 +78,23 @@ class CommandLine(unittest.TestCase):
         for name in ("E1", "E2", "E3", "E4"):  # two programs' ways to the same numbers
             self.assertLess(made[name]["apart_deg"], 1e-9, name)
         for run_ in made.values():
-            again = run("replay", run_["recording"], "--json", timeout=TIMEOUT)
-            self.assertEqual(again.returncode, 0, run_["name"] + again.stderr)
+            self.twinarm("replay", run_["recording"])
             if run_["page"]:
                 self.assertLess(pathlib.Path(run_["page"]).stat().st_size, 5e6)
-        checks = json.loads(run("inspect", made["E3"]["recording"], "--at", 1, "--json",
-                                timeout=TIMEOUT).stdout)
+        checks = self.json_of("inspect", made["E3"]["recording"], "--at", 1)
         self.assertTrue(all(check["pass"] for check in checks["checks"]))
         sources = {w["source"] for body in checks["balance"] for w in body["wrenches"]}
         self.assertIn("coupling/pull_joint1", sources)
         picture = self.folder / "both.png"
-        done = run("render", made["E3"]["recording"], "--beside", made["E4"]["recording"], "--png",
-                   picture, "--plot", "lag", "--size", "320x200", timeout=TIMEOUT)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.twinarm("render", made["E3"]["recording"], "--beside", made["E4"]["recording"], "--png", picture, "--plot",
+                     "lag", "--size", "320x200")
         self.assertTrue(picture.exists())
 
-    # Help
+    # Bad names
 
     def commands(self):
         lines = run("--help").stdout.split("Subcommands:")[1].splitlines()
         return [line.split()[0] for line in lines if line.startswith("  ") and line[2] != " "]
-
-    def test_help_of_the_program_and_of_every_command_ends_with_0_and_shows_an_example(self):
-        self.assertGreaterEqual(len(self.commands()), 3)
-        for command in [[], *([c] for c in self.commands())]:
-            result = run(*command, "--help")
-            self.assertEqual(result.returncode, 0)
-            self.assertIn("Example:  twinarm", result.stdout)
-            self.assertEqual(result.stderr, "")
-
-    # Bad options
-
-    def test_an_unknown_option_or_value_ends_with_2_and_is_named(self):
-        for arguments, named in ((["study", "--speed", "3"], "--speed"),
-                                 (["study", "--device", "mouse"], "mouse"),
-                                 (["study", "--seed", "many"], "many"),
-                                 (["trace", "--out", "/tmp/x.csv", "--rate", "-5"], "--rate"),
-                                 (["fly"], "'fly'"), (["simulat"], "'simulate'")):
-            result = run(*arguments)
-            self.assertEqual(result.returncode, 2, arguments)
-            self.assertIn(named, result.stderr)
-
-    def test_no_command_or_a_missing_required_option_ends_with_2(self):
-        for arguments in ([], ["trace"], ["make-robot"], ["dynamics"], ["simulate"]):
-            self.assertEqual(run(*arguments).returncode, 2, arguments)
 
     def test_an_empty_name_of_a_file_is_refused_whichever_option_it_is_given_to(self):
         files = ("out", "trace", "assets", "state", "html", "png", "frames", "mp4", "gif", "beside",
@@ -168,18 +119,13 @@ class CommandLine(unittest.TestCase):
     def study(self, *arguments):
         return run("study", "--out", self.folder / "out", *arguments)
 
-    def test_a_trace_that_is_not_there_is_named(self):
-        self.refused(self.study("--trace", self.folder / "nowhere.csv"), "nowhere.csv")
-        self.refused(self.study("--device", "trace"), "--trace")
-        self.assertEqual(self.written(), [])
-
     def test_all_columns_that_a_trace_lacks_are_named(self):
-        file = self.trace("t[s],theta1[rad],theta3[deg],theta4\n0,0,0,0\n1,0,0,0\n")
+        file = self.write("hand.csv", "t[s],theta1[rad],theta3[deg],theta4\n0,0,0,0\n1,0,0,0\n")
         self.refused(self.study("--trace", file), "hand.csv:1", "theta2[rad]", "theta4[rad]",
                      "theta5[rad]", "theta6[rad]")
 
     def test_all_bad_lines_of_a_trace_are_named_with_their_numbers(self):
-        file = self.trace(HEADER + "0,0,0,0,0,0,0\n0.1,0,nan,0,0,0,0\n0.2,0,0,0,0,0,0\n"
+        file = self.write("hand.csv", HAND_COLUMNS + "0,0,0,0,0,0,0\n0.1,0,nan,0,0,0,0\n0.2,0,0,0,0,0,0\n"
                           "0.15,0,0,0,0,0,0\n0.3,0,0,0,text,0,0\n0.4,0,0,0,0,0,0\n")
         result = self.study("--trace", file)
         self.refused(result, "hand.csv:3", "nan", "hand.csv:5", "0.15", "hand.csv:6", "text")
@@ -188,7 +134,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(self.written(), ["hand.csv"])
 
     def test_faults_come_as_one_json_object_when_json_is_asked_for(self):
-        file = self.trace(HEADER + "0,0,0,0,0,0,0\n1,x,0,0,0,0,0\n1.5,0,y,0,0,0,0\n")
+        file = self.write("hand.csv", HAND_COLUMNS + "0,0,0,0,0,0,0\n1,x,0,0,0,0,0\n1.5,0,y,0,0,0,0\n")
         result = self.study("--json", "--trace", file)
         self.refused(result, "hand.csv:3", "hand.csv:4")
         errors = json.loads(result.stdout)["errors"]
@@ -206,9 +152,6 @@ class CommandLine(unittest.TestCase):
         self.assertLess(processor_time_of_ended() - before, 5)
         self.assertEqual(file.read_text(), "a file")
         self.assertEqual(self.written(), ["taken"])
-
-    def test_assets_that_are_not_there_are_named(self):
-        self.refused(self.study("--assets", self.folder / "none"), str(self.folder / "none"))
 
     def test_two_faults_of_a_robot_are_told_at_once_with_their_lines(self):
         assets = self.copy_of_assets()
@@ -232,8 +175,7 @@ class CommandLine(unittest.TestCase):
     def test_a_trace_is_written_whole_the_same_for_the_same_seed_and_another_for_another(self):
         files = [self.folder / name for name in ("a.csv", "b.csv", "c.csv")]
         for file, seed in zip(files, (5, 5, 6)):
-            result = run("trace", "--seed", seed, "--duration", 2, "--rate", 50, "--out", file)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            self.twinarm("trace", "--seed", seed, "--duration", 2, "--rate", 50, "--out", file)
         a, b, c = (file.read_text() for file in files)
         self.assertEqual(a, b)
         self.assertNotEqual(a, c)
@@ -242,33 +184,30 @@ class CommandLine(unittest.TestCase):
 
     # Ctrl-C
 
-    def interrupted(self, *arguments, after):
+    def interrupted_study(self, *words, after):
         """By Ctrl-C after so many seconds of processor time; it takes at most ten more to end."""
-        before = processor_time_of_ended()
-        process = subprocess.Popen([PROGRAM, "study", "--out", str(self.folder / "out"),
-                                    *map(str, arguments)], stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, text=True, cwd=ASSETS.parent)
-        wait_for_work(process, after)
-        process.send_signal(signal.SIGINT)
-        used = processor_time(process)
-        out, err = process.communicate(timeout=TIMEOUT)
-        self.assertEqual(process.returncode, 130, out + err)
+        before, used = processor_time_of_ended(), 0
+
+        def is_ready(process):
+            nonlocal used
+            used = processor_time(process)
+            return used > after
+        _, err = self.interrupted("study", "--out", self.folder / "out", *words, is_ready=is_ready)
         self.assertLess(processor_time_of_ended() - before - used, 10)
         self.assertIn("interrupted", err)
         self.assertEqual([name for name in self.written() if name.endswith(".tmp")], [])
 
     def test_ctrl_c_in_a_study_ends_with_130_and_leaves_no_half_written_file(self):
-        self.interrupted(after=0.7)
-        self.interrupted(after=2.0)
+        self.interrupted_study(after=0.7)
+        self.interrupted_study(after=2.0)
 
     def test_ctrl_c_in_a_calibration_ends_with_130_and_leaves_the_old_one_as_it_was(self):
         assets = self.copy_of_assets()
         calibration = assets / "study" / "calibration.json"
         before = calibration.read_bytes()
-        self.interrupted("--recalibrate", "--assets", assets, after=1.5)
+        self.interrupted_study("--recalibrate", "--assets", assets, after=1.5)
         self.assertEqual(calibration.read_bytes(), before)
 
 
 if __name__ == "__main__":
-    PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

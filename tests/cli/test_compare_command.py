@@ -9,23 +9,18 @@ import json
 import os
 import pathlib
 import re
-import signal
-import subprocess
-import sys
 import tempfile
 import unittest
 
-from waiting import TIMEOUT, wait_for_work  # noqa: E402
-
-PROGRAM = ""
-
-
-def run(*arguments, timeout=TIMEOUT, **more):
-    return subprocess.run([PROGRAM, "compare", *arguments], capture_output=True, text=True,
-                          timeout=timeout, **more)
+import program
+from program import ROOT, ProgramTest, main
 
 
-class Compare(unittest.TestCase):
+def run(*arguments, **more):
+    return program.run("compare", *arguments, **more)
+
+
+class Compare(ProgramTest):
     def answer(self, *arguments):
         result = run(*arguments, "--json")
         self.assertEqual(result.stderr, "")
@@ -127,30 +122,12 @@ class Compare(unittest.TestCase):
                         <= set(rows))
         self.assertAlmostEqual(rows["F3-joint"]["order"], 4, delta=0.2)
 
-    def test_wrong_lanes_are_told_together_with_wrong_names(self):
-        result = run("A11", "--integrator", "rk5", "--step", "0,0.1", "--json")
-        errors = json.loads(result.stdout)["errors"]
-        self.assertEqual((result.returncode, len(errors)), (2, 3), errors)
-        self.assertIn("A1", errors[0]["remedy"])
-        self.assertIn("rk4", errors[1]["remedy"])
-
-    def test_all_unknown_names_are_told_at_once_with_the_nearest_and_nothing_runs(self):
-        result = run("E6-tow", "D7", "D77", "--group", "lops", "--json")
-        self.assertEqual(result.returncode, 2)
-        errors = json.loads(result.stdout)["errors"]
-        self.assertEqual(len(errors), 3, errors)
-        self.assertIn("E6-two", errors[0]["remedy"])
-        self.assertIn("loops", errors[2]["remedy"])
-        self.assertEqual(len(result.stderr.splitlines()), 3)
-
-    def test_ctrl_c_ends_it_with_130_and_no_half_answer(self):
-        process = subprocess.Popen([PROGRAM, "compare", "--json"], stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, text=True)
-        wait_for_work(process, 0.3)
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=TIMEOUT)
-        self.assertEqual((process.returncode, out), (130, ""), err)
+    def test_ctrl_c_ends_it_with_130_no_half_answer_and_no_page(self):
+        out, err = self.interrupted("compare", "--json")
+        self.assertEqual(out, "")
         self.assertIn("interrupted", err)
+        self.interrupted("compare", "--html", self.folder / "out")
+        self.assertEqual(list(self.folder.iterdir()), [])
 
 
 class Tags(html.parser.HTMLParser):
@@ -214,7 +191,7 @@ class Page(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.out = pathlib.Path(cls.folder.name) / "not" / "yet"
-        cls.result = run(*cls.NAMES, "--html", str(cls.out), "--json", timeout=600)
+        cls.result = run(*cls.NAMES, "--html", cls.out, "--json")
         cls.answer = json.loads(cls.result.stdout)
         cls.page = (cls.out / "compare.html").read_text(encoding="utf-8")
         cls.tags = Tags(cls.page)
@@ -303,8 +280,7 @@ class Page(unittest.TestCase):
         self.assertAlmostEqual(slope, order, delta=0.01)
 
     def test_every_contact_case_is_drawn_but_the_one_where_nothing_moves(self):
-        root = pathlib.Path(__file__).resolve().parents[2]
-        cases = "".join(p.read_text() for p in root.glob("benchmarks/analytic/contact/*.cpp"))
+        cases = "".join(p.read_text() for p in ROOT.glob("benchmarks/analytic/contact/*.cpp"))
         drawn = {}
         for call in cases.split("contact_case<")[1:]:
             drawn[re.search(r'^[^>]+>\(\s*"([^"]+)"', call).group(1)] = "ContactLook{" in call
@@ -330,9 +306,8 @@ class Page(unittest.TestCase):
 
 class Guide(unittest.TestCase):
     def test_the_worked_example_of_the_guide_is_the_one_that_is_compiled(self):
-        root = pathlib.Path(__file__).resolve().parents[2]
-        guide = (root / "docs/adding_a_case.md").read_text(encoding="utf-8")
-        example = (root / "tests/benchmarks/analytic/registry/example_case.cpp").read_text(encoding="utf-8")
+        guide = (ROOT / "docs/adding_a_case.md").read_text(encoding="utf-8")
+        example = (ROOT / "tests/benchmarks/analytic/registry/example_case.cpp").read_text(encoding="utf-8")
         lines = {line.strip() for line in example.splitlines()}
         blocks = re.findall(r"^ +```cpp\n(.*?)^ +```", guide, re.S | re.M)
         self.assertEqual(len(blocks), 4)
@@ -342,29 +317,11 @@ class Guide(unittest.TestCase):
 
 
 class PageFaults(unittest.TestCase):
-    def test_a_folder_that_cannot_be_written_is_told_before_anything_runs(self):
-        with tempfile.NamedTemporaryFile() as file:
-            result = run("D77", "--html", file.name + "/out", "--json")
-        errors = json.loads(result.stdout)["errors"]
-        self.assertEqual((result.returncode, len(errors)), (2, 2), errors)
-        self.assertIn("is not a folder", errors[1]["rule"])
-        self.assertIn("--html", errors[1]["remedy"])
-
     def test_without_gnuplot_the_remedy_is_to_install_it(self):
         with tempfile.TemporaryDirectory() as folder:
             result = run("D7", "--html", folder, env={**os.environ, "PATH": folder})
             self.assertEqual((result.returncode, result.stdout), (2, ""))
             self.assertIn("install gnuplot-nox", result.stderr)
-            self.assertEqual(os.listdir(folder), [])
-
-    def test_ctrl_c_leaves_no_page(self):
-        with tempfile.TemporaryDirectory() as folder:
-            process = subprocess.Popen([PROGRAM, "compare", "--html", folder + "/out"],
-                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            wait_for_work(process, 0.3)
-            process.send_signal(signal.SIGINT)
-            out, err = process.communicate(timeout=TIMEOUT)
-            self.assertEqual((process.returncode, out), (130, ""), err)
             self.assertEqual(os.listdir(folder), [])
 
     def test_a_file_name_may_be_given_in_place_of_a_folder(self):
@@ -375,5 +332,4 @@ class PageFaults(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

@@ -4,13 +4,10 @@
     test_drift_warning.py PATH/TO/twinarm
 """
 import json
-import pathlib
-import subprocess
-import sys
-import unittest
+import re
 
-import robot_command
-from robot_command import joint, link, robot
+from program import data, main
+from robot_command import RobotCommand, joint, link, robot
 
 BOX = '<collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>'
 
@@ -23,35 +20,18 @@ def arm():
                  joint("j2", "continuous", "a", "b", xyz="0.5 0 0", axis="0.6 0 0.8"))
 
 
-SCENE = """gravity = [0, 0, %s]
-duration = 0.01
-%s
-[[robot]]
-name = "r"
-model = "arm.urdf"
-%s
-position = [1, 2, 3]
-linear_velocity = [0.5, -0.2, 0.1]
-angular_velocity = [1, 2, -1.5]
-q = { j1 = 0.3, j2 = -0.8 }
-qd = { j1 = 3, j2 = -5 }
-"""
-FLOATS = 'base = "floating"'
+def scene(gravity=0, without="nothing"):
+    """Without the keys of the robot that the expression matches."""
+    return re.sub(rf"(?m)^({without}) = .*\n", "", data("floating_arm.toml", gravity=[0, 0, gravity]))
 
 
-class DriftWarning(robot_command.RobotCommand):
+class DriftWarning(RobotCommand):
     command = "simulate"
 
-    def simulate(self, *options, urdf=None, gravity=0, base=FLOATS, keys=""):
-        (self.folder / "arm.urdf").write_text(urdf or arm())
-        scene = self.folder / "scene.toml"
-        text = SCENE % (gravity, keys, base)
-        if base != FLOATS:
-            text = "".join(line for line in text.splitlines(True) if "r_velocity" not in line)
-        scene.write_text(text)
-        result = subprocess.run([robot_command.PROGRAM, "simulate", str(scene), "--json",
-                                 *map(str, options)], capture_output=True, text=True, timeout=300)
-        self.assertEqual(result.returncode, 0, result.stderr)
+    def simulate(self, *options, urdf=None, gravity=0, without="nothing", more=""):
+        self.write("arm.urdf", urdf or arm())
+        text = scene(gravity, without) + more
+        result = self.twinarm("simulate", self.write("scene.toml", text), "--json", *options)
         answer = json.loads(result.stdout)
         warnings = [w for w in answer["warnings"] if "floating base" in w]
         self.assertEqual("floating base" in result.stderr, bool(warnings))
@@ -79,27 +59,20 @@ class DriftWarning(robot_command.RobotCommand):
         for integrator in ("rk4", "implicit-midpoint", "verlet", "dopri5"):
             self.assertEqual(self.simulate("--integrator", integrator)[1], [], integrator)
         self.assertEqual(self.simulate("--contact", "event")[1], [])
-        self.assertEqual(self.simulate(base="")[1], [])
+        self.assertEqual(self.simulate(without="base|\\w+_velocity")[1], [])
         self.assertEqual(len(self.simulate(gravity=-9.81)[1]), 1)  # it falls, and nothing is there
-        stiff = arm().replace('type="continuous"', 'type="fixed"')
-        (self.folder / "arm.urdf").write_text(stiff)
-        scene = self.folder / "scene.toml"
-        scene.write_text("".join(line for line in (SCENE % (0, "", FLOATS)).splitlines(True)
-                                 if not line.startswith("q")))
-        result = subprocess.run([robot_command.PROGRAM, "simulate", str(scene)],
-                                capture_output=True, text=True, timeout=60)
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.write("arm.urdf", arm().replace('type="continuous"', 'type="fixed"'))
+        self.assertEqual(self.twinarm("simulate", self.write("scene.toml", scene(without="q|qd"))).stderr, "")
 
     def test_where_shapes_may_touch_the_remedy_is_event_steps_and_gravity_silences_it(self):
         urdf = arm().replace("</link>", BOX)
-        floor = ('[[body]]\nname = "floor"\nfixed = true\n'
-                 'shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }\n')
-        _, warnings = self.simulate(urdf=urdf, keys=floor)
+        floor = data("floor.toml")
+        _, warnings = self.simulate(urdf=urdf, more=floor)
         self.assertEqual(len(warnings), 1)
         self.assertIn("--contact event", warnings[0])
         self.assertNotIn("rk4", warnings[0])
-        self.assertEqual(self.simulate(urdf=urdf, keys=floor, gravity=-9.81)[1], [])
-        self.assertEqual(self.simulate("--contact", "event", urdf=urdf, keys=floor)[1], [])
+        self.assertEqual(self.simulate(urdf=urdf, more=floor, gravity=-9.81)[1], [])
+        self.assertEqual(self.simulate("--contact", "event", urdf=urdf, more=floor)[1], [])
 
     def test_a_floating_urdf_alone_is_warned_of_too(self):
         result = self.run_it(arm(), "--floating", "--duration", 0.1, "--json")
@@ -108,5 +81,4 @@ class DriftWarning(robot_command.RobotCommand):
 
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
-    unittest.main()
+    main()

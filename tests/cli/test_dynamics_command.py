@@ -4,12 +4,9 @@
     test_dynamics_command.py PATH/TO/twinarm
 """
 import math
-import os
-import sys
-import unittest
 
-import robot_command
-from robot_command import (COM, INERTIA, MASS, PENDULUM, ROOT, RobotCommand, add, cross, dot,
+from program import ROOT, main
+from robot_command import (COM, INERTIA, MASS, PENDULUM, RobotCommand, add, cross, dot,
                            from_quaternion, inertia_about_origin, joint, link, one_body, robot,
                            rotation, scale, symmetric, times, transpose, unit)
 
@@ -223,5 +220,4 @@ class ClosedForms(RobotCommand):
 
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

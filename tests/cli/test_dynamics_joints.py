@@ -5,11 +5,8 @@
 """
 import cmath
 import math
-import os
-import sys
-import unittest
 
-import robot_command
+from program import main
 from robot_command import (COM, INERTIA, MASS, RobotCommand, add, cross, dot, joint, link, robot,
                            rotation, scale, symmetric, times, transpose, unit)
 
@@ -123,5 +120,4 @@ class JointsByLagrange(RobotCommand):
 
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

@@ -6,22 +6,18 @@ writes says then, with which code it ends, and that nothing half is left.
 """
 import json
 import os
-import pathlib
 import resource
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
-import time
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-from whole_files import check_whole, recorded_blocks  # noqa: E402
-from writers import PENDULUM, ROBOT, SCENES, WRITERS  # noqa: E402
-from waiting import TIMEOUT  # noqa: E402
+import program
+from program import SCENES, main, start
+from waiting import TIMEOUT, wait_while_running
+from whole_files import check_whole, recorded_blocks
+from writers import PENDULUM, ROBOT, WRITERS, WritersTest
 
-PROGRAM = ""
 NOBODY = 65534
 BAD_INPUT = 2  # docs/command_line.md
 # Mounts a disk, fills it, runs the rest there, and copies out what is left.
@@ -40,18 +36,12 @@ def can_mount():
         if shutil.which("unshare") else False
 
 
-class Case(unittest.TestCase):
+class Case(WritersTest):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory(prefix="twinarm-faults-")
-        self.addCleanup(holder.cleanup)
-        self.base = pathlib.Path(holder.name)
+        super().setUp()
         self.base.chmod(0o755)
-        self.folder = self.base / "here"
-        self.folder.mkdir()
         self.environment = dict(os.environ, TMPDIR=str(self.base))
-        # Inputs that some of the commands read.
-        subprocess.run([PROGRAM, "simulate", PENDULUM, "--record", self.base / "run.twinrec"], check=True,
-                       capture_output=True, timeout=TIMEOUT)
+        self.record_pendulum()  # some of the commands read it
 
     def run_it(self, words, **more):
         return subprocess.run([str(w) for w in words], capture_output=True, text=True, timeout=TIMEOUT, cwd=self.folder,
@@ -74,11 +64,10 @@ class FullDisk(Case):
     def test_where_the_disk_is_full_each_command_says_so_and_leaves_nothing_half(self):
         for name, (words, may_be_left) in WRITERS.items():
             with self.subTest(name):
-                if name == "film" and not shutil.which("ffmpeg"):
-                    self.skipTest("ffmpeg is not installed: scripts/setup --film")
+                self.need_ffmpeg(words)
                 left = self.base / f"left of {name}"
                 left.mkdir()
-                done = self.run_it(["unshare", "-rm", "sh", "-c", ON_FULL_DISK, self.folder, left, PROGRAM,
+                done = self.run_it(["unshare", "-rm", "sh", "-c", ON_FULL_DISK, self.folder, left, program.PROGRAM,
                                     *words])
                 self.told_well(name, done)
                 self.nothing_half(name, left, may_be_left)
@@ -88,7 +77,7 @@ class FullDisk(Case):
         for name in ("recording", "map", "picture", "trace", "hand"):
             words, may_be_left = WRITERS[name]
             with self.subTest(name):
-                done = self.run_it([PROGRAM, *words], preexec_fn=lambda: resource.setrlimit(
+                done = self.run_it([program.PROGRAM, *words], preexec_fn=lambda: resource.setrlimit(
                     resource.RLIMIT_FSIZE, (400, 400)))
                 self.told_well(name, done)
                 self.nothing_half(name, self.folder, may_be_left)
@@ -97,29 +86,26 @@ class FullDisk(Case):
 
     def test_a_recording_for_which_there_is_no_more_room_keeps_its_frames(self):
         limit = 100_000
-        done = self.run_it([PROGRAM, "simulate", SCENES / "box_stack.toml", "--duration", "0.5", "--record", "run"],
+        done = self.run_it([program.PROGRAM, "simulate", SCENES / "box_stack.toml", "--duration", 0.5, "--record", "run"],
                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
         self.told_well("recording", done)
         self.assertIn("has room", done.stderr)
         self.assertFalse((self.folder / "run").exists())
         kinds = [kind for kind, _, _ in recorded_blocks((self.folder / "run.part").read_bytes())]
         self.assertGreater(kinds.count("F"), 2)
-        read = self.run_it([PROGRAM, "export", "run", "--json"])
+        read = self.run_it([program.PROGRAM, "export", "run", "--json"])
         self.assertEqual(len(json.loads(read.stdout)["frames"]), kinds.count("F"))
         self.assertIn("run.part", read.stderr)
 
     def test_a_recording_whose_name_was_taken_meanwhile_is_told_and_kept(self):
         """By a folder, while the run waits for somebody to read its table."""
-        program = subprocess.Popen([PROGRAM, "simulate", str(SCENES / "box_stack.toml"), "--duration", "0.5", "--csv",
-                                    "--every", "0.001", "--record", "run.twinrec"], stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, text=True, cwd=self.folder)
-        program.stdout.readline()
-        while not (self.folder / "run.twinrec.part").exists():
-            self.assertIsNone(program.poll())
-            time.sleep(0.01)
+        process = start("simulate", SCENES / "box_stack.toml", "--duration", 0.5, "--csv", "--every", 0.001, "--record",
+                        "run.twinrec", cwd=self.folder)
+        process.stdout.readline()
+        wait_while_running(process, (self.folder / "run.twinrec.part").exists, "a recording that has begun")
         (self.folder / "run.twinrec").mkdir()
-        _, told = program.communicate(timeout=TIMEOUT)
-        self.told_well("recording", subprocess.CompletedProcess([], program.returncode, "", told))
+        _, told = process.communicate(timeout=TIMEOUT)
+        self.told_well("recording", subprocess.CompletedProcess([], process.returncode, "", told))
         self.assertIn("run.twinrec", told)
         data = (self.folder / "run.twinrec.part").read_bytes()
         self.assertEqual(recorded_blocks(data)[-1][2], len(data))
@@ -130,9 +116,9 @@ class ReadOnly(Case):
         """Root may write anywhere; so another user tries."""
         if os.getuid() != 0:
             return {}
-        probe = self.run_it([PROGRAM, "--help"], user=NOBODY, group=NOBODY, extra_groups=[])
+        probe = self.run_it([program.PROGRAM, "--help"], user=NOBODY, group=NOBODY, extra_groups=[])
         if probe.returncode != 0:
-            self.skipTest(f"root may write anywhere, and user {NOBODY} cannot run {PROGRAM}")
+            self.skipTest(f"root may write anywhere, and user {NOBODY} cannot run {program.PROGRAM}")
         return {"user": NOBODY, "group": NOBODY, "extra_groups": []}
 
     def test_where_the_folder_is_read_only_each_command_says_so_before_its_work_and_leaves_nothing(self):
@@ -141,9 +127,8 @@ class ReadOnly(Case):
         self.addCleanup(self.folder.chmod, 0o755)
         for name, (words, _) in WRITERS.items():
             with self.subTest(name):
-                if name == "film" and not shutil.which("ffmpeg"):
-                    self.skipTest("ffmpeg is not installed: scripts/setup --film")
-                self.told_well(name, self.run_it([PROGRAM, *words], **who))
+                self.need_ffmpeg(words)
+                self.told_well(name, self.run_it([program.PROGRAM, *words], **who))
                 self.assertEqual(list(self.folder.iterdir()), [])
                 self.assertEqual(list(self.base.glob("work.*")), [])  # a map would begin with it
 
@@ -154,7 +139,7 @@ class ReadOnly(Case):
         for words in (["render", PENDULUM, "--png", "p.png", "--quality", "best"],
                       ["render", PENDULUM, "--mp4", "p.mp4", "--quality", "best"],
                       ["inspect", ROBOT, "--html", "robot.html", "--at", 0]):
-            done = self.run_it([PROGRAM, *words], **who)
+            done = self.run_it([program.PROGRAM, *words], **who)
             self.told_well(words[0], done)
             self.assertIn(f"{words[3]}: the file cannot be written", done.stderr)
             self.assertIn(words[4], done.stderr)
@@ -179,20 +164,22 @@ class Streams(Case):
                 ["dynamics", ROBOT], ["compare", "A1", "--json"], ["--help"], ["--version"], ["simulate", "--help"],
                 ["help", "simulate"])
 
+    def run_in_shell(self, words, redirections):
+        command = " ".join(f"'{word}'" for word in [program.PROGRAM, *words])
+        return self.run_it(["sh", "-c", f"{command} {redirections}"])
+
     def test_what_cannot_be_printed_is_told(self):
         for words in self.PRINTING:
             with self.subTest(words):
                 for stdout in ("/dev/full", None):
-                    command = " ".join(f"'{w}'" for w in [PROGRAM, *words]) + (f" > {stdout}" if stdout else " >&-")
-                    done = self.run_it(["sh", "-c", command])
+                    done = self.run_in_shell(words, f"> {stdout}" if stdout else ">&-")
                     self.told_well(words, done)
                     self.assertIn("stdout", done.stderr)
 
     def test_what_is_printed_never_goes_into_a_file_that_is_open(self):
         """With stdout closed the next file has its number."""
         for closed in (">&-", "<&- >&-", "<&- >&- 2>&-"):
-            self.run_it(["sh", "-c", f"'{PROGRAM}' simulate '{PENDULUM}' --csv --every 0.02 --record run.twinrec "
-                         + closed])
+            self.run_in_shell(["simulate", PENDULUM, "--csv", "--every", 0.02, "--record", "run.twinrec"], closed)
             (file,) = self.folder.iterdir()  # run.twinrec.part, where printing has ended the run
             data = file.read_bytes()
             self.assertEqual(recorded_blocks(data)[-1][2], len(data), closed)
@@ -200,41 +187,37 @@ class Streams(Case):
 
     def test_what_is_said_never_goes_into_a_file_that_is_open(self):
         """An alarm, said while the run is recorded, that has nowhere to go."""
-        words = [PROGRAM, "simulate", str(SCENES / "tracking_map.toml"), "--step", "0.01", "--record", "run.twinrec"]
-        self.assertIn("alarm", self.run_it(words).stderr)
+        words = ["simulate", SCENES / "tracking_map.toml", "--step", 0.01, "--record", "run.twinrec"]
+        self.assertIn("alarm", self.run_in_shell(words, "").stderr)
         heard = (self.folder / "run.twinrec").read_bytes()
         for closed in ("2>&-", "<&- 2>&-"):
-            self.run_it(["sh", "-c", " ".join(f"'{w}'" for w in words) + " " + closed])
+            self.run_in_shell(words, closed)
             self.assertTrue((self.folder / "run.twinrec").read_bytes() == heard, closed)
 
     def test_nobody_needs_to_read_what_is_said_on_stderr(self):
         for stderr in ("2>&-", "2>/dev/full"):
-            done = self.run_it(["sh", "-c", f"'{PROGRAM}' render '{PENDULUM}' --frames film --to 0.1 --size 64x48 "
-                                + stderr])
+            done = self.run_in_shell(["render", PENDULUM, "--frames", "film", "--to", 0.1, "--size", "64x48"], stderr)
             self.assertEqual(done.returncode, 0)
-            done = self.run_it(["sh", "-c", f"'{PROGRAM}' simulate nowhere.toml {stderr}"])
-            self.assertEqual(done.returncode, BAD_INPUT)
+            self.assertEqual(self.run_in_shell(["simulate", "nowhere.toml"], stderr).returncode, BAD_INPUT)
 
     def test_stdin_may_be_closed(self):
-        done = self.run_it(["sh", "-c", f"'{PROGRAM}' simulate '{PENDULUM}' --json --record run.twinrec <&-"])
+        done = self.run_in_shell(["simulate", PENDULUM, "--json", "--record", "run.twinrec"], "<&-")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         check_whole(self.folder / "run.twinrec")
 
     def test_a_reader_that_goes_away_ends_it_and_the_recording_can_be_read(self):
-        program = subprocess.Popen([PROGRAM, "simulate", str(SCENES / "box_stack.toml"), "--csv", "--every", "0.001",
-                                    "--record", "run.twinrec"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   cwd=self.folder)
+        process = start("simulate", SCENES / "box_stack.toml", "--csv", "--every", 0.001, "--record", "run.twinrec",
+                        cwd=self.folder)
         for _ in range(500):
-            program.stdout.readline()
-        program.stdout.close()
-        self.assertEqual(program.stderr.read(), b"")
-        program.stderr.close()
-        self.assertEqual(program.wait(60), -signal.SIGPIPE)
+            process.stdout.readline()
+        process.stdout.close()
+        self.assertEqual(process.stderr.read(), "")
+        process.stderr.close()
+        self.assertEqual(process.wait(TIMEOUT), -signal.SIGPIPE)
         self.assertFalse((self.folder / "run.twinrec").exists())
-        read = self.run_it([PROGRAM, "replay", "run.twinrec", "--json"])
+        read = self.run_it([program.PROGRAM, "replay", "run.twinrec", "--json"])
         self.assertTrue(json.loads(read.stdout)["bit_exact"])
 
 
 if __name__ == "__main__":
-    PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

@@ -13,38 +13,23 @@ import signal
 import socket
 import struct
 import subprocess
-import sys
-import tempfile
-import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-from live_socket import Lab  # noqa: E402
-from waiting import TIMEOUT, processor_time, wait_for, wait_while_running  # noqa: E402
-from whole_files import check_whole  # noqa: E402
-from writers import PENDULUM, SCENES, SMALL, WRITERS  # noqa: E402
+from lab_test import Running
+from live_socket import Lab
+from program import ROOT, SCENES, main, run, start
+from waiting import TIMEOUT, processor_time, wait_for, wait_while_running
+from whole_files import check_whole
+from writers import PENDULUM, SMALL, WRITERS, WritersTest
 
-PROGRAM = ""
 HAND, LONG = SCENES / "hand_and_obstacles.toml", SCENES / "robot_beside_obstacles.toml"
 BAD_INPUT = 2  # docs/command_line.md
 NEED_GNUPLOT = ("picture of a map", "fork", "cases", "study")
 DAY = 86400
 
 
-class Case(unittest.TestCase):
-    def need_ffmpeg(self):
-        if not shutil.which("ffmpeg"):
-            self.skipTest("ffmpeg is not installed: scripts/setup --film")
-
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory(prefix="twinarm-faults-")
-        self.addCleanup(holder.cleanup)
-        self.base = pathlib.Path(holder.name)
-        self.folder = self.base / "here"
-        self.folder.mkdir()
-
+class Case(WritersTest):
     def run_it(self, *words, folder=None, **environment):
-        return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=TIMEOUT,
-                              cwd=folder or self.folder, env=dict(os.environ, **environment))
+        return run(*words, cwd=folder or self.folder, env=dict(os.environ, **environment))
 
     def succeeds(self, *words, **more):
         done = self.run_it(*words, **more)
@@ -55,9 +40,6 @@ class Case(unittest.TestCase):
         done = self.run_it(*words, **more)
         self.assertEqual(done.returncode, BAD_INPUT, f"{words}: {done.stderr[-800:]}")
         return done.stderr
-
-    def record_pendulum(self):
-        self.succeeds("simulate", PENDULUM, "--record", self.base / "run.twinrec")
 
 
 class Missing(Case):
@@ -96,8 +78,7 @@ class Strange(Case):
                             (["render", scene, "--mp4", "Film ß.mp4", "--to", 0.1, *SMALL], "Film ß.mp4"),
                             (["trace", "--out", "Spur ø.csv"], "Spur ø.csv")):
             with self.subTest(file):
-                if "--mp4" in words:
-                    self.need_ffmpeg()
+                self.need_ffmpeg(words)
                 self.succeeds(*words, folder=folder)
                 check_whole(folder / file)
         self.succeeds("hand", HAND, "--simulated", "--duration", 0.2, "--record", "--out", "Hand ï", folder=folder)
@@ -148,9 +129,8 @@ class Clock(Case):
         jumps.write_text("+0")
         environment = {"LD_PRELOAD": str(faketime), "FAKETIME_TIMESTAMP_FILE": str(jumps), "FAKETIME_NO_CACHE": "1",
                        "DONT_FAKE_MONOTONIC": "1", "FAKETIME_DONT_FAKE_MONOTONIC": "1"}
-        process = subprocess.Popen([PROGRAM, "hand", HAND, "--duration", "2", "--record", "--json", "--out",
-                                    self.folder / "out"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                   env=dict(os.environ, **environment))
+        process = start("hand", HAND, "--duration", 2, "--record", "--json", "--out", self.folder / "out",
+                        env=dict(os.environ, **environment))
         log = self.folder / "out/hand.csv"
         for rows, days in ((500, 1000), (1000, -1000), (1500, 3)):
             wait_for(lambda: process.poll() is not None or (log.exists() and log.read_bytes().count(b"\n") > rows),
@@ -166,11 +146,10 @@ class Clock(Case):
 
 class Pages(Case):
     def lab(self, *more):
-        process = subprocess.Popen([PROGRAM, "lab", PENDULUM, "--json", "--no-browser", *more],
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder)
-        self.addCleanup(process.communicate, timeout=TIMEOUT)
-        self.addCleanup(process.send_signal, signal.SIGINT)  # it takes its temporary folder away
-        return process, json.loads(process.stdout.readline())["url"]
+        running = Running(PENDULUM, *more, cwd=self.folder)
+        self.addCleanup(running.process.communicate, timeout=TIMEOUT)
+        self.addCleanup(running.process.send_signal, signal.SIGINT)  # it takes its temporary folder away
+        return running.process, running.url
 
     def test_a_port_that_is_taken_is_told_with_the_way_out(self):
         with socket.socket() as taken:
@@ -207,7 +186,7 @@ class Pages(Case):
             stays.wait_for("frame", lambda frame: frame.step > step)
             self.assertEqual(lab.get("/save").status, 200)
         process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(30), 0)
+        self.assertEqual(process.wait(TIMEOUT), 0)
         self.assertEqual(process.stderr.read(), "")
 
 
@@ -216,15 +195,14 @@ class Ends(Case):
 
     def struck(self, words, blow, is_ready):
         """As soon as is_ready(process)."""
-        process = subprocess.Popen([PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   text=True, cwd=self.folder, start_new_session=True)
+        process = start(*words, cwd=self.folder, start_new_session=True)
         wait_while_running(process, lambda: is_ready(process), "it is at work")
         os.killpg(process.pid, blow)
         out, told = process.communicate(timeout=TIMEOUT)
         return process.returncode, out, told
 
     def test_a_terminal_that_is_closed_ends_it_as_ctrl_c_does(self):
-        self.need_ffmpeg()
+        self.need_ffmpeg(["--mp4"])
         for file, is_ready in (("film.mp4", lambda _: (self.folder / "film.mp4.part").exists()),
                                ("film.gif", lambda process: processor_time(process) > 1)):  # its file comes at its end
             code, _, _ = self.struck(["render", LONG, "--" + file[-3:], file, "--fps", 1000], signal.SIGHUP, is_ready)
@@ -232,13 +210,9 @@ class Ends(Case):
             self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_under_nohup_a_terminal_that_is_closed_is_none_of_its_business(self):
-        process = subprocess.Popen([PROGRAM, "simulate", LONG, "--record", "run.twinrec"], stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.PIPE, cwd=self.folder,
-                                   preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
-        wait_while_running(process, lambda: list(self.folder.iterdir()), "a recording that has begun")
-        process.send_signal(signal.SIGHUP)
-        _, told = process.communicate(timeout=TIMEOUT)
-        self.assertEqual(process.returncode, 0, told)
+        self.interrupted("simulate", LONG, "--record", "run.twinrec", blow=signal.SIGHUP, code=0, cwd=self.folder,
+                         is_ready=lambda _: list(self.folder.iterdir()),
+                         preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
         check_whole(self.folder / "run.twinrec")
 
     def test_ctrl_c_ends_a_run_under_a_hand_and_its_recording_is_made_all_the_same(self):
@@ -258,5 +232,4 @@ class Ends(Case):
 
 
 if __name__ == "__main__":
-    PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

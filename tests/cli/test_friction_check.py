@@ -4,23 +4,15 @@
     test_friction_check.py PATH/TO/friction_check
 """
 import json
-import pathlib
-import subprocess
-import sys
-import tempfile
-import unittest
 
-PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
+from program import ProgramTest, main, run
+
 UNIT = "0 0 1\n1 1 1\n2 2 1\n"  # W of one contact
 
 
-class FrictionCheck(unittest.TestCase):
+class FrictionCheck(ProgramTest):
     def run_it(self, text):
-        with tempfile.TemporaryDirectory(prefix="twinarm-friction-") as folder:
-            problem = pathlib.Path(folder) / "problem.txt"
-            problem.write_text(text)
-            return subprocess.run([PROGRAM, str(problem)], capture_output=True, text=True,
-                                  timeout=60)
+        return run(self.write("problem.txt", text))
 
     def answer(self, text):
         result = self.run_it(text)
@@ -68,14 +60,12 @@ class FrictionCheck(unittest.TestCase):
             self.assertIn("problem.txt", result.stderr)
 
     def test_help_goes_to_stdout_and_a_missing_file_is_an_error(self):
-        told = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True)
-        self.assertEqual(told.returncode, 0)
-        self.assertIn("usage: friction_check PROBLEM", told.stdout)
+        self.assertIn("usage: friction_check PROBLEM", self.twinarm("--help").stdout)
         for arguments in ([], ["a", "b"], ["no/such/file"]):
-            result = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True)
+            result = run(*arguments)
             self.assertEqual((result.returncode, result.stdout), (2, ""))
             self.assertTrue(result.stderr)
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

@@ -7,15 +7,9 @@ import json
 import math
 import struct
 import tomllib
-import subprocess
-import sys
-import unittest
 
-import robot_command
-from robot_command import ROOT
-from waiting import TIMEOUT
+from program import ROOT, SCENES, ProgramTest, main
 
-SCENES = ROOT / "assets/scenes"
 GALLERY = tomllib.loads((SCENES / "gallery/gallery.toml").read_text())["scene"]
 G = 9.81
 
@@ -28,16 +22,9 @@ def quarter_period(m):
     return math.pi / (2 * a)
 
 
-class Gallery(unittest.TestCase):
-    def twinarm(self, command, model, *options):
-        result = subprocess.run([robot_command.PROGRAM, command, str(model),
-                                 *map(str, options), "--json"], capture_output=True, text=True,
-                                timeout=TIMEOUT, cwd=ROOT)
-        self.assertEqual(result.returncode, 0, result.stdout[:500] + result.stderr)
-        return json.loads(result.stdout)
-
+class Gallery(ProgramTest):
     def simulate(self, scene, *options):
-        return self.twinarm("simulate", SCENES / f"{scene}.toml", *options)
+        return self.json_of("simulate", SCENES / f"{scene}.toml", *options)
 
     def test_each_scene_runs_five_seconds_with_its_energy_in_balance(self):
         names = [scene["file"] for scene in GALLERY]
@@ -114,7 +101,7 @@ class Gallery(unittest.TestCase):
             self.assertAlmostEqual(found, expected, delta=2e-4 * spin)
 
     def test_small_swings_of_the_double_pendulum_have_the_frequencies_of_two_rods(self):
-        answer = self.twinarm("modes", ROOT / "assets/robots/teaching/double_pendulum.urdf")
+        answer = self.json_of("modes", "assets/robots/teaching/double_pendulum.urdf")
         found = [mode["frequency"] for mode in answer["modes"]]
         for omega, sign in zip(found, (-1, 1)):
             self.assertAlmostEqual(omega, math.sqrt((3 + sign * 6 / math.sqrt(7)) * G / 0.5),
@@ -168,5 +155,4 @@ class Gallery(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = sys.argv.pop(1)
-    unittest.main()
+    main()

@@ -8,14 +8,12 @@ import os
 import pathlib
 import resource
 import struct
-import subprocess
-import sys
 import tempfile
-import unittest
 
+import program
 import recording_format as form
+from program import ProgramTest, main
 
-PROGRAM = ""
 GIGABYTE = 1 << 30
 SECONDS = 10  # of processor time; what they take is a tenth of it
 ARM = (b'<robot name="r"><link name="a"/><link name="b"><inertial><mass value="1"/><inertia ixx="1" ixy="0" '
@@ -26,28 +24,21 @@ BALL = b'duration = 0.01\n[[body]]\nname = "ball"\nshape = { sphere = { radius =
 
 def limited():
     """More than the limits is a crash, not a wait."""
-    if "asan" not in PROGRAM:  # sanitizers reserve terabytes of addresses
+    if "asan" not in program.PROGRAM:  # sanitizers reserve terabytes of addresses
         resource.setrlimit(resource.RLIMIT_DATA, (GIGABYTE, GIGABYTE))
     resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
 
 
-class HostileFiles(unittest.TestCase):
-    def setUp(self):
-        self.place = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.place.name)
-        self.addCleanup(self.place.cleanup)
-
+class HostileFiles(ProgramTest):
     def write(self, name, data):
         (self.folder / name).write_bytes(data)
         return self.folder / name
 
     def told(self, *command, code=2):
         """What the program says; it refuses, and does not break."""
-        result = subprocess.run([PROGRAM, *command], capture_output=True, text=True, errors="replace",
-                                preexec_fn=limited, timeout=600, cwd=self.folder)
-        self.assertEqual(result.returncode, code, result.stderr[-2000:])
-        self.assertLess(len(result.stderr), 1 << 20)
-        return result.stderr
+        done = self.twinarm(*command, code=code, errors="replace", preexec_fn=limited, cwd=self.folder)
+        self.assertLess(len(done.stderr), 1 << 20)
+        return done.stderr
 
     def refused(self, words, *command):
         self.assertIn(words, self.told(*command))
@@ -156,5 +147,4 @@ class HostileFiles(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

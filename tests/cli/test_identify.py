@@ -7,14 +7,9 @@ misfit and intervals are computed a second time.
 """
 import json
 import math
-import pathlib
-import subprocess
-import sys
-import unittest
 
-import robot_command
-from robot_command import RobotCommand, dot
-from waiting import TIMEOUT
+from program import ProgramTest, main
+from robot_command import dot
 
 PAPER = {"E3": (16.6, 23.5, 8.6, 5.2), "E4": (3.4, 6.0, 0.3, 0.6)}  # maxima, means [deg]
 RATE = 60
@@ -39,12 +34,9 @@ def coupling(name, kind, link, more, speed):
             f'target = "paper"\nspeed = {speed}\n')
 
 
-class Identify(RobotCommand):
+class Identify(ProgramTest):
     def answer_of(self, question):
-        done = subprocess.run([robot_command.PROGRAM, "study", "--ask", question],
-                              capture_output=True, text=True, timeout=600, cwd=robot_command.ROOT)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return json.loads(done.stdout)
+        return json.loads(self.twinarm("study", "--ask", question).stdout)
 
     def numbers(self, law, values, speed=1.0):
         """Largest and mean errors of joints 1 and 2 [deg], by a scene."""
@@ -60,14 +52,8 @@ class Identify(RobotCommand):
                              f"stiffness = {k * m!r}\ndamping = {2 * k * m / w!r}", speed)
         text += ('[[coupling]]\nname = "stop"\ntype = "torsional"\nmeasure = "joint"\n'
                  'link = "gripper"\noutside = [0.0, 0.06]\nstiffness = 1e5\ndamping = 50.0\n')
-        scene = self.folder / "scene.toml"
-        scene.write_text(text)
-        done = subprocess.run([robot_command.PROGRAM, "simulate", scene, "--every", repr(1 / RATE),
-                               "--json"], capture_output=True, text=True, timeout=TIMEOUT,
-                              cwd=robot_command.ROOT)
-        self.assertEqual(done.returncode, 0, done.stderr)
         errors = [[], []]
-        for sample in json.loads(done.stdout)["samples"]:
+        for sample in self.json_of("simulate", self.write("scene.toml", text), "--every", 1 / RATE)["samples"]:
             target = next(iter(sample["targets"].values()))["q"]
             for j in range(2):
                 name = f"joint{j + 1}"
@@ -151,18 +137,6 @@ class Identify(RobotCommand):
         self.assertEqual([p["name"] for p in found["parameters"]],
                          ["time_constant", "damping_ratio", "arm2_mass_scale"])
 
-    def test_what_is_no_question_is_told_all_at_once(self):
-        for question, words in (("E4", ["ROW/LAW/RATE"]),
-                                ("E5/spring/fast", ["'E5'", "'spring'", "stable-pd", "'fast'"]),
-                                ("E4/linear/0", ["no rate"])):
-            done = subprocess.run([robot_command.PROGRAM, "study", "--ask", question],
-                                  capture_output=True, text=True, timeout=TIMEOUT,
-                                  cwd=robot_command.ROOT)
-            self.assertEqual(done.returncode, 2, done.stdout)
-            for word in words:
-                self.assertIn(word, done.stderr)
-
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
-    unittest.main()
+    main()

@@ -5,116 +5,18 @@
 """
 import json
 import math
-import pathlib
+import os
 import re
 import signal
-import subprocess
-import sys
-import tempfile
 import time
-import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-from live_socket import Frame, Lab  # noqa: E402
-from waiting import TIMEOUT  # noqa: E402
-
-PROGRAM = None
-PENDULUM = """<robot name="rod"><link name="base"/>
-<link name="rod"><inertial><origin xyz="0 0 -0.5"/><mass value="1"/>
-<inertia ixx="0.1" iyy="0.1" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
-<visual><origin xyz="0 0 -0.5"/><geometry><box size="0.1 0.1 1"/></geometry></visual></link>
-<joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint>
-</robot>"""
-SCENE = """duration = 5
-[[robot]]
-name = "rod"
-model = "rod.urdf"
-q = { hinge = 0.7 }
-[[body]]
-name = "ball"
-shape = { sphere = { radius = 0.1 } }
-mass = 1
-position = [2, 0, 3]
-[[body]]
-name = "floor"
-fixed = true
-shape = { halfspace = { normal = [0, 0, 1], offset = -2 } }
-[[coupling]]
-name = "pull"
-type = "torsional"
-measure = "joint"
-link = "rod"
-stiffness = 2000
-damping = 20
-treatment = "explicit"
-target = "device"
-"""
+from lab_test import ROD, SCENE, LabTest, Running
+from live_socket import Lab
+from program import SCENES, ProgramTest, main
+from waiting import TIMEOUT
 
 
-def program(*words, code=0):
-    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=TIMEOUT)
-    assert done.returncode == code, f"{done.returncode}: {done.stdout}{done.stderr}"
-    return done.stdout
-
-
-class Running:
-    """The program with a scene, and its page's address."""
-
-    def __init__(self, scene, *words):
-        self.process = subprocess.Popen([PROGRAM, "lab", str(scene), *words, "--json", "--no-browser"],
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.url = json.loads(self.process.stdout.readline())["url"]
-
-    def end(self, how=signal.SIGINT):
-        self.process.send_signal(how)
-        _, errors = self.process.communicate(timeout=TIMEOUT)
-        return self.process.returncode, errors
-
-
-class LabTest(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.path = pathlib.Path(self.folder.name)
-        (self.path / "rod.urdf").write_text(PENDULUM)
-        self.scene = self.path / "rod.toml"
-        self.scene.write_text(SCENE)
-        self.running = Running(self.scene)
-        self.lab = Lab(self.running.url)
-        self.live = self.lab.live()
-
-    def tearDown(self):
-        self.live.close()
-        self.assertEqual(self.running.end(), (0, ""))
-        self.folder.cleanup()
-
-    def state(self, condition=lambda state: True, live=None):
-        return (live or self.live).wait_for("state", condition)
-
-    def frame(self, condition=lambda frame: True):
-        return self.live.wait_for("frame", condition)
-
-    def stand(self):
-        """The frame at which it stands: one comes, before the state or after it."""
-        self.live.do("play", on=False)
-        self.state(lambda s: not s["playing"])
-        newest = Frame(self.live.newest["frame"])
-        return newest if newest.stands else self.frame(lambda f: f.stands)
-
-    def saved(self, name):
-        file = self.path / name
-        file.write_bytes(self.lab.get("/save").body)
-        return file
-
-    def told(self, state):
-        return " ".join(note["text"] for note in state["notes"])
-
-    def by_step(self, file):
-        """Of a recording: coordinates and link positions by step."""
-        told = json.loads(program("export", file, "--json"))
-        names = [column["name"] for column in told["columns"]]
-        return {frame["step"]: {"t": frame["t"], "values": dict(zip(names, frame["values"]))}
-                for frame in told["frames"]}
-
+class LabCommand(LabTest):
     def test_a_newcomer_is_told_everything(self):
         scene = self.live.wait_for("scene")
         self.assertEqual([layer["name"] for layer in scene["layers"]][0], "bodies")
@@ -136,7 +38,7 @@ class LabTest(unittest.TestCase):
             frame = self.live.wait_for("frame")
             seen[frame.step] = dict(zip(names, frame.channels))
         file = self.saved("run.twinrec")
-        self.assertIn("same bits", program("replay", file))
+        self.assertIn("same bits", self.twinarm("replay", file).stdout)
         recorded = self.by_step(file)
         both = sorted(set(seen) & set(recorded))
         self.assertGreater(len(both), 60)
@@ -266,29 +168,28 @@ class LabTest(unittest.TestCase):
 
     def test_a_robot_is_dropped_onto_the_page(self):
         number = self.live.wait_for("scene")["scene"]
-        self.assertEqual(self.lab.upload("fresh.urdf", PENDULUM, self.live).status, 200)
+        self.assertEqual(self.lab.upload("fresh.urdf", ROD, self.live).status, 200)
         scene = self.live.wait_for("scene", lambda s: s["scene"] > number)
         self.assertEqual(scene["file"], "fresh.urdf")
         self.frame(lambda f: f.scene == scene["scene"])
 
     def test_only_the_page_that_has_control_uploads_files(self):
         with self.lab.live() as other:
-            refused = self.lab.upload("fresh.urdf", PENDULUM, other)
+            refused = self.lab.upload("fresh.urdf", ROD, other)
             self.assertEqual((refused.status, refused.body), (403, b"another page has control; ask for it\n"))
-            self.assertEqual(self.lab.post("/open?name=fresh.urdf", PENDULUM).status, 403)
-            self.assertEqual(self.lab.post("/open?name=fresh.urdf&secret=", PENDULUM).status, 403)
+            self.assertEqual(self.lab.post("/open?name=fresh.urdf", ROD).status, 403)
+            self.assertEqual(self.lab.post("/open?name=fresh.urdf&secret=", ROD).status, 403)
             self.live.do("give", to=self.state(live=other)["you"])
             self.state(lambda s: s["holder"] == s["you"], live=other)
-            self.assertEqual(self.lab.upload("fresh.urdf", PENDULUM, self.live).status, 403)
-            self.assertEqual(self.lab.upload("fresh.urdf", PENDULUM, other).status, 200)
+            self.assertEqual(self.lab.upload("fresh.urdf", ROD, self.live).status, 403)
+            self.assertEqual(self.lab.upload("fresh.urdf", ROD, other).status, 200)
 
     def test_the_scene_with_its_changes_and_the_page_to_share_stand_alone(self):
         self.live.do("set", changes=["coupling[0].stiffness=33"])
         self.state(lambda s: s["changes"])
         text = self.lab.get("/scene").body.decode()
         self.assertIn("33", text)
-        (self.path / "again.toml").write_text(text)
-        program("simulate", self.path / "again.toml", "--json")
+        self.twinarm("simulate", self.write("again.toml", text))
         self.frame(lambda f: f.time > 1)
         page = self.lab.get("/share")
         self.assertEqual(page.status, 200)
@@ -308,7 +209,7 @@ class LabTest(unittest.TestCase):
                 self.assertGreater(found, 0.5 * wanted)
 
 
-class LabLanes(unittest.TestCase):
+class LabLanes(ProgramTest):
     """Runs side by side."""
 
     def start(self, scene, *words):
@@ -357,11 +258,8 @@ class LabLanes(unittest.TestCase):
             self.assertAlmostEqual(max(of(lane, "q/hinge")[i] for i in late), start, delta=0.01)
 
     def test_one_explodes_and_is_said_to_and_comes_back_with_a_branch(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder)
-            (path / "rod.urdf").write_text(PENDULUM)
-            (path / "rod.toml").write_text(SCENE)
-            self.start(path / "rod.toml", "--lanes", "coupling[0].stiffness=200,1e8,3000")
+        self.write("rod.urdf", ROD)
+        self.start(self.write("rod.toml", SCENE), "--lanes", "coupling[0].stiffness=200,1e8,3000")
         self.assertNotIn("coupling[0].stiffness", [k["path"] for k in self.state()["knobs"]])
         stopped = self.state(lambda s: s["lanes"]["stopped"][1])["lanes"]["stopped"]
         self.assertIsNone(stopped[2])
@@ -389,30 +287,27 @@ class LabLanes(unittest.TestCase):
     def test_what_is_saved_is_the_first(self):
         self.start("pendulum", "--lanes", "integrator=rk4,euler")
         last = self.stand_at(100)
-        with tempfile.TemporaryDirectory() as folder:
-            file = pathlib.Path(folder) / "first.twinrec"
-            file.write_bytes(self.lab.get("/save").body)
-            told = json.loads(program("export", file, "--json"))
+        file = self.folder / "first.twinrec"
+        file.write_bytes(self.lab.get("/save").body)
+        told = self.json_of("export", file)
         values = dict(zip([c["name"] for c in told["columns"]], told["frames"][-1]["values"]))
         self.assertEqual(values["q/hinge"], last.channels[self.names.index("lane/q/hinge/rk4")])
         self.assertNotEqual(values["q/hinge"], last.channels[self.names.index("lane/q/hinge/euler")])
         self.assertIn('integrator = "rk4"', self.lab.get("/scene").body.decode())
 
 
-class LabEnds(unittest.TestCase):
+class LabEnds(ProgramTest):
     def test_it_ends_with_0_when_it_is_told_and_leaves_nothing(self):
-        scene = ROOT / "assets/scenes/cradle.toml"
         for how in (signal.SIGINT, signal.SIGTERM):
-            with tempfile.TemporaryDirectory() as folder:
-                running = Running(scene)
-                with Lab(running.url).live() as live:
-                    live.wait_for("frame")
-                self.assertEqual(running.end(how), (0, ""))
+            running = Running("cradle", env=dict(os.environ, TMPDIR=str(self.folder)))
+            with Lab(running.url).live() as live:
+                live.wait_for("frame")
+            self.assertEqual(running.end(how), (0, ""))
+            self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_pages_of_other_machines_open_no_files_and_devices_here(self):
-        scene = ROOT / "assets/scenes/hand_and_obstacles.toml"
         for listen, is_refused in (("0.0.0.0", True), ("127.0.0.1", False)):
-            running = Running(scene, "--listen", listen)
+            running = Running(SCENES / "hand_and_obstacles.toml", "--listen", listen)
             self.addCleanup(running.process.kill)
             with Lab(running.url).live() as live:
                 for spec in ("virtual:trace:/etc/passwd", "gamepad:/dev/nowhere"):
@@ -428,49 +323,39 @@ class LabEnds(unittest.TestCase):
         secret = "the secret of this machine\n"
         body = ('[[body]]\nname = "ball"\nmass = 1\nshape = {{ sphere = {{ radius = 0.1 }} }}\n'
                 'position = [0, 0, 1]\n{}')
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder)
-            (path / "secret.png").write_text(secret)
-            (path / "rod.urdf").write_text(PENDULUM)
-            running = Running(ROOT / "assets/scenes/bouncing_ball.toml", "--listen", "0.0.0.0")
-            self.addCleanup(running.process.kill)
-            lab = Lab(running.url)
-            with lab.live() as live:
-                for name, text in (
-                        ("a.toml", body.format(f'texture = "{path}/secret.png"')),
-                        ("b.toml", body.format(f'texture = "../../..{path}/secret.png"')),
-                        ("c.toml", f'[[robot]]\nname = "rod"\nmodel = "{path}/rod.urdf"'),
-                        ("d.toml", SCENE.replace("rod.urdf", "robots/s103/s103.urdf").replace(
-                            '"device"', f'"{path}/secret.png"')),
-                        ("e.toml", body.format('texture = "/nowhere/secret.png"'))):
-                    reply = lab.upload(name, text, live)
-                    self.assertEqual(reply.status, 422, name)
-                    self.assertIn("is not among those that this scene may read", reply.body.decode(), name)
-                    self.assertNotIn("of this machine", reply.body.decode())
-                mesh = f'<mesh filename="{path}/secret.png"/>'
-                self.assertEqual(lab.upload("f.urdf", re.sub('<box.*?/>', mesh, PENDULUM), live).status, 200)
-                self.assertFalse(secret.encode() in lab.get("/save").body)
-                # What it may name: uploads, and assets.
-                for name, text in (("rod.urdf", PENDULUM), ("g.toml", SCENE),
-                                   ("h.toml", SCENE.replace("rod.urdf", "robots/puma560/puma560.urdf").replace(
-                                       '"rod"', '"link1"').replace("hinge", "j1"))):
-                    reply = lab.upload(name, text, live)
-                    self.assertEqual(reply.status, 200, reply.body)
-                known = live.wait_for("state", lambda s: s["name"] == "h")["notes"]
-                live.do("set", changes=[f"body[0].texture={path}/secret.png"])
-                notes = live.wait_for("state", lambda s: len(s["notes"]) > len(known))["notes"]
-                self.assertIn("is not among those", notes[-1]["text"])
-            running.end()
-
-    def test_bad_words_are_told(self):
-        self.assertIn("does not exist", program("lab", "nowhere.toml", "--json", code=2))
-        for lanes, said in (("integrator", "missing"), ("integrator=rk4", "2 to 7"),
-                            ("integrator=rk4,rk5", "rk5"), ("colour=red,blue", "colour")):
-            self.assertIn(said, program("lab", "pendulum", "--lanes", lanes, "--json", code=2))
-        self.assertIn("--port", program("lab", "--port", "70000", "--json", code=2))
-        self.assertIn("--listen", program("lab", "--listen", "300.1.1.1", "--json", code=2))
+        path = self.folder
+        self.write("secret.png", secret)
+        self.write("rod.urdf", ROD)
+        running = Running(SCENES / "bouncing_ball.toml", "--listen", "0.0.0.0")
+        self.addCleanup(running.process.kill)
+        lab = Lab(running.url)
+        with lab.live() as live:
+            for name, text in (
+                    ("a.toml", body.format(f'texture = "{path}/secret.png"')),
+                    ("b.toml", body.format(f'texture = "../../..{path}/secret.png"')),
+                    ("c.toml", f'[[robot]]\nname = "rod"\nmodel = "{path}/rod.urdf"'),
+                    ("d.toml", SCENE.replace("rod.urdf", "robots/s103/s103.urdf").replace(
+                        '"device"', f'"{path}/secret.png"')),
+                    ("e.toml", body.format('texture = "/nowhere/secret.png"'))):
+                reply = lab.upload(name, text, live)
+                self.assertEqual(reply.status, 422, name)
+                self.assertIn("is not among those that this scene may read", reply.body.decode(), name)
+                self.assertNotIn("of this machine", reply.body.decode())
+            mesh = f'<mesh filename="{path}/secret.png"/>'
+            self.assertEqual(lab.upload("f.urdf", re.sub('<box.*?/>', mesh, ROD), live).status, 200)
+            self.assertFalse(secret.encode() in lab.get("/save").body)
+            # What it may name: uploads, and assets.
+            for name, text in (("rod.urdf", ROD), ("g.toml", SCENE),
+                               ("h.toml", SCENE.replace("rod.urdf", "robots/puma560/puma560.urdf").replace(
+                                   '"rod"', '"link1"').replace("hinge", "j1"))):
+                reply = lab.upload(name, text, live)
+                self.assertEqual(reply.status, 200, reply.body)
+            known = live.wait_for("state", lambda s: s["name"] == "h")["notes"]
+            live.do("set", changes=[f"body[0].texture={path}/secret.png"])
+            notes = live.wait_for("state", lambda s: len(s["notes"]) > len(known))["notes"]
+            self.assertIn("is not among those", notes[-1]["text"])
+        running.end()
 
 
 if __name__ == "__main__":
-    PROGRAM = sys.argv.pop(1)
-    unittest.main()
+    main()

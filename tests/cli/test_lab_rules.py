@@ -5,24 +5,18 @@
 """
 import json
 import os
-import pathlib
 import shutil
 import struct
-import sys
 import time
-import unittest
 
-import test_lab_command as command  # noqa: E402
-from live_socket import Frame, Lab  # noqa: E402
+from lab_test import LabTest, Running
+from live_socket import Frame, Lab
+from program import SCENES, ProgramTest, main
 
 K, B = "coupling[0].stiffness", "coupling[0].damping"
 
 
-class LabRules(unittest.TestCase):
-    setUp, tearDown = command.LabTest.setUp, command.LabTest.tearDown
-    state, frame, told, stand = (command.LabTest.state, command.LabTest.frame, command.LabTest.told,
-                                 command.LabTest.stand)
-
+class LabRules(LabTest):
     def test_a_newcomer_sees_what_stands_and_what_is_looked_back_at(self):
         self.frame(lambda f: f.time > 0.5)
         stood = self.stand()
@@ -105,10 +99,10 @@ class LabRules(unittest.TestCase):
 
     def test_another_scene_brings_rows_and_instants_of_its_own(self):
         self.frame(lambda f: f.time > 0.3)
-        (self.path / "ball.toml").write_text('[[body]]\nname = "b"\nshape = { sphere = { radius = 0.1 } }\nmass = 1\n')
+        ball = ('[[body]]\nname = "b"\nshape = { sphere = { radius = 0.1 } }\nmass = 1\n')
         number = self.live.wait_for("scene")["scene"]
         self.live.do("play", on=True)
-        self.lab.upload("ball.toml", (self.path / "ball.toml").read_bytes(), self.live)
+        self.lab.upload("ball.toml", ball, self.live)
         scene = self.live.wait_for("scene", lambda s: s["scene"] > number)
         self.assertFalse([row for row in scene["ledger"] if "pull" in row or "hinge" in row], scene["ledger"])
         self.assertLess(self.frame(lambda f: f.scene == scene["scene"]).time, 0.3)
@@ -151,38 +145,30 @@ class LabRules(unittest.TestCase):
         self.state(lambda s: "E9" in self.told(s))
 
 
-class LabLeavesNothing(unittest.TestCase):
-    def test_the_files_that_pages_brought_go_with_it(self):
-        with command.tempfile.TemporaryDirectory() as folder:
-            os.environ["TMPDIR"] = folder
-            running = command.Running(command.ROOT / "assets/scenes/cradle.toml")
-            del os.environ["TMPDIR"]
-            lab = Lab(running.url)
-            with lab.live() as live:
-                self.assertEqual(lab.upload("part.stl", "solid", live).status, 202)
-            self.assertEqual(len(list(pathlib.Path(folder).rglob("part.stl"))), 1)
-            self.assertEqual(running.end(), (0, ""))
-            self.assertEqual(os.listdir(folder), [])
-
-
-class LabOutlivesItsTemporaryFiles(unittest.TestCase):
-    def setUp(self):
-        self.folder = command.tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        os.environ["TMPDIR"] = self.folder.name
-        self.running = command.Running(command.ROOT / "assets/scenes/bouncing_ball.toml")
-        del os.environ["TMPDIR"]
+class LabTemporaryFiles(ProgramTest):
+    def start(self, scene):
+        self.running = Running(SCENES / scene, env=dict(os.environ, TMPDIR=str(self.folder)))
         self.addCleanup(self.running.process.kill)
-        self.live = Lab(self.running.url).live()
+        self.lab = Lab(self.running.url)
+        self.live = self.lab.live()
         self.addCleanup(self.live.close)
-        self.live.wait_for("frame")
+
+    def test_the_files_that_pages_brought_go_with_it(self):
+        self.start("cradle.toml")
+        self.assertEqual(self.lab.upload("part.stl", "solid", self.live).status, 202)
+        self.assertEqual(len(list(self.folder.rglob("part.stl"))), 1)
+        self.live.close()
+        self.assertEqual(self.running.end(), (0, ""))
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def remove_copies(self):
-        for copies in pathlib.Path(self.folder.name).glob("twinarm-replay-*"):
+        for copies in self.folder.glob("twinarm-replay-*"):
             shutil.rmtree(copies)
             yield copies
 
     def test_copies_that_were_removed_are_written_again(self):
+        self.start("bouncing_ball.toml")
+        self.live.wait_for("frame")
         self.assertEqual(len(list(self.remove_copies())), 1)
         self.live.do("glass", on=True, body=1)
         self.live.wait_for("glass")
@@ -192,6 +178,8 @@ class LabOutlivesItsTemporaryFiles(unittest.TestCase):
         self.assertEqual(self.running.end(), (0, ""))
 
     def test_copies_that_cannot_be_written_again_are_reported_and_the_lab_goes_on(self):
+        self.start("bouncing_ball.toml")
+        self.live.wait_for("frame")
         places = list(self.remove_copies())
         for place in places:
             place.write_text("not a folder")
@@ -208,5 +196,4 @@ class LabOutlivesItsTemporaryFiles(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    command.PROGRAM = sys.argv.pop(1)
-    unittest.main()
+    main()

@@ -5,60 +5,31 @@ by their poses and velocities (bodies_of_scene.py).
     test_ledgers.py PATH/TO/twinarm
 """
 import json
-import os
-import subprocess
-import sys
-import unittest
 
-import robot_command
+import program
+from program import data, main, run
 from bodies_of_scene import Contents, add, bodies_of, has_motors, size, symmetric
 from recording_command import DRIVEN, RecordingCommand
-from robot_command import ROOT, joint, link, robot
-from waiting import TIMEOUT
+from robot_command import COM, INERTIA, MASS, joint, link, robot
 
-SCENES = [scene for scene in sorted((ROOT / "assets" / "scenes").glob("*.toml"))
-          if not has_motors(scene)]
+SCENES = [scene for scene in sorted(program.SCENES.glob("*.toml")) if not has_motors(scene)]
 # Seconds that are enough for something to happen, and not more.
 DURATION = {"pyramid": 0.05, "box_stack": 0.1, "bouncing_ball": 0.6, "cradle": 0.4,
             "rattleback": 0.1, "spinning_coin": 0.05, "four_bar": 0.4, "slider_crank": 0.4,
             "robot_beside_obstacles": 0.3, "peg_in_hole": 0.3}
 
-FLOOR = """
-[[body]]
-name = "floor"
-fixed = true
-shape = { halfspace = { normal = [0, 0, 1], offset = -5 } }
-"""
-
+FLOOR = data("floor.toml", offset=-5)
 HAMMER = robot(
     '<link name="base"/>',
     '<link name="head"><inertial><origin xyz="0 0 -0.6"/><mass value="2"/><inertia ixx="0.3" '
     'ixy="0" ixz="0" iyy="0.3" iyz="0" izz="0.02"/></inertial><collision><origin xyz="0 0 -1"/>'
     '<geometry><sphere radius="0.1"/></geometry></collision></link>',
     joint("hinge", "continuous", "base", "head", axis="0 -1 0"))
-BLOW = """
-[[robot]]
-name = "arm"
-model = "test.urdf"
-q = { hinge = -0.5 }
-qd = { hinge = 3 }
-friction = 0.3
-restitution = 0.8
-[[body]]
-name = "ball"
-shape = { sphere = { radius = 0.1 } }
-mass = 1
-position = [0.2, 0, -1]
-friction = 0.3
-restitution = 0.8
-"""
 
 
 class Ledgers(RecordingCommand):
     def run_scene(self, scene, *options):
-        arguments = [robot_command.PROGRAM, "simulate", scene, *map(str, options), "--json"]
-        result = subprocess.run(arguments, cwd=self.folder, capture_output=True, text=True,
-                                timeout=TIMEOUT)
+        result = run("simulate", scene, *options, "--json")
         if result.returncode == 2:
             return None, result.stderr
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -117,7 +88,7 @@ class Ledgers(RecordingCommand):
                 ("peg_in_hole", "semi-implicit", 1, (1e-3, 5e-4), 0.1),
                 ("robot_beside_obstacles", "semi-implicit", 1, (1e-3, 5e-4), 0.3),
                 ("cradle", "semi-implicit", 1, (1e-3, 5e-4), 0.1)):
-            scene = ROOT / "assets" / "scenes" / (name + ".toml")
+            scene = program.SCENES / f"{name}.toml"
             coarse, fine = (self.balance(scene, "--integrator", integrator, "--step", h,
                                          "--duration", duration) for h in steps)
             for key in ("energy", "linear", "angular"):
@@ -127,8 +98,7 @@ class Ledgers(RecordingCommand):
     def test_what_the_drive_puts_in_stands_in_the_row_of_the_constraint(self):
         """A body hangs by a ball joint on another that turns by a law: no energy is kept, and
         what it gains is that row alone."""
-        scene = self.folder / "driven.toml"
-        scene.write_text(DRIVEN)
+        scene = self.write("driven.toml", DRIVEN)
         for integrator, options, tolerance in (
                 ("dopri5", ("--tolerance", 1e-11), 1e-9), ("rk4", ("--step", 1e-3), 1e-8),
                 ("semi-implicit", ("--step", 1e-4), 1e-2)):
@@ -139,9 +109,8 @@ class Ledgers(RecordingCommand):
 
     def test_a_driven_constraint_does_the_same_work_in_steps_by_impulses(self):
         """With a floor far below the step is one for contacts; the drive puts in what it did."""
-        by_force, by_impulse = self.folder / "driven.toml", self.folder / "floor.toml"
-        by_force.write_text(DRIVEN)
-        by_impulse.write_text(DRIVEN.replace('integrator = "rk4"\n', "") + FLOOR)
+        by_force = self.write("driven.toml", DRIVEN)
+        by_impulse = self.write("floor.toml", DRIVEN.replace('integrator = "rk4"\n', "") + FLOOR)
         exact = self.balance(by_force, "--duration", 0.5, "--integrator", "dopri5", "--tolerance",
                              1e-11)["rows"]["constraint/hook"]
         for contact, step, tolerance in (("event", 5e-3, 1e-8), ("rigid", 1e-3, 2e-2),
@@ -153,32 +122,29 @@ class Ledgers(RecordingCommand):
 
     def test_a_joint_that_is_moved_back_to_its_limit_has_a_row_of_its_own(self):
         """Let go 0.1 rad beyond it, alone and beside a ball that rests on a floor."""
-        (self.folder / "test.urdf").write_text(robot(
+        self.write("test.urdf", robot(
             '<link name="base"/>', link("rod"),
             joint("hinge", "revolute", "base", "rod", axis="0 1 0",
                   more='<limit lower="-0.2" upper="0.2" effort="1" velocity="1"/>')))
         arm = '[[robot]]\nname = "arm"\nmodel = "test.urdf"\nq = { hinge = 0.3 }\n'
         ball = ('[[body]]\nname = "ball"\nshape = { sphere = { radius = 0.1 } }\nmass = 1\n'
                 'position = [3, 0, -4.9]\n')
-        scene = self.folder / "limit.toml"
         for text in (arm, arm + FLOOR + ball):
-            scene.write_text(text)
-            rows = self.balance(scene, "--duration", 0.1)["rows"]
+            rows = self.balance(self.write("limit.toml", text), "--duration", 0.1)["rows"]
             self.assertGreater(abs(rows["joint/hinge/limit/stabilisation"]), 1e-3)
             self.assertNotIn("contact/stabilisation", rows)
 
     def test_with_dormand_prince_the_ledgers_close_where_the_scene_is_smooth(self):
         for name in ("four_bar", "slider_crank"):
-            found = self.balance(ROOT / "assets" / "scenes" / (name + ".toml"), "--integrator",
+            found = self.balance(program.SCENES / f"{name}.toml", "--integrator",
                                  "dopri5", "--tolerance", 1e-11, "--duration", 0.5)
             for key in ("energy", "linear", "angular"):
                 self.assertLess(found[key], 1e-9, f"{name} {key}")
 
     def test_the_ground_bears_the_blow_of_a_hammer_that_hangs_on_it(self):
         """Off its centre of percussion: the hinge takes an impulse in the same instant."""
-        (self.folder / "test.urdf").write_text(HAMMER)
-        scene = self.folder / "hammer.toml"
-        scene.write_text(BLOW)
+        self.write("test.urdf", HAMMER)
+        scene = self.write("hammer.toml", data("blow.toml"))
         bodies = {"ball": (1, (0, 0, 0), symmetric(0.004, 0.004, 0.004)),
                   "head": (2, (0, 0, -0.6), symmetric(0.3, 0.3, 0.02))}
         for contact, step, tolerance in (("rigid", 1e-3, 5e-3), ("rigid", 2.5e-4, 1.2e-3),
@@ -193,6 +159,8 @@ class Ledgers(RecordingCommand):
 
 
 class Joints(RecordingCommand):
+    command = "simulate"
+
     def test_what_goes_through_the_joint_to_the_ground_is_newtons_law_for_the_whole_robot(self):
         """By three integrators, with a motor, friction and a wrench; of the total momentum that
         is computed from the links alone."""
@@ -200,19 +168,15 @@ class Joints(RecordingCommand):
                      joint("shoulder", "continuous", "base", "upper", axis="0 1 0",
                            more='<dynamics damping="0.4" friction="0.2"/>'),
                      joint("elbow", "continuous", "upper", "lower", xyz="0 0 -1", axis="1 0 0"))
-        (self.folder / "arm.urdf").write_text(urdf)
-        (self.folder / "state.json").write_text(json.dumps(
-            {"q": {"shoulder": 0.4}, "qd": {"elbow": 2}, "tau": {"elbow": 0.7},
-             "wrenches": [{"link": "lower", "point": [0, 0, -1.5], "force": [1, 2, 3]}]}))
-        m, com, i = robot_command.MASS, robot_command.COM, robot_command.INERTIA
+        state = {"q": {"shoulder": 0.4}, "qd": {"elbow": 2}, "tau": {"elbow": 0.7},
+                 "wrenches": [{"link": "lower", "point": [0, 0, -1.5], "force": [1, 2, 3]}]}
+        m, i = MASS, INERTIA
         inertia = ((i[0], i[1], i[2]), (i[1], i[3], i[4]), (i[2], i[4], i[5]))
-        bodies = {name: (m, com, inertia) for name in ("upper", "lower")}
+        bodies = {name: (m, COM, inertia) for name in ("upper", "lower")}
         for options, tolerance in ((["semi-implicit", "--step", 1e-4], 2e-3),
                                    (["rk4", "--step", 1e-3], 1e-9),
                                    (["dopri5", "--tolerance", 1e-11], 1e-9)):
-            answer = json.loads(self.twinarm(
-                "simulate", self.folder / "arm.urdf", "--state", self.folder / "state.json",
-                "--duration", 0.5, "--json", "--integrator", *options).stdout)
+            answer = self.answer(urdf, "--duration", 0.5, "--integrator", *options, state=state)
             rows = answer["momentum"]
             self.assertEqual(list(rows), ["gravity", "wrench/0", "joint/shoulder", "numerical"])
             self.close(rows["wrench/0"]["linear"], [0.5, 1, 1.5])
@@ -227,5 +191,4 @@ class Joints(RecordingCommand):
 
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

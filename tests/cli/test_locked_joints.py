@@ -3,35 +3,19 @@
 
     test_locked_joints.py PATH/TO/twinarm
 """
-import json
 import math
-import pathlib
-import shutil
-import subprocess
-import sys
-import tempfile
-import unittest
 
-import robot_command
+from program import ProgramTest, main
 from robot_command import joint, link, robot
-from waiting import TIMEOUT
 
-SCENE = '[[robot]]\nname = "arm"\nmodel = "%s"\nq = { first = 0.3%s }\n%s\n'
+SCENE = '[[robot]]\nname = "arm"\nmodel = "arm.urdf"\nq = { first = 0.3%s }\n%s\n'
 
 
-class LockedJoints(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="twinarm-lock-"))
-        self.addCleanup(shutil.rmtree, self.folder)
-
+class LockedJoints(ProgramTest):
     def simulate(self, urdf, q, keys, code=0):
-        (self.folder / "arm.urdf").write_text(urdf)
-        scene = self.folder / "scene.toml"
-        scene.write_text(SCENE % ("arm.urdf", q, keys))
-        result = subprocess.run([robot_command.PROGRAM, "simulate", str(scene), "--duration", "0.4",
-                                 "--json"], capture_output=True, text=True, timeout=TIMEOUT)
-        self.assertEqual(result.returncode, code, result.stderr)
-        return json.loads(result.stdout)
+        self.write("arm.urdf", urdf)
+        scene = self.write("scene.toml", SCENE % (q, keys))
+        return self.json_of("simulate", scene, "--duration", 0.4, code=code)
 
     def arm(self, second):
         return robot('<link name="base"/>', link("upper"), link("lower"), link("tip"),
@@ -79,5 +63,4 @@ def rotation_of(roll, pitch, yaw):
 
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
-    unittest.main()
+    main()

@@ -4,128 +4,43 @@
     test_map_command.py PATH/TO/twinarm
 """
 import json
-import math
-import pathlib
 import random
-import shutil
 import signal
-import subprocess
-import sys
-import tempfile
-import time
-import unittest
 
-from waiting import TIMEOUT  # noqa: E402
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = ""
-
-HINGE = ('<robot name="hinge"><link name="base"/><link name="arm"><inertial><mass value="1"/>'
-         '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.5"/></inertial></link>'
-         '<joint name="hinge" type="continuous"><parent link="base"/><child link="arm"/>'
-         '<axis xyz="0 0 1"/></joint></robot>')
-INERTIA = 0.5
-SCENE = """
-duration = %(duration)g
-gravity = [0, 0, 0]
-[[robot]]
-name = "hinge"
-model = "hinge.urdf"
-[[coupling]]
-name = "pull"
-type = "torsional"
-measure = "joint"
-link = "arm"
-stiffness = 500
-damping = %(damping)g
-treatment = "%(treatment)s"
-target = { q = { hinge = 0.01 } }
-"""
-ARM = "assets/scenes/tracking_map.toml"
-
-
-class MapCommand(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="twinarm-map-"))
-        self.addCleanup(shutil.rmtree, self.folder)
-        (self.folder / "hinge.urdf").write_text(HINGE)
-
-    def twinarm(self, *arguments, code=0, timeout=TIMEOUT):
-        result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
-                                timeout=timeout, cwd=ROOT)
-        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
-        return result
-
-    def scene(self, treatment="explicit", damping=1.0, duration=20.0, name="scene.toml"):
-        file = self.folder / name
-        file.write_text(SCENE % {"treatment": treatment, "damping": damping, "duration": duration})
-        return file
-
-    def map(self, scene, *options, name="work.twinmap"):
-        return json.loads(self.twinarm("map", scene, *options, "--work", self.folder / name,
-                                       "--json").stdout)
-
-    def faults(self, *arguments):
-        return json.loads(self.twinarm("map", *arguments, "--json", code=2).stdout)["errors"]
-
-    def refused(self, code, value, *arguments):
-        """There is a fault of that code, which tells the value or the name."""
-        faults = self.faults(*arguments)
-        self.tells(faults, code, value)
-
-    def tells(self, faults, code, value):
-        self.assertTrue(any(f["code"] == code and value in
-                            f'{f["file"]} {f["where"]}: {f["rule"]}; {f["remedy"]}' for f in faults),
-                        (code, value, faults))
+from map_command import ARM, INERTIA, MEASURES, MapCommand, is_stable_of_order
+from program import main, run
 
 
 class Maps(MapCommand):
-    # Stability against docs/coupling.md, section 4.
+    def test_cells_and_the_curve_on_top_are_those_of_the_closed_form_of_each_scheme(self):
+        """docs/coupling.md, section 4."""
+        for treatment, options, is_stable in (("explicit", (), lambda a, b: a < 4 - 2 * b),
+                                              ("semi-implicit", (), lambda a, b: a < 4 + 2 * b),
+                                              ("implicit", (), lambda a, b: True),
+                                              ("explicit", ("--integrator", "rk4"), is_stable_of_order(4)),
+                                              ("explicit", ("--integrator", "heun"), is_stable_of_order(2))):
+            with self.subTest(treatment, options=options):
+                plane = self.map(self.scene(treatment), "--x", "coupling.damping:0.5:20:6", "--y",
+                                 "step:0.005:0.15:30", *options, name=treatment + "".join(options))
+                self.check_plane(plane, lambda h, b: is_stable(500 * h * h / INERTIA, b * h / INERTIA),
+                                 has_edge=treatment != "implicit")
+                if treatment == "explicit" and not options:
+                    self.assertEqual([c["name"] for c in plane["curves"]], ["semi-implicit Euler, start pose"])
 
-    seen = []  # names of work files
-
-    def agrees_with(self, is_stable, treatment, *options, y="step:0.005:0.15:30"):
-        plane = self.map(self.scene(treatment), "--x", "coupling.damping:0.5:20:6", "--y", y,
-                         *options, name=f"{treatment}{len(self.seen)}.twinmap")
-        self.seen.append(treatment)
+    def check_plane(self, plane, is_stable, has_edge):
         seen = set()
         for iy, h in enumerate(plane["y"]):
             for ix, b in enumerate(plane["x"]):
-                verdicts = {is_stable(500 * h * h * m * m / INERTIA, b * h * m / INERTIA)
-                            for m in (0.995, 1.005)}
+                verdicts = {is_stable(0.995 * h, b), is_stable(1.005 * h, b)}
                 if len(verdicts) == 1:
                     seen |= verdicts
-                    self.assertEqual(plane["values"][iy][ix], verdicts.pop(), (treatment, h, b))
-        return plane, seen
-
-    def test_the_edge_of_a_hinge_is_that_of_the_closed_form_for_each_treatment(self):
-        _, seen = self.agrees_with(lambda a, b: a < 4 - 2 * b, "explicit")
-        self.assertEqual(seen, {True, False})
-        _, seen = self.agrees_with(lambda a, b: a < 4 + 2 * b, "semi-implicit")
-        self.assertEqual(seen, {True, False})
-        _, seen = self.agrees_with(lambda a, b: True, "implicit")
-        self.assertEqual(seen, {True})
-
-    def test_the_edge_of_other_integrators_is_that_of_their_polynomial(self):
-        def by_polynomial(order):
-            def is_stable(alpha, beta):
-                root = complex(beta * beta / 4 - alpha) ** 0.5
-                return all(abs(sum(z ** i / math.factorial(i) for i in range(order + 1))) < 1
-                           for z in (-beta / 2 + root, -beta / 2 - root))
-            return is_stable
-        for name, order in (("rk4", 4), ("heun", 2)):
-            _, seen = self.agrees_with(by_polynomial(order), "explicit", "--integrator", name)
-            self.assertEqual(seen, {True, False})
-
-    def test_the_curve_on_top_is_the_closed_form(self):
-        plane, _ = self.agrees_with(lambda a, b: a < 4 - 2 * b, "explicit")
-        self.assertEqual([c["name"] for c in plane["curves"]], ["semi-implicit Euler, start pose"])
-        curve = plane["curves"][0]
-        self.assertEqual(len(curve["x"]), 6)
-        for b, h in zip(curve["x"], curve["y"]):
-            z = b / (2 * math.sqrt(500 * INERTIA))
-            wanted = 2 * (math.sqrt(1 + z * z) - z) / math.sqrt(500 / INERTIA)
-            self.assertAlmostEqual(h / wanted, 1, delta=1e-3)
+                    self.assertEqual(plane["values"][iy][ix], verdicts.pop(), (h, b))
+        self.assertEqual(seen, {True, False} if has_edge else {True})
+        if has_edge:
+            curve = plane["curves"][0]
+            self.assertEqual(len(curve["x"]), 6)
+            for b, h in zip(curve["x"], curve["y"]):
+                self.assertEqual((is_stable(0.998 * h, b), is_stable(1.002 * h, b)), (True, False), (h, b))
 
     # Each cell is a run of `twinarm simulate`.
 
@@ -133,28 +48,25 @@ class Maps(MapCommand):
         axes = ["--x", "coupling.stiffness:1e4:1e6:16:log", "--y", "step:0.001:0.01:16:log",
                 "--duration", 0.8]
         planes = {m: self.map(ARM, *axes, "--measure", m)["values"]
-                  for m in ("stable", "max_error", "mean_error", "energy", "passivity")}
+                  for m in MEASURES}
         random.seed(8)
         cells = random.sample([(ix, iy) for ix in range(16) for iy in range(16)], 50)
         stable = 0
         for ix, iy in cells:
             file = self.folder / f"cell{ix}-{iy}.twinrec"
-            opened = json.loads(self.twinarm("map", ARM, *axes, "--cell", f"{ix},{iy}", "--record",
-                                             file, "--json").stdout)
+            opened = self.json_of("map", ARM, *axes, "--cell", f"{ix},{iy}", "--record", file)
             words = opened["command"].split()
             self.assertEqual(words[:2], ["twinarm", "simulate"])
-            run = json.loads(subprocess.run(
-                [PROGRAM, *words[1:], "--every", str(opened["y"]), "--json"], capture_output=True,
-                text=True, timeout=TIMEOUT, cwd=ROOT).stdout)
-            created = sum(v for k, v in run["ledger"].items()
+            again = json.loads(run(*words[1:], "--every", opened["y"], "--json").stdout)
+            created = sum(v for k, v in again["ledger"].items()
                           if k == "numerical" or k.endswith("/implicit"))
             if planes["stable"][iy][ix] == 0:
-                self.assertTrue("post_mortem" in run or created > 100)
+                self.assertTrue("post_mortem" in again or created > 100)
                 self.assertIsNone(planes["max_error"][iy][ix])
                 continue
             stable += 1
             errors = {}
-            for sample in run["samples"]:
+            for sample in again["samples"]:
                 twin = sample["targets"]["pull_arm1"]["q"]
                 for joint in ("joint1", "joint2"):
                     e = abs(twin[joint] - sample["q"][joint])
@@ -173,26 +85,17 @@ class Maps(MapCommand):
         self.assertLess(stable, 50)
 
     def test_cells_side_by_side_are_those_that_run_one_by_one(self):
-        for n, axes in enumerate((
-                ["--x", "coupling.stiffness:1e4:1e6:9:log", "--y", "step:0.001:0.01:11:log"],
-                ["--x", "coupling.delay:0:0.1:5", "--y", "coupling.speed:0.5:3:5"],
-                ["--x", "coupling[1].point[0]:0.05:0.6:7", "--y", "coupling.damping:10:4000:7:log"])):
-            for measure in ("stable", "max_error", "mean_error", "energy", "passivity"):
-                planes = [self.map(ARM, *axes, "--duration", 0.6, "--measure", measure, *alone,
-                                   name=f"{n}{alone}") for alone in ([], ["--alone"])]
-                for row, other in zip(*(p["values"] for p in planes)):
-                    for value, wanted in zip(row, other):
-                        self.assertEqual(value is None, wanted is None)
-                        if wanted is not None:
-                            self.assertAlmostEqual(value, wanted, delta=1e-9 * max(1, abs(wanted)),
-                                                   msg=f"{measure} {axes}")
+        for axes in (["--x", "coupling.stiffness:1e4:1e6:9:log", "--y", "step:0.001:0.01:11:log"],
+                     ["--x", "coupling.delay:0:0.1:5", "--y", "coupling.speed:0.5:3:5"],
+                     ["--x", "coupling[1].point[0]:0.05:0.6:7", "--y", "coupling.damping:10:4000:7:log"]):
+            with self.subTest(axes):
+                self.check_both_ways(ARM, *axes, "--duration", 0.6)
 
     def test_a_cell_that_is_opened_has_a_recording_that_replays(self):
         file = self.folder / "cell.twinrec"
         self.twinarm("map", self.scene(duration=1), "--x", "coupling.damping:0.5:20:6", "--y",
                      "step:0.005:0.05:8", "--cell", "2,3", "--record", file)
-        answer = json.loads(self.twinarm("replay", file, "--from", 0.3, "--json").stdout)
-        self.assertTrue(answer["bit_exact"])
+        self.assertTrue(self.json_of("replay", file, "--from", 0.3)["bit_exact"])
 
     # The same bytes, however they came about.
 
@@ -220,33 +123,22 @@ class Maps(MapCommand):
         scene = self.scene(duration=1)
         axes = ["--x", "coupling.damping:0.5:20:64", "--y", "coupling.stiffness:10:1e5:32:log",
                 "--alone"]  # slow enough to be struck
-        command = [PROGRAM, "map", str(scene), *axes, "--json", "--work"]
-        text = subprocess.run([*command, self.folder / "whole"], capture_output=True).stdout
-        sizes = []
+        command = ["map", scene, *axes, "--json", "--work"]
+        text = self.twinarm(*command, self.folder / "whole").stdout
+        sizes, work = [], self.folder / "work"
         for blow, code in ((signal.SIGKILL, -signal.SIGKILL), (signal.SIGINT, 130)):
-            work = self.folder / "work"
             before = work.stat().st_size if work.exists() else 0
-            process = subprocess.Popen([*command, work], stdout=subprocess.PIPE,
-                                       stderr=subprocess.PIPE)
-            deadline = time.time() + TIMEOUT
-            while time.time() < deadline and process.poll() is None:
-                if work.exists() and work.stat().st_size > before:
-                    process.send_signal(blow)
-                    break
-                time.sleep(0.005)
-            out, told = process.communicate(timeout=TIMEOUT)
-            self.assertEqual(process.returncode, code, told)
-            self.assertEqual(out, b"")
+            out, told = self.interrupted(*command, work, blow=blow, code=code,
+                                         is_ready=lambda _: work.exists() and work.stat().st_size > before)
+            self.assertEqual(out, "")
             if blow == signal.SIGINT:
-                self.assertRegex(told.decode(), r"\d+ of 8 blocks of cells are finished")
+                self.assertRegex(told, r"\d+ of 8 blocks of cells are finished")
             sizes.append(work.stat().st_size)
         whole = (self.folder / "whole").stat().st_size
         self.assertLess(sizes[0], sizes[1])
         self.assertLess(sizes[1], whole)
-        again = subprocess.run([*command, self.folder / "work"], capture_output=True).stdout
-        self.assertEqual(again, text)
-        self.assertEqual((self.folder / "work").read_bytes(),
-                         (self.folder / "whole").read_bytes())
+        self.assertEqual(self.twinarm(*command, work).stdout, text)
+        self.assertEqual(work.read_bytes(), (self.folder / "whole").read_bytes())
 
 
 class Faults(MapCommand):
@@ -261,46 +153,6 @@ class Faults(MapCommand):
                              "coupling.damping:0:1:2", "--measure", "max_error",
                              name=path + ".twinmap")
             self.assertEqual(plane["x"], [low, high])
-
-    def test_axes_that_the_scene_has_not_are_told_with_the_nearest_names(self):
-        scene = self.scene()
-        for path, code, value in (
-                ("couplng.stiffness", "path.unknown-key", "'coupling'"),
-                ("coupling.stifness", "scene.unknown-key", "'stiffness'"),
-                ("coupling[3].stiffness", "path.no-item", "3"),
-                ("coupling.name", "path.no-number", "'pull'"),
-                ("gravity", "path.no-number", "gravity[0]"),
-                ("stepp", "scene.unknown-key", "'step'"),
-                ("robot.q.joint1", "path.unknown-key", "'q'"), ("coupling..x", "path.form", "x")):
-            self.refused(code, value, scene, "--x", f"{path}:1:2:3", "--y", "coupling.damping:0:1:2")
-
-    def test_absurd_values_are_told_with_the_remedy(self):
-        scene = self.scene()
-        y = ("--y", "coupling.damping:0:1:2")
-        for axis, code, value in (("coupling.stiffness:-5:10:4", "scene.negative", "-5"),
-                                  ("step:0:1:4", "scene.not-positive", "0"),
-                                  ("step:1e-8:0.01:4", "map.steps", "1e8"),
-                                  ("step:1e-12:0.01:4", "run.too-many-steps", "1e10"),
-                                  ("step:0.1:100:4", "map.steps", "100"),
-                                  ("step:0.1:0.2:1", "axis.count", "4096"),
-                                  ("step:0.1:0.2:2.5", "axis.count", "4096"),
-                                  ("step:0:0.2:4:log", "axis.log-from-zero", "0"),
-                                  ("step:-1:1:4:log", "axis.log-from-zero", "-1"),
-                                  ("step:0.2:0.1:4", "axis.order", "0.2"),
-                                  ("step:0.1:nan:4", "axis.number", "'nan'"),
-                                  ("step:0.1:0.2:4:lag", "axis.scale", "'lag'"),
-                                  ("step:0.1", "axis.form", "step:0.1"),
-                                  ("coupling.damping:0:1:2", "map.same-axes", "--x")):
-            self.refused(code, value, scene, "--x", axis, *y)
-        told = self.faults(scene, "--x", "step:0:1:1", "--y", "y:5:3:2:log", "--measure", "max_eror")
-        for code, value in (("axis.count", "4096"), ("axis.order", "5"),
-                            ("map.measure", "'max_error'")):
-            self.tells(told, code, value)
-        self.refused("map.option-and-axis", "--step", scene, *self.AXES, "--step", 0.1)
-        self.refused("map.no-scene", "hinge.urdf", self.folder / "hinge.urdf", *self.AXES)
-        self.refused("map.coupling-unknown", "'pull'", scene, *self.AXES, "--of", "pul")
-        self.refused("map.cell", "0,0 to 2,2", scene, *self.AXES, "--cell", "3,0", "--record",
-                     self.folder / "x.twinrec")
 
     def test_files_of_another_map_are_refused_and_nothing_is_overwritten_without_force(self):
         scene = self.scene(duration=0.5)
@@ -344,10 +196,7 @@ class Faults(MapCommand):
         self.refused("map.cut-short", "p2", "--merge", *parts)
         parts[2].write_text("hello")
         self.refused("map.file-form", "p2", "--merge", *parts)
-        self.refused("map.part", "3 of 3", scene, *axes, "--tiles", 3, "--tile", 3)
-        self.refused("map.part", "99", scene, *axes, "--tiles", 99, "--tile", 98)
 
 
 if __name__ == "__main__":
-    PROGRAM = sys.argv.pop(1)
-    unittest.main()
+    main()

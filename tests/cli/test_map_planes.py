@@ -5,82 +5,20 @@
 """
 import csv
 import json
-import math
 import struct
-import subprocess
-import sys
-import unittest
 
-sys.dont_write_bytecode = True
-import test_map_command
-from test_map_command import ARM, HINGE, INERTIA, MapCommand, ROOT
-from waiting import TIMEOUT
+from map_command import ARM, MEASURES, MapCommand
+from program import ROOT, data, main, run
+from whole_files import fnv
 
-MEASURES = ("stable", "max_error", "mean_error", "energy", "passivity")
-SLIDER = ('<robot name="slider"><link name="base"/><link name="arm"><inertial><mass value="1"/>'
-          '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.5"/></inertial></link>'
-          '<link name="tip"><inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01"'
-          ' iyz="0" izz="0.01"/></inertial></link>'
-          '<joint name="hinge" type="continuous"><parent link="base"/><child link="arm"/>'
-          '<axis xyz="0 0 1"/></joint>'
-          '<joint name="slide" type="prismatic"><parent link="arm"/><child link="tip"/>'
-          '<axis xyz="1 0 0"/><limit lower="-9" upper="9" effort="9" velocity="9"/></joint></robot>')
-SLIDER_SCENE = """
-duration = 0.1
-gravity = [0, 0, 0]
-[[robot]]
-name = "slider"
-model = "slider.urdf"
-q = { slide = 0.2 }
-[[coupling]]
-type = "linear"
-link = "tip"
-point = [0, 0, 0]
-stiffness = 500
-damping = 0
-treatment = "implicit"
-target = { q = { slide = 1.0 } }
-"""
-
-
-def largest_step(is_stable, low, high):
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if is_stable(middle) else (low, middle)
-    return low
-
-
-def fnv1a(data):
-    sum = 0xcbf29ce484222325
-    for byte in data:
-        sum = (sum ^ byte) * 0x100000001b3 % 2 ** 64
-    return sum
 
 
 class Planes(MapCommand):
-    def both_ways(self, scene, *options):
-        """By measure, the plane side by side and the plane one by one."""
-        return {m: [self.map(scene, *options, "--measure", m, *way, name="".join(way) or "lanes")
-                    ["values"] for way in ([], ["--alone"])] for m in MEASURES}
-
-    def check_both_ways(self, scene, *options):
-        planes = self.both_ways(scene, *options)
-        for measure, (lanes, alone) in planes.items():
-            for row, other in zip(lanes, alone):
-                for value, wanted in zip(row, other):
-                    self.assertEqual(value is None, wanted is None, measure)
-                    if wanted is not None:
-                        self.assertAlmostEqual(value, wanted, delta=1e-9 * max(1, abs(wanted)),
-                                               msg=measure)
-        return {measure: lanes for measure, (lanes, _) in planes.items()}
-
     def errors(self, opened, y):
         """By joint, the largest |q_K - q_D| of the run of an opened cell."""
-        run = json.loads(subprocess.run(
-            [test_map_command.PROGRAM, *opened["command"].split()[1:], "--every", str(y), "--json"],
-            capture_output=True, text=True, timeout=TIMEOUT, cwd=ROOT).stdout)
+        samples = json.loads(run(*opened["command"].split()[1:], "--every", y, "--json").stdout)["samples"]
         return {joint: max(abs(s["targets"]["pull_arm1"]["q"][joint] - s["q"][joint])
-                           for s in run["samples"]) for joint in ("joint1", "joint2")}
+                           for s in samples) for joint in ("joint1", "joint2")}
 
     def test_axes_are_spaced_as_they_say(self):
         plane = self.map(self.scene(duration=0.05), "--x", "coupling.stiffness:10:1e4:4:log", "--y",
@@ -106,27 +44,6 @@ class Planes(MapCommand):
                       *(planes[m]["values"][iy][ix] for m in MEASURES)]
             self.assertEqual([float(v) if v else None for v in row], wanted)
 
-    def test_the_curves_of_other_schemes_are_their_closed_forms(self):
-        def by_polynomial(order):
-            def is_stable(h, b):
-                a, z = 500 * h * h / INERTIA, b * h / INERTIA
-                root = complex(z * z / 4 - a) ** 0.5
-                return all(abs(sum(s ** i / math.factorial(i) for i in range(order + 1))) <= 1
-                           for s in (-z / 2 + root, -z / 2 - root))
-            return is_stable
-        for treatment, options, is_stable in (
-                ("semi-implicit", (), lambda h, b: 500 * h * h / INERTIA < 4 + 2 * b * h / INERTIA),
-                ("explicit", ("--integrator", "heun"), by_polynomial(2)),
-                ("explicit", ("--integrator", "rk4"), by_polynomial(4))):
-            plane = self.map(self.scene(treatment), "--x", "coupling.damping:2:10:3", "--y",
-                             "step:0.001:0.15:4", "--duration", 0.2, *options,
-                             name=treatment + "".join(options))
-            curve = plane["curves"][0]
-            self.assertEqual(len(curve["x"]), 3)
-            for b, h in zip(curve["x"], curve["y"]):
-                wanted = largest_step(lambda h: is_stable(h, b), 0.001, 0.15)
-                self.assertAlmostEqual(h / wanted, 1, delta=2e-3, msg=(treatment, options, b))
-
     def test_the_curve_of_the_worst_pose_is_the_lowest_of_the_poses_that_the_twin_passes(self):
         axes = ("--x", "coupling.stiffness:1e5:1e6:2:log", "--y", "step:1e-3:1e-2:3:log",
                 "--duration", 0.05)
@@ -149,9 +66,8 @@ class Planes(MapCommand):
             self.assertGreater(h, 0.98 * least)
 
     def test_the_geometric_limit_is_that_of_the_hinge_and_the_two_radii(self):
-        (self.folder / "slider.urdf").write_text(SLIDER)
-        scene = self.folder / "slider.toml"
-        scene.write_text(SLIDER_SCENE)
+        self.write("slider.urdf", data("slider.urdf"))
+        scene = self.write("slider.toml", data("slider.toml"))
         plane = self.map(scene, "--x", "step:0.005:0.02:3", "--y", "coupling.stiffness:1e3:1e7:5:log")
         curve = next(c for c in plane["curves"] if c["name"].startswith("geometric limit"))
         r, R = 0.2, 1.0
@@ -166,8 +82,8 @@ class Planes(MapCommand):
         planes = self.check_both_ways(ARM, *axes)
         led = set()
         for ix, iy in ((0, 0), (0, 1), (1, 0), (1, 1)):
-            opened = json.loads(self.twinarm("map", ARM, *axes, "--cell", f"{ix},{iy}", "--record",
-                                             self.folder / f"{ix}{iy}.twinrec", "--json").stdout)
+            opened = self.json_of("map", ARM, *axes, "--cell", f"{ix},{iy}", "--record",
+                                  self.folder / f"{ix}{iy}.twinrec")
             errors = self.errors(opened, 0.001)
             led.add(max(errors, key=errors.get))
             for found in (planes["max_error"][iy][ix], opened["max_error"]):
@@ -195,17 +111,14 @@ class Planes(MapCommand):
                 self.assertLess(value, -1e-3 * 0.5 * 500 * 0.01 ** 2)
 
     def test_cells_that_meet_a_joint_limit_feel_it(self):
-        (self.folder / "hinge.urdf").write_text(HINGE.replace('type="continuous"', 'type="revolute"')
-                                                .replace('<axis xyz="0 0 1"/>', '<axis xyz="0 0 1"/>'
-                                                         '<limit lower="-0.012" upper="0.012" '
-                                                         'effort="9" velocity="9"/>'))
+        self.write("hinge.urdf", data("hinge.urdf").replace('"continuous"', '"revolute"').replace(
+            '<axis xyz="0 0 1"/>', '<axis xyz="0 0 1"/><limit lower="-0.012" upper="0.012" effort="9" velocity="9"/>'))
         for side in ("0.01", "-0.01"):
             scene = self.scene(duration=1, name=f"limit{side}.toml")
             scene.write_text(scene.read_text().replace("hinge = 0.01", f"hinge = {side}"))
             planes = self.check_both_ways(scene, "--x", "coupling.damping:0.1:60:3", "--y",
                                           "step:0.001:0.002:2")
             self.assertLess(planes["mean_error"][0][0], 0.004)  # free, it would swing by 0.01
-            (self.folder / "lanes").unlink(), (self.folder / "--alone").unlink()
 
     def test_couplings_that_see_their_twin_each_in_its_own_time_are_run_as_they_are(self):
         self.check_both_ways(ARM, "--x", "coupling[0].delay:0:0.1:3", "--y", "coupling[0].speed:1:2:2",
@@ -233,11 +146,10 @@ class Planes(MapCommand):
         block = bytearray(data[begin:-8])
         self.assertEqual(struct.unpack_from("<II", block), (0, 9 * len(MEASURES)))
         block[-1] ^= 1
-        b.write_bytes(data[:begin] + block + struct.pack("<Q", fnv1a(block)))
+        b.write_bytes(data[:begin] + block + struct.pack("<Q", fnv(block)))
         self.twinarm("map", "--merge", b)
         self.refused("map.blocks", str(b), "--merge", a, b)
 
 
 if __name__ == "__main__":
-    test_map_command.PROGRAM = sys.argv.pop(1)
-    unittest.main()
+    main()

@@ -6,13 +6,12 @@ compare` says. No time is judged.
 """
 import json
 import math
-import pathlib
 import statistics
 import subprocess
 import sys
 import unittest
 
-from waiting import TIMEOUT  # noqa: E402
+from waiting import TIMEOUT
 
 PEERS = TWINARM = ""
 ORDERS = {"verlet": 2, "midpoint": 2, "heun": 2, "implicit-midpoint": 2, "trapezoid": 2, "rk4": 4,

@@ -9,19 +9,16 @@ the eye: squares of 6 x 6 pixels whose mean differs by more than what an observe
 """
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
 
 import picture  # noqa: E402
 
-from waiting import TIMEOUT  # noqa: E402
+import program
+from program import ROOT, SCENES, run
 
 HERE = pathlib.Path(__file__).resolve().parent
-SCENES = HERE.parents[1] / "assets/scenes"
-ROBOTS = HERE.parents[1] / "assets/robots"
-PROGRAM = None
 MOST_SEEN = 0.002  # of the squares: 7 of the 3600
 SIZE = "480x270"
 GOLDEN = {
@@ -30,14 +27,13 @@ GOLDEN = {
     "boxes": [SCENES / "box_stack.toml", "--at", "0.3", "--show", "contacts,forces,com,gravity"],
     "bars": [SCENES / "four_bar.toml", "--at", "0.4", "--show", "trails,labels,frames,momentum"],
     "sky": [SCENES / "turntable.toml", "--at", "0.5", "--camera", "30,8", "--background", "sky"],
-    "puma": [ROBOTS / "puma560/puma560.urdf", "--show", "joints,inertia"],
+    "puma": [ROOT / "assets/robots/puma560/puma560.urdf", "--show", "joints,inertia"],
 }
 
 
 def paint(folder, name, words, **environment):
     out = pathlib.Path(folder) / f"{name}.png"
-    subprocess.run([PROGRAM, "render", *map(str, words), "--png", out, "--size", SIZE], check=True,
-                   capture_output=True, timeout=TIMEOUT, env=dict(os.environ, **environment))
+    run("render", *words, "--png", out, "--size", SIZE, check=True, env=dict(os.environ, **environment))
     return out
 
 
@@ -94,9 +90,9 @@ class Pictures(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
     if "--make" in sys.argv:
+        program.PROGRAM = os.path.abspath(sys.argv[1])
         for golden, words in GOLDEN.items():
             print(paint(HERE / "golden", golden, words))
     else:
-        unittest.main()
+        program.main()

@@ -7,21 +7,16 @@ import csv
 import html
 import io
 import json
-import os
-import pathlib
 import shutil
 import signal
 import struct
-import subprocess
-import sys
 import unittest
 import xml.etree.ElementTree
-import zlib
 
-import robot_command
-from recording_command import BOXES, DOUBLE, DRIVEN, HELD, RecordingCommand
+from program import SCENES, main
+from recording_command import BOXES, DOUBLE, DRIVEN, RecordingCommand, held
 from robot_command import PENDULUM, joint, link, robot
-from waiting import TIMEOUT, wait_while_running
+from whole_files import recorded_blocks
 
 
 class Recordings(RecordingCommand):
@@ -36,7 +31,7 @@ class Recordings(RecordingCommand):
 
     def test_contacts_go_on_with_the_same_bits(self):
         for contact in ("rigid", "compliant", "event"):
-            file = self.record(BOXES % f'contact = "{contact}"', "--duration", 0.5)
+            file = self.record(f'contact = "{contact}"\n' + BOXES, "--duration", 0.5)
             self.goes_on_with_the_same_bits(file, (0, 0.1, 0.3))
             frames = self.exported(file)["frames"]
             self.assertTrue(any(f["contacts"] for f in frames), contact)
@@ -44,7 +39,7 @@ class Recordings(RecordingCommand):
     def test_every_scene_of_the_assets_goes_on_with_the_same_bits(self):
         """Loops, hard contacts with guesses of impulses, couplings, driven bodies."""
         short = {"pyramid": 0.012, "spinning_coin": 0.01, "rattleback": 0.01}
-        for scene in sorted((robot_command.ROOT / "assets" / "scenes").glob("*.toml")):
+        for scene in sorted(SCENES.glob("*.toml")):
             file = self.folder / "scene.twinrec"
             duration = short.get(scene.stem, 0.06)
             self.twinarm("simulate", scene, "--duration", duration, "--record", file, "--json")
@@ -71,7 +66,7 @@ class Recordings(RecordingCommand):
             self.goes_on_with_the_same_bits(file, (0.01, 0.05))
 
     def test_a_held_force_goes_on_with_the_same_bits_between_two_evaluations(self):
-        file = self.record(HELD % (50, 2, "rate = 100"), "--duration", 0.2, "--step", 0.001)
+        file = self.record(held(50, 2, "rate = 100\n"), "--duration", 0.2, "--step", 0.001)
         self.goes_on_with_the_same_bits(file, (0, 0.033, 0.104))
 
     def test_a_recording_of_any_integrator_can_be_inspected_with_a_free_body_and_with_limits(self):
@@ -81,23 +76,23 @@ class Recordings(RecordingCommand):
         for scene in (free, limited):
             for integrator in ("semi-implicit", "rk4"):
                 file = self.record(scene, "--duration", 0.02, "--integrator", integrator, urdf=urdf)
-                inspected = json.loads(self.twinarm("inspect", file, "--at", 0.01, "--json").stdout)
+                inspected = self.json_of("inspect", file, "--at", 0.01)
                 self.assertTrue(inspected["passes"])
 
     def test_a_recording_stands_alone_where_its_files_have_changed_or_are_gone(self):
-        file = self.record(HELD % (50, 2, ""), "--duration", 0.2)
+        file = self.record(held(50, 2), "--duration", 0.2)
         (self.folder / "test.urdf").unlink()
         (self.folder / "scene.toml").write_text("step = 5")
         self.goes_on_with_the_same_bits(file, (0.1,))
 
     def test_a_fork_is_the_run_that_the_changed_scene_gives(self):
         """Forked at t = 0 it must be, number by number, a run of the edited scene."""
-        file = self.record(HELD % (50, 2, ""), "--duration", 0.3)
+        file = self.record(held(50, 2), "--duration", 0.3)
         for path in ("coupling.stiffness", "coupling[0].stiffness", "coupling.pull.stiffness"):
             fork = self.replayed(file, "--from", 0, "--set", f"{path}=800")
             self.assertTrue(fork["bit_exact"])
             by_name = {b["name"]: b for b in fork["branches"]}
-            other = self.exported(self.record(HELD % (800, 2, ""), "--duration", 0.3,
+            other = self.exported(self.record(held(800, 2), "--duration", 0.3,
                                               name="other.twinrec"))
             column = [c["name"] for c in other["columns"]].index("q/hinge")
             wanted = [f["values"][column] for f in other["frames"]]
@@ -117,7 +112,7 @@ class Recordings(RecordingCommand):
             self.assertIn(words, table.stdout)
 
     def test_the_rows_of_a_fork_since_then_are_the_change_of_kinetic_energy(self):
-        file = self.record(HELD % (50, 2, ""), "--duration", 0.3)
+        file = self.record(held(50, 2), "--duration", 0.3)
         fork = self.replayed(file, "--from", 0.1, "--set", "coupling.stiffness=800")
         for branch in fork["branches"]:
             kinetic = branch["values"]["kinetic_energy[J]"]
@@ -125,7 +120,7 @@ class Recordings(RecordingCommand):
             self.close(gained, kinetic[-1] - kinetic[0])
 
     def test_a_fork_of_free_bodies_shows_each_once_and_one_that_changes_nothing_says_so(self):
-        file = self.record(BOXES % "", "--duration", 0.2)
+        file = self.record(BOXES, "--duration", 0.2)
         table = self.twinarm("replay", file, "--set", "gravity=0,0,-3").stdout
         self.assertLessEqual(max(map(len, table.splitlines())), 100)
         for body in ("low", "high"):
@@ -135,14 +130,14 @@ class Recordings(RecordingCommand):
 
     def test_a_fork_counts_no_work_that_the_old_spring_would_have_done(self):
         """Forked where the arm is held by a box and its target moves on: nothing else moves."""
-        scene, file = robot_command.ROOT / "assets/scenes/robot_beside_obstacles.toml", "arm.twinrec"
+        scene, file = SCENES / "robot_beside_obstacles.toml", "arm.twinrec"
         self.twinarm("simulate", scene, "--duration", 1.002, "--record", file, "--json")
         fork = self.replayed(file, "--from", 1, "--set", "coupling.pull_arm1.stiffness=800")
         for name, row in fork["ledger"].items():
             self.assertLess(abs(row["fork"] - row["recorded"]), 1e-4, name)
 
     def test_the_plot_of_a_fork_has_both_branches_with_their_units(self):
-        file = self.record(HELD % (50, 2, ""), "--duration", 0.3)
+        file = self.record(held(50, 2), "--duration", 0.3)
         plot = self.folder / "fork.svg"
         self.twinarm("replay", file, "--from", 0.1, "--set", "coupling.stiffness=800", "--plot", plot)
         for words in ("q/hinge [rad]", "time [s]", "[J]", "recorded", "coupling.stiffness=800"):
@@ -152,7 +147,7 @@ class Recordings(RecordingCommand):
         secret = b"a text that is neither a picture nor a mesh"
         for name in ("secret.png", "secret.stl"):
             (self.folder / name).write_bytes(secret)
-        scene = BOXES % "" + '[[body]]\nname = "ball"\nmass = 1\nshape = { sphere = { radius = 0.1 } }\n' \
+        scene = BOXES + '[[body]]\nname = "ball"\nmass = 1\nshape = { sphere = { radius = 0.1 } }\n' \
                              'position = [9, 9, 9]\ntexture = "secret.png"\n'
         mesh = PENDULUM.replace('<link name="base"/>', '<link name="base"><visual><geometry>'
                                 '<mesh filename="secret.stl"/></geometry></visual></link>')
@@ -171,7 +166,7 @@ class Recordings(RecordingCommand):
         self.assertEqual(title.text, f"Recorded run and fork: q/{name}")
 
     def test_a_plot_that_could_not_be_drawn_is_refused_before_the_run(self):
-        file = self.record(HELD % (50, 2, ""), "--duration", 0.1)
+        file = self.record(held(50, 2), "--duration", 0.1)
         for name in (self.folder / "test.urdf" / "fork.svg", self.folder / "fork.pdf"):
             error = self.refused("replay", file, "--set", "coupling.stiffness=800", "--plot", name)
             self.assertIn(str(name.parent), error)
@@ -180,7 +175,7 @@ class Recordings(RecordingCommand):
         self.assertTrue(fork.exists())
 
     def test_faults_of_a_change_name_what_was_typed_and_no_copy_of_the_files(self):
-        file = self.record(HELD % (50, 2, ""), "--duration", 0.1)
+        file = self.record(held(50, 2), "--duration", 0.1)
         for change, code, value in (("coupling.stiffness=-1", "scene.negative", "-1"),
                                     ("coupling.pull.stiffness=stiff", "scene.type", "'stiff'"),
                                     ("coupling.treatment=magic", "scene.choice", "'magic'"),
@@ -196,7 +191,7 @@ class Recordings(RecordingCommand):
         self.assertNotIn("twinarm-replay", error)
 
     def test_what_a_fork_cannot_change_is_refused(self):
-        file = self.record(HELD % (50, 2, ""), "--duration", 0.1)
+        file = self.record(held(50, 2), "--duration", 0.1)
         for change, code, value in (("coupling.stifness=1", "scene.unknown-key", "stifness"),
                                     ("step=0.1", "change.method", "--set step"),
                                     ("couplin.stiffness=1", "change.unknown-key", "'coupling'"),
@@ -207,7 +202,7 @@ class Recordings(RecordingCommand):
         self.assertIn("--from", self.refused_as("recording.time", "replay", file, "--from", 5))
 
     def test_the_ledger_and_the_states_are_those_that_simulate_prints(self):
-        file = self.record(BOXES % "", "--duration", 0.4)
+        file = self.record(BOXES, "--duration", 0.4)
         printed = json.loads(self.simulated.stdout)
         exported = self.exported(file)
         last = exported["frames"][-1]
@@ -221,7 +216,7 @@ class Recordings(RecordingCommand):
                              sample["links"]["low"]["position"][axis])
 
     def test_the_csv_has_units_in_its_header_and_the_numbers_of_the_json(self):
-        file = self.record(BOXES % "", "--duration", 0.3)
+        file = self.record(BOXES, "--duration", 0.3)
         rows = list(csv.DictReader(io.StringIO(self.twinarm("export", file, "--csv").stdout)))
         frames = self.exported(file)["frames"]
         self.assertEqual(len(rows), len(frames))
@@ -238,30 +233,17 @@ class Recordings(RecordingCommand):
         self.goes_on_with_the_same_bits(file, (0.05,))
 
     def test_recording_does_not_change_the_run(self):
-        self.record(BOXES % "", "--duration", 0.3)
+        self.record(BOXES, "--duration", 0.3)
         recorded = self.simulated.stdout
         plain = self.twinarm("simulate", self.folder / "scene.toml", "--duration", 0.3, "--json")
         self.assertEqual(plain.stdout, recorded)
 
 
 class Damage(RecordingCommand):
-    def frame_ends(self, data):
-        """(offset behind each block, its kind), by the layout in docs/recording.md."""
-        at, ends = 12, []
-        while at < len(data):
-            size = struct.unpack_from("<I", data, at + 1)[0]
-            payload_end = at + 5 + size
-            self.assertEqual(struct.unpack_from("<I", data, payload_end)[0],
-                             zlib.crc32(data[at:payload_end]))
-            ends.append((payload_end + 4, chr(data[at])))
-            at = payload_end + 4
-        return ends
-
     def test_what_is_whole_of_a_file_cut_short_anywhere_is_kept_and_said(self):
         file = self.record(PENDULUM, "--duration", 0.05, "--step", 0.01, state={"q": {"hinge": 1}})
         data = file.read_bytes()
-        ends = self.frame_ends(data)
-        frames = [end for end, kind in ends if kind == "F"]
+        frames = [end for kind, _, end in recorded_blocks(data) if kind == "F"]
         self.assertEqual(len(frames), 6)
         for cut in (frames[0], frames[2] + 1, frames[4] - 1, len(data) - 1):
             file.write_bytes(data[:cut])
@@ -283,7 +265,7 @@ class Damage(RecordingCommand):
     def test_a_flipped_bit_ends_what_is_read_and_is_said(self):
         file = self.record(PENDULUM, "--duration", 0.05, "--step", 0.01, state={"q": {"hinge": 1}})
         data = bytearray(file.read_bytes())
-        frames = [end for end, kind in self.frame_ends(bytes(data)) if kind == "F"]
+        frames = [end for kind, _, end in recorded_blocks(data) if kind == "F"]
         data[frames[2] + 30] ^= 4
         file.write_bytes(data)
         exported = self.exported(file)
@@ -305,16 +287,16 @@ class Damage(RecordingCommand):
         self.refused_as("file.missing", "export", self.folder / "none")
         self.refused_as("file.is-folder", "export", self.folder)
 
+    def strike(self, name, blow, size):
+        """A long run, once it has written so many bytes."""
+        part = self.folder / f"{name}.part"
+        self.interrupted("simulate", self.write("test.urdf", PENDULUM), "--duration", 1e4, "--record", name, blow=blow,
+                         is_ready=lambda _: part.exists() and part.stat().st_size >= size,
+                         code=130 if blow == signal.SIGINT else -blow)
+        return self.folder / name
+
     def test_a_run_that_is_killed_leaves_what_it_had_flushed(self):
-        (self.folder / "test.urdf").write_text(PENDULUM)
-        file = self.folder / "killed.twinrec"
-        process = subprocess.Popen(
-            [robot_command.PROGRAM, "simulate", self.folder / "test.urdf", "--duration", "1e4",
-             "--record", file], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        part = pathlib.Path(str(file) + ".part")
-        wait_while_running(process, lambda: part.exists() and part.stat().st_size > 100_000, "100 kB of the recording")
-        process.send_signal(signal.SIGKILL)
-        process.wait()
+        file = self.strike("killed.twinrec", signal.SIGKILL, 100_000)
         self.assertFalse(file.exists())
         result = self.twinarm("export", file, "--csv")
         self.assertIn(".part", result.stderr)
@@ -324,18 +306,9 @@ class Damage(RecordingCommand):
         self.assertGreater(answer["compared"], 100)
 
     def test_ctrl_c_leaves_a_whole_recording(self):
-        (self.folder / "test.urdf").write_text(PENDULUM)
-        file = self.folder / "stopped.twinrec"
-        process = subprocess.Popen(
-            [robot_command.PROGRAM, "simulate", self.folder / "test.urdf", "--duration", "1e4",
-             "--record", file], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        part = pathlib.Path(str(file) + ".part")
-        wait_while_running(process, lambda: part.exists() and part.stat().st_size > 0, "a recording that has begun")
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(timeout=TIMEOUT), 130)
+        file = self.strike("stopped.twinrec", signal.SIGINT, 1)
         self.assertEqual(self.exported(file)["end"], "interrupted")
 
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

@@ -3,18 +3,14 @@
 
     test_recording_format.py PATH/TO/twinarm
 """
-import os
+import json
 import random
-import subprocess
-import sys
-import unittest
 
 import recording_format as form
-import robot_command
-from recording_command import BOXES, HELD, RecordingCommand
-from waiting import TIMEOUT
+from program import main, run
+from recording_command import BOXES, RecordingCommand, held
 
-TIED = HELD % (4e6, 0, "") + BOXES.replace("step = 0.002", "") % ""
+TIED = held(4e6, 0) + BOXES.replace("step = 0.002", "")
 
 
 class Bytes(RecordingCommand):
@@ -46,7 +42,7 @@ class Bytes(RecordingCommand):
                           "momentum_rows", "momenta", "memory"])
 
     def test_what_a_newer_program_adds_to_the_header_is_skipped(self):
-        file = self.record(BOXES % "", "--duration", 0.02)
+        file = self.record(BOXES, "--duration", 0.02)
         found = form.blocks(file.read_bytes())
         before = self.exported(file)
         header = form.header(found) | {"new": {"list": [1, 2]}}
@@ -54,13 +50,35 @@ class Bytes(RecordingCommand):
         file.write_bytes(form.file_of(form.with_header(found, header)))
         self.assertEqual(self.exported(file), before)
 
-    def test_frames_of_another_layout_are_refused(self):
-        file = self.record(BOXES % "", "--duration", 0.02)
+    def test_a_header_is_read_within_its_bounds_and_refused_beyond_them_or_without_a_key(self):
+        """At most 32 MiB, and 8 deep; its checksum is right."""
+        file = self.record(BOXES, "--duration", 0.02)
         found = form.blocks(file.read_bytes())
         header = form.header(found)
-        header["frame"].append("temperature float64 K")
-        file.write_bytes(form.file_of(form.with_header(found, header)))
-        self.refused("export", file)
+        run_ = header["run"]
+
+        def with_text(text):
+            file.write_bytes(form.file_of([("H", text.encode()), *found[1:]]))
+
+        def nested(depth):
+            return json.dumps(header | {"new": json.loads("[" * (depth - 1) + "]" * (depth - 1))})
+
+        def without(table, key):
+            return {name: value for name, value in table.items() if name != key}
+        whole, most = json.dumps(header), 32 << 20
+        for text in (nested(8), whole.ljust(most)):
+            with_text(text)
+            self.assertEqual(self.exported(file)["format"], 3)
+        refused = {"9 deep": nested(9), "100,000 deep": "[" * 100_000, "32 MiB and a byte": whole.ljust(most + 1),
+                   "no object": "[]", "cut short": whole[:-1],
+                   "frames of another layout": json.dumps(header | {"frame": [*header["frame"], "heat float64 K"]}),
+                   **{f"no {key}": json.dumps(without(header, key)) for key in header},
+                   **{f"no run.{key}": json.dumps(header | {"run": without(run_, key)}) for key in run_},
+                   **{f"{key} of another type": json.dumps(header | {key: {}}) for key in header}}
+        for name, text in refused.items():
+            with self.subTest(name):
+                with_text(text)
+                self.assertIn(str(file), self.refused_as("recording.cut-short", "export", file))
 
     def test_a_recording_of_version_2_is_read_and_replayed(self):
         """As programs wrote it before headers described themselves."""
@@ -75,7 +93,7 @@ class Bytes(RecordingCommand):
 
     def test_a_file_made_by_hand_is_read(self):
         """The first frames of a recording, put together anew, with the end's own words."""
-        file = self.record(BOXES % "", "--duration", 0.1)
+        file = self.record(BOXES, "--duration", 0.1)
         found = form.blocks(file.read_bytes())
         keep = [b for b in found if b[0] in "HDNM"] + [b for b in found if b[0] == "F"][:5]
         file.write_bytes(form.file_of(keep + [("E", "by hand, µ".encode())]))
@@ -91,7 +109,7 @@ class Bytes(RecordingCommand):
         self.goes_on_with_the_same_bits(file, (0,))
 
     def test_damage_anywhere_is_told_and_never_a_crash(self):
-        file = self.record(BOXES % "", "--duration", 0.06)
+        file = self.record(BOXES, "--duration", 0.06)
         data, chance = file.read_bytes(), random.Random(5)
         for trial in range(60):
             bad = bytearray(data)
@@ -100,14 +118,13 @@ class Bytes(RecordingCommand):
             if trial % 3 == 0:
                 bad = bad[:chance.randrange(len(bad))]
             file.write_bytes(bytes(bad))
-            result = subprocess.run([robot_command.PROGRAM, "export", file, "--csv"],
-                                    capture_output=True, text=True, timeout=TIMEOUT)
+            result = run("export", file, "--csv")
             self.assertIn(result.returncode, (0, 2), f"{at}: {result.stderr}")
             self.assertTrue(result.stderr, f"byte {at} of {len(data)}")
 
     def test_what_lies_behind_a_right_checksum_but_makes_no_sense_is_told(self):
         """Sizes and numbers of names that are beyond all bounds, with checksums that fit."""
-        file = self.record(BOXES % "", "--duration", 0.02)
+        file = self.record(BOXES, "--duration", 0.02)
         found = form.blocks(file.read_bytes())
         frame = next(n for n, b in enumerate(found) if b[0] == "F")
         chance = random.Random(7)
@@ -121,12 +138,10 @@ class Bytes(RecordingCommand):
             made = list(found)
             made[n] = (found[n][0], bytes(payload))
             file.write_bytes(form.file_of(made))
-            for command in (["export", file, "--json"], ["export", file, "--csv"]):
-                result = subprocess.run([robot_command.PROGRAM, *command], capture_output=True,
-                                        text=True, errors="replace", timeout=TIMEOUT)
+            for form_of_export in ("--json", "--csv"):
+                result = run("export", file, form_of_export, errors="replace")
                 self.assertIn(result.returncode, (0, 2), f"{trial}: {result.stderr[:500]}")
 
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

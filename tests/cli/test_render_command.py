@@ -3,34 +3,13 @@
 
     test_render_command.py PATH/TO/twinarm
 """
-import json
 import os
-import pathlib
-import signal
 import struct
-import subprocess
-import sys
-import tempfile
-import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-import picture  # noqa: E402
-from waiting import TIMEOUT, wait_while_running  # noqa: E402
+import picture
+from program import SCENES, ProgramTest, data, main, run
 
-PROGRAM = None
-SCENES = sorted((ROOT / "assets/scenes").glob("*.toml"))
-BALL = """
-duration = 0.5
-[[body]]
-name = "ball"
-shape = { sphere = { radius = 0.1 } }
-mass = 1
-position = [0, 0, 1]
-[[body]]
-name = "floor"
-fixed = true
-shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
-"""
+BALL = data("dropped_ball.toml")
 # In place of ffmpeg: writes what it was told and how many bytes it was given; fails on demand.
 FAKE = """#!/bin/sh
 for word in "$@"; do last=$word; done
@@ -45,30 +24,19 @@ def png_size(data):
     return struct.unpack(">II", data[16:24])
 
 
-class Render(unittest.TestCase):
+class Render(ProgramTest):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-        self.ball = self.folder / "ball.toml"
-        self.ball.write_text(BALL)
+        super().setUp()
+        self.ball = self.write("ball.toml", BALL)
 
-    def run_render(self, *words, path=None, **more):
-        environment = dict(os.environ, **more)
-        if path is not None:
-            environment["PATH"] = str(path)
-        return subprocess.run([PROGRAM, "render", *map(str, words)], capture_output=True, text=True,
-                              timeout=TIMEOUT, env=environment)
+    def environment(self, path=None, **more):
+        return dict(os.environ, **more, **({"PATH": str(path)} if path else {}))
 
     def rendered(self, *words, **more):
-        result = self.run_render(*words, "--json", **more)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return json.loads(result.stdout)
+        return self.json_of("render", *words, env=self.environment(**more))
 
     def refusals(self, *words, **more):
-        result = self.run_render(*words, "--json", **more)
-        self.assertEqual(result.returncode, 2, result.stderr)
-        return json.loads(result.stdout)["errors"]
+        return self.faults("render", *words, env=self.environment(**more))
 
     def fake_ffmpeg(self):
         folder = self.folder / "bin"
@@ -79,8 +47,9 @@ class Render(unittest.TestCase):
         return f"{folder}:{os.environ['PATH']}"
 
     def test_each_scene_gives_a_picture_with_all_overlays(self):
-        self.assertGreater(len(SCENES), 10)
-        for scene in SCENES:
+        scenes = sorted(SCENES.glob("*.toml"))
+        self.assertGreater(len(scenes), 10)
+        for scene in scenes:
             with self.subTest(scene=scene.stem):
                 out = self.folder / f"{scene.stem}.png"
                 told = self.rendered(scene, "--png", out, "--size", "321x203", "--quality", "draft",
@@ -109,27 +78,20 @@ class Render(unittest.TestCase):
                          [f"frame_{i:05}.png" for i in range(5)])
 
     def test_a_recording_gives_the_film_of_its_run(self):
-        recording = self.folder / "run.twinrec"
-        subprocess.run([PROGRAM, "simulate", self.ball, "--record", recording], check=True,
-                       capture_output=True, timeout=TIMEOUT)
         out = self.folder / "film"
-        told = self.rendered(recording, "--frames", out, "--size", "64x48", "--quality", "draft",
+        told = self.rendered(self.record("run"), "--frames", out, "--size", "64x48", "--quality", "draft",
                              "--fps", 10, "--show", "all")
         self.assertEqual((told["pictures"], told["from"]), (6, 0))
         self.assertAlmostEqual(told["to"], 0.5, places=9)
 
     def record(self, name, **changes):
-        text = BALL
-        for old, new in changes.values():
-            text = text.replace(old, new)
         scene, recording = self.folder / f"{name}.toml", self.folder / f"{name}.twinrec"
-        scene.write_text(text)
-        subprocess.run([PROGRAM, "simulate", scene, "--record", recording], check=True,
-                       capture_output=True, timeout=TIMEOUT)
+        scene.write_text(data("dropped_ball.toml", **changes))
+        self.twinarm("simulate", scene, "--record", recording)
         return recording
 
     def test_two_recordings_stand_side_by_side_to_the_end_of_the_longer_one(self):
-        left, right = self.record("a"), self.record("b", d=("duration = 0.5", "duration = 0.3"))
+        left, right = self.record("a"), self.record("b", duration=0.3)
         out = self.folder / "film"
         told = self.rendered(left, "--beside", right, "--frames", out, "--size", "200x60", "--fps",
                              10, "--show", "none", "--plot", "energy")
@@ -177,34 +139,13 @@ class Render(unittest.TestCase):
         self.assertEqual(list(self.folder.glob("film*")), [])
 
     def test_ctrl_c_leaves_no_half_film(self):
-        path = self.fake_ffmpeg()
-        out = self.folder / "film.mp4"
-        process = subprocess.Popen([PROGRAM, "render", self.ball, "--mp4", out, "--fps", "1000"],
-                                   env=dict(os.environ, PATH=path), stderr=subprocess.PIPE)
-        wait_while_running(process, (self.folder / "film.mp4.part").exists, "a film that has begun")
-        process.send_signal(signal.SIGINT)
-        process.communicate(timeout=TIMEOUT)
-        self.assertEqual(process.returncode, 130)
+        self.interrupted("render", self.ball, "--mp4", self.folder / "film.mp4", "--fps", 1000,
+                         env=self.environment(self.fake_ffmpeg()),
+                         is_ready=lambda _: (self.folder / "film.mp4.part").exists())
         self.assertEqual(list(self.folder.glob("film*")), [])
-
-    def test_all_faults_of_the_options_are_told_at_once(self):
-        faults = self.refusals(self.ball, "--size", "0x100", "--show", "forcs", "--slow", "0",
-                               "--quality", "best", "--at", "-1", "--plot", "energie",
-                               "--background", "ski")
-        self.assertEqual(sorted(f["where"] for f in faults),
-                         ["--at", "--background", "--plot", "--quality", "--show", "--size", "--slow", "output"])
-        png = self.folder / "a.png"
-        for words in (["--size", "nan"], ["--size", "1e9x2"], ["--size", "16.5x16"],
-                      ["--camera", "nowhere"], ["--camera", "follow:bal"], ["--from", "1"],
-                      ["--mp4", "b.mp4"]):
-            with self.subTest(words=words):
-                self.assertTrue(self.refusals(self.ball, "--png", png, *words))
-                self.assertFalse(png.exists())
 
     def test_what_cannot_be_is_told_by_the_words_that_were_typed_and_before_the_work(self):
         run, out, film = self.record("a"), self.folder / "b.png", self.folder / "film"
-        self.assertIn("does not exist", self.refusals(self.folder / "gone.twinrec", "--png",
-                                                      out)[0]["rule"])
         for words in (["--to", "9"], ["--from", "7", "--to", "9"]):
             faults = self.refusals(run, "--frames", film, *words)
             self.assertEqual([(f["where"], f["rule"].split()[0]) for f in faults],
@@ -212,16 +153,7 @@ class Render(unittest.TestCase):
         for words in (["--png", out, "--at", "9"], ["--frames", film, "--to", "9"]):
             self.assertIn("neither", self.refusals(run, "--beside", run, *words)[0]["rule"])
         self.assertIn("--gravity", self.refusals(run, "--png", out, "--gravity", "0,0,-1")[0]["where"])
-        for words in (["--png", self.folder / "a.jpg"], ["--gif", self.folder / "a.mp4"],
-                      ["--frames", run]):
-            faults = self.refusals(self.ball, *words, path=self.fake_ffmpeg())
-            self.assertEqual(len(faults), 1, faults)
-        robot = ROOT / "assets/robots/puma560/puma560.urdf"
-        self.assertEqual(self.refusals(robot, "--frames", film)[0]["where"], "--to")
-        # A run of a day: the camera is looked at first.
-        (fault,) = self.refusals(self.ball, "--frames", film, "--to", "90000", "--fps", "1",
-                                 "--camera", "nowhere")
-        self.assertEqual(fault["where"], "--camera")
+        self.assertEqual(len(self.refusals(self.ball, "--frames", run, path=self.fake_ffmpeg())), 1)
 
     def test_a_link_whose_mesh_is_missing_is_drawn_by_its_collision_shapes_and_that_is_said(self):
         urdf = self.folder / "rod.urdf"
@@ -235,5 +167,4 @@ class Render(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
-    unittest.main()
+    main()

@@ -3,21 +3,17 @@
 
     test_same_bits.py PATH/TO/twinarm
 """
-import json
 import os
 import pathlib
-import subprocess
-import sys
 import tempfile
 import tomllib
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-import golden_hashes  # noqa: E402
-from golden_hashes import SCENES, read_table  # noqa: E402
-from waiting import TIMEOUT  # noqa: E402
+import golden_hashes
+import program
+from golden_hashes import SCENES, read_table
+from program import ROOT, ProgramTest, main
 
-PROGRAM = ""
 MAP = ["assets/scenes/tracking_map.toml", "--x", "coupling.stiffness:1e4:1e6:40:log", "--y",
        "step:0.002:0.01:20:log", "--duration", "0.5"]
 
@@ -37,24 +33,11 @@ class Table(unittest.TestCase):
             for scene in SCENES:
                 with self.subTest(scene=scene.stem):
                     row = read_table()[scene.stem]
-                    self.assertEqual(golden_hashes.golden(PROGRAM, scene, row["steps"], folder), row["hash"],
+                    self.assertEqual(golden_hashes.golden(program.PROGRAM, scene, row["steps"], folder), row["hash"],
                                      "are these other motions on purpose? then scripts/check/same_bits --renew")
 
 
-class Threads(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-
-    def twinarm(self, *words, processors=None, **environment):
-        """With fewer processors there are fewer threads."""
-        pinned = (lambda: os.sched_setaffinity(0, processors)) if processors else None
-        done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=TIMEOUT, cwd=ROOT,
-                              preexec_fn=pinned, env=dict(os.environ, **environment))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done.stdout
-
+class Threads(ProgramTest):
     def same(self, results):
         for result in results[1:]:
             self.assertEqual(result, results[0])
@@ -64,8 +47,8 @@ class Threads(unittest.TestCase):
             told, files = [], []
             for threads in (1, 2, 3):
                 file = self.folder / f"{threads}{len(way)}"
-                told.append(self.twinarm("map", *MAP, *way, "--threads", threads, "--work", file, "--csv",
-                                         f"{file}.csv", "--json"))
+                told.append(self.json_of("map", *MAP, *way, "--threads", threads, "--work", file, "--csv",
+                                         f"{file}.csv"))
                 files.append((file.read_bytes(), pathlib.Path(f"{file}.csv").read_bytes()))
             self.same(told)
             self.same(files)
@@ -75,15 +58,16 @@ class Threads(unittest.TestCase):
         for threads in (0, 1, 3):  # 0: the painter's own
             file = self.folder / f"{threads}.png"
             self.twinarm("render", "assets/scenes/robot_beside_obstacles.toml", "--png", file, "--at", 0.5,
-                         "--size", "320x200", "--show", "all", LP_NUM_THREADS=str(threads))
+                         "--size", "320x200", "--show", "all",
+                         env=dict(os.environ, LP_NUM_THREADS=str(threads)))
             pictures.append(file.read_bytes())
         self.same(pictures)
 
     def test_compare_finds_the_same_numbers_on_one_processor_and_on_all(self):
         told = []
         for processors in ({min(os.sched_getaffinity(0))}, None):
-            answer = json.loads(self.twinarm("compare", "A1", "A2", "B1", "C2", "--integrator", "rk4,verlet",
-                                             "--json", processors=processors))
+            pinned = (lambda: os.sched_setaffinity(0, processors)) if processors else None  # fewer threads
+            answer = self.json_of("compare", "A1", "A2", "B1", "C2", "--integrator", "rk4,verlet", preexec_fn=pinned)
             for case in answer["cases"]:
                 case.pop("seconds")
                 for lane in case["lanes"]:
@@ -94,5 +78,4 @@ class Threads(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

@@ -5,28 +5,11 @@
 """
 import json
 import math
-import os
-import subprocess
-import sys
-import unittest
 
-import robot_command
-from robot_command import ROOT, RobotCommand, add, joint, link, robot, scale
-from waiting import TIMEOUT
+from program import data, main
+from robot_command import HINGE, HINGE_INERTIA, STEADY_HAND, RobotCommand, add, joint, link, robot, scale
 
-BALL = """
-[[body]]
-name = "ball"
-shape = { sphere = { radius = 0.1 } }
-mass = 2
-position = [0, 0, 1]
-linear_velocity = [1, 2, 3]
-angular_velocity = [0, 0, 4]
-"""
-# A rod about a vertical axis: I = 0.5 about the hinge, no gravity in its direction.
-INERTIA = 0.5
-HINGE = robot('<link name="base"/>', link("rod", 1, (0, 0, 0), (1, 0, 0, 1, 0, INERTIA)),
-              joint("hinge", "continuous", "base", "rod"))
+BALL = data("ball.toml")
 
 
 def arm(name, more=""):
@@ -42,15 +25,8 @@ class Scenes(RobotCommand):
     command = "simulate"
 
     def simulate(self, scene, *options, urdf=HINGE, state=None):
-        (self.folder / "test.urdf").write_text(urdf)
-        file = self.folder / "scene.toml"
-        file.write_text(scene)
-        arguments = [robot_command.PROGRAM, "simulate", file, *options, "--json"]
-        if state is not None:
-            (self.folder / "state.json").write_text(json.dumps(state))
-            arguments += ["--state", self.folder / "state.json"]
-        return subprocess.run([*map(str, arguments)], capture_output=True, text=True, timeout=TIMEOUT,
-                              cwd=ROOT)
+        self.write("test.urdf", urdf)
+        return self.run_it(str(self.write("scene.toml", scene)), *options, "--json", state=state)
 
     def run_scene(self, scene, *options, **more):
         result = self.simulate(scene, *options, **more)
@@ -145,11 +121,8 @@ class FreeFlight(Scenes):
         self.close(answer["ledger"]["wrench/0"], 4 * 2, 1e-10)
 
     def test_the_table_shows_where_the_bodies_are(self):
-        (self.folder / "scene.toml").write_text(BALL)
-        result = subprocess.run([robot_command.PROGRAM, "simulate", self.folder / "scene.toml",
-                                 "--duration", "1"], capture_output=True, text=True, timeout=TIMEOUT)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("ball/x [m]", result.stdout)
+        table = self.twinarm("simulate", self.write("scene.toml", BALL), "--duration", 1).stdout
+        self.assertIn("ball/x [m]", table)
 
 
 class Couplings(Scenes):
@@ -161,7 +134,7 @@ class Couplings(Scenes):
                                 "--duration", 0.2, "--step", h, "--every", h)
         x, v = 0.1, 0.0
         for sample in answer["samples"][1:]:
-            v = (v + h * k / INERTIA * (-0.2 - x)) / (1 + h * b / INERTIA + h * h * k / INERTIA)
+            v = (v + h * k / HINGE_INERTIA * (-0.2 - x)) / (1 + h * b / HINGE_INERTIA + h * h * k / HINGE_INERTIA)
             x += h * v
             self.close([sample["q"]["hinge"], sample["qd"]["hinge"]], [x, v], 1e-12)
             self.assertEqual(sample["targets"]["pull"]["q"], {"hinge": -0.2})
@@ -192,24 +165,22 @@ class Couplings(Scenes):
             if treatment == "implicit":  # both at the end of the step: backward Euler only takes
                 lost, x, v, h = 0.0, 0.1, 0.0, 0.001
                 for _ in range(300):
-                    dv = -h * (800 * x + (3 + 800 * h) * v) / (INERTIA + 3 * h + 800 * h * h)
+                    dv = -h * (800 * x + (3 + 800 * h) * v) / (HINGE_INERTIA + 3 * h + 800 * h * h)
                     v += dv
                     x += h * v
-                    lost += INERTIA * dv * dv / 2 + 800 * (h * v) ** 2 / 2
+                    lost += HINGE_INERTIA * dv * dv / 2 + 800 * (h * v) ** 2 / 2
                 self.close(rows["coupling/pull/implicit"], -lost - 3 * h * v * v / 2, 1e-12)
 
     def test_the_hand_puts_in_what_spring_and_damper_and_robot_take(self):
         # At an even speed of the target: hand = the robot's and the spring's energy and the losses.
-        (self.folder / "hand.csv").write_text(
-            "t[s],theta1[rad],theta2[rad],theta3[rad],theta4[rad],theta5[rad],theta6[rad]\n"
-            "0,0,0,0,0,0,0\n10,5,0,0,0,0,0\n")
+        self.write("hand.csv", STEADY_HAND)
         answer = self.run_scene(arm("r") + coupling('stiffness = 50\ndamping = 1\n'
                                                     'treatment = "explicit"\ntarget = "hand.csv"'),
                                 "--duration", 0.7, "--integrator", "rk4")
         last = answer["samples"][-1]
         self.close(last["targets"]["pull"]["q"]["hinge"], 0.7, 1e-12)  # gain 2 of theta1
         e, de = 0.7 - last["q"]["hinge"], 1 - last["qd"]["hinge"]
-        a = 1 / INERTIA  # e'' + a e' + 50 a e = 0, e(0) = 0, e'(0) = 1
+        a = 1 / HINGE_INERTIA  # e'' + a e' + 50 a e = 0, e(0) = 0, e'(0) = 1
         w = math.sqrt(50 * a - a * a / 4)
         self.close(e, math.exp(-a * 0.35) * math.sin(w * 0.7) / w, 1e-8)
         rows = answer["ledger"]
@@ -235,13 +206,7 @@ class Couplings(Scenes):
         self.assertEqual(asked["ledger"], plain["ledger"])
 
     def test_the_papers_motion_moves_the_target_of_the_s103(self):
-        text = ('[[robot]]\nname = "arm"\nmodel = "robots/s103/s103.urdf"\ncollide = false\n'
-                'q = { joint1 = 1.5707963267948966, joint2 = -0.7853981633974483 }\n'
-                '[[coupling]]\ntype = "linear"\nlink = "arm1"\npoint = [0.25, 0, 0.365]\n'
-                'stiffness = 20000\ndamping = 2000\ntarget = "paper"\n'
-                '[[coupling]]\ntype = "linear"\nlink = "arm2"\npoint = [0.35, 0, 0.1]\n'
-                'stiffness = 20000\ndamping = 2000\ntarget = "paper"\n')
-        answer = self.run_scene(text, "--duration", 1, "--at", "0.25,1")
+        answer = self.run_scene(data("s103_paper.toml"), "--duration", 1, "--at", "0.25,1")
         sample = answer["samples"][0]
         target = sample["targets"]["coupling1"]
         self.close([target["q"]["joint1"], target["q"]["joint2"]], [math.pi / 4, -math.pi / 8])
@@ -270,37 +235,7 @@ class Touching(Scenes):
 
 
 # Side by side on one floor of 3e5 N/m: springs in series by hand, k = 1 / (1/3e5 + 1/k_ball).
-SOFT = """
-contact = "compliant"
-duration = 4
-[[body]]
-name = "floor"
-fixed = true
-shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
-stiffness = 3e5
-[[body]]
-name = "tyre"
-shape = { sphere = { radius = 0.1 } }
-mass = 2
-position = [0, 0, 0.1]
-stiffness = 6e4
-dissipation = 2
-[[body]]
-name = "steel"
-shape = { sphere = { radius = 0.1 } }
-mass = 3
-position = [1, 0, 0.1]
-stiffness = 3e7
-[[body]]
-name = "told"
-shape = { sphere = { radius = 0.1 } }
-mass = 1
-position = [2, 0, 0.1]
-[[pair]]
-a = "told"
-b = "floor"
-stiffness = 1e4
-"""
+SOFT = data("soft_floor.toml")
 
 
 class Compliance(Scenes):
@@ -320,33 +255,10 @@ class Compliance(Scenes):
         soft = self.run_scene(SOFT.replace('"compliant"', '"rigid"'), "--contact", "compliant")
         self.assertEqual(soft["samples"], self.run_scene(SOFT)["samples"])
 
-    def test_a_response_that_is_not_known_or_has_nothing_to_touch_is_refused(self):
-        self.assertIn("'complaint'", self.refused("option.choice", "--contact", 0, SOFT, "--contact",
-                                                  "complaint"))
-        found = self.errors(HINGE, "--duration", 1, "--contact", "rigid")
-        self.assertEqual(found, [":0: --contact: a robot alone touches nothing; give a scene"])
-
 
 class DeepStart(Scenes):
     """Bodies that begin in one another: told, and parted gently."""
-    BALLS = """
-gravity = [0, 0, 0]
-duration = 1
-[[body]]
-name = "one"
-shape = { sphere = { radius = 0.1 } }
-mass = 1
-position = [0, 0, 0]
-[[body]]
-name = "two"
-shape = { box = { size = [0.2, 0.2, 0.2] } }
-mass = 3
-position = [0.15, 0, 0]
-[[body]]
-name = "floor"
-fixed = true
-shape = { halfspace = { normal = [0, 0, 1], offset = -0.09 } }
-"""
+    BALLS = data("deep_start.toml")
 
     def test_the_deepest_pair_is_named_on_stderr_with_its_depth(self):
         result = self.simulate(self.BALLS)
@@ -378,15 +290,7 @@ shape = { halfspace = { normal = [0, 0, 1], offset = -0.09 } }
 
 
 class Located(Scenes):
-    FALL = BALL.replace("[1, 2, 3]", "[1, 0, 0]").replace("[0, 0, 1]", "[0, 0, 1.1]") + """
-restitution = 1
-[[body]]
-name = "floor"
-fixed = true
-shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
-restitution = 0.8
-friction = 0
-"""
+    FALL = data("bouncing_ball.toml")
 
     def test_a_bouncing_ball_is_where_it_should_be_whatever_the_step(self):
         speed, t = math.sqrt(2 * 9.81), 1.0  # after the first impact, before the second
@@ -411,9 +315,7 @@ friction = 0
         velocity = answer["samples"][-1]["links"]["ball"]["linear_velocity"]
         self.assertAlmostEqual(velocity[2], 0.8 * speed - 9.81 * (1 - first), delta=1e-7)
 
-    def test_implicit_couplings_and_bodies_in_one_another_are_refused(self):
-        self.refused("scene.treatment", "coupling 'pull'", 6, 'contact = "event"\n' + arm("r") +
-                     coupling("stiffness = 1"), "--duration", 1)
+    def test_bodies_in_one_another_are_refused(self):
         words = self.refused("scene.deep", "contact", 0, 'contact = "event"\n' +
                              self.FALL.replace("1.1", "0.09"), "--duration", 1)
         for part in ("'ball'", "'floor'", "0.01 m"):
@@ -422,20 +324,7 @@ friction = 0
 
 class Flight(Scenes):
     def test_a_body_alone_in_its_scene_keeps_its_energy_and_angular_momentum_however_fast_it_spins(self):
-        spin = """gravity = [0, 0, 0]
-[[body]]
-name = "rod"
-shape = { box = { size = [0.02, 0.02, 0.2] } }
-mass = 1
-position = [0, 0, 1]
-angular_velocity = [20, 5, 130]
-"""
-        floor = """
-[[body]]
-name = "floor"
-fixed = true
-shape = { halfspace = { normal = [0, 0, 1], offset = -100 } }
-"""
+        spin, floor = data("spinning_rod.toml"), data("floor.toml", offset=-100)
         samples = self.run_scene(spin, "--duration", 5, "--every", 1)["samples"]
         beside = self.run_scene(spin + floor, "--duration", 5, "--every", 1)["samples"]
         for alone, other in zip(samples, beside):
@@ -444,48 +333,13 @@ shape = { halfspace = { normal = [0, 0, 1], offset = -100 } }
 
 
 class Refused(Scenes):
-    def test_contacts_take_the_semi_implicit_integrator_only(self):
-        pair = BALL + BALL.replace("ball", "other")
-        words = self.refused("run.integrator", "integrator", 0, pair, "--duration", 1, "--integrator",
-                             "rk4")
-        self.assertIn("semi-implicit", words)
+    def test_a_step_of_the_scene_without_end_is_told_by_its_key(self):
+        self.refused("run.too-many-steps", "step", 0, f"step = 1e-11\n{BALL}", "--duration", "1")
 
-    def test_located_events_take_the_semi_implicit_integrator_only(self):
-        words = self.refused("run.integrator", "integrator", 0, 'contact = "event"\n' + BALL, "--duration",
-                             1, "--integrator", "rk4")
-        self.assertIn("semi-implicit", words)
-
-    def test_faults_of_options_and_scene_are_told_together(self):
-        found = self.refusals("step = -1\n" + BALL, "--floating", "--strict", "--gravity", "1,2",
-                              "--every", -1, "--integrator", "rk5", "--duration", 1)
-        for line, where in ((1, "scene, step"), (0, "--floating"), (0, "--strict"), (0, "--gravity"),
-                            (0, "--every"), (0, "--integrator")):
-            self.assertTrue(any(f["line"] == line and where in f["where"] for f in found),
-                            (where, found))
-
-    def test_a_missing_duration_is_told(self):
-        self.refused("option.missing", "--duration", 0, BALL)
-
-    def test_steps_without_end_are_told_whoever_gives_the_step(self):
-        for more, options in (("", ["--step", "1e-11"]), ("step = 1e-11", [])):
-            where = "--step" if options else "step"
-            self.refused("run.too-many-steps", where, 0, f"{more}\n{BALL}", "--duration", "1", *options)
-
-    def test_an_implicit_coupling_takes_the_semi_implicit_integrators_only(self):
-        text = arm("r") + coupling("stiffness = 1")
-        self.refused("run.integrator", "coupling 'pull'", 5, text, "--duration", 1, "--integrator",
-                     "rk4")
+    def test_an_implicit_coupling_takes_both_semi_implicit_integrators(self):
         for name in ("semi-implicit", "semi-implicit-xv"):
-            self.run_scene(text, "--duration", 0.1, "--integrator", name)
-
-    def test_dynamics_takes_no_scene(self):
-        (self.folder / "scene.toml").write_text(BALL)
-        result = subprocess.run([robot_command.PROGRAM, "dynamics", self.folder / "scene.toml"],
-                                capture_output=True, text=True, timeout=TIMEOUT)
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("twinarm simulate", result.stderr)
+            self.run_scene(arm("r") + coupling("stiffness = 1"), "--duration", 0.1, "--integrator", name)
 
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

@@ -6,19 +6,14 @@ docs/command_line.md each exit code.
 
 The program is asked: a scene whose tables have every word that may be a key is told which of them are none.
 """
-import json
 import pathlib
 import re
-import subprocess
-import sys
 import tempfile
 import tomllib
 import unittest
 
-from waiting import TIMEOUT  # noqa: E402
+from program import ROOT, ProgramTest, main, run
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else None
 PAGE = (ROOT / "docs/scenes.md").read_text()
 WORD = re.compile(r"[a-z][a-z_0-9]*")
 CELLS = re.compile(r"(?<!\\)\|")
@@ -81,8 +76,7 @@ def known(before, skip=(), inside=None):
         with tempfile.TemporaryDirectory() as place:
             file = pathlib.Path(place) / "scene.toml"
             file.write_text(f"{before}\n{body}\n")
-            ran = subprocess.run([PROGRAM, "simulate", file, "--duration", "0.001"], capture_output=True, text=True,
-                                 timeout=TIMEOUT)
+            ran = run("simulate", file, "--duration", 0.001)
         if ran.returncode != 2:
             raise AssertionError(f"the scene was not refused: {ran.stderr[:500]}")
         refused = set(re.findall(r", (\w+): (?:this key is not known here|there is no such)", ran.stderr))
@@ -104,20 +98,12 @@ class Keys(unittest.TestCase):
         for name in lists:
             self.assertIn(f"## `[[{name}]]`", PAGE)
 
-    def test_a_robot(self):
-        self.check("`[[robot]]`", known(ROBOT, skip=("name", "model")))
-
-    def test_a_body(self):
-        self.check("`[[body]]`", known("[[body]]"))
-
-    def test_a_pair(self):
-        self.check("`[[pair]]`", known("[[pair]]"))
-
-    def test_a_coupling(self):
-        self.check("`[[coupling]]`", known(ROBOT + "[[coupling]]"))
-
-    def test_a_constraint(self):
-        self.check("`[[constraint]]`", known("[[constraint]]"))
+    def test_each_list_of_tables(self):
+        for name, before, skip in (("robot", ROBOT, ("name", "model")), ("body", "[[body]]", ()),
+                                   ("pair", "[[pair]]", ()), ("coupling", ROBOT + "[[coupling]]", ()),
+                                   ("constraint", "[[constraint]]", ())):
+            with self.subTest(name):
+                self.check(f"`[[{name}]]`", known(before, skip=skip))
 
     def test_tables_within_tables(self):
         for heading, key, before, inside, extra in (
@@ -136,19 +122,16 @@ class Keys(unittest.TestCase):
                 self.check(f"shape {shape}", known("[[body]]", inside=f"shape = {{ {shape} = {{ %s }} }}"), keys)
 
 
-class Settings(unittest.TestCase):
+class Settings(ProgramTest):
     """The study needs all of its settings: of a file that has none it misses each."""
 
     def missed(self):
-        with tempfile.TemporaryDirectory() as place:
-            assets = pathlib.Path(place) / "assets"
-            (assets / "study").mkdir(parents=True)
-            (assets / "robots").symlink_to(ROOT / "assets/robots")
-            (assets / "study/settings.toml").write_text("[[robot.mount]]\n" * 2)
-            ran = subprocess.run([PROGRAM, "study", "--assets", assets, "--out", pathlib.Path(place) / "out", "--json"],
-                                 capture_output=True, text=True, timeout=TIMEOUT)
-        self.assertEqual(ran.returncode, 2, ran.stderr)
-        return {re.sub(r"\[\d\]", "[]", fault["where"]) for fault in json.loads(ran.stdout)["errors"]
+        assets = self.folder / "assets"
+        (assets / "study").mkdir(parents=True)
+        (assets / "robots").symlink_to(ROOT / "assets/robots")
+        (assets / "study/settings.toml").write_text("[[robot.mount]]\n" * 2)
+        return {re.sub(r"\[\d\]", "[]", fault["where"])
+                for fault in self.faults("study", "--assets", assets, "--out", self.folder / "out")
                 if fault["file"].endswith("settings.toml")}
 
     def test_each_setting_is_in_docs_study_and_in_the_file_and_no_other(self):
@@ -177,4 +160,4 @@ class ExitCodes(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

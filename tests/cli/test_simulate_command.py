@@ -6,11 +6,8 @@
 import csv
 import io
 import math
-import os
-import sys
-import unittest
 
-import robot_command
+from program import main
 from robot_command import (PENDULUM, RobotCommand, add, cross, dot, from_quaternion, joint, link,
                            robot, scale, times, unit)
 
@@ -194,5 +191,4 @@ class Samples(RobotCommand):
 
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

@@ -5,16 +5,11 @@
 """
 import json
 import math
-import os
-import signal
-import subprocess
 import sys
-import unittest
 
-import robot_command
-from robot_command import (PENDULUM, RobotCommand, add, cross, dot, from_quaternion, link, robot,
-                           scale, slider, times)
-from waiting import TIMEOUT, wait_for_work
+from program import main
+from robot_command import (COM, MASS, PENDULUM, RobotCommand, add, cross, dot, from_quaternion, link, robot, scale,
+                           slider, times)
 
 LEVEL = {"q": {"hinge": math.pi / 2}}
 
@@ -69,10 +64,10 @@ class Joules(RobotCommand):
         # Momentum grows by force times time.
         com = answer["samples"][-1]["links"]["body"]
         v = add(com["linear_velocity"],
-                cross(com["angular_velocity"], times(com["rotation"], list(robot_command.COM))))
+                cross(com["angular_velocity"], times(com["rotation"], list(COM))))
         first = answer["samples"][0]["links"]["body"]
-        v0 = cross(first["angular_velocity"], list(robot_command.COM))
-        self.close(scale(robot_command.MASS, add(v, scale(-1, v0))), force, 1e-10)
+        v0 = cross(first["angular_velocity"], list(COM))
+        self.close(scale(MASS, add(v, scale(-1, v0))), force, 1e-10)
 
         state["wrenches"] = [{"link": "body", "frame": "link", "point": at, "force": force,
                               "torque": torque}]
@@ -127,38 +122,11 @@ class Ends(RobotCommand):
         self.close(answer["samples"][-1]["q"]["slide"], 2)
 
     def test_ctrl_c_ends_with_130_and_prints_no_half_of_an_object(self):
-        (self.folder / "test.urdf").write_text(PENDULUM)
-        process = subprocess.Popen(
-            [robot_command.PROGRAM, "simulate", str(self.folder / "test.urdf"), "--json",
-             "--duration", "1e5", "--every", "1000"],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        wait_for_work(process, 0.3)
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=TIMEOUT)
-        self.assertEqual((process.returncode, out), (130, ""), err)
+        out, err = self.interrupted("simulate", self.write("test.urdf", PENDULUM), "--json", "--duration", 1e5,
+                                    "--every", 1000)
+        self.assertEqual(out, "")
         self.assertIn("interrupted", err)
-
-    def test_bad_options_are_all_told_at_once(self):
-        errors = self.errors(PENDULUM, "--duration", -1, "--step", 0, "--integrator", "rk5",
-                             "--tolerance", "1e-9", "--every", 0, "--csv", state={"q": {"hing": 1}})
-        for words in (["--duration"], ["--step"], ["rk5", "'rk4'"], ["--tolerance"], ["--every"],
-                      ["--csv", "--json"], ["hing", "'hinge'"]):
-            self.assertTrue(any(all(w in e for w in words) for e in errors), f"{words} {errors}")
-        self.assertEqual(len(errors), 7, errors)
-
-    def test_times_must_ascend_within_the_run(self):
-        for at, named in (("0.5,0.2", "0.2"), ("0.5,0.5", "0.5"), ("-1", "-1"), ("2", "2"),
-                          ("0.1,soon", "soon"), ("0.1,,0.2", "''"), ("nan", "nan")):
-            errors = self.errors(PENDULUM, "--duration", 1, "--at", at)
-            self.assertTrue("--at" in errors[0] and named in errors[0], errors)
-        self.assertTrue(self.errors(PENDULUM, "--duration", 1, "--at", "0.5", "--every", "0.1"))
-        self.assertTrue(self.errors(PENDULUM, "--duration", 1, "--step", "1e-11"))
-        self.assertTrue(self.errors(PENDULUM))
-
-    def test_what_comes_later_is_refused(self):
-        self.assertIn("--limits", self.errors(PENDULUM, "--duration", 1, "--limits")[0])
 
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

@@ -3,35 +3,24 @@
 
     test_study_settings.py PATH/TO/twinarm
 """
-import json
-import pathlib
 import shutil
-import subprocess
-import sys
-import tempfile
-import unittest
 
-from waiting import TIMEOUT  # noqa: E402
+from program import ROOT, ProgramTest, main
 
-ASSETS = pathlib.Path(__file__).resolve().parents[2] / "assets"
+ASSETS = ROOT / "assets"
 SHIPPED = (ASSETS / "study/settings.toml").read_text()
-PROGRAM = ""
 
 
-class Settings(unittest.TestCase):
+class Settings(ProgramTest):
     def faults_of(self, text):
         """By key."""
-        with tempfile.TemporaryDirectory(prefix="twinarm-settings-") as place:
-            assets = pathlib.Path(place) / "assets"
-            shutil.copytree(ASSETS / "study", assets / "study")
-            (assets / "robots").symlink_to(ASSETS / "robots")
-            file = assets / "study/settings.toml"
-            file.write_text(text)
-            ran = subprocess.run([PROGRAM, "study", "--assets", assets, "--out", pathlib.Path(place) / "out", "--json"],
-                                 capture_output=True, text=True, timeout=TIMEOUT)
-            self.assertEqual(ran.returncode, 2, ran.stderr)
-            errors = json.loads(ran.stdout)["errors"]
-            self.assertEqual({error["file"] for error in errors}, {str(file)})
+        assets = self.folder / "assets"
+        shutil.copytree(ASSETS / "study", assets / "study")
+        (assets / "robots").symlink_to(ASSETS / "robots")
+        file = assets / "study/settings.toml"
+        file.write_text(text)
+        errors = self.faults("study", "--assets", assets, "--out", self.folder / "out")
+        self.assertEqual({error["file"] for error in errors}, {str(file)})
         return {error["where"]: error for error in errors}
 
     def test_settings_with_faults_are_refused_with_all_of_them(self):
@@ -80,5 +69,4 @@ class Settings(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = sys.argv.pop(1)
-    unittest.main()
+    main()

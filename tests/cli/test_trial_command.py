@@ -4,18 +4,12 @@
     test_trial_command.py PROGRAM
 """
 import csv
-import json
 import math
-import os
-import pathlib
 import subprocess
-import sys
-import tempfile
-import unittest
 
-from waiting import TIMEOUT  # noqa: E402
+from program import ProgramTest, main
+from robot_command import HAND_COLUMNS
 
-PROGRAM = None
 L1, L2 = 0.25, 0.35  # of the S-103's arms [m]
 OBJECT, GOAL = (0.42, 0.28), (0.42, -0.28)
 
@@ -30,7 +24,7 @@ def angles_at(place):
 
 def trace_of(stops):
     """CSV of a hand: [(time, robot angles, button)], with minimum-jerk ways in between."""
-    lines = ["t[s],theta1[rad],theta2[rad],theta3[rad],theta4[rad],theta5[rad],theta6[rad],button"]
+    lines = [HAND_COLUMNS.strip() + ",button"]
     n = 0
     for (t0, a, _), (t1, b, _) in zip(stops, stops[1:]):
         while n * 0.005 < t1:
@@ -43,26 +37,14 @@ def trace_of(stops):
     return "\n".join(lines) + "\n"
 
 
-def run(*arguments, code=0):
-    done = subprocess.run([PROGRAM, "trial", *map(str, arguments)], capture_output=True, text=True,
-                          timeout=TIMEOUT, stdin=subprocess.DEVNULL)
-    assert done.returncode == code, f"{done.returncode}: {done.stdout}{done.stderr}"
-    return done
-
-
-class Trial(unittest.TestCase):
+class Trial(ProgramTest):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.out = pathlib.Path(self.folder.name) / "trial"
-        self.hand = pathlib.Path(self.folder.name) / "hand.csv"
-
-    def tearDown(self):
-        self.folder.cleanup()
+        super().setUp()
+        self.out, self.hand = self.folder / "trial", self.folder / "hand.csv"
 
     def trial(self, *more):
-        done = run("--device", f"virtual:trace:{self.hand}", "--simulated", "--json", "--out",
-                   self.out, *more)
-        return json.loads(done.stdout)
+        return self.json_of("trial", "--device", f"virtual:trace:{self.hand}", "--simulated", "--out", self.out, *more,
+                            stdin=subprocess.DEVNULL)
 
     def carries(self, to=GOAL, rest=1.5):
         there, away = angles_at(OBJECT), angles_at(to)
@@ -112,46 +94,30 @@ class Trial(unittest.TestCase):
         scene = self.out / "S1/linear.toml"
         log = told["results"][0]["log"]
         scene.write_text(scene.read_text().replace('"device"', f'"{log}"'))
-        done = subprocess.run([PROGRAM, "simulate", str(scene), "--duration", "3", "--json"],
-                              capture_output=True, text=True, timeout=TIMEOUT)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        sample = json.loads(done.stdout)["samples"][-1]
+        sample = self.json_of("simulate", scene, "--duration", 3)["samples"][-1]
         # It has gone to the object (1.5 s) and waits there.
         for joint, angle in zip(("joint1", "joint2"), angles_at(OBJECT)):
             self.assertAlmostEqual(sample["q"][joint], angle, delta=0.05)
 
-    def test_bad_input_is_told_with_its_remedy(self):
+    def test_the_table_of_another_program_is_left_alone(self):
         self.out.mkdir()
         (self.out / "results.csv").write_text("something else\n")
-        for arguments, words in ((("--conditions", "elastic"), "torsional,linear,kinematic"),
-                                 (("--tasks", "dance"), "free,pick-and-place"),
-                                 (("--mapping", "cartesian"), "paper or arm"),
-                                 (("--device", "keyboard", "--simulated"), "no simulated time"),
-                                 (("--device", "omni"), "omni"),
-                                 (("--device", "virtual", "--simulated"), "another folder"),
-                                 (("--device", "virtual", "--subject", "S1", "--simulated",
-                                   "--tasks", "free", "--seconds", "0.1"), "another folder")):
-            self.assertIn(words, run(*arguments, "--out", self.out, code=2).stderr)
+        for words in ((), ("--subject", "S1", "--tasks", "free", "--seconds", "0.1")):
+            done = self.twinarm("trial", "--device", "virtual", *words, "--simulated", "--out", self.out, code=2)
+            self.assertIn("another folder", done.stderr)
         self.assertEqual((self.out / "results.csv").read_text(), "something else\n")
 
-    def test_a_subject_that_leaves_the_folder_is_refused(self):
-        for subject in ("../../x", str(self.out.parent / "x"), "a/b", "..", "x y"):
-            error = run("--device", "virtual", "--simulated", "--subject", subject, "--out", self.out, code=2)
-            self.assertIn("--subject", error.stderr)
-        self.assertEqual(os.listdir(self.folder.name), [])
-
     def test_results_of_finished_tasks_are_kept_when_a_later_task_fails(self):
-        done = subprocess.run([PROGRAM, "trial", "--device", "virtual", "--tasks", "free", "--seconds", "0.2",
-                               "--out", str(self.out)], input="\n", capture_output=True, text=True, timeout=100)
-        self.assertEqual(done.returncode, 2, done.stderr)  # there is no second line to read
+        self.twinarm("trial", "--device", "virtual", "--tasks", "free", "--seconds", 0.2, "--out", self.out,
+                     input="\n", code=2)  # there is no second line to read
         rows = list(csv.DictReader((self.out / "results.csv").read_text().splitlines()))
         self.assertEqual([(row["order"], row["condition"]) for row in rows], [("1", "torsional")])
 
     def test_without_a_terminal_it_asks_for_yes(self):
-        done = run("--device", "virtual", "--tasks", "free", "--out", self.out, code=2)
+        done = self.twinarm("trial", "--device", "virtual", "--tasks", "free", "--out", self.out, code=2,
+                            stdin=subprocess.DEVNULL)
         self.assertIn("--yes", done.stderr)
 
 
 if __name__ == "__main__":
-    PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

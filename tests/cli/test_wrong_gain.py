@@ -5,32 +5,24 @@ S-103, and each law of a hinge; each remedy that it offers works, and the last s
     test_wrong_gain.py PATH/TO/twinarm
 """
 import json
-import pathlib
 import re
-import subprocess
-import sys
-import unittest
 
-import robot_command
-from robot_command import RobotCommand, joint, link, robot
-from waiting import TIMEOUT
+from program import ProgramTest, main, run
+from robot_command import HINGE
 
 SPRING = ('[[coupling]]\nname = "{name}"\ntype = "torsional"\nmeasure = "joint"\nlink = "{link}"\n'
           'stiffness = {k}\ndamping = {b}\ntreatment = "{treatment}"\n'
           '[coupling.target]\nq = {{ {joint} = 0.2 }}\n')
 
 
-class WrongGain(RobotCommand):
+class WrongGain(ProgramTest):
     def run_with(self, k, *options, step=0.001, treatment="explicit", duration=0.5):
-        scene = self.folder / "scene.toml"
-        scene.write_text(
+        scene = self.write(
+            "scene.toml",
             f'step = {step}\n[[robot]]\nname = "arm"\nmodel = "robots/s103/s103.urdf"\n' +
             SPRING.format(name="soft", link="arm1", joint="joint1", k=200, b=2, treatment=treatment) +
             SPRING.format(name="hard", link="arm2", joint="joint2", k=k, b=0, treatment=treatment))
-        return subprocess.run(
-            [robot_command.PROGRAM, "simulate", scene, "--duration", str(duration), "--json",
-             *map(str, options)], capture_output=True, text=True, timeout=TIMEOUT,
-            cwd=robot_command.ROOT)
+        return run("simulate", scene, "--duration", duration, "--json", *options)
 
     def test_the_right_spring_is_named_and_what_it_says_would_hold_holds(self):
         file = self.folder / "last.twinrec"
@@ -43,13 +35,12 @@ class WrongGain(RobotCommand):
         # What the words advise has room: the spring, which swings for ever, keeps to its energy.
         step, gain = (float(re.search(pattern, broken.stderr).group(1)) for pattern in
                       (r"a step of (\S+) s would hold", r"a stiffness of (\S+) N m/rad would hold"))
-        for run in (self.run_with(9e5, "--energy-bound", 5e4, step=step),
-                    self.run_with(gain, "--energy-bound", 0.06 * gain)):
-            self.assertEqual(run.returncode, 0, run.stderr)
-        for run in (self.run_with(9e5, step=0.99 * suspect["largest_step"]),
-                    self.run_with(0.99 * suspect["largest_gain"]),
-                    self.run_with(9e5, treatment="implicit")):
-            self.assertEqual(run.returncode, 0, run.stderr)
+        for done in (self.run_with(9e5, "--energy-bound", 5e4, step=step),
+                     self.run_with(gain, "--energy-bound", 0.06 * gain),
+                     self.run_with(9e5, step=0.99 * suspect["largest_step"]),
+                     self.run_with(0.99 * suspect["largest_gain"]),
+                     self.run_with(9e5, treatment="implicit")):
+            self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_a_run_that_bounces_between_its_limits_does_not_pass_for_sound(self):
         answer = json.loads(self.run_with(9e5, duration=0.034).stdout)
@@ -59,16 +50,10 @@ class WrongGain(RobotCommand):
         file = self.folder / "run.twinrec"
         done = self.run_with(100, "--record", file)
         self.assertEqual(done.returncode, 0, done.stderr)
-        opened = subprocess.run(
-            [robot_command.PROGRAM, "inspect", file, "--at", "0.03", "--force", "hard", "--json"],
-            capture_output=True, text=True, timeout=TIMEOUT)
-        self.assertEqual(opened.returncode, 0, opened.stdout + opened.stderr)
-        force, = json.loads(opened.stdout)["forces"]
+        force, = self.json_of("inspect", file, "--at", 0.03, "--force", "hard")["forces"]
         self.assertEqual([j["joint"] for j in force["joints"]], ["joint2"])
 
 
-HINGE = robot('<link name="base"/>', link("rod", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.5)),
-              joint("hinge", "continuous", "base", "rod"))
 GOD = '[[coupling]]\nname = "god"\ntype = "god-object"\ntarget = { q = { hinge = 0 } }\n'
 # Each far beyond what a step of 1 ms holds on an inertia of 0.5: its keys, and what is beside it.
 LAWS = {
@@ -92,27 +77,23 @@ WORDS = {"stiffness": r"a stiffness of (\S+) N", "turn_stiffness": r"a turn_stif
          "rate": r"a rate of (\S+) Hz"}
 
 
-class WrongGainOfALaw(RobotCommand):
+class WrongGainOfALaw(ProgramTest):
     def run_with(self, keys, beside, step=0.001):
-        (self.folder / "test.urdf").write_text(HINGE)
+        self.write("test.urdf", HINGE)
         lines = ["[[coupling]]", 'name = "pull"', 'link = "rod"',
                  *(f"{key} = {json.dumps(value)}" for key, value in keys.items()),
                  "target = { q = { hinge = 0 } }"]
         if keys["type"] in POINT:
             lines.append("point = [0.3, 0, 0]")
-        scene = self.folder / "scene.toml"
-        scene.write_text('[[robot]]\nname = "r"\nmodel = "test.urdf"\nq = { hinge = 1e-4 }\n'
-                         'qd = { hinge = 0.01 }\n' +
-                         "\n".join(lines) + "\n" + beside)
-        return subprocess.run([robot_command.PROGRAM, "simulate", scene, "--duration", "3", "--step",
-                               str(step), "--json", "--post-mortem", self.folder / "last.twinrec",
-                               "--energy-bound", "100"],  # a point spring has a largest pull
-                              capture_output=True, text=True, timeout=TIMEOUT)
+        scene = self.write("scene.toml", '[[robot]]\nname = "r"\nmodel = "test.urdf"\nq = { hinge = 1e-4 }\n'
+                           'qd = { hinge = 0.01 }\n' + "\n".join(lines) + "\n" + beside)
+        return run("simulate", scene, "--duration", 3, "--step", step, "--json", "--post-mortem",
+                   self.folder / "last.twinrec", "--energy-bound", 100)  # a point spring has a largest pull
 
     def check_holds(self, keys, beside, step=0.001):
-        run = self.run_with(keys, beside, step)
-        self.assertEqual(run.returncode, 0, f"{keys} {step}: {run.stderr}")
-        self.assertLess(abs(json.loads(run.stdout)["samples"][-1]["q"]["hinge"]), 3e-4)
+        done = self.run_with(keys, beside, step)
+        self.assertEqual(done.returncode, 0, f"{keys} {step}: {done.stderr}")
+        self.assertLess(abs(json.loads(done.stdout)["samples"][-1]["q"]["hinge"]), 3e-4)
 
     def test_every_law_is_named_with_a_remedy_that_holds(self):
         for name, (keys, beside) in LAWS.items():
@@ -162,10 +143,9 @@ class WrongGainOfALaw(RobotCommand):
                     gains = {gain: by * edge}
                     if "turn_stiffness" in keys:
                         gains["turn_stiffness"] = by * turn["turn_stiffness"]
-                    run = self.run_with({**keys, **gains}, beside)
-                    self.assertEqual(run.returncode, code, (by, run.stderr))
+                    done = self.run_with({**keys, **gains}, beside)
+                    self.assertEqual(done.returncode, code, (by, done.stderr))
 
 
 if __name__ == "__main__":
-    robot_command.PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
-    unittest.main()
+    main()

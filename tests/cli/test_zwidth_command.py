@@ -6,27 +6,19 @@
 import json
 import math
 import pathlib
-import subprocess
-import sys
 import tempfile
 import unittest
 
-from waiting import TIMEOUT  # noqa: E402
+from program import main, run
 
-PROGRAM = ""
 ANSWERS = {}
-
-
-def run(*options):
-    return subprocess.run([PROGRAM, "zwidth", *options], capture_output=True, text=True,
-                          timeout=TIMEOUT, check=False)
 
 
 def answer():
     """One run for all tests: it takes seconds."""
     if "it" not in ANSWERS:
         with tempfile.TemporaryDirectory() as folder:
-            done = run("--json", "--svg", f"{folder}/plane.svg")
+            done = run("zwidth", "--json", "--svg", f"{folder}/plane.svg")
             assert done.returncode == 0, done.stderr
             ANSWERS["it"] = json.loads(done.stdout)
             ANSWERS["svg"] = pathlib.Path(folder, "plane.svg").read_text(encoding="utf-8")
@@ -93,20 +85,6 @@ class Zwidth(unittest.TestCase):
         self.assertIn("walls that a hand device can render", ANSWERS["svg"])
         self.assertIn("Colgate", ANSWERS["svg"])
 
-    def test_all_faults_are_told_at_once(self):
-        done = run("--mass=0", "--damping=-1", "--rate=nan", "--delay=-2", "--svg",
-                   "/nowhere/at/all.png", "--json")
-        self.assertEqual(done.returncode, 2)
-        self.assertEqual(len(json.loads(done.stdout)["errors"]), 6)
-        for word in ("--mass", "--damping", "--rate", "--delay", "--svg"):
-            self.assertIn(word, done.stderr)
-
-    def test_help_begins_with_an_example(self):
-        done = run("--help")
-        self.assertEqual(done.returncode, 0)
-        self.assertIn("Example:  twinarm zwidth", done.stdout)
-
 
 if __name__ == "__main__":
-    PROGRAM = sys.argv.pop(1)
-    unittest.main()
+    main()

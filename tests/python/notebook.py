@@ -4,23 +4,19 @@ Each test is run as  test_NAME.py FOLDER_OF_THE_MODULE PATH/TO/twinarm
 """
 import json
 import os
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from waiting import TIMEOUT  # noqa: E402
+import program as command
+from program import ROOT
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 PUMA = "assets/robots/puma560/puma560.urdf"
 DOUBLE_PENDULUM = "assets/robots/teaching/double_pendulum.urdf"
 os.chdir(ROOT)
 sys.path.insert(0, sys.argv.pop(1))
-PROGRAM = sys.argv.pop(1)
+command.PROGRAM = os.path.abspath(sys.argv.pop(1))
 import twinarm  # noqa: E402
 
 # Where the module is watched by a sanitizer, Python has loaded its runtime first; the program has its own.
@@ -41,24 +37,7 @@ def states(model, count, seed=1):
 
 def program(*arguments):
     """What the program prints as JSON."""
-    done = subprocess.run([PROGRAM, *map(str, arguments), "--json"], capture_output=True, text=True,
-                          timeout=TIMEOUT, cwd=ROOT)
-    if done.returncode != 0:
-        raise AssertionError(done.stderr)
-    return json.loads(done.stdout)
-
-
-class InFolder(unittest.TestCase):
-    """Tests that write files."""
-
-    def setUp(self):
-        kept = tempfile.TemporaryDirectory(prefix="twinarm-python-")
-        self.addCleanup(kept.cleanup)
-        self.folder = pathlib.Path(kept.name)
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text, encoding="utf-8")
-        return self.folder / name
+    return json.loads(command.twinarm(*arguments, "--json").stdout)
 
 
 # A robot in which each joint type stands, its axes askew, and its base free to move.

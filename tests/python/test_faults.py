@@ -2,10 +2,10 @@
 """What is wrong is refused, and told with its remedy; what a robot says of itself."""
 import numpy as np
 
-from notebook import DOUBLE_PENDULUM, PUMA, InFolder, every_joint, main, states, twinarm
+from notebook import DOUBLE_PENDULUM, PUMA, ProgramTest, every_joint, main, states, twinarm
 
 
-class Faults(InFolder):
+class Faults(ProgramTest):
     def setUp(self):
         super().setUp()
         self.puma = twinarm.load(PUMA)
@@ -103,7 +103,7 @@ class Faults(InFolder):
             self.puma.gravity[2] = 0
 
 
-class Robots(InFolder):
+class Robots(ProgramTest):
     def test_a_robot_says_its_joints_their_places_and_limits(self):
         model = twinarm.load(self.write("all.urdf", every_joint()), floating=True)
         self.assertEqual(model.name, "all")

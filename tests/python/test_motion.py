@@ -3,34 +3,18 @@
 import csv
 import io
 import math
-import subprocess
 
 import numpy as np
 
-from notebook import (DOUBLE_PENDULUM, PROGRAM, PUMA, ROOT, InFolder, main, program, states,
-                      twinarm)
-
-SPRING = """
-step = {h}
-duration = 4
-integrator = "semi-implicit"
-[[robot]]
-name = "pendulum"
-model = "{root}/assets/robots/teaching/pendulum.urdf"
-q = {{ hinge = 0.001 }}
-collide = false
-[[coupling]]
-name = "hold"
-type = "torsional"
-measure = "joint"
-link = "bob"
-stiffness = {k}
-damping = {b}
-treatment = "explicit"
-"""
+from notebook import DOUBLE_PENDULUM, PUMA, ROOT, ProgramTest, main, program, states, twinarm
+from program import data
 
 
-class Steps(InFolder):
+def spring(h, k, b):
+    return data("spring_pendulum.toml", step=h, stiffness=k, damping=b)
+
+
+class Steps(ProgramTest):
     def end(self, h, integrator):
         model = twinarm.load(DOUBLE_PENDULUM)
         sim = twinarm.Simulation(model, [1.0, 0.5], [0, 0], integrator=integrator, h=h)
@@ -87,7 +71,7 @@ class Steps(InFolder):
             sim.step(10)
 
 
-class Scenes(InFolder):
+class Scenes(ProgramTest):
     def test_a_scene_has_the_bits_of_twinarm_simulate(self):
         for scene in ("assets/scenes/double_pendulum.toml", "assets/scenes/box_stack.toml"):
             told = program("simulate", scene, "--duration", 0.2, "--every", 0.05)
@@ -114,14 +98,14 @@ class Scenes(InFolder):
         limit = twinarm.largest_omega_h("semi-implicit Euler", 0)
         self.assertAlmostEqual(limit, 2, places=6)
         for part, stops in ((0.98, False), (1.02, True)):
-            text = SPRING.format(root=ROOT, h=part * limit / omega, k=k, b=0)
+            text = spring(h=part * limit / omega, k=k, b=0)
             run = twinarm.simulate(self.write("spring.toml", text), duration=6)
             self.assertEqual(run.stopped is not None, stops, part)
         self.assertTrue(run.stopped["reason"])
         self.assertLess(run.end, 6)
 
     def test_predictions_are_those_of_the_program_and_of_one_degree_of_freedom(self):
-        scene = self.write("spring.toml", SPRING.format(root=ROOT, h=0.001, k=400.0, b=3.0))
+        scene = self.write("spring.toml", spring(h=0.001, k=400.0, b=3.0))
         found = twinarm.predict_couplings(scene)
         self.assertEqual(found, program("coupling", "predict", scene))
         self.assertAlmostEqual(found["K"][0][0], 400, places=9)
@@ -136,9 +120,9 @@ class Scenes(InFolder):
         self.assertEqual(twinarm.largest_omega_h("spring and damper implicit", 0.1), math.inf)
 
     def test_what_is_set_in_a_scene_is_as_if_its_file_said_so(self):
-        of_file = self.write("written.toml", SPRING.format(root=ROOT, h=0.002, k=300.0, b=3.0).replace(
+        of_file = self.write("written.toml", spring(h=0.002, k=300.0, b=3.0).replace(
             '"explicit"', '"implicit"') + "\n")
-        other = self.write("spring.toml", SPRING.format(root=ROOT, h=0.001, k=5.0, b=0.0))
+        other = self.write("spring.toml", spring(h=0.001, k=5.0, b=0.0))
         change = {"step": 0.002, "coupling.hold.stiffness": 300, "coupling.damping": np.float64(3.0),
                   "coupling.treatment": "implicit"}
         expected, run = twinarm.simulate(of_file), twinarm.simulate(other, set=change)
@@ -149,7 +133,7 @@ class Scenes(InFolder):
         self.assertEqual(level.potential_energy[0], 0)
 
     def test_what_cannot_be_set_is_told(self):
-        scene = self.write("spring.toml", SPRING.format(root=ROOT, h=0.001, k=5.0, b=0.0))
+        scene = self.write("spring.toml", spring(h=0.001, k=5.0, b=0.0))
         for change, kind, words in (({"coupling.pull.stiffness": 1}, twinarm.InputError, "pull: this key is not known"),
                                     ({"coupling.hold.stifness": 1}, twinarm.InputError, "stifness"),
                                     ({"no.such": 1}, twinarm.InputError, "^set\\['no.such'\\]: "),
@@ -185,14 +169,11 @@ class Scenes(InFolder):
         self.assertEqual(twinarm.poses(model, model.q)[model.bodies.index("hook"), 2, 3], 1.2)
 
 
-class Recordings(InFolder):
+class Recordings(ProgramTest):
     def test_a_recording_has_the_numbers_of_the_export(self):
         file = self.folder / "run.twinrec"
-        done = subprocess.run([PROGRAM, "simulate", "assets/scenes/tracking_map.toml", "--duration",
-                               "0.05", "--record", file], cwd=ROOT, capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        exported = subprocess.run([PROGRAM, "export", file, "--csv"], cwd=ROOT, capture_output=True,
-                                  text=True).stdout
+        self.twinarm("simulate", "assets/scenes/tracking_map.toml", "--duration", 0.05, "--record", file)
+        exported = self.twinarm("export", file, "--csv").stdout
         rows = list(csv.DictReader(io.StringIO(exported)))
         rec = twinarm.open_recording(file)
         self.assertEqual(len(rec.t), len(rows))

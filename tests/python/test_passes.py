@@ -4,10 +4,10 @@ import json
 
 import numpy as np
 
-from notebook import DOUBLE_PENDULUM, PUMA, InFolder, every_joint, main, program, states, twinarm
+from notebook import DOUBLE_PENDULUM, PUMA, ProgramTest, every_joint, main, program, states, twinarm
 
 
-class ClosedForm(InFolder):
+class ClosedForm(ProgramTest):
     """Two rods of 0.5 m and 1 kg: the Lagrangian, written down by hand."""
     l, c, m, I, g = 0.5, 0.25, 1.0, 1 / 48, 9.81
 
@@ -44,7 +44,7 @@ class ClosedForm(InFolder):
         np.testing.assert_array_equal(model.gravity, [0, 0, 0])
 
 
-class EveryJoint(InFolder):
+class EveryJoint(ProgramTest):
     def setUp(self):
         super().setUp()
         self.model = twinarm.load(self.write("all.urdf", every_joint()), floating=True)
@@ -134,7 +134,7 @@ class EveryJoint(InFolder):
         self.assertAlmostEqual(V, mass * 9.81 * p[2], places=10)
 
 
-class LikeTheProgram(InFolder):
+class LikeTheProgram(ProgramTest):
     def test_the_puma_has_the_bits_of_twinarm_dynamics(self):
         model = twinarm.load(PUMA)
         for n, (q, qd, third) in enumerate(zip(*states(model, 3, seed=7))):

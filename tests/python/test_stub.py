@@ -2,7 +2,6 @@
 """twinarm.pyi says what the module has: the same names, the same arguments, the same defaults."""
 import ast
 import inspect
-import pathlib
 
 import numpy as np
 

@@ -5,10 +5,10 @@ import re
 
 import numpy as np
 
-from notebook import DOUBLE_PENDULUM, ROOT, InFolder, every_joint, main, program, states, twinarm
+from notebook import DOUBLE_PENDULUM, ROOT, ProgramTest, every_joint, main, program, states, twinarm
 
 
-class Workspace(InFolder):
+class Workspace(ProgramTest):
     def test_its_names_meanings_units_and_equations_are_those_of_the_solver(self):
         model = twinarm.load(DOUBLE_PENDULUM)
         twinarm.aba(model, [0, 0], [0, 0], [0, 0])

@@ -5,12 +5,11 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
 import time
 
 from whole_files import Half, check_whole
 
-from waiting import TIMEOUT  # noqa: E402
+from waiting import TIMEOUT
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOFT = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)

@@ -4,29 +4,14 @@ import math
 import tomllib
 import xml.etree.ElementTree as xml
 
-from robot_command import ROOT
+from program import ROOT
+from robot_command import cross, dot, times, transpose
 
 GRAVITY = (0, 0, -9.81)
 
 
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
 def add(a, b, scale=1):
     return tuple(x + scale * y for x, y in zip(a, b))
-
-
-def times(matrix, v):
-    return tuple(dot(row, v) for row in matrix)
-
-
-def transposed(matrix):
-    return tuple(zip(*matrix))
 
 
 def symmetric(xx, yy, zz, xy=0, xz=0, yz=0):
@@ -118,7 +103,7 @@ class Contents:
             arm = times(rotation, com)
             c = add(link["position"], arm)
             v = add(link["linear_velocity"], cross(w, arm))
-            spin = times(rotation, times(inertia, times(transposed(rotation), w)))
+            spin = times(rotation, times(inertia, times(transpose(rotation), w)))
             self.kinetic += 0.5 * m * dot(v, v) + 0.5 * dot(w, spin)
             self.potential -= m * dot(GRAVITY, c)
             self.linear = add(self.linear, v, m)

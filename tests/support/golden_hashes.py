@@ -7,7 +7,6 @@ held to what every x86-64 can.
 import os
 import pathlib
 import subprocess
-import sys
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]

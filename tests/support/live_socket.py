@@ -16,15 +16,13 @@ import hashlib
 import http.client
 import json
 import os
-import pathlib
 import select
 import socket
 import struct
-import sys
 import time
 import urllib.parse
 
-from waiting import TIMEOUT  # noqa: E402
+from waiting import TIMEOUT
 
 TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10
 FRAME_MAGIC, HISTORY_MAGIC = 0x31465754, 0x31485754

@@ -2,16 +2,8 @@
 enough linear algebra to compute what they must print."""
 import json
 import pathlib
-import shutil
-import subprocess
-import sys
-import tempfile
-import unittest
 
-from waiting import TIMEOUT  # noqa: E402
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = ""
+from program import ProgramTest, line_of, run
 
 # A body that nothing about is simple: mass, centre of mass, inertia about it (xx xy xz yy yz zz).
 MASS, COM = 2.5, (0.1, -0.2, 0.3)
@@ -48,27 +40,28 @@ PENDULUM = robot('<link name="base"/>', link("bob", 1, (0, 0, -1), (0,) * 6),
                  joint("hinge", "continuous", "base", "bob", axis="0 -1 0"))
 
 
-class RobotCommand(unittest.TestCase):
+# A rod about a vertical axis, no gravity in its direction.
+HINGE_INERTIA = 0.5
+HINGE = robot('<link name="base"/>', link("rod", 1, (0, 0, 0), (1, 0, 0, 1, 0, HINGE_INERTIA)),
+              joint("hinge", "continuous", "base", "rod"))
+# A hand that leads joint 1 (twice theta1) at 1 rad/s.
+HAND_COLUMNS = "t[s],theta1[rad],theta2[rad],theta3[rad],theta4[rad],theta5[rad],theta6[rad]\n"
+STEADY_HAND = HAND_COLUMNS + "0,0,0,0,0,0,0\n10,5,0,0,0,0,0\n"
+
+
+class RobotCommand(ProgramTest):
     command = ""
 
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="twinarm-robot-"))
-        self.addCleanup(shutil.rmtree, self.folder)
-
-    def run_it(self, urdf, *options, state=None, timeout=TIMEOUT):
+    def run_it(self, urdf, *options, state=None):
         """`urdf` is XML or a path below the project, `state` an object, JSON text or a path."""
         if urdf.startswith("<"):
-            (self.folder / "test.urdf").write_text(urdf)
-            urdf = self.folder / "test.urdf"
+            urdf = self.write("test.urdf", urdf)
         arguments = [self.command, urdf, *options]
         if state is not None:
             if not isinstance(state, pathlib.Path):
-                text = state if isinstance(state, str) else json.dumps(state)
-                state = self.folder / "state.json"
-                state.write_text(text)
+                state = self.write("state.json", state if isinstance(state, str) else json.dumps(state))
             arguments += ["--state", state]
-        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
-                              timeout=timeout, cwd=ROOT)
+        return run(*arguments)
 
     def answer(self, urdf, *options, state=None):
         result = self.run_it(urdf, *options, "--json", state=state)
@@ -82,8 +75,7 @@ class RobotCommand(unittest.TestCase):
         self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
         errors = json.loads(result.stdout)["errors"]
         self.assertEqual(len(result.stderr.splitlines()), len(errors), result.stderr)
-        return [f'{e["file"]}:{e["line"]}: {e["where"]}: {e["rule"]}; {e["remedy"]}'
-                for e in errors]
+        return [line_of(error) for error in errors]
 
     def close(self, found, wanted, tolerance=1e-12, message=""):
         """Numbers, or lists of them to any depth, to a part of the largest one."""

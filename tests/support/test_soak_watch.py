@@ -9,13 +9,12 @@ import os
 import pathlib
 import random
 import signal
-import sys
 import time
 import unittest
 import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-from soak_watch import MOST_BEHIND, TICK, Checks, Growth, IdleLoop  # noqa: E402
+from soak_watch import MOST_BEHIND, TICK, Checks, Growth, IdleLoop
 
 
 class SoakWatch(unittest.TestCase):

@@ -3,36 +3,16 @@ import http.client
 import json
 import signal
 import subprocess
-import sys
 import threading
 
 from blows import ROOT, Victim, demand
 from whole_files import check_whole, map_blocks, recorded_blocks
 
-from live_socket import Lab  # noqa: E402
-from waiting import TIMEOUT  # noqa: E402
+from live_socket import Lab
+from program import data
+from waiting import TIMEOUT
 
 ARM = ROOT / "assets/scenes/robot_beside_obstacles.toml"
-ROD = ('<robot name="hinge"><link name="base"/><link name="arm"><inertial><mass value="1"/>'
-       '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.5"/></inertial></link>'
-       '<joint name="hinge" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>'
-       '</robot>')
-HINGE = """duration = 0.5
-gravity = [0, 0, 0]
-[[robot]]
-name = "hinge"
-model = "hinge.urdf"
-[[coupling]]
-name = "pull"
-type = "torsional"
-measure = "joint"
-link = "arm"
-stiffness = 500
-damping = 1
-treatment = "explicit"
-target = { q = { hinge = 0.01 } }
-"""
-
 
 def beginning_of(whole, file, words):
     """What is whole of a recording that was cut short must be the undisturbed one's beginning; its frames."""
@@ -85,8 +65,8 @@ class Map(Victim):
     def command(self):
         scene = self.out.parent / "hinge.toml"
         if not scene.exists():
-            scene.write_text(HINGE)
-            (self.out.parent / "hinge.urdf").write_text(ROD)
+            scene.write_text(data("map_hinge.toml", duration=0.5))
+            (self.out.parent / "hinge.urdf").write_text(data("hinge.urdf"))
         return [self.program, "map", scene, "--x", "coupling.damping:0.5:20:64", "--y",
                 "coupling.stiffness:10:1e5:64:log", "--alone", "--force", "--work", self.out / "work.twinmap",
                 "--csv", self.out / "map.csv", "--svg", self.out / "map.svg"]

@@ -2,11 +2,10 @@
 import json
 import pathlib
 import struct
-import sys
 import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-from recording_format import MAGIC  # noqa: E402
+from recording_format import MAGIC
 
 
 class Half(Exception):

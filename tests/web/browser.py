@@ -18,7 +18,7 @@ import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from waiting import TIMEOUT  # noqa: E402
+from waiting import TIMEOUT
 
 PROGRAMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 CODES = {" ": 32, "Tab": 9, "Enter": 13, "Escape": 27, "PageUp": 33, "PageDown": 34, "End": 35,
@@ -32,6 +32,15 @@ OWN_WORDS = "GPU stall due to ReadPixels"  # what it says where it draws without
 def find_browser():
     """Its path, or None."""
     return next((path for path in map(shutil.which, PROGRAMS) if path), None)
+
+
+def folder_for_pictures():
+    """The second argument of a test, taken out and made; None where there is none."""
+    if len(sys.argv) < 3 or sys.argv[2].startswith("-") or "." in sys.argv[2]:
+        return None
+    folder = pathlib.Path(sys.argv.pop(2))
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
 
 
 class Browser:

@@ -5,15 +5,15 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
-from browser import NO_BROWSER, Browser, find_browser
+from browser import NO_BROWSER, Browser, find_browser, folder_for_pictures
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/support"))
-from live_socket import Lab  # noqa: E402
-from waiting import TIMEOUT, wait_for  # noqa: E402
+import program  # noqa: E402
+from live_socket import Lab
+from waiting import TIMEOUT, wait_for
 
 SCENE = ROOT / "assets/scenes/hand_and_obstacles.toml"
 STATE = "twinarm.page.state"
@@ -102,7 +102,7 @@ class LabCase(unittest.TestCase):
         self.mouse("mousePressed", (x, y))
         for i in range(1, 11):
             self.mouse("mouseMoved", (x + right * i / 10, y + down * i / 10))
-            time.sleep(0.05)
+            self.page.frames(2)
         return x + right, y + down
 
 
@@ -122,8 +122,6 @@ def why_no_page(program):
 
 def main():
     """TEST.py PATH/TO/twinarm [FOLDER_FOR_PICTURES] [options of unittest]"""
-    LabCase.program = sys.argv.pop(1)
-    if len(sys.argv) > 1 and not sys.argv[1].startswith("-") and "." not in sys.argv[1]:
-        LabCase.pictures = pathlib.Path(sys.argv.pop(1))
-        LabCase.pictures.mkdir(parents=True, exist_ok=True)
-    unittest.main()
+    LabCase.program = sys.argv[1]
+    LabCase.pictures = folder_for_pictures()
+    program.main()

@@ -3,28 +3,41 @@ import array
 import base64
 import json
 import re
-import subprocess
+import tempfile
 import unittest
 import zlib
 
-from waiting import TIMEOUT
+import program
+from browser import Browser, folder_for_pictures
 
 ARRAYS = {"u8": "B", "i8": "b", "u16": "H", "i16": "h", "u32": "I", "f32": "f", "f64": "d"}
 
 
-def run(program, *words, code=0):
-    """The finished process; it has ended with that code."""
-    done = subprocess.run([program, *map(str, words)], capture_output=True, text=True, check=False,
-                          timeout=TIMEOUT)
-    if done.returncode != code:
-        raise AssertionError(f"{words}: {done.returncode}\n{done.stderr}")
-    return done
+def main():
+    """TEST.py PATH/TO/twinarm [FOLDER_FOR_PICTURES] [options of unittest]"""
+    PageTest.pictures = folder_for_pictures()
+    program.main()
 
 
-def skip_without_pages(done):
-    """Of a finished command that writes a page."""
-    if done.returncode == 2 and "there is no page to fill in" in done.stderr:
-        raise unittest.SkipTest("the program was built without its pages: scripts/setup --web, then build")
+def setUpModule():
+    """Of files that test pages: none is there where the program was built without them."""
+    with tempfile.TemporaryDirectory() as folder:
+        done = program.run("inspect", "assets/robots/s103/s103.urdf", "--html", f"{folder}/page.html")
+        if done.returncode == 2 and "there is no page to fill in" in done.stderr:
+            raise unittest.SkipTest("the program was built without its pages: scripts/setup --web, then build")
+
+
+def page_browser():
+    """Drawn by the processor: where nobody looks, a small window is quicker."""
+    return Browser(*((1280, 720) if PageTest.pictures else (840, 480)))
+
+
+class PageTest(unittest.TestCase):
+    pictures = None  # a folder
+
+    def picture(self, browser, name):
+        if self.pictures:
+            browser.picture(self.pictures / f"{name}.png")
 
 
 def with_arrays(value, block):

@@ -5,39 +5,29 @@
 """
 import json
 import pathlib
-import subprocess
-import sys
 import tempfile
 import unittest
 
-from browser import NO_BROWSER, Browser, find_browser
-from page_file import data_of, run, skip_without_pages
-from waiting import TIMEOUT
+from browser import NO_BROWSER, find_browser
+from page_file import PageTest, data_of, main, page_browser
+from program import ROOT, twinarm
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = sys.argv.pop(1)
-PICTURES = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else None
 ROBOT = ROOT / "assets" / "robots" / "s103" / "s103.urdf"
 STATE = {"q": {"joint1": 0.6, "joint2": -0.8}, "qd": {"joint1": 1.0, "joint2": -2.0},
          "tau": {"joint1": 1.5}}
 
 
-class InspectPage(unittest.TestCase):
+class InspectPage(PageTest):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        folder = pathlib.Path(cls.temporary.name)
+        folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         state = folder / "state.json"
         state.write_text(json.dumps(STATE), encoding="utf-8")
         cls.file = folder / "page.html"
-        done = run(PROGRAM, "inspect", ROBOT, "--state", state, "--json", "--html", cls.file)
+        done = twinarm("inspect", ROBOT, "--state", state, "--json", "--html", cls.file)
         cls.told = json.loads(done.stdout)
         cls.html = cls.file.read_text(encoding="utf-8")
         cls.page = data_of(cls.html)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
 
     def test_it_carries_what_json_tells(self):
         self.assertEqual(json.loads(self.page["inspection"]), self.told)
@@ -59,7 +49,7 @@ class InspectPage(unittest.TestCase):
 
     @unittest.skipUnless(find_browser(), NO_BROWSER)
     def test_keys_step_through_the_passes_and_show_the_numbers(self):
-        with Browser(*((1280, 720) if PICTURES else (840, 480))) as browser:
+        with page_browser() as browser:
             browser.open(self.file.as_uri())
             steps = self.told["passes"]
             wanted = [(step["pass"], step["body"]) for step in steps]
@@ -76,10 +66,8 @@ class InspectPage(unittest.TestCase):
             state = browser.evaluate("window.twinarm.page.state")
             self.assertEqual((state["pass"], state["body"]), (2, "gripper"))
             for number, (step, theme) in enumerate(((3, "light"), (8, "dark"), (13, "light"))):
-                if PICTURES:
-                    PICTURES.mkdir(parents=True, exist_ok=True)
-                    browser.open(f"{self.file.as_uri()}#step={step}&theme={theme}")
-                    browser.picture(PICTURES / f"inspect_{number}.png")
+                browser.open(f"{self.file.as_uri()}#step={step}&theme={theme}")
+                self.picture(browser, f"inspect_{number}")
             self.assertEqual(browser.errors, [])
 
     def check_numbers(self, browser, step):
@@ -94,11 +82,5 @@ class InspectPage(unittest.TestCase):
             self.assertEqual([float(text) for text in shown[quantity["name"]]], numbers)
 
 
-def setUpModule():
-    with tempfile.TemporaryDirectory() as folder:
-        skip_without_pages(subprocess.run([PROGRAM, "inspect", ROBOT, "--html", f"{folder}/page.html"],
-                                          check=False, capture_output=True, text=True, timeout=TIMEOUT))
-
-
 if __name__ == "__main__":
-    unittest.main()
+    main()

@@ -5,17 +5,12 @@
 """
 import csv
 import json
-import subprocess
 
 from lab_case import KNOB, STATE, Lab, LabCase, main
-from waiting import TIMEOUT, wait_for
+from program import data, twinarm
+from waiting import wait_for
 
-ROD = """<robot name="rod"><link name="base"/>
-<link name="rod"><inertial><origin xyz="0 0 -0.5"/><mass value="1"/>
-<inertia ixx="0.1" iyy="0.1" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
-<visual><origin xyz="0 0 -0.5"/><geometry><box size="0.1 0.1 1"/></geometry></visual></link>
-<joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint>
-</robot>"""
+ROD = data("rod.urdf")
 
 # Texts that are seen with less than WCAG's 4.5 (3 where they are large); disabled ones may be faint.
 FAINT = """(() => {
@@ -48,11 +43,6 @@ FAINT = """(() => {
   }
   return [...faint];
 })()"""
-
-
-def program(*words):
-    return subprocess.run([LabCase.program, *map(str, words)], capture_output=True, text=True,
-                          timeout=TIMEOUT, check=True).stdout
 
 
 class LabPage(LabCase):
@@ -175,7 +165,7 @@ class LabPage(LabCase):
         lab = Lab(self.url)
         recording = self.path / "saved"
         recording.write_bytes(lab.get("/save").body)
-        told = json.loads(program("export", recording, "--json"))
+        told = json.loads(twinarm("export", recording, "--json").stdout)
         names = [column["name"] for column in told["columns"]]
         frames = {round(f["t"], 9): dict(zip(names, f["values"])) for f in told["frames"]}
         column = next(i for i, name in enumerate(head) if name.startswith("q/joint1"))

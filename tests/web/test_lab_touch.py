@@ -6,7 +6,7 @@
 import math
 import time
 
-from lab_case import STATE, LabCase, main
+from lab_case import LabCase, main
 
 CAMERA = """(({camera, controls: {target}}) => { const d = camera.position.clone().sub(target);
   return [Math.atan2(d.y, d.x), d.z / d.length(), d.length()]; })(twinarm.page.live.stage)"""
@@ -111,7 +111,7 @@ class Touch(LabCase):
         self.page.touch("touchStart", [at])
         for i in range(1, 9):
             self.page.touch("touchMove", [(at[0] + 5 * i, at[1])])
-            time.sleep(0.03)
+            self.page.frames(1)
         self.until("twinarm.page.drag.held?.kind === 'pull'")
         self.page.touch("touchEnd", [])
         self.page.frames(2)

@@ -5,51 +5,24 @@
 """
 import json
 import pathlib
-import subprocess
-import sys
 import tempfile
 import unittest
 
-from browser import NO_BROWSER, Browser, find_browser
-from page_file import data_of, png, run, skip_without_pages
-from waiting import TIMEOUT
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = sys.argv.pop(1)
-PICTURES = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else None
-SCENES = ROOT / "assets" / "scenes"
+from browser import NO_BROWSER, find_browser
+from page_file import PageTest, data_of, main, page_browser, png
+from program import SCENES, data, twinarm
 
 
-def twinarm(*words, code=0):
-    return run(PROGRAM, *words, code=code)
-
-
-# A flag in the plane of x and z: red at the left of who looks along y, green at the right; blue below.
-FLAG = """mtllib flag.mtl
-v 0 0 0
-v 1 0 0
-v 1 0 1
-v 0 0 1
-vt 0 0
-vt 1 0
-vt 1 1
-vt 0 1
-usemtl cloth
-f 1/1 2/2 3/3
-f 1/1 3/3 4/4
-"""
+# What lies on the flag of tests/data, as who looks along y sees it.
 RED, GREEN, BLUE = (230, 20, 20), (20, 200, 20), (20, 20, 230)
 CLOTH = [[RED] * 4 + [GREEN] * 4] * 4 + [[BLUE] * 8] * 4
-POLE = """<robot name="flag"><link name="pole">
-<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
-<visual><geometry><mesh filename="flag.obj"/></geometry></visual></link></robot>"""
 
 
 def write_flag(folder):
-    (folder / "flag.obj").write_text(FLAG)
+    for name in ("flag.obj", "flag.urdf"):
+        (folder / name).write_text(data(name))
     (folder / "flag.mtl").write_text("newmtl cloth\nKd 1 1 1\nmap_Kd cloth.png\n")
     (folder / "cloth.png").write_bytes(png(CLOTH))
-    (folder / "flag.urdf").write_text(POLE)
     return folder / "flag.urdf"
 
 
@@ -76,18 +49,13 @@ class Page:
         return [by_time[t] for t in self.run["times"]]
 
 
-class Pages(unittest.TestCase):
+class Pages(PageTest):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        folder = pathlib.Path(cls.temporary.name)
+        folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.arm = Page(folder, SCENES / "robot_beside_obstacles.toml")
         cls.ball = Page(folder, SCENES / "bouncing_ball.toml", "--duration", 1)
         cls.flag = Page(folder, write_flag(folder), "--duration", 0.1)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
 
 
 class Contents(Pages):
@@ -176,23 +144,12 @@ class InTheBrowser(Pages):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        # Drawn by the processor: where nobody looks, a small window is quicker.
-        cls.browser = Browser(*((1280, 720) if PICTURES else (840, 480)))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.__exit__()
-        super().tearDownClass()
+        cls.browser = cls.enterClassContext(page_browser())
 
     def open(self, page, hash_="", dark=False):
         self.browser.prefer(dark)
         self.browser.open(page.file.as_uri() + hash_)
         return self.browser
-
-    def picture(self, browser, name):
-        if PICTURES:
-            PICTURES.mkdir(parents=True, exist_ok=True)
-            browser.picture(PICTURES / f"{name}.png")
 
     def check_quiet(self, browser, page):
         self.assertEqual(browser.errors, [])
@@ -344,14 +301,5 @@ class InTheBrowser(Pages):
         self.check_quiet(browser, self.ball)
 
 
-def setUpModule():
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / "run.twinrec"
-        twinarm("simulate", SCENES / "bouncing_ball.toml", "--duration", 0.01, "--record", file,
-                "--json")
-        skip_without_pages(subprocess.run([PROGRAM, "export", file, file.with_suffix(".html")], check=False,
-                                          capture_output=True, text=True, timeout=TIMEOUT))
-
-
 if __name__ == "__main__":
-    unittest.main()
+    main()
