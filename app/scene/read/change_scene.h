@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/data/toml_tree.h"
+#include "app/data/value.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -19,6 +19,6 @@ Change parse_change(const std::string& text);
 // are missing are made: the reader knows whether there are such. With another `type` a coupling
 // loses the keys that the new one has not (app/scene/read/coupling_keys.h). `line`: what it writes
 // stands there.
-void apply(const Change& change, int line, TomlValue& scene, FaultList& faults);
+void apply(const Change& change, int line, Value& scene, FaultList& faults);
 
 }  // namespace twinarm

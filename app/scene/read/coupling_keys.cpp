@@ -37,24 +37,18 @@ std::vector<std::string> keys_that_are_not_of(const CouplingFacts& facts) {
   return keys;
 }
 
-void add_number(TomlValue& table, const char* key, double value, int line) {
-  if (table.find(key)) return;
-  TomlValue number;
-  number.key = key;
-  number.kind = TomlValue::Kind::number;
-  number.number = value;
-  number.line = line;
-  table.members.push_back(std::move(number));
+void add_number(Value& table, const char* key, double value, int line) {
+  if (!table.find(key)) table.put(key, Value::of(value)).line = line;
 }
 
 }  // namespace
 
-void fit_keys_to_type(TomlValue& coupling, int line) {
-  const TomlValue* type = coupling.find("type");
+void fit_keys_to_type(Value& coupling, int line) {
+  const Value* type = coupling.find("type");
   const CouplingFacts* facts = type ? facts_by_name(type->text) : nullptr;
   if (!facts) return;
   const std::vector<std::string> others = keys_that_are_not_of(*facts);
-  std::erase_if(coupling.members, [&](const TomlValue& member) {
+  std::erase_if(coupling.members, [&](const Value& member) {
     return std::find(others.begin(), others.end(), member.key) != others.end();
   });
   const bool has_gains =

@@ -13,7 +13,7 @@ namespace {
 using Law = CouplingSpec::Type;
 
 // The robot that carries the link; nullptr, told, where it cannot be found.
-const RobotInScene* read_robot_of(SceneTable& table, const SceneDescription& scene,
+const RobotInScene* read_robot_of(TableReader& table, const SceneDescription& scene,
                                   CouplingDescription& coupling) {
   std::vector<std::string> names;
   for (const RobotInScene& robot : scene.robots) names.push_back(robot.name);
@@ -30,7 +30,7 @@ const RobotInScene* read_robot_of(SceneTable& table, const SceneDescription& sce
   return nullptr;
 }
 
-void read_link(SceneTable& table, const RobotDescription& robot, CouplingDescription& coupling) {
+void read_link(TableReader& table, const RobotDescription& robot, CouplingDescription& coupling) {
   table.missing("link", "name the link that is pulled");
   coupling.link = table.text("link").value_or("");
   if (coupling.link.empty() || robot.links.empty()) return;
@@ -49,12 +49,12 @@ void read_link(SceneTable& table, const RobotDescription& robot, CouplingDescrip
 }
 
 // Whether the key is one of the law's; told where it stands and is not.
-bool fits(SceneTable& table, const char* key, bool is_of_law, const char* rule) {
+bool fits(TableReader& table, const char* key, bool is_of_law, const char* rule) {
   if (!is_of_law && table.has(key)) table.fault(key, rule, "leave it out", "scene.key-useless");
   return is_of_law;
 }
 
-void read_treatment(SceneTable& table, const CouplingFacts& facts, CouplingDescription& coupling) {
+void read_treatment(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
   using Treatments = CouplingFacts::Treatments;
   if (fits(table, "rate", facts.can_hold, "this type of coupling is computed at every step"))
     coupling.rate = table.positive("rate").value_or(0);
@@ -77,7 +77,7 @@ void read_treatment(SceneTable& table, const CouplingFacts& facts, CouplingDescr
                 "give treatment = \"explicit\", or leave 'rate' out", "scene.treatment");
 }
 
-void read_gains(SceneTable& table, CouplingDescription& coupling) {
+void read_gains(TableReader& table, CouplingDescription& coupling) {
   const char* none = "this type of coupling has no such gain";
   const bool has_gains = coupling.law != Law::weld_like && coupling.law != Law::god_object,
              is_linear = coupling.type == CouplingDescription::Type::linear;
@@ -108,7 +108,7 @@ void read_gains(SceneTable& table, CouplingDescription& coupling) {
 }
 
 // How it pulls, and where.
-void read_pull(SceneTable& table, const CouplingFacts& facts, CouplingDescription& coupling) {
+void read_pull(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
   coupling.type =
       facts.at_point ? CouplingDescription::Type::linear : CouplingDescription::Type::torsional;
   if (facts.at_joint) coupling.measure = Measure::joint;
@@ -126,7 +126,7 @@ void read_pull(SceneTable& table, const CouplingFacts& facts, CouplingDescriptio
 }
 
 // A soft stop: the spring-damper acts outside of these two coordinates of the joint.
-void read_outside(SceneTable& table, CouplingDescription& coupling) {
+void read_outside(TableReader& table, CouplingDescription& coupling) {
   const auto ends = table.numbers("outside", 2);
   if (!ends) return;
   coupling.outside = {(*ends)[0], (*ends)[1]};
@@ -141,14 +141,14 @@ void read_outside(SceneTable& table, CouplingDescription& coupling) {
 }
 
 // The joint that the button of the hand moves.
-void read_gripper(SceneReader& reader, SceneTable& table, const RobotDescription& robot,
+void read_gripper(SceneReader& reader, TableReader& table, const RobotDescription& robot,
                   CouplingTarget& target) {
-  const TomlValue* value = table.table("gripper");
+  const Value* value = table.table("gripper");
   if (!value) return;
   if (!target.is_hand())
     table.fault("gripper", "no hand moves this target", "give one, as target = \"paper\"",
                 "scene.key-useless");
-  SceneTable gripper = reader.open(*value, table.where() + ", gripper");
+  TableReader gripper = reader.open(*value, table.where() + ", gripper");
   for (const char* key : {"joint", "open", "closed"})
     gripper.missing(key, "give { joint = \"..\", open = 0, closed = 0.06 }");
   target.gripper = gripper.text("joint").value_or("");
@@ -164,7 +164,7 @@ void read_gripper(SceneReader& reader, SceneTable& table, const RobotDescription
                   name_remedy(target.gripper, names, "joints"), "scene.unknown-name");
 }
 
-void read_synthetic(SceneTable& hand, CouplingTarget& target) {
+void read_synthetic(TableReader& hand, CouplingTarget& target) {
   target.kind = CouplingTarget::Kind::synthetic;
   const double seed = hand.not_negative("seed").value_or(1);
   if (!(seed <= 4294967295.0) || seed != std::floor(seed))
@@ -187,18 +187,18 @@ void look_at_trace(const std::filesystem::path& file, std::vector<std::string>& 
   }
 }
 
-void read_target(SceneReader& reader, SceneTable& table, const RobotDescription& robot,
+void read_target(SceneReader& reader, TableReader& table, const RobotDescription& robot,
                  CouplingTarget& target) {
-  const TomlValue* value = table.find("target");
+  const Value* value = table.find("target");
   if (!value) return;
-  if (value->kind == TomlValue::Kind::table) {
-    SceneTable state = reader.open(*value, table.where() + ", target");
+  if (value->kind == Value::Kind::table) {
+    TableReader state = reader.open(*value, table.where() + ", target");
     if (state.has("seed")) {
       read_synthetic(state, target);
       return state.done();
     }
     target.kind = CouplingTarget::Kind::state;
-    target.q = reader.read_joints(state, "q", robot, false);
+    target.q = reader.read_joints(state, "q", robot, JointRows::coordinates);
     return state.done();
   }
   const std::string name = table.text("target").value_or("");
@@ -216,7 +216,7 @@ void read_target(SceneReader& reader, SceneTable& table, const RobotDescription&
 }
 
 // How late and how fast the motion of the target is seen.
-void read_pace(SceneTable& table, CouplingDescription& coupling) {
+void read_pace(TableReader& table, CouplingDescription& coupling) {
   using Kind = CouplingTarget::Kind;
   const Kind target = coupling.target.kind;
   const bool moves = coupling.target.is_hand();
@@ -233,8 +233,8 @@ void read_pace(SceneTable& table, CouplingDescription& coupling) {
 
 }  // namespace
 
-void SceneReader::read_coupling(const TomlValue& value, std::size_t index) {
-  SceneTable table = open(value, "coupling");
+void SceneReader::read_coupling(const Value& value, std::size_t index) {
+  TableReader table = open(value, "coupling");
   CouplingDescription coupling;
   coupling.line = table.line();
   coupling.name = read_item_name(table, "coupling", index, scene.couplings);

@@ -25,7 +25,7 @@ SceneDescription read_scene(const std::filesystem::path& file) {
   return read_scene(read_toml(file), file);
 }
 
-SceneDescription read_scene(const TomlValue& root, const std::filesystem::path& file,
+SceneDescription read_scene(const Value& root, const std::filesystem::path& file,
                             const FileRoots& roots) {
   SceneReader reader;
   reader.path = file;
@@ -41,8 +41,8 @@ SceneDescription read_scene(const TomlValue& root, const std::filesystem::path& 
   return std::move(reader.scene);
 }
 
-void SceneReader::read(const TomlValue& root) {
-  SceneTable table = open(root, "scene");
+void SceneReader::read(const Value& root) {
+  TableReader table = open(root, "scene");
   scene.gravity = table.vector("gravity").value_or(scene.gravity);
   scene.step = table.positive("step").value_or(scene.step);
   scene.duration = table.positive("duration");
@@ -54,18 +54,18 @@ void SceneReader::read(const TomlValue& root) {
     scene.integrator = all_integrators[*chosen].integrator;
 
   // Robots and bodies first: the others name them.
-  for (const TomlValue* robot : table.tables("robot")) read_robot(*robot);
-  for (const TomlValue* body : table.tables("body")) read_body(*body);
-  for (const TomlValue* pair : table.tables("pair")) read_pair(*pair);
+  for (const Value* robot : table.tables("robot")) read_robot(*robot);
+  for (const Value* body : table.tables("body")) read_body(*body);
+  for (const Value* pair : table.tables("pair")) read_pair(*pair);
   std::size_t index = 0;
-  for (const TomlValue* coupling : table.tables("coupling")) read_coupling(*coupling, index++);
+  for (const Value* coupling : table.tables("coupling")) read_coupling(*coupling, index++);
   index = 0;
-  for (const TomlValue* joint : table.tables("constraint")) read_constraint(*joint, index++);
+  for (const Value* joint : table.tables("constraint")) read_constraint(*joint, index++);
   table.text("note");
   table.done();
 }
 
-std::string SceneReader::read_name(SceneTable& table, const char* kind) {
+std::string SceneReader::read_name(TableReader& table, const char* kind) {
   table.missing("name", "give name = \"...\"");
   const std::string name = table.text("name").value_or("");
   if (name.empty()) return name;
@@ -88,7 +88,7 @@ std::string SceneReader::read_name(SceneTable& table, const char* kind) {
   return name;
 }
 
-Surface SceneReader::read_surface(SceneTable& table) {
+Surface SceneReader::read_surface(TableReader& table) {
   Surface surface;
   surface.friction = table.not_negative("friction").value_or(surface.friction);
   if (const auto e = table.not_negative("restitution")) {
@@ -104,15 +104,15 @@ Surface SceneReader::read_surface(SceneTable& table) {
   return surface;
 }
 
-Pose SceneReader::read_pose(SceneTable& table) {
+Pose SceneReader::read_pose(TableReader& table) {
   Pose pose;
   pose.p = table.vector("position").value_or(pose.p);
   pose.R = table.orientation("orientation").value_or(pose.R);
   return pose;
 }
 
-void SceneReader::read_pair(const TomlValue& value) {
-  SceneTable table = open(value, "pair");
+void SceneReader::read_pair(const Value& value) {
+  TableReader table = open(value, "pair");
   PairDescription pair;
   pair.line = table.line();
   const auto read_end = [&](const char* key) {
@@ -139,7 +139,7 @@ void SceneReader::read_pair(const TomlValue& value) {
   scene.pairs.push_back(std::move(pair));
 }
 
-std::optional<std::filesystem::path> SceneReader::find_file(SceneTable& table,
+std::optional<std::filesystem::path> SceneReader::find_file(TableReader& table,
                                                             const std::string& key,
                                                             const std::string& name) {
   namespace fs = std::filesystem;
