@@ -6,7 +6,7 @@
 
 #include "app/map/cell_batch.h"
 #include "app/record/record_run.h"
-#include "app/scene/read/value_path.h"
+#include "app/scene/read/scene_keys.h"
 #include "app/support/nearest_name.h"
 #include "solver/support/number_text.h"
 

@@ -26,6 +26,14 @@ Knob slider(std::string path, std::string label, double value, std::string unit,
   return knob;
 }
 
+Knob slider(std::string path, const SliderRow& row, double value, std::string unit) {
+  Knob knob =
+      slider(std::move(path), row.label, value, std::move(unit),
+             row.is_linear ? Knob::Form::linear : Knob::Form::log, row.low, row.high, row.meaning);
+  knob.restarts = row.restarts;
+  return knob;
+}
+
 Knob choice(std::string path, std::string label, std::string value,
             std::vector<std::string> choices, std::string meaning) {
   Knob knob;

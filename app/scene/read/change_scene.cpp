@@ -4,8 +4,8 @@
 #include <array>
 
 #include "app/robot/robot_input.h"
-#include "app/scene/read/coupling_keys.h"
 #include "app/scene/read/scene_description.h"
+#include "app/scene/read/scene_keys.h"
 #include "app/scene/read/value_path.h"
 #include "app/support/nearest_name.h"
 #include "solver/support/number_text.h"

@@ -17,7 +17,7 @@ struct Change {
 Change parse_change(const std::string& text);
 // To a scene's tree; adds a fault where the path leads nowhere. Tables and keys below the top that
 // are missing are made: the reader knows whether there are such. With another `type` a coupling
-// loses the keys that the new one has not (app/scene/read/coupling_keys.h). `line`: what it writes
+// loses the keys that the new one has not (app/scene/read/scene_keys.h). `line`: what it writes
 // stands there.
 void apply(const Change& change, int line, Value& scene, FaultList& faults);
 

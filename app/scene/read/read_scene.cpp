@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/scene/read/scene_keys.h"
 #include "app/scene/read/scene_names.h"
 #include "app/scene/read/scene_reader.h"
 #include "app/support/find_assets.h"
@@ -90,17 +91,8 @@ std::string SceneReader::read_name(TableReader& table, const char* kind) {
 
 Surface SceneReader::read_surface(TableReader& table) {
   Surface surface;
-  surface.friction = table.not_negative("friction").value_or(surface.friction);
-  if (const auto e = table.not_negative("restitution")) {
-    if (*e > 1)
-      table.fault("restitution", "must be at most 1: an impact creates no energy",
-                  "give a number from 0 to 1", "scene.range");
-    surface.restitution = *e;
-  }
-  surface.torsional_friction = table.not_negative("torsional_friction").value_or(0);
-  surface.rolling_friction = table.not_negative("rolling_friction").value_or(0);
-  surface.stiffness = table.positive("stiffness").value_or(surface.stiffness);
-  surface.dissipation = table.not_negative("dissipation").value_or(surface.dissipation);
+  for (const SurfaceKey& row : surface_keys())
+    surface.*row.member = read_number(table, row.key, row.range).value_or(surface.*row.member);
   return surface;
 }
 
@@ -127,13 +119,8 @@ void SceneReader::read_pair(const Value& value) {
   };
   pair.a = read_end("a");
   pair.b = read_end("b");
-  pair.friction = table.not_negative("friction");
-  pair.restitution = table.not_negative("restitution");
-  if (pair.restitution.value_or(0) > 1)
-    table.fault("restitution", "must be at most 1: an impact creates no energy",
-                "give a number from 0 to 1", "scene.range");
-  pair.stiffness = table.positive("stiffness");
-  pair.dissipation = table.not_negative("dissipation");
+  for (const SurfaceKey& row : surface_keys())
+    if (row.of_pair) pair.*row.of_pair = read_number(table, row.key, row.range);
   pair.collide = table.flag("collide");
   table.done();
   scene.pairs.push_back(std::move(pair));

@@ -1,8 +1,6 @@
 #include "app/scene/read/value_path.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "app/robot/robot_input.h"
 #include "app/support/nearest_name.h"
@@ -148,57 +146,6 @@ void set_number(Value& scene, const std::string& text, double value, int line,
     target.value->number = value;
     target.value->line = line;
   }
-}
-
-std::string unit_of_number(const Value& scene, const std::string& text) {
-  Value copy = scene;
-  const ValuePath path(text);
-  FaultList ignored;
-  const auto found =
-      attempt(ignored, [&] { return find_targets(copy, path, MadeKeys::last, 0, text); });
-  if (!found || found->empty()) return "";
-  const std::string& key = path.parts.back().name;
-  const bool of_coupling = path.parts.size() > 1 && path.parts.front().name == "coupling";
-  if (of_coupling && (key == "stiffness" || key == "damping")) {
-    const auto turns = [](const PathTarget& target) {
-      const Value* type = target.table->find("type");
-      return type && type->text == "torsional";
-    };
-    const bool all = turns(found->front());
-    for (const PathTarget& target : *found)
-      if (turns(target) != all) return "";
-    return key == "stiffness" ? (all ? "N m/rad" : "N/m") : (all ? "N m s/rad" : "N s/m");
-  }
-  static constexpr std::array<std::pair<const char*, const char*>, 26> kUnits{
-      {{"step", "s"},
-       {"duration", "s"},
-       {"delay", "s"},
-       {"gravity", "m/s²"},
-       {"rate", "Hz"},
-       {"mass", "kg"},
-       {"density", "kg/m³"},
-       {"position", "m"},
-       {"point", "m"},
-       {"point_b", "m"},
-       {"com", "m"},
-       {"size", "m"},
-       {"radius", "m"},
-       {"length", "m"},
-       {"offset", "m"},
-       {"semi_axes", "m"},
-       {"stiffness", "N/m"},
-       {"dissipation", "s/m"},
-       {"inertia", "kg m²"},
-       {"linear_velocity", "m/s"},
-       {"linear", "m/s"},
-       {"angular_velocity", "rad/s"},
-       {"angular", "rad/s"},
-       {"rolling_friction", "m"},
-       {"torsional_friction", "m"},
-       {"damping", "N s/m"}}};
-  for (const auto& [name, unit] : kUnits)
-    if (key == name) return unit;
-  return "";
 }
 
 }  // namespace twinarm

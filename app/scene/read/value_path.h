@@ -45,8 +45,4 @@ std::vector<PathTarget> find_targets(Value& scene, const ValuePath& path, MadeKe
 void set_number(Value& scene, const std::string& path, double value, int line,
                 const std::string& where, FaultList& faults);
 
-// What is measured in which unit, by the path's last key; empty where that is not known. Of a
-// stiffness it depends on the couplings that are meant.
-std::string unit_of_number(const Value& scene, const std::string& path);
-
 }  // namespace twinarm
