@@ -49,9 +49,9 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
   bool end_array() override { return close(); }
   bool key(std::string& name) override {
     value_line_ = line_;
-    if (!seen_.back().insert(name).second)
+    if (!open_.back().seen.insert(name).second)
       faults.add({file_, line_, name, "stands here twice", "leave one of them out"});
-    names_.back() = name;
+    open_.back().key = name;
     return true;
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& e) override {
@@ -78,9 +78,10 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
       root = std::move(item);
       return true;
     }
-    Value& around = open_.back();
-    item.key = names_.back();
-    (around.kind == Value::Kind::table ? around.members : around.items).push_back(std::move(item));
+    Open& around = open_.back();
+    item.key = around.key;
+    (around.value.is_table() ? around.value.members : around.value.items)
+        .push_back(std::move(item));
     return true;
   }
   bool open(Value::Kind kind) {
@@ -90,28 +91,26 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
       return false;
     }
     value_line_ = line_;
-    Value item;
-    item.kind = kind;
-    item.line = line_;
-    open_.push_back(std::move(item));
-    names_.emplace_back();
-    seen_.emplace_back();
+    Open& opened = open_.emplace_back();
+    opened.value.kind = kind;
+    opened.value.line = line_;
     return true;
   }
   bool close() {
-    Value item = std::move(open_.back());
+    Value item = std::move(open_.back().value);
     open_.pop_back();
-    names_.pop_back();
-    seen_.pop_back();
     return add(std::move(item));
   }
 
+  struct Open {
+    Value value;
+    std::string key;                       // after which its next value comes
+    std::unordered_set<std::string> seen;  // all its keys
+  };
   std::string file_;
   const int& line_;
   int value_line_ = 1;
-  std::vector<Value> open_;                            // the brackets around here
-  std::vector<std::string> names_;                     // the key after which their next value comes
-  std::vector<std::unordered_set<std::string>> seen_;  // all their keys
+  std::vector<Open> open_;  // the brackets around here
 };
 
 // Programs write NaN and Infinity into JSON that has neither: null in their place, so that all of

@@ -58,7 +58,6 @@ class TableReader {
 
   const Value& value() const { return table_; }
   const std::string& file() const { return file_; }
-  FaultList& faults() { return faults_; }
   std::string where(const std::string& key) const;
 
   // At the key where it stands, else at the table.

@@ -9,9 +9,6 @@
 
 namespace twinarm::knob_makers {
 
-Knob slider(std::string path, std::string label, double value, std::string unit, Knob::Form form,
-            double low, double high, std::string meaning);
-// Of a row of scene_keys.h.
 Knob slider(std::string path, const SliderRow& row, double value, std::string unit);
 Knob choice(std::string path, std::string label, std::string value,
             std::vector<std::string> choices, std::string meaning);

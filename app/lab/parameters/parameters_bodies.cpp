@@ -63,10 +63,9 @@ void add_surfaces(const SceneModel& model, std::vector<Knob>& knobs) {
 }
 
 void add_masses(const SceneDescription& scene, std::vector<Knob>& knobs) {
-  const auto put = [&](std::string path, std::string label, double value, const char* unit,
+  const auto put = [&](std::string path, const std::string& label, double value, const char* unit,
                        double low, double high, const std::string& group, const char* meaning) {
-    knobs.push_back(slider(std::move(path), std::move(label), value, unit, Knob::Form::log, low,
-                           high, meaning));
+    knobs.push_back(slider(std::move(path), {label.c_str(), low, high, meaning}, value, unit));
     knobs.back().group = group;
   };
   for (std::size_t i = 0; i < scene.robots.size(); ++i) {
