@@ -11,7 +11,7 @@
 #include "app/command/parser/shared_options.h"
 #include "app/coupling/gain_equivalents.h"
 #include "app/coupling/prediction.h"
-#include "app/data/toml_tree.h"
+#include "app/data/value.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -104,7 +104,7 @@ std::vector<std::pair<std::string, double>> read_along(const std::string& text, 
 // A scene that has couplings, and its step; `scene` in place of a file.
 SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<double>& step,
                                const std::string& integrator, FaultList& faults,
-                               std::optional<TomlValue> scene = {}) {
+                               std::optional<Value> scene = {}) {
   if (robot.model.extension() != ".toml" && !scene)
     faults.add({robot.model.string(), 0, "", "is no scene, and only a scene has couplings",
                 "write a scene with a [[robot]] and a [[coupling]] (docs/scenes.md); or give "
@@ -124,44 +124,28 @@ SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<do
   return std::move(*prepared);
 }
 
-using Kind = TomlValue::Kind;
-
-TomlValue text_entry(std::string key, std::string words) {
-  return {Kind::text, std::move(key), 0, 0, std::move(words), {}, {}};
-}
-TomlValue number_entry(std::string key, double size) {
-  return {Kind::number, std::move(key), 0, size, "", {}, {}};
-}
-// A list with one table in it.
-TomlValue list_of_one(std::string key, TomlValue table) {
-  return {Kind::list, std::move(key), 0, 0, "", {std::move(table)}, {}};
-}
-
 // The tree that such a scene file would have, of one robot and one coupling; its values are checked
 // where scenes are read.
-TomlValue scene_of_options(const CouplingPredictOptions& options, FaultList& faults) {
-  TomlValue robot;
-  robot.members = {text_entry("name", "robot"),
-                   text_entry("model", std::filesystem::absolute(options.robot.model).string())};
-  TomlValue coupling;
-  coupling.members.push_back(text_entry("name", "coupling"));
+Value scene_of_options(const CouplingPredictOptions& options, FaultList& faults) {
+  Value robot, coupling, scene;
+  robot.put("name", Value::of("robot"));
+  robot.put("model", Value::of(std::filesystem::absolute(options.robot.model).string()));
+  coupling.put("name", Value::of("coupling"));
   for (const auto& [key, words] : {std::pair{"type", &options.type},
                                    {"link", &options.link},
                                    {"measure", &options.measure},
                                    {"treatment", &options.treatment}})
-    if (!words->empty()) coupling.members.push_back(text_entry(key, *words));
+    if (!words->empty()) coupling.put(key, Value::of(*words));
   for (const auto& [key, size] :
        {std::pair{"stiffness", &options.stiffness}, {"damping", &options.damping}})
-    if (*size) coupling.members.push_back(number_entry(key, **size));
+    if (*size) coupling.put(key, Value::of(**size));
   if (!options.point.empty()) {
-    TomlValue point{Kind::list, "point", 0, 0, "", {}, {}};
+    Value& point = coupling.put("point", Value::list({}));
     for (const double x : parse_list("--point", options.point, faults))
-      point.items.push_back(number_entry("", x));
-    coupling.members.push_back(std::move(point));
+      point.items.push_back(Value::of(x));
   }
-  TomlValue scene;
-  scene.members = {list_of_one("robot", std::move(robot)),
-                   list_of_one("coupling", std::move(coupling))};
+  scene.put("robot", Value::list({std::move(robot)}));
+  scene.put("coupling", Value::list({std::move(coupling)}));
   return scene;
 }
 
@@ -178,7 +162,7 @@ int run_coupling_predict(const CouplingPredictOptions& options) {
   if (is_scene && has_coupling)
     faults.add({"", 0, "--link, --point, --measure, --treatment, --stiffness, --damping",
                 "are for a robot without a scene", "change the scene's [[coupling]]"});
-  std::optional<TomlValue> scene;
+  std::optional<Value> scene;
   if (!is_scene && has_coupling) scene = scene_of_options(options, faults);
   SimulatePlan prepared =
       prepare_couplings(options.robot, options.step, options.integrator, faults, std::move(scene));

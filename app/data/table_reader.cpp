@@ -12,27 +12,26 @@ namespace {
 // Lengths that were typed with few digits are mended in silence.
 constexpr double kFewDigits = 1e-6;
 
-bool is_finite_number(const TomlValue& value) {
-  return value.kind == TomlValue::Kind::number && std::isfinite(value.number);
+bool is_finite_number(const Value& value) {
+  return value.is_number() && std::isfinite(value.number);
 }
 
 }  // namespace
 
-const TomlValue* SceneTable::find(const std::string& key) {
+const Value* TableReader::find(const std::string& key) {
   if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.push_back(key);
   return table_.find(key);
 }
 
-const TomlValue* SceneTable::find(const std::string& key, TomlValue::Kind kind,
-                                  const char* wanted) {
-  const TomlValue* value = find(key);
+const Value* TableReader::find(const std::string& key, Value::Kind kind, const char* wanted) {
+  const Value* value = find(key);
   if (!value || value->kind == kind) return value;
   fault(key, std::string("must be ") + wanted + ", is " + describe(*value), "", "scene.type");
   return nullptr;
 }
 
-std::optional<double> SceneTable::number(const std::string& key) {
-  const TomlValue* value = find(key, TomlValue::Kind::number, "a number");
+std::optional<double> TableReader::number(const std::string& key) {
+  const Value* value = find(key, Value::Kind::number, "a number");
   if (!value) return std::nullopt;
   if (std::isfinite(value->number)) return value->number;
   fault(key, "must be finite, is " + describe(*value), "give a number in SI units",
@@ -40,7 +39,7 @@ std::optional<double> SceneTable::number(const std::string& key) {
   return std::nullopt;
 }
 
-std::optional<double> SceneTable::positive(const std::string& key) {
+std::optional<double> TableReader::positive(const std::string& key) {
   const auto value = number(key);
   if (!value || *value > 0) return value;
   fault(key, "must be positive, is " + number_text(*value), "give a number above 0",
@@ -48,31 +47,31 @@ std::optional<double> SceneTable::positive(const std::string& key) {
   return std::nullopt;
 }
 
-std::optional<double> SceneTable::not_negative(const std::string& key) {
+std::optional<double> TableReader::not_negative(const std::string& key) {
   const auto value = number(key);
   if (!value || *value >= 0) return value;
   fault(key, "must not be negative, is " + number_text(*value), "give 0 or more", "scene.negative");
   return std::nullopt;
 }
 
-std::optional<std::string> SceneTable::text(const std::string& key) {
-  const TomlValue* value = find(key, TomlValue::Kind::text, "a text");
+std::optional<std::string> TableReader::text(const std::string& key) {
+  const Value* value = find(key, Value::Kind::text, "a text");
   if (!value) return std::nullopt;
   if (!value->text.empty()) return value->text;
   fault(key, "must not be empty", "give " + key + " = \"...\"", "scene.empty");
   return std::nullopt;
 }
 
-std::optional<bool> SceneTable::flag(const std::string& key) {
-  const TomlValue* value = find(key, TomlValue::Kind::boolean, "true or false");
+std::optional<bool> TableReader::flag(const std::string& key) {
+  const Value* value = find(key, Value::Kind::boolean, "true or false");
   if (!value) return std::nullopt;
   return value->number != 0;
 }
 
-std::optional<std::vector<double>> SceneTable::numbers(const std::string& key, std::size_t count) {
-  const TomlValue* value = find(key);
+std::optional<std::vector<double>> TableReader::numbers(const std::string& key, std::size_t count) {
+  const Value* value = find(key);
   if (!value) return std::nullopt;
-  const bool good = value->kind == TomlValue::Kind::list && value->items.size() == count &&
+  const bool good = value->kind == Value::Kind::list && value->items.size() == count &&
                     std::all_of(value->items.begin(), value->items.end(), is_finite_number);
   if (!good) {
     const auto bad = std::find_if_not(value->items.begin(), value->items.end(), is_finite_number);
@@ -83,17 +82,17 @@ std::optional<std::vector<double>> SceneTable::numbers(const std::string& key, s
     return std::nullopt;
   }
   std::vector<double> found;
-  for (const TomlValue& item : value->items) found.push_back(item.number);
+  for (const Value& item : value->items) found.push_back(item.number);
   return found;
 }
 
-std::optional<Vector3> SceneTable::vector(const std::string& key) {
+std::optional<Vector3> TableReader::vector(const std::string& key) {
   const auto found = numbers(key, 3);
   if (!found) return std::nullopt;
   return Vector3(found->data());
 }
 
-std::optional<Vector3> SceneTable::unit_vector(const std::string& key) {
+std::optional<Vector3> TableReader::unit_vector(const std::string& key) {
   const auto found = vector(key);
   if (!found) return std::nullopt;
   if (std::abs(found->norm() - 1) <= kFewDigits) return found->normalized();
@@ -102,21 +101,24 @@ std::optional<Vector3> SceneTable::unit_vector(const std::string& key) {
   return std::nullopt;
 }
 
-std::optional<Matrix3> SceneTable::orientation(const std::string& key) {
+std::optional<Matrix3> TableReader::orientation(const std::string& key) {
   const auto q = numbers(key, 4);
   if (!q) return std::nullopt;
-  Eigen::Quaterniond turn((*q)[0], (*q)[1], (*q)[2], (*q)[3]);
-  if (std::abs(turn.norm() - 1) > kFewDigits) {
-    fault(key,
-          "a quaternion (w, x, y, z) has length 1, this one has " + short_number_text(turn.norm()),
-          "divide it by its length", "scene.length");
-    return std::nullopt;
-  }
-  return turn.normalized().toRotationMatrix();
+  if (!unit_length(key, std::span<const double, 4>(*q))) return std::nullopt;
+  return Eigen::Quaterniond((*q)[0], (*q)[1], (*q)[2], (*q)[3]).normalized().toRotationMatrix();
 }
 
-std::optional<std::size_t> SceneTable::choice(const std::string& key,
-                                              const std::vector<std::string>& names) {
+std::optional<double> TableReader::unit_length(const std::string& key,
+                                               std::span<const double, 4> q) {
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  if (std::abs(length - 1) <= kFewDigits) return length;
+  fault(key, "a quaternion (w, x, y, z) has length 1, this one has " + short_number_text(length),
+        "divide it by its length", "scene.length");
+  return std::nullopt;
+}
+
+std::optional<std::size_t> TableReader::choice(const std::string& key,
+                                               const std::vector<std::string>& names) {
   const auto name = text(key);
   if (!name) return std::nullopt;
   const auto found = std::find(names.begin(), names.end(), *name);
@@ -125,9 +127,9 @@ std::optional<std::size_t> SceneTable::choice(const std::string& key,
   return std::nullopt;
 }
 
-std::vector<const TomlValue*> SceneTable::tables(const std::string& key) {
-  const TomlValue* value = find(key);
-  std::vector<const TomlValue*> found;
+std::vector<const Value*> TableReader::tables(const std::string& key) {
+  const Value* value = find(key);
+  std::vector<const Value*> found;
   if (!value) return found;
   constexpr std::size_t kMostTables = 10000;  // each is compared with all others by name
   if (value->items.size() > kMostTables) {
@@ -135,32 +137,36 @@ std::vector<const TomlValue*> SceneTable::tables(const std::string& key) {
           "scene.too-many");
     return found;
   }
-  for (const TomlValue& item : value->items)
-    if (item.kind == TomlValue::Kind::table) found.push_back(&item);
-  if (value->kind != TomlValue::Kind::list || found.size() != value->items.size())
+  for (const Value& item : value->items)
+    if (item.kind == Value::Kind::table) found.push_back(&item);
+  if (value->kind != Value::Kind::list || found.size() != value->items.size())
     fault(key, "must be a list of tables, is " + describe(*value),
           "write [[" + key + "]] with two brackets", "scene.type");
   return found;
 }
 
-const TomlValue* SceneTable::table(const std::string& key) {
-  return find(key, TomlValue::Kind::table, "a table");
+const Value* TableReader::table(const std::string& key) {
+  return find(key, Value::Kind::table, place_ ? "an object" : "a table");
 }
 
-void SceneTable::fault(const std::string& key, std::string rule, std::string remedy,
-                       std::string_view code) {
-  const TomlValue* value = table_.find(key);
-  const std::string inside = key.empty() ? "" : ", " + key;
-  faults_.add({file_, value ? value->line : table_.line, where_ + inside, std::move(rule),
-               std::move(remedy), code});
+std::string TableReader::where(const std::string& key) const {
+  if (key.empty()) return where_;
+  return place_ ? place_->before + key + place_->after : where_ + ", " + key;
 }
 
-void SceneTable::missing(const std::string& key, std::string remedy) {
+void TableReader::fault(const std::string& key, std::string rule, std::string remedy,
+                        std::string_view code) {
+  const Value* value = table_.find(key);
+  faults_.add({file_, value ? value->line : table_.line, where(key), std::move(rule),
+               std::move(remedy), place_ ? std::string_view() : code});
+}
+
+void TableReader::missing(const std::string& key, std::string remedy) {
   if (!find(key)) fault(key, "is missing", std::move(remedy), "scene.missing");
 }
 
-void SceneTable::done() {
-  for (const TomlValue& member : table_.members)
+void TableReader::done() {
+  for (const Value& member : table_.members)
     if (!faults_.is_full() && std::find(asked_.begin(), asked_.end(), member.key) == asked_.end())
       fault(member.key, "this key is not known here", name_remedy(member.key, asked_, "keys"),
             "scene.unknown-key");

@@ -1,27 +1,39 @@
-// One table of a scene, read key by key, with a fault for each bad value.
+// One table of a scene or of a state file, read key by key, with a fault for each bad value.
 //
 // A faulty value is told and comes back as nothing, so that reading goes on and all faults are told
 // at once. The keys that were asked for are the keys that there are: done() tells the others.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "app/data/toml_tree.h"
+#include "app/data/value.h"
 #include "solver/spatial/pose.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
 
-class SceneTable {
+class TableReader {
  public:
   // All arguments must outlive it. `where` as faults name the table: "body 'ball'".
-  SceneTable(const TomlValue& table, std::string where, const std::string& file, FaultList& faults)
+  TableReader(const Value& table, std::string where, const std::string& file, FaultList& faults)
       : table_(table), where_(std::move(where)), file_(file), faults_(faults) {}
+  // An object of JSON: faults name `where` alone, or BEFORE KEY AFTER: "wrenches[0].link",
+  // "q of joint 'elbow'". They have no code.
+  struct Place {
+    std::string where, before, after;
+  };
+  TableReader(const Value& object, Place place, const std::string& file, FaultList& faults)
+      : table_(object),
+        where_(place.where),
+        place_(std::move(place)),
+        file_(file),
+        faults_(faults) {}
 
-  const TomlValue* find(const std::string& key);  // nullptr where it is left out
+  const Value* find(const std::string& key);  // nullptr where it is left out
   bool has(const std::string& key) { return find(key) != nullptr; }
   int line() const { return table_.line; }
   const std::string& where() const { return where_; }
@@ -36,11 +48,17 @@ class SceneTable {
   std::optional<Vector3> vector(const std::string& key);
   std::optional<Vector3> unit_vector(const std::string& key);
   std::optional<Matrix3> orientation(const std::string& key);  // of a unit quaternion w, x, y, z
+  // Of a quaternion: 1 to the digits that were typed, or a fault.
+  std::optional<double> unit_length(const std::string& key, std::span<const double, 4> q);
   // Which of the names: its index.
   std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& names);
   // The tables of [[key]].
-  std::vector<const TomlValue*> tables(const std::string& key);
-  const TomlValue* table(const std::string& key);
+  std::vector<const Value*> tables(const std::string& key);
+  const Value* table(const std::string& key);
+
+  const Value& value() const { return table_; }
+  const std::string& file() const { return file_; }
+  std::string where(const std::string& key) const;
 
   // At the key where it stands, else at the table.
   void fault(const std::string& key, std::string rule, std::string remedy,
@@ -49,10 +67,11 @@ class SceneTable {
   void done();
 
  private:
-  const TomlValue* find(const std::string& key, TomlValue::Kind kind, const char* wanted);
+  const Value* find(const std::string& key, Value::Kind kind, const char* wanted);
 
-  const TomlValue& table_;
+  const Value& table_;
   std::string where_;
+  std::optional<Place> place_;
   const std::string& file_;
   FaultList& faults_;
   std::vector<std::string> asked_;

@@ -37,8 +37,8 @@ std::unique_ptr<HandSource> hand_of(const SceneCoupling& coupling) {
   return std::make_unique<AutomaticMotion>(HandMapping{});  // of a twin at rest it turns nothing
 }
 
-double number_or(const TomlValue& table, const char* key, double otherwise) {
-  const TomlValue* value = table.find(key);
+double number_or(const Value& table, const char* key, double otherwise) {
+  const Value* value = table.find(key);
   return value ? value->number : otherwise;
 }
 
@@ -129,18 +129,18 @@ bool CellBatch::Parts::find_limits() {
 
 // Nothing where couplings see one motion each in its own time.
 std::optional<BatchCell> CellBatch::Parts::cell_at(const Place& place) const {
-  TomlValue scene = job.scene;
+  Value scene = job.scene;
   FaultList faults;
   put_in(job, place.x, place.y, scene, faults);
   BatchCell cell;
   cell.h = job.run.step.value_or(number_or(scene, "step", base.run.step));
-  const TomlValue* couplings = scene.find("coupling");
+  const Value* couplings = scene.find("coupling");
   bool has_motion = false;
   for (std::size_t c = 0; c < couplings->items.size(); ++c) {
-    const TomlValue& table = couplings->items[c];
+    const Value& table = couplings->items[c];
     BatchCell::Gains gains{number_or(table, "stiffness", 0), number_or(table, "damping", 0),
                            Vector3::Zero()};
-    if (const TomlValue* point = table.find("point"))
+    if (const Value* point = table.find("point"))
       for (std::size_t i = 0; i < 3; ++i)
         gains.p_L[static_cast<Eigen::Index>(i)] = point->items[i].number;
     cell.springs.push_back(gains);

@@ -6,7 +6,7 @@
 
 #include "app/map/cell_batch.h"
 #include "app/record/record_run.h"
-#include "app/scene/read/parameter_path.h"
+#include "app/scene/read/scene_keys.h"
 #include "app/support/nearest_name.h"
 #include "solver/support/number_text.h"
 
@@ -145,14 +145,14 @@ void check_once(const FaultList& faults) {
 
 }  // namespace
 
-void put_in(const MapJob& job, double x, double y, TomlValue& scene, FaultList& faults) {
+void put_in(const MapJob& job, double x, double y, Value& scene, FaultList& faults) {
   set_number(scene, job.x.path, x, kLineOfX, "--x", faults);
   set_number(scene, job.y.path, y, kLineOfY, "--y", faults);
 }
 
 SimulatePlan prepare_cell(const MapJob& job, double x, double y) {
   SimulateOptions options = job.run;
-  options.change_scene = [&](TomlValue& scene, FaultList&) {
+  options.change_scene = [&](Value& scene, FaultList&) {
     FaultList faults;
     put_in(job, x, y, scene, faults);
     faults.check();

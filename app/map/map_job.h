@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/data/toml_tree.h"
+#include "app/data/value.h"
 #include "app/map/cell_measure.h"
 #include "app/map/map_axis.h"
 #include "app/map/map_options.h"
@@ -26,7 +26,7 @@ struct MapJob {
   MapMeasure measure = MapMeasure::stable;
   std::size_t measured_coupling = 0;  // whose twin errors refer to
   SimulateOptions run;                // of the scene as it stands in its file
-  TomlValue scene;
+  Value scene;
   std::string x_unit, y_unit, unit, error_unit;  // `unit` is the measure's
   bool side_by_side = false;  // cells share the lanes of the processor (app/map/cell_batch.h)
   // By lines, what must be the same in files that belong together (app/map/tile_file.h). All
@@ -42,7 +42,7 @@ struct MapJob {
 MapJob read_map_job(const MapOptions& options);
 
 // The scene with the two numbers put in; u as in MapAxis::at().
-void put_in(const MapJob& job, double x, double y, TomlValue& scene, FaultList& faults);
+void put_in(const MapJob& job, double x, double y, Value& scene, FaultList& faults);
 // Ready to run. Throws InputError, which tells what an axis brought in by that axis.
 SimulatePlan prepare_cell(const MapJob& job, double x, double y);
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "app/data/toml_text.h"
+#include "app/data/value.h"
 #include "app/record/record_run.h"
 #include "app/support/interrupt.h"
 #include "solver/support/atomic_file.h"
@@ -13,33 +13,15 @@
 namespace twinarm {
 namespace {
 
-TomlValue& member_or_new(TomlValue& table, const std::string& key) {
-  for (TomlValue& member : table.members)
-    if (member.key == key) return member;
-  table.members.emplace_back();
-  table.members.back().key = key;
-  return table.members.back();
-}
-
 // The scene of the cell, with what the command line said in its place.
-TomlValue scene_of_cell(const MapJob& job, double x, double y) {
-  TomlValue scene = job.scene;
+Value scene_of_cell(const MapJob& job, double x, double y) {
+  Value scene = job.scene;
   FaultList faults;
   put_in(job, x, y, scene, faults);
   faults.check();
-  const auto number = [&](const char* key, const std::optional<double>& value) {
-    if (!value) return;
-    TomlValue& member = member_or_new(scene, key);
-    member.kind = TomlValue::Kind::number;
-    member.number = *value;
-  };
-  number("step", job.run.step);
-  number("duration", job.run.duration);
-  if (!job.run.integrator.empty()) {
-    TomlValue& member = member_or_new(scene, "integrator");
-    member.kind = TomlValue::Kind::text;
-    member.text = job.run.integrator;
-  }
+  if (job.run.step) scene.put("step", Value::of(*job.run.step));
+  if (job.run.duration) scene.put("duration", Value::of(*job.run.duration));
+  if (!job.run.integrator.empty()) scene.put("integrator", Value::of(job.run.integrator));
   name_files_from_root(job.run.robot.model.parent_path(), scene);
   return scene;
 }

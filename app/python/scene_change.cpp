@@ -41,7 +41,7 @@ void change_scene(const py::object& set, SimulateOptions& options) {
     const std::string name = py::cast<std::string>(path);
     changes.push_back({name, setting_text(name, value)});
   }
-  options.change_scene = [changes](TomlValue& scene, FaultList& faults) {
+  options.change_scene = [changes](Value& scene, FaultList& faults) {
     for (const Change& change : changes) {
       FaultList of_change;  // by the option of the command line
       apply(change, 0, scene, of_change);

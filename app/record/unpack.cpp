@@ -82,15 +82,15 @@ std::filesystem::path UnpackedRun::copy_of(const std::filesystem::path& original
 }
 
 // A text of the scene that names one of the files: it may have lain below assets/.
-void UnpackedRun::lead_to_copies(TomlValue& value) const {
-  if (value.kind == TomlValue::Kind::text && !value.text.empty()) {
+void UnpackedRun::lead_to_copies(Value& value) const {
+  if (value.kind == Value::Kind::text && !value.text.empty()) {
     const std::string name = std::filesystem::path(value.text).lexically_normal().string();
     for (const RecordedFile& file : header_.files)
       if (file.path == name || file.path.ends_with("/" + name))
         value.text = copy_of(file.path).string();
   }
-  for (TomlValue& item : value.items) lead_to_copies(item);
-  for (TomlValue& member : value.members) lead_to_copies(member);
+  for (Value& item : value.items) lead_to_copies(item);
+  for (Value& member : value.members) lead_to_copies(member);
 }
 
 SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
@@ -116,7 +116,7 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
                   "a robot alone has gravity to be changed, no more",
                   "write --set gravity=x,y,z, or record a scene", "change.robot"});
   faults.check();
-  options.change_scene = [this, of_scene](TomlValue& tree, FaultList& found) {
+  options.change_scene = [this, of_scene](Value& tree, FaultList& found) {
     lead_to_copies(tree);
     for (std::size_t i = 0; i < of_scene.size(); ++i)
       apply(of_scene[i].first, of_scene[i].second, tree, found);

@@ -38,7 +38,7 @@ class UnpackedRun {
  private:
   void write_missing() const;
   std::filesystem::path copy_of(const std::filesystem::path& original) const;
-  void lead_to_copies(TomlValue& value) const;
+  void lead_to_copies(Value& value) const;
   struct Folder {  // made, and removed with all that is in it
     Folder();
     ~Folder();

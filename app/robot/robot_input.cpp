@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "app/data/json_tree.h"
+#include "app/data/value.h"
 #include "app/support/text_fields.h"
 #include "collision/import/formats/robot_formats.h"
 #include "collision/import/robot/robot_model.h"
@@ -69,7 +69,7 @@ std::optional<Vector3> parse_gravity(const std::string& text, FaultList& faults)
 RobotInput read_robot_input(const RobotOptions& options, FaultList faults) {
   std::optional<Vector3> gravity;
   if (!options.gravity.empty()) gravity = parse_gravity(options.gravity, faults);
-  std::optional<JsonValue> json;
+  std::optional<Value> json;
   if (!options.state.empty()) json = attempt(faults, [&] { return read_json(options.state); });
   const auto robot = read_model_file(options, faults);
   if (!robot) faults.check();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/data/json_tree.h"
+#include "app/data/value.h"
 #include "app/robot/coordinates.h"
 #include "collision/import/robot/robot_description.h"
 #include "solver/support/diagnostics.h"
@@ -33,7 +33,7 @@ GivenState default_state(const Model<double>& model, const Coordinates& coordina
 
 // Adds all faults of the file to the list; what it returns is of use only if there are none. What
 // the file leaves out is as in `start`.
-GivenState read_state(const JsonValue& json, const std::filesystem::path& file,
+GivenState read_state(const Value& json, const std::filesystem::path& file,
                       const RobotDescription& robot, const Model<double>& model,
                       const Coordinates& coordinates, const GivenState& start, FaultList& faults);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/data/json_tree.h"
+#include "app/data/value.h"
 #include "app/scene/forces/add_contacts.h"
 #include "app/scene/read/read_scene.h"
 #include "app/scene/read/scene_names.h"
@@ -123,7 +123,7 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
   }
   refuse_robot_options(options.robot, faults);
   auto description = attempt(faults, [&] {
-    TomlValue tree = options.scene ? *options.scene : read_toml(options.robot.model);
+    Value tree = options.scene ? *options.scene : read_toml(options.robot.model);
     if (options.change_scene) options.change_scene(tree, faults);
     return read_scene(tree, options.robot.model, options.robot.roots);
   });

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/data/toml_tree.h"
+#include "app/data/value.h"
 #include "app/robot/robot_input.h"
 #include "solver/integration/integrator.h"
 #include "solver/support/diagnostics.h"
@@ -30,9 +30,9 @@ struct SimulateOptions {
   std::optional<double> energy_bound;  // of kinetic energy [J]; left out: kGrowth times the start's
   std::filesystem::path post_mortem;   // of a run that stops; empty: beside others in out/
   // What a fork changes in a scene before it is read; may be empty.
-  std::function<void(TomlValue&, FaultList&)> change_scene;
-  std::optional<TomlValue> scene;  // in place of the file that robot.model names
-  bool has_hand = false;           // one is at hand for couplings that follow a device
+  std::function<void(Value&, FaultList&)> change_scene;
+  std::optional<Value> scene;  // in place of the file that robot.model names
+  bool has_hand = false;       // one is at hand for couplings that follow a device
 };
 
 struct RunDefaults {

@@ -7,6 +7,7 @@ CouplingFacts bushing_coupling() {
   return {.name = "bushing",
           .order = 3,
           .treatments = CouplingFacts::Treatments::all,
+          .gains = CouplingFacts::Gains::two_springs,
           .at_point = true,
           .can_hold = true,
           .make = make_spring_damper<SpringDamperCoupling::Space::frame>};

@@ -23,4 +23,10 @@ const CouplingFacts& facts_of(CouplingSpec::Type type, bool printed) {
   });
 }
 
+const CouplingFacts* find_coupling(const std::string& name) {
+  for (const CouplingFacts& facts : all_couplings)
+    if (facts.name == name) return &facts;
+  return nullptr;
+}
+
 }  // namespace twinarm

@@ -43,12 +43,16 @@ enum class StepLaw { spring_damper, printed, stable_pd, god_object };
 
 struct CouplingFacts {
   enum class Treatments { all, explicit_only, own };
+  // What a scene states of it: stiffness and damping; and those of a turn; a WeldReference;
+  // nothing, for it drives all joints of a robot.
+  enum class Gains { spring, two_springs, reference, none };
   const char* name;           // in scenes and tables
   CouplingSpec::Type type{};  // left out: as its name
   bool printed = false;
   int order = 100;                                    // among all, where they are listed
   Treatments treatments = Treatments::explicit_only;  // own: it is a treatment itself, and goes
                                                       // with semi-implicit Euler only
+  Gains gains = Gains::spring;
   // What it acts on: a point (Spring::p_L counts), a joint's coordinate, or what
   // CouplingSpec::measure says; none of these: the orientation of a link.
   bool at_point = false, at_joint = false, has_measure = false;
@@ -75,6 +79,7 @@ const std::vector<CouplingFacts>& registered_couplings();  // by the names of th
 const std::vector<CouplingFacts>& couplings_in_order();
 inline const std::vector<CouplingFacts>& all_couplings = couplings_in_order();
 const CouplingFacts& facts_of(CouplingSpec::Type type, bool printed);
+const CouplingFacts* find_coupling(const std::string& name);  // nullptr where there is none
 
 inline std::unique_ptr<Coupling> make_coupling(const CouplingSpec& spec, const Model<double>& model,
                                                KinematicRobot& kvr) {

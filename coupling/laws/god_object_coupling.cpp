@@ -116,6 +116,7 @@ CouplingFacts god_object_coupling() {
   return {.name = "god-object",
           .order = 7,
           .treatments = CouplingFacts::Treatments::own,
+          .gains = CouplingFacts::Gains::none,
           .at_joint = true,
           .is_spring_damper = false,
           .step_law = StepLaw::god_object,

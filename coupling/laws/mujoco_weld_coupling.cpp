@@ -107,6 +107,7 @@ CouplingFacts mujoco_weld_coupling() {
   return {.name = "weld",
           .order = 4,
           .treatments = CouplingFacts::Treatments::all,
+          .gains = CouplingFacts::Gains::reference,
           .at_point = true,
           .make = make_law<WeldLike>};
 }

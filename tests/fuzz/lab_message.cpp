@@ -27,12 +27,12 @@ friction = 0.5
 
 void lab_message(Bytes bytes) {
   static const std::filesystem::path file = folder().write("lab.toml", kScene);
-  static const TomlValue scene = read_toml(file);
+  static const Value scene = read_toml(file);
   goes_through([&] {
     const LabCommand command = parse_command(std::string(bytes));
     needs_hand(command.what);
     if (command.what != LabCommand::Do::set && command.what != LabCommand::Do::branch) return;
-    TomlValue tree = scene;
+    Value tree = scene;
     FaultList faults;
     for (const std::string& text : command.names) apply(parse_change(text), -1, tree, faults);
     faults.check();

@@ -24,14 +24,12 @@ COMPARED = re.compile(
 # Folder or file: what its literals are.
 ALLOWED = {
     # What users and other programs write.
-    "app/data/json_tree.cpp": "messages of the JSON parser, of which the place is cut off",
+    "app/data/json_value.cpp": "messages of the JSON parser, of which the place is cut off",
     "app/device/vrpn_stream.cpp": "VRPN's own sender",
     "app/command/lab.cpp": "values of the lab's messages",
     "app/lab/app/lab_routes.cpp": "names of files that pages send",
-    "app/scene/read/parameter_path.cpp": "keys of scenes",
     "app/command/map.cpp": "keys of tile files",
     "app/command/": "types and names of options, by CLI11",
-    "app/scene/read/change_scene.cpp": "values and keys of scenes",
     "app/record/output/branch_view.cpp": "names of columns of recordings",
     "app/scene/": "keys, names and values of scenes",
     "app/command/trial.cpp": "values of --conditions and --mapping",

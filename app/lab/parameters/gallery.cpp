@@ -11,22 +11,22 @@ namespace twinarm {
 namespace {
 
 // lanes = { path = "integrator", values = ["verlet", "rk4"], apart = [0, 0.5, 0] }
-LaneSet read_lanes(SceneTable& entry, const TomlValue& told, const std::string& file,
+LaneSet read_lanes(TableReader& entry, const Value& told, const std::string& file,
                    FaultList& faults) {
-  SceneTable table(told, entry.where() + ", lanes", file, faults);
+  TableReader table(told, entry.where() + ", lanes", file, faults);
   LaneSet lanes;
   lanes.path = table.text("path").value_or("");
   lanes.apart = table.vector("apart");
-  if (const TomlValue* values = table.find("values"))
-    for (const TomlValue& value : values->items)
-      lanes.values.push_back(value.kind == TomlValue::Kind::number ? fmt::format("{}", value.number)
-                                                                   : value.text);
+  if (const Value* values = table.find("values"))
+    for (const Value& value : values->items)
+      lanes.values.push_back(value.kind == Value::Kind::number ? fmt::format("{}", value.number)
+                                                               : value.text);
   table.done();
   if (const auto fault = fault_of(lanes)) entry.fault("lanes", fault->rule, fault->remedy);
   return lanes;
 }
 
-GalleryScene read_entry(SceneTable& table, const std::filesystem::path& folder,
+GalleryScene read_entry(TableReader& table, const std::filesystem::path& folder,
                         const std::string& file, FaultList& faults) {
   GalleryScene scene;
   for (const char* key : {"name", "file", "title", "look"})
@@ -40,16 +40,16 @@ GalleryScene read_entry(SceneTable& table, const std::filesystem::path& folder,
                 "name a scene of the folder above");
   scene.picture = folder / (scene.name + ".png");
   if (!std::filesystem::is_regular_file(scene.picture, ignored)) scene.picture.clear();
-  const TomlValue* look = table.find("look");
+  const Value* look = table.find("look");
   const bool fits = look && look->items.size() == scene.look.size() &&
-                    std::all_of(look->items.begin(), look->items.end(), [](const TomlValue& line) {
-                      return line.kind == TomlValue::Kind::text && !line.text.empty();
+                    std::all_of(look->items.begin(), look->items.end(), [](const Value& line) {
+                      return line.kind == Value::Kind::text && !line.text.empty();
                     });
   if (!fits)
     table.fault("look", "is not three lines of text", "give what to look for, in three lines");
   else
     for (std::size_t i = 0; i < scene.look.size(); ++i) scene.look[i] = look->items[i].text;
-  if (const TomlValue* lanes = table.table("lanes"))
+  if (const Value* lanes = table.table("lanes"))
     scene.lanes = read_lanes(table, *lanes, file, faults);
   table.done();
   return scene;
@@ -58,13 +58,13 @@ GalleryScene read_entry(SceneTable& table, const std::filesystem::path& folder,
 }  // namespace
 
 std::vector<GalleryScene> read_gallery(const std::filesystem::path& file) {
-  const TomlValue root = read_toml(file);
+  const Value root = read_toml(file);
   const std::string name = file.string();
   FaultList faults;
-  SceneTable top(root, "gallery", name, faults);
+  TableReader top(root, "gallery", name, faults);
   std::vector<GalleryScene> gallery;
-  for (const TomlValue* entry : top.tables("scene")) {
-    SceneTable table(*entry, "scene", name, faults);
+  for (const Value* entry : top.tables("scene")) {
+    TableReader table(*entry, "scene", name, faults);
     gallery.push_back(read_entry(table, file.parent_path(), name, faults));
     if (find_scene(gallery, gallery.back().name) != &gallery.back())
       table.fault("name", "the name is taken already", "give each scene its own name");

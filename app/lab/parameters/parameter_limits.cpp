@@ -102,15 +102,6 @@ constexpr GainKey kGains[] = {{"stiffness", CoupledStep::Gain::stiffness, true},
                               {"turn_damping", CoupledStep::Gain::turn_damping, true},
                               {"time_constant", CoupledStep::Gain::time_constant, false}};
 
-// "coupling[2].stiffness": 2 and the key; -1 for all; nothing where it is no coupling's.
-std::optional<std::pair<int, std::string>> coupling_and_key(const std::string& path) {
-  const std::size_t dot = path.find('.');
-  if (path.rfind("coupling", 0) != 0 || dot == std::string::npos) return std::nullopt;
-  const std::string key = path.substr(dot + 1);
-  if (path[8] == '.') return std::pair{-1, key};
-  return std::pair{std::stoi(path.substr(9)), key};
-}
-
 class Limits {
  public:
   Limits(const SimulatePlan& plan, std::vector<Knob>& knobs)
@@ -120,11 +111,10 @@ class Limits {
     if (step_.is_empty()) return;
     for (Knob& knob : knobs_) {
       if (knob.path == "step") add_step(knob);
-      const auto coupling = coupling_and_key(knob.path);
-      if (!coupling || is_stop(coupling->first)) continue;
-      if (coupling->second == "rate") add_rate(knob, coupling->first);
+      if (!knob.coupling || is_stop(*knob.coupling)) continue;
+      if (knob.key == "rate") add_rate(knob, *knob.coupling);
       for (const GainKey& gain : kGains)
-        if (coupling->second == gain.key) add_gain(knob, coupling->first, gain);
+        if (knob.key == gain.key) add_gain(knob, *knob.coupling, gain);
     }
     if (!holds_) tell_once();
   }
@@ -250,8 +240,7 @@ void predict_knobs(SimulatePlan& plan, const State<double>& now, std::vector<Kno
   Limits(plan, knobs).add();
   const Lags lags(plan);
   for (Knob& knob : knobs) {
-    const auto coupling = coupling_and_key(knob.path);
-    if (coupling && coupling->second == "stiffness") knob.lag = lags.of(coupling->first);
+    if (knob.coupling && knob.key == "stiffness") knob.lag = lags.of(*knob.coupling);
   }
 }
 

@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "app/lab/parameters/parameters.h"
-#include "app/scene/read/scene_description.h"
+#include "app/scene/read/scene_keys.h"
 
 namespace twinarm::knob_makers {
 
-Knob slider(std::string path, std::string label, double value, std::string unit, Knob::Form form,
-            double low, double high, std::string meaning);
+Knob slider(std::string path, const SliderRow& row, double value, std::string unit);
 Knob choice(std::string path, std::string label, std::string value,
             std::vector<std::string> choices, std::string meaning);
 inline std::string item(const char* list, std::size_t index, const char* key) {

@@ -12,17 +12,17 @@
 namespace twinarm {
 namespace knob_makers {
 
-Knob slider(std::string path, std::string label, double value, std::string unit, Knob::Form form,
-            double low, double high, std::string meaning) {
+Knob slider(std::string path, const SliderRow& row, double value, std::string unit) {
   Knob knob;
   knob.path = std::move(path);
-  knob.label = std::move(label);
+  knob.label = row.label;
   knob.number = value;
   knob.unit = std::move(unit);
-  knob.form = form;
-  knob.low = low;
-  knob.high = high;
-  knob.meaning = std::move(meaning);
+  knob.form = row.is_linear ? Knob::Form::linear : Knob::Form::log;
+  knob.low = row.low;
+  knob.high = row.high;
+  knob.meaning = row.meaning;
+  knob.restarts = row.restarts;
   return knob;
 }
 
@@ -51,9 +51,8 @@ Knob step_knob(const SimulatePlan& plan) {
       "step, and it gains energy from nothing.";
   std::vector<std::string> steps;
   if (plan.input.scene) steps = steps_for_rates(plan.input.scene->description, step);
-  Knob knob = steps.empty()
-                  ? slider("step", "step h", step, "s", Knob::Form::log, 1e-5, 0.02, meaning)
-                  : choice("step", "step h", number_text(step), steps, meaning);
+  Knob knob = steps.empty() ? slider("step", {"step h", 1e-5, 0.02, meaning}, step, "s")
+                            : choice("step", "step h", number_text(step), steps, meaning);
   knob.unit = "s";
   knob.group = "time";
   return knob;
@@ -88,8 +87,12 @@ Knob integrator_knob(const SimulatePlan& plan) {
 }
 
 Knob gravity_knob(const Vector3& gravity) {
-  Knob knob = slider("gravity[2]", "gravity, up", gravity.z(), "m/s²", Knob::Form::linear, -25, 25,
-                     "Downward is negative: Earth -9.81, Moon -1.62, free flight 0.");
+  const SliderRow row{.label = "gravity, up",
+                      .low = -25,
+                      .high = 25,
+                      .meaning = "Downward is negative: Earth -9.81, Moon -1.62, free flight 0.",
+                      .is_linear = true};
+  Knob knob = slider("gravity[2]", row, gravity.z(), "m/s²");
   knob.group = "world";
   return knob;
 }

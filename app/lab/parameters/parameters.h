@@ -32,6 +32,9 @@ struct Knob {
   // log and linear are sliders from low to high; number is typed; choice is one of `choices`.
   enum class Form { log, linear, choice, number };
   std::string path, label, group;
+  // Of a coupling: its number in the scene, -1 for all of them, and its key.
+  std::optional<int> coupling;
+  std::string key;
   std::optional<double>
       number;        // value now; none: as the scene leaves it out, "every step" of a rate
   std::string text;  // value now of a choice

@@ -8,38 +8,8 @@ namespace {
 
 constexpr std::size_t kManyBodies = 8;
 
-// What a surface has, and how it is turned.
-struct SurfaceKey {
-  const char *key, *label, *unit;
-  double Surface::*value;
-  Knob::Form form;
-  double low, high;
-  const char* meaning;
-};
-
-const SurfaceKey kFriction{
-    "friction",         "friction", "", &Surface::friction,
-    Knob::Form::linear, 0,          2,  "Coulomb's: a pair takes the geometric mean of its two."};
-const SurfaceKey kRestitution{"restitution",
-                              "restitution",
-                              "",
-                              &Surface::restitution,
-                              Knob::Form::linear,
-                              0,
-                              1,
-                              "Speed after an impact over speed before: a pair takes the product."};
-const SurfaceKey kStiffness{"stiffness",
-                            "contact stiffness",
-                            "N/m",
-                            &Surface::stiffness,
-                            Knob::Form::log,
-                            1e3,
-                            1e9,
-                            "Of each contact point; two surfaces are springs in series."};
-
 Knob knob_of(const SurfaceKey& key, std::string path, double value, std::string group) {
-  Knob knob =
-      slider(std::move(path), key.label, value, key.unit, key.form, key.low, key.high, key.meaning);
+  Knob knob = slider(std::move(path), key.slider, value, key.unit);
   knob.group = std::move(group);
   return knob;
 }
@@ -50,7 +20,7 @@ class Surfaces {
       : scene_(model.description), knobs_(knobs) {}
 
   void add(const SurfaceKey& key) {
-    const auto value = [&](const auto& owner) { return owner.surface.*key.value; };
+    const auto value = [&](const auto& owner) { return owner.surface.*key.member; };
     for (std::size_t i = 0; i < scene_.robots.size(); ++i)
       if (scene_.robots[i].collide)
         knobs_.push_back(knob_of(key, item("robot", i, key.key), value(scene_.robots[i]),
@@ -71,11 +41,9 @@ class Surfaces {
     for (std::size_t i = 0; i < scene_.pairs.size(); ++i) {
       const PairDescription& pair = scene_.pairs[i];
       const std::string group = pair.a + " on " + pair.b;
-      if (pair.friction)
-        knobs_.push_back(knob_of(kFriction, item("pair", i, "friction"), *pair.friction, group));
-      if (pair.restitution)
-        knobs_.push_back(
-            knob_of(kRestitution, item("pair", i, "restitution"), *pair.restitution, group));
+      for (const SurfaceKey& key : surface_keys())
+        if (key.slider.label && key.of_pair && !key.is_of_compliant && pair.*key.of_pair)
+          knobs_.push_back(knob_of(key, item("pair", i, key.key), *(pair.*key.of_pair), group));
     }
   }
 
@@ -88,17 +56,16 @@ class Surfaces {
 
 void add_surfaces(const SceneModel& model, std::vector<Knob>& knobs) {
   Surfaces surfaces(model, knobs);
-  surfaces.add(kFriction);
-  surfaces.add(kRestitution);
-  if (model.description.contact == ContactMode::compliant) surfaces.add(kStiffness);
+  const bool is_compliant = model.description.contact == ContactMode::compliant;
+  for (const SurfaceKey& key : surface_keys())
+    if (key.slider.label && (is_compliant || !key.is_of_compliant)) surfaces.add(key);
   surfaces.add_pairs();
 }
 
 void add_masses(const SceneDescription& scene, std::vector<Knob>& knobs) {
-  const auto put = [&](std::string path, std::string label, double value, const char* unit,
+  const auto put = [&](std::string path, const std::string& label, double value, const char* unit,
                        double low, double high, const std::string& group, const char* meaning) {
-    knobs.push_back(slider(std::move(path), std::move(label), value, unit, Knob::Form::log, low,
-                           high, meaning));
+    knobs.push_back(slider(std::move(path), {label.c_str(), low, high, meaning}, value, unit));
     knobs.back().group = group;
   };
   for (std::size_t i = 0; i < scene.robots.size(); ++i) {

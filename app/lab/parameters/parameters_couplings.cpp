@@ -35,9 +35,10 @@ std::vector<std::string> types_for(const SceneDescription& scene, const Coupling
   std::vector<std::string> names;
   for (const CouplingFacts& facts : all_couplings) {
     const bool is_now = facts.type == c.law && facts.printed == c.printed;
-    const bool sees_end =
-        facts.treatments == CouplingFacts::Treatments::own || facts.type == CouplingKind::weld_like;
-    const bool fits = facts.type != CouplingKind::god_object && (now.at_point || !facts.at_point) &&
+    const bool sees_end = facts.treatments == CouplingFacts::Treatments::own ||
+                          facts.gains == CouplingFacts::Gains::reference;
+    const bool fits = facts.gains != CouplingFacts::Gains::none &&
+                      (now.at_point || !facts.at_point) &&
                       (!facts.at_joint || own_joint(scene, c)) && (implicit_fits || !sees_end);
     if (is_now || fits) names.emplace_back(facts.name);
   }
@@ -58,99 +59,73 @@ class CouplingKnobs {
                        scene.contact != ContactMode::event) {}
 
   void add() {
-    const bool turns = c_.type == CouplingDescription::Type::torsional;
-    const bool is_length = !turns || is_slide(scene_, c_);
-    const bool is_weld = c_.law == CouplingKind::weld_like;
-    const bool has_gains = !is_weld && c_.law != CouplingKind::god_object;
-    if (!c_.outside && c_.law != CouplingKind::god_object) add_type();
+    if (!c_.outside && facts_.gains != CouplingFacts::Gains::none) add_type();
     add_treatment();
-    if (has_gains) {
-      gain("stiffness", "stiffness k", c_.stiffness, is_length ? "N/m" : "N m/rad",
-           is_length ? 1 : 0.01, is_length ? 1e7 : 1e6,
-           "Pull per distance between the robot and its twin: stiffer follows closer, and swings "
-           "faster.");
-      gain("damping", "damping b", c_.damping, is_length ? "N s/m" : "N m s/rad",
-           is_length ? 0.01 : 1e-4, is_length ? 1e5 : 1e4,
-           "Pull per difference of their velocities: it calms the swinging.");
-    }
-    if (c_.law == CouplingKind::bushing) {
-      gain("turn_stiffness", "turn stiffness", c_.turn_stiffness, "N m/rad", 0.01, 1e5,
-           "Couple per angle between the two links.");
-      gain("turn_damping", "turn damping", c_.turn_damping, "N m s/rad", 1e-4, 1e4,
-           "Couple per difference of their rates of turn.");
-    }
-    if (is_weld) add_weld();
+    for (const CouplingKey& row : coupling_keys())
+      if (!row.of_target) add_slider(row);
     add_time();
+    for (const CouplingKey& row : coupling_keys())
+      if (row.of_target && row.of_target(c_.target.kind)) add_slider(row);
   }
 
  private:
-  Knob& put(Knob knob) {
+  Knob& put(const char* key, Knob knob) {
+    knob.path = item("coupling", index_, key);
     knob.group = c_.name;
+    knob.coupling = static_cast<int>(index_);
+    knob.key = key;
     knobs_.push_back(std::move(knob));
     return knobs_.back();
   }
-  std::string path(const char* key) const { return item("coupling", index_, key); }
-  Knob& gain(const char* key, const char* label, double value, const char* unit, double low,
-             double high, const char* meaning) {
-    return put(slider(path(key), label, value, unit, Knob::Form::log, low, high, meaning));
+  void add_slider(const CouplingKey& row) {
+    if (!row.slider.label || !row.has(facts_)) return;
+    const bool turns = c_.type == CouplingDescription::Type::torsional && !is_slide(scene_, c_);
+    Knob& knob = put(row.key, slider("", row.slider, row.value(c_), row.unit_of(turns)));
+    if (!turns || row.turning_low == 0) return;
+    knob.low = row.turning_low;
+    knob.high = row.turning_high;
   }
 
   void add_type() {
     const auto types = types_for(scene_, c_, implicit_fits_);
     if (types.size() > 1)
-      put(choice(path("type"), "type", facts_.name, types,
-                 "What is pulled together, and by which equations."))
+      put("type", choice("", "type", facts_.name, types,
+                         "What is pulled together, and by which equations."))
           .restarts = true;
     if (c_.law == CouplingKind::torsional && !c_.printed && own_joint(scene_, c_))
-      put(choice(path("measure"), "measures", c_.measure == Measure::world ? "world" : "joint",
-                 {"world", "joint"},
-                 "The link's orientation in the world, or the angle of its own joint."))
+      put("measure", choice("", "measures", c_.measure == Measure::world ? "world" : "joint",
+                            {"world", "joint"},
+                            "The link's orientation in the world, or the angle of its own joint."))
           .restarts = true;
   }
 
   void add_treatment() {
     if (c_.outside || c_.rate > 0 || facts_.treatments != CouplingFacts::Treatments::all) return;
     if (!implicit_fits_) return;
-    put(choice(path("treatment"), "treatment", name_of(c_.treatment),
-               {"explicit", "semi-implicit", "implicit"},
+    put("treatment",
+        choice("", "treatment", name_of(c_.treatment), {"explicit", "semi-implicit", "implicit"},
                "explicit: the force of the start of the step; semi-implicit: the damper sees its "
                "end; implicit: the spring too, and any stiffness holds."))
         .restarts = true;
-  }
-
-  void add_weld() {
-    gain("time_constant", "time constant", c_.reference.time_constant, "s", 1e-3, 1,
-         "The weld follows as a swing of this time does.");
-    gain("damping_ratio", "damping ratio", c_.reference.damping_ratio, "", 0.05, 10,
-         "1: it comes back without swinging past.");
-    put(slider(path("impedance"), "impedance", c_.reference.impedance, "", Knob::Form::linear, 0.05,
-               0.999, "How firm the weld is: towards 1 as a rigid one."));
   }
 
   void add_time() {
     // A held force sees the start of a step only, so it is offered to what is explicit.
     const bool is_explicit = c_.treatment == Treatment::explicit_ || c_.printed;
     if (facts_.can_hold && is_explicit && !run_.is_adaptive()) {
-      Knob knob = choice(path("rate"), "update rate", c_.rate > 0 ? number_text(c_.rate) : "",
+      Knob knob = choice("", "update rate", c_.rate > 0 ? number_text(c_.rate) : "",
                          rates_for_step(c_.rate, run_.step),
                          "The force is computed so often, and held between. Empty: at every step.");
       knob.unit = "Hz";
       knob.restarts = true;
-      put(std::move(knob));
+      put("rate", std::move(knob));
     }
-    if (!c_.printed && facts_.treatments != CouplingFacts::Treatments::own &&
-        c_.law != CouplingKind::weld_like && !c_.outside)
-      put(choice(path("damper"), "damper", c_.absolute_damper ? "absolute" : "relative",
-                 {"relative", "absolute"},
-                 "Against the twin's velocity, or against the link's own: that one brakes, and "
-                 "lags."));
-    const bool plays = c_.target.kind == CouplingTarget::Kind::paper ||
-                       c_.target.kind == CouplingTarget::Kind::trace ||
-                       c_.target.kind == CouplingTarget::Kind::synthetic;
-    if (plays)
-      gain("speed", "speed of the motion", c_.speed, "", 0.1, 10,
-           "How many times faster the twin's motion is played.")
-          .restarts = true;
+    if (coupling_key("damper").has(facts_) && facts_.treatments != CouplingFacts::Treatments::own &&
+        !c_.outside)
+      put("damper", choice("", "damper", c_.absolute_damper ? "absolute" : "relative",
+                           {"relative", "absolute"},
+                           "Against the twin's velocity, or against the link's own: that one "
+                           "brakes, and lags."));
   }
 
   const SceneDescription& scene_;
@@ -173,16 +148,16 @@ void add_common(const SceneDescription& scene, std::vector<Knob>& knobs) {
              value(c) == value(all[0]);
     });
   };
-  for (const char* key : {"stiffness", "damping"}) {
-    const bool is_k = std::string(key) == "stiffness";
+  for (const CouplingKey& row : coupling_keys()) {
+    if (!row.turning_unit) continue;
     const auto one = std::find_if(knobs.begin(), knobs.end(), [&](const Knob& knob) {
-      return knob.path == item("coupling", 0, key);
+      return knob.coupling == 0 && knob.key == row.key;
     });
-    if (one == knobs.end() ||
-        !agree([&](const CouplingDescription& c) { return is_k ? c.stiffness : c.damping; }))
+    if (one == knobs.end() || !agree([&](const CouplingDescription& c) { return row.value(c); }))
       continue;
     Knob knob = *one;
-    knob.path = std::string("coupling.") + key;
+    knob.path = std::string("coupling.") + row.key;
+    knob.coupling = -1;
     knob.group = "all couplings";
     knobs.push_back(std::move(knob));
   }

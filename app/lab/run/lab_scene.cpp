@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/data/toml_text.h"
+#include "app/data/value.h"
 #include "app/record/record_run.h"
 #include "solver/support/number_text.h"
 
@@ -60,19 +60,10 @@ InputError by_change(const InputError& error, const std::vector<Change>& changes
   return InputError(std::move(faults));
 }
 
-void put_scene_text(TomlValue& scene, const std::string& key, const std::string& text) {
-  TomlValue value;
-  value.kind = TomlValue::Kind::text;
-  value.key = key;
-  value.text = text;
-  std::erase_if(scene.members, [&](const TomlValue& member) { return member.key == key; });
-  scene.members.push_back(std::move(value));
-}
-
-void put_scene_number(TomlValue& scene, const std::string& key, double number) {
-  put_scene_text(scene, key, "");
-  scene.members.back().kind = TomlValue::Kind::number;
-  scene.members.back().number = number;
+// As the last of them.
+void put_last(Value& scene, const std::string& key, Value value) {
+  std::erase_if(scene.members, [&](const Value& member) { return member.key == key; });
+  scene.put(key, std::move(value));
 }
 
 }  // namespace
@@ -119,30 +110,25 @@ std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& change
   }
 }
 
-TomlValue LabScene::tree(const std::vector<Change>& changes) const {
+Value LabScene::tree(const std::vector<Change>& changes) const {
   SimulateOptions beside = options_of(files_->header().run);
   FaultList faults;
   const std::vector<Change> others = of_the_scene(changes, beside, faults);
-  TomlValue scene = read_toml(files_->options().robot.model);
+  Value scene = read_toml(files_->options().robot.model);
   for (std::size_t i = 0; i < others.size(); ++i)
     if (others[i].path != "gravity") apply(others[i], 0, scene, faults);
   for (const Change& change : others)
     if (change.path == "gravity") beside.robot.gravity = change.value;
   if (!beside.robot.gravity.empty())
     if (const auto g = parse_gravity(beside.robot.gravity, faults)) {
-      put_scene_number(scene, "gravity", 0);
-      TomlValue& gravity = scene.members.back();
-      gravity.kind = TomlValue::Kind::list;
-      for (const double component : *g) {
-        gravity.items.emplace_back();
-        gravity.items.back().kind = TomlValue::Kind::number;
-        gravity.items.back().number = component;
-      }
+      Value gravity = Value::list({});
+      for (const double component : *g) gravity.items.push_back(Value::of(component));
+      put_last(scene, "gravity", std::move(gravity));
     }
   faults.check();
-  if (beside.step) put_scene_number(scene, "step", *beside.step);
-  if (!beside.integrator.empty()) put_scene_text(scene, "integrator", beside.integrator);
-  if (!beside.contact.empty()) put_scene_text(scene, "contact", beside.contact);
+  if (beside.step) put_last(scene, "step", Value::of(*beside.step));
+  if (!beside.integrator.empty()) put_last(scene, "integrator", Value::of(beside.integrator));
+  if (!beside.contact.empty()) put_last(scene, "contact", Value::of(beside.contact));
   return scene;
 }
 
@@ -163,11 +149,11 @@ RecordingHeader LabScene::header(const std::vector<Change>& changes, const Hand&
   header.run.step = header.step;
   if (!is_scene()) return header;
   const std::filesystem::path log = header.run.model.parent_path() / "lab_hand.csv";
-  TomlValue scene = tree(changes);
-  for (TomlValue& list : scene.members)
+  Value scene = tree(changes);
+  for (Value& list : scene.members)
     for (const std::size_t place : hand.couplings)
       if (list.key == "coupling" && place < list.items.size() && !hand.log.empty())
-        put_scene_text(list.items[place], "target", log.string());
+        put_last(list.items[place], "target", Value::of(log.string()));
   for (RecordedFile& file : header.files)
     if (file.path == header.run.model) file.bytes = to_toml(scene);
   if (!hand.log.empty()) header.files.push_back({log.string(), hand.log});

@@ -42,7 +42,7 @@ class LabScene {
   RecordingHeader header(const std::vector<Change>& changes, const Hand& hand) const;
 
  private:
-  TomlValue tree(const std::vector<Change>& changes) const;
+  Value tree(const std::vector<Change>& changes) const;
   std::shared_ptr<const UnpackedRun> files_;
   FileRoots roots_;
 };

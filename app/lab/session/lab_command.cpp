@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "app/data/json_tree.h"
+#include "app/data/value.h"
 #include "app/support/nearest_name.h"
 #include "solver/support/diagnostics.h"
 
@@ -11,7 +11,7 @@ namespace twinarm {
 namespace {
 
 using Spoken = LabCommand::Do;
-using Kind = JsonValue::Kind;
+using Kind = Value::Kind;
 
 constexpr std::size_t kMostNames = 64;
 
@@ -19,11 +19,11 @@ constexpr std::size_t kMostNames = 64;
 struct Field {
   const char* key;
   const char* wanted;  // "a number"
-  bool (*take)(const JsonValue& value, LabCommand& command);
+  bool (*take)(const Value& value, LabCommand& command);
   bool may_be_missing = false;
 };
 
-bool take_vector(const JsonValue& value, Vector3& into) {
+bool take_vector(const Value& value, Vector3& into) {
   if (value.kind != Kind::list || value.items.size() != 3) return false;
   for (std::size_t i = 0; i < 3; ++i) {
     if (value.items[i].kind != Kind::number) return false;
@@ -32,44 +32,44 @@ bool take_vector(const JsonValue& value, Vector3& into) {
   return true;
 }
 
-bool take_count(const JsonValue& value, long most, long& into) {
+bool take_count(const Value& value, long most, long& into) {
   if (value.kind != Kind::number || !(value.number >= 0 && value.number <= double(most)))
     return false;
   into = static_cast<long>(value.number);
   return static_cast<double>(into) == value.number;
 }
 
-bool take_number(const JsonValue& value, double& into) {
+bool take_number(const Value& value, double& into) {
   into = value.number;
-  return value.kind == Kind::number;
+  return value.is_number();
 }
 
-bool take_text(const JsonValue& value, std::string& into) {
+bool take_text(const Value& value, std::string& into) {
   into = value.text;
-  return value.kind == Kind::text;
+  return value.is_text();
 }
 
-bool take_texts(const JsonValue& value, LabCommand& command) {
+bool take_texts(const Value& value, LabCommand& command) {
   if (value.kind != Kind::list || value.items.size() > kMostNames) return false;
-  for (const JsonValue& item : value.items) {
-    if (item.kind != Kind::text) return false;
+  for (const Value& item : value.items) {
+    if (!item.is_text()) return false;
     command.names.push_back(item.text);
   }
   return true;
 }
 
-bool take_flag(const JsonValue& value, LabCommand& command) {
+bool take_flag(const Value& value, LabCommand& command) {
   command.on = value.number != 0;
   return value.kind == Kind::boolean;
 }
 
-bool take_instant(const JsonValue& value, LabCommand& command) {
+bool take_instant(const Value& value, LabCommand& command) {
   if (value.kind == Kind::null) return true;
   command.at = value.number;
-  return value.kind == Kind::number;
+  return value.is_number();
 }
 
-bool take_rates(const JsonValue& value, LabCommand& command) {
+bool take_rates(const Value& value, LabCommand& command) {
   if (value.kind != Kind::list || value.items.size() != command.rates.size()) return false;
   for (std::size_t i = 0; i < command.rates.size(); ++i) {
     if (value.items[i].kind != Kind::number) return false;
@@ -79,17 +79,17 @@ bool take_rates(const JsonValue& value, LabCommand& command) {
 }
 
 template <int component>
-bool take_turn(const JsonValue& value, LabCommand& command) {
+bool take_turn(const Value& value, LabCommand& command) {
   return take_number(value, command.point[component]);
 }
 
-bool take_factor(const JsonValue& value, LabCommand& command) {
+bool take_factor(const Value& value, LabCommand& command) {
   return take_number(value, command.value) && command.value >= 0.001 && command.value <= 10;
 }
 
 constexpr long kMostIndex = 1'000'000;
 template <long most>
-bool take_index(const JsonValue& value, LabCommand& command) {
+bool take_index(const Value& value, LabCommand& command) {
   return take_count(value, most, command.count);
 }
 
@@ -101,12 +101,12 @@ struct Form {
 };
 
 const std::vector<Form>& forms() {
-  const auto value = [](const JsonValue& v, LabCommand& c) { return take_number(v, c.value); };
-  const auto name = [](const JsonValue& v, LabCommand& c) { return take_text(v, c.name); };
-  const auto spec = [](const JsonValue& v, LabCommand& c) { return take_text(v, c.spec); };
-  const auto point = [](const JsonValue& v, LabCommand& c) { return take_vector(v, c.point); };
-  const auto goal = [](const JsonValue& v, LabCommand& c) { return take_vector(v, c.goal); };
-  const auto mark = [](const JsonValue& v, LabCommand& c) { return take_number(v, c.stamp); };
+  const auto value = [](const Value& v, LabCommand& c) { return take_number(v, c.value); };
+  const auto name = [](const Value& v, LabCommand& c) { return take_text(v, c.name); };
+  const auto spec = [](const Value& v, LabCommand& c) { return take_text(v, c.spec); };
+  const auto point = [](const Value& v, LabCommand& c) { return take_vector(v, c.point); };
+  const auto goal = [](const Value& v, LabCommand& c) { return take_vector(v, c.goal); };
+  const auto mark = [](const Value& v, LabCommand& c) { return take_number(v, c.stamp); };
   const Field stamp{"stamp", "a number", mark, true};
   const Field on{"on", "true or false", take_flag};
   const Field changes{"changes", "a list of at most 64 texts", take_texts};
@@ -152,8 +152,8 @@ const std::vector<Form>& forms() {
   return all;
 }
 
-const Form& form_of(const JsonValue& root) {
-  const JsonValue* what = root.find("do");
+const Form& form_of(const Value& root) {
+  const Value* what = root.find("do");
   std::vector<std::string> names;
   for (const Form& form : forms()) names.emplace_back(form.name);
   if (!what || what->kind != Kind::text)
@@ -171,12 +171,12 @@ const Form& form_of(const JsonValue& root) {
 LabCommand parse_command(const std::string& text) {
   LabCommand command;
   command.came = std::chrono::steady_clock::now();
-  const JsonValue root = parse_json(text, "command");
+  const Value root = parse_json(text, "command");
   const Form& form = form_of(root);
   command.what = form.what;
   FaultList faults;
   for (const Field& field : form.fields) {
-    const JsonValue* value = root.find(field.key);
+    const Value* value = root.find(field.key);
     const std::string where = std::string(form.name) + ", " + field.key;
     if (!value && !field.may_be_missing)
       faults.add({"command", 0, where, "is missing", std::string("give ") + field.wanted});

@@ -3,130 +3,49 @@
 #include <algorithm>
 #include <array>
 
-#include "app/scene/read/coupling_keys.h"
+#include "app/robot/robot_input.h"
+#include "app/scene/read/scene_description.h"
+#include "app/scene/read/scene_keys.h"
+#include "app/scene/read/value_path.h"
 #include "app/support/nearest_name.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
 
-struct StepOfPath {
-  std::string name;
-  long index = -1;  // -1: none is given; -2: what stands in the brackets is none
-};
-
-// "coupling[2]": the name, and which.
-StepOfPath step_of_path(const std::string& part) {
-  const std::size_t bracket = part.find('[');
-  if (bracket == std::string::npos || part.back() != ']') return {part};
-  const auto index = parse_number(part.substr(bracket + 1, part.size() - bracket - 2));
-  const bool is_index = index && *index >= 0 && *index < 1e6;
-  return {part.substr(0, bracket), is_index ? static_cast<long>(*index) : -2};
-}
-
-std::vector<StepOfPath> steps_of_path(const std::string& path) {
-  std::vector<StepOfPath> steps;
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    steps.push_back(step_of_path(path.substr(begin, end - begin)));
-    begin = end + 1;
+// A number, true or false, numbers with commas between them, or a text.
+Value value_of_text(const std::string& text) {
+  if (const auto number = parse_number(text)) return Value::of(*number);
+  Value value = Value::of(text);
+  if (text == "true" || text == "false") {
+    value.kind = Value::Kind::boolean;
+    value.number = text == "true" ? 1 : 0;
+  } else if (text.find(',') != std::string::npos) {
+    std::vector<Value> items;  // "0,0,-1.62"
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find(',', begin), text.size());
+      const auto number = parse_number(text.substr(begin, end - begin));
+      if (!number) return value;
+      items.push_back(Value::of(*number));
+      begin = end + 1;
+    }
+    return Value::list(std::move(items));
   }
-  return steps;
+  return value;
 }
 
-TomlValue& made_member(TomlValue& table, const std::string& key, int line) {
-  if (TomlValue* found = table.find(key)) return *found;
-  TomlValue& made = table.members.emplace_back();
-  made.key = key;
+// A key of the top that a scene may leave out, for a path to lead to.
+void add_left_out(const std::string& name, int line, Value& scene) {
+  static const std::array kLeftOut{"gravity", "step", "integrator", "contact", "duration"};
+  if (scene.find(name) || std::find(kLeftOut.begin(), kLeftOut.end(), name) == kLeftOut.end())
+    return;
+  Value& made = scene.put(name, Value::of(0.0));
+  if (name == "gravity") {
+    std::vector<Value> components;
+    for (const double g : SceneDescription().gravity) components.push_back(Value::of(g));
+    made = scene.put(name, Value::list(std::move(components)));
+  }
   made.line = line;
-  return made;
-}
-
-void write_toml_value(TomlValue& value, const std::string& text, int line) {
-  const auto number = parse_number(text);
-  value.line = line;
-  value.text = text;
-  value.items.clear();
-  value.members.clear();
-  value.number = number.value_or(text == "true" ? 1 : 0);
-  value.kind = number                              ? TomlValue::Kind::number
-               : text == "true" || text == "false" ? TomlValue::Kind::boolean
-                                                   : TomlValue::Kind::text;
-  if (value.kind != TomlValue::Kind::text || text.find(',') == std::string::npos) return;
-  std::vector<TomlValue> items;  // "0,0,-1.62"
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    TomlValue item;
-    write_toml_value(item, text.substr(begin, end - begin), line);
-    if (item.kind != TomlValue::Kind::number) return;
-    items.push_back(std::move(item));
-    begin = end + 1;
-  }
-  value.kind = TomlValue::Kind::list;
-  value.items = std::move(items);
-}
-
-// Writes the value at each place that a path leads to.
-class SceneChange {
- public:
-  SceneChange(const Change& change, int line) : text_(change.value), line_(line) {
-    steps_ = steps_of_path(change.path);
-  }
-  const std::string& top() const { return steps_.front().name; }
-  std::size_t count() const { return steps_.size(); }
-  // False where the path leads nowhere.
-  bool apply(TomlValue& scene) { return into_member(scene, 0); }
-
- private:
-  bool into_member(TomlValue& table, std::size_t s) {
-    TomlValue* found = s == 0 ? table.find(steps_[s].name) : nullptr;
-    if (s == 0 && !found) return false;
-    TomlValue& member = found ? *found : made_member(table, steps_[s].name, line_);
-    const long index = steps_[s].index;
-    if (index == -1) {
-      if (!into(member, s + 1)) return false;
-    } else {
-      const auto i = static_cast<std::size_t>(index);
-      if (index < 0 || i >= member.items.size() || !into(member.items[i], s + 1)) return false;
-    }
-    if (s + 1 == steps_.size() && top() == "coupling" && steps_[s].name == "type")
-      fit_keys_to_type(table, line_);
-    return true;
-  }
-  // The value that the steps before s led to.
-  bool into(TomlValue& value, std::size_t s) {
-    if (s == steps_.size()) {
-      write_toml_value(value, text_, line_);
-      return true;
-    }
-    if (value.kind == TomlValue::Kind::table) return into_member(value, s);
-    if (value.kind != TomlValue::Kind::list || value.items.empty()) return false;
-    for (TomlValue& item : value.items) {
-      const TomlValue* name = item.find("name");
-      if (steps_[s].index == -1 && s + 1 < steps_.size() && name && name->text == steps_[s].name)
-        return into(item, s + 1);
-    }
-    return std::all_of(value.items.begin(), value.items.end(), [&](TomlValue& item) {
-      return item.kind == TomlValue::Kind::table && into_member(item, s);
-    });
-  }
-
-  std::vector<StepOfPath> steps_;
-  const std::string& text_;
-  int line_;
-};
-
-// Keys of the top that a scene may leave out, and what they are then.
-void add_left_out(const std::string& name, int line, TomlValue& scene) {
-  static const std::array<std::pair<const char*, const char*>, 5> kDefaults{
-      {{"gravity", "0,0,-9.81"},
-       {"step", "0.001"},
-       {"integrator", "semi-implicit"},
-       {"contact", "rigid"},
-       {"duration", "1"}}};
-  for (const auto& [key, text] : kDefaults)
-    if (name == key && !scene.find(name))
-      write_toml_value(made_member(scene, name, line), text, line);
 }
 
 }  // namespace
@@ -139,27 +58,38 @@ Change parse_change(const std::string& text) {
   return {text.substr(0, equal), text.substr(equal + 1)};
 }
 
-void apply(const Change& change, int line, TomlValue& scene, FaultList& faults) {
+void apply(const Change& change, int line, Value& scene, FaultList& faults) {
+  const std::string where = "--set " + change.path;
   const auto fault = [&](const std::string& rule, const std::string& remedy,
                          std::string_view code) {
-    faults.add({"", 0, "--set " + change.path, rule, remedy, code});
+    faults.add({"", 0, where, rule, remedy, code});
   };
   constexpr std::size_t kLongestPath = 16;  // each step is a table within a table
-  SceneChange wanted(change, line);
-  if (wanted.count() > kLongestPath)
-    return fault("the path has " + std::to_string(wanted.count()) + " steps",
+  const ValuePath path(change.path);
+  if (path.parts.size() > kLongestPath)
+    return fault("the path has " + std::to_string(path.parts.size()) + " steps",
                  "no number of a scene lies deeper than a few", "change.too-deep");
-  const std::string& name = wanted.top();
+  const std::string& name = path.parts.front().name;
   add_left_out(name, line, scene);
   std::vector<std::string> names;
-  for (const TomlValue& member : scene.members) names.push_back(member.key);
+  for (const Value& member : scene.members) names.push_back(member.key);
   if (!scene.find(name))
     return fault("the scene has no '" + name + "'", name_remedy(name, names, "keys"),
                  "change.unknown-key");
-  if (!wanted.apply(scene))
-    fault("the scene has no such " + name,
-          "write " + name + "[0].KEY, " + name + ".KEY for all, or " + name + ".NAME.KEY",
-          "change.unknown-key");
+  FaultList of_path;
+  const auto found = attempt(
+      of_path, [&] { return find_targets(scene, path, MadeKeys::all_below_top, line, where); });
+  if (!found)
+    return fault("the scene has no such " + name,
+                 "write " + name + "[0].KEY, " + name + ".KEY for all, or " + name + ".NAME.KEY",
+                 "change.unknown-key");
+  for (const auto& [value, table] : *found) {
+    const std::string key = value->key;
+    *value = value_of_text(change.value);
+    value->key = key;
+    value->line = line;
+    if (name == "coupling" && key == "type") fit_keys_to_type(*table, line);
+  }
 }
 
 }  // namespace twinarm

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/data/toml_tree.h"
+#include "app/data/value.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -17,8 +17,8 @@ struct Change {
 Change parse_change(const std::string& text);
 // To a scene's tree; adds a fault where the path leads nowhere. Tables and keys below the top that
 // are missing are made: the reader knows whether there are such. With another `type` a coupling
-// loses the keys that the new one has not (app/scene/read/coupling_keys.h). `line`: what it writes
+// loses the keys that the new one has not (app/scene/read/scene_keys.h). `line`: what it writes
 // stands there.
-void apply(const Change& change, int line, TomlValue& scene, FaultList& faults);
+void apply(const Change& change, int line, Value& scene, FaultList& faults);
 
 }  // namespace twinarm

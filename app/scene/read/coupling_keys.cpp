@@ -1,67 +1,163 @@
-#include "app/scene/read/coupling_keys.h"
-
+// The keys of [[coupling]], by the facts of the couplings (coupling/laws/coupling_spec.h).
 #include <algorithm>
-#include <string>
-#include <vector>
 
-#include "coupling/laws/coupling_spec.h"
+#include "app/scene/read/scene_keys.h"
 
 namespace twinarm {
 namespace {
 
-using CouplingLaw = CouplingSpec::Type;
+using Gains = CouplingFacts::Gains;
+using Sign = NumberRange::Sign;
+using TargetKind = CouplingTarget::Kind;
 
-const CouplingFacts* facts_by_name(const std::string& name) {
-  for (const CouplingFacts& facts : all_couplings)
-    if (facts.name == name) return &facts;
-  return nullptr;
+bool has_springs(const CouplingFacts& facts) {
+  return facts.gains == Gains::spring || facts.gains == Gains::two_springs;
+}
+bool has_two_springs(const CouplingFacts& facts) {
+  return facts.gains == Gains::two_springs;
+}
+bool has_reference(const CouplingFacts& facts) {
+  return facts.gains == Gains::reference;
+}
+bool any_coupling(const CouplingFacts&) {
+  return true;
 }
 
-// As the reader knows them (app/scene/read/read_coupling.cpp).
-std::vector<std::string> keys_that_are_not_of(const CouplingFacts& facts) {
-  const CouplingLaw law = facts.type;
-  const bool is_weld = law == CouplingLaw::weld_like, is_god = law == CouplingLaw::god_object;
-  std::vector<std::string> keys;
-  const auto leave_out = [&](bool is_of_law, std::vector<std::string> names) {
-    if (!is_of_law) keys.insert(keys.end(), names.begin(), names.end());
-  };
-  leave_out(facts.at_point, {"point"});
-  leave_out(facts.has_measure, {"measure", "outside"});
-  leave_out(!is_weld && !is_god, {"stiffness", "damping"});
-  leave_out(law == CouplingLaw::bushing, {"turn_stiffness", "turn_damping"});
-  leave_out(is_weld, {"time_constant", "damping_ratio", "impedance"});
-  leave_out(facts.treatments == CouplingFacts::Treatments::all, {"treatment"});
-  leave_out(facts.can_hold, {"rate"});
-  leave_out(!facts.printed && !is_god && !is_weld, {"damper"});
-  leave_out(!is_god, {"link"});
-  return keys;
-}
-
-void add_number(TomlValue& table, const char* key, double value, int line) {
-  if (table.find(key)) return;
-  TomlValue number;
-  number.key = key;
-  number.kind = TomlValue::Kind::number;
-  number.number = value;
-  number.line = line;
-  table.members.push_back(std::move(number));
-}
+constexpr const char* kNoGain = "this type of coupling has no such gain";
+const NumberRange kPositive{Sign::positive};
 
 }  // namespace
 
-void fit_keys_to_type(TomlValue& coupling, int line) {
-  const TomlValue* type = coupling.find("type");
-  const CouplingFacts* facts = type ? facts_by_name(type->text) : nullptr;
+const std::vector<CouplingKey>& coupling_keys() {
+  using C = CouplingDescription;
+  static const std::vector<CouplingKey> rows{
+      {.key = "measure",
+       .has = [](const CouplingFacts& facts) { return facts.has_measure; },
+       .useless = "is of a torsional coupling"},
+      {.key = "point",
+       .has = [](const CouplingFacts& facts) { return facts.at_point; },
+       .useless = "this type of coupling turns the link: it has no point",
+       .unit = "m"},
+      {.key = "damper",
+       .has = [](const CouplingFacts& facts) { return has_springs(facts) && !facts.printed; },
+       .useless = "this type of coupling has a damper of its own, or none"},
+      {.key = "stiffness",
+       .has = has_springs,
+       .useless = kNoGain,
+       .unit = "N/m",
+       .turning_unit = "N m/rad",
+       .number = [](C& c) -> double& { return c.stiffness; },
+       .added = 1000,
+       .slider = {"stiffness k", 1, 1e7,
+                  "Pull per distance between the robot and its twin: stiffer follows closer, and "
+                  "swings faster."},
+       .turning_low = 0.01,
+       .turning_high = 1e6},
+      {.key = "damping",
+       .has = has_springs,
+       .useless = kNoGain,
+       .unit = "N s/m",
+       .turning_unit = "N m s/rad",
+       .number = [](C& c) -> double& { return c.damping; },
+       .slider = {"damping b", 0.01, 1e5,
+                  "Pull per difference of their velocities: it calms the swinging."},
+       .turning_low = 1e-4,
+       .turning_high = 1e4},
+      {.key = "turn_stiffness",
+       .has = has_two_springs,
+       .useless = "is of a bushing",
+       .unit = "N m/rad",
+       .number = [](C& c) -> double& { return c.turn_stiffness; },
+       .added = 0.01,  // as if the stiffness had an arm of 0.1 m
+       .added_times = "stiffness",
+       .slider = {"turn stiffness", 0.01, 1e5, "Couple per angle between the two links."}},
+      {.key = "turn_damping",
+       .has = has_two_springs,
+       .useless = "is of a bushing",
+       .unit = "N m s/rad",
+       .number = [](C& c) -> double& { return c.turn_damping; },
+       .slider = {"turn damping", 1e-4, 1e4, "Couple per difference of their rates of turn."}},
+      {.key = "time_constant",
+       .has = has_reference,
+       .useless = "is of a weld",
+       .unit = "s",
+       .range = kPositive,
+       .number = [](C& c) -> double& { return c.reference.time_constant; },
+       .slider = {"time constant", 1e-3, 1, "The weld follows as a swing of this time does."}},
+      {.key = "damping_ratio",
+       .has = has_reference,
+       .useless = "is of a weld",
+       .range = kPositive,
+       .number = [](C& c) -> double& { return c.reference.damping_ratio; },
+       .slider = {"damping ratio", 0.05, 10, "1: it comes back without swinging past."}},
+      {.key = "impedance",
+       .has = has_reference,
+       .useless = "is of a weld",
+       .range = {Sign::positive, [](double d) { return d < 1; },
+                 "must be below 1: at 1 the weld would be rigid",
+                 "give a number between 0 and 1, or a [[constraint]] of type \"weld\""},
+       .number = [](C& c) -> double& { return c.reference.impedance; },
+       .slider = {.label = "impedance",
+                  .low = 0.05,
+                  .high = 0.999,
+                  .meaning = "How firm the weld is: towards 1 as a rigid one.",
+                  .is_linear = true}},
+      {.key = "rate",
+       .has = [](const CouplingFacts& facts) { return facts.can_hold; },
+       .useless = "this type of coupling is computed at every step",
+       .unit = "Hz",
+       .range = kPositive,
+       .number = [](C& c) -> double& { return c.rate; }},
+      {.key = "treatment",
+       .has = [](const CouplingFacts& f) { return f.treatments == CouplingFacts::Treatments::all; },
+       .useless = "this type of coupling is a treatment of its own"},
+      {.key = "link",
+       .has = [](const CouplingFacts& facts) { return facts.gains != Gains::none; },
+       .useless = "a god object drives all joints"},
+      {.key = "outside", .has = [](const CouplingFacts& facts) { return facts.has_measure; }},
+      {.key = "delay",
+       .has = any_coupling,
+       .useless = "the target stands still: seen late, it is the same",
+       .unit = "s",
+       .number = [](C& c) -> double& { return c.delay; },
+       .of_target = [](TargetKind t) { return t != TargetKind::start && t != TargetKind::state; },
+       .help = "leave it out, or give a target that moves"},
+      {.key = "speed",
+       .has = any_coupling,
+       .useless = "is of a target that is a motion by name or a trace",
+       .range = kPositive,
+       .number = [](C& c) -> double& { return c.speed; },
+       .slider = {.label = "speed of the motion",
+                  .low = 0.1,
+                  .high = 10,
+                  .meaning = "How many times faster the twin's motion is played.",
+                  .restarts = true},
+       .of_target =
+           [](TargetKind t) {
+             return t == TargetKind::paper || t == TargetKind::trace || t == TargetKind::synthetic;
+           },
+       .help = "leave it out, or give target = \"paper\" or a trace file"}};
+  return rows;
+}
+
+const CouplingKey& coupling_key(const std::string& key) {
+  const auto& rows = coupling_keys();
+  return *std::find_if(rows.begin(), rows.end(),
+                       [&](const CouplingKey& row) { return key == row.key; });
+}
+
+void fit_keys_to_type(Value& coupling, int line) {
+  const Value* type = coupling.find("type");
+  const CouplingFacts* facts = type ? find_coupling(type->text) : nullptr;
   if (!facts) return;
-  const std::vector<std::string> others = keys_that_are_not_of(*facts);
-  std::erase_if(coupling.members, [&](const TomlValue& member) {
-    return std::find(others.begin(), others.end(), member.key) != others.end();
-  });
-  const bool has_gains =
-      facts->type != CouplingLaw::weld_like && facts->type != CouplingLaw::god_object;
-  if (has_gains) add_number(coupling, "stiffness", 1000, line);
-  if (facts->type == CouplingLaw::bushing)
-    add_number(coupling, "turn_stiffness", 0.01 * coupling.find("stiffness")->number, line);
+  for (const CouplingKey& row : coupling_keys()) {
+    if (!row.has(*facts))
+      std::erase_if(coupling.members, [&](const Value& member) { return member.key == row.key; });
+    else if (row.is_required() && !coupling.find(row.key)) {
+      const Value* other = row.added_times ? coupling.find(row.added_times) : nullptr;
+      coupling.put(row.key, Value::of(other ? row.added * other->number : row.added)).line = line;
+    }
+  }
 }
 
 }  // namespace twinarm

@@ -28,21 +28,21 @@ void fix_at(JointDescription& joint, double q) {
 
 }  // namespace
 
-void SceneReader::lock_joints(SceneTable& table, RobotInScene& robot) {
-  const TomlValue* list = table.find("lock");
+void SceneReader::lock_joints(TableReader& table, RobotInScene& robot) {
+  const Value* list = table.find("lock");
   if (!list) return;
   const auto fault = [&](const std::string& rule, const std::string& remedy,
                          std::string_view code) { table.fault("lock", rule, remedy, code); };
-  if (list->kind != TomlValue::Kind::list)
+  if (list->kind != Value::Kind::list)
     return fault("must be a list of joints, is " + describe(*list), "write lock = [\"joint1\"]",
                  "scene.type");
   std::vector<JointDescription>& joints = robot.description.joints;
   std::vector<std::string> names;
   for (const JointDescription& joint : joints)
     if (joint.dofs() == 1) names.push_back(joint.name);
-  for (const TomlValue& item : list->items) {
+  for (const Value& item : list->items) {
     const auto joint = std::find_if(joints.begin(), joints.end(), [&](const JointDescription& j) {
-      return item.kind == TomlValue::Kind::text && j.name == item.text;
+      return item.kind == Value::Kind::text && j.name == item.text;
     });
     const std::string quoted = "joint '" + item.text + "'";
     const auto follows = [&](const JointDescription& j) {

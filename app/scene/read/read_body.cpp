@@ -14,7 +14,7 @@ const char* why_not_free(const ShapeDescription& shape) {
   return mesh && !mesh->convex ? "contacts of a moving mesh need convex = true" : nullptr;
 }
 
-std::optional<Matrix3> read_inertia(SceneTable& table, SceneDescription& scene) {
+std::optional<Matrix3> read_inertia(TableReader& table, SceneDescription& scene) {
   const auto given = table.numbers("inertia", 6);
   if (!given) return std::nullopt;
   const double xx = (*given)[0], yy = (*given)[1], zz = (*given)[2];
@@ -33,7 +33,7 @@ std::optional<Matrix3> read_inertia(SceneTable& table, SceneDescription& scene) 
   return I;
 }
 
-void read_mass(SceneTable& table, BodyDescription& body, SceneDescription& scene) {
+void read_mass(TableReader& table, BodyDescription& body, SceneDescription& scene) {
   body.mass = table.positive("mass");
   body.density = table.positive("density");
   body.com = table.vector("com");
@@ -49,10 +49,10 @@ void read_mass(SceneTable& table, BodyDescription& body, SceneDescription& scene
                 "scene.missing");
 }
 
-void read_motion(SceneReader& reader, SceneTable& table, BodyDescription& body) {
+void read_motion(SceneReader& reader, TableReader& table, BodyDescription& body) {
   body.fixed = table.flag("fixed").value_or(false);
-  if (const TomlValue* motion = table.table("motion")) {
-    SceneTable velocities = reader.open(*motion, table.where() + ", motion");
+  if (const Value* motion = table.table("motion")) {
+    TableReader velocities = reader.open(*motion, table.where() + ", motion");
     body.motion = BodyMotion{velocities.vector("linear").value_or(Vector3::Zero()),
                              velocities.vector("angular").value_or(Vector3::Zero())};
     velocities.done();
@@ -70,7 +70,7 @@ void read_motion(SceneReader& reader, SceneTable& table, BodyDescription& body) 
 }
 
 // What is only to be looked at.
-void read_looks(SceneReader& reader, SceneTable& table, BodyDescription& body) {
+void read_looks(SceneReader& reader, TableReader& table, BodyDescription& body) {
   body.color = table.vector("color");
   if (body.color && !(body.color->minCoeff() >= 0 && body.color->maxCoeff() <= 1))
     table.fault("color", "red, green and blue must lie from 0 to 1", "", "scene.range");
@@ -82,8 +82,8 @@ void read_looks(SceneReader& reader, SceneTable& table, BodyDescription& body) {
 
 }  // namespace
 
-void SceneReader::read_body(const TomlValue& value) {
-  SceneTable table = open(value, "body");
+void SceneReader::read_body(const Value& value) {
+  TableReader table = open(value, "body");
   BodyDescription body;
   body.line = table.line();
   body.name = read_name(table, "body");

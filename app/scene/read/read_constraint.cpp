@@ -5,9 +5,9 @@
 
 namespace twinarm {
 
-void SceneReader::read_constraint(const TomlValue& value, std::size_t index) {
+void SceneReader::read_constraint(const Value& value, std::size_t index) {
   using Type = ConstraintDescription::Type;
-  SceneTable table = open(value, "constraint");
+  TableReader table = open(value, "constraint");
   ConstraintDescription constraint;
   constraint.line = table.line();
   constraint.name = read_item_name(table, "constraint", index, scene.constraints);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/scene/read/scene_keys.h"
 #include "app/scene/read/scene_names.h"
 #include "app/scene/read/scene_reader.h"
 #include "app/support/nearest_name.h"
@@ -10,10 +11,8 @@
 namespace twinarm {
 namespace {
 
-using Law = CouplingSpec::Type;
-
 // The robot that carries the link; nullptr, told, where it cannot be found.
-const RobotInScene* read_robot_of(SceneTable& table, const SceneDescription& scene,
+const RobotInScene* read_robot_of(TableReader& table, const SceneDescription& scene,
                                   CouplingDescription& coupling) {
   std::vector<std::string> names;
   for (const RobotInScene& robot : scene.robots) names.push_back(robot.name);
@@ -30,7 +29,7 @@ const RobotInScene* read_robot_of(SceneTable& table, const SceneDescription& sce
   return nullptr;
 }
 
-void read_link(SceneTable& table, const RobotDescription& robot, CouplingDescription& coupling) {
+void read_link(TableReader& table, const RobotDescription& robot, CouplingDescription& coupling) {
   table.missing("link", "name the link that is pulled");
   coupling.link = table.text("link").value_or("");
   if (coupling.link.empty() || robot.links.empty()) return;
@@ -48,23 +47,23 @@ void read_link(SceneTable& table, const RobotDescription& robot, CouplingDescrip
               "scene.degrees-of-freedom");
 }
 
-// Whether the key is one of the law's; told where it stands and is not.
-bool fits(SceneTable& table, const char* key, bool is_of_law, const char* rule) {
-  if (!is_of_law && table.has(key)) table.fault(key, rule, "leave it out", "scene.key-useless");
-  return is_of_law;
+// Whether the type has the key; told where it stands and is none of the type's.
+bool fits(TableReader& table, const char* key, const CouplingFacts& facts) {
+  const CouplingKey& row = coupling_key(key);
+  if (row.has(facts)) return true;
+  if (table.has(key)) table.fault(key, row.useless, "leave it out", "scene.key-useless");
+  return false;
 }
 
-void read_treatment(SceneTable& table, const CouplingFacts& facts, CouplingDescription& coupling) {
+void read_treatment(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
   using Treatments = CouplingFacts::Treatments;
-  if (fits(table, "rate", facts.can_hold, "this type of coupling is computed at every step"))
-    coupling.rate = table.positive("rate").value_or(0);
   if (facts.treatments == Treatments::own) {
     coupling.treatment = Treatment::semi_implicit;
-    fits(table, "treatment", false, "this type of coupling is a treatment of its own");
+    fits(table, "treatment", facts);
     return;
   }
   const bool is_explicit = coupling.rate > 0 || facts.treatments == Treatments::explicit_only ||
-                           coupling.law == Law::weld_like;
+                           facts.gains == CouplingFacts::Gains::reference;
   if (is_explicit) coupling.treatment = Treatment::explicit_;
   if (const auto chosen = table.choice("treatment", {"explicit", "semi-implicit", "implicit"}))
     coupling.treatment = static_cast<Treatment>(*chosen);
@@ -77,56 +76,34 @@ void read_treatment(SceneTable& table, const CouplingFacts& facts, CouplingDescr
                 "give treatment = \"explicit\", or leave 'rate' out", "scene.treatment");
 }
 
-void read_gains(SceneTable& table, CouplingDescription& coupling) {
-  const char* none = "this type of coupling has no such gain";
-  const bool has_gains = coupling.law != Law::weld_like && coupling.law != Law::god_object,
-             is_linear = coupling.type == CouplingDescription::Type::linear;
-  if (fits(table, "stiffness", has_gains, none)) {
-    table.missing("stiffness", is_linear ? "give it in N/m" : "give it in N m/rad");
-    coupling.stiffness = table.not_negative("stiffness").value_or(0);
+// Those that a coupling has by its type, and not by its target.
+void read_numbers(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
+  const bool turns = coupling.type == CouplingDescription::Type::torsional;
+  for (const CouplingKey& row : coupling_keys()) {
+    if (!row.number || row.of_target || !fits(table, row.key, facts)) continue;
+    if (row.is_required()) table.missing(row.key, std::string("give it in ") + row.unit_of(turns));
+    double& number = row.number(coupling);
+    number = read_number(table, row.key, row.range).value_or(number);
   }
-  if (fits(table, "damping", has_gains, none))
-    coupling.damping = table.not_negative("damping").value_or(0);
-  const bool is_bushing = coupling.law == Law::bushing;
-  if (fits(table, "turn_stiffness", is_bushing, "is of a bushing")) {
-    table.missing("turn_stiffness", "give it in N m/rad");
-    coupling.turn_stiffness = table.not_negative("turn_stiffness").value_or(0);
-  }
-  if (fits(table, "turn_damping", is_bushing, "is of a bushing"))
-    coupling.turn_damping = table.not_negative("turn_damping").value_or(0);
-  const bool is_weld = coupling.law == Law::weld_like;
-  WeldReference& weld = coupling.reference;
-  const std::pair<const char*, double*> references[] = {{"time_constant", &weld.time_constant},
-                                                        {"damping_ratio", &weld.damping_ratio},
-                                                        {"impedance", &weld.impedance}};
-  for (const auto& [key, value] : references)
-    if (fits(table, key, is_weld, "is of a weld")) *value = table.positive(key).value_or(*value);
-  if (is_weld && weld.impedance >= 1)
-    table.fault("impedance", "must be below 1: at 1 the weld would be rigid",
-                "give a number between 0 and 1, or a [[constraint]] of type \"weld\"",
-                "scene.range");
 }
 
 // How it pulls, and where.
-void read_pull(SceneTable& table, const CouplingFacts& facts, CouplingDescription& coupling) {
+void read_pull(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
   coupling.type =
       facts.at_point ? CouplingDescription::Type::linear : CouplingDescription::Type::torsional;
   if (facts.at_joint) coupling.measure = Measure::joint;
-  if (fits(table, "measure", facts.has_measure, "is of a torsional coupling"))
+  if (fits(table, "measure", facts))
     if (const auto measure = table.choice("measure", {"world", "joint"}))
       coupling.measure = static_cast<Measure>(*measure);
-  if (fits(table, "point", facts.at_point, "this type of coupling turns the link: it has no point"))
-    coupling.point = table.vector("point").value_or(Vector3::Zero());
-  coupling.absolute_damper = coupling.law == Law::weld_like;
-  const bool has_damper =
-      !facts.printed && coupling.law != Law::god_object && coupling.law != Law::weld_like;
-  if (fits(table, "damper", has_damper, "this type of coupling has a damper of its own, or none"))
+  if (fits(table, "point", facts)) coupling.point = table.vector("point").value_or(Vector3::Zero());
+  coupling.absolute_damper = facts.gains == CouplingFacts::Gains::reference;
+  if (fits(table, "damper", facts))
     if (const auto damper = table.choice("damper", {"relative", "absolute"}))
       coupling.absolute_damper = *damper == 1;
 }
 
 // A soft stop: the spring-damper acts outside of these two coordinates of the joint.
-void read_outside(SceneTable& table, CouplingDescription& coupling) {
+void read_outside(TableReader& table, CouplingDescription& coupling) {
   const auto ends = table.numbers("outside", 2);
   if (!ends) return;
   coupling.outside = {(*ends)[0], (*ends)[1]};
@@ -141,14 +118,14 @@ void read_outside(SceneTable& table, CouplingDescription& coupling) {
 }
 
 // The joint that the button of the hand moves.
-void read_gripper(SceneReader& reader, SceneTable& table, const RobotDescription& robot,
+void read_gripper(SceneReader& reader, TableReader& table, const RobotDescription& robot,
                   CouplingTarget& target) {
-  const TomlValue* value = table.table("gripper");
+  const Value* value = table.table("gripper");
   if (!value) return;
   if (!target.is_hand())
     table.fault("gripper", "no hand moves this target", "give one, as target = \"paper\"",
                 "scene.key-useless");
-  SceneTable gripper = reader.open(*value, table.where() + ", gripper");
+  TableReader gripper = reader.open(*value, table.where() + ", gripper");
   for (const char* key : {"joint", "open", "closed"})
     gripper.missing(key, "give { joint = \"..\", open = 0, closed = 0.06 }");
   target.gripper = gripper.text("joint").value_or("");
@@ -164,7 +141,7 @@ void read_gripper(SceneReader& reader, SceneTable& table, const RobotDescription
                   name_remedy(target.gripper, names, "joints"), "scene.unknown-name");
 }
 
-void read_synthetic(SceneTable& hand, CouplingTarget& target) {
+void read_synthetic(TableReader& hand, CouplingTarget& target) {
   target.kind = CouplingTarget::Kind::synthetic;
   const double seed = hand.not_negative("seed").value_or(1);
   if (!(seed <= 4294967295.0) || seed != std::floor(seed))
@@ -187,18 +164,18 @@ void look_at_trace(const std::filesystem::path& file, std::vector<std::string>& 
   }
 }
 
-void read_target(SceneReader& reader, SceneTable& table, const RobotDescription& robot,
+void read_target(SceneReader& reader, TableReader& table, const RobotDescription& robot,
                  CouplingTarget& target) {
-  const TomlValue* value = table.find("target");
+  const Value* value = table.find("target");
   if (!value) return;
-  if (value->kind == TomlValue::Kind::table) {
-    SceneTable state = reader.open(*value, table.where() + ", target");
+  if (value->kind == Value::Kind::table) {
+    TableReader state = reader.open(*value, table.where() + ", target");
     if (state.has("seed")) {
       read_synthetic(state, target);
       return state.done();
     }
     target.kind = CouplingTarget::Kind::state;
-    target.q = reader.read_joints(state, "q", robot, false);
+    target.q = reader.read_joints(state, "q", robot, JointRows::coordinates);
     return state.done();
   }
   const std::string name = table.text("target").value_or("");
@@ -216,25 +193,20 @@ void read_target(SceneReader& reader, SceneTable& table, const RobotDescription&
 }
 
 // How late and how fast the motion of the target is seen.
-void read_pace(SceneTable& table, CouplingDescription& coupling) {
-  using Kind = CouplingTarget::Kind;
-  const Kind target = coupling.target.kind;
-  const bool moves = coupling.target.is_hand();
-  coupling.delay = table.not_negative("delay").value_or(0);
-  if (coupling.delay > 0 && !moves)
-    table.fault("delay", "the target stands still: seen late, it is the same",
-                "leave it out, or give a target that moves", "scene.key-useless");
-  const auto speed = table.positive("speed");
-  coupling.speed = speed.value_or(1);
-  if (speed && target != Kind::paper && target != Kind::trace && target != Kind::synthetic)
-    table.fault("speed", "is of a target that is a motion by name or a trace",
-                "leave it out, or give target = \"paper\" or a trace file", "scene.key-useless");
+void read_pace(TableReader& table, CouplingDescription& coupling) {
+  for (const CouplingKey& row : coupling_keys()) {
+    if (!row.of_target) continue;
+    const double given = read_number(table, row.key, row.range).value_or(0);
+    if (given != 0) row.number(coupling) = given;
+    if (given != 0 && !row.of_target(coupling.target.kind))
+      table.fault(row.key, row.useless, row.help, "scene.key-useless");
+  }
 }
 
 }  // namespace
 
-void SceneReader::read_coupling(const TomlValue& value, std::size_t index) {
-  SceneTable table = open(value, "coupling");
+void SceneReader::read_coupling(const Value& value, std::size_t index) {
+  TableReader table = open(value, "coupling");
   CouplingDescription coupling;
   coupling.line = table.line();
   coupling.name = read_item_name(table, "coupling", index, scene.couplings);
@@ -246,13 +218,12 @@ void SceneReader::read_coupling(const TomlValue& value, std::size_t index) {
   coupling.law = facts.type;
   coupling.printed = facts.printed;
   read_pull(table, facts, coupling);
-  read_gains(table, coupling);
+  read_numbers(table, facts, coupling);
   read_treatment(table, facts, coupling);
   const RobotInScene* robot = read_robot_of(table, scene, coupling);
   const RobotDescription nobody;
   const RobotDescription& description = robot ? robot->description : nobody;
-  if (fits(table, "link", coupling.law != Law::god_object, "a god object drives all joints"))
-    read_link(table, description, coupling);
+  if (fits(table, "link", facts)) read_link(table, description, coupling);
   read_outside(table, coupling);
   if (robot && !description.links.empty()) {
     read_target(*this, table, description, coupling.target);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "app/scene/read/scene_reader.h"
@@ -10,39 +9,24 @@
 namespace twinarm {
 namespace {
 
-std::vector<std::string> moving_joints(const RobotDescription& robot) {
-  std::vector<std::string> names;
-  for (const JointDescription& joint : robot.joints)
-    if (joint.dofs() > 0 && !joint.mimic) names.push_back(joint.name);
-  return names;
-}
-
-// Length 1 to the digits that were typed; false where it is not.
-bool normalise(double* q) {
-  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  if (!(std::abs(length - 1) <= 1e-6)) return false;
-  for (int c = 0; c < 4; ++c) q[c] /= length;
-  return true;
-}
-
 // Masses of links by factors, and particles on links.
-void read_masses(SceneReader& reader, SceneTable& table, RobotInScene& robot) {
+void read_masses(SceneReader& reader, TableReader& table, RobotInScene& robot) {
   std::vector<std::string> links;
   for (const LinkDescription& link : robot.description.links) links.push_back(link.name);
-  const auto check_link = [&](SceneTable& where, const std::string& key, const std::string& name) {
+  const auto check_link = [&](TableReader& where, const std::string& key, const std::string& name) {
     if (std::find(links.begin(), links.end(), name) == links.end())
       where.fault(key, "there is no link '" + name + "'", name_remedy(name, links, "links"),
                   "scene.unknown-name");
   };
-  if (const TomlValue* scales = table.table("mass_scale")) {
-    SceneTable factors = reader.open(*scales, table.where() + ", mass_scale");
-    for (const TomlValue& value : scales->members) {
+  if (const Value* scales = table.table("mass_scale")) {
+    TableReader factors = reader.open(*scales, table.where() + ", mass_scale");
+    for (const Value& value : scales->members) {
       check_link(factors, value.key, value.key);
       if (const auto factor = factors.positive(value.key)) robot.mass_scale[value.key] = *factor;
     }
   }
-  for (const TomlValue* value : table.tables("payload")) {
-    SceneTable payload = reader.open(*value, table.where() + ", payload");
+  for (const Value* value : table.tables("payload")) {
+    TableReader payload = reader.open(*value, table.where() + ", payload");
     payload.missing("link", "name the link that carries it");
     payload.missing("mass", "give it in kg");
     PointMass mass{payload.text("link").value_or(""),
@@ -64,44 +48,16 @@ void drop_limits(RobotDescription& robot) {
 
 }  // namespace
 
-JointValueMap SceneReader::read_joints(SceneTable& table, const char* key,
-                                       const RobotDescription& robot, bool velocities) {
-  JointValueMap found;
-  const TomlValue* list = table.table(key);
-  if (!list) return found;
-  SceneTable joints = open(*list, table.where() + ", " + key);
-  for (const TomlValue& value : list->members) {
-    const std::string& name = value.key;
-    const auto joint = std::find_if(robot.joints.begin(), robot.joints.end(),
-                                    [&](const JointDescription& j) { return j.name == name; });
-    if (joint == robot.joints.end()) {
-      joints.fault(name, "there is no such joint",
-                   name_remedy(name, moving_joints(robot), "joints"), "scene.unknown-name");
-    } else if (joint->mimic || joint->dofs() == 0) {
-      joints.fault(name,
-                   joint->mimic ? "it follows joint '" + joint->mimic->joint + "'"
-                                : "it is fixed, and has no coordinate",
-                   "leave it out", "scene.no-coordinate");
-    } else {
-      const std::size_t count = velocities ? joint->facts().nv : joint->facts().nq;
-      std::optional<std::vector<double>> numbers;
-      if (count > 1)
-        numbers = joints.numbers(name, count);
-      else if (const auto number = joints.number(name))
-        numbers = {*number};
-      if (!numbers) continue;
-      const int first = velocities ? -1 : joint->facts().quaternion;
-      if (first >= 0 && !normalise(numbers->data() + first))
-        joints.fault(name, "a quaternion (w, x, y, z) has length 1", "divide it by its length",
-                     "scene.length");
-      found[name] = {*numbers, value.line};
-    }
-  }
-  return found;
+JointValueMap SceneReader::read_joints(TableReader& table, const char* key,
+                                       const RobotDescription& robot, JointRows rows) {
+  const Value* list = table.table(key);
+  if (!list) return {};
+  TableReader joints = open(*list, table.where() + ", " + key);
+  return read_joint_values(joints, robot, rows);
 }
 
-void SceneReader::read_robot(const TomlValue& value) {
-  SceneTable table = open(value, "robot");
+void SceneReader::read_robot(const Value& value) {
+  TableReader table = open(value, "robot");
   RobotInScene robot;
   robot.line = table.line();
   robot.name = read_name(table, "robot");
@@ -137,8 +93,8 @@ void SceneReader::read_robot(const TomlValue& value) {
   if (readable) {
     if (!limits) drop_limits(robot.description);
     read_masses(*this, table, robot);
-    robot.q = read_joints(table, "q", robot.description, false);
-    robot.qd = read_joints(table, "qd", robot.description, true);
+    robot.q = read_joints(table, "q", robot.description, JointRows::coordinates);
+    robot.qd = read_joints(table, "qd", robot.description, JointRows::velocities);
     lock_joints(table, robot);
   } else {
     for (const char* key : {"q", "qd", "lock", "mass_scale", "payload"}) table.find(key);

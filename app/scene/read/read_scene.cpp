@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/scene/read/scene_keys.h"
 #include "app/scene/read/scene_names.h"
 #include "app/scene/read/scene_reader.h"
 #include "app/support/find_assets.h"
@@ -25,7 +26,7 @@ SceneDescription read_scene(const std::filesystem::path& file) {
   return read_scene(read_toml(file), file);
 }
 
-SceneDescription read_scene(const TomlValue& root, const std::filesystem::path& file,
+SceneDescription read_scene(const Value& root, const std::filesystem::path& file,
                             const FileRoots& roots) {
   SceneReader reader;
   reader.path = file;
@@ -41,8 +42,8 @@ SceneDescription read_scene(const TomlValue& root, const std::filesystem::path& 
   return std::move(reader.scene);
 }
 
-void SceneReader::read(const TomlValue& root) {
-  SceneTable table = open(root, "scene");
+void SceneReader::read(const Value& root) {
+  TableReader table = open(root, "scene");
   scene.gravity = table.vector("gravity").value_or(scene.gravity);
   scene.step = table.positive("step").value_or(scene.step);
   scene.duration = table.positive("duration");
@@ -54,18 +55,18 @@ void SceneReader::read(const TomlValue& root) {
     scene.integrator = all_integrators[*chosen].integrator;
 
   // Robots and bodies first: the others name them.
-  for (const TomlValue* robot : table.tables("robot")) read_robot(*robot);
-  for (const TomlValue* body : table.tables("body")) read_body(*body);
-  for (const TomlValue* pair : table.tables("pair")) read_pair(*pair);
+  for (const Value* robot : table.tables("robot")) read_robot(*robot);
+  for (const Value* body : table.tables("body")) read_body(*body);
+  for (const Value* pair : table.tables("pair")) read_pair(*pair);
   std::size_t index = 0;
-  for (const TomlValue* coupling : table.tables("coupling")) read_coupling(*coupling, index++);
+  for (const Value* coupling : table.tables("coupling")) read_coupling(*coupling, index++);
   index = 0;
-  for (const TomlValue* joint : table.tables("constraint")) read_constraint(*joint, index++);
+  for (const Value* joint : table.tables("constraint")) read_constraint(*joint, index++);
   table.text("note");
   table.done();
 }
 
-std::string SceneReader::read_name(SceneTable& table, const char* kind) {
+std::string SceneReader::read_name(TableReader& table, const char* kind) {
   table.missing("name", "give name = \"...\"");
   const std::string name = table.text("name").value_or("");
   if (name.empty()) return name;
@@ -88,31 +89,22 @@ std::string SceneReader::read_name(SceneTable& table, const char* kind) {
   return name;
 }
 
-Surface SceneReader::read_surface(SceneTable& table) {
+Surface SceneReader::read_surface(TableReader& table) {
   Surface surface;
-  surface.friction = table.not_negative("friction").value_or(surface.friction);
-  if (const auto e = table.not_negative("restitution")) {
-    if (*e > 1)
-      table.fault("restitution", "must be at most 1: an impact creates no energy",
-                  "give a number from 0 to 1", "scene.range");
-    surface.restitution = *e;
-  }
-  surface.torsional_friction = table.not_negative("torsional_friction").value_or(0);
-  surface.rolling_friction = table.not_negative("rolling_friction").value_or(0);
-  surface.stiffness = table.positive("stiffness").value_or(surface.stiffness);
-  surface.dissipation = table.not_negative("dissipation").value_or(surface.dissipation);
+  for (const SurfaceKey& row : surface_keys())
+    surface.*row.member = read_number(table, row.key, row.range).value_or(surface.*row.member);
   return surface;
 }
 
-Pose SceneReader::read_pose(SceneTable& table) {
+Pose SceneReader::read_pose(TableReader& table) {
   Pose pose;
   pose.p = table.vector("position").value_or(pose.p);
   pose.R = table.orientation("orientation").value_or(pose.R);
   return pose;
 }
 
-void SceneReader::read_pair(const TomlValue& value) {
-  SceneTable table = open(value, "pair");
+void SceneReader::read_pair(const Value& value) {
+  TableReader table = open(value, "pair");
   PairDescription pair;
   pair.line = table.line();
   const auto read_end = [&](const char* key) {
@@ -127,19 +119,14 @@ void SceneReader::read_pair(const TomlValue& value) {
   };
   pair.a = read_end("a");
   pair.b = read_end("b");
-  pair.friction = table.not_negative("friction");
-  pair.restitution = table.not_negative("restitution");
-  if (pair.restitution.value_or(0) > 1)
-    table.fault("restitution", "must be at most 1: an impact creates no energy",
-                "give a number from 0 to 1", "scene.range");
-  pair.stiffness = table.positive("stiffness");
-  pair.dissipation = table.not_negative("dissipation");
+  for (const SurfaceKey& row : surface_keys())
+    if (row.of_pair) pair.*row.of_pair = read_number(table, row.key, row.range);
   pair.collide = table.flag("collide");
   table.done();
   scene.pairs.push_back(std::move(pair));
 }
 
-std::optional<std::filesystem::path> SceneReader::find_file(SceneTable& table,
+std::optional<std::filesystem::path> SceneReader::find_file(TableReader& table,
                                                             const std::string& key,
                                                             const std::string& name) {
   namespace fs = std::filesystem;

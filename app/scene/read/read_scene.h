@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "app/data/toml_tree.h"
+#include "app/data/value.h"
 #include "app/scene/read/scene_description.h"
 #include "collision/import/robot/file_search.h"
 
@@ -13,7 +13,7 @@ namespace twinarm {
 SceneDescription read_scene(const std::filesystem::path& file);
 // The same of a tree that was read, and perhaps changed; `file` as faults name it, and to find the
 // files that it names, which must lie in `roots`.
-SceneDescription read_scene(const TomlValue& root, const std::filesystem::path& file,
+SceneDescription read_scene(const Value& root, const std::filesystem::path& file,
                             const FileRoots& roots = {});
 
 }  // namespace twinarm

@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/robot/joint_values.h"
 #include "collision/import/robot/robot_description.h"
 #include "collision/import/robot/robot_model.h"
 #include "coupling/laws/coupling_spec.h"
@@ -57,12 +58,6 @@ struct BodyDescription {
 
   bool is_free() const { return !fixed && !motion; }
 };
-
-struct JointValues {
-  std::vector<double> values;
-  int line = 0;
-};
-using JointValueMap = std::map<std::string, JointValues>;  // by joint name, as in a state file
 
 struct RobotInScene {
   std::string name;

@@ -2,37 +2,22 @@
 
 #include <unistd.h>
 
-#include "app/data/toml_text.h"
+#include "app/data/value.h"
 #include "app/record/record_run.h"
 #include "app/support/interrupt.h"
 #include "app/support/progress.h"
 #include "solver/support/atomic_file.h"
 
 namespace twinarm {
-namespace {
-
-void put_number(TomlValue& table, const std::string& key, double number) {
-  TomlValue* member = table.find(key);
-  if (!member) {
-    table.members.emplace_back();
-    member = &table.members.back();
-    member->key = key;
-  }
-  member->kind = TomlValue::Kind::number;
-  member->number = number;
-}
-
-}  // namespace
-
 void write_scene_of_log(const std::filesystem::path& scene, const std::filesystem::path& log,
                         double step, double duration, const std::filesystem::path& file) {
-  TomlValue tree = read_toml(scene);
-  if (TomlValue* couplings = tree.find("coupling"))
-    for (TomlValue& coupling : couplings->items)
-      if (TomlValue* target = coupling.find("target"); target && target->text == "device")
+  Value tree = read_toml(scene);
+  if (Value* couplings = tree.find("coupling"))
+    for (Value& coupling : couplings->items)
+      if (Value* target = coupling.find("target"); target && target->text == "device")
         target->text = std::filesystem::absolute(log).lexically_normal().string();
-  put_number(tree, "step", step);
-  put_number(tree, "duration", duration);
+  tree.put("step", Value::of(step));
+  tree.put("duration", Value::of(duration));
   name_files_from_root(scene.parent_path(), tree);
   write_whole_file(file, "# " + scene.filename().string() + " under the hand of " +
                              log.filename().string() + "\n" + to_toml(tree));

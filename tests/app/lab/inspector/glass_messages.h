@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/data/json_tree.h"
+#include "app/data/value.h"
 #include "app/lab/inspector/body_inspector.h"
 #include "app/run/run.h"
 #include "tests/collision/import/robot/helpers.h"
@@ -63,16 +63,16 @@ inline Told told_of(const std::string& file, long steps) {
   return told_of(plan_of_asset(file, 1), steps);
 }
 
-inline JsonValue parsed(const std::string& message) {
+inline Value parsed(const std::string& message) {
   const TemporaryFolder folder;
   return read_json(folder.write("glass.json", message));
 }
-inline const JsonValue& at(const JsonValue& value, const std::string& name) {
-  const JsonValue* found = value.find(name);
+inline const Value& at(const Value& value, const std::string& name) {
+  const Value* found = value.find(name);
   REQUIRE_MESSAGE(found, name);
   return *found;
 }
-inline Vector3 vector_of(const JsonValue& list) {
+inline Vector3 vector_of(const Value& list) {
   REQUIRE(list.items.size() == 3);
   return {list.items[0].number, list.items[1].number, list.items[2].number};
 }

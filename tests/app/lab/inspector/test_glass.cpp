@@ -20,10 +20,10 @@ constexpr const char* kGlassScenes[] = {
     "robot_beside_obstacles", "turntable"};
 
 // Of the body's pass.
-const JsonValue* quantity_of(const JsonValue& passes, int pass, const std::string& name) {
-  for (const JsonValue& step : passes.items)
+const Value* quantity_of(const Value& passes, int pass, const std::string& name) {
+  for (const Value& step : passes.items)
     if (at(step, "pass").number == pass)
-      for (const JsonValue& quantity : at(step, "quantities").items)
+      for (const Value& quantity : at(step, "quantities").items)
         if (at(quantity, "name").text == name) return &at(quantity, "value");
   return nullptr;
 }
@@ -43,15 +43,15 @@ TEST_CASE("glass: accelerations and contact forces are those that the run's own 
     std::size_t pressing = 0;
     for (std::size_t body = 1; body < model.parent.size(); ++body) {
       CAPTURE(model.body_name[body]);
-      const JsonValue message = parsed(glass.message(told.frame, {body, false, 3, &told.ledger}));
+      const Value message = parsed(glass.message(told.frame, {body, false, 3, &told.ledger}));
       CHECK(at(message, "scene").number == 3);
       CHECK(at(message, "name").text == model.body_name[body]);
       if (model.dofs(body) == 1) {
-        const JsonValue* qdd = quantity_of(at(message, "passes"), 3, "qdd");
+        const Value* qdd = quantity_of(at(message, "passes"), 3, "qdd");
         REQUIRE(qdd);
         CHECK(std::abs(qdd->number - told.qdd[model.iv[body]]) <= 1e-9 * size);
       }
-      for (const JsonValue& force : at(message, "forces").items)
+      for (const Value& force : at(message, "forces").items)
         if (force.find("axis")) {
           const Vector3 on = vector_of(at(at(force, "on").items[0], "force"));
           CHECK(std::any_of(told.force.begin(), told.force.end(), [&](const Vector3& f) {
@@ -72,11 +72,11 @@ TEST_CASE("glass: every body's wrenches sum to zero, and so does each equation")
     Glass glass(plan_of_asset(file, 1));
     const SimulatePlan plan = plan_of_asset(file, 1);
     for (std::size_t body = 1; body < plan.input.robot.model.parent.size(); ++body) {
-      const JsonValue message = parsed(glass.message(told.frame, {body, true, 1, &told.ledger}));
-      const JsonValue& balance = at(message, "balance").items.at(0);
+      const Value message = parsed(glass.message(told.frame, {body, true, 1, &told.ledger}));
+      const Value& balance = at(message, "balance").items.at(0);
       Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
       double largest = 0;
-      for (const JsonValue& wrench : at(balance, "wrenches").items) {
+      for (const Value& wrench : at(balance, "wrenches").items) {
         const Vector3 f = vector_of(at(wrench, "force")), n = vector_of(at(wrench, "torque"));
         force += f;
         torque += n;
@@ -85,11 +85,11 @@ TEST_CASE("glass: every body's wrenches sum to zero, and so does each equation")
       CHECK(force.norm() <= 1e-9 * largest);
       CHECK(torque.norm() <= 1e-9 * largest);
       CHECK(at(message, "equations").items.size() > 4);
-      for (const JsonValue& equation : at(message, "equations").items) {
+      for (const Value& equation : at(message, "equations").items) {
         CAPTURE(at(equation, "text").text);
         CHECK(at(equation, "residual").number <= 1e-9);
       }
-      for (const JsonValue& check : at(message, "checks").items)
+      for (const Value& check : at(message, "checks").items)
         CHECK_MESSAGE(at(check, "pass").number == 1, at(check, "name").text);
     }
   }
@@ -111,8 +111,8 @@ TEST_CASE("glass: the numbers are those of inspect, digit by digit; its ledger t
   for (int again = 0; again < 3; ++again) {  // what was asked before leaves no trace
     const std::string message = glass.message(told.frame, {2, again == 1, 1, &told.ledger});
     CHECK(message.find(wanted) != std::string::npos);
-    const JsonValue tree = parsed(message);
-    const JsonValue& ledger = at(tree, "ledger");
+    const Value tree = parsed(message);
+    const Value& ledger = at(tree, "ledger");
     for (std::size_t i = 0; i < told.ledger.size(); ++i)
       CHECK(at(ledger, told.ledger[i]).number == told.frame.recorded.works[i]);
     glass.message(told_of(file, 10).frame, {1, true, 1});
@@ -141,9 +141,9 @@ TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
   const double wanted = run.view().simulation().workspace().qdd[model.iv[body]];
   CHECK(std::abs(wanted) > 0.1);
   const auto told_by = [&](const LabFrame& of) {
-    const JsonValue message = parsed(glass.message(of, {body, true, 1, &names.rows}));
-    for (const JsonValue& check : at(message, "checks").items) CHECK(at(check, "pass").number == 1);
-    const JsonValue* qdd = quantity_of(at(message, "passes"), 3, "qdd");
+    const Value message = parsed(glass.message(of, {body, true, 1, &names.rows}));
+    for (const Value& check : at(message, "checks").items) CHECK(at(check, "pass").number == 1);
+    const Value* qdd = quantity_of(at(message, "passes"), 3, "qdd");
     REQUIRE(qdd);
     return qdd->number;
   };
@@ -154,9 +154,9 @@ TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
   CHECK(std::abs(told_by(still) - wanted) > 1e-3 * std::abs(wanted));
   LabFrame pulled = frame;
   pulled.pull = LabPull{static_cast<int>(body), Vector3::Zero(), Vector3::Zero(), {0, 0, 10}};
-  const JsonValue message = parsed(glass.message(pulled, {body, false, 1}));
+  const Value message = parsed(glass.message(pulled, {body, false, 1}));
   bool found = false;
-  for (const JsonValue& wrench : at(at(message, "balance").items.at(0), "wrenches").items)
+  for (const Value& wrench : at(at(message, "balance").items.at(0), "wrenches").items)
     if (at(wrench, "source").text == "mouse")
       found = (vector_of(at(wrench, "force")) - Vector3(0, 0, 10)).norm() < 1e-12;
   CHECK(found);
@@ -170,9 +170,9 @@ TEST_CASE("glass: where time stands, all bodies come in the order of the call") 
                                  plan.input.robot.model.body_name.end());
   Glass glass(plan_of_asset(file, 1));
   CHECK(!parsed(glass.message(told.frame, {1, false, 1, &told.ledger})).find("rows"));
-  const JsonValue message = parsed(glass.message(told.frame, {1, true, 1}));
+  const Value message = parsed(glass.message(told.frame, {1, true, 1}));
   std::vector<std::pair<int, std::string>> order, wanted;
-  for (const JsonValue& row : at(message, "rows").items) {
+  for (const Value& row : at(message, "rows").items) {
     order.emplace_back(static_cast<int>(at(row, "pass").number), at(row, "body").text);
     // Bodies that are fixed to their parents have neither D nor u.
     CHECK((at(row, "pass").number == 2 || !at(row, "quantities").items.empty()));
@@ -191,11 +191,11 @@ TEST_CASE("glass: a robot alone, without a scene") {
   const SimulatePlan plan = plan_of_asset(file, 1);
   const Model<double>& model = plan.input.robot.model;
   const auto body = static_cast<std::size_t>(model.find_joint("joint1"));
-  const JsonValue message = parsed(glass.message(told.frame, {body, true, 1, &told.ledger}));
-  const JsonValue* qdd = quantity_of(at(message, "passes"), 3, "qdd");
+  const Value message = parsed(glass.message(told.frame, {body, true, 1, &told.ledger}));
+  const Value* qdd = quantity_of(at(message, "passes"), 3, "qdd");
   REQUIRE(qdd);
   CHECK(std::isfinite(qdd->number));
-  for (const JsonValue& check : at(message, "checks").items) CHECK(at(check, "pass").number == 1);
+  for (const Value& check : at(message, "checks").items) CHECK(at(check, "pass").number == 1);
 }
 
 TEST_CASE("glass: numbers that are not finite are told, and a frame of another scene too") {
@@ -219,12 +219,12 @@ TEST_CASE("glass: numbers that are not finite are told, and a frame of another s
     REQUIRE(place < head);
     broken.recorded.memory.replace(place, sizeof bad, reinterpret_cast<const char*>(&bad),
                                    sizeof bad);
-    const JsonValue message = parsed(glass.message(broken, {1, true, 1, &told.ledger}));
+    const Value message = parsed(glass.message(broken, {1, true, 1, &told.ledger}));
     CHECK(at(message, "kind").text == "glass");
     if (std::isnan(bad)) CHECK(!at(message, "warnings").items.empty());
   }
   const Told other = told_of("scenes/box_stack.toml", 3);
-  const JsonValue message = parsed(glass.message(other.frame, {1, true, 1, &told.ledger}));
+  const Value message = parsed(glass.message(other.frame, {1, true, 1, &told.ledger}));
   CHECK(at(message, "warnings").items.size() == 1);
   CHECK(!message.find("passes"));
   CHECK(glass.message(told.frame, {1, true, 1, &told.ledger}) == good);

@@ -9,10 +9,10 @@ using namespace twinarm::testing;
 namespace {
 
 // The classical acceleration of the origin of a body, of the rows of pass 3.
-Vector3 acceleration_of(const JsonValue& message, const std::string& body) {
-  for (const JsonValue& row : at(message, "rows").items)
+Vector3 acceleration_of(const Value& message, const std::string& body) {
+  for (const Value& row : at(message, "rows").items)
     if (at(row, "pass").number == 3 && at(row, "body").text == body)
-      for (const JsonValue& quantity : at(row, "quantities").items)
+      for (const Value& quantity : at(row, "quantities").items)
         if (at(quantity, "name").text == "acceleration") return vector_of(at(quantity, "value"));
   FAIL("no acceleration of body " << body);
   return {};
@@ -41,7 +41,7 @@ TEST_CASE("glass: the acceleration of an origin is classical: w^2 r on a circle,
         folder.write("state.json", "{\"qd\": {\"j1\": " + std::to_string(w) + "}}");
     Glass glass(prepare_simulation(options));
     const Told told = told_of(prepare_simulation(options), 0);
-    const JsonValue message = parsed(glass.message(told.frame, {2, true, 1}));
+    const Value message = parsed(glass.message(told.frame, {2, true, 1}));
     CHECK(acceleration_of(message, "a").norm() < 1e-12);
     CHECK((acceleration_of(message, "b") - Vector3(-0.5 * w * w, 0, 0)).norm() < 1e-12);
   }
@@ -53,7 +53,7 @@ TEST_CASE("glass: the acceleration of an origin is the second derivative of its 
   const SimulatePlan plan = plan_of_asset(file, 1);
   const Model<double>& model = plan.input.robot.model;
   const Told told = told_of(file, 200);
-  const JsonValue message = parsed(glass.message(told.frame, {1, true, 1}));
+  const Value message = parsed(glass.message(told.frame, {1, true, 1}));
   Memory memory = simulation_memory(told.frame.recorded.memory);
   State<double> x(model);
   memory.visit(x.q);

@@ -19,7 +19,7 @@ inline SimulatePlan planned(const std::filesystem::path& file,
   SimulateOptions options;
   options.robot.model = file;
   options.duration = 1;
-  options.change_scene = [&](TomlValue& scene, FaultList& faults) {
+  options.change_scene = [&](Value& scene, FaultList& faults) {
     for (const std::string& change : changes) apply(parse_change(change), 0, scene, faults);
   };
   SimulatePlan plan = prepare_simulation(options);

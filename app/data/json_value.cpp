@@ -1,4 +1,4 @@
-#include "app/data/json_tree.h"
+#include "app/data/value.h"
 
 #include <cctype>
 #include <cmath>
@@ -36,27 +36,22 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
   TreeBuilder(const std::filesystem::path& file, const int& line)
       : file_(file.string()), line_(line) {}
 
-  bool null() override { return add({}); }
-  bool boolean(bool value) override { return add(JsonValue::Kind::boolean, value ? 1 : 0); }
+  bool null() override { return add(Value::Kind::null, 0); }
+  bool boolean(bool value) override { return add(Value::Kind::boolean, value ? 1 : 0); }
   bool number_integer(std::int64_t value) override { return number(static_cast<double>(value)); }
   bool number_unsigned(std::uint64_t value) override { return number(static_cast<double>(value)); }
   bool number_float(double value, const std::string&) override { return number(value); }
-  bool string(std::string& value) override {
-    JsonValue item;
-    item.kind = JsonValue::Kind::text;
-    item.text = value;
-    return add(std::move(item));
-  }
+  bool string(std::string& value) override { return add(Value::of(std::move(value))); }
   bool binary(nlohmann::ordered_json::binary_t&) override { return false; }
-  bool start_object(std::size_t) override { return open(JsonValue::Kind::object); }
-  bool start_array(std::size_t) override { return open(JsonValue::Kind::list); }
+  bool start_object(std::size_t) override { return open(Value::Kind::table); }
+  bool start_array(std::size_t) override { return open(Value::Kind::list); }
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool key(std::string& name) override {
     value_line_ = line_;
-    if (!seen_.back().insert(name).second)
+    if (!open_.back().seen.insert(name).second)
       faults.add({file_, line_, name, "stands here twice", "leave one of them out"});
-    names_.back() = name;
+    open_.back().key = name;
     return true;
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& e) override {
@@ -67,58 +62,55 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
     return false;
   }
 
-  JsonValue root;
+  Value root;
   FaultList faults;
 
  private:
-  bool number(double value) { return add(JsonValue::Kind::number, value); }
-  bool add(JsonValue::Kind kind, double value) {
-    JsonValue item;
+  bool number(double value) { return add(Value::of(value)); }
+  bool add(Value::Kind kind, double value) {
+    Value item = Value::of(value);
     item.kind = kind;
-    item.number = value;
     return add(std::move(item));
   }
-  bool add(JsonValue item) {
+  bool add(Value item) {
     if (item.line == 0) item.line = value_line_;
     if (open_.empty()) {
       root = std::move(item);
       return true;
     }
-    JsonValue& around = open_.back();
-    item.key = names_.back();
-    (around.kind == JsonValue::Kind::object ? around.members : around.items)
+    Open& around = open_.back();
+    item.key = around.key;
+    (around.value.is_table() ? around.value.members : around.value.items)
         .push_back(std::move(item));
     return true;
   }
-  bool open(JsonValue::Kind kind) {
+  bool open(Value::Kind kind) {
     constexpr std::size_t kDeepest = 64;
     if (open_.size() > kDeepest) {
       faults.add({file_, line_, "", "is nested too deeply", "a state has four levels at most"});
       return false;
     }
     value_line_ = line_;
-    JsonValue item;
-    item.kind = kind;
-    item.line = line_;
-    open_.push_back(std::move(item));
-    names_.emplace_back();
-    seen_.emplace_back();
+    Open& opened = open_.emplace_back();
+    opened.value.kind = kind;
+    opened.value.line = line_;
     return true;
   }
   bool close() {
-    JsonValue item = std::move(open_.back());
+    Value item = std::move(open_.back().value);
     open_.pop_back();
-    names_.pop_back();
-    seen_.pop_back();
     return add(std::move(item));
   }
 
+  struct Open {
+    Value value;
+    std::string key;                       // after which its next value comes
+    std::unordered_set<std::string> seen;  // all its keys
+  };
   std::string file_;
   const int& line_;
   int value_line_ = 1;
-  std::vector<JsonValue> open_;                        // the brackets around here
-  std::vector<std::string> names_;                     // the key after which their next value comes
-  std::vector<std::unordered_set<std::string>> seen_;  // all their keys
+  std::vector<Open> open_;  // the brackets around here
 };
 
 // Programs write NaN and Infinity into JSON that has neither: null in their place, so that all of
@@ -147,31 +139,7 @@ std::string without_nan(const std::string& text) {
 
 }  // namespace
 
-const JsonValue* JsonValue::find(const std::string& name) const {
-  for (const JsonValue& member : members)
-    if (member.key == name) return &member;
-  return nullptr;
-}
-
-std::string describe(const JsonValue& value) {
-  switch (value.kind) {
-    case JsonValue::Kind::null:
-      return "null, or not finite";
-    case JsonValue::Kind::boolean:
-      return value.number != 0 ? "true" : "false";
-    case JsonValue::Kind::number:
-      return "a number";
-    case JsonValue::Kind::text:
-      return "the text \"" + value.text + "\"";
-    case JsonValue::Kind::list:
-      return "a list of " + std::to_string(value.items.size());
-    case JsonValue::Kind::object:
-      return "an object";
-  }
-  return "";
-}
-
-JsonValue read_json(const std::filesystem::path& file) {
+Value read_json(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw InputError({{file.string(), 0, "", "is a folder", "name a JSON file", "file.is-folder"}});
@@ -182,7 +150,7 @@ JsonValue read_json(const std::filesystem::path& file) {
   return parse_json(read_whole_file(file), file.string());
 }
 
-JsonValue parse_json(const std::string& json, const std::string& name) {
+Value parse_json(const std::string& json, const std::string& name) {
   const std::string text = without_nan(json);
   int line = 1;
   TreeBuilder tree(name, line);
