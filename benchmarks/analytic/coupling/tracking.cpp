@@ -170,12 +170,7 @@ class Leader final : public ForceSource, public Rewindable {
 
 template <std::size_t i>
 TrajectoryCase following() {
-  return {.statement =
-              "Two links follow a target that turns to and fro at constant speed, drawn by "
-              "spring-dampers on their angles, their directions or their centres of mass: <p>M q'' "
-              "+ C q' = &Sigma; J<sup>T</sup> (k (x<sub>K</sub> &minus; x) + b (x<sub>K</sub>' "
-              "&minus; x'))</p>",
-          .scene =
+  return {.scene =
               [] {
                 const auto leader = std::make_shared<Leader>(kTracked[i]);
                 CaseScene scene = start_at(model_of(uniform_arm()), leader->start(), {0, 0});
@@ -220,33 +215,21 @@ CaseResult mean_error() {
   return {largest_miss(tracked(kTracked[i], mistaken).mean, kTracked[i].mean_deg)};
 }
 
-constexpr const char* kFollowing =
-    "The same arm follows its target for 3 s; the error of a joint is that of its angle. <p>max "
-    "|q<sub>K</sub> &minus; q|, (1/T) &int; |q<sub>K</sub> &minus; q| dt</p>";
-
 template <std::size_t i>
-void add_coupling(const std::array<const char*, 3>& names, const char* what,
-                  std::vector<AnalyticCase>& all) {
-  const char* group = "couplings";
-  all.push_back(trajectory_case(names[0], group, what, 1e-8, following<i>()));
-  all.push_back(experiment_case(names[1], group, "the same: largest errors of the joints [deg]",
-                                1e-4, largest_error<i, false>, largest_error<i, true>, kFollowing));
-  all.push_back(experiment_case(names[2], group, "the same: mean errors of the joints [deg]", 1e-5,
-                                mean_error<i, false>, mean_error<i, true>, kFollowing));
+void add_coupling(const std::array<const char*, 3>& names, std::vector<AnalyticCase>& all) {
+  all.push_back({names[0], 1e-8, following<i>()});
+  all.push_back({names[1], 1e-4, largest_error<i, false>, largest_error<i, true>});
+  all.push_back({names[2], 1e-5, mean_error<i, false>, mean_error<i, true>});
 }
 
 }  // namespace
 
 CaseFamily tracking_cases() {
   std::vector<AnalyticCase> all;
-  add_coupling<0>({"F3-world", "F3-world-largest", "F3-world-mean"},
-                  "two links follow, springs on their directions: state [rad, rad/s], 3 s", all);
-  add_coupling<1>({"F3-joint", "F3-joint-largest", "F3-joint-mean"},
-                  "two links follow, springs on the joints' angles: state [rad, rad/s], 3 s", all);
-  add_coupling<2>({"F3-linear", "F3-linear-largest", "F3-linear-mean"},
-                  "two links follow, springs on their centres: state [rad, rad/s], 3 s", all);
-  add_coupling<3>({"F3-undamped", "F3-undamped-largest", "F3-undamped-mean"},
-                  "two links follow, soft undamped springs: state [rad, rad/s], 3 s", all);
+  add_coupling<0>({"F3-world", "F3-world-largest", "F3-world-mean"}, all);
+  add_coupling<1>({"F3-joint", "F3-joint-largest", "F3-joint-mean"}, all);
+  add_coupling<2>({"F3-linear", "F3-linear-largest", "F3-linear-mean"}, all);
+  add_coupling<3>({"F3-undamped", "F3-undamped-largest", "F3-undamped-mean"}, all);
   return {340, all};
 }
 

@@ -78,11 +78,7 @@ using namespace smooth_parts;
 // ---- G1 ----
 
 TrajectoryCase golden_motion(const GoldenSteps& row) {
-  return {.statement =
-              "A pendulum of 1 m from 90&deg;, 100 steps of 10 ms: where the scheme "
-              "itself must be, by an independent code. <p>x<sub>n+1</sub> = "
-              "&Phi;<sub>h</sub>(x<sub>n</sub>), &theta;'' = &minus;(g/l) sin &theta;</p>",
-          .scene = [] { return start_at(point_pendulum(), {std::numbers::pi / 2}, {0}); },
+  return {.scene = [] { return start_at(point_pendulum(), {std::numbers::pi / 2}, {0}); },
           .times = {1},
           .readings = {"angle [rad]", "rate [rad/s]"},
           .observe = joint_state(),
@@ -95,10 +91,6 @@ TrajectoryCase golden_motion(const GoldenSteps& row) {
 }
 TrajectoryCase golden_energy(const GoldenSteps& row) {
   TrajectoryCase c = golden_motion(row);
-  c.statement =
-      "The same pendulum, 10000 steps of 10 ms: the energy that the scheme has gained or "
-      "lost, by an independent code. <p>E = m l<sup>2</sup>&theta;'<sup>2</sup>/2 &minus; m g l "
-      "cos &theta;, E(0) = 0</p>";
   c.times = {100};
   c.readings = {"energy [J]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
@@ -113,17 +105,12 @@ TrajectoryCase golden_energy(const GoldenSteps& row) {
 }  // namespace
 
 CaseFamily golden_steps_cases() {
-  const char* group = "integrators";
   std::vector<AnalyticCase> all;
   for (const GoldenSteps& row : golden_steps())
-    all.push_back(trajectory_case(name_of_case("G1-", row.integrator), group,
-                                  "pendulum, 100 steps of 10 ms: angle, rate; golden numbers",
-                                  1e-12, golden_motion(row)));
+    all.push_back({name_of_case("G1-", row.integrator), 1e-12, golden_motion(row)});
   // The energies are known to four digits.
   for (const GoldenSteps& row : golden_steps())
-    all.push_back(trajectory_case(name_of_case("G2-energy-", row.integrator), group,
-                                  "pendulum, 100 s in steps of 10 ms: energy [relative]", 5e-4,
-                                  golden_energy(row)));
+    all.push_back({name_of_case("G2-energy-", row.integrator), 5e-4, golden_energy(row)});
   return {360, all};
 }
 

@@ -94,27 +94,19 @@ CaseReadings observe_axis(const Model<double>&, const State<double>& x) {
 }
 
 TrajectoryCase top_motion(double step) {
-  return {
-      .statement =
-          "A top of 1 kg, its centre 0.2 m from the fixed point, I<sub>1</sub> = 0.05 and "
-          "I<sub>3</sub> = 0.01 kg m<sup>2</sup> about it, is released 30&deg; from upright "
-          "with its axis at rest and a spin of 100 rad/s. Its axis falls and rises, "
-          "<p>cos &theta; = u<sub>1</sub> + (u<sub>0</sub> &minus; u<sub>1</sub>) "
-          "cd<sup>2</sup>(k t)</p> and goes round at <p>&phi;' = I<sub>3</sub>&omega;<sub>3</sub> "
-          "(u<sub>0</sub> &minus; u)/(I<sub>1</sub>(1 &minus; u<sup>2</sup>)), u = cos &theta;</p>",
-      .scene =
-          [] {
-            return tilted({0, 0, kSpin});
-          },
-      .times = {0.1, 0.38054140391335806, 0.5, 1},
-      .readings = {"x of the axis", "y of the axis", "z of the axis"},
-      .observe = observe_axis,
-      .reference =
-          [](double t) {
-            const Vector3 e = nutation().axis(t);
-            return CaseReadings{e.x(), e.y(), e.z()};
-          },
-      .lane = rk4_lane(step)};
+  return {.scene =
+              [] {
+                return tilted({0, 0, kSpin});
+              },
+          .times = {0.1, 0.38054140391335806, 0.5, 1},
+          .readings = {"x of the axis", "y of the axis", "z of the axis"},
+          .observe = observe_axis,
+          .reference =
+              [](double t) {
+                const Vector3 e = nutation().axis(t);
+                return CaseReadings{e.x(), e.y(), e.z()};
+              },
+          .lane = rk4_lane(step)};
 }
 
 // The rate in body axes, of which two components turn with the spin.
@@ -180,10 +172,6 @@ double residual(const Model<double>& model, double W) {
 
 TrajectoryCase steady() {
   TrajectoryCase c = top_motion(1e-3);
-  c.statement =
-      "Steady precession of that top at 30&deg;: <p>I<sub>1</sub> cos &theta; W<sup>2</sup> "
-      "&minus; I<sub>3</sub>&omega;<sub>3</sub> W + m g l = 0</p> has a slow and a fast root, and "
-      "none below a least spin.";
   c.times = {0};
   c.readings = {"slow [rad/s]", "fast [rad/s]", "least spin [rad/s]"};
   c.observe = [](const Model<double>& model, const State<double>&) {
@@ -206,9 +194,6 @@ TrajectoryCase steady() {
 // stable where (w3 - D)^2 >= 4 F. F and D are read off the derivatives of the accelerations.
 TrajectoryCase sleeping() {
   TrajectoryCase c = top_motion(1e-3);
-  c.statement =
-      "Upright, the top sleeps where its spin is above <p>&omega;<sub>3</sub> = 2 "
-      "&radic;(m g l I<sub>1</sub>)/I<sub>3</sub></p>";
   c.scene = [] { return start_at(top(), {1, 0, 0, 0}, {0, 0, kSpin}); };
   c.times = {0};
   c.readings = {"least spin [rad/s]"};
@@ -224,30 +209,14 @@ TrajectoryCase sleeping() {
 }  // namespace
 
 CaseFamily heavy_top_cases() {
-  const char* group = "free-body";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("A4", group, "heavy top: its axis, 1 s, rk4 1 ms; elliptic functions", 1e-5,
-                      top_motion(1e-3)),
-      trajectory_case("A4-fine", group, "the same, rk4 0.1 ms", 1e-9, top_motion(1e-4)),
-      trajectory_case("A4-rates", group, "the same: rates in body axes [rad/s], rk4 0.1 ms", 1e-8,
-                      rates()),
-      trajectory_case("A4-nutation", group,
-                      "tilt from 30 to 37.505163885493036 degrees, 0.81621178130406342 rad round "
-                      "in 0.38054140391335806 s [s, rad]",
-                      1e-6, top_bounds()),
-      trajectory_case("A4-invariants", group,
-                      "Lz [N m s] and w3 [rad/s] over 1 s; dopri5, tolerance 1e-12", 1e-10,
-                      invariants()),
-      trajectory_case(
-          "A4-steady", group,
-          "steady precession: 2.1649542110834523, 20.929056556501578; none below a spin "
-          "of 58.294799806244615 rad/s [relative]",
-          1e-12, steady()),
-      trajectory_case("A4-sleeping", group,
-                      "least spin of the upright top: 62.641839053463301 rad/s [relative]", 1e-12,
-                      sleeping()),
-  };
-  return {30, cases};
+  return {30,
+          {{"A4", 1e-5, top_motion(1e-3)},
+           {"A4-fine", 1e-9, top_motion(1e-4)},
+           {"A4-rates", 1e-8, rates()},
+           {"A4-nutation", 1e-6, top_bounds()},
+           {"A4-invariants", 1e-10, invariants()},
+           {"A4-steady", 1e-12, steady()},
+           {"A4-sleeping", 1e-12, sleeping()}}};
 }
 
 }  // namespace twinarm

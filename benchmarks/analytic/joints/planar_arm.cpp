@@ -81,14 +81,7 @@ void further_out(CaseScene& scene) {
 }
 
 TrajectoryCase mass_matrix() {
-  return {.statement =
-              "Two links with vertical hinges: <p>M<sub>11</sub> = I<sub>1</sub> + m<sub>1</sub>"
-              "c<sub>1</sub><sup>2</sup> + I<sub>2</sub> + m<sub>2</sub>(l<sub>1</sub><sup>2</sup> "
-              "+ c<sub>2</sub><sup>2</sup> + 2l<sub>1</sub>c<sub>2</sub> cos q<sub>2</sub>), "
-              "M<sub>12</sub> = I<sub>2</sub> + m<sub>2</sub>(c<sub>2</sub><sup>2</sup> + "
-              "l<sub>1</sub>c<sub>2</sub> cos q<sub>2</sub>), M<sub>22</sub> = I<sub>2</sub> + "
-              "m<sub>2</sub>c<sub>2</sub><sup>2</sup></p>",
-          .scene = [] { return at_rest(model_of({})); },
+  return {.scene = [] { return at_rest(model_of({})); },
           .times = {0},
           .readings = names_in_all_states({"M11 [kg m^2]", "M12 [kg m^2]", "M22 [kg m^2]"}),
           .observe =
@@ -111,10 +104,6 @@ TrajectoryCase mass_matrix() {
 
 TrajectoryCase velocity_terms() {
   TrajectoryCase c = mass_matrix();
-  c.statement =
-      "The same two links: <p>C<sub>1</sub> = &minus;h (2 q<sub>1</sub>' q<sub>2</sub>' + "
-      "q<sub>2</sub>'<sup>2</sup>), C<sub>2</sub> = h q<sub>1</sub>'<sup>2</sup>, h = "
-      "m<sub>2</sub>l<sub>1</sub>c<sub>2</sub> sin q<sub>2</sub></p>";
   c.readings = names_in_all_states({"C1 [N m]", "C2 [N m]"});
   c.observe = [](const Model<double>& model, const State<double>&) {
     return in_all_states([&](const ArmState& s) {
@@ -132,8 +121,6 @@ TrajectoryCase velocity_terms() {
 
 TrajectoryCase arm_accelerations() {
   TrajectoryCase c = mass_matrix();
-  c.statement =
-      "The same two links, torques on both: <p>q'' = M<sup>&minus;1</sup> (&tau; &minus; C)</p>";
   c.readings = names_in_all_states({"q1'' [rad/s^2]", "q2'' [rad/s^2]"});
   c.observe = [](const Model<double>& model, const State<double>&) {
     return in_all_states([&](const ArmState& s) {
@@ -155,7 +142,6 @@ TrajectoryCase arm_accelerations() {
 
 TrajectoryCase no_weight() {
   TrajectoryCase c = mass_matrix();
-  c.statement = "The same two links at rest: their axes stand along gravity, <p>G = 0</p>";
   c.readings = names_in_all_states({"G1 [N m]", "G2 [N m]"});
   c.observe = [](const Model<double>& model, const State<double>&) {
     return in_all_states([&](ArmState s) {
@@ -172,18 +158,11 @@ TrajectoryCase no_weight() {
 }  // namespace
 
 CaseFamily planar_arm_cases() {
-  const char* group = "robots";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("F2", group, "planar two-link arm: mass matrix in ten states [relative]",
-                      1e-12, mass_matrix()),
-      trajectory_case("F2-velocity", group, "the same: velocity terms C qd [relative]", 1e-12,
-                      velocity_terms()),
-      trajectory_case("F2-forward", group, "the same: accelerations under torques [relative]",
-                      1e-12, arm_accelerations()),
-      trajectory_case("F2-weight", group, "the same: gravity along its axes does nothing [N m]",
-                      1e-12, no_weight()),
-  };
-  return {330, cases};
+  return {330,
+          {{"F2", 1e-12, mass_matrix()},
+           {"F2-velocity", 1e-12, velocity_terms()},
+           {"F2-forward", 1e-12, arm_accelerations()},
+           {"F2-weight", 1e-12, no_weight()}}};
 }
 
 }  // namespace twinarm

@@ -144,10 +144,7 @@ std::vector<std::string> puma_names(const std::vector<std::string>& rows, const 
 }
 
 TrajectoryCase puma_weight() {
-  return {.statement =
-              "The PUMA 560 holds itself at rest in four postures, <i>qn, qz, qr, qs</i> of the "
-              "Robotics Toolbox: <p>&tau; = G(q)</p>",
-          .scene = [] { return at_rest(puma()); },
+  return {.scene = [] { return at_rest(puma()); },
           .times = {0},
           .readings = puma_names({"qn", "qz", "qr", "qs"}, "N m"),
           .observe =
@@ -169,9 +166,6 @@ TrajectoryCase puma_weight() {
 
 TrajectoryCase puma_mass() {
   TrajectoryCase c = puma_weight();
-  c.statement =
-      "Inertia of the PUMA's motors seen at the joints, and its mass matrix in the posture "
-      "<i>qn</i>: <p>M = M<sub>links</sub> + G<sup>2</sup> J<sub>m</sub></p>";
   c.readings = puma_names({"armature", "M diagonal"}, "kg m^2");
   for (const char* entry : {"M12", "M13", "M23"})
     c.readings.push_back(std::string(entry) + " [kg m^2]");
@@ -198,10 +192,6 @@ constexpr Joints kOnes{1, 1, 1, 1, 1, 1};
 
 TrajectoryCase puma_inverse() {
   TrajectoryCase c = puma_weight();
-  c.statement =
-      "Torques of the PUMA in the posture <i>qn</i> for q'' = 1: from rest; at q' = 1 with joint "
-      "friction; the same of the links alone. <p>&tau; = M q'' + C q' + G + B q' + "
-      "T<sub>c</sub> sign q'</p>";
   c.readings = puma_names({"from rest", "moving", "links alone"}, "N m");
   c.observe = [](const Model<double>& model, const State<double>&) {
     const Joints& qn = puma560::kNominal;
@@ -222,10 +212,6 @@ TrajectoryCase puma_inverse() {
 
 TrajectoryCase puma_forward() {
   TrajectoryCase c = puma_weight();
-  c.statement =
-      "Accelerations of the PUMA in the posture <i>qn</i>, moving, under torques, with joint "
-      "friction and without: <p>q'' = M<sup>&minus;1</sup> (&tau; &minus; C q' &minus; G &minus; "
-      "B q' &minus; T<sub>c</sub> sign q')</p>";
   c.readings = puma_names({"with friction", "without"}, "rad/s^2");
   c.observe = [](const Model<double>& model, const State<double>&) {
     CaseReadings all = puma_accelerations(model);
@@ -249,9 +235,6 @@ constexpr std::array<double, 18> kLastDigit{1e-5, 1e-4, 1e-5, 1e-6, 1e-6, 1e-6, 
                                             1e-5, 1e-5, 1e-6, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4};
 TrajectoryCase puma_published() {
   TrajectoryCase c = puma_weight();
-  c.statement =
-      "The PUMA's torques and accelerations as the Robotics Toolbox publishes them, to 4 to 6 "
-      "digits, in units of the last one: <p>rne(qn, 0, 1), rne(qn, 1, 1), accel(qn, q', &tau;)</p>";
   c.readings = puma_names({"from rest", "moving", "acceleration"}, "last digits");
   c.observe = [](const Model<double>& model, const State<double>&) {
     const Joints& qn = puma560::kNominal;
@@ -273,21 +256,12 @@ TrajectoryCase puma_published() {
 }  // namespace
 
 CaseFamily puma560_cases() {
-  const char* group = "robots";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("F1", group, "PUMA 560: gravity load in four postures [relative]", 1e-12,
-                      puma_weight()),
-      trajectory_case("F1-mass", group, "PUMA 560: armature and mass matrix at qn [relative]",
-                      1e-12, puma_mass()),
-      trajectory_case("F1-inverse", group, "PUMA 560: inverse dynamics at qn [relative]", 1e-12,
-                      puma_inverse()),
-      trajectory_case("F1-forward", group, "PUMA 560: forward dynamics at qn [relative]", 1e-12,
-                      puma_forward()),
-      trajectory_case("F1-published", group,
-                      "PUMA 560: published torques, accelerations [of the last digit]", 0.5,
-                      puma_published()),
-  };
-  return {320, cases};
+  return {320,
+          {{"F1", 1e-12, puma_weight()},
+           {"F1-mass", 1e-12, puma_mass()},
+           {"F1-inverse", 1e-12, puma_inverse()},
+           {"F1-forward", 1e-12, puma_forward()},
+           {"F1-published", 0.5, puma_published()}}};
 }
 
 }  // namespace twinarm

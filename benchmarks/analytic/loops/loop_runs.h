@@ -10,7 +10,7 @@ namespace twinarm {
 struct LoopCase;
 
 // What a mechanism of loop_cases.h does in time. Its references are known at its times alone.
-TrajectoryCase loop_motion(LoopCase (*make)(), const char* statement);
+TrajectoryCase loop_motion(LoopCase (*make)());
 
 const std::vector<CaseFamily>& loop_cases();  // made by twinarm_registry()
 

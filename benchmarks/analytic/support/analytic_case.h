@@ -24,28 +24,25 @@ struct CaseResult {
 struct ContactLook;
 
 struct AnalyticCase {
+  using Experiment = CaseResult (*)();
   const char* name;       // "E1-times"
-  const char* group;      // "contact", "loops"
-  const char* reference;  // what is measured, with its unit, against what
   double tolerance;       // the case passes where error <= tolerance; 0: nothing may be broken
-  CaseResult (*run)();    // null: a trajectory
+  Experiment run{};       // null: a trajectory
+  Experiment mistaken{};  // run() with a mistake in it, which must fail
   std::shared_ptr<const TrajectoryCase> trajectory{};
-  CaseResult (*mistaken)() = nullptr;  // run() with a mistake in it, which must fail
-  // What is known, for people: one paragraph, formulas in <p>, HTML without a stylesheet.
-  const char* statement = nullptr;
   std::shared_ptr<const ContactLook> look{};  // what a page draws; null: nothing
-};
+  // Of the list, from docs/cases/: "contact"; what is measured, with its unit, against what; and
+  // what is known, for people: one paragraph, formulas in <p>, HTML without a stylesheet.
+  const char *group = "", *reference = "", *statement = "";
 
-inline AnalyticCase trajectory_case(const char* name, const char* group, const char* reference,
-                                    double tolerance, TrajectoryCase trajectory) {
-  const auto motion = std::make_shared<const TrajectoryCase>(std::move(trajectory));
-  return {name, group, reference, tolerance, nullptr, motion, nullptr, motion->statement};
-}
-inline AnalyticCase experiment_case(const char* name, const char* group, const char* reference,
-                                    double tolerance, CaseResult (*run)(), CaseResult (*mistaken)(),
-                                    const char* statement) {
-  return {name, group, reference, tolerance, run, {}, mistaken, statement};
-}
+  AnalyticCase(const char* its_name, double its_tolerance, TrajectoryCase motion)
+      : name(its_name),
+        tolerance(its_tolerance),
+        trajectory(std::make_shared<const TrajectoryCase>(std::move(motion))) {}
+  AnalyticCase(const char* its_name, double its_tolerance, Experiment experiment,
+               Experiment with_mistake)
+      : name(its_name), tolerance(its_tolerance), run(experiment), mistaken(with_mistake) {}
+};
 
 // The cases of one file, and their place among the families: they are shown in ascending order.
 struct CaseFamily {

@@ -67,7 +67,6 @@ struct CaseEvents {
 };
 
 struct TrajectoryCase {
-  const char* statement;  // for people: one paragraph and the formula, HTML without a stylesheet
   std::function<CaseScene()> scene;
   std::vector<double> times{};          // ascending [s]; with events, none
   std::vector<std::string> readings{};  // what observe() gives, in order, with unit: "angle [rad]"
