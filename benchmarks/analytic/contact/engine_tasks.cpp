@@ -92,10 +92,6 @@ double error_of(const Task& task, const Task& truth) {
   return mean;
 }
 
-double error_of(const Task& task) {
-  return error_of(task, task);
-}
-
 // As much of a task as a run of all cases has time for; scripts/measure/peers runs the whole.
 Task first(double seconds, Task task) {
   task.duration = seconds;
@@ -211,9 +207,11 @@ std::vector<double> seen_heights(const ContactScene& s) {
   return {s.p(1).z(), s.p(216).z()};
 }
 
-AnalyticCase task_case(const char* name, double tolerance, CaseResult (*run)(),
-                       CaseResult (*mistaken)(), ContactLook look) {
-  AnalyticCase c = {name, tolerance, run, mistaken};
+AnalyticCase task_case(const char* name, double tolerance, const Task& task,
+                       const Task& with_mistake, ContactLook look) {
+  AnalyticCase c(name, tolerance, [=](bool mistaken) {
+    return CaseResult{error_of(mistaken ? with_mistake : task, task)};
+  });
   look.no_steps = kPublished;
   c.look = std::make_shared<const ContactLook>(std::move(look));
   return c;
@@ -226,35 +224,19 @@ namespace twinarm {
 
 CaseFamily engine_tasks_cases() {
   using namespace engine_tasks;
+  const ContactLook speeds{
+      .readings = {"box [m/s]", "ball [m/s]"}, .read = seen_speeds, .exact = known_box_and_ball};
+  const ContactLook heights{.readings = {"first ball [m]", "last ball [m]"}, .read = seen_heights};
+  const Task part = first(0.55, pile(false)), elastic = first(2, pile(true));
   return {
       380,
-      {task_case(
-           "H1-rolling-y", 1e-6, [] { return CaseResult{error_of(rolling(false))}; },
-           [] { return CaseResult{error_of(heavier(rolling(false)))}; },
-           {.readings = {"box [m/s]", "ball [m/s]"},
-            .read = seen_speeds,
-            .exact = known_box_and_ball}),
+      {task_case("H1-rolling-y", 1e-6, rolling(false), heavier(rolling(false)), speeds),
+       task_case("H1-rolling-xy", 1e-6, rolling(true), heavier(rolling(true)), speeds),
        task_case(
-           "H1-rolling-xy", 1e-6, [] { return CaseResult{error_of(rolling(true))}; },
-           [] { return CaseResult{error_of(heavier(rolling(true)))}; },
-           {.readings = {"box [m/s]", "ball [m/s]"},
-            .read = seen_speeds,
-            .exact = known_box_and_ball}),
-       task_case(
-           "H1-bouncing", 0.1, [] { return CaseResult{error_of(bouncing())}; },
-           [] { return CaseResult{error_of(less_elastic(bouncing()))}; },
+           "H1-bouncing", 0.1, bouncing(), less_elastic(bouncing()),
            {.readings = {"height [m]"}, .read = place<1, 2>, .exact = known_bouncing, .until = 8}),
-       task_case(
-           "H1-666", 1e-3, [] { return CaseResult{error_of(first(0.55, pile(false)))}; },
-           [] {
-             const Task task = first(0.55, pile(false));
-             return CaseResult{error_of(smaller(task), task)};
-           },
-           {.readings = {"first ball [m]", "last ball [m]"}, .read = seen_heights}),
-       task_case(
-           "H1-666-elastic", 50, [] { return CaseResult{error_of(first(2, pile(true)))}; },
-           [] { return CaseResult{error_of(less_elastic(first(2, pile(true))))}; },
-           {.readings = {"first ball [m]", "last ball [m]"}, .read = seen_heights})}};
+       task_case("H1-666", 1e-3, part, smaller(part), heights),
+       task_case("H1-666-elastic", 50, elastic, less_elastic(elastic), heights)}};
 }
 
 }  // namespace twinarm

@@ -168,11 +168,10 @@ class Leader final : public ForceSource, public Rewindable {
   std::unique_ptr<Coupling> coupling_;
 };
 
-template <std::size_t i>
-TrajectoryCase following() {
+TrajectoryCase following(const TrackedCoupling& coupling) {
   return {.scene =
-              [] {
-                const auto leader = std::make_shared<Leader>(kTracked[i]);
+              [coupling] {
+                const auto leader = std::make_shared<Leader>(coupling);
                 CaseScene scene = start_at(model_of(uniform_arm()), leader->start(), {0, 0});
                 scene.sources = {leader};
                 scene.conserves = false;
@@ -181,7 +180,7 @@ TrajectoryCase following() {
           .times = {0.05, 1.05, 2.05, 3},  // soon after its speed jumps, and at the end
           .readings = {"angle 1 [rad]", "angle 2 [rad]", "rate 1 [rad/s]", "rate 2 [rad/s]"},
           .observe = joint_state(),
-          .reference = followed_once(kTracked[i]),
+          .reference = followed_once(coupling),
           .lane = rk4_lane(kTrackingStep),
           .mutant = more_inertia};
 }
@@ -206,30 +205,28 @@ double largest_miss(const std::vector<double>& found, const std::array<double, 2
   return worse(std::abs(found[0] / kDegree - wanted_deg[0]),
                std::abs(found[1] / kDegree - wanted_deg[1]));
 }
-template <std::size_t i, bool mistaken>
-CaseResult largest_error() {
-  return {largest_miss(tracked(kTracked[i], mistaken).max, kTracked[i].largest_deg)};
-}
-template <std::size_t i, bool mistaken>
-CaseResult mean_error() {
-  return {largest_miss(tracked(kTracked[i], mistaken).mean, kTracked[i].mean_deg)};
-}
-
-template <std::size_t i>
-void add_coupling(const std::array<const char*, 3>& names, std::vector<AnalyticCase>& all) {
-  all.push_back({names[0], 1e-8, following<i>()});
-  all.push_back({names[1], 1e-4, largest_error<i, false>, largest_error<i, true>});
-  all.push_back({names[2], 1e-5, mean_error<i, false>, mean_error<i, true>});
+// A motion, and the largest and the mean errors of its joints.
+void add_coupling(const char* motion, const char* largest, const char* mean,
+                  const TrackedCoupling& coupling, std::vector<AnalyticCase>& all) {
+  all.push_back({motion, 1e-8, following(coupling)});
+  all.push_back({largest, 1e-4, [coupling](bool mistaken) {
+                   return CaseResult{
+                       largest_miss(tracked(coupling, mistaken).max, coupling.largest_deg)};
+                 }});
+  all.push_back({mean, 1e-5, [coupling](bool mistaken) {
+                   return CaseResult{
+                       largest_miss(tracked(coupling, mistaken).mean, coupling.mean_deg)};
+                 }});
 }
 
 }  // namespace
 
 CaseFamily tracking_cases() {
   std::vector<AnalyticCase> all;
-  add_coupling<0>({"F3-world", "F3-world-largest", "F3-world-mean"}, all);
-  add_coupling<1>({"F3-joint", "F3-joint-largest", "F3-joint-mean"}, all);
-  add_coupling<2>({"F3-linear", "F3-linear-largest", "F3-linear-mean"}, all);
-  add_coupling<3>({"F3-undamped", "F3-undamped-largest", "F3-undamped-mean"}, all);
+  add_coupling("F3-world", "F3-world-largest", "F3-world-mean", kTracked[0], all);
+  add_coupling("F3-joint", "F3-joint-largest", "F3-joint-mean", kTracked[1], all);
+  add_coupling("F3-linear", "F3-linear-largest", "F3-linear-mean", kTracked[2], all);
+  add_coupling("F3-undamped", "F3-undamped-largest", "F3-undamped-mean", kTracked[3], all);
   return {340, all};
 }
 

@@ -23,7 +23,6 @@ namespace {
 
 using namespace smooth_parts;
 
-const char* const kIntegrators = "integrators";
 constexpr double kGoldenStep = 0.01;
 
 // ---- G2 ----
@@ -62,11 +61,10 @@ TrajectoryCase invariant(Integrator integrator) {
 
 // Mean energy of the last tenth of a million steps against the first tenth's, weighted so that
 // whole and broken periods count alike, by step and relative to the energy from the bottom.
-template <Integrator integrator>
-CaseResult trend(double damping) {
+CaseResult trend(Integrator integrator, bool mistaken) {
   constexpr long steps = 1000000, window = steps / 10;
   Model<double> model = point_pendulum();
-  model.damping[0] = damping;
+  model.damping[0] = mistaken ? 1e-8 : 0;
   State<double> x(model);
   x.q[0] = std::numbers::pi / 2;
   Simulation simulation(model, x);
@@ -83,11 +81,6 @@ CaseResult trend(double damping) {
     if (early) weights += weight;
   }
   return {std::abs(mean[1] - mean[0]) / weights / kGravity / double(steps - window)};
-}
-template <Integrator integrator>
-AnalyticCase trend_case() {
-  return {name_of_case("G2-trend-", integrator), 1e-12, [] { return trend<integrator>(0); },
-          [] { return trend<integrator>(1e-8); }};
 }
 
 // ---- G3 ----
@@ -160,8 +153,7 @@ double double_pendulum_error(const Lane& lane, bool mistaken) {
 }
 
 // Of schemes of first order the pendulum's angle, while 10 ms halve twice: the worse of two slopes.
-template <Integrator integrator>
-CaseResult halving(bool mistaken) {
+CaseResult halving(Integrator integrator, bool mistaken) {
   const auto of_angle = [](const CaseReadings& seen, const CaseReadings& exact) {
     return std::abs(seen[0] - exact[0]);
   };
@@ -172,26 +164,15 @@ CaseResult halving(bool mistaken) {
   const double coarse = std::log2(error[0] / error[1]), fine = std::log2(error[1] / error[2]);
   return {std::max(std::abs(coarse - 1), std::abs(fine - 1)), {}, fine};
 }
-template <Integrator integrator>
-AnalyticCase halving_case() {
-  return {name_of_case("G1-order-", integrator), 0.05, [] { return halving<integrator>(false); },
-          [] { return halving<integrator>(true); }};
-}
 
 // The slope while h halves four times, from n ms for order n, against the order.
-template <Integrator integrator>
-CaseResult slope(bool mistaken) {
+CaseResult slope(Integrator integrator, bool mistaken) {
   const int order = facts_of(integrator).order;
   const double h = 1e-3 * order;
   const double coarse = double_pendulum_error({integrator, h, 0}, mistaken);
   const double fine = double_pendulum_error({integrator, h / 16, 0}, mistaken);
   const double found = std::log2(coarse / fine) / 4;
   return {std::abs(found - order), {}, found};
-}
-template <Integrator integrator>
-AnalyticCase order_case() {
-  return {name_of_case("G4-", integrator), 0.1, [] { return slope<integrator>(false); },
-          [] { return slope<integrator>(true); }};
 }
 
 // The error of dopri5 over its tolerance: the largest of four decades by the smallest.
@@ -208,28 +189,26 @@ CaseResult proportion(bool mistaken) {
 }  // namespace
 
 CaseFamily schemes_cases() {
-  std::vector<AnalyticCase> all = {
-      halving_case<Integrator::euler>(), halving_case<Integrator::semi_implicit>(),
-      halving_case<Integrator::semi_implicit_xv>(), halving_case<Integrator::implicit_euler>()};
-  for (const Integrator integrator : {Integrator::semi_implicit, Integrator::verlet})
+  using enum Integrator;
+  using Integrators = std::vector<Integrator>;
+  std::vector<AnalyticCase> all;
+  const auto add = [&](const char* prefix, double tolerance, const Integrators& integrators,
+                       CaseResult (*experiment)(Integrator, bool mistaken)) {
+    for (const Integrator integrator : integrators)
+      all.push_back({name_of_case(prefix, integrator), tolerance,
+                     [=](bool mistaken) { return experiment(integrator, mistaken); }});
+  };
+  add("G1-order-", 0.05, {euler, semi_implicit, semi_implicit_xv, implicit_euler}, halving);
+  for (const Integrator integrator : {semi_implicit, verlet})
     all.push_back({name_of_case("G2-", integrator), 1e-12, invariant(integrator)});
-  all.push_back(trend_case<Integrator::semi_implicit>());
-  all.push_back(trend_case<Integrator::verlet>());
+  add("G2-trend-", 1e-12, {semi_implicit, verlet}, trend);
   all.push_back({"G3", 1e-12, steady_turning()});
   all.push_back({"G3-norm", 1e-12, unit_quaternion()});
-  const AnalyticCase orders[] = {order_case<Integrator::euler>(),
-                                 order_case<Integrator::semi_implicit>(),
-                                 order_case<Integrator::semi_implicit_xv>(),
-                                 order_case<Integrator::verlet>(),
-                                 order_case<Integrator::midpoint>(),
-                                 order_case<Integrator::heun>(),
-                                 order_case<Integrator::rk4>(),
-                                 order_case<Integrator::implicit_euler>(),
-                                 order_case<Integrator::implicit_midpoint>(),
-                                 order_case<Integrator::trapezoid>()};
-  all.insert(all.end(), std::begin(orders), std::end(orders));
-  all.push_back(
-      {"G4-dopri5", 2, [] { return proportion(false); }, [] { return proportion(true); }});
+  add("G4-", 0.1,
+      {euler, semi_implicit, semi_implicit_xv, verlet, midpoint, heun, rk4, implicit_euler,
+       implicit_midpoint, trapezoid},
+      slope);
+  all.push_back({"G4-dopri5", 2, proportion});
   return {370, all};
 }
 

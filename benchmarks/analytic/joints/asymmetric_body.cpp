@@ -112,30 +112,23 @@ TrajectoryCase flip() {
 // w2 is zero at odd multiples of K / n.
 TrajectoryCase flip_time() {
   static const AsymmetricMotion motion(1e-3L, 1, 0);
-  TrajectoryCase c = flip();
-  c.times = {};
-  c.readings = {};
-  c.observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
-  c.reference = [](double k) {
-    return CaseReadings{static_cast<double>((2 * k - 1) * motion.u0 / motion.n)};
-  };
-  c.measure = largest_difference;
-  c.events = {[](const Model<double>&, const State<double>& x) { return x.qd[1]; }, 2, 60};
-  return c;
+  return times_of(flip(),
+                  {[](const Model<double>&, const State<double>& x) { return x.qd[1]; }, 2, 60},
+                  [](double k) {
+                    return CaseReadings{static_cast<double>((2 * k - 1) * motion.u0 / motion.n)};
+                  });
 }
 
 // Near a steady spin w2 the other two rates grow as exp(n t): n^2 = (I3 - I2) (I2 - I1) / (I1 I3).
 TrajectoryCase flip_growth() {
-  TrajectoryCase c = flip();
-  c.scene = [] { return spinning(0, 1, 0); };
-  c.times = {0};
-  c.readings = {"growth rate [1/s]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    const Eigen::MatrixXd d = forward_dynamics_derivatives(model, x, Forces<double>(model)).dqd;
-    return CaseReadings{std::sqrt(d(0, 2) * d(2, 0))};
-  };
-  c.reference = [](double) { return CaseReadings{1 / std::sqrt(3.0)}; };
-  c.measure = relative_to_largest;
+  TrajectoryCase c = evaluation(
+      [] { return spinning(0, 1, 0); }, {"growth rate [1/s]"},
+      [](const Model<double>& model, const State<double>& x) {
+        const Eigen::MatrixXd d = forward_dynamics_derivatives(model, x, Forces<double>(model)).dqd;
+        return CaseReadings{std::sqrt(d(0, 2) * d(2, 0))};
+      },
+      {1 / std::sqrt(3.0)});
+  c.mutant = more_inertia;
   return c;
 }
 

@@ -93,25 +93,18 @@ TrajectoryCase cart_pole_centre() {
 
 // Swings below, growth above; of a rod, and of a point mass at its middle.
 TrajectoryCase cart_pole_frequencies() {
-  return {.scene = [] { return kPlain.scene(0); },
-          .times = {0},
-          .readings = {"swinging [rad/s]", "falling [rad/s]", "point mass [rad/s]"},
-          .observe =
-              [](const Model<double>& model, const State<double>& x) {
-                State<double> above = x;
-                above.q[1] = std::numbers::pi;
-                CaseScene point = kPoint.scene(0);
-                point.model.gravity = model.gravity;
-                return CaseReadings{
-                    std::sqrt(squared_frequencies_of(model, x).back()),
-                    std::sqrt(-squared_frequencies_of(model, above).front()),
-                    std::sqrt(squared_frequencies_of(point.model, point.start).back())};
-              },
-          .reference =
-              [](double) {
-                return CaseReadings{kPlain.frequency(), kPlain.frequency(), kPoint.frequency()};
-              },
-          .measure = relative_each};
+  return evaluation(
+      [] { return kPlain.scene(0); }, {"swinging [rad/s]", "falling [rad/s]", "point mass [rad/s]"},
+      [](const Model<double>& model, const State<double>& x) {
+        State<double> above = x;
+        above.q[1] = std::numbers::pi;
+        CaseScene point = kPoint.scene(0);
+        point.model.gravity = model.gravity;
+        return CaseReadings{std::sqrt(squared_frequencies_of(model, x).back()),
+                            std::sqrt(-squared_frequencies_of(model, above).front()),
+                            std::sqrt(squared_frequencies_of(point.model, point.start).back())};
+      },
+      {kPlain.frequency(), kPlain.frequency(), kPoint.frequency()}, relative_each);
 }
 
 TrajectoryCase chrono_slider() {

@@ -29,17 +29,12 @@ CaseScene rod_released(Real angle) {
 
 TrajectoryCase one_look(Real angle, double rate, const char* reading, CaseObserver observe,
                         double exact) {
-  return {.scene =
-              [=] {
-                CaseScene scene = rod_released(angle);
-                scene.start.qd[0] = rate;
-                return scene;
-              },
-          .times = {0},
-          .readings = {reading},
-          .observe = std::move(observe),
-          .reference = [exact](double) { return CaseReadings{exact}; },
-          .measure = relative_to_largest};
+  const auto swinging_rod = [=] {
+    CaseScene moving = rod_released(angle);
+    moving.start.qd[0] = rate;
+    return moving;
+  };
+  return evaluation(swinging_rod, {reading}, std::move(observe), {exact});
 }
 
 template <int degrees>

@@ -58,29 +58,19 @@ TrajectoryCase furuta_motion() {
 }
 // In one state, q2 = 1, rates 2 and 3.
 TrajectoryCase furuta_evaluation() {
-  TrajectoryCase c = furuta_motion();
-  c.scene = [] { return furuta(1, 2, 3); };
-  c.times = {0};
-  c.readings = {"arm [rad/s2]", "pendulum [rad/s2]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    return CaseReadings(evaluate(model, x).qdd);
-  };
-  c.reference = [](double) {
-    special::Numbers dx(4);
-    furuta_rates()(0, {0, 1, 2, 3}, dx);
-    return CaseReadings{static_cast<double>(dx[2]), static_cast<double>(dx[3])};
-  };
-  c.measure = relative_to_largest;
-  return c;
+  special::Numbers dx(4);
+  furuta_rates()(0, {0, 1, 2, 3}, dx);
+  return evaluation(
+      [] { return furuta(1, 2, 3); }, {"arm [rad/s2]", "pendulum [rad/s2]"},
+      [](const Model<double>& model, const State<double>& x) { return evaluate(model, x).qdd; },
+      {static_cast<double>(dx[2]), static_cast<double>(dx[3])});
 }
 // Hanging it swings, upright it falls, at w^2 = m g l / (Jp - (m L l)^2 / (J0 + m L^2)); turning
 // at W the pendulum stands out where its weight and the centrifugal couple balance.
 TrajectoryCase furuta_special() {
-  TrajectoryCase c = furuta_motion();
-  c.scene = [] { return furuta(0, 0, 0); };
-  c.times = {0};
-  c.readings = {"swinging [rad/s]", "falling [rad/s]", "cosine at 12 rad/s"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  const double weight = kBob * kGravity * kBobCom;
+  const double w = std::sqrt(weight / (kPivot - kMixed * kMixed / kTurned));
+  const CaseObserver observe = [](const Model<double>& model, const State<double>& x) {
     State<double> above = x, round = x;
     above.q[1] = std::numbers::pi;
     round.qd[0] = kWhirl;
@@ -92,13 +82,9 @@ TrajectoryCase furuta_special() {
     return CaseReadings{std::sqrt(squared_frequencies_of(model, x).back()),
                         std::sqrt(-squared_frequencies_of(model, above).front()), std::cos(low)};
   };
-  c.reference = [](double) {
-    const double weight = kBob * kGravity * kBobCom;
-    const double w = std::sqrt(weight / (kPivot - kMixed * kMixed / kTurned));
-    return CaseReadings{w, w, weight / (kPivot * kWhirl * kWhirl)};
-  };
-  c.measure = relative_each;
-  return c;
+  return evaluation([] { return furuta(0, 0, 0); },
+                    {"swinging [rad/s]", "falling [rad/s]", "cosine at 12 rad/s"}, observe,
+                    {w, w, weight / (kPivot * kWhirl * kWhirl)}, relative_each);
 }
 
 // ---- C9 ----

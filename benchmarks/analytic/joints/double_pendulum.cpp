@@ -77,18 +77,11 @@ TrajectoryCase two_rods_until(std::vector<double> times, const Lane& lane) {
 }
 
 TrajectoryCase two_rods_modes() {
-  return {
-      .scene = [] { return at_rest(plane_chain(rod_link(1, 1), 2)); },
-      .times = {0},
-      .readings = {"first [rad/s]", "second [rad/s]"},
-      .observe = [](const Model<double>& model,
-                    const State<double>& x) { return small_frequencies(model, x); },
-      .reference =
-          [](double) {
-            const double part = 6 / std::sqrt(7.0);
-            return CaseReadings{std::sqrt((3 - part) * kGravity), std::sqrt((3 + part) * kGravity)};
-          },
-      .measure = relative_each};
+  const double part = 6 / std::sqrt(7.0);
+  return evaluation([] { return at_rest(plane_chain(rod_link(1, 1), 2)); },
+                    {"first [rad/s]", "second [rad/s]"}, small_frequencies,
+                    {std::sqrt((3 - part) * kGravity), std::sqrt((3 + part) * kGravity)},
+                    relative_each);
 }
 
 // Angles are measured from +x there; as absolute angles from -z they are a quarter turn more.

@@ -107,9 +107,7 @@ TrajectoryCase falling() {
 TrajectoryCase energy() {
   TrajectoryCase c = falling();
   c.readings = {"energy [J]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
-  };
+  c.observe = observe_energy;
   c.reference = [](double) {
     static const double at_start = [] {
       const CaseScene scene = tumbling(kG);
@@ -133,10 +131,7 @@ TrajectoryCase ballistic() {
           },
       .times = {0.5, 1, 2},
       .readings = {"energy [J]"},
-      .observe =
-          [](const Model<double>& model, const State<double>& x) {
-            return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
-          },
+      .observe = observe_energy,
       .reference = [](double t) { return CaseReadings{-2 * kGravity * kGravity * 1e-3 * t / 2}; },
       .lane = {Integrator::semi_implicit, 1e-3, 0},
       .of_its_lane = true};

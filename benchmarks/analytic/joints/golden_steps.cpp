@@ -93,9 +93,7 @@ TrajectoryCase golden_energy(const GoldenSteps& row) {
   TrajectoryCase c = golden_motion(row);
   c.times = {100};
   c.readings = {"energy [J]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
-  };
+  c.observe = observe_energy;
   c.reference = [row](double) { return CaseReadings{row.energy}; };
   c.measure = relative_each;
   c.mutant = [](CaseScene& scene) { scene.model.gravity = 1.01 * scene.model.gravity; };

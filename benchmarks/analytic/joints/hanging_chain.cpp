@@ -56,20 +56,16 @@ std::vector<std::string> mode_names(std::size_t count) {
 }
 
 // The first so many frequencies of a chain that hangs at rest.
-TrajectoryCase chain_modes(const ChainLink& link, int n, CaseReadings exact) {
+TrajectoryCase chain_modes(const ChainLink& link, int n, const CaseReadings& exact) {
   const std::size_t count = exact.size();
-  return {.scene = [link, n] { return at_rest(plane_chain(link, n)); },
-          .times = {0},
-          .readings = mode_names(count),
-          .observe =
-              [count](const Model<double>& model, const State<double>& x) {
-                CaseReadings all = squared_frequencies_of(model, x);
-                all.resize(count);
-                for (double& w : all) w = std::sqrt(w);
-                return all;
-              },
-          .reference = [exact](double) { return exact; },
-          .measure = relative_each};
+  return evaluation([link, n] { return at_rest(plane_chain(link, n)); }, mode_names(count),
+                    [count](const Model<double>& model, const State<double>& x) {
+                      CaseReadings all = squared_frequencies_of(model, x);
+                      all.resize(count);
+                      for (double& w : all) w = std::sqrt(w);
+                      return all;
+                    },
+                    exact, relative_each);
 }
 
 AnalyticCase point_chain_case(const char* name, int n) {
@@ -135,9 +131,7 @@ TrajectoryCase folded_energy() {
   c.events = {};
   c.times = {0.1, 0.2, 0.3, 0.35};
   c.readings = {"energy [J]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
-  };
+  c.observe = observe_energy;
   // Two straight halves, centres at a half of their length, and the level link below.
   c.reference = [](double) {
     const double half = kDown * kFoldedLink;

@@ -171,39 +171,36 @@ double residual(const Model<double>& model, double W) {
 }
 
 TrajectoryCase steady() {
-  TrajectoryCase c = top_motion(1e-3);
-  c.times = {0};
-  c.readings = {"slow [rad/s]", "fast [rad/s]", "least spin [rad/s]"};
-  c.observe = [](const Model<double>& model, const State<double>&) {
+  const auto observe = [](const Model<double>& model, const State<double>&) {
     const double C = residual(model, 0), plus = residual(model, 20), minus = residual(model, -20);
     const double A = (plus + minus - 2 * C) / 800, B = (plus - minus) / 40;
     const double fast = (-B + (B < 0 ? 1 : -1) * std::sqrt(B * B - 4 * A * C)) / (2 * A);
     return CaseReadings{C / (A * fast), fast, kSpin * std::sqrt(4 * A * C) / std::abs(B)};
   };
-  c.reference = [](double) {
-    const double A = I1 * std::cos(kTilt), B = I3 * kSpin, root = B * B - 4 * A * kMoment;
-    const double fast = (B + std::sqrt(root)) / (2 * A);
-    return CaseReadings{kMoment / (A * fast), fast, std::sqrt(4 * A * kMoment) / I3};
-  };
-  c.measure = relative_to_largest;
-  return c;
+  const double A = I1 * std::cos(kTilt), B = I3 * kSpin, root = B * B - 4 * A * kMoment;
+  const double fast = (B + std::sqrt(root)) / (2 * A);
+  return evaluation(
+      [] {
+        return tilted({0, 0, kSpin});
+      },
+      {"slow [rad/s]", "fast [rad/s]", "least spin [rad/s]"}, observe,
+      {kMoment / (A * fast), fast, std::sqrt(4 * A * kMoment) / I3});
 }
 
 // Upright, with z = z1 + i z2 the world's vertical and w = w1 + i w2 the rate, both in body axes:
 //   z' = -i w3 z + i w,   w' = -i D w - i F z,   D = (1 - I3 / I1) w3,  F = m g l / I1,
 // stable where (w3 - D)^2 >= 4 F. F and D are read off the derivatives of the accelerations.
 TrajectoryCase sleeping() {
-  TrajectoryCase c = top_motion(1e-3);
-  c.scene = [] { return start_at(top(), {1, 0, 0, 0}, {0, 0, kSpin}); };
-  c.times = {0};
-  c.readings = {"least spin [rad/s]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    const auto d = forward_dynamics_derivatives(model, x, Forces<double>(model));
-    return CaseReadings{2 * std::sqrt(d.dq(0, 0)) / (1 - d.dqd(0, 1) / x.qd[2])};
-  };
-  c.reference = [](double) { return CaseReadings{2 * std::sqrt(kMoment * I1) / I3}; };
-  c.measure = relative_to_largest;
-  return c;
+  return evaluation(
+      [] {
+        return start_at(top(), {1, 0, 0, 0}, {0, 0, kSpin});
+      },
+      {"least spin [rad/s]"},
+      [](const Model<double>& model, const State<double>& x) {
+        const auto d = forward_dynamics_derivatives(model, x, Forces<double>(model));
+        return CaseReadings{2 * std::sqrt(d.dq(0, 0)) / (1 - d.dqd(0, 1) / x.qd[2])};
+      },
+      {2 * std::sqrt(kMoment * I1) / I3});
 }
 
 }  // namespace

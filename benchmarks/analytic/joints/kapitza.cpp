@@ -85,33 +85,30 @@ TrajectoryCase stays_up(double w) {
 
 // When it passes 1 rad.
 TrajectoryCase falls(double w, double about) {
-  TrajectoryCase c = shaken_motion(w, about);
-  c.times = {};
-  c.readings = {};
-  c.observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
-  c.reference = [w, about](double) {
-    // It shakes about its path: the first of several passages.
-    long double t = about - 0.5L, end = t;
-    special::Numbers x = shaken_solution(w, {kFromTop, 0}, 0, t), next = x;
-    for (; std::abs(next[0]) < 1 && end < 20; next = shaken_solution(w, x, t, end)) {
-      x = next;
-      t = end;
-      end = t + 2e-4L;
-    }
-    for (long double middle; (middle = (t + end) / 2) > t && middle < end;) {
-      const special::Numbers there = shaken_solution(w, x, t, middle);
-      if (std::abs(there[0]) < 1)
-        x = there, t = middle;
-      else
-        end = middle;
-    }
-    return CaseReadings{static_cast<double>(end)};
-  };
-  c.events = {[](const Model<double>& model, const State<double>& x) {
-                return std::abs(from_top(model, x)) - 1;
-              },
-              1, 20};
-  return c;
+  return times_of(shaken_motion(w, about),
+                  {[](const Model<double>& model, const State<double>& x) {
+                     return std::abs(from_top(model, x)) - 1;
+                   },
+                   1, 20},
+                  [w, about](double) {
+                    // It shakes about its path: the first of several passages.
+                    long double t = about - 0.5L, end = t;
+                    special::Numbers x = shaken_solution(w, {kFromTop, 0}, 0, t), next = x;
+                    for (; std::abs(next[0]) < 1 && end < 20;
+                         next = shaken_solution(w, x, t, end)) {
+                      x = next;
+                      t = end;
+                      end = t + 2e-4L;
+                    }
+                    for (long double middle; (middle = (t + end) / 2) > t && middle < end;) {
+                      const special::Numbers there = shaken_solution(w, x, t, middle);
+                      if (std::abs(there[0]) < 1)
+                        x = there, t = middle;
+                      else
+                        end = middle;
+                    }
+                    return CaseReadings{static_cast<double>(end)};
+                  });
 }
 
 // By symmetry the trace is twice where a start at 1 (at rest) is after a period: on the limit at 1.

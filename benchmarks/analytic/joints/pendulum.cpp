@@ -41,15 +41,11 @@ TrajectoryCase swing_time() {
 }
 
 TrajectoryCase small_swings() {
-  return {.scene = [] { return released(0, 0); },
-          .times = {0},
-          .readings = {"period [s]"},
-          .observe =
-              [](const Model<double>& model, const State<double>& x) {
-                return CaseReadings{2 * std::numbers::pi / small_frequencies(model, x)[0]};
-              },
-          .reference = [](double) { return CaseReadings{static_cast<double>(2 * kPi / w0)}; },
-          .measure = relative_to_largest};
+  return evaluation([] { return released(0, 0); }, {"period [s]"},
+                    [](const Model<double>& model, const State<double>& x) {
+                      return CaseReadings{2 * std::numbers::pi / small_frequencies(model, x)[0]};
+                    },
+                    {static_cast<double>(2 * kPi / w0)});
 }
 
 TrajectoryCase motion(std::function<CaseScene()> scene, std::vector<double> times,
@@ -99,17 +95,13 @@ TrajectoryCase turning() {
                 });
 }
 TrajectoryCase turn_time() {
-  TrajectoryCase c = turning();
-  c.times = {};
-  c.readings = {};
-  c.observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
-  c.reference = [](double k) {
-    const Real turn = 4 * special::quarter_period(4 * w0 * w0 / (kOver * kOver)) / kOver;
-    return CaseReadings{static_cast<double>(turn * Real(k))};
-  };
-  c.events = {[](const Model<double>&, const State<double>& x) { return std::sin(x.q[0] / 2); }, 3,
-              30};
-  return c;
+  return times_of(
+      turning(),
+      {[](const Model<double>&, const State<double>& x) { return std::sin(x.q[0] / 2); }, 3, 30},
+      [](double k) {
+        const Real turn = 4 * special::quarter_period(4 * w0 * w0 / (kOver * kOver)) / kOver;
+        return CaseReadings{static_cast<double>(turn * Real(k))};
+      });
 }
 
 TrajectoryCase separatrix() {

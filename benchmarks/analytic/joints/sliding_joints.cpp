@@ -4,6 +4,7 @@
 // v = m g sin 30 / c.
 // B9, cylindrical, planar and free joints: each coordinate for itself, parabolas in time, on which
 // every scheme of second order is exact.
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -26,37 +27,33 @@ CaseScene screw(double damping) {
 }
 
 TrajectoryCase screw_at_rest() {
-  return {.scene = [] { return screw(0); },
-          .times = {0},
-          .readings = {"turning [rad/s2]", "sinking [m/s2]", "holding torque [N m]"},
-          .observe =
-              [](const Model<double>& model, const State<double>& x) {
-                const Workspace<double> w = evaluate(model, x);
-                return CaseReadings{w.qdd[0], -point_acceleration(model, w, 1, {}).z,
-                                    -inverse_dynamics(model, x, {0})[0]};
-              },
-          .reference =
-              [](double) {
-                const double qdd = kSlidingMass * kGravity * kPitch /
-                                   (kScrewInertia + kSlidingMass * kPitch * kPitch);
-                return CaseReadings{qdd, kPitch * qdd, kSlidingMass * kGravity * kPitch};
-              },
-          .measure = relative_each};
+  const double qdd =
+      kSlidingMass * kGravity * kPitch / (kScrewInertia + kSlidingMass * kPitch * kPitch);
+  return evaluation([] { return screw(0); },
+                    {"turning [rad/s2]", "sinking [m/s2]", "holding torque [N m]"},
+                    [](const Model<double>& model, const State<double>& x) {
+                      const Workspace<double> w = evaluate(model, x);
+                      return CaseReadings{w.qdd[0], -point_acceleration(model, w, 1, {}).z,
+                                          -inverse_dynamics(model, x, {0})[0]};
+                    },
+                    {qdd, kPitch * qdd, kSlidingMass * kGravity * kPitch}, relative_each);
+}
+// Accelerations at rest and at a rate, in which they are linear.
+std::array<double, 2> accelerations(const Model<double>& model, const State<double>& x,
+                                    double rate) {
+  State<double> moving = x;
+  moving.qd[0] = rate;
+  return {evaluate(model, x).qdd[0], evaluate(model, moving).qdd[0]};
 }
 
 // With damping: the rate at which nothing accelerates, and how it is come near.
 TrajectoryCase screw_terminal() {
-  TrajectoryCase c = screw_at_rest();
-  c.scene = [] { return screw(0.01); };
-  c.readings = {"terminal rate [rad/s]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    State<double> moving = x;
-    moving.qd[0] = 32;  // accelerations are linear in the rate
-    const double rest = evaluate(model, x).qdd[0], fast = evaluate(model, moving).qdd[0];
-    return CaseReadings{32 * rest / (rest - fast)};
-  };
-  c.reference = [](double) { return CaseReadings{kSlidingMass * kGravity * kPitch / 0.01}; };
-  return c;
+  return evaluation([] { return screw(0.01); }, {"terminal rate [rad/s]"},
+                    [](const Model<double>& model, const State<double>& x) {
+                      const auto [rest, fast] = accelerations(model, x, 32);
+                      return CaseReadings{32 * rest / (rest - fast)};
+                    },
+                    {kSlidingMass * kGravity * kPitch / 0.01}, relative_each);
 }
 TrajectoryCase screw_motion() {
   TrajectoryCase c = screw_terminal();
@@ -95,18 +92,13 @@ TrajectoryCase incline() {
               }};
 }
 TrajectoryCase incline_start() {
-  TrajectoryCase c = incline();
-  c.times = {0};
-  c.readings = {"start [m/s2]", "terminal speed [m/s]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    State<double> moving = x;
-    moving.qd[0] = 10;
-    const double rest = evaluate(model, x).qdd[0], fast = evaluate(model, moving).qdd[0];
-    return CaseReadings{rest, 10 * rest / (rest - fast)};
-  };
-  c.reference = [](double) { return CaseReadings{4.905, 12.2625}; };
-  c.measure = relative_each;
-  return c;
+  return evaluation(
+      incline().scene, {"start [m/s2]", "terminal speed [m/s]"},
+      [](const Model<double>& model, const State<double>& x) {
+        const auto [rest, fast] = accelerations(model, x, 10);
+        return CaseReadings{rest, 10 * rest / (rest - fast)};
+      },
+      {4.905, 12.2625}, relative_each);
 }
 
 // ---- B9 ----

@@ -147,17 +147,16 @@ TrajectoryCase near_conical() {
     const double ratio = std::sin(kCone) / std::sin(kCone + kAside);
     return start(JointType::spherical, kCone + kAside, kRound * ratio * ratio);
   };
-  c.times = {};
-  c.readings = {};
-  c.observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
-  c.reference = [](double n) {
-    const double cone_swing = kRound * std::sqrt(1 + 3 * std::cos(kCone) * std::cos(kCone));
-    return CaseReadings{n * std::acos(-1.0) / cone_swing};
-  };
-  c.events = {
-      [](const Model<double>& model, const State<double>& x) { return observe_place(model, x)[5]; },
-      4, 5};
-  return c;
+  return times_of(c,
+                  {[](const Model<double>& model, const State<double>& x) {
+                     return observe_place(model, x)[5];
+                   },
+                   4, 5},
+                  [](double n) {
+                    const double cone_swing =
+                        kRound * std::sqrt(1 + 3 * std::cos(kCone) * std::cos(kCone));
+                    return CaseReadings{n * std::acos(-1.0) / cone_swing};
+                  });
 }
 
 }  // namespace

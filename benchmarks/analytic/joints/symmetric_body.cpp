@@ -46,22 +46,20 @@ TrajectoryCase symmetric_motion() {
 
 // In one state: kinetic energy, |H|, and the angle between the axis and H.
 TrajectoryCase at_start() {
-  TrajectoryCase c = symmetric_motion();
-  c.times = {0};
-  c.readings = {"kinetic energy [J]", "|H| [N m s]", "angle of e3 to H [rad]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    Workspace<double> w(model);
-    kinematics(model, x, w);
-    const Vec3<double> H = momentum(model, w).n;
-    return CaseReadings{kinetic_energy(model, x), std::sqrt(dot(H, H)),
-                        std::atan2(std::hypot(H.x, H.y), H.z)};
-  };
-  c.reference = [](double) {
-    const double across = kAcross * kRate.x(), along = kAxial * kRate.z();
-    return CaseReadings{(across * kRate.x() + along * kRate.z()) / 2, std::hypot(across, along),
-                        std::atan2(across, along)};
-  };
-  c.measure = relative_each;
+  const double across = kAcross * kRate.x(), along = kAxial * kRate.z();
+  TrajectoryCase c = evaluation(
+      scene, {"kinetic energy [J]", "|H| [N m s]", "angle of e3 to H [rad]"},
+      [](const Model<double>& model, const State<double>& x) {
+        Workspace<double> w(model);
+        kinematics(model, x, w);
+        const Vec3<double> H = momentum(model, w).n;
+        return CaseReadings{kinetic_energy(model, x), std::sqrt(dot(H, H)),
+                            std::atan2(std::hypot(H.x, H.y), H.z)};
+      },
+      {(across * kRate.x() + along * kRate.z()) / 2, std::hypot(across, along),
+       std::atan2(across, along)},
+      relative_each);
+  c.mutant = more_inertia;
   return c;
 }
 

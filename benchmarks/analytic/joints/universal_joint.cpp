@@ -52,42 +52,31 @@ Output output(const Model<double>& model, const State<double>& start, double inp
 }
 
 TrajectoryCase hooke() {
-  return {.scene = [] { return at_rest(shafts(kAngle)); },
-          .times = {0},
-          .readings = {"angle out at 30 degrees in [rad]", "ratio there", "ratio at 0",
-                       "ratio at 90 degrees"},
-          .observe =
-              [](const Model<double>& model, const State<double>& x) {
-                const Output at_30 = output(model, x, 30 * kDegree);
-                return CaseReadings{at_30.angle, at_30.ratio, output(model, x, 0).ratio,
-                                    output(model, x, 90 * kDegree).ratio};
-              },
-          .reference =
-              [](double) {
-                const double c = std::cos(kAngle), in = 30 * kDegree;
-                const double C = std::cos(in) * c, S = std::sin(in);
-                return CaseReadings{std::atan(std::tan(in) / c), c / (C * C + S * S), 1 / c, c};
-              },
-          .measure = relative_each,
-          .mutant = [](CaseScene& scene) { scene.model = shafts(1.001 * kAngle); }};
+  const double c = std::cos(kAngle), in = 30 * kDegree;
+  const double C = std::cos(in) * c, S = std::sin(in);
+  TrajectoryCase all = evaluation(
+      [] { return at_rest(shafts(kAngle)); },
+      {"angle out at 30 degrees in [rad]", "ratio there", "ratio at 0", "ratio at 90 degrees"},
+      [](const Model<double>& model, const State<double>& x) {
+        const Output at_30 = output(model, x, 30 * kDegree);
+        return CaseReadings{at_30.angle, at_30.ratio, output(model, x, 0).ratio,
+                            output(model, x, 90 * kDegree).ratio};
+      },
+      {std::atan(std::tan(in) / c), c / (C * C + S * S), 1 / c, c}, relative_each);
+  all.mutant = [](CaseScene& scene) { scene.model = shafts(1.001 * kAngle); };
+  return all;
 }
 
 TrajectoryCase plate() {
-  return {.scene =
-              [] {
-                const Vector3 moments(1. / 12, 1.36 / 12, 0.36 / 12);
-                return at_rest(one_body(JointType::universal, Vector3::UnitX(),
-                                        {1, {0, 0, -0.5}, moments.asDiagonal()}));
-              },
-          .times = {0},
-          .readings = {"about the normal [rad/s]", "about the edge [rad/s]"},
-          .observe = [](const Model<double>& model,
-                        const State<double>& x) { return small_frequencies(model, x); },
-          .reference =
-              [](double) {
-                const double torque = kGravity / 2;
-                return CaseReadings{std::sqrt(torque / (1.36 / 12 + 0.25)), std::sqrt(torque * 3)};
-              }};
+  const Vector3 moments(1. / 12, 1.36 / 12, 0.36 / 12);
+  const auto hanging_plate = [moments] {
+    return at_rest(
+        one_body(JointType::universal, Vector3::UnitX(), {1, {0, 0, -0.5}, moments.asDiagonal()}));
+  };
+  const double torque = kGravity / 2;
+  return evaluation(
+      hanging_plate, {"about the normal [rad/s]", "about the edge [rad/s]"}, small_frequencies,
+      {std::sqrt(torque / (1.36 / 12 + 0.25)), std::sqrt(torque * 3)}, largest_difference);
 }
 
 }  // namespace

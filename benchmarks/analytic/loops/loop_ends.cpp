@@ -89,15 +89,15 @@ Swing swing(Couplers couplers, Integrator integrator) {
 }
 // What implicit couplers change of it: as implicit struts against rods by the same scheme, whose
 // first order makes both swing more; by the midpoint rule against its own start.
-CaseResult governor_swings() {
+CaseResult governor_swings(bool mistaken) {
+  if (mistaken) {
+    const Swing damped = swing(Couplers::springs, Integrator::implicit_euler);
+    return {std::abs(damped.last / damped.first - 1)};
+  }
   const double rods = swing(Couplers::rods, Integrator::semi_implicit).last;
   const double struts = swing(Couplers::implicit_struts, Integrator::semi_implicit).last;
   const Swing midpoint = swing(Couplers::springs, Integrator::implicit_midpoint);
   return {worse(std::abs(struts / rods - 1), std::abs(midpoint.last / midpoint.first - 1))};
-}
-CaseResult governor_damped() {
-  const Swing damped = swing(Couplers::springs, Integrator::implicit_euler);
-  return {std::abs(damped.last / damped.first - 1)};
 }
 
 // The crank held at 60 degrees.
@@ -143,7 +143,7 @@ CaseFamily loop_ends_cases() {
           {{"D3-rates", 1e-8, squeezer_rates()},
            {"D4-velocity", 1e-6, bricard_velocity()},
            {"D5-end", 1e-8, governor_end()},
-           {"D5-implicit", 0.01, governor_swings, governor_damped},
+           {"D5-implicit", 0.01, governor_swings},
            {"D6-place", 1e-12, piston_place()},
            {"D6-energy", 1e-8, crank_energy()}}};
 }

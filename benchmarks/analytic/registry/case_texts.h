@@ -1,5 +1,5 @@
-// What docs/cases/GROUP.md says of the cases, for people: a paragraph of what is known, below it the
-// cases that measure it, as `- NAME, NAME: what is measured`.
+// What docs/cases/GROUP.md says of the cases, for people: a paragraph of what is known, below it
+// the cases that measure it, as `- NAME, NAME: what is measured`.
 #pragma once
 
 #include <map>

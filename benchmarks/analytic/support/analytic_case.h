@@ -6,6 +6,7 @@
 // any integrator can be tried on; and all else, an experiment of its own (run).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -24,11 +25,10 @@ struct CaseResult {
 struct ContactLook;
 
 struct AnalyticCase {
-  using Experiment = CaseResult (*)();
-  const char* name;       // "E1-times"
-  double tolerance;       // the case passes where error <= tolerance; 0: nothing may be broken
-  Experiment run{};       // null: a trajectory
-  Experiment mistaken{};  // run() with a mistake in it, which must fail
+  const char* name;  // "E1-times"
+  double tolerance;  // the case passes where error <= tolerance; 0: nothing may be broken
+  std::function<CaseResult()> run{};       // null: a trajectory
+  std::function<CaseResult()> mistaken{};  // run() with a mistake in it, which must fail
   std::shared_ptr<const TrajectoryCase> trajectory{};
   std::shared_ptr<const ContactLook> look{};  // what a page draws; null: nothing
   // Of the list, from docs/cases/: "contact"; what is measured, with its unit, against what; and
@@ -39,9 +39,12 @@ struct AnalyticCase {
       : name(its_name),
         tolerance(its_tolerance),
         trajectory(std::make_shared<const TrajectoryCase>(std::move(motion))) {}
-  AnalyticCase(const char* its_name, double its_tolerance, Experiment experiment,
-               Experiment with_mistake)
-      : name(its_name), tolerance(its_tolerance), run(experiment), mistaken(with_mistake) {}
+  AnalyticCase(const char* its_name, double its_tolerance,
+               const std::function<CaseResult(bool mistaken)>& experiment)
+      : name(its_name),
+        tolerance(its_tolerance),
+        run([experiment] { return experiment(false); }),
+        mistaken([experiment] { return experiment(true); }) {}
 };
 
 // The cases of one file, and their place among the families: they are shown in ascending order.

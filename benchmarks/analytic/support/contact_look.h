@@ -74,9 +74,8 @@ inline double zero(std::size_t, double) {
 // case; in the mistake it is some thousandths more or less, and the case must fail.
 template <CaseResult (*experiment)(double off), int thousandths>
 AnalyticCase contact_case(const char* name, double tolerance, ContactLook look = {}) {
-  AnalyticCase c(
-      name, tolerance, [] { return experiment(1); },
-      [] { return experiment(1 + 1e-3 * thousandths); });
+  AnalyticCase c(name, tolerance,
+                 [](bool mistaken) { return experiment(mistaken ? 1 + 1e-3 * thousandths : 1); });
   if (look.read) c.look = std::make_shared<const ContactLook>(std::move(look));
   return c;
 }
