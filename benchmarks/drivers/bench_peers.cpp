@@ -160,5 +160,5 @@ int main(int argc, char** argv) {
   line.flag("--quick", [&] { o.repetitions = 1, o.budget = 0.2; });
   line.flag("--list", o.list);
   return line.run(
-      argc, argv, [&] { check(o); }, [&] { return run(o); });
+      argc, argv, [&] { return run(o); }, [&] { check(o); });
 }

@@ -15,9 +15,7 @@
 #include <numbers>
 #include <vector>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -120,24 +118,14 @@ CaseResult limit(double off) {  // thickness
 }  // namespace
 
 CaseFamily arch_cases() {
+  const ContactLook crown{
+      .readings = {"z of the crown [m]"}, .read = place<10, 2>, .from_start = true};
+  ContactLook still = crown;
+  still.exact = zero;
   return {290,
-          {contact_case<stands, -120>("E13-stands", 1e-6,
-                                      {.readings = {"z of the crown [m]"},
-                                       .read = place<10, 2>,
-                                       .exact = zero,
-                                       .from_start = true,
-                                       .no_steps = kResting}),
-           contact_case<falls, 150>("E13-falls", 0,
-                                    {.readings = {"z of the crown [m]"},
-                                     .read = place<10, 2>,
-                                     .from_start = true,
-                                     .no_steps = kCounted}),
-           contact_case<limit, 1>("E13-limit", 3e-4,
-                                  {.readings = {"z of the crown [m]"},
-                                   .read = place<10, 2>,
-                                   .from_start = true,
-                                   .search = "t/R",
-                                   .no_steps = kSearch})}};
+          {contact_case<stands, -120>("E13-stands", 1e-6, without_steps(still, kResting)),
+           contact_case<falls, 150>("E13-falls", 0, without_steps(crown, kCounted)),
+           contact_case<limit, 1>("E13-limit", 3e-4, searched(crown, "t/R"))}};
 }
 
 }  // namespace twinarm

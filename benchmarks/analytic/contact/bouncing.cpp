@@ -3,9 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -111,36 +109,21 @@ double known_bounces(std::size_t, double t) {
 }  // namespace
 
 CaseFamily bouncing_cases() {
+  const ContactLook height{
+      .readings = {"height of the ball [m]"}, .read = seen_height<1>, .exact = known_bounces};
+  const ContactLook any{.readings = height.readings, .read = seen_height<1>, .no_steps = kRounding};
+  ContactLook in_steps = height;
+  in_steps.about_steps =
+      "Flight is exact in any step. One of 0.5 ms would end 1 µm within the floor, ends on it, "
+      "0.1 % slower, and the ball bounces in the next one.";
   return {180,
-          {contact_case<bounce_times, 1>("E1-times", 1e-9,
-                                         {.readings = {"height of the ball [m]"},
-                                          .read = seen_height<1>,
-                                          .exact = known_bounces,
-                                          .no_steps = kLocated}),
-           contact_case<bounce_speeds, 1>("E1-speeds", 1e-9,
-                                          {.readings = {"height of the ball [m]"},
-                                           .read = seen_height<1>,
-                                           .exact = known_bounces,
-                                           .no_steps = kLocated}),
-           contact_case<bounce_fixed, 1>(
-               "E1-fixed", 1e-3,
-               {.readings = {"height of the ball [m]"},
-                .read = seen_height<1>,
-                .exact = known_bounces,
-                .about_steps =
-                    "Flight is exact in any step. One of 0.5 ms would end 1 µm within the floor, "
-                    "ends on it, 0.1 % slower, and the ball bounces in the next one."}),
-           contact_case<rest_after_bounces, 1>("E1-rest", 1e-6,
-                                               {.readings = {"height of the ball [m]"},
-                                                .read = seen_height<1>,
-                                                .exact = known_bounces,
-                                                .runs = {"located", "1 ms"},
-                                                .no_steps = kRounding}),
-           contact_case<bounce_energy, 10>("E1-energy", 1e-10,
-                                           {.readings = {"height of the ball [m]"},
-                                            .read = seen_height<1>,
-                                            .runs = {"e = 0", "0.3", "0.5", "0.8", "0.95", "1"},
-                                            .no_steps = kRounding})}};
+          {contact_case<bounce_times, 1>("E1-times", 1e-9, without_steps(height, kLocated)),
+           contact_case<bounce_speeds, 1>("E1-speeds", 1e-9, without_steps(height, kLocated)),
+           contact_case<bounce_fixed, 1>("E1-fixed", 1e-3, in_steps),
+           contact_case<rest_after_bounces, 1>(
+               "E1-rest", 1e-6, without_steps(of_runs(height, {"located", "1 ms"}), kRounding)),
+           contact_case<bounce_energy, 10>(
+               "E1-energy", 1e-10, of_runs(any, {"e = 0", "0.3", "0.5", "0.8", "0.95", "1"}))}};
 }
 
 }  // namespace twinarm

@@ -4,9 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -112,6 +110,15 @@ double known_cradle(double gap, double part, double t) {
 }  // namespace
 
 CaseFamily cradles_cases() {
+  const ContactLook speed{.readings = {"speed of ball 5 [m/s]"},
+                          .read = velocity<5, 0>,
+                          .runs = {"e = 0", "0.5", "0.9", "1"},
+                          .every = 3,
+                          .until = 0.1,
+                          .no_steps = kRounding};
+  ContactLook momentum = speed;
+  momentum.readings = {"momentum [kg m/s]"}, momentum.read = seen_momentum;
+  momentum.exact = [](std::size_t, double) { return 1.; };
   return {190,
           {contact_case<two_balls, 1>("E6-two", 1e-3,
                                       {.readings = {"1 kg [m/s]", "3 kg [m/s]"},
@@ -147,21 +154,8 @@ CaseFamily cradles_cases() {
                       return t == 0 ? (k == 0 ? 1. : 0.) : (k == 0 ? -1 / 3. : 2 / 3.);
                     },
                 .until = 0.02}),
-           contact_case<cradle_momentum, 1>("E6-momentum", 1e-12,
-                                            {.readings = {"momentum [kg m/s]"},
-                                             .read = seen_momentum,
-                                             .exact = [](std::size_t, double) { return 1.; },
-                                             .runs = {"e = 0", "0.5", "0.9", "1"},
-                                             .every = 3,
-                                             .until = 0.1,
-                                             .no_steps = kRounding}),
-           contact_case<cradle_energy, 1>("E6-energy", 1e-10,
-                                          {.readings = {"speed of ball 5 [m/s]"},
-                                           .read = velocity<5, 0>,
-                                           .runs = {"e = 0", "0.5", "0.9", "1"},
-                                           .every = 3,
-                                           .until = 0.1,
-                                           .no_steps = kRounding})}};
+           contact_case<cradle_momentum, 1>("E6-momentum", 1e-12, momentum),
+           contact_case<cradle_energy, 1>("E6-energy", 1e-10, speed)}};
 }
 
 }  // namespace twinarm

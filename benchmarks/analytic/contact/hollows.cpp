@@ -3,9 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -155,34 +153,23 @@ double known_cylinder_swing(std::size_t, double t) {
 }  // namespace
 
 CaseFamily hollows_cases() {
+  const ContactLook sphere{.readings = {"x [m]"},
+                           .read = place<1, 0>,
+                           .exact = known_sphere_swing,
+                           .until = 6,
+                           .about_steps = kSmallSwings};
+  ContactLook cylinder = sphere;
+  cylinder.exact = known_cylinder_swing;
+  const ContactLook circle{
+      .readings = {"x [m]", "y [m]"}, .read = seen_ball, .exact = known_circle};
+  ContactLook located = without_steps(circle, kLocated);
+  located.until = 5.5;
   return {280,
-          {contact_case<sphere_in_bowl, 5>("E12-bowl", 1e-3,
-                                           {.readings = {"x [m]"},
-                                            .read = place<1, 0>,
-                                            .exact = known_sphere_swing,
-                                            .until = 6,
-                                            .about_steps = kSmallSwings}),
-           contact_case<sphere_in_trough, 5>("E12-trough", 1e-3,
-                                             {.readings = {"x [m]"},
-                                              .read = place<1, 0>,
-                                              .exact = known_sphere_swing,
-                                              .until = 6,
-                                              .about_steps = kSmallSwings}),
-           contact_case<cylinder_in_trough, 5>("E12-cylinder", 1e-3,
-                                               {.readings = {"x [m]"},
-                                                .read = place<1, 0>,
-                                                .exact = known_cylinder_swing,
-                                                .until = 6,
-                                                .about_steps = kSmallSwings}),
-           contact_case<turntable_period, 2>(
-               "E12-turntable", 1e-3,
-               {.readings = {"x [m]", "y [m]"}, .read = seen_ball, .exact = known_circle}),
-           contact_case<turntable_circle, 1>("E12-circle", 1e-9,
-                                             {.readings = {"x [m]", "y [m]"},
-                                              .read = seen_ball,
-                                              .exact = known_circle,
-                                              .until = 5.5,
-                                              .no_steps = kLocated}),
+          {contact_case<sphere_in_bowl, 5>("E12-bowl", 1e-3, sphere),
+           contact_case<sphere_in_trough, 5>("E12-trough", 1e-3, sphere),
+           contact_case<cylinder_in_trough, 5>("E12-cylinder", 1e-3, cylinder),
+           contact_case<turntable_period, 2>("E12-turntable", 1e-3, circle),
+           contact_case<turntable_circle, 1>("E12-circle", 1e-9, located),
            contact_case<upright_tube, 10>("E12-tube", 1e-9,
                                           {.readings = {"height [m]"},
                                            .read = place<1, 2>,

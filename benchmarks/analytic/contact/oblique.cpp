@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -52,38 +50,31 @@ CaseResult stick_limit(double off) {  // e
   return {relative(limit, 2 / 7.0 * 2 / (1.8 * 3))};
 }
 
+double known_oblique(std::size_t run, bool after) {
+  return !after ? 2 : run == 0 ? 1.73 : 10 / 7.;
+}
+
 }  // namespace
 
 CaseFamily oblique_cases() {
+  const ContactLook along{.readings = {"v along the floor [m/s]"},
+                          .read = velocity<1, 0>,
+                          .runs = {"μ = 0.05", "μ = 0.2"}};
+  ContactLook at_once = along, flight = along;
+  at_once.exact = [](std::size_t run, double t) { return known_oblique(run, t > 0); };
+  at_once.until = 0.02;
+  flight.exact = [](std::size_t run, double t) { return known_oblique(run, t >= 0.1 / 3); };
+  const ContactLook slip{
+      .readings = {"slip [m/s]"},
+      .read = [](Scene s) { return Values{s.v(1).x() - 0.1 * s.w(1).y()}; },
+      .exact = [](std::size_t run,
+                  double t) { return t == 0 ? 2 : 2 - 3.5 * (run == 0 ? 0.04 : 0.08) * 1.8 * 3; },
+      .runs = {"μ = 0.04", "μ = 0.08"},
+      .no_steps = "One step is one impact, whatever its length."};
   return {200,
-          {contact_case<oblique, 1>("E16", 1e-12,
-                                    {.readings = {"v along the floor [m/s]"},
-                                     .read = velocity<1, 0>,
-                                     .exact =
-                                         [](std::size_t run, double t) {
-                                           return t == 0 ? 2 : run == 0 ? 1.73 : 10 / 7.;
-                                         },
-                                     .runs = {"μ = 0.05", "μ = 0.2"},
-                                     .until = 0.02}),
-           contact_case<stick_limit, 1>(
-               "E16-limit", 1e-12,
-               {.readings = {"slip [m/s]"},
-                .read = [](Scene s) { return Values{s.v(1).x() - 0.1 * s.w(1).y()}; },
-                .exact =
-                    [](std::size_t run, double t) {
-                      return t == 0 ? 2 : 2 - 3.5 * (run == 0 ? 0.04 : 0.08) * 1.8 * 3;
-                    },
-                .runs = {"μ = 0.04", "μ = 0.08"},
-                .no_steps = "One step is one impact, whatever its length."}),
-           contact_case<oblique_flight, 2>(
-               "E16-flight", 1e-3,
-               {.readings = {"v along the floor [m/s]"},
-                .read = velocity<1, 0>,
-                .exact = [](std::size_t run,
-                            double t) { return t < 0.1 / 3 ? 2
-                                               : run == 0  ? 1.73
-                                                           : 10 / 7.; },
-                .runs = {"μ = 0.05", "μ = 0.2"}})}};
+          {contact_case<oblique, 1>("E16", 1e-12, at_once),
+           contact_case<stick_limit, 1>("E16-limit", 1e-12, slip),
+           contact_case<oblique_flight, 2>("E16-flight", 1e-3, flight)}};
 }
 
 }  // namespace twinarm

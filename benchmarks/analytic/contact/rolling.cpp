@@ -4,9 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -95,30 +93,30 @@ double known_slipping(std::size_t k, double t) {
 }  // namespace
 
 CaseFamily rolling_cases() {
-  return {240,
-          {contact_case<rolling_speeds, 2>("E4-speeds", 1e-3,
-                                           {.readings = {"speed [m/s]"},
-                                            .read = velocity<1, 0>,
-                                            .exact = known_rolling,
-                                            .runs = {"sphere", "disc", "hoop"}}),
-           contact_case<rolling_friction, 2>(
-               "E4-friction", 1e-3,
-               {.readings = {"friction [N]"},
-                .read = seen_friction,
-                .exact = [](std::size_t, double) { return 0.9586336017213744; }}),
-           contact_case<least_friction, 10>(
-               "E4-threshold", 1e-3,
-               {.readings = {"slip [m/s]"}, .read = seen_slip, .search = "μ", .no_steps = kSearch}),
-           contact_case<slipping, 2>("E4-slip", 1e-3,
-                                     {.readings = {"v of the centre [m/s]", "R ω [m/s]"},
-                                      .read = speed_and_rim<1000>,
-                                      .exact = known_slipping}),
-           contact_case<small_sphere, 1>("E4-small", 5.5e-4,
-                                         {.readings = {"speed [m/s]"},
-                                          .read = velocity<1, 0>,
-                                          .exact = [](std::size_t, double t) {
-                                            return 5 / 7. * kGravity * std::sin(15 * kDegree) * t;
-                                          }})}};
+  return {
+      240,
+      {contact_case<rolling_speeds, 2>("E4-speeds", 1e-3,
+                                       {.readings = {"speed [m/s]"},
+                                        .read = velocity<1, 0>,
+                                        .exact = known_rolling,
+                                        .runs = {"sphere", "disc", "hoop"}}),
+       contact_case<rolling_friction, 2>(
+           "E4-friction", 1e-3,
+           {.readings = {"friction [N]"},
+            .read = seen_friction,
+            .exact = [](std::size_t, double) { return 0.9586336017213744; }}),
+       contact_case<least_friction, 10>(
+           "E4-threshold", 1e-3, searched({.readings = {"slip [m/s]"}, .read = seen_slip}, "μ")),
+       contact_case<slipping, 2>("E4-slip", 1e-3,
+                                 {.readings = {"v of the centre [m/s]", "R ω [m/s]"},
+                                  .read = speed_and_rim<1000>,
+                                  .exact = known_slipping}),
+       contact_case<small_sphere, 1>("E4-small", 5.5e-4,
+                                     {.readings = {"speed [m/s]"},
+                                      .read = velocity<1, 0>,
+                                      .exact = [](std::size_t, double t) {
+                                        return 5 / 7. * kGravity * std::sin(15 * kDegree) * t;
+                                      }})}};
 }
 
 }  // namespace twinarm

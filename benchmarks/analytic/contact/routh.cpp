@@ -8,9 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 #include "collision/geometry/convex_hull.h"
 
 namespace twinarm {

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -178,6 +176,11 @@ Values seen_up(Scene s) {
 }  // namespace
 
 CaseFamily sliding_cases() {
+  const ContactLook speed{.readings = {"speed [m/s]"}, .read = velocity<1, 0>};
+  const ContactLook back{.readings = {"way uphill [m]"}, .read = seen_up, .exact = known_uphill};
+  const ContactLook way{.readings = {"way [m]"}, .read = seen_way, .exact = known_stop};
+  ContactLook up = back, stops = of_runs(way, {"0°", "15°", "30°", "45°"});
+  up.about_steps = stops.about_steps = kPartOfStep;
   return {210,
           {contact_case<creep, -50>("E2-creep", 1e-6,
                                     {.readings = {"x downhill [m]"},
@@ -199,32 +202,12 @@ CaseFamily sliding_cases() {
            contact_case<slide_place, 1>(
                "E2-place", kStep,
                {.readings = {"x downhill [m]"}, .read = place<1, 0>, .exact = known_slide}),
-           contact_case<turn_time, 10>("E2-up", kStep,
-                                       {.readings = {"way uphill [m]"},
-                                        .read = seen_up,
-                                        .exact = known_uphill,
-                                        .about_steps = kPartOfStep}),
-           contact_case<return_speed, 1>("E2-return", 1e-9,
-                                         {.readings = {"way uphill [m]"},
-                                          .read = seen_up,
-                                          .exact = known_uphill,
-                                          .no_steps = kLocated}),
-           contact_case<stopping, 5>("E2-stop", kStep,
-                                     {.readings = {"way [m]"},
-                                      .read = seen_way,
-                                      .exact = known_stop,
-                                      .runs = {"0°", "15°", "30°", "45°"},
-                                      .about_steps = kPartOfStep}),
+           contact_case<turn_time, 10>("E2-up", kStep, up),
+           contact_case<return_speed, 1>("E2-return", 1e-9, without_steps(back, kLocated)),
+           contact_case<stopping, 5>("E2-stop", kStep, stops),
            contact_case<headings, 5>("E2-headings", 1e-3,
-                                     {.readings = {"way [m]"},
-                                      .read = seen_way,
-                                      .exact = known_stop,
-                                      .runs = {"0°", "0° again", "15°", "30°", "45°"}}),
-           contact_case<least_friction_to_hold, 5>("E2-threshold", 1e-3,
-                                                   {.readings = {"speed [m/s]"},
-                                                    .read = velocity<1, 0>,
-                                                    .search = "μ",
-                                                    .no_steps = kSearch})}};
+                                     of_runs(way, {"0°", "0° again", "15°", "30°", "45°"})),
+           contact_case<least_friction_to_hold, 5>("E2-threshold", 1e-3, searched(speed, "μ"))}};
 }
 
 }  // namespace twinarm

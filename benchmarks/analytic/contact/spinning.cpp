@@ -3,9 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {

@@ -3,9 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -100,6 +98,15 @@ Values seen_loads(Scene s) {
   return {under(boxes)...};
 }
 
+ContactLook top_box(const std::string& axis, Values (*read)(Scene)) {
+  return {.readings = {axis + " of the top box [m]"},
+          .read = read,
+          .exact = zero,
+          .until = 1,
+          .from_start = true,
+          .no_steps = kResting};
+}
+
 }  // namespace
 
 CaseFamily stacks_cases() {
@@ -114,20 +121,8 @@ CaseFamily stacks_cases() {
                                                                   : 1); },
                 .until = 1,
                 .no_steps = kResting}),
-           contact_case<sideways, 600>("E11-drift", 1e-5,
-                                       {.readings = {"x of the top box [m]"},
-                                        .read = place<10, 0>,
-                                        .exact = zero,
-                                        .until = 1,
-                                        .from_start = true,
-                                        .no_steps = kResting}),
-           contact_case<sinking, -1>("E11-sinking", 1e-4,
-                                     {.readings = {"z of the top box [m]"},
-                                      .read = place<10, 2>,
-                                      .exact = zero,
-                                      .until = 1,
-                                      .from_start = true,
-                                      .no_steps = kResting}),
+           contact_case<sideways, 600>("E11-drift", 1e-5, top_box("x", place<10, 0>)),
+           contact_case<sinking, -1>("E11-sinking", 1e-4, top_box("z", place<10, 2>)),
            contact_case<heavy_on_light, 1>(
                "E11-heavy", 1e-6,
                {.readings = {"under 1 kg [N]", "under 100 kg [N]"},

@@ -3,9 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -141,37 +139,25 @@ double known_rocking(std::size_t, double t) {
 }  // namespace
 
 CaseFamily toppling_cases() {
-  return {
-      230,
-      {contact_case<tilt_limit, 20>(
-           "E3-tilt", 0.01,
-           {.readings = {"lean [rad]"}, .read = seen_lean, .search = "α/rad", .no_steps = kSearch}),
-       contact_case<push_limit, 20>("E3-push", 0.01,
-                                    {.readings = {"lean [rad]"},
-                                     .read = seen_lean,
-                                     .search = "F/(m g)",
-                                     .no_steps = kSearch}),
-       contact_case<slide_or_topple, 20>(
-           "E3-slide", 0.01,
-           {.readings = {"lean [rad]"}, .read = seen_lean, .search = "μ", .no_steps = kSearch}),
-       contact_case<curb_rate, 20>(
-           "E3-curb", 0.01,
-           {.readings = {"rate [rad/s]"},
-            .read = [](Scene s) { return Values{s.w(1).y()}; },
-            .exact = [](std::size_t, double) { return 2.586206896551724; },
-            .known_at = 2e-3,
-            .no_steps = "A plastic impact takes two steps: the rate is read after the "
-                        "second, and weight works on it meanwhile."}),
-       contact_case<curb_speed, 20>("E3-over", 0.01,
-                                    {.readings = {"lean [rad]"},
-                                     .read = seen_lean,
-                                     .search = "v/(m/s)",
-                                     .no_steps = kSearch}),
-       contact_case<rocking, 20>("E3-rocking", 0.01,
-                                 {.readings = {"lean [rad]"},
-                                  .read = seen_lean,
-                                  .exact = known_rocking,
-                                  .no_steps = kLocated})}};
+  const ContactLook lean{.readings = {"lean [rad]"}, .read = seen_lean};
+  return {230,
+          {contact_case<tilt_limit, 20>("E3-tilt", 0.01, searched(lean, "α/rad")),
+           contact_case<push_limit, 20>("E3-push", 0.01, searched(lean, "F/(m g)")),
+           contact_case<slide_or_topple, 20>("E3-slide", 0.01, searched(lean, "μ")),
+           contact_case<curb_rate, 20>(
+               "E3-curb", 0.01,
+               {.readings = {"rate [rad/s]"},
+                .read = [](Scene s) { return Values{s.w(1).y()}; },
+                .exact = [](std::size_t, double) { return 2.586206896551724; },
+                .known_at = 2e-3,
+                .no_steps = "A plastic impact takes two steps: the rate is read after the "
+                            "second, and weight works on it meanwhile."}),
+           contact_case<curb_speed, 20>("E3-over", 0.01, searched(lean, "v/(m/s)")),
+           contact_case<rocking, 20>("E3-rocking", 0.01,
+                                     {.readings = lean.readings,
+                                      .read = seen_lean,
+                                      .exact = known_rocking,
+                                      .no_steps = kLocated})}};
 }
 
 }  // namespace twinarm

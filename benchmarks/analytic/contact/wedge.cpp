@@ -7,9 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 #include "collision/shapes/shape.h"
 
 namespace twinarm {
@@ -89,13 +87,9 @@ CaseResult self_locking(double off) {  // mu
 }  // namespace
 
 CaseFamily wedge_cases() {
-  return {300,
-          {contact_case<self_locking, 2>("E14", 1e-3,
-                                         {.readings = {"z of the wedge [m]"},
-                                          .read = place<2, 2>,
-                                          .from_start = true,
-                                          .search = "μ",
-                                          .no_steps = kSearch})}};
+  const ContactLook rises{
+      .readings = {"z of the wedge [m]"}, .read = place<2, 2>, .from_start = true};
+  return {300, {contact_case<self_locking, 2>("E14", 1e-3, searched(rises, "μ"))}};
 }
 
 }  // namespace twinarm

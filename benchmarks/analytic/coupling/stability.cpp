@@ -10,11 +10,11 @@
 //   implicit damper           alpha < 4 + 2 beta
 // and the implicit treatment and implicit integrators, which have none.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
-#include "benchmarks/analytic/coupling/coupling_cases.h"
-#include "benchmarks/analytic/joints/joint_cases.h"
+#include "benchmarks/analytic/support/analytic_case.h"
 #include "coupling/analysis/prediction.h"
 #include "coupling/analysis/tracking_run.h"
 #include "solver/dynamics/model_builder.h"
@@ -104,42 +104,6 @@ struct Edge {
   Setting at;
   double Setting::*turned = &Setting::alpha;
 };
-std::vector<Edge> edges_of(Scheme scheme) {
-  std::vector<Edge> all;
-  const auto add = [&](std::initializer_list<double> betas, auto alpha) {
-    for (const double beta : betas) all.push_back({{alpha(beta), beta}});
-  };
-  switch (scheme) {
-    case Scheme::euler:
-      add({0.2, 0.8, 1.5}, [](double b) { return b; });
-      all.push_back({{1, 2.5}, &Setting::beta});
-      break;
-    case Scheme::semi_implicit:
-    case Scheme::semi_implicit_difference:
-      add({0.15, 0.8, 1.5}, [](double b) { return 4 - 2 * b; });
-      break;
-    case Scheme::euler_difference:
-      add({0.2, 0.5, 0.8}, [](double b) { return b * (1 - b); });
-      break;
-    case Scheme::semi_implicit_older:
-      add({0.15, 0.5, 0.8}, [](double b) { return 1 - b; });
-      break;
-    case Scheme::hold:
-      add({0.2, 0.8, 1.5}, [](double b) { return 2 * b; });
-      all.push_back({{1, 2}, &Setting::beta});
-      break;
-    case Scheme::hold_difference:
-      add({0.2, 0.8, 1.5}, [](double b) { return 2 * b * (2 - b) / (2 + b); });
-      break;
-    case Scheme::implicit_damper:
-      add({0.15, 0.8, 3}, [](double b) { return 4 + 2 * b; });
-      break;
-    case Scheme::rk4:  // an integrator's own, with groups of cases for it
-    case Scheme::implicit:
-      break;
-  }
-  return all;
-}
 
 // By how much the stepper's edge is off, to 1e-4 of itself; not a number where there is none within
 // a tenth of it.
@@ -158,16 +122,19 @@ double missed(const Stepping& stepping, const Edge& edge, double inertia) {
   return std::abs(inside - 1);
 }
 
-CaseResult edges_missed(Scheme scheme, double inertia) {
-  CaseResult result;
-  for (const Edge& edge : edges_of(scheme))
-    result.error = worse(result.error, missed(stepping_of(scheme), edge, inertia));
-  return result;
-}
 // Its mistake: a hinge of 1.5 % less inertia.
-AnalyticCase edge_case(const char* name, Scheme scheme) {
-  return {name, 0.01, [scheme](bool mistaken) {
-            return edges_missed(scheme, mistaken ? 0.985 * kHinge : kHinge);
+// The limit is alpha(beta); with alpha = 1, beta is below `largest_beta` (0: without such a limit).
+AnalyticCase edge_case(const char* name, Scheme scheme, const std::array<double, 3>& betas,
+                       double (*alpha)(double beta), double largest_beta = 0) {
+  std::vector<Edge> edges;
+  for (const double beta : betas) edges.push_back({{alpha(beta), beta}});
+  if (largest_beta > 0) edges.push_back({{1, largest_beta}, &Setting::beta});
+  return {name, 0.01, [=](bool mistaken) {
+            CaseResult result;
+            for (const Edge& edge : edges)
+              result.error = worse(result.error, missed(stepping_of(scheme), edge,
+                                                        mistaken ? 0.985 * kHinge : kHinge));
+            return result;
           }};
 }
 
@@ -194,15 +161,24 @@ AnalyticCase integrator_case(const char* name, Integrator integrator) {
 }  // namespace
 
 CaseFamily stability_cases() {
+  constexpr std::array<double, 3> kMiddling{0.15, 0.8, 1.5};
+  const auto semi_implicit_limit = [](double b) { return 4 - 2 * b; };
   return {350,
-          {edge_case("F4-euler", Scheme::euler),
-           edge_case("F4-semi", Scheme::semi_implicit),
-           edge_case("F4-semi-difference", Scheme::semi_implicit_difference),
-           edge_case("F4-euler-difference", Scheme::euler_difference),
-           edge_case("F4-semi-older", Scheme::semi_implicit_older),
-           edge_case("F4-hold", Scheme::hold),
-           edge_case("F4-hold-difference", Scheme::hold_difference),
-           edge_case("F4-implicit-damper", Scheme::implicit_damper),
+          {edge_case(
+               "F4-euler", Scheme::euler, {0.2, 0.8, 1.5}, [](double b) { return b; }, 2.5),
+           edge_case("F4-semi", Scheme::semi_implicit, kMiddling, semi_implicit_limit),
+           edge_case("F4-semi-difference", Scheme::semi_implicit_difference, kMiddling,
+                     semi_implicit_limit),
+           edge_case("F4-euler-difference", Scheme::euler_difference, {0.2, 0.5, 0.8},
+                     [](double b) { return b * (1 - b); }),
+           edge_case("F4-semi-older", Scheme::semi_implicit_older, {0.15, 0.5, 0.8},
+                     [](double b) { return 1 - b; }),
+           edge_case(
+               "F4-hold", Scheme::hold, {0.2, 0.8, 1.5}, [](double b) { return 2 * b; }, 2),
+           edge_case("F4-hold-difference", Scheme::hold_difference, {0.2, 0.8, 1.5},
+                     [](double b) { return 2 * b * (2 - b) / (2 + b); }),
+           edge_case("F4-implicit-damper", Scheme::implicit_damper, {0.15, 0.8, 3},
+                     [](double b) { return 4 + 2 * b; }),
            {"F4-implicit", 0,
             [](bool mistaken) {
               const Scheme scheme = mistaken ? Scheme::implicit_damper : Scheme::implicit;

@@ -10,12 +10,11 @@
 // (tests/benchmarks/analytic/registry/test_reference_digits.cpp).
 #include <array>
 #include <cmath>
+#include <complex>
 #include <map>
 #include <mutex>
 #include <numbers>
 
-#include "benchmarks/analytic/coupling/coupling_cases.h"
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/joints/planar_arm.h"
 #include "coupling/analysis/tracking_run.h"
 #include "coupling/target/automatic_motion.h"
@@ -45,20 +44,9 @@ constexpr double kTrackingStep = 1e-4;  // of rk4 [s]
 struct ArmPlace {
   long double q1, q2, qd1, qd2;
 };
-struct PlanePoint {
-  long double x, y;
-};
-PlanePoint operator-(const PlanePoint& a, const PlanePoint& b) {
-  return {a.x - b.x, a.y - b.y};
-}
-PlanePoint operator+(const PlanePoint& a, const PlanePoint& b) {
-  return {a.x + b.x, a.y + b.y};
-}
-PlanePoint operator*(long double s, const PlanePoint& a) {
-  return {s * a.x, s * a.y};
-}
+using PlanePoint = std::complex<long double>;
 long double dot(const PlanePoint& a, const PlanePoint& b) {
-  return a.x * b.x + a.y * b.y;
+  return a.real() * b.real() + a.imag() * b.imag();
 }
 // A link's direction, and what it turns into at a rate of 1.
 PlanePoint along(long double angle) {

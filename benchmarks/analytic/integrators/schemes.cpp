@@ -10,9 +10,7 @@
 #include <limits>
 #include <numbers>
 
-#include "benchmarks/analytic/integrators/integrator_cases.h"
 #include "benchmarks/analytic/joints/golden_steps.h"
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/run_trajectory.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/energy_momentum.h"
@@ -130,21 +128,20 @@ TrajectoryCase unit_quaternion() {
 
 // Of a known motion after 1 s; each mistake is 0.1 % more gravity.
 double error_after_a_second(const char* name, CaseMeasure measure, const Lane& lane, int mistakes) {
-  const std::vector<AnalyticCase> motions =
-      (name[0] == 'B' ? pendulum_cases() : double_pendulum_cases()).cases;
-  for (const AnalyticCase& known : motions) {
-    if (std::strcmp(known.name, name) != 0) continue;
-    TrajectoryCase c = *known.trajectory;
-    c.times = {1};
-    c.measure = measure;
-    c.scene = [scene = c.scene, mistakes] {
-      CaseScene all = scene();
-      all.conserves = false;
-      for (int k = 0; k < mistakes; ++k) more_gravity(all);
-      return all;
-    };
-    return run_lane(c, lane).error;
-  }
+  for (const CaseFamily& family : joint_cases())
+    for (const AnalyticCase& known : family.cases) {
+      if (std::strcmp(known.name, name) != 0) continue;
+      TrajectoryCase c = *known.trajectory;
+      c.times = {1};
+      c.measure = measure;
+      c.scene = [scene = c.scene, mistakes] {
+        CaseScene all = scene();
+        all.conserves = false;
+        for (int k = 0; k < mistakes; ++k) more_gravity(all);
+        return all;
+      };
+      return run_lane(c, lane).error;
+    }
   return std::numeric_limits<double>::quiet_NaN();
 }
 

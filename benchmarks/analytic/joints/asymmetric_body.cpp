@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/derivatives.h"

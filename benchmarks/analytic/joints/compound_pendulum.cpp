@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/chain_parts.h"
 
 namespace twinarm {

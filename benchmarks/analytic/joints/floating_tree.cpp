@@ -4,7 +4,6 @@
 //   start,
 // and energy stays where no joint takes any. A body that falls under semi-implicit steps of h is
 // off the parabola by -g h t / 2, and its energy by -m g^2 h t / 2: its own recurrence, exactly.
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/energy_momentum.h"

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/chain_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/energy_momentum.h"

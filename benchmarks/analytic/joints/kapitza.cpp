@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/chain_parts.h"
 #include "solver/stepping/simulation.h"
 

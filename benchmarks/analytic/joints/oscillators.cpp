@@ -8,7 +8,6 @@
 #include <complex>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm {

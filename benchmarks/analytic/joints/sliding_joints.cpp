@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/world_kinematics.h"
 

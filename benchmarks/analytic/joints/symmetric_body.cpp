@@ -4,7 +4,6 @@
 // Kane, Likins, Levinson, Spacecraft Dynamics (1983), 3.1.
 #include <cmath>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/energy_momentum.h"

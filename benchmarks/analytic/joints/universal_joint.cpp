@@ -4,7 +4,6 @@
 // kg, hung by the middle of its short edge: w^2 = m g (1/2) / I about either axis of the joint.
 #include <cmath>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"

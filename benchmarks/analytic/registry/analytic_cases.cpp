@@ -2,11 +2,6 @@
 
 #include <algorithm>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
-#include "benchmarks/analytic/coupling/coupling_cases.h"
-#include "benchmarks/analytic/integrators/integrator_cases.h"
-#include "benchmarks/analytic/joints/joint_cases.h"
-#include "benchmarks/analytic/loops/loop_runs.h"
 #include "benchmarks/analytic/registry/case_texts.h"
 #include "benchmarks/analytic/support/run_trajectory.h"
 

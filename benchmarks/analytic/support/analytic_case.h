@@ -53,6 +53,14 @@ struct CaseFamily {
   std::vector<AnalyticCase> cases;
 };
 
+// Those of each folder, made by twinarm_registry(): a file NAME.cpp defines `CaseFamily
+// NAME_cases()`.
+const std::vector<CaseFamily>& joint_cases();       // groups A, B, C, F1, F2, G1 of docs/cases.md
+const std::vector<CaseFamily>& loop_cases();        // D
+const std::vector<CaseFamily>& contact_cases();     // E, H1
+const std::vector<CaseFamily>& coupling_cases();    // F3, F4
+const std::vector<CaseFamily>& integrator_cases();  // G2 to G4
+
 inline bool passes(const AnalyticCase& c, const CaseResult& result) {
   return result.error <= c.tolerance;
 }

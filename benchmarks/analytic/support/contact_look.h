@@ -68,6 +68,20 @@ inline double zero(std::size_t, double) {
   return 0;
 }
 
+// The same without an error against the step, and why; or as runs on either side of a limit.
+inline ContactLook without_steps(ContactLook look, const char* why) {
+  look.no_steps = why;
+  return look;
+}
+inline ContactLook searched(ContactLook look, const char* what) {
+  look.search = what;
+  return without_steps(look, kSearch);
+}
+inline ContactLook of_runs(ContactLook look, std::vector<std::string> runs) {
+  look.runs = std::move(runs);
+  return look;
+}
+
 }  // namespace contact_looks
 
 // A case with its mistake: the experiment multiplies one thing in it by `off`, which is 1 in the

@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "benchmarks/analytic/support/analytic_case.h"
 #include "benchmarks/analytic/support/case_constants.h"
-#include "benchmarks/analytic/support/trajectory_case.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/model/workspace.h"

@@ -4,7 +4,6 @@
 // A case of the list would stand in benchmarks/analytic/ as it stands here, down to its last line.
 #include <cmath>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm {
