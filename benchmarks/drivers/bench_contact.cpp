@@ -174,5 +174,5 @@ int main(int argc, char** argv) {
   line.flag("--quick", [&] { o.quick = true, o.repetitions = 1; });
   line.flag("--list", o.list);
   return line.run(
-      argc, argv, [&] { check(o); }, [&] { return run(o); });
+      argc, argv, [&] { return run(o); }, [&] { check(o); });
 }

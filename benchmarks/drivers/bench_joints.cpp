@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/drivers/command_line.h"
 #include "benchmarks/drivers/timing.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/model_builder.h"
@@ -59,7 +60,7 @@ std::function<void()> forward_dynamics_of(const Model<double>& model) {
       [work = std::make_shared<Work>(model)] { aba(work->model, work->x, work->forces, work->w); };
 }
 
-void run(int repetitions, double seconds) {
+int run(int repetitions, double seconds) {
   const std::array<const char*, 5> scalars{"double", "float", "batch4", "batch8", "dual8"};
   const std::array<double, 5> states{1, 1, 4, 8, 1};
   std::vector<std::function<void()>> jobs;
@@ -82,19 +83,17 @@ void run(int repetitions, double seconds) {
     for (const double count : states) std::printf("%9.1f", times[next++].ns / kBodies / count);
     std::printf("\n");
   }
+  return 0;
 }
 
 }  // namespace
 }  // namespace twinarm::bench
 
 int main(int argc, char** argv) {
-  const std::string option = argc > 1 ? argv[1] : "";
-  if (argc > 2 || (!option.empty() && option != "--quick")) {
-    std::puts("What a body costs by the type of its joint.\n\n  bench_joints [--quick]\n");
-    return option == "--help" ? 0 : 2;
-  }
-  if (option == "--quick")
-    twinarm::bench::run(1, 1e-4);
-  else
-    twinarm::bench::run(7, 0.01);
+  using namespace twinarm::bench;
+  bool quick = false;
+  CommandLine line("bench_joints",
+                   "What a body costs by the type of its joint.\n\n  bench_joints [--quick]\n");
+  line.flag("--quick", quick);
+  return line.run(argc, argv, [&] { return quick ? run(1, 1e-4) : run(7, 0.01); });
 }

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <limits>
 #include <string>
-#include <string_view>
 
+#include "benchmarks/drivers/command_line.h"
 #include "benchmarks/drivers/map_runs.h"
 #include "benchmarks/drivers/timing.h"
 #include "coupling/batch/merge_fixed_joints.h"
@@ -150,7 +150,7 @@ void measure_throughput(const MapBenchOptions& options) {
         }
 }
 
-void measure(const MapBenchOptions& options) {
+int measure(const MapBenchOptions& options) {
   const Isa isa = best_isa();
   const char* name = isa == Isa::v4 ? "v4" : isa == Isa::v3 ? "v3" : "generic";
   if (options.json) std::printf("{\"isa\": \"%s\"", name);
@@ -162,25 +162,21 @@ void measure(const MapBenchOptions& options) {
   }
   if (options.throughput) measure_throughput(options);
   if (options.json) std::printf("}\n");
+  return 0;
 }
 
 }  // namespace
 }  // namespace twinarm::bench
 
 int main(int argc, char** argv) {
-  twinarm::bench::MapBenchOptions options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view word = argv[i];
-    options.quick |= word == "--quick";
-    options.json |= word == "--json";
-    if (word == "--passes") options.throughput = false;
-    if (word == "--throughput") options.passes = false;
-    if (word != "--quick" && word != "--json" && word != "--passes" && word != "--throughput") {
-      std::puts(
-          "What a step of a map costs, and how many there are in a second.\n\n"
-          "  bench_map [--quick] [--json] [--passes | --throughput]\n");
-      return word == "--help" ? 0 : 2;
-    }
-  }
-  twinarm::bench::measure(options);
+  using namespace twinarm::bench;
+  MapBenchOptions options;
+  CommandLine line("bench_map",
+                   "What a step of a map costs, and how many there are in a second.\n\n"
+                   "  bench_map [--quick] [--json] [--passes | --throughput]\n");
+  line.flag("--quick", options.quick);
+  line.flag("--json", options.json);
+  line.flag("--passes", [&] { options.throughput = false; });
+  line.flag("--throughput", [&] { options.passes = false; });
+  return line.run(argc, argv, [&] { return measure(options); });
 }

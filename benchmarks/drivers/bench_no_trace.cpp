@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "benchmarks/drivers/command_line.h"
 #include "benchmarks/drivers/no_trace_passes.h"
 #include "benchmarks/drivers/timing.h"
 #include "benchmarks/scenes/mechanisms.h"
@@ -46,12 +47,13 @@ struct Work {
   }
 };
 
-struct Ratio {
-  double median, least, largest;
-};
-Ratio ratio_of(std::vector<double> values) {
-  std::ranges::sort(values);
-  return {values[values.size() / 2], values.front(), values.back()};
+// Median, least and largest.
+std::string text_of(std::vector<double> ratios) {
+  std::ranges::sort(ratios);
+  char text[80];
+  std::snprintf(text, sizeof text, "%.4f  (%.4f to %.4f)", ratios[ratios.size() / 2],
+                ratios.front(), ratios.back());
+  return text;
 }
 
 // Hook to bare, and bare to itself, over rounds in which all of them take turns.
@@ -68,9 +70,8 @@ void measure(const char* what, const std::string& model,
     hook.push_back(t[h].ns / t[b].ns);
     same.push_back(t[c].ns / t[b].ns);
   }
-  const Ratio a = ratio_of(hook), b = ratio_of(same);
-  std::printf("%-6s %-9s  %.4f  (%.4f to %.4f)     %.4f  (%.4f to %.4f)\n", what, model.c_str(),
-              a.median, a.least, a.largest, b.median, b.least, b.largest);
+  std::printf("%-6s %-9s  %s     %s\n", what, model.c_str(), text_of(hook).c_str(),
+              text_of(same).c_str());
 }
 
 void run_all(int rounds, double seconds) {
@@ -98,15 +99,18 @@ void only(std::string_view which, int calls) {
 }  // namespace twinarm::bench
 
 int main(int argc, char** argv) {
-  const std::string_view option = argc > 1 ? argv[1] : "";
-  if (argc > 2 || (option != "" && option != "--quick" && option != "--only-bare" &&
-                   option != "--only-hooked")) {
-    std::fputs("bench_no_trace [--quick | --only-bare | --only-hooked]\n", stderr);
-    return 2;
-  }
-  if (option.starts_with("--only-"))
-    twinarm::bench::only(option.substr(7), 2000);
-  else
-    twinarm::bench::run_all(option == "--quick" ? 1 : 21, option == "--quick" ? 0.001 : 0.01);
-  return 0;
+  using namespace twinarm::bench;
+  bool quick = false;
+  std::string text;
+  CommandLine line("bench_no_trace", "bench_no_trace [--quick | --only-bare | --only-hooked]\n");
+  line.flag("--quick", quick);
+  line.flag("--only-bare", [&] { text = "bare"; });
+  line.flag("--only-hooked", [&] { text = "hooked"; });
+  return line.run(argc, argv, [&] {
+    if (!text.empty())
+      only(text, 2000);
+    else
+      run_all(quick ? 1 : 21, quick ? 0.001 : 0.01);
+    return 0;
+  });
 }

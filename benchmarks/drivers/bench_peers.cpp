@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/drivers/command_line.h"
-#include "benchmarks/drivers/peer_progress.h"
+#include "benchmarks/drivers/peer_run.h"
 
 namespace twinarm::bench {
 namespace {
@@ -128,15 +128,17 @@ int run(const Options& options) {
   for (const std::string& name : missing_engines())
     std::cerr << "bench_peers: " << name << " is not in this build: skipped\n";
 
-  Progress progress(options.repetitions, options.budget);
   std::vector<std::vector<Row>> rows;  // by case
+  double expected = 0;                 // [s]
   for (const SceneCase& c : cases) {
     rows.push_back(rows_of(c, peers, options));
-    for (const Row& row : rows.back()) progress.expect(row);
+    for (const Row& row : rows.back())
+      expected += expected_of_all(row, options.repetitions, options.budget);
   }
+  Stages stages("bench_peers", expected, StageLines::redrawn);
   Json& list = answer[options.work_precision ? "work_precision" : "rows"] = Json::array();
   for (auto& of_case : rows) {
-    measure(of_case, options.repetitions, options.budget, progress);
+    measure(of_case, options.repetitions, options.budget, stages);
     for (const Row& row : of_case) list.push_back(json_of(row));
   }
   std::cout << answer.dump(1) << '\n';
@@ -158,5 +160,5 @@ int main(int argc, char** argv) {
   line.flag("--quick", [&] { o.repetitions = 1, o.budget = 0.2; });
   line.flag("--list", o.list);
   return line.run(
-      argc, argv, [&] { check(o); }, [&] { return run(o); });
+      argc, argv, [&] { return run(o); }, [&] { check(o); });
 }

@@ -155,5 +155,5 @@ int main(int argc, char** argv) {
   line.flag("--quick", [&] { o.repetitions = 3, o.seconds = 0.003; });
   line.flag("--list", o.list);
   return line.run(
-      argc, argv, [&] { check(o); }, [&] { return run(o); });
+      argc, argv, [&] { return run(o); }, [&] { check(o); });
 }

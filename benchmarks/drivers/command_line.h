@@ -72,8 +72,9 @@ class CommandLine {
   }
 
   // Reads the options, has them checked, and runs.
-  int run(int argc, char** argv, const std::function<void()>& check,
-          const std::function<int()>& program) const {
+  int run(
+      int argc, char** argv, const std::function<int()>& program,
+      const std::function<void()>& check = [] {}) const {
     try {
       for (int i = 1; i < argc; ++i) i += read(argv[i], i + 1 < argc ? argv[i + 1] : nullptr);
       check();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <exception>
 
-#include "benchmarks/drivers/peer_progress.h"
 #include "benchmarks/engines/thread_seconds.h"
 
 namespace twinarm::bench {
@@ -60,29 +59,48 @@ void repeat(Row& row) {
   row.seconds.push_back(spent / runs);
 }
 
+std::string name_of(const Row& row) {
+  return row.test->name + ", " + row.name + ' ' + row.scheme.name;
+}
+
 }  // namespace
 
-void measure(std::vector<Row>& rows, int repetitions, double budget, Progress& progress) {
+// A step costs a microsecond for each body, ten with contacts.
+double expected_seconds(const Row& row, double budget) {
+  constexpr double kAdaptive = 0.05;
+  if (row.scheme.adaptive) return kAdaptive;
+  const Scene& scene = row.test->scene;
+  const double step = (scene.floor ? 1e-5 : 1e-6) * static_cast<double>(scene.bodies.size());
+  return std::min(row.test->duration / row.h * step, budget);
+}
+
+double expected_of_all(const Row& row, int repetitions, double budget) {
+  const double once = expected_seconds(row, budget);
+  return repetitions > 1 && once < kOnceIsEnough ? once * (1 + repetitions) : once;
+}
+
+void measure(std::vector<Row>& rows, int repetitions, double budget, Stages& stages) {
   const auto worth_repeating = [&](const Row& row) {
     return repetitions > 1 && row.stopped.empty() && row.seconds[0] < kOnceIsEnough;
   };
   std::vector<Row*> repeated;
   for (Row& row : rows) {
-    progress.begin(row, "");
+    const double once = expected_seconds(row, budget);
+    stages.begin(name_of(row), once);
     try {
       observe(row, budget);
     } catch (const std::exception& fault) {
       row.stopped = fault.what(), row.error = NAN;
     }
     if (worth_repeating(row)) repeated.push_back(&row);
-    progress.saw(row, worth_repeating(row));
+    const double comes = worth_repeating(row) ? repetitions * once : 0;
+    stages.skip(expected_of_all(row, repetitions, budget) - once - comes);
   }
   for (Row* row : repeated) row->seconds.clear();  // they had looks in them, and cold caches
   for (int n = 0; n < repetitions && repetitions > 1; ++n)
     for (Row* row : repeated) {
-      progress.begin(*row, ", again");
+      stages.begin_seldom(name_of(*row) + ", again", expected_seconds(*row, budget));
       repeat(*row);
-      progress.repeated(row->seconds.back());
     }
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/drivers/stages.h"
 #include "benchmarks/engines/engine.h"
 #include "benchmarks/scenes/scene_cases.h"
 
@@ -25,11 +26,13 @@ struct Row {
 
 constexpr double kOnceIsEnough = 2;  // CPU seconds: a run that takes longer is not repeated
 
-class Progress;
+// What its first run is expected to take, and all its runs [CPU seconds, roughly].
+double expected_seconds(const Row& row, double budget);
+double expected_of_all(const Row& row, int repetitions, double budget);
 
 // Each once for its error, which is not timed, then in `repetitions` turns for its time: in a turn
 // all rows run one after the other, so that what disturbs the machine for a while disturbs all of
 // them. A run that takes longer than `budget` [s] is stopped, and says so.
-void measure(std::vector<Row>& rows, int repetitions, double budget, Progress& progress);
+void measure(std::vector<Row>& rows, int repetitions, double budget, Stages& stages);
 
 }  // namespace twinarm::bench

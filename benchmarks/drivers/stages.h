@@ -2,6 +2,8 @@
 // stages of equal weight are expected to take equally long.
 #pragma once
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -10,18 +12,39 @@
 
 namespace twinarm::bench {
 
+// Of many short stages, one line is drawn again on a terminal, and elsewhere few are said.
+enum class StageLines { all, redrawn };
+
 class Stages {
  public:
-  Stages(std::string program, double total) : program_(std::move(program)), total_(total) {}
+  Stages(std::string program, double total, StageLines lines = StageLines::all)
+      : program_(std::move(program)),
+        total_(total),
+        redrawn_(lines == StageLines::redrawn && isatty(STDERR_FILENO) == 1) {}
+  ~Stages() {
+    if (redrawn_) std::cerr << "\r\033[K" << std::flush;
+  }
+  Stages(const Stages&) = delete;
+  Stages& operator=(const Stages&) = delete;
 
   void begin(const std::string& what, double weight = 1) {
-    std::cerr << program_ << ": ";
+    std::cerr << (redrawn_ ? "\r\033[K" : "") << program_ << ": ";
     if (done_ > 0)
       std::cerr << std::lround(100 * done_ / total_) << " %, about "
                 << std::lround(seconds() / done_ * (total_ - done_)) << " s left: ";
-    std::cerr << what << std::endl;
+    std::cerr << what << (redrawn_ ? "" : "\n") << std::flush;
+    said_ = seconds();
     done_ += weight;
   }
+  // One of many alike.
+  void begin_seldom(const std::string& what, double weight) {
+    if (seconds() - said_ < (redrawn_ ? 0.1 : 5))
+      done_ += weight;
+    else
+      begin(what, weight);
+  }
+  // What was expected and does not come; below zero: what comes and was not expected.
+  void skip(double weight) { total_ -= weight; }
 
  private:
   double seconds() const {
@@ -29,7 +52,8 @@ class Stages {
   }
 
   std::string program_;
-  double total_, done_ = 0;
+  double total_, done_ = 0, said_ = 0;
+  bool redrawn_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

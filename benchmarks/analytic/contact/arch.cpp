@@ -15,9 +15,7 @@
 #include <numbers>
 #include <vector>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -120,38 +118,14 @@ CaseResult limit(double off) {  // thickness
 }  // namespace
 
 CaseFamily arch_cases() {
-  const std::vector<AnalyticCase> cases = {
-      contact_case<stands, -120>(
-          "E13-stands", "masonry arch of 20 stones, t/R = 0.12: moves in 2 s [m]", 1e-6,
-          "A semicircular arch of 20 loose stones, t/R = 0.12, stands by its weight alone: a line "
-          "of thrust stays within all joints. With H and m thrust and moment at the crown, W and X "
-          "weight and middle of the stones up to the joint at φ: <p>r(φ) = (m + W X)/(W sin φ + H "
-          "cos φ), R − t/2 &lt; r(φ) &lt; R + t/2</p>",
-          ContactLook{.readings = {"z of the crown [m]"},
-                      .read = place<10, 2>,
-                      .exact = zero,
-                      .from_start = true,
-                      .no_steps = kResting}),
-      contact_case<falls, 150>("E13-falls",
-                               "masonry arch of 20 stones, t/R = 0.095: falls [faults]", 0,
-                               "The same arch with t/R = 0.095: no line of thrust stays within, "
-                               "and it falls. <p>t/R &lt; 0.1073</p>",
-                               ContactLook{.readings = {"z of the crown [m]"},
-                                           .read = place<10, 2>,
-                                           .from_start = true,
-                                           .no_steps = kCounted}),
-      contact_case<limit, 1>("E13-limit",
-                             "least t/R of that arch, by its line of thrust [relative]", 3e-4,
-                             "The least thickness at which that arch stands, against the least "
-                             "that leaves room for a line of thrust. <p>r(φ) = (m + W X)/(W sin φ "
-                             "+ H cos φ), R − t/2 &lt; r(φ) &lt; R + t/2</p>",
-                             ContactLook{.readings = {"z of the crown [m]"},
-                                         .read = place<10, 2>,
-                                         .from_start = true,
-                                         .search = "t/R",
-                                         .no_steps = kSearch}),
-  };
-  return {290, cases};
+  const ContactLook crown{
+      .readings = {"z of the crown [m]"}, .read = place<10, 2>, .from_start = true};
+  ContactLook still = crown;
+  still.exact = zero;
+  return {290,
+          {contact_case<stands, -120>("E13-stands", 1e-6, without_steps(still, kResting)),
+           contact_case<falls, 150>("E13-falls", 0, without_steps(crown, kCounted)),
+           contact_case<limit, 1>("E13-limit", 3e-4, searched(crown, "t/R"))}};
 }
 
 }  // namespace twinarm

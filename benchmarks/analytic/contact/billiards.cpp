@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -60,26 +58,17 @@ double known_billiard(std::size_t k, double t) {
 }  // namespace
 
 CaseFamily billiards_cases() {
-  const std::vector<AnalyticCase> cases = {
-      contact_case<billiard_time, 10>(
-          "E5-time", "billiard ball: end of sliding [s]; closed form", kStep,
-          "A billiard ball is struck to v = 2 m/s without spin, μ = 0.2. It slides, and rolls from "
-          "<p>t = 2v/(7 μ g), x = 12 v<sup>2</sup>/(49 μ g)</p> on.",
-          ContactLook{.readings = {"v of the centre [m/s]", "R ω [m/s]"},
-                      .read = speed_and_rim<286>,
-                      .exact = known_billiard,
-                      .about_steps = kPartOfStep}),
-      contact_case<billiard_speed, 10>(
-          "E5-speed", "billiard ball: speed, spin, loss; with top spin [relative]", 1e-3,
-          "How fast the ball rolls then, whatever μ is: without spin, and with a top spin R ω of 4 "
-          "m/s. <p>v<sub>end</sub> = (5/7) v + (2/7) R ω</p> Without spin it has lost 2/7 of its "
-          "energy.",
-          ContactLook{.readings = {"v of the centre [m/s]"},
-                      .read = velocity<1, 0>,
-                      .exact = known_centre,
-                      .runs = {"no spin", "top spin"}}),
-  };
-  return {220, cases};
+  return {220,
+          {contact_case<billiard_time, 10>("E5-time", kStep,
+                                           {.readings = {"v of the centre [m/s]", "R ω [m/s]"},
+                                            .read = speed_and_rim<286>,
+                                            .exact = known_billiard,
+                                            .about_steps = kPartOfStep}),
+           contact_case<billiard_speed, 10>("E5-speed", 1e-3,
+                                            {.readings = {"v of the centre [m/s]"},
+                                             .read = velocity<1, 0>,
+                                             .exact = known_centre,
+                                             .runs = {"no spin", "top spin"}})}};
 }
 
 }  // namespace twinarm

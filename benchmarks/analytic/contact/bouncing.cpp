@@ -3,9 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -108,59 +106,24 @@ double known_bounces(std::size_t, double t) {
   return known_bounce(0.8, t);
 }
 
-constexpr const char* kStatementE1 =
-    "A ball falls from h = 1 m onto a floor, with a restitution of e = 0.8. It meets the floor for "
-    "the nth time at <p>t<sub>n</sub> = √(2h/g) (1 + 2(e + e<sup>2</sup> + … + e<sup>n−1</sup>)), "
-    "v<sub>n</sub> = e<sup>n−1</sup> √(2 g h)</p>";
-
 }  // namespace
 
 CaseFamily bouncing_cases() {
-  const std::vector<AnalyticCase> cases = {
-      contact_case<bounce_times, 1>(
-          "E1-times", "ball from 1 m, e = 0.8, events located: times of six impacts [s]", 1e-9,
-          kStatementE1,
-          ContactLook{.readings = {"height of the ball [m]"},
-                      .read = seen_height<1>,
-                      .exact = known_bounces,
-                      .no_steps = kLocated}),
-      contact_case<bounce_speeds, 1>(
-          "E1-speeds", "ball from 1 m, e = 0.8, events located: speeds before five [relative]",
-          1e-9, kStatementE1,
-          ContactLook{.readings = {"height of the ball [m]"},
-                      .read = seen_height<1>,
-                      .exact = known_bounces,
-                      .no_steps = kLocated}),
-      contact_case<bounce_fixed, 1>(
-          "E1-fixed", "the same in steps of 1 ms: speeds before five impacts [relative]", 1e-3,
-          kStatementE1,
-          ContactLook{
-              .readings = {"height of the ball [m]"},
-              .read = seen_height<1>,
-              .exact = known_bounces,
-              .about_steps =
-                  "Flight is exact in any step. One of 0.5 ms would end 1 µm within the floor, "
-                  "ends on it, 0.1 % slower, and the ball bounces in the next one."}),
-      contact_case<rest_after_bounces, 1>(
-          "E1-rest", "the bouncing ball rests after its last impact at 4.0637 s [m/s]", 1e-6,
-          "The same ball bounces without end in a time that has one: from <p>t = √(2h/g) (1 + "
-          "e)/(1 − e) = 4.0637&nbsp;s</p> on it lies still.",
-          ContactLook{.readings = {"height of the ball [m]"},
-                      .read = seen_height<1>,
-                      .exact = known_bounces,
-                      .runs = {"located", "1 ms"},
-                      .no_steps = kRounding}),
-      contact_case<bounce_energy, 10>(
-          "E1-energy", "bouncing ball: energy rises for no e from 0 to 1 [of the kinetic]", 1e-10,
-          "The same ball with restitutions from 0 to 1: an impact takes energy or, with e = 1, "
-          "keeps it. <p>E<sub>after</sub> − E<sub>before</sub> = −(1 − e<sup>2</sup>) m "
-          "v<sup>2</sup>/2</p>",
-          ContactLook{.readings = {"height of the ball [m]"},
-                      .read = seen_height<1>,
-                      .runs = {"e = 0", "0.3", "0.5", "0.8", "0.95", "1"},
-                      .no_steps = kRounding}),
-  };
-  return {180, cases};
+  const ContactLook height{
+      .readings = {"height of the ball [m]"}, .read = seen_height<1>, .exact = known_bounces};
+  const ContactLook any{.readings = height.readings, .read = seen_height<1>, .no_steps = kRounding};
+  ContactLook in_steps = height;
+  in_steps.about_steps =
+      "Flight is exact in any step. One of 0.5 ms would end 1 µm within the floor, ends on it, "
+      "0.1 % slower, and the ball bounces in the next one.";
+  return {180,
+          {contact_case<bounce_times, 1>("E1-times", 1e-9, without_steps(height, kLocated)),
+           contact_case<bounce_speeds, 1>("E1-speeds", 1e-9, without_steps(height, kLocated)),
+           contact_case<bounce_fixed, 1>("E1-fixed", 1e-3, in_steps),
+           contact_case<rest_after_bounces, 1>(
+               "E1-rest", 1e-6, without_steps(of_runs(height, {"located", "1 ms"}), kRounding)),
+           contact_case<bounce_energy, 10>(
+               "E1-energy", 1e-10, of_runs(any, {"e = 0", "0.3", "0.5", "0.8", "0.95", "1"}))}};
 }
 
 }  // namespace twinarm

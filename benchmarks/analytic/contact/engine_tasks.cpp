@@ -92,10 +92,6 @@ double error_of(const Task& task, const Task& truth) {
   return mean;
 }
 
-double error_of(const Task& task) {
-  return error_of(task, task);
-}
-
 // As much of a task as a run of all cases has time for; scripts/measure/peers runs the whole.
 Task first(double seconds, Task task) {
   task.duration = seconds;
@@ -211,15 +207,11 @@ std::vector<double> seen_heights(const ContactScene& s) {
   return {s.p(1).z(), s.p(216).z()};
 }
 
-constexpr const char* kStatementRolling =
-    "A box of M = 10 kg carries n = 25 balls of m = 1 kg and is pulled with F = 150 N (RaiSim's "
-    "SimBenchmark). It slides, and the balls roll on it: <p>F &minus; &mu; (M + n m) g = (M + "
-    "(2/7) n m) a, a<sub>ball</sub> = (2/7) a</p>";
-
-AnalyticCase task_case(const char* name, const char* reference, double tolerance,
-                       CaseResult (*run)(), CaseResult (*mistaken)(), const char* statement,
-                       ContactLook look) {
-  AnalyticCase c = experiment_case(name, "engines", reference, tolerance, run, mistaken, statement);
+AnalyticCase task_case(const char* name, double tolerance, const Task& task,
+                       const Task& with_mistake, ContactLook look) {
+  AnalyticCase c(name, tolerance, [=](bool mistaken) {
+    return CaseResult{error_of(mistaken ? with_mistake : task, task)};
+  });
   look.no_steps = kPublished;
   c.look = std::make_shared<const ContactLook>(std::move(look));
   return c;
@@ -232,46 +224,19 @@ namespace twinarm {
 
 CaseFamily engine_tasks_cases() {
   using namespace engine_tasks;
-  const std::vector<AnalyticCase> cases = {
-      task_case(
-          "H1-rolling-y", "box with 25 balls, pulled along y: velocities, mean square [m2/s2]",
-          1e-6, [] { return CaseResult{error_of(rolling(false))}; },
-          [] { return CaseResult{error_of(heavier(rolling(false)))}; }, kStatementRolling,
-          {.readings = {"box [m/s]", "ball [m/s]"},
-           .read = seen_speeds,
-           .exact = known_box_and_ball}),
-      task_case(
-          "H1-rolling-xy", "the same, pulled along (1/2, sqrt(3)/2) [m2/s2]", 1e-6,
-          [] { return CaseResult{error_of(rolling(true))}; },
-          [] { return CaseResult{error_of(heavier(rolling(true)))}; }, kStatementRolling,
-          {.readings = {"box [m/s]", "ball [m/s]"},
-           .read = seen_speeds,
-           .exact = known_box_and_ball}),
-      task_case(
-          "H1-bouncing", "49 elastic balls for 20 s: energy, mean square [J2]", 0.1,
-          [] { return CaseResult{error_of(bouncing())}; },
-          [] { return CaseResult{error_of(less_elastic(bouncing()))}; },
-          "49 balls of m = 10 kg fall from h = 5 m and bounce without loss for 20 s: <p>E = n m g "
-          "h = const</p>",
-          {.readings = {"height [m]"}, .read = place<1, 2>, .exact = known_bouncing, .until = 8}),
-      task_case(
-          "H1-666", "216 balls fall on each other, 0.55 s: overlaps squared, mean [m2]", 1e-3,
-          [] { return CaseResult{error_of(first(0.55, pile(false)))}; },
-          [] {
-            const Task task = first(0.55, pile(false));
-            return CaseResult{error_of(smaller(task), task)};
-          },
-          "216 balls in a cube of six by six by six fall on each other without friction; none "
-          "shall enter another. <p>&Sigma; d<sup>2</sup> = 0, d the overlap of two balls</p>",
-          {.readings = {"first ball [m]", "last ball [m]"}, .read = seen_heights}),
-      task_case(
-          "H1-666-elastic", "the same, elastic, 2 s: energy, mean square [J2]", 50,
-          [] { return CaseResult{error_of(first(2, pile(true)))}; },
-          [] { return CaseResult{error_of(less_elastic(first(2, pile(true))))}; },
-          "The same without loss: <p>E = const</p>",
-          {.readings = {"first ball [m]", "last ball [m]"}, .read = seen_heights}),
-  };
-  return {380, cases};
+  const ContactLook speeds{
+      .readings = {"box [m/s]", "ball [m/s]"}, .read = seen_speeds, .exact = known_box_and_ball};
+  const ContactLook heights{.readings = {"first ball [m]", "last ball [m]"}, .read = seen_heights};
+  const Task part = first(0.55, pile(false)), elastic = first(2, pile(true));
+  return {
+      380,
+      {task_case("H1-rolling-y", 1e-6, rolling(false), heavier(rolling(false)), speeds),
+       task_case("H1-rolling-xy", 1e-6, rolling(true), heavier(rolling(true)), speeds),
+       task_case(
+           "H1-bouncing", 0.1, bouncing(), less_elastic(bouncing()),
+           {.readings = {"height [m]"}, .read = place<1, 2>, .exact = known_bouncing, .until = 8}),
+       task_case("H1-666", 1e-3, part, smaller(part), heights),
+       task_case("H1-666-elastic", 50, elastic, less_elastic(elastic), heights)}};
 }
 
 }  // namespace twinarm

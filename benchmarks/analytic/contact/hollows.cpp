@@ -3,9 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -155,58 +153,28 @@ double known_cylinder_swing(std::size_t, double t) {
 }  // namespace
 
 CaseFamily hollows_cases() {
-  const std::vector<AnalyticCase> cases = {
-      contact_case<sphere_in_bowl, 5>("E12-bowl",
-                                      "sphere in a bowl: sqrt(5 g/(7 (R - r))) [relative]", 1e-3,
-                                      "A sphere of r = 0.1 m rolls without slipping in a bowl of R "
-                                      "= 1 m, 0.02 rad to and fro: <p>ω = √(5g/(7(R − r)))</p>",
-                                      ContactLook{.readings = {"x [m]"},
-                                                  .read = place<1, 0>,
-                                                  .exact = known_sphere_swing,
-                                                  .until = 6,
-                                                  .about_steps = kSmallSwings}),
-      contact_case<sphere_in_trough, 5>(
-          "E12-trough", "sphere in a trough: sqrt(5 g/(7 (R - r))) [relative]", 1e-3,
-          "The same sphere in a trough: <p>ω = √(5g/(7(R − r)))</p>",
-          ContactLook{.readings = {"x [m]"},
-                      .read = place<1, 0>,
-                      .exact = known_sphere_swing,
-                      .until = 6,
-                      .about_steps = kSmallSwings}),
-      contact_case<cylinder_in_trough, 5>(
-          "E12-cylinder", "cylinder in a trough: sqrt(2 g/(3 (R - r))) [relative]", 1e-3,
-          "A cylinder in the trough: <p>ω = √(2g/(3(R − r)))</p>",
-          ContactLook{.readings = {"x [m]"},
-                      .read = place<1, 0>,
-                      .exact = known_cylinder_swing,
-                      .until = 6,
-                      .about_steps = kSmallSwings}),
-      contact_case<turntable_period, 2>(
-          "E12-turntable", "ball on a turntable: its circle takes 7/2 turns [relative]", 1e-3,
-          "A ball rolls on a table that turns at Ω. Its centre goes round a circle that is not "
-          "about the table's axis, at <p>v′ = (2/7) Ω × v</p> so that it takes 7/2 turns of the "
-          "table.",
-          ContactLook{.readings = {"x [m]", "y [m]"}, .read = seen_ball, .exact = known_circle}),
-      contact_case<turntable_circle, 1>(
-          "E12-circle", "ball on a turntable, events located: place on its circle [of R]", 1e-9,
-          "The same ball: where on that circle it is, at any time. <p>r(t) − c = Rot(2Ωt/7) (r(0) "
-          "− c), c = −(5/2) r(0)</p>",
-          ContactLook{.readings = {"x [m]", "y [m]"},
-                      .read = seen_ball,
-                      .exact = known_circle,
-                      .until = 5.5,
-                      .no_steps = kLocated}),
-      contact_case<upright_tube, 10>(
-          "E12-tube",
-          "ball in an upright tube, events located: up and down at sqrt(2/7) [relative]", 1e-9,
-          "A ball rolls round in an upright tube, and does not sink: it goes up and down at <p>ω = "
-          "√(2/7) φ′</p> where φ′ is the rate at which it goes round.",
-          ContactLook{.readings = {"height [m]"},
-                      .read = place<1, 2>,
-                      .exact = known_tube,
-                      .no_steps = kLocated}),
-  };
-  return {280, cases};
+  const ContactLook sphere{.readings = {"x [m]"},
+                           .read = place<1, 0>,
+                           .exact = known_sphere_swing,
+                           .until = 6,
+                           .about_steps = kSmallSwings};
+  ContactLook cylinder = sphere;
+  cylinder.exact = known_cylinder_swing;
+  const ContactLook circle{
+      .readings = {"x [m]", "y [m]"}, .read = seen_ball, .exact = known_circle};
+  ContactLook located = without_steps(circle, kLocated);
+  located.until = 5.5;
+  return {280,
+          {contact_case<sphere_in_bowl, 5>("E12-bowl", 1e-3, sphere),
+           contact_case<sphere_in_trough, 5>("E12-trough", 1e-3, sphere),
+           contact_case<cylinder_in_trough, 5>("E12-cylinder", 1e-3, cylinder),
+           contact_case<turntable_period, 2>("E12-turntable", 1e-3, circle),
+           contact_case<turntable_circle, 1>("E12-circle", 1e-9, located),
+           contact_case<upright_tube, 10>("E12-tube", 1e-9,
+                                          {.readings = {"height [m]"},
+                                           .read = place<1, 2>,
+                                           .exact = known_tube,
+                                           .no_steps = kLocated})}};
 }
 
 }  // namespace twinarm

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/mass_matrix.h"
 #include "solver/linear_algebra/dense_algebra.h"
@@ -83,24 +81,13 @@ CaseResult slides_or_jams(double off) {  // mu
 }  // namespace
 
 CaseFamily painleve_cases() {
-  const std::vector<AnalyticCase> cases = {
-      contact_case<threshold_of_sign, 1>(
-          "E7-sign", "Painleve's rod: mu where the normal force changes sign [relative]", 1e-12,
-          "A rod that slides on its lower end, at θ to it (Painlevé 1895). A normal force on the "
-          "end presses it away from the floor only below <p>μ = (1/3 + cos<sup>2</sup>θ)/(sin θ "
-          "cos θ)</p>"),
-      contact_case<slides_or_jams, 100>(
-          "E7-rod", "Painleve's rod, mu 0.3 to 5: finite, solved, losing energy [faults]", 0,
-          "The same rod with μ from 0.3 to 5. Below 4/3 it slides on; above, no force solves the "
-          "equations, and an impulse must (impact without collision). In all cases: finite, "
-          "solved, no energy won, no sinking. <p>μ<sub>crit</sub> = 4/3 at cos<sup>2</sup>θ = "
-          "1/5</p>",
-          ContactLook{.readings = {"v along the floor [m/s]"},
-                      .read = velocity<1, 0>,
-                      .runs = {"μ = 0.3", "0.8", "1.2", "1.3", "1.4", "2"},
-                      .no_steps = kCounted}),
-  };
-  return {250, cases};
+  return {250,
+          {contact_case<threshold_of_sign, 1>("E7-sign", 1e-12),
+           contact_case<slides_or_jams, 100>("E7-rod", 0,
+                                             {.readings = {"v along the floor [m/s]"},
+                                              .read = velocity<1, 0>,
+                                              .runs = {"μ = 0.3", "0.8", "1.2", "1.3", "1.4", "2"},
+                                              .no_steps = kCounted})}};
 }
 
 }  // namespace twinarm

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -92,49 +90,33 @@ double known_slipping(std::size_t k, double t) {
   return kGravity * t * (k == 0 ? std::sin(kRollerIncline) - rub : 2.5 * rub);
 }
 
-constexpr const char* kStatementE4 =
-    "Sphere, disc and hoop of R = 0.1 m, I = c m R<sup>2</sup> with c = 2/5, 1/2 and 1, roll down "
-    "20°: <p>x″ = g sin α/(1 + c), F = m g sin α c/(1 + c)</p>";
-
 }  // namespace
 
 CaseFamily rolling_cases() {
-  const std::vector<AnalyticCase> cases = {
-      contact_case<rolling_speeds, 2>(
-          "E4-speeds", "sphere, disc, hoop on 20 degrees: 5/7, 2/3, 1/2 g sin [relative]", 1e-3,
-          kStatementE4,
-          ContactLook{.readings = {"speed [m/s]"},
-                      .read = velocity<1, 0>,
-                      .exact = known_rolling,
-                      .runs = {"sphere", "disc", "hoop"}}),
-      contact_case<rolling_friction, 2>(
-          "E4-friction", "friction on the rolling sphere: 0.95863 N [relative]", 1e-3, kStatementE4,
-          ContactLook{.readings = {"friction [N]"},
-                      .read = seen_friction,
-                      .exact = [](std::size_t, double) { return 0.9586336017213744; }}),
-      contact_case<least_friction, 10>(
-          "E4-threshold", "least mu that lets sphere, disc, hoop roll: 2/7, 1/3, 1/2 tan", 1e-3,
-          "The least friction with which sphere, disc and hoop roll on 20° without slipping: <p>μ "
-          "= tan α c/(1 + c)</p>",
-          ContactLook{
-              .readings = {"slip [m/s]"}, .read = seen_slip, .search = "μ", .no_steps = kSearch}),
-      contact_case<slipping, 2>(
-          "E4-slip", "mu = 0.05: speed and spin of the sphere after 1 s [relative]", 1e-3,
-          "A sphere on 20° with μ = 0.05, too little to roll: it slips, and turns. <p>x″ = g (sin "
-          "α − μ cos α), R ω′ = (5/2) μ g cos α</p>",
-          ContactLook{.readings = {"v of the centre [m/s]", "R ω [m/s]"},
-                      .read = speed_and_rim<1000>,
-                      .exact = known_slipping}),
-      contact_case<small_sphere, 1>(
-          "E4-small", "R = 0.05 m on 15 degrees: speed after 1 s [m/s]", 5.5e-4,
-          "A sphere of R = 0.05 m rolls down 15°: <p>x″ = (5/7) g sin α</p>",
-          ContactLook{
-              .readings = {"speed [m/s]"},
-              .read = velocity<1, 0>,
-              .exact = [](std::size_t,
-                          double t) { return 5 / 7. * kGravity * std::sin(15 * kDegree) * t; }}),
-  };
-  return {240, cases};
+  return {
+      240,
+      {contact_case<rolling_speeds, 2>("E4-speeds", 1e-3,
+                                       {.readings = {"speed [m/s]"},
+                                        .read = velocity<1, 0>,
+                                        .exact = known_rolling,
+                                        .runs = {"sphere", "disc", "hoop"}}),
+       contact_case<rolling_friction, 2>(
+           "E4-friction", 1e-3,
+           {.readings = {"friction [N]"},
+            .read = seen_friction,
+            .exact = [](std::size_t, double) { return 0.9586336017213744; }}),
+       contact_case<least_friction, 10>(
+           "E4-threshold", 1e-3, searched({.readings = {"slip [m/s]"}, .read = seen_slip}, "μ")),
+       contact_case<slipping, 2>("E4-slip", 1e-3,
+                                 {.readings = {"v of the centre [m/s]", "R ω [m/s]"},
+                                  .read = speed_and_rim<1000>,
+                                  .exact = known_slipping}),
+       contact_case<small_sphere, 1>("E4-small", 5.5e-4,
+                                     {.readings = {"speed [m/s]"},
+                                      .read = velocity<1, 0>,
+                                      .exact = [](std::size_t, double t) {
+                                        return 5 / 7. * kGravity * std::sin(15 * kDegree) * t;
+                                      }})}};
 }
 
 }  // namespace twinarm

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -175,84 +173,41 @@ Values seen_up(Scene s) {
   return {-s.p(1).x()};
 }
 
-constexpr const char* kStatementE2 =
-    "A block of 2 kg on an incline of 30° with a friction of μ = 0.5 slides, for tan 30° = 0.577 "
-    "is more than that: <p>x″ = g (sin α − μ cos α)</p>";
-
 }  // namespace
 
 CaseFamily sliding_cases() {
-  const std::vector<AnalyticCase> cases = {
-      contact_case<creep, -50>(
-          "E2-creep", "block on 30 degrees, mu = 0.6: creep in 10 s [m]", 1e-6,
-          "A block of 2 kg on an incline of 30° with μ = 0.6 &gt; tan 30° is at rest, and stays "
-          "there: exact Coulomb friction does not creep. <p>x(t) = x(0)</p>",
-          ContactLook{.readings = {"x downhill [m]"},
-                      .read = place<1, 0>,
-                      .exact = zero,
-                      .no_steps = kResting}),
-      contact_case<holding_forces, 1>(
-          "E2-forces", "block held on 30 degrees: 9.81 N and 16.9914 N [relative]", 1e-6,
-          "The block at rest on 30°: what carries it is its weight. <p>F = m g sin α = "
-          "9.81&nbsp;N, N = m g cos α = 16.991&nbsp;N</p>",
-          ContactLook{.readings = {"friction [N]", "normal force [N]"},
-                      .read = seen_forces,
-                      .exact =
-                          [](std::size_t k, double) {
-                            return 2 * kGravity * (k == 0 ? std::sin(kSlope) : std::cos(kSlope));
-                          },
-                      .no_steps = kResting}),
-      contact_case<slide_speed, 1>(
-          "E2-slide", "block on 30 degrees, mu = 0.5: speed after 1 s [relative]", 1e-3,
-          kStatementE2,
-          ContactLook{
-              .readings = {"speed [m/s]"}, .read = velocity<1, 0>, .exact = known_slide_speed}),
-      contact_case<slide_place, 1>(
-          "E2-place", "block on 30 degrees, mu = 0.5: place after 1 s [s]", kStep, kStatementE2,
-          ContactLook{.readings = {"x downhill [m]"}, .read = place<1, 0>, .exact = known_slide}),
-      contact_case<turn_time, 10>(
-          "E2-up", "block pushed uphill at 3 m/s: when and where it turns [s]", kStep,
-          "The block is pushed uphill at 3 m/s, μ = 0.5: friction and weight slow it down "
-          "together. <p>t = v/(g (sin α + μ cos α)), s = v<sup>2</sup>/(2g (sin α + μ cos α))</p>",
-          ContactLook{.readings = {"way uphill [m]"},
-                      .read = seen_up,
-                      .exact = known_uphill,
-                      .about_steps = kPartOfStep}),
-      contact_case<return_speed, 1>(
-          "E2-return", "block pushed uphill, events located: how fast it is back [relative]", 1e-9,
-          "The block is pushed uphill at 3 m/s, and comes back to where it was: friction has taken "
-          "energy on both ways. <p>v<sub>back</sub> = v √((sin α − μ cos α)/(sin α + μ cos α))</p>",
-          ContactLook{.readings = {"way uphill [m]"},
-                      .read = seen_up,
-                      .exact = known_uphill,
-                      .no_steps = kLocated}),
-      contact_case<stopping, 5>(
-          "E2-stop", "block on the flat, 3 m/s, mu = 0.4: when and where it stops [s]", kStep,
-          "A block on the flat starts at 3 m/s, μ = 0.4, in four directions: <p>t = v/(μ g), s = "
-          "v<sup>2</sup>/(2 μ g)</p>",
-          ContactLook{.readings = {"way [m]"},
-                      .read = seen_way,
-                      .exact = known_stop,
-                      .runs = {"0°", "15°", "30°", "45°"},
-                      .about_steps = kPartOfStep}),
-      contact_case<headings, 5>("E2-headings",
-                                "stops alike at headings of 0, 15, 30, 45 degrees [relative]", 1e-3,
-                                "The same in four directions: a cone of friction knows none, a "
-                                "pyramid does. <p>s(0°) = s(15°) = s(30°) = s(45°)</p>",
-                                ContactLook{.readings = {"way [m]"},
-                                            .read = seen_way,
-                                            .exact = known_stop,
-                                            .runs = {"0°", "0° again", "15°", "30°", "45°"}}),
-      contact_case<least_friction_to_hold, 5>("E2-threshold",
-                                              "least mu that holds on 30 degrees: tan 30", 1e-3,
-                                              "The least friction that holds a block on 30°, by "
-                                              "bisection: <p>μ = tan 30° = 0.57735</p>",
-                                              ContactLook{.readings = {"speed [m/s]"},
-                                                          .read = velocity<1, 0>,
-                                                          .search = "μ",
-                                                          .no_steps = kSearch}),
-  };
-  return {210, cases};
+  const ContactLook speed{.readings = {"speed [m/s]"}, .read = velocity<1, 0>};
+  const ContactLook back{.readings = {"way uphill [m]"}, .read = seen_up, .exact = known_uphill};
+  const ContactLook way{.readings = {"way [m]"}, .read = seen_way, .exact = known_stop};
+  ContactLook up = back, stops = of_runs(way, {"0°", "15°", "30°", "45°"});
+  up.about_steps = stops.about_steps = kPartOfStep;
+  return {210,
+          {contact_case<creep, -50>("E2-creep", 1e-6,
+                                    {.readings = {"x downhill [m]"},
+                                     .read = place<1, 0>,
+                                     .exact = zero,
+                                     .no_steps = kResting}),
+           contact_case<holding_forces, 1>(
+               "E2-forces", 1e-6,
+               {.readings = {"friction [N]", "normal force [N]"},
+                .read = seen_forces,
+                .exact =
+                    [](std::size_t k, double) {
+                      return 2 * kGravity * (k == 0 ? std::sin(kSlope) : std::cos(kSlope));
+                    },
+                .no_steps = kResting}),
+           contact_case<slide_speed, 1>(
+               "E2-slide", 1e-3,
+               {.readings = {"speed [m/s]"}, .read = velocity<1, 0>, .exact = known_slide_speed}),
+           contact_case<slide_place, 1>(
+               "E2-place", kStep,
+               {.readings = {"x downhill [m]"}, .read = place<1, 0>, .exact = known_slide}),
+           contact_case<turn_time, 10>("E2-up", kStep, up),
+           contact_case<return_speed, 1>("E2-return", 1e-9, without_steps(back, kLocated)),
+           contact_case<stopping, 5>("E2-stop", kStep, stops),
+           contact_case<headings, 5>("E2-headings", 1e-3,
+                                     of_runs(way, {"0°", "0° again", "15°", "30°", "45°"})),
+           contact_case<least_friction_to_hold, 5>("E2-threshold", 1e-3, searched(speed, "μ"))}};
 }
 
 }  // namespace twinarm

@@ -3,9 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -137,66 +135,46 @@ Values seen_jellett(Scene s) {
 }  // namespace
 
 CaseFamily spinning_cases() {
-  const std::vector<AnalyticCase> cases = {
-      contact_case<coin, 20>(
-          "E8", "spinning coin at 10 degrees, events located: its centre stays [of R]", 1e-3,
-          "A thin coin rolls round on its rim, leaning by α = 10°, while its centre stands still "
-          "(Euler's disc): <p>Ω<sup>2</sup> = 4g/(R sin α)</p>",
-          ContactLook{.readings = {"off its place [m]"},
-                      .read = [](Scene s) { return Values{std::hypot(s.p(1).x(), s.p(1).y())}; },
-                      .exact = zero,
-                      .until = 0.2,
-                      .no_steps = kLocated}),
-      contact_case<jellett, 10>(
-          "E9-jellett", "tippe-top, 0.1 ms: Jellett's integral over 4 s [relative]", 1e-4,
-          "A tippe-top, a sphere whose centre of mass lies 3 mm below its middle, spins at 155 "
-          "rad/s and rubs on the floor. Whatever the friction, Jellett's integral stays: <p>J = −L "
-          "· r</p> L the angular momentum, r from the centre of mass to the contact.",
-          ContactLook{.readings = {"change of J / I [m/s]"},
-                      .read = seen_jellett,
-                      .exact = zero,
-                      .from_start = true,
-                      .step = 1e-4}),
-      contact_case<turns_over, -500>(
-          "E9-over", "tippe-top: it turns over [faults]", 0,
-          "The same top turns over: as Jellett's integral stays while friction takes energy, the "
-          "state of least energy is upside down. <p>cos θ → −1</p>",
-          ContactLook{.readings = {"cos of the lean [1]"},
-                      .read = [](Scene s) { return Values{s.R(1)(2, 2)}; },
-                      .no_steps = kCounted}),
-      contact_case<reversal, 200>(
-          "E10-time", "rattleback, 0.1 ms: -5 rad/s turns round at 4.156 s [relative]", 0.05,
-          "A rattleback: an ellipsoid whose principal axes of inertia lie askew to those of its "
-          "shape. Spun the one way it begins to rattle, stops, and turns the other way; −5 rad/s "
-          "turn round at 4.156 s by an independent integration of rolling, <p>v = −ω × r</p> with "
-          "r from the centre of mass to the contact.",
-          ContactLook{.readings = {"spin [rad/s]"},
-                      .read = [](Scene s) { return Values{s.w(1).z()}; },
-                      .exact = [](std::size_t, double t) { return t == 4.156 ? 0. : NAN; },
-                      .known_at = 4.156,
-                      .step = 1e-4,
-                      .about_steps = "It falls from 0.1 ms on, nearly by half as the step halves. "
-                                     "With longer steps rolling loses so much that the stone "
-                                     "hardly rattles; with located events it is 7e-5 (E10-spin)."}),
-      contact_case<spin_after, 1>(
-          "E10-spin", "rattleback, events located: spin at 5 s, 1.80929591 rad/s [relative]", 1e-7,
-          "The same stone in steps that locate their events: rolling then loses nothing, <p>v = −ω "
-          "× r</p> and the spin after it has turned round is that of the independent integration.",
-          ContactLook{
-              .readings = {"spin [rad/s]"},
-              .read = [](Scene s) { return Values{s.w(1).z()}; },
-              .exact = [](std::size_t, double t) { return t == 5 ? 1.80929591321873 : NAN; },
-              .known_at = 5,
-              .no_steps = kLocated}),
-      contact_case<no_reversal, -2000>(
-          "E10-other", "rattleback: +5 rad/s does not turn round in 20 s [faults]", 0,
-          "The same stone, spun the other way, goes on for 20 s: <p>ω<sub>z</sub>(t) &gt; 0</p>",
-          ContactLook{.readings = {"spin [rad/s]"},
-                      .read = [](Scene s) { return Values{s.w(1).z()}; },
-                      .until = 6,
-                      .no_steps = kCounted}),
-  };
-  return {260, cases};
+  return {260,
+          {contact_case<coin, 20>(
+               "E8", 1e-3,
+               {.readings = {"off its place [m]"},
+                .read = [](Scene s) { return Values{std::hypot(s.p(1).x(), s.p(1).y())}; },
+                .exact = zero,
+                .until = 0.2,
+                .no_steps = kLocated}),
+           contact_case<jellett, 10>("E9-jellett", 1e-4,
+                                     {.readings = {"change of J / I [m/s]"},
+                                      .read = seen_jellett,
+                                      .exact = zero,
+                                      .from_start = true,
+                                      .step = 1e-4}),
+           contact_case<turns_over, -500>("E9-over", 0,
+                                          {.readings = {"cos of the lean [1]"},
+                                           .read = [](Scene s) { return Values{s.R(1)(2, 2)}; },
+                                           .no_steps = kCounted}),
+           contact_case<reversal, 200>(
+               "E10-time", 0.05,
+               {.readings = {"spin [rad/s]"},
+                .read = [](Scene s) { return Values{s.w(1).z()}; },
+                .exact = [](std::size_t, double t) { return t == 4.156 ? 0. : NAN; },
+                .known_at = 4.156,
+                .step = 1e-4,
+                .about_steps = "It falls from 0.1 ms on, nearly by half as the step halves. "
+                               "With longer steps rolling loses so much that the stone "
+                               "hardly rattles; with located events it is 7e-5 (E10-spin)."}),
+           contact_case<spin_after, 1>(
+               "E10-spin", 1e-7,
+               {.readings = {"spin [rad/s]"},
+                .read = [](Scene s) { return Values{s.w(1).z()}; },
+                .exact = [](std::size_t, double t) { return t == 5 ? 1.80929591321873 : NAN; },
+                .known_at = 5,
+                .no_steps = kLocated}),
+           contact_case<no_reversal, -2000>("E10-other", 0,
+                                            {.readings = {"spin [rad/s]"},
+                                             .read = [](Scene s) { return Values{s.w(1).z()}; },
+                                             .until = 6,
+                                             .no_steps = kCounted})}};
 }
 
 }  // namespace twinarm

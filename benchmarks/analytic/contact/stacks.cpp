@@ -3,9 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -100,50 +98,37 @@ Values seen_loads(Scene s) {
   return {under(boxes)...};
 }
 
+ContactLook top_box(const std::string& axis, Values (*read)(Scene)) {
+  return {.readings = {axis + " of the top box [m]"},
+          .read = read,
+          .exact = zero,
+          .until = 1,
+          .from_start = true,
+          .no_steps = kResting};
+}
+
 }  // namespace
 
 CaseFamily stacks_cases() {
-  const std::vector<AnalyticCase> cases = {
-      contact_case<forces, 1>(
-          "E11-forces", "ten boxes: force under box i is (n - i + 1) m g [relative]", 1e-6,
-          "Ten cubes of 1 kg stand on each other, each up to 1 cm off the middle, for 10 s. Box i "
-          "from below carries itself and all above: <p>N<sub>i</sub> = (n − i + 1) m g</p>",
-          ContactLook{.readings = {"under box 1 [N]", "under box 5 [N]", "under box 10 [N]"},
-                      .read = seen_loads<1, 5, 10>,
-                      .exact = [](std::size_t k,
-                                  double) { return kGravity * (k == 0   ? 10
-                                                               : k == 1 ? 6
-                                                                        : 1); },
-                      .until = 1,
-                      .no_steps = kResting}),
-      contact_case<sideways, 600>("E11-drift", "ten boxes: how far they slide in 10 s [m]", 1e-5,
-                                  "The same stack: no box slides. <p>x(t) = x(0)</p>",
-                                  ContactLook{.readings = {"x of the top box [m]"},
-                                              .read = place<10, 0>,
-                                              .exact = zero,
-                                              .until = 1,
-                                              .from_start = true,
-                                              .no_steps = kResting}),
-      contact_case<sinking, -1>("E11-sinking", "ten boxes: how far they sink in 10 s [m]", 1e-4,
-                                "The same stack: no box sinks. <p>z(t) = z(0)</p>",
-                                ContactLook{.readings = {"z of the top box [m]"},
-                                            .read = place<10, 2>,
-                                            .exact = zero,
-                                            .until = 1,
-                                            .from_start = true,
-                                            .no_steps = kResting}),
-      contact_case<heavy_on_light, 1>(
-          "E11-heavy", "a box of 100 kg on one of 1 kg: forces [relative]", 1e-6,
-          "100 kg stand on 1 kg: what is hard for a solver that goes round from contact to "
-          "contact. <p>N<sub>1</sub> = (m<sub>1</sub> + m<sub>2</sub>) g, N<sub>2</sub> = "
-          "m<sub>2</sub> g</p>",
-          ContactLook{
-              .readings = {"under 1 kg [N]", "under 100 kg [N]"},
-              .read = seen_loads<1, 2>,
-              .exact = [](std::size_t k, double) { return kGravity * (k == 0 ? 101 : 100); },
-              .no_steps = kResting}),
-  };
-  return {270, cases};
+  return {270,
+          {contact_case<forces, 1>(
+               "E11-forces", 1e-6,
+               {.readings = {"under box 1 [N]", "under box 5 [N]", "under box 10 [N]"},
+                .read = seen_loads<1, 5, 10>,
+                .exact = [](std::size_t k,
+                            double) { return kGravity * (k == 0   ? 10
+                                                         : k == 1 ? 6
+                                                                  : 1); },
+                .until = 1,
+                .no_steps = kResting}),
+           contact_case<sideways, 600>("E11-drift", 1e-5, top_box("x", place<10, 0>)),
+           contact_case<sinking, -1>("E11-sinking", 1e-4, top_box("z", place<10, 2>)),
+           contact_case<heavy_on_light, 1>(
+               "E11-heavy", 1e-6,
+               {.readings = {"under 1 kg [N]", "under 100 kg [N]"},
+                .read = seen_loads<1, 2>,
+                .exact = [](std::size_t k, double) { return kGravity * (k == 0 ? 101 : 100); },
+                .no_steps = kResting})}};
 }
 
 }  // namespace twinarm

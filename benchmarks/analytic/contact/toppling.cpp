@@ -3,9 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {
@@ -141,60 +139,25 @@ double known_rocking(std::size_t, double t) {
 }  // namespace
 
 CaseFamily toppling_cases() {
-  const std::vector<AnalyticCase> cases = {
-      contact_case<tilt_limit, 20>(
-          "E3-tilt", "block 0.2 x 0.5 m: tilt limit 21.80 degrees [relative]", 0.01,
-          "A block, b = 0.2 m wide and h = 0.5 m high, on an incline that it cannot slide down: it "
-          "topples where its weight passes the lower edge. <p>tan α = b/h</p>",
-          ContactLook{.readings = {"lean [rad]"},
-                      .read = seen_lean,
-                      .search = "α/rad",
-                      .no_steps = kSearch}),
-      contact_case<push_limit, 20>(
-          "E3-push", "horizontal push at the top that topples: 0.2 m g [relative]", 0.01,
-          "A level force at the upper edge of the block topples it from <p>F = m g b/(2h)</p> on.",
-          ContactLook{.readings = {"lean [rad]"},
-                      .read = seen_lean,
-                      .search = "F/(m g)",
-                      .no_steps = kSearch}),
-      contact_case<slide_or_topple, 20>(
-          "E3-slide", "least mu that topples it as it slides: b/h = 0.4 [relative]", 0.01,
-          "The block slides down 30° with a friction that is too small to hold it; the friction "
-          "topples it from <p>μ = b/h = 0.4</p> on, whatever the incline.",
-          ContactLook{
-              .readings = {"lean [rad]"}, .read = seen_lean, .search = "μ", .no_steps = kSearch}),
-      contact_case<curb_rate, 20>(
-          "E3-curb", "rate after a curb at 1 m/s: 2.5862 rad/s [relative]", 0.01,
-          "The block slides without friction into a low curb at v = 1 m/s and turns about its "
-          "edge; the impact is plastic: <p>ω = m v (h/2)/I<sub>edge</sub>, I<sub>edge</sub> = m "
-          "(b<sup>2</sup> + h<sup>2</sup>)/3</p>",
-          ContactLook{.readings = {"rate [rad/s]"},
-                      .read = [](Scene s) { return Values{s.w(1).y()}; },
-                      .exact = [](std::size_t, double) { return 2.586206896551724; },
-                      .known_at = 2e-3,
-                      .no_steps = "A plastic impact takes two steps: the rate is read after the "
-                                  "second, and weight works on it meanwhile."}),
-      contact_case<curb_speed, 20>(
-          "E3-over", "speed that takes it over the curb: 0.76446 m/s [relative]", 0.01,
-          "How fast it must be to turn over that curb: the energy after the impact lifts its "
-          "centre above the edge. <p>I<sub>edge</sub> ω<sup>2</sup>/2 = m g (√(b<sup>2</sup> + "
-          "h<sup>2</sup>) − h)/2</p>",
-          ContactLook{.readings = {"lean [rad]"},
-                      .read = seen_lean,
-                      .search = "v/(m/s)",
-                      .no_steps = kSearch}),
-      contact_case<rocking, 20>(
-          "E3-rocking", "Housner's ratio (w+/w-)^2 of a rocking block, events located [relative]",
-          0.01,
-          "A block that leans by 0.1 rad falls back, and goes on about its other edge (Housner "
-          "1963): <p>(ω<sub>+</sub>/ω<sub>−</sub>)<sup>2</sup> = (1 − (3/2) "
-          "sin<sup>2</sup>α)<sup>2</sup>, tan α = b/h</p>",
-          ContactLook{.readings = {"lean [rad]"},
-                      .read = seen_lean,
-                      .exact = known_rocking,
-                      .no_steps = kLocated}),
-  };
-  return {230, cases};
+  const ContactLook lean{.readings = {"lean [rad]"}, .read = seen_lean};
+  return {230,
+          {contact_case<tilt_limit, 20>("E3-tilt", 0.01, searched(lean, "α/rad")),
+           contact_case<push_limit, 20>("E3-push", 0.01, searched(lean, "F/(m g)")),
+           contact_case<slide_or_topple, 20>("E3-slide", 0.01, searched(lean, "μ")),
+           contact_case<curb_rate, 20>(
+               "E3-curb", 0.01,
+               {.readings = {"rate [rad/s]"},
+                .read = [](Scene s) { return Values{s.w(1).y()}; },
+                .exact = [](std::size_t, double) { return 2.586206896551724; },
+                .known_at = 2e-3,
+                .no_steps = "A plastic impact takes two steps: the rate is read after the "
+                            "second, and weight works on it meanwhile."}),
+           contact_case<curb_speed, 20>("E3-over", 0.01, searched(lean, "v/(m/s)")),
+           contact_case<rocking, 20>("E3-rocking", 0.01,
+                                     {.readings = lean.readings,
+                                      .read = seen_lean,
+                                      .exact = known_rocking,
+                                      .no_steps = kLocated})}};
 }
 
 }  // namespace twinarm

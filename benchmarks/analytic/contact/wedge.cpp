@@ -7,9 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
 #include "benchmarks/analytic/support/contact_look.h"
-#include "benchmarks/analytic/support/contact_scene.h"
 #include "collision/shapes/shape.h"
 
 namespace twinarm {
@@ -89,18 +87,9 @@ CaseResult self_locking(double off) {  // mu
 }  // namespace
 
 CaseFamily wedge_cases() {
-  const std::vector<AnalyticCase> cases = {
-      contact_case<self_locking, 2>(
-          "E14", "wedge between pressed blocks: least mu that locks, tan th [relative]", 1e-3,
-          "Two blocks press a wedge between them with 100 N. It stays if friction can hold it on "
-          "its flanks: <p>μ ≥ tan θ</p> θ half the angle of the wedge: 5°, 15°, 30°.",
-          ContactLook{.readings = {"z of the wedge [m]"},
-                      .read = place<2, 2>,
-                      .from_start = true,
-                      .search = "μ",
-                      .no_steps = kSearch}),
-  };
-  return {300, cases};
+  const ContactLook rises{
+      .readings = {"z of the wedge [m]"}, .read = place<2, 2>, .from_start = true};
+  return {300, {contact_case<self_locking, 2>("E14", 1e-3, searched(rises, "μ"))}};
 }
 
 }  // namespace twinarm

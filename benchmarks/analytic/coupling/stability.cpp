@@ -10,11 +10,11 @@
 //   implicit damper           alpha < 4 + 2 beta
 // and the implicit treatment and implicit integrators, which have none.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
-#include "benchmarks/analytic/coupling/coupling_cases.h"
-#include "benchmarks/analytic/joints/joint_cases.h"
+#include "benchmarks/analytic/support/analytic_case.h"
 #include "coupling/analysis/prediction.h"
 #include "coupling/analysis/tracking_run.h"
 #include "solver/dynamics/model_builder.h"
@@ -104,42 +104,6 @@ struct Edge {
   Setting at;
   double Setting::*turned = &Setting::alpha;
 };
-std::vector<Edge> edges_of(Scheme scheme) {
-  std::vector<Edge> all;
-  const auto add = [&](std::initializer_list<double> betas, auto alpha) {
-    for (const double beta : betas) all.push_back({{alpha(beta), beta}});
-  };
-  switch (scheme) {
-    case Scheme::euler:
-      add({0.2, 0.8, 1.5}, [](double b) { return b; });
-      all.push_back({{1, 2.5}, &Setting::beta});
-      break;
-    case Scheme::semi_implicit:
-    case Scheme::semi_implicit_difference:
-      add({0.15, 0.8, 1.5}, [](double b) { return 4 - 2 * b; });
-      break;
-    case Scheme::euler_difference:
-      add({0.2, 0.5, 0.8}, [](double b) { return b * (1 - b); });
-      break;
-    case Scheme::semi_implicit_older:
-      add({0.15, 0.5, 0.8}, [](double b) { return 1 - b; });
-      break;
-    case Scheme::hold:
-      add({0.2, 0.8, 1.5}, [](double b) { return 2 * b; });
-      all.push_back({{1, 2}, &Setting::beta});
-      break;
-    case Scheme::hold_difference:
-      add({0.2, 0.8, 1.5}, [](double b) { return 2 * b * (2 - b) / (2 + b); });
-      break;
-    case Scheme::implicit_damper:
-      add({0.15, 0.8, 3}, [](double b) { return 4 + 2 * b; });
-      break;
-    case Scheme::rk4:  // an integrator's own, with groups of cases for it
-    case Scheme::implicit:
-      break;
-  }
-  return all;
-}
 
 // By how much the stepper's edge is off, to 1e-4 of itself; not a number where there is none within
 // a tenth of it.
@@ -158,24 +122,20 @@ double missed(const Stepping& stepping, const Edge& edge, double inertia) {
   return std::abs(inside - 1);
 }
 
-template <Scheme scheme>
-CaseResult edges_missed(double inertia) {
-  CaseResult result;
-  for (const Edge& edge : edges_of(scheme))
-    result.error = worse(result.error, missed(stepping_of(scheme), edge, inertia));
-  return result;
-}
-constexpr const char* kEdge =
-    "A spring-damper k, b holds a hinge of inertia I to a target at rest, in steps of h. The "
-    "amplitude grows where a root of the scheme's characteristic polynomial leaves the unit "
-    "circle; the edge is found by bisection with the real stepper. <p>&alpha; = k h<sup>2</sup>/I, "
-    "&beta; = b h/I, |z(&alpha;, &beta;)| = 1</p>";
 // Its mistake: a hinge of 1.5 % less inertia.
-template <Scheme scheme>
-AnalyticCase edge_case(const char* name, const char* reference, const char* statement = kEdge) {
-  return experiment_case(
-      name, "couplings", reference, 0.01, [] { return edges_missed<scheme>(kHinge); },
-      [] { return edges_missed<scheme>(0.985 * kHinge); }, statement);
+// The limit is alpha(beta); with alpha = 1, beta is below `largest_beta` (0: without such a limit).
+AnalyticCase edge_case(const char* name, Scheme scheme, const std::array<double, 3>& betas,
+                       double (*alpha)(double beta), double largest_beta = 0) {
+  std::vector<Edge> edges;
+  for (const double beta : betas) edges.push_back({{alpha(beta), beta}});
+  if (largest_beta > 0) edges.push_back({{1, largest_beta}, &Setting::beta});
+  return {name, 0.01, [=](bool mistaken) {
+            CaseResult result;
+            for (const Edge& edge : edges)
+              result.error = worse(result.error, missed(stepping_of(scheme), edge,
+                                                        mistaken ? 0.985 * kHinge : kHinge));
+            return result;
+          }};
 }
 
 // How many settings grow.
@@ -192,59 +152,41 @@ Stepping by_integrator(Integrator integrator) {
   return s;
 }
 // Its mistake: steps that are semi-implicit.
-template <Integrator integrator>
-AnalyticCase integrator_case(const char* name, const char* reference, const char* statement) {
-  return experiment_case(
-      name, "couplings", reference, 0, [] { return unstable(by_integrator(integrator), 1e6); },
-      [] { return unstable(by_integrator(Integrator::semi_implicit), 1e6); }, statement);
+AnalyticCase integrator_case(const char* name, Integrator integrator) {
+  return {name, 0, [integrator](bool mistaken) {
+            return unstable(by_integrator(mistaken ? Integrator::semi_implicit : integrator), 1e6);
+          }};
 }
 
 }  // namespace
 
 CaseFamily stability_cases() {
-  const std::vector<AnalyticCase> cases = {
-      edge_case<Scheme::euler>("F4-euler",
-                               "explicit Euler: stable for alpha < beta < 2 + alpha/2 [relative]"),
-      edge_case<Scheme::semi_implicit>("F4-semi",
-                                       "semi-implicit: stable for alpha < 4 - 2 beta [relative]"),
-      edge_case<Scheme::semi_implicit_difference>(
-          "F4-semi-difference", "the same, velocity by backward difference [relative]"),
-      edge_case<Scheme::euler_difference>(
-          "F4-euler-difference",
-          "explicit Euler, backward difference: alpha < beta (1 - beta) [relative]"),
-      edge_case<Scheme::semi_implicit_older>(
-          "F4-semi-older",
-          "semi-implicit, difference one frame older: alpha < 1 - beta [relative]"),
-      edge_case<Scheme::hold>("F4-hold",
-                              "force held for a step: alpha < 2 beta, beta < 2 [relative]"),
-      edge_case<Scheme::hold_difference>(
-          "F4-hold-difference",
-          "the same by backward difference: alpha < 2 beta (2 - beta)/(2 + beta) [relative]"),
-      edge_case<Scheme::implicit_damper>(
-          "F4-implicit-damper", "implicit damper: alpha < 4 + 2 beta [relative]",
-          "Only the damper is implicit: <p>&alpha; &lt; 4 + 2&beta;, &alpha; = k h<sup>2</sup>/I, "
-          "&beta; = b h/I</p>"),
-      experiment_case(
-          "F4-implicit", "couplings",
-          "implicit treatment: stable for alpha to 1e10, beta to 1e6 [settings that grow]", 0,
-          [] { return unstable(stepping_of(Scheme::implicit), 1e10); },
-          [] { return unstable(stepping_of(Scheme::implicit_damper), 1e10); },
-          "The implicit treatment of that spring-damper is backward Euler, and never grows: "
-          "<p>|z|<sup>2</sup> = 1/(1 + &alpha; + &beta;) &lt; 1</p>"),
-      integrator_case<Integrator::implicit_euler>(
-          "F4-implicit-euler", "implicit Euler: stable for alpha, beta to 1e6 [settings that grow]",
-          "The same spring-damper stepped by implicit Euler: no step makes it grow. <p>|z(&alpha;, "
-          "&beta;)| &lt; 1 for all &alpha;, &beta; &gt; 0</p>"),
-      integrator_case<Integrator::implicit_midpoint>(
-          "F4-implicit-midpoint", "implicit midpoint: the same [settings that grow]",
-          "The same by the implicit midpoint rule: <p>|z(&alpha;, &beta;)| &le; 1 for all &alpha;, "
-          "&beta; &ge; 0</p>"),
-      integrator_case<Integrator::trapezoid>("F4-trapezoid",
-                                             "trapezoidal rule: the same [settings that grow]",
-                                             "The same by the trapezoidal rule: <p>|z(&alpha;, "
-                                             "&beta;)| &le; 1 for all &alpha;, &beta; &ge; 0</p>"),
-  };
-  return {350, cases};
+  constexpr std::array<double, 3> kMiddling{0.15, 0.8, 1.5};
+  const auto semi_implicit_limit = [](double b) { return 4 - 2 * b; };
+  return {350,
+          {edge_case(
+               "F4-euler", Scheme::euler, {0.2, 0.8, 1.5}, [](double b) { return b; }, 2.5),
+           edge_case("F4-semi", Scheme::semi_implicit, kMiddling, semi_implicit_limit),
+           edge_case("F4-semi-difference", Scheme::semi_implicit_difference, kMiddling,
+                     semi_implicit_limit),
+           edge_case("F4-euler-difference", Scheme::euler_difference, {0.2, 0.5, 0.8},
+                     [](double b) { return b * (1 - b); }),
+           edge_case("F4-semi-older", Scheme::semi_implicit_older, {0.15, 0.5, 0.8},
+                     [](double b) { return 1 - b; }),
+           edge_case(
+               "F4-hold", Scheme::hold, {0.2, 0.8, 1.5}, [](double b) { return 2 * b; }, 2),
+           edge_case("F4-hold-difference", Scheme::hold_difference, {0.2, 0.8, 1.5},
+                     [](double b) { return 2 * b * (2 - b) / (2 + b); }),
+           edge_case("F4-implicit-damper", Scheme::implicit_damper, {0.15, 0.8, 3},
+                     [](double b) { return 4 + 2 * b; }),
+           {"F4-implicit", 0,
+            [](bool mistaken) {
+              const Scheme scheme = mistaken ? Scheme::implicit_damper : Scheme::implicit;
+              return unstable(stepping_of(scheme), 1e10);
+            }},
+           integrator_case("F4-implicit-euler", Integrator::implicit_euler),
+           integrator_case("F4-implicit-midpoint", Integrator::implicit_midpoint),
+           integrator_case("F4-trapezoid", Integrator::trapezoid)}};
 }
 
 }  // namespace twinarm

@@ -10,12 +10,11 @@
 // (tests/benchmarks/analytic/registry/test_reference_digits.cpp).
 #include <array>
 #include <cmath>
+#include <complex>
 #include <map>
 #include <mutex>
 #include <numbers>
 
-#include "benchmarks/analytic/coupling/coupling_cases.h"
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/joints/planar_arm.h"
 #include "coupling/analysis/tracking_run.h"
 #include "coupling/target/automatic_motion.h"
@@ -45,20 +44,9 @@ constexpr double kTrackingStep = 1e-4;  // of rk4 [s]
 struct ArmPlace {
   long double q1, q2, qd1, qd2;
 };
-struct PlanePoint {
-  long double x, y;
-};
-PlanePoint operator-(const PlanePoint& a, const PlanePoint& b) {
-  return {a.x - b.x, a.y - b.y};
-}
-PlanePoint operator+(const PlanePoint& a, const PlanePoint& b) {
-  return {a.x + b.x, a.y + b.y};
-}
-PlanePoint operator*(long double s, const PlanePoint& a) {
-  return {s * a.x, s * a.y};
-}
+using PlanePoint = std::complex<long double>;
 long double dot(const PlanePoint& a, const PlanePoint& b) {
-  return a.x * b.x + a.y * b.y;
+  return a.real() * b.real() + a.imag() * b.imag();
 }
 // A link's direction, and what it turns into at a rate of 1.
 PlanePoint along(long double angle) {
@@ -168,16 +156,10 @@ class Leader final : public ForceSource, public Rewindable {
   std::unique_ptr<Coupling> coupling_;
 };
 
-template <std::size_t i>
-TrajectoryCase following() {
-  return {.statement =
-              "Two links follow a target that turns to and fro at constant speed, drawn by "
-              "spring-dampers on their angles, their directions or their centres of mass: <p>M q'' "
-              "+ C q' = &Sigma; J<sup>T</sup> (k (x<sub>K</sub> &minus; x) + b (x<sub>K</sub>' "
-              "&minus; x'))</p>",
-          .scene =
-              [] {
-                const auto leader = std::make_shared<Leader>(kTracked[i]);
+TrajectoryCase following(const TrackedCoupling& coupling) {
+  return {.scene =
+              [coupling] {
+                const auto leader = std::make_shared<Leader>(coupling);
                 CaseScene scene = start_at(model_of(uniform_arm()), leader->start(), {0, 0});
                 scene.sources = {leader};
                 scene.conserves = false;
@@ -186,7 +168,7 @@ TrajectoryCase following() {
           .times = {0.05, 1.05, 2.05, 3},  // soon after its speed jumps, and at the end
           .readings = {"angle 1 [rad]", "angle 2 [rad]", "rate 1 [rad/s]", "rate 2 [rad/s]"},
           .observe = joint_state(),
-          .reference = followed_once(kTracked[i]),
+          .reference = followed_once(coupling),
           .lane = rk4_lane(kTrackingStep),
           .mutant = more_inertia};
 }
@@ -211,42 +193,28 @@ double largest_miss(const std::vector<double>& found, const std::array<double, 2
   return worse(std::abs(found[0] / kDegree - wanted_deg[0]),
                std::abs(found[1] / kDegree - wanted_deg[1]));
 }
-template <std::size_t i, bool mistaken>
-CaseResult largest_error() {
-  return {largest_miss(tracked(kTracked[i], mistaken).max, kTracked[i].largest_deg)};
-}
-template <std::size_t i, bool mistaken>
-CaseResult mean_error() {
-  return {largest_miss(tracked(kTracked[i], mistaken).mean, kTracked[i].mean_deg)};
-}
-
-constexpr const char* kFollowing =
-    "The same arm follows its target for 3 s; the error of a joint is that of its angle. <p>max "
-    "|q<sub>K</sub> &minus; q|, (1/T) &int; |q<sub>K</sub> &minus; q| dt</p>";
-
-template <std::size_t i>
-void add_coupling(const std::array<const char*, 3>& names, const char* what,
-                  std::vector<AnalyticCase>& all) {
-  const char* group = "couplings";
-  all.push_back(trajectory_case(names[0], group, what, 1e-8, following<i>()));
-  all.push_back(experiment_case(names[1], group, "the same: largest errors of the joints [deg]",
-                                1e-4, largest_error<i, false>, largest_error<i, true>, kFollowing));
-  all.push_back(experiment_case(names[2], group, "the same: mean errors of the joints [deg]", 1e-5,
-                                mean_error<i, false>, mean_error<i, true>, kFollowing));
+// A motion, and the largest and the mean errors of its joints.
+void add_coupling(const char* motion, const char* largest, const char* mean,
+                  const TrackedCoupling& coupling, std::vector<AnalyticCase>& all) {
+  all.push_back({motion, 1e-8, following(coupling)});
+  all.push_back({largest, 1e-4, [coupling](bool mistaken) {
+                   return CaseResult{
+                       largest_miss(tracked(coupling, mistaken).max, coupling.largest_deg)};
+                 }});
+  all.push_back({mean, 1e-5, [coupling](bool mistaken) {
+                   return CaseResult{
+                       largest_miss(tracked(coupling, mistaken).mean, coupling.mean_deg)};
+                 }});
 }
 
 }  // namespace
 
 CaseFamily tracking_cases() {
   std::vector<AnalyticCase> all;
-  add_coupling<0>({"F3-world", "F3-world-largest", "F3-world-mean"},
-                  "two links follow, springs on their directions: state [rad, rad/s], 3 s", all);
-  add_coupling<1>({"F3-joint", "F3-joint-largest", "F3-joint-mean"},
-                  "two links follow, springs on the joints' angles: state [rad, rad/s], 3 s", all);
-  add_coupling<2>({"F3-linear", "F3-linear-largest", "F3-linear-mean"},
-                  "two links follow, springs on their centres: state [rad, rad/s], 3 s", all);
-  add_coupling<3>({"F3-undamped", "F3-undamped-largest", "F3-undamped-mean"},
-                  "two links follow, soft undamped springs: state [rad, rad/s], 3 s", all);
+  add_coupling("F3-world", "F3-world-largest", "F3-world-mean", kTracked[0], all);
+  add_coupling("F3-joint", "F3-joint-largest", "F3-joint-mean", kTracked[1], all);
+  add_coupling("F3-linear", "F3-linear-largest", "F3-linear-mean", kTracked[2], all);
+  add_coupling("F3-undamped", "F3-undamped-largest", "F3-undamped-mean", kTracked[3], all);
   return {340, all};
 }
 

@@ -10,9 +10,7 @@
 #include <limits>
 #include <numbers>
 
-#include "benchmarks/analytic/integrators/integrator_cases.h"
 #include "benchmarks/analytic/joints/golden_steps.h"
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/run_trajectory.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/energy_momentum.h"
@@ -23,7 +21,6 @@ namespace {
 
 using namespace smooth_parts;
 
-const char* const kIntegrators = "integrators";
 constexpr double kGoldenStep = 0.01;
 
 // ---- G2 ----
@@ -46,12 +43,7 @@ double kept_by(Integrator integrator, double x, double v) {
                                           : plain - h * kSquare * x * v;
 }
 TrajectoryCase invariant(Integrator integrator) {
-  return {.statement =
-              "An oscillator of 10 rad/s, a million steps of 10 ms. What the scheme keeps: "
-              "<p>semi-implicit v<sup>2</sup> + w<sup>2</sup>x<sup>2</sup> &minus; h "
-              "w<sup>2</sup>x v, verlet v<sup>2</sup> + w<sup>2</sup>x<sup>2</sup>(1 &minus; "
-              "h<sup>2</sup>w<sup>2</sup>/4)</p>",
-          .scene = undamped_oscillator,
+  return {.scene = undamped_oscillator,
           .times = {1, 100, 10000},
           .readings = {"invariant [m2/s2]"},
           .observe =
@@ -67,11 +59,10 @@ TrajectoryCase invariant(Integrator integrator) {
 
 // Mean energy of the last tenth of a million steps against the first tenth's, weighted so that
 // whole and broken periods count alike, by step and relative to the energy from the bottom.
-template <Integrator integrator>
-CaseResult trend(double damping) {
+CaseResult trend(Integrator integrator, bool mistaken) {
   constexpr long steps = 1000000, window = steps / 10;
   Model<double> model = point_pendulum();
-  model.damping[0] = damping;
+  model.damping[0] = mistaken ? 1e-8 : 0;
   State<double> x(model);
   x.q[0] = std::numbers::pi / 2;
   Simulation simulation(model, x);
@@ -89,25 +80,13 @@ CaseResult trend(double damping) {
   }
   return {std::abs(mean[1] - mean[0]) / weights / kGravity / double(steps - window)};
 }
-template <Integrator integrator>
-AnalyticCase trend_case() {
-  return experiment_case(
-      name_of_case("G2-trend-", integrator), kIntegrators,
-      "pendulum, a million steps of 10 ms: trend of the energy a step [relative]", 1e-12,
-      [] { return trend<integrator>(0); }, [] { return trend<integrator>(1e-8); },
-      "The pendulum of B2 for a million steps of 10 ms. The energy of a symplectic scheme swings "
-      "about that of a system nearby, and has no trend: <p>|E(t) − E(0)| = O(h<sup>p</sup>) for "
-      "all t</p>");
-}
 
 // ---- G3 ----
 
 const Vector3 kSteady(0.6, -1.2, 2.0);  // [rad/s]
 
 TrajectoryCase steady_turning() {
-  return {.statement =
-              "A ball turns at a constant rate: <p>R = exp(&omega; t)</p> is exact in every step.",
-          .scene =
+  return {.scene =
               [] {
                 return start_at(free_body(1, {0.1, 0.1, 0.1}), {0, 0, 0, 1, 0, 0, 0},
                                 {kSteady.x(), kSteady.y(), kSteady.z(), 0, 0, 0});
@@ -127,9 +106,6 @@ TrajectoryCase steady_turning() {
 }
 TrajectoryCase unit_quaternion() {
   TrajectoryCase c = steady_turning();
-  c.statement =
-      "The same ball, a million steps of 10 ms: its quaternion has length 1, and its rate is what "
-      "it was. <p>q<sub>n+1</sub> = q<sub>n</sub> exp(h &omega;/2), |q| = 1</p>";
   c.scene = [scene = c.scene] {
     CaseScene all = scene();
     all.conserves = false;
@@ -152,21 +128,20 @@ TrajectoryCase unit_quaternion() {
 
 // Of a known motion after 1 s; each mistake is 0.1 % more gravity.
 double error_after_a_second(const char* name, CaseMeasure measure, const Lane& lane, int mistakes) {
-  const std::vector<AnalyticCase> motions =
-      (name[0] == 'B' ? pendulum_cases() : double_pendulum_cases()).cases;
-  for (const AnalyticCase& known : motions) {
-    if (std::strcmp(known.name, name) != 0) continue;
-    TrajectoryCase c = *known.trajectory;
-    c.times = {1};
-    c.measure = measure;
-    c.scene = [scene = c.scene, mistakes] {
-      CaseScene all = scene();
-      all.conserves = false;
-      for (int k = 0; k < mistakes; ++k) more_gravity(all);
-      return all;
-    };
-    return run_lane(c, lane).error;
-  }
+  for (const CaseFamily& family : joint_cases())
+    for (const AnalyticCase& known : family.cases) {
+      if (std::strcmp(known.name, name) != 0) continue;
+      TrajectoryCase c = *known.trajectory;
+      c.times = {1};
+      c.measure = measure;
+      c.scene = [scene = c.scene, mistakes] {
+        CaseScene all = scene();
+        all.conserves = false;
+        for (int k = 0; k < mistakes; ++k) more_gravity(all);
+        return all;
+      };
+      return run_lane(c, lane).error;
+    }
   return std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -175,8 +150,7 @@ double double_pendulum_error(const Lane& lane, bool mistaken) {
 }
 
 // Of schemes of first order the pendulum's angle, while 10 ms halve twice: the worse of two slopes.
-template <Integrator integrator>
-CaseResult halving(bool mistaken) {
+CaseResult halving(Integrator integrator, bool mistaken) {
   const auto of_angle = [](const CaseReadings& seen, const CaseReadings& exact) {
     return std::abs(seen[0] - exact[0]);
   };
@@ -187,36 +161,15 @@ CaseResult halving(bool mistaken) {
   const double coarse = std::log2(error[0] / error[1]), fine = std::log2(error[1] / error[2]);
   return {std::max(std::abs(coarse - 1), std::abs(fine - 1)), {}, fine};
 }
-template <Integrator integrator>
-AnalyticCase halving_case() {
-  return experiment_case(
-      name_of_case("G1-order-", integrator), kIntegrators,
-      "pendulum, 10 ms halve twice: slope of the angle's error against 1", 0.05,
-      [] { return halving<integrator>(false); }, [] { return halving<integrator>(true); },
-      "The pendulum of B2 after 1 s, with steps of 10, 5 and 2.5 ms: the angle of a scheme of "
-      "first order is off by half as much as the step halves. <p>e(h) = C h, "
-      "log<sub>2</sub>(e(h)/e(h/2)) = 1</p>");
-}
 
 // The slope while h halves four times, from n ms for order n, against the order.
-template <Integrator integrator>
-CaseResult slope(bool mistaken) {
+CaseResult slope(Integrator integrator, bool mistaken) {
   const int order = facts_of(integrator).order;
   const double h = 1e-3 * order;
   const double coarse = double_pendulum_error({integrator, h, 0}, mistaken);
   const double fine = double_pendulum_error({integrator, h / 16, 0}, mistaken);
   const double found = std::log2(coarse / fine) / 4;
   return {std::abs(found - order), {}, found};
-}
-template <Integrator integrator>
-AnalyticCase order_case() {
-  return experiment_case(
-      name_of_case("G4-", integrator), kIntegrators,
-      "double pendulum C2, h halves four times: slope of the error against the order", 0.1,
-      [] { return slope<integrator>(false); }, [] { return slope<integrator>(true); },
-      "The double pendulum of rods, C2, after 1 s, with steps that halve four times. On "
-      "logarithmic axes the error is a straight line, and its slope is the order: <p>e(h) = C "
-      "h<sup>p</sup>, p = log<sub>2</sub>(e(h)/e(h/2))</p>");
 }
 
 // The error of dopri5 over its tolerance: the largest of four decades by the smallest.
@@ -233,37 +186,26 @@ CaseResult proportion(bool mistaken) {
 }  // namespace
 
 CaseFamily schemes_cases() {
-  std::vector<AnalyticCase> all = {
-      halving_case<Integrator::euler>(), halving_case<Integrator::semi_implicit>(),
-      halving_case<Integrator::semi_implicit_xv>(), halving_case<Integrator::implicit_euler>()};
-  for (const Integrator integrator : {Integrator::semi_implicit, Integrator::verlet})
-    all.push_back(trajectory_case(name_of_case("G2-", integrator), kIntegrators,
-                                  "oscillator, a million steps: the scheme's invariant [relative]",
-                                  1e-12, invariant(integrator)));
-  all.push_back(trend_case<Integrator::semi_implicit>());
-  all.push_back(trend_case<Integrator::verlet>());
-  all.push_back(trajectory_case("G3", kIntegrators,
-                                "ball at constant rate, semi-implicit: attitude [rad], rate, 10 s",
-                                1e-12, steady_turning()));
-  all.push_back(trajectory_case("G3-norm", kIntegrators, "the same, a million steps: |q| and rate",
-                                1e-12, unit_quaternion()));
-  const AnalyticCase orders[] = {order_case<Integrator::euler>(),
-                                 order_case<Integrator::semi_implicit>(),
-                                 order_case<Integrator::semi_implicit_xv>(),
-                                 order_case<Integrator::verlet>(),
-                                 order_case<Integrator::midpoint>(),
-                                 order_case<Integrator::heun>(),
-                                 order_case<Integrator::rk4>(),
-                                 order_case<Integrator::implicit_euler>(),
-                                 order_case<Integrator::implicit_midpoint>(),
-                                 order_case<Integrator::trapezoid>()};
-  all.insert(all.end(), std::begin(orders), std::end(orders));
-  all.push_back(experiment_case(
-      "G4-dopri5", kIntegrators,
-      "the same, tolerance from 1e-6 to 1e-10: error over tolerance, largest by least", 2,
-      [] { return proportion(false); }, [] { return proportion(true); },
-      "The same by dopri5, with tolerances from 1e−6 to 1e−10: the error is in proportion. <p>e = "
-      "C tol</p>"));
+  using enum Integrator;
+  using Integrators = std::vector<Integrator>;
+  std::vector<AnalyticCase> all;
+  const auto add = [&](const char* prefix, double tolerance, const Integrators& integrators,
+                       CaseResult (*experiment)(Integrator, bool mistaken)) {
+    for (const Integrator integrator : integrators)
+      all.push_back({name_of_case(prefix, integrator), tolerance,
+                     [=](bool mistaken) { return experiment(integrator, mistaken); }});
+  };
+  add("G1-order-", 0.05, {euler, semi_implicit, semi_implicit_xv, implicit_euler}, halving);
+  for (const Integrator integrator : {semi_implicit, verlet})
+    all.push_back({name_of_case("G2-", integrator), 1e-12, invariant(integrator)});
+  add("G2-trend-", 1e-12, {semi_implicit, verlet}, trend);
+  all.push_back({"G3", 1e-12, steady_turning()});
+  all.push_back({"G3-norm", 1e-12, unit_quaternion()});
+  add("G4-", 0.1,
+      {euler, semi_implicit, semi_implicit_xv, verlet, midpoint, heun, rk4, implicit_euler,
+       implicit_midpoint, trapezoid},
+      slope);
+  all.push_back({"G4-dopri5", 2, proportion});
   return {370, all};
 }
 

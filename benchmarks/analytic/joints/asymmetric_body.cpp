@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/derivatives.h"
@@ -77,11 +76,7 @@ CaseScene spinning(double w1, double w2, double w3) {
 
 TrajectoryCase tumbling() {
   static const AsymmetricMotion motion(1, 0, 1);
-  return {.statement =
-              "A free body with moments of inertia 1, 2 and 3 kg m<sup>2</sup> starts with "
-              "(1, 0, 1) rad/s. Its rate in body axes: <p>&omega; = (cn t, sn t, dn t), "
-              "parameter m = 1/3; the attitude by an integral of the third kind</p>",
-          .scene = [] { return spinning(1, 0, 1); },
+  return {.scene = [] { return spinning(1, 0, 1); },
           .times = {1, 2, 5, 10},
           .readings = {"qw", "qx", "qy", "qz", "w1 [rad/s]", "w2 [rad/s]", "w3 [rad/s]"},
           .observe = observe_attitude_and_rate,
@@ -92,7 +87,6 @@ TrajectoryCase tumbling() {
 
 TrajectoryCase tumbling_invariants() {
   TrajectoryCase c = tumbling();
-  c.statement = "The same body: what stays is <p>|H| = |I &omega;|, 2T = &omega; I &omega;</p>";
   c.readings = {"|H| [N m s]", "kinetic energy [J]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
     const Inertia<double>& inertia = model.I[1];
@@ -108,10 +102,6 @@ TrajectoryCase tumbling_invariants() {
 TrajectoryCase flip() {
   static const AsymmetricMotion motion(1e-3L, 1, 0);
   TrajectoryCase c = tumbling();
-  c.statement =
-      "The same body spins about its intermediate axis, (0.001, 1, 0) rad/s: the spin turns over "
-      "every 28.73 s (Dzhanibekov). <p>&omega; = (A<sub>1</sub> dn u, sn u, A<sub>3</sub> cn u), "
-      "u = n t + K, n = 0.57735, m = 0.999999</p>";
   c.scene = [] { return spinning(1e-3, 1, 0); };
   c.times = {5, 10, 15, 20, 30};
   c.reference = [](double t) { return motion.readings(t); };
@@ -121,59 +111,35 @@ TrajectoryCase flip() {
 // w2 is zero at odd multiples of K / n.
 TrajectoryCase flip_time() {
   static const AsymmetricMotion motion(1e-3L, 1, 0);
-  TrajectoryCase c = flip();
-  c.times = {};
-  c.readings = {};
-  c.observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
-  c.reference = [](double k) {
-    return CaseReadings{static_cast<double>((2 * k - 1) * motion.u0 / motion.n)};
-  };
-  c.measure = largest_difference;
-  c.events = {[](const Model<double>&, const State<double>& x) { return x.qd[1]; }, 2, 60};
-  return c;
+  return times_of(flip(),
+                  {[](const Model<double>&, const State<double>& x) { return x.qd[1]; }, 2, 60},
+                  [](double k) {
+                    return CaseReadings{static_cast<double>((2 * k - 1) * motion.u0 / motion.n)};
+                  });
 }
 
 // Near a steady spin w2 the other two rates grow as exp(n t): n^2 = (I3 - I2) (I2 - I1) / (I1 I3).
 TrajectoryCase flip_growth() {
-  TrajectoryCase c = flip();
-  c.statement =
-      "Near the spin (0, 1, 0) rad/s the other rates grow as <p>exp(n t), n<sup>2</sup> = "
-      "(I<sub>3</sub> &minus; I<sub>2</sub>)(I<sub>2</sub> &minus; "
-      "I<sub>1</sub>)/(I<sub>1</sub>I<sub>3</sub>) = 1/3</p>";
-  c.scene = [] { return spinning(0, 1, 0); };
-  c.times = {0};
-  c.readings = {"growth rate [1/s]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    const Eigen::MatrixXd d = forward_dynamics_derivatives(model, x, Forces<double>(model)).dqd;
-    return CaseReadings{std::sqrt(d(0, 2) * d(2, 0))};
-  };
-  c.reference = [](double) { return CaseReadings{1 / std::sqrt(3.0)}; };
-  c.measure = relative_to_largest;
+  TrajectoryCase c = evaluation(
+      [] { return spinning(0, 1, 0); }, {"growth rate [1/s]"},
+      [](const Model<double>& model, const State<double>& x) {
+        const Eigen::MatrixXd d = forward_dynamics_derivatives(model, x, Forces<double>(model)).dqd;
+        return CaseReadings{std::sqrt(d(0, 2) * d(2, 0))};
+      },
+      {1 / std::sqrt(3.0)});
+  c.mutant = more_inertia;
   return c;
 }
 
 }  // namespace
 
 CaseFamily asymmetric_body_cases() {
-  const char* group = "free-body";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("A2", group,
-                      "asymmetric body: attitude [rad], rate [rad/s], 10 s; elliptic functions",
-                      1e-8, tumbling()),
-      trajectory_case("A2-invariants", group,
-                      "the same: |H| [N m s], kinetic energy [J]; dopri5, tolerance 1e-13", 1e-12,
-                      tumbling_invariants()),
-      trajectory_case("A3", group,
-                      "spin about the intermediate axis: attitude [rad], rate [rad/s], 30 s", 1e-8,
-                      flip()),
-      trajectory_case(
-          "A3-flip", group,
-          "the same: w2 is zero at 14.365712218740667 s, and 28.731424437481333 s later", 1e-6,
-          flip_time()),
-      trajectory_case("A3-growth", group, "rate of growth about that spin: 1/sqrt(3) [relative]",
-                      1e-12, flip_growth()),
-  };
-  return {20, cases};
+  return {20,
+          {{"A2", 1e-8, tumbling()},
+           {"A2-invariants", 1e-12, tumbling_invariants()},
+           {"A3", 1e-8, flip()},
+           {"A3-flip", 1e-6, flip_time()},
+           {"A3-growth", 1e-12, flip_growth()}}};
 }
 
 }  // namespace twinarm

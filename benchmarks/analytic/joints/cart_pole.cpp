@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/chain_parts.h"
 #include "solver/dynamics/kinematics.h"
 
@@ -62,11 +61,7 @@ const CartPole kPoint{1, 0.3, 0.5, 0, 0, kGravity};
 const CartPole kChrono{1, 1, 0.5, 1, 10, 10};
 
 TrajectoryCase cart_pole_motion() {
-  return {.statement =
-              "A pole, 0.3 kg, 1 m, on a free cart of 1 kg is let go 2 rad from hanging: <p>(M + "
-              "m) x'' + m l cos &theta; &theta;'' = m l sin &theta; &theta;'<sup>2</sup>, m l cos "
-              "&theta; x'' + J &theta;'' = &minus;m g l sin &theta;</p>",
-          .scene = [] { return kPlain.scene(2); },
+  return {.scene = [] { return kPlain.scene(2); },
           .times = {1, 2, 5},
           .readings = {"x [m]", "angle [rad]", "speed [m/s]", "rate [rad/s]"},
           .observe = joint_state(),
@@ -75,9 +70,6 @@ TrajectoryCase cart_pole_motion() {
 // No force acts along x, so the centre of mass stays where it was.
 TrajectoryCase cart_pole_centre() {
   TrajectoryCase c = cart_pole_motion();
-  c.statement =
-      "The same: the common centre of mass does not move along the line. <p>(M x + m (x + l sin "
-      "&theta;))/(M + m) = const</p>";
   c.times = {0.5, 1, 1.5, 2, 3, 4, 5};
   c.readings = {"x of the centre [m]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
@@ -100,38 +92,22 @@ TrajectoryCase cart_pole_centre() {
 
 // Swings below, growth above; of a rod, and of a point mass at its middle.
 TrajectoryCase cart_pole_frequencies() {
-  return {.statement =
-              "A pole on a free cart swings below, and falls from above, at <p>w<sup>2</sup> = "
-              "m g l/(J &minus; m<sup>2</sup>l<sup>2</sup>/(M + m))</p>",
-          .scene = [] { return kPlain.scene(0); },
-          .times = {0},
-          .readings = {"swinging [rad/s]", "falling [rad/s]", "point mass [rad/s]"},
-          .observe =
-              [](const Model<double>& model, const State<double>& x) {
-                State<double> above = x;
-                above.q[1] = std::numbers::pi;
-                CaseScene point = kPoint.scene(0);
-                point.model.gravity = model.gravity;
-                return CaseReadings{
-                    std::sqrt(squared_frequencies_of(model, x).back()),
-                    std::sqrt(-squared_frequencies_of(model, above).front()),
-                    std::sqrt(squared_frequencies_of(point.model, point.start).back())};
-              },
-          .reference =
-              [](double) {
-                return CaseReadings{kPlain.frequency(), kPlain.frequency(), kPoint.frequency()};
-              },
-          .measure = relative_each};
+  return evaluation(
+      [] { return kPlain.scene(0); }, {"swinging [rad/s]", "falling [rad/s]", "point mass [rad/s]"},
+      [](const Model<double>& model, const State<double>& x) {
+        State<double> above = x;
+        above.q[1] = std::numbers::pi;
+        CaseScene point = kPoint.scene(0);
+        point.model.gravity = model.gravity;
+        return CaseReadings{std::sqrt(squared_frequencies_of(model, x).back()),
+                            std::sqrt(-squared_frequencies_of(model, above).front()),
+                            std::sqrt(squared_frequencies_of(point.model, point.start).back())};
+      },
+      {kPlain.frequency(), kPlain.frequency(), kPoint.frequency()}, relative_each);
 }
 
 TrajectoryCase chrono_slider() {
-  return {.statement =
-              "A pendulum of 1 m, 1 kg, 1 kg m<sup>2</sup> on a cart of 1 kg with a spring of 10 "
-              "N/m is let go level, g = 10 m/s<sup>2</sup>: a unit test of Project Chrono, "
-              "utest_CH_slider_pend. <p>(M + m) x'' + m l (cos &theta; &theta;'' &minus; sin "
-              "&theta; &theta;'<sup>2</sup>) + k x = 0, m l cos &theta; x'' + J &theta;'' + m g l "
-              "sin &theta; = 0</p>",
-          .scene = [] { return kChrono.scene(std::numbers::pi / 2); },
+  return {.scene = [] { return kChrono.scene(std::numbers::pi / 2); },
           .times = {1, 2, 5},
           .readings = {"x [m]", "angle from level [rad]", "speed [m/s]", "rate [rad/s]"},
           .observe =
@@ -149,21 +125,11 @@ TrajectoryCase chrono_slider() {
 }  // namespace
 
 CaseFamily cart_pole_cases() {
-  const char* group = "chains";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("C6", group, "cart-pole from 2 rad: place [m], angle [rad], rates, 5 s", 1e-8,
-                      cart_pole_motion()),
-      trajectory_case("C6-centre", group, "the same: x of the centre of mass, 5 s [m]", 1e-12,
-                      cart_pole_centre()),
-      trajectory_case(
-          "C6-frequencies", group,
-          "the same: 4.2183982411491488 rad/s twice, 5.0503465227645518 of a point [relative]",
-          1e-12, cart_pole_frequencies()),
-      trajectory_case("C10-slider", group,
-                      "Chrono's pendulum on a sprung slider: place, angle, rates, 5 s", 1e-8,
-                      chrono_slider()),
-  };
-  return {130, cases};
+  return {130,
+          {{"C6", 1e-8, cart_pole_motion()},
+           {"C6-centre", 1e-12, cart_pole_centre()},
+           {"C6-frequencies", 1e-12, cart_pole_frequencies()},
+           {"C10-slider", 1e-8, chrono_slider()}}};
 }
 
 }  // namespace twinarm

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/chain_parts.h"
 
 namespace twinarm {
@@ -50,14 +49,7 @@ special::Rates furuta_rates() {
 }
 
 TrajectoryCase furuta_motion() {
-  return {.statement =
-              "Furuta's pendulum, on an arm that turns freely, is let go 2 rad from hanging: <p>"
-              "(J<sub>0</sub> + m L<sup>2</sup> + J sin<sup>2</sup>q<sub>2</sub>) q<sub>1</sub>'' "
-              "+ m L l cos q<sub>2</sub> q<sub>2</sub>'' = &minus;J sin 2q<sub>2</sub> "
-              "q<sub>1</sub>'q<sub>2</sub>' + m L l sin q<sub>2</sub> q<sub>2</sub>'<sup>2</sup>, "
-              "m L l cos q<sub>2</sub> q<sub>1</sub>'' + J q<sub>2</sub>'' = J sin 2q<sub>2</sub> "
-              "q<sub>1</sub>'<sup>2</sup>/2 &minus; m g l sin q<sub>2</sub></p>",
-          .scene = [] { return furuta(2, 0, 0); },
+  return {.scene = [] { return furuta(2, 0, 0); },
           .times = {1, 2, 5},
           .readings = {"arm [rad]", "pendulum [rad]", "arm [rad/s]", "pendulum [rad/s]"},
           .observe = joint_state(),
@@ -65,36 +57,19 @@ TrajectoryCase furuta_motion() {
 }
 // In one state, q2 = 1, rates 2 and 3.
 TrajectoryCase furuta_evaluation() {
-  TrajectoryCase c = furuta_motion();
-  c.statement =
-      "Furuta's pendulum at 1 rad, its joints at 2 and 3 rad/s: accelerations. <p>M(q) q'' = "
-      "&minus;h(q, q')</p> with M and h of the motion above.";
-  c.scene = [] { return furuta(1, 2, 3); };
-  c.times = {0};
-  c.readings = {"arm [rad/s2]", "pendulum [rad/s2]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    return CaseReadings(evaluate(model, x).qdd);
-  };
-  c.reference = [](double) {
-    special::Numbers dx(4);
-    furuta_rates()(0, {0, 1, 2, 3}, dx);
-    return CaseReadings{static_cast<double>(dx[2]), static_cast<double>(dx[3])};
-  };
-  c.measure = relative_to_largest;
-  return c;
+  special::Numbers dx(4);
+  furuta_rates()(0, {0, 1, 2, 3}, dx);
+  return evaluation(
+      [] { return furuta(1, 2, 3); }, {"arm [rad/s2]", "pendulum [rad/s2]"},
+      [](const Model<double>& model, const State<double>& x) { return evaluate(model, x).qdd; },
+      {static_cast<double>(dx[2]), static_cast<double>(dx[3])});
 }
 // Hanging it swings, upright it falls, at w^2 = m g l / (Jp - (m L l)^2 / (J0 + m L^2)); turning
 // at W the pendulum stands out where its weight and the centrifugal couple balance.
 TrajectoryCase furuta_special() {
-  TrajectoryCase c = furuta_motion();
-  c.statement =
-      "Furuta's pendulum swings below and falls from above at <p>w<sup>2</sup> = m g l/(J &minus; "
-      "(m L l)<sup>2</sup>/(J<sub>0</sub> + m L<sup>2</sup>)); turning at W it stands out at cos q "
-      "= m g l/(J W<sup>2</sup>)</p>";
-  c.scene = [] { return furuta(0, 0, 0); };
-  c.times = {0};
-  c.readings = {"swinging [rad/s]", "falling [rad/s]", "cosine at 12 rad/s"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  const double weight = kBob * kGravity * kBobCom;
+  const double w = std::sqrt(weight / (kPivot - kMixed * kMixed / kTurned));
+  const CaseObserver observe = [](const Model<double>& model, const State<double>& x) {
     State<double> above = x, round = x;
     above.q[1] = std::numbers::pi;
     round.qd[0] = kWhirl;
@@ -106,13 +81,9 @@ TrajectoryCase furuta_special() {
     return CaseReadings{std::sqrt(squared_frequencies_of(model, x).back()),
                         std::sqrt(-squared_frequencies_of(model, above).front()), std::cos(low)};
   };
-  c.reference = [](double) {
-    const double weight = kBob * kGravity * kBobCom;
-    const double w = std::sqrt(weight / (kPivot - kMixed * kMixed / kTurned));
-    return CaseReadings{w, w, weight / (kPivot * kWhirl * kWhirl)};
-  };
-  c.measure = relative_each;
-  return c;
+  return evaluation([] { return furuta(0, 0, 0); },
+                    {"swinging [rad/s]", "falling [rad/s]", "cosine at 12 rad/s"}, observe,
+                    {w, w, weight / (kPivot * kWhirl * kWhirl)}, relative_each);
 }
 
 // ---- C9 ----
@@ -152,20 +123,11 @@ CaseReadings in_degrees(CaseReadings x) {
 TrajectoryCase babyboot_motion() {
   const auto solved = solution_of(babyboot_rates(), {std::numbers::pi_v<long double> / 2,
                                                      std::numbers::pi_v<long double> / 180, 0, 0});
-  return {
-      .statement =
-          "Kane's \"babyboot\": a rod on a level hinge, let go at 90&deg;, and a plate that "
-          "turns about it, at 1&deg;. Chaotic. <p>(I + B<sub>x</sub>cos<sup>2</sup>q<sub>B</sub> "
-          "+ B<sub>y</sub>sin<sup>2</sup>q<sub>B</sub>) q<sub>A</sub>'' = (B<sub>x</sub> &minus; "
-          "B<sub>y</sub>) sin 2q<sub>B</sub> q<sub>A</sub>'q<sub>B</sub>' &minus; "
-          "(m<sub>A</sub>L<sub>A</sub> + m<sub>B</sub>L<sub>B</sub>) g sin q<sub>A</sub>, "
-          "B<sub>z</sub>q<sub>B</sub>'' = (B<sub>y</sub> &minus; B<sub>x</sub>) sin "
-          "2q<sub>B</sub> q<sub>A</sub>'<sup>2</sup>/2</p>",
-      .scene = babyboot_scene,
-      .times = {5, 10},
-      .readings = {"rod [deg]", "plate [deg]"},
-      .observe = [](const Model<double>&, const State<double>& x) { return in_degrees(x.q); },
-      .reference = [solved](double t) { return in_degrees(solved(t)); }};
+  return {.scene = babyboot_scene,
+          .times = {5, 10},
+          .readings = {"rod [deg]", "plate [deg]"},
+          .observe = [](const Model<double>&, const State<double>& x) { return in_degrees(x.q); },
+          .reference = [solved](double t) { return in_degrees(solved(t)); }};
 }
 TrajectoryCase babyboot_fine() {
   TrajectoryCase c = babyboot_motion();
@@ -174,7 +136,6 @@ TrajectoryCase babyboot_fine() {
 }
 TrajectoryCase babyboot_rates_at_end() {
   TrajectoryCase c = babyboot_motion();
-  c.statement = "The same by dopri5: rates and accelerations at 10 s. <p>q'(t), q''(t)</p>";
   c.times = {10};
   c.readings = {"rod [rad/s]", "plate [rad/s]", "rod [rad/s2]", "plate [rad/s2]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
@@ -196,22 +157,13 @@ TrajectoryCase babyboot_rates_at_end() {
 }  // namespace
 
 CaseFamily crossed_hinges_cases() {
-  const char* group = "chains";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("C8", group, "Furuta's pendulum from 2 rad: angles, rates, 5 s", 1e-7,
-                      furuta_motion()),
-      trajectory_case("C8-start", group,
-                      "the same: 5.9332037721307034, -44.264142470077606 rad/s^2 [relative]", 1e-12,
-                      furuta_evaluation()),
-      trajectory_case("C8-special", group,
-                      "the same: 8.7222446090675629 rad/s twice, cosine 0.340625 [relative]", 1e-12,
-                      furuta_special()),
-      trajectory_case("C9", group, "Kane's babyboot, 10 s: angles [deg]", 1e-3, babyboot_motion()),
-      trajectory_case("C9-fine", group, "the same, 0.25 ms [deg]", 1e-5, babyboot_fine()),
-      trajectory_case("C9-end", group, "the same: rates and accelerations at 10 s, dopri5", 1e-5,
-                      babyboot_rates_at_end()),
-  };
-  return {150, cases};
+  return {150,
+          {{"C8", 1e-7, furuta_motion()},
+           {"C8-start", 1e-12, furuta_evaluation()},
+           {"C8-special", 1e-12, furuta_special()},
+           {"C9", 1e-3, babyboot_motion()},
+           {"C9-fine", 1e-5, babyboot_fine()},
+           {"C9-end", 1e-5, babyboot_rates_at_end()}}};
 }
 
 }  // namespace twinarm

@@ -4,7 +4,6 @@
 //   start,
 // and energy stays where no joint takes any. A body that falls under semi-implicit steps of h is
 // off the parabola by -g h t / 2, and its energy by -m g^2 h t / 2: its own recurrence, exactly.
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/energy_momentum.h"
@@ -79,10 +78,6 @@ double momenta_error(const CaseReadings& seen, const CaseReadings& exact) {
 
 TrajectoryCase momenta() {
   return {
-      .statement =
-          "A floating tree of four links without gravity, its joints moved by torques from "
-          "within: linear momentum, and angular momentum about the origin, stay. <p>P(t) = P(0), "
-          "H(t) = H(0)</p>",
       .scene =
           [] {
             CaseScene scene = tumbling(Vector3::Zero());
@@ -102,9 +97,6 @@ TrajectoryCase momenta() {
 
 TrajectoryCase falling() {
   TrajectoryCase c = momenta();
-  c.statement =
-      "The same tree under gravity, no torques: <p>P = P<sub>0</sub> + m g t, H = H<sub>0</sub> + "
-      "(m c<sub>0</sub> t + P<sub>0</sub> t<sup>2</sup>/2) &times; g</p>";
   c.scene = [] { return tumbling(kG); };
   c.reference = [](double t) { return momenta_after(t, kG); };
   c.mutant = more_gravity;
@@ -113,11 +105,8 @@ TrajectoryCase falling() {
 
 TrajectoryCase energy() {
   TrajectoryCase c = falling();
-  c.statement = "The same tree under gravity: <p>T + V = const</p>";
   c.readings = {"energy [J]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
-  };
+  c.observe = observe_energy;
   c.reference = [](double) {
     static const double at_start = [] {
       const CaseScene scene = tumbling(kG);
@@ -131,9 +120,6 @@ TrajectoryCase energy() {
 
 TrajectoryCase ballistic() {
   return {
-      .statement =
-          "2 kg fall from rest under semi-implicit steps of h: <p>E &minus; E<sub>0</sub> = "
-          "&minus;m g<sup>2</sup> h t/2</p> The error of the scheme itself.",
       .scene =
           [] {
             Model<double> model = free_body(2, {0.1, 0.2, 0.25});
@@ -144,10 +130,7 @@ TrajectoryCase ballistic() {
           },
       .times = {0.5, 1, 2},
       .readings = {"energy [J]"},
-      .observe =
-          [](const Model<double>& model, const State<double>& x) {
-            return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
-          },
+      .observe = observe_energy,
       .reference = [](double t) { return CaseReadings{-2 * kGravity * kGravity * 1e-3 * t / 2}; },
       .lane = {Integrator::semi_implicit, 1e-3, 0},
       .of_its_lane = true};
@@ -156,20 +139,11 @@ TrajectoryCase ballistic() {
 }  // namespace
 
 CaseFamily floating_tree_cases() {
-  const char* group = "free-body";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("A5-momentum", group,
-                      "floating tree, torques within: momenta kept, 10 s [relative]", 1e-9,
-                      momenta()),
-      trajectory_case("A5-gravity", group, "the same under gravity: P and H as closed forms", 1e-9,
-                      falling()),
-      trajectory_case("A5-energy", group, "the same: energy kept, 10 s [relative to E0]", 1e-9,
-                      energy()),
-      trajectory_case("A5-ballistic", group,
-                      "semi-implicit fall: energy error -m g^2 h t / 2 [J]; its own recurrence",
-                      1e-9, ballistic()),
-  };
-  return {40, cases};
+  return {40,
+          {{"A5-momentum", 1e-9, momenta()},
+           {"A5-gravity", 1e-9, falling()},
+           {"A5-energy", 1e-9, energy()},
+           {"A5-ballistic", 1e-9, ballistic()}}};
 }
 
 }  // namespace twinarm

@@ -3,60 +3,52 @@
 
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 
 const std::array<GoldenSteps, 10>& golden_steps() {
+  using enum Integrator;
   static const std::array<GoldenSteps, 10> all{{
-      {Integrator::euler,
-       -1.4542586468839336,
-       -1.910991855901703,
-       {0.04923, 0.02463, 0.01232},
-       48.11},
-      {Integrator::semi_implicit,
+      {euler, -1.4542586468839336, -1.910991855901703, {0.04923, 0.02463, 0.01232}, 48.11},
+      {semi_implicit,
        -1.4140239721507901,
        -1.7993332855089053,
        {0.008997, 0.004498, 0.002249},
        -0.03523},
-      {Integrator::semi_implicit_xv,
+      {semi_implicit_xv,
        -1.3960306392957011,
        -1.7993332855089053,
        {0.008997, 0.004498, 0.002249},
        0.04299},
-      {Integrator::verlet,
+      {verlet,
        -1.405085873500597,
        -1.7989637723982739,
        {5.856e-05, 1.464e-05, 3.66e-06},
        -0.001947},
-      {Integrator::midpoint,
+      {midpoint,
        -1.4052124376524113,
        -1.7983889145061638,
        {0.0001851, 4.511e-05, 1.113e-05},
        0.01116},
-      {Integrator::heun,
-       -1.4051560758049801,
-       -1.7986875338290331,
-       {0.0001288, 3.074e-05, 7.503e-06},
-       0.01217},
-      {Integrator::rk4,
+      {heun, -1.4051560758049801, -1.7986875338290331, {0.0001288, 3.074e-05, 7.503e-06}, 0.01217},
+      {rk4,
        -1.4050273031405154,
        -1.7993090484649084,
        {8.384e-09, 5.033e-10, 3.081e-11},
        -7.125e-07},
-      {Integrator::implicit_midpoint,
+      {implicit_midpoint,
        -1.4049687399868869,
        -1.7996300100240135,
        {5.857e-05, 1.464e-05, 3.66e-06},
        0.0003859},
-      {Integrator::trapezoid,
+      {trapezoid,
        -1.4049101749531139,
        -1.7999266545133732,
        {0.0001171, 2.928e-05, 7.32e-06},
        -0.0007679},
-      {Integrator::implicit_euler,
+      {implicit_euler,
        -1.3557749142852238,
        -1.6957210499962863,
        {0.04925, 0.02464, 0.01232},
@@ -78,11 +70,7 @@ using namespace smooth_parts;
 // ---- G1 ----
 
 TrajectoryCase golden_motion(const GoldenSteps& row) {
-  return {.statement =
-              "A pendulum of 1 m from 90&deg;, 100 steps of 10 ms: where the scheme "
-              "itself must be, by an independent code. <p>x<sub>n+1</sub> = "
-              "&Phi;<sub>h</sub>(x<sub>n</sub>), &theta;'' = &minus;(g/l) sin &theta;</p>",
-          .scene = [] { return start_at(point_pendulum(), {std::numbers::pi / 2}, {0}); },
+  return {.scene = [] { return start_at(point_pendulum(), {std::numbers::pi / 2}, {0}); },
           .times = {1},
           .readings = {"angle [rad]", "rate [rad/s]"},
           .observe = joint_state(),
@@ -95,15 +83,9 @@ TrajectoryCase golden_motion(const GoldenSteps& row) {
 }
 TrajectoryCase golden_energy(const GoldenSteps& row) {
   TrajectoryCase c = golden_motion(row);
-  c.statement =
-      "The same pendulum, 10000 steps of 10 ms: the energy that the scheme has gained or "
-      "lost, by an independent code. <p>E = m l<sup>2</sup>&theta;'<sup>2</sup>/2 &minus; m g l "
-      "cos &theta;, E(0) = 0</p>";
   c.times = {100};
   c.readings = {"energy [J]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
-  };
+  c.observe = observe_energy;
   c.reference = [row](double) { return CaseReadings{row.energy}; };
   c.measure = relative_each;
   c.mutant = [](CaseScene& scene) { scene.model.gravity = 1.01 * scene.model.gravity; };
@@ -113,17 +95,12 @@ TrajectoryCase golden_energy(const GoldenSteps& row) {
 }  // namespace
 
 CaseFamily golden_steps_cases() {
-  const char* group = "integrators";
   std::vector<AnalyticCase> all;
   for (const GoldenSteps& row : golden_steps())
-    all.push_back(trajectory_case(name_of_case("G1-", row.integrator), group,
-                                  "pendulum, 100 steps of 10 ms: angle, rate; golden numbers",
-                                  1e-12, golden_motion(row)));
+    all.push_back({name_of_case("G1-", row.integrator), 1e-12, golden_motion(row)});
   // The energies are known to four digits.
   for (const GoldenSteps& row : golden_steps())
-    all.push_back(trajectory_case(name_of_case("G2-energy-", row.integrator), group,
-                                  "pendulum, 100 s in steps of 10 ms: energy [relative]", 5e-4,
-                                  golden_energy(row)));
+    all.push_back({name_of_case("G2-energy-", row.integrator), 5e-4, golden_energy(row)});
   return {360, all};
 }
 

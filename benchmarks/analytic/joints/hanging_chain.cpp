@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/chain_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/energy_momentum.h"
@@ -56,46 +55,31 @@ std::vector<std::string> mode_names(std::size_t count) {
 }
 
 // The first so many frequencies of a chain that hangs at rest.
-TrajectoryCase chain_modes(const char* statement, const ChainLink& link, int n,
-                           CaseReadings exact) {
+TrajectoryCase chain_modes(const ChainLink& link, int n, const CaseReadings& exact) {
   const std::size_t count = exact.size();
-  return {.statement = statement,
-          .scene = [link, n] { return at_rest(plane_chain(link, n)); },
-          .times = {0},
-          .readings = mode_names(count),
-          .observe =
-              [count](const Model<double>& model, const State<double>& x) {
-                CaseReadings all = squared_frequencies_of(model, x);
-                all.resize(count);
-                for (double& w : all) w = std::sqrt(w);
-                return all;
-              },
-          .reference = [exact](double) { return exact; },
-          .measure = relative_each};
+  return evaluation([link, n] { return at_rest(plane_chain(link, n)); }, mode_names(count),
+                    [count](const Model<double>& model, const State<double>& x) {
+                      CaseReadings all = squared_frequencies_of(model, x);
+                      all.resize(count);
+                      for (double& w : all) w = std::sqrt(w);
+                      return all;
+                    },
+                    exact, relative_each);
 }
 
 AnalyticCase point_chain_case(const char* name, int n) {
-  return trajectory_case(
-      name, "chains", "chain of point masses: all frequencies; zeros of Laguerre [relative]", 1e-10,
-      chain_modes("A hanging chain of equal point masses, 1 m long: <p>w<sub>i</sub><sup>2</sup> = "
-                  "n g x<sub>i</sub>, L<sub>n</sub>(x<sub>i</sub>) = 0</p>",
-                  point_link(1, 1.0 / n), n, laguerre_frequencies(n)));
+  return {name, 1e-10, chain_modes(point_link(1, 1.0 / n), n, laguerre_frequencies(n))};
 }
 AnalyticCase rod_chain_case(const char* name, int n) {
-  return trajectory_case(
-      name, "chains", "chain of rods: lowest frequencies; minimal coordinates [relative]", 1e-10,
-      chain_modes("A hanging chain of uniform rods, 1 m long: <p>det(K &minus; w<sup>2</sup>M) = "
-                  "0, M and K written down for angles from the vertical.</p>",
-                  rod_link(1, 1.0 / n), n, rod_chain_frequencies(n, std::min(n, 3))));
+  return {name, 1e-10,
+          chain_modes(rod_link(1, 1.0 / n), n, rod_chain_frequencies(n, std::min(n, 3)))};
 }
 // Finite chains are stiffer, by 0.0307 / n^2.
 AnalyticCase rope_case() {
   constexpr int n = 50;
-  return trajectory_case(
-      "C4-rope", "chains", "chain of 50 rods as a rope: 3.766067388420843 rad/s [relative]", 1.3e-5,
-      chain_modes("A hanging chain of 50 rods, 1 m long, is nearly a rope: <p>w<sub>1</sub> = "
-                  "j<sub>0,1</sub>/2 &radic;(g/L)</p>",
-                  rod_link(1, 1.0 / n), n, {special::zero_of_bessel(1) / 2 * std::sqrt(kGravity)}));
+  return {
+      "C4-rope", 1.3e-5,
+      chain_modes(rod_link(1, 1.0 / n), n, {special::zero_of_bessel(1) / 2 * std::sqrt(kGravity)})};
 }
 
 // ---- C5 ----
@@ -131,10 +115,7 @@ long double folded_fall_time(long double depth) {
 }
 
 TrajectoryCase folded_fall() {
-  return {.statement =
-              "A chain of 1 m hangs from both ends side by side; one is let go, and falls faster "
-              "than a stone: <p>v<sup>2</sup> = 2 g x (1 &minus; x/2L)/(1 &minus; x/L)</p>",
-          .scene = folded_chain,
+  return {.scene = folded_chain,
           .reference =
               [](double) { return CaseReadings{static_cast<double>(folded_fall_time(kDeep))}; },
           .measure = relative_each,
@@ -146,13 +127,10 @@ TrajectoryCase folded_fall() {
 }
 TrajectoryCase folded_energy() {
   TrajectoryCase c = folded_fall();
-  c.statement = "The same chain: its energy stays what it was at the start. <p>T + V = V(0)</p>";
   c.events = {};
   c.times = {0.1, 0.2, 0.3, 0.35};
   c.readings = {"energy [J]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
-  };
+  c.observe = observe_energy;
   // Two straight halves, centres at a half of their length, and the level link below.
   c.reference = [](double) {
     const double half = kDown * kFoldedLink;
@@ -166,31 +144,24 @@ TrajectoryCase folded_energy() {
 }  // namespace
 
 CaseFamily hanging_chain_cases() {
-  const char* group = "chains";
-  const std::vector<AnalyticCase> cases = {
-      point_chain_case("C3-1", 1),
-      point_chain_case("C3-2", 2),
-      point_chain_case("C3-3", 3),
-      point_chain_case("C3-4", 4),
-      point_chain_case("C3-5", 5),
-      point_chain_case("C3-6", 6),
-      point_chain_case("C3-8", 8),
-      point_chain_case("C3-10", 10),
-      rod_chain_case("C4-1", 1),
-      rod_chain_case("C4-2", 2),
-      rod_chain_case("C4-5", 5),
-      rod_chain_case("C4-10", 10),
-      rod_chain_case("C4-20", 20),
-      rod_chain_case("C4-50", 50),
-      rope_case(),
-      trajectory_case(
-          "C5", group,
-          "folded chain, 41 links: time to fall 0.9 L [relative]; a stone's is 15 % more", 0.01,
-          folded_fall()),
-      trajectory_case("C5-energy", group, "the same: its energy, 0.35 s [J]", 1e-8,
-                      folded_energy()),
-  };
-  return {120, cases};
+  return {120,
+          {point_chain_case("C3-1", 1),
+           point_chain_case("C3-2", 2),
+           point_chain_case("C3-3", 3),
+           point_chain_case("C3-4", 4),
+           point_chain_case("C3-5", 5),
+           point_chain_case("C3-6", 6),
+           point_chain_case("C3-8", 8),
+           point_chain_case("C3-10", 10),
+           rod_chain_case("C4-1", 1),
+           rod_chain_case("C4-2", 2),
+           rod_chain_case("C4-5", 5),
+           rod_chain_case("C4-10", 10),
+           rod_chain_case("C4-20", 20),
+           rod_chain_case("C4-50", 50),
+           rope_case(),
+           {"C5", 0.01, folded_fall()},
+           {"C5-energy", 1e-8, folded_energy()}}};
 }
 
 }  // namespace twinarm

@@ -7,7 +7,6 @@
 //   phi' = a (u0 - u) / (1 - u^2),  psi' = w3 - phi' u        (precession, spin; z-x-z angles).
 #include <cmath>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/derivatives.h"
@@ -94,27 +93,19 @@ CaseReadings observe_axis(const Model<double>&, const State<double>& x) {
 }
 
 TrajectoryCase top_motion(double step) {
-  return {
-      .statement =
-          "A top of 1 kg, its centre 0.2 m from the fixed point, I<sub>1</sub> = 0.05 and "
-          "I<sub>3</sub> = 0.01 kg m<sup>2</sup> about it, is released 30&deg; from upright "
-          "with its axis at rest and a spin of 100 rad/s. Its axis falls and rises, "
-          "<p>cos &theta; = u<sub>1</sub> + (u<sub>0</sub> &minus; u<sub>1</sub>) "
-          "cd<sup>2</sup>(k t)</p> and goes round at <p>&phi;' = I<sub>3</sub>&omega;<sub>3</sub> "
-          "(u<sub>0</sub> &minus; u)/(I<sub>1</sub>(1 &minus; u<sup>2</sup>)), u = cos &theta;</p>",
-      .scene =
-          [] {
-            return tilted({0, 0, kSpin});
-          },
-      .times = {0.1, 0.38054140391335806, 0.5, 1},
-      .readings = {"x of the axis", "y of the axis", "z of the axis"},
-      .observe = observe_axis,
-      .reference =
-          [](double t) {
-            const Vector3 e = nutation().axis(t);
-            return CaseReadings{e.x(), e.y(), e.z()};
-          },
-      .lane = rk4_lane(step)};
+  return {.scene =
+              [] {
+                return tilted({0, 0, kSpin});
+              },
+          .times = {0.1, 0.38054140391335806, 0.5, 1},
+          .readings = {"x of the axis", "y of the axis", "z of the axis"},
+          .observe = observe_axis,
+          .reference =
+              [](double t) {
+                const Vector3 e = nutation().axis(t);
+                return CaseReadings{e.x(), e.y(), e.z()};
+              },
+          .lane = rk4_lane(step)};
 }
 
 // The rate in body axes, of which two components turn with the spin.
@@ -179,75 +170,49 @@ double residual(const Model<double>& model, double W) {
 }
 
 TrajectoryCase steady() {
-  TrajectoryCase c = top_motion(1e-3);
-  c.statement =
-      "Steady precession of that top at 30&deg;: <p>I<sub>1</sub> cos &theta; W<sup>2</sup> "
-      "&minus; I<sub>3</sub>&omega;<sub>3</sub> W + m g l = 0</p> has a slow and a fast root, and "
-      "none below a least spin.";
-  c.times = {0};
-  c.readings = {"slow [rad/s]", "fast [rad/s]", "least spin [rad/s]"};
-  c.observe = [](const Model<double>& model, const State<double>&) {
+  const auto observe = [](const Model<double>& model, const State<double>&) {
     const double C = residual(model, 0), plus = residual(model, 20), minus = residual(model, -20);
     const double A = (plus + minus - 2 * C) / 800, B = (plus - minus) / 40;
     const double fast = (-B + (B < 0 ? 1 : -1) * std::sqrt(B * B - 4 * A * C)) / (2 * A);
     return CaseReadings{C / (A * fast), fast, kSpin * std::sqrt(4 * A * C) / std::abs(B)};
   };
-  c.reference = [](double) {
-    const double A = I1 * std::cos(kTilt), B = I3 * kSpin, root = B * B - 4 * A * kMoment;
-    const double fast = (B + std::sqrt(root)) / (2 * A);
-    return CaseReadings{kMoment / (A * fast), fast, std::sqrt(4 * A * kMoment) / I3};
-  };
-  c.measure = relative_to_largest;
-  return c;
+  const double A = I1 * std::cos(kTilt), B = I3 * kSpin, root = B * B - 4 * A * kMoment;
+  const double fast = (B + std::sqrt(root)) / (2 * A);
+  return evaluation(
+      [] {
+        return tilted({0, 0, kSpin});
+      },
+      {"slow [rad/s]", "fast [rad/s]", "least spin [rad/s]"}, observe,
+      {kMoment / (A * fast), fast, std::sqrt(4 * A * kMoment) / I3});
 }
 
 // Upright, with z = z1 + i z2 the world's vertical and w = w1 + i w2 the rate, both in body axes:
 //   z' = -i w3 z + i w,   w' = -i D w - i F z,   D = (1 - I3 / I1) w3,  F = m g l / I1,
 // stable where (w3 - D)^2 >= 4 F. F and D are read off the derivatives of the accelerations.
 TrajectoryCase sleeping() {
-  TrajectoryCase c = top_motion(1e-3);
-  c.statement =
-      "Upright, the top sleeps where its spin is above <p>&omega;<sub>3</sub> = 2 "
-      "&radic;(m g l I<sub>1</sub>)/I<sub>3</sub></p>";
-  c.scene = [] { return start_at(top(), {1, 0, 0, 0}, {0, 0, kSpin}); };
-  c.times = {0};
-  c.readings = {"least spin [rad/s]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    const auto d = forward_dynamics_derivatives(model, x, Forces<double>(model));
-    return CaseReadings{2 * std::sqrt(d.dq(0, 0)) / (1 - d.dqd(0, 1) / x.qd[2])};
-  };
-  c.reference = [](double) { return CaseReadings{2 * std::sqrt(kMoment * I1) / I3}; };
-  c.measure = relative_to_largest;
-  return c;
+  return evaluation(
+      [] {
+        return start_at(top(), {1, 0, 0, 0}, {0, 0, kSpin});
+      },
+      {"least spin [rad/s]"},
+      [](const Model<double>& model, const State<double>& x) {
+        const auto d = forward_dynamics_derivatives(model, x, Forces<double>(model));
+        return CaseReadings{2 * std::sqrt(d.dq(0, 0)) / (1 - d.dqd(0, 1) / x.qd[2])};
+      },
+      {2 * std::sqrt(kMoment * I1) / I3});
 }
 
 }  // namespace
 
 CaseFamily heavy_top_cases() {
-  const char* group = "free-body";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("A4", group, "heavy top: its axis, 1 s, rk4 1 ms; elliptic functions", 1e-5,
-                      top_motion(1e-3)),
-      trajectory_case("A4-fine", group, "the same, rk4 0.1 ms", 1e-9, top_motion(1e-4)),
-      trajectory_case("A4-rates", group, "the same: rates in body axes [rad/s], rk4 0.1 ms", 1e-8,
-                      rates()),
-      trajectory_case("A4-nutation", group,
-                      "tilt from 30 to 37.505163885493036 degrees, 0.81621178130406342 rad round "
-                      "in 0.38054140391335806 s [s, rad]",
-                      1e-6, top_bounds()),
-      trajectory_case("A4-invariants", group,
-                      "Lz [N m s] and w3 [rad/s] over 1 s; dopri5, tolerance 1e-12", 1e-10,
-                      invariants()),
-      trajectory_case(
-          "A4-steady", group,
-          "steady precession: 2.1649542110834523, 20.929056556501578; none below a spin "
-          "of 58.294799806244615 rad/s [relative]",
-          1e-12, steady()),
-      trajectory_case("A4-sleeping", group,
-                      "least spin of the upright top: 62.641839053463301 rad/s [relative]", 1e-12,
-                      sleeping()),
-  };
-  return {30, cases};
+  return {30,
+          {{"A4", 1e-5, top_motion(1e-3)},
+           {"A4-fine", 1e-9, top_motion(1e-4)},
+           {"A4-rates", 1e-8, rates()},
+           {"A4-nutation", 1e-6, top_bounds()},
+           {"A4-invariants", 1e-10, invariants()},
+           {"A4-steady", 1e-12, steady()},
+           {"A4-sleeping", 1e-12, sleeping()}}};
 }
 
 }  // namespace twinarm

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/chain_parts.h"
 #include "solver/stepping/simulation.h"
 
@@ -50,15 +49,10 @@ special::Numbers shaken_solution(double w, const special::Numbers& x, long doubl
   return special::solution(rates, x, t - from, 1.0L / 512);
 }
 
-const char* const kShakenStatement =
-    "A pendulum of 0.5 m stands upside down on a pivot that shakes by 20 mm: it stays up where "
-    "the shaking is quick enough. <p>u'' = (g &minus; a w<sup>2</sup> cos wt) sin u / l</p>";
-
 TrajectoryCase shaken_motion(double w, double until) {
   std::vector<double> times;
   for (int k = 1; k <= 8; ++k) times.push_back(until * k / 8);
   return {
-      .statement = kShakenStatement,
       .scene = [w] { return shaken(w, kFromTop); },
       .times = times,
       .readings = {"angle from upright [rad]"},
@@ -90,42 +84,36 @@ TrajectoryCase stays_up(double w) {
 
 // When it passes 1 rad.
 TrajectoryCase falls(double w, double about) {
-  TrajectoryCase c = shaken_motion(w, about);
-  c.times = {};
-  c.readings = {};
-  c.observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
-  c.reference = [w, about](double) {
-    // It shakes about its path: the first of several passages.
-    long double t = about - 0.5L, end = t;
-    special::Numbers x = shaken_solution(w, {kFromTop, 0}, 0, t), next = x;
-    for (; std::abs(next[0]) < 1 && end < 20; next = shaken_solution(w, x, t, end)) {
-      x = next;
-      t = end;
-      end = t + 2e-4L;
-    }
-    for (long double middle; (middle = (t + end) / 2) > t && middle < end;) {
-      const special::Numbers there = shaken_solution(w, x, t, middle);
-      if (std::abs(there[0]) < 1)
-        x = there, t = middle;
-      else
-        end = middle;
-    }
-    return CaseReadings{static_cast<double>(end)};
-  };
-  c.events = {[](const Model<double>& model, const State<double>& x) {
-                return std::abs(from_top(model, x)) - 1;
-              },
-              1, 20};
-  return c;
+  return times_of(shaken_motion(w, about),
+                  {[](const Model<double>& model, const State<double>& x) {
+                     return std::abs(from_top(model, x)) - 1;
+                   },
+                   1, 20},
+                  [w, about](double) {
+                    // It shakes about its path: the first of several passages.
+                    long double t = about - 0.5L, end = t;
+                    special::Numbers x = shaken_solution(w, {kFromTop, 0}, 0, t), next = x;
+                    for (; std::abs(next[0]) < 1 && end < 20;
+                         next = shaken_solution(w, x, t, end)) {
+                      x = next;
+                      t = end;
+                      end = t + 2e-4L;
+                    }
+                    for (long double middle; (middle = (t + end) / 2) > t && middle < end;) {
+                      const special::Numbers there = shaken_solution(w, x, t, middle);
+                      if (std::abs(there[0]) < 1)
+                        x = there, t = middle;
+                      else
+                        end = middle;
+                    }
+                    return CaseReadings{static_cast<double>(end)};
+                  });
 }
 
 // By symmetry the trace is twice where a start at 1 (at rest) is after a period: on the limit at 1.
 TrajectoryCase floquet() {
   static constexpr double small = 1e-5;
   TrajectoryCase c = shaken_motion(kFloquet, 1);
-  c.statement =
-      "Kapitza's pendulum on the limit: after one period of the pivot a small angle is what it "
-      "was. <p>w = 156.65935736181&nbsp;rad/s, by the trace of the monodromy</p>";
   c.scene = [] { return shaken(kFloquet, small); };
   c.times = {2 * std::numbers::pi / kFloquet};
   c.readings = {"angle after a period, of the first"};
@@ -140,23 +128,13 @@ TrajectoryCase floquet() {
 }  // namespace
 
 CaseFamily kapitza_cases() {
-  const char* group = "chains";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("C7", group, "Kapitza's pendulum, 160 rad/s: angle, 2 s [rad]; its equation",
-                      1e-8, shaken_motion(160, 2)),
-      trajectory_case("C7-157.5", group, "the same, 157.5 rad/s: largest angle in 20 s [rad]",
-                      0.0101, stays_up(157.5)),
-      trajectory_case("C7-160", group, "the same, 160 rad/s: largest angle in 20 s [rad]", 0.0101,
-                      stays_up(160)),
-      trajectory_case("C7-156", group, "the same, 156 rad/s: passes 1 rad at 10.2 s [s]", 1e-5,
-                      falls(156, 10.2)),
-      trajectory_case("C7-150", group, "the same, 150 rad/s: passes 1 rad at 3.9 s [s]", 1e-5,
-                      falls(150, 3.9)),
-      trajectory_case("C7-limit", group,
-                      "on the limit 156.65935736181 rad/s a period brings it back [relative]", 1e-8,
-                      floquet()),
-  };
-  return {140, cases};
+  return {140,
+          {{"C7", 1e-8, shaken_motion(160, 2)},
+           {"C7-157.5", 0.0101, stays_up(157.5)},
+           {"C7-160", 0.0101, stays_up(160)},
+           {"C7-156", 1e-5, falls(156, 10.2)},
+           {"C7-150", 1e-5, falls(150, 3.9)},
+           {"C7-limit", 1e-8, floquet()}}};
 }
 
 }  // namespace twinarm

@@ -8,7 +8,6 @@
 #include <complex>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm {
@@ -40,11 +39,7 @@ CaseReadings free_motion(double c, double x0, double v0, double t) {
 }
 
 TrajectoryCase fading(double damping) {
-  return {.statement =
-              "1 kg on a spring of 100 N/m, damped, from 0.1 m at rest: <p>x = "
-              "e<sup>&minus;dt</sup> x<sub>0</sub> (cos wt + d sin wt / w), d = c/2m, "
-              "w<sup>2</sup> = k/m &minus; d<sup>2</sup></p>",
-          .scene = [damping] { return oscillator(0.1, damping, 0, 0); },
+  return {.scene = [damping] { return oscillator(0.1, damping, 0, 0); },
           .times = {0.25, 0.5, 2},
           .readings = {"x [m]", "v [m/s]"},
           .observe = joint_state(),
@@ -58,9 +53,6 @@ std::complex<double> response() {
 
 TrajectoryCase driven() {
   TrajectoryCase c = fading(2);
-  c.statement =
-      "1 kg, 100 N/m, 2 N s/m, driven by 5 cos 8t N from rest: <p>x = A cos(8t &minus; "
-      "&phi;) + what fades</p>";
   c.scene = [] { return oscillator(0, 2, 0, kForce); };
   c.times = {1, 2, 5};
   c.reference = [](double t) {
@@ -74,9 +66,6 @@ TrajectoryCase driven() {
 // Once the start is forgotten (e^-40): x = A cos(8t - phi), x' = -8 A sin(8t - phi).
 TrajectoryCase resonance() {
   TrajectoryCase c = driven();
-  c.statement =
-      "The same after 40 s: <p>A = F / |k &minus; mW<sup>2</sup> + i c W|, tan &phi; = "
-      "cW/(k &minus; mW<sup>2</sup>)</p>";
   c.times = {40};
   c.at_times_only = true;
   c.readings = {"amplitude [m]", "lag [rad]"};
@@ -91,9 +80,6 @@ TrajectoryCase resonance() {
 
 TrajectoryCase turns() {
   TrajectoryCase c = fading(0);
-  c.statement =
-      "1 kg, 100 N/m, 0.5 N of Coulomb friction, from 0.097 m: it turns each &pi;/10 s, at "
-      "<p>(&minus;1)<sup>n</sup> (0.097 &minus; 0.01 n) m</p>";
   c.scene = [] { return oscillator(0.097, 0, 0.5, 0); };
   c.times = {};
   c.readings = {"x [m]"};
@@ -108,9 +94,6 @@ TrajectoryCase turns() {
 
 TrajectoryCase stick() {
   TrajectoryCase c = fading(0);
-  c.statement =
-      "The same sticks from its tenth turn on: at &minus;0.003 m, after &pi; s, where <p>k |x| "
-      "&le; F</p>";
   c.scene = [] { return oscillator(0.097, 0, 0.5, 0); };
   c.times = {std::numbers::pi, 3.5, 5};
   c.at_times_only = true;  // not before the first
@@ -122,24 +105,14 @@ TrajectoryCase stick() {
 }  // namespace
 
 CaseFamily oscillators_cases() {
-  const char* group = "joints";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("B6-light", group, "spring, c = 2 N s/m: x [m], v [m/s], 2 s", 1e-8,
-                      fading(2)),
-      trajectory_case("B6-critical", group, "the same, c = 20 N s/m", 1e-8, fading(20)),
-      trajectory_case("B6-heavy", group, "the same, c = 40 N s/m", 1e-8, fading(40)),
-      trajectory_case("B6-driven", group, "driven at 8 rad/s from rest: x [m], v [m/s], 5 s", 1e-8,
-                      driven()),
-      trajectory_case("B6-resonance", group,
-                      "the same at last: 0.12691827064170238 m, lag 0.4182243295792291 rad", 1e-8,
-                      resonance()),
-      trajectory_case("B6-friction", group,
-                      "Coulomb friction: nine turns, each pi/10 s and 0.01 m less [s, m]", 1e-6,
-                      turns()),
-      trajectory_case("B6-stick", group, "the same: at -0.003 m from pi s on [m, m/s]", 1e-6,
-                      stick()),
-  };
-  return {80, cases};
+  return {80,
+          {{"B6-light", 1e-8, fading(2)},
+           {"B6-critical", 1e-8, fading(20)},
+           {"B6-heavy", 1e-8, fading(40)},
+           {"B6-driven", 1e-8, driven()},
+           {"B6-resonance", 1e-8, resonance()},
+           {"B6-friction", 1e-6, turns()},
+           {"B6-stick", 1e-6, stick()}}};
 }
 
 }  // namespace twinarm

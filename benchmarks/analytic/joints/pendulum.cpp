@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
 
@@ -31,11 +30,7 @@ Real period(Real amplitude) {
 template <int degrees>
 TrajectoryCase swing_time() {
   constexpr Real amplitude = degrees * kPi / 180;
-  return {.statement =
-              "A pendulum of 1 m is released at rest from an angle and passes the bottom at "
-              "odd quarters of its period <p>T = 2&pi; / (&omega;<sub>0</sub> "
-              "agm(1, cos(&theta;<sub>0</sub>/2)))</p>",
-          .scene = [] { return released(static_cast<double>(amplitude), 0); },
+  return {.scene = [] { return released(static_cast<double>(amplitude), 0); },
           .reference =
               [](double k) {
                 static const Real quarter = period(amplitude) / 4;
@@ -45,22 +40,16 @@ TrajectoryCase swing_time() {
 }
 
 TrajectoryCase small_swings() {
-  return {.statement = "Small swings of a pendulum of 1 m take <p>2&pi; &radic;(l/g)</p>",
-          .scene = [] { return released(0, 0); },
-          .times = {0},
-          .readings = {"period [s]"},
-          .observe =
-              [](const Model<double>& model, const State<double>& x) {
-                return CaseReadings{2 * std::numbers::pi / small_frequencies(model, x)[0]};
-              },
-          .reference = [](double) { return CaseReadings{static_cast<double>(2 * kPi / w0)}; },
-          .measure = relative_to_largest};
+  return evaluation([] { return released(0, 0); }, {"period [s]"},
+                    [](const Model<double>& model, const State<double>& x) {
+                      return CaseReadings{2 * std::numbers::pi / small_frequencies(model, x)[0]};
+                    },
+                    {static_cast<double>(2 * kPi / w0)});
 }
 
-TrajectoryCase motion(const char* statement, std::function<CaseScene()> scene,
-                      std::vector<double> times, std::function<CaseReadings(double)> reference) {
-  return {.statement = statement,
-          .scene = std::move(scene),
+TrajectoryCase motion(std::function<CaseScene()> scene, std::vector<double> times,
+                      std::function<CaseReadings(double)> reference) {
+  return {.scene = std::move(scene),
           .times = std::move(times),
           .readings = {"angle [rad]", "rate [rad/s]"},
           .observe = joint_state(),
@@ -74,18 +63,11 @@ CaseReadings swinging(double t) {
           static_cast<double>(-2 * k * std::sqrt(1 - k2) * w0 * j.sn / j.dn)};
 }
 TrajectoryCase swing() {
-  return motion(
-      "A pendulum of 1 m is released from 90&deg;: <p>&theta; = 2 asin(k "
-      "cd(&omega;<sub>0</sub>t)), k = sin(&theta;<sub>0</sub>/2)</p>",
-      [] { return released(std::numbers::pi / 2, 0); }, {1, 2, 5, 10}, swinging);
+  return motion([] { return released(std::numbers::pi / 2, 0); }, {1, 2, 5, 10}, swinging);
 }
 // The same motion as points of a plane: the benchmark A01 of the IFToMM library.
 TrajectoryCase swing_in_plane() {
   TrajectoryCase c = swing();
-  c.statement =
-      "A particle on a circle of 1 m starts at rest from (&minus;1, 0): benchmark A01 of IFToMM's "
-      "library of multibody problems. <p>(x, y) = (&minus;sin &theta;, &minus;cos &theta;), "
-      "&theta; = 2 asin(k cd(&omega;<sub>0</sub>t))</p>";
   c.readings = {"x [m]", "y [m]"};
   c.observe = [](const Model<double>&, const State<double>& x) {
     return CaseReadings{-std::sin(x.q[0]), -std::cos(x.q[0])};
@@ -100,75 +82,54 @@ TrajectoryCase swing_in_plane() {
 
 constexpr Real kOver = 7;  // W [rad/s]
 TrajectoryCase turning() {
-  return motion(
-      "A pendulum of 1 m starts at the bottom with 7 rad/s and turns over: <p>&theta; = 2 "
-      "am(W t/2), parameter 4g/(l W<sup>2</sup>)</p>",
-      [] { return released(0, double(kOver)); }, {1, 5, 10},
-      [](double t) {
-        const Real m = 4 * w0 * w0 / (kOver * kOver), u = kOver * Real(t) / 2;
-        const special::Jacobi j = special::jacobi(u, m);
-        const Real within = std::atan2(j.sn, j.cn);
-        const Real about = u * kPi / (2 * special::quarter_period(m));
-        const Real turns = std::round((about - within) / (2 * kPi));
-        return CaseReadings{static_cast<double>(2 * (within + 2 * kPi * turns)),
-                            static_cast<double>(kOver * j.dn)};
-      });
+  return motion([] { return released(0, double(kOver)); }, {1, 5, 10},
+                [](double t) {
+                  const Real m = 4 * w0 * w0 / (kOver * kOver), u = kOver * Real(t) / 2;
+                  const special::Jacobi j = special::jacobi(u, m);
+                  const Real within = std::atan2(j.sn, j.cn);
+                  const Real about = u * kPi / (2 * special::quarter_period(m));
+                  const Real turns = std::round((about - within) / (2 * kPi));
+                  return CaseReadings{static_cast<double>(2 * (within + 2 * kPi * turns)),
+                                      static_cast<double>(kOver * j.dn)};
+                });
 }
 TrajectoryCase turn_time() {
-  TrajectoryCase c = turning();
-  c.times = {};
-  c.readings = {};
-  c.observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
-  c.reference = [](double k) {
-    const Real turn = 4 * special::quarter_period(4 * w0 * w0 / (kOver * kOver)) / kOver;
-    return CaseReadings{static_cast<double>(turn * Real(k))};
-  };
-  c.events = {[](const Model<double>&, const State<double>& x) { return std::sin(x.q[0] / 2); }, 3,
-              30};
-  return c;
+  return times_of(
+      turning(),
+      {[](const Model<double>&, const State<double>& x) { return std::sin(x.q[0] / 2); }, 3, 30},
+      [](double k) {
+        const Real turn = 4 * special::quarter_period(4 * w0 * w0 / (kOver * kOver)) / kOver;
+        return CaseReadings{static_cast<double>(turn * Real(k))};
+      });
 }
 
 TrajectoryCase separatrix() {
-  return motion(
-      "A pendulum of 1 m starts at the bottom with just what takes it to the top: "
-      "<p>&theta; = 4 atan(exp(&omega;<sub>0</sub>t)) &minus; &pi;</p>",
-      [] { return released(0, static_cast<double>(2 * w0)); }, {0.25, 0.5, 1},
-      [](double t) {
-        const Real u = w0 * Real(t);
-        return CaseReadings{static_cast<double>(4 * std::atan(std::exp(u)) - kPi),
-                            static_cast<double>(2 * w0 / std::cosh(u))};
-      });
+  return motion([] { return released(0, static_cast<double>(2 * w0)); }, {0.25, 0.5, 1},
+                [](double t) {
+                  const Real u = w0 * Real(t);
+                  return CaseReadings{static_cast<double>(4 * std::atan(std::exp(u)) - kPi),
+                                      static_cast<double>(2 * w0 / std::cosh(u))};
+                });
 }
 
 }  // namespace
 
 CaseFamily pendulum_cases() {
-  const char* group = "joints";
-  const char* time = "swing: three passages of the bottom [s]; agm";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("B1-1", group, time, 1e-9, swing_time<1>()),
-      trajectory_case("B1-10", group, time, 1e-9, swing_time<10>()),
-      trajectory_case("B1-45", group, time, 1e-9, swing_time<45>()),
-      trajectory_case("B1-90", group, time, 1e-9, swing_time<90>()),
-      trajectory_case("B1-120", group, time, 1e-9, swing_time<120>()),
-      trajectory_case("B1-150", group, time, 1e-9, swing_time<150>()),
-      trajectory_case("B1-170", group, time, 1e-9, swing_time<170>()),
-      trajectory_case("B1-179", group, time, 1e-9, swing_time<179>()),
-      trajectory_case("B1-small", group, "period of small swings: 2.0060666807106474 s [relative]",
-                      1e-12, small_swings()),
-      trajectory_case(
-          "B2", group,
-          "pendulum from 90 degrees: angle [rad], rate [rad/s], 10 s; elliptic functions", 1e-8,
-          swing()),
-      trajectory_case("B2-A01", group, "IFToMM A01: place at 10 s [m]", 1e-8, swing_in_plane()),
-      trajectory_case("B2-over", group, "pendulum that turns over: angle [rad], rate [rad/s], 10 s",
-                      1e-8, turning()),
-      trajectory_case("B2-turn", group, "the same: each turn takes 1.2908937533774671 s [s]", 1e-8,
-                      turn_time()),
-      trajectory_case("B2-separatrix", group, "pendulum to the top: angle [rad], rate [rad/s], 1 s",
-                      1e-6, separatrix()),
-  };
-  return {50, cases};
+  return {50,
+          {{"B1-1", 1e-9, swing_time<1>()},
+           {"B1-10", 1e-9, swing_time<10>()},
+           {"B1-45", 1e-9, swing_time<45>()},
+           {"B1-90", 1e-9, swing_time<90>()},
+           {"B1-120", 1e-9, swing_time<120>()},
+           {"B1-150", 1e-9, swing_time<150>()},
+           {"B1-170", 1e-9, swing_time<170>()},
+           {"B1-179", 1e-9, swing_time<179>()},
+           {"B1-small", 1e-12, small_swings()},
+           {"B2", 1e-8, swing()},
+           {"B2-A01", 1e-8, swing_in_plane()},
+           {"B2-over", 1e-8, turning()},
+           {"B2-turn", 1e-8, turn_time()},
+           {"B2-separatrix", 1e-6, separatrix()}}};
 }
 
 }  // namespace twinarm

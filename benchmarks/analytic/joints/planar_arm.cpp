@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/mass_matrix.h"
 
@@ -80,90 +79,68 @@ void further_out(CaseScene& scene) {
   scene.model.I.back().h = 1.001 * scene.model.I.back().h;
 }
 
-TrajectoryCase mass_matrix() {
-  return {.statement =
-              "Two links with vertical hinges: <p>M<sub>11</sub> = I<sub>1</sub> + m<sub>1</sub>"
-              "c<sub>1</sub><sup>2</sup> + I<sub>2</sub> + m<sub>2</sub>(l<sub>1</sub><sup>2</sup> "
-              "+ c<sub>2</sub><sup>2</sup> + 2l<sub>1</sub>c<sub>2</sub> cos q<sub>2</sub>), "
-              "M<sub>12</sub> = I<sub>2</sub> + m<sub>2</sub>(c<sub>2</sub><sup>2</sup> + "
-              "l<sub>1</sub>c<sub>2</sub> cos q<sub>2</sub>), M<sub>22</sub> = I<sub>2</sub> + "
-              "m<sub>2</sub>c<sub>2</sub><sup>2</sup></p>",
-          .scene = [] { return at_rest(model_of({})); },
-          .times = {0},
-          .readings = names_in_all_states({"M11 [kg m^2]", "M12 [kg m^2]", "M22 [kg m^2]"}),
-          .observe =
-              [](const Model<double>& model, const State<double>&) {
-                return in_all_states([&](const ArmState& s) {
-                  const Eigen::MatrixXd M = twinarm::mass_matrix(model, state_of(model, s));
-                  return doubles({M(0, 0), M(0, 1), M(1, 1)});
-                });
-              },
-          .reference =
-              [](double) {
-                return in_all_states([](const ArmState& s) {
-                  const PlanarArmTerms terms = terms_of({}, s.q2, s.qd1, s.qd2);
-                  return doubles({terms.M11, terms.M12, terms.M22});
-                });
-              },
-          .measure = relative_to_largest,
-          .mutant = further_out};
+using ArmReadings = CaseReadings (*)(const Model<double>& model, const ArmState& s);
+TrajectoryCase arm_case(const std::vector<std::string>& readings, ArmReadings seen,
+                        CaseReadings (*exact)(const ArmState& s, const PlanarArmTerms& terms)) {
+  TrajectoryCase c =
+      evaluation([] { return at_rest(model_of({})); }, names_in_all_states(readings),
+                 [seen](const Model<double>& model, const State<double>&) {
+                   return in_all_states([&](const ArmState& s) { return seen(model, s); });
+                 },
+                 in_all_states([exact](const ArmState& s) {
+                   return exact(s, terms_of({}, s.q2, s.qd1, s.qd2));
+                 }));
+  c.mutant = further_out;
+  return c;
+}
+CaseReadings torques_at_rate(const Model<double>& model, const ArmState& s) {
+  return inverse_dynamics(model, state_of(model, s), {0, 0});
+}
+
+TrajectoryCase arm_mass_matrix() {
+  return arm_case(
+      {"M11 [kg m^2]", "M12 [kg m^2]", "M22 [kg m^2]"},
+      [](const Model<double>& model, const ArmState& s) {
+        const Eigen::MatrixXd M = mass_matrix(model, state_of(model, s));
+        return CaseReadings{M(0, 0), M(0, 1), M(1, 1)};
+      },
+      [](const ArmState&, const PlanarArmTerms& terms) {
+        return doubles({terms.M11, terms.M12, terms.M22});
+      });
 }
 
 TrajectoryCase velocity_terms() {
-  TrajectoryCase c = mass_matrix();
-  c.statement =
-      "The same two links: <p>C<sub>1</sub> = &minus;h (2 q<sub>1</sub>' q<sub>2</sub>' + "
-      "q<sub>2</sub>'<sup>2</sup>), C<sub>2</sub> = h q<sub>1</sub>'<sup>2</sup>, h = "
-      "m<sub>2</sub>l<sub>1</sub>c<sub>2</sub> sin q<sub>2</sub></p>";
-  c.readings = names_in_all_states({"C1 [N m]", "C2 [N m]"});
-  c.observe = [](const Model<double>& model, const State<double>&) {
-    return in_all_states([&](const ArmState& s) {
-      return CaseReadings(inverse_dynamics(model, state_of(model, s), {0, 0}));
-    });
-  };
-  c.reference = [](double) {
-    return in_all_states([](const ArmState& s) {
-      const PlanarArmTerms terms = terms_of({}, s.q2, s.qd1, s.qd2);
-      return doubles({terms.C1, terms.C2});
-    });
-  };
-  return c;
+  return arm_case({"C1 [N m]", "C2 [N m]"}, torques_at_rate,
+                  [](const ArmState&, const PlanarArmTerms& terms) {
+                    return doubles({terms.C1, terms.C2});
+                  });
 }
 
 TrajectoryCase arm_accelerations() {
-  TrajectoryCase c = mass_matrix();
-  c.statement =
-      "The same two links, torques on both: <p>q'' = M<sup>&minus;1</sup> (&tau; &minus; C)</p>";
-  c.readings = names_in_all_states({"q1'' [rad/s^2]", "q2'' [rad/s^2]"});
-  c.observe = [](const Model<double>& model, const State<double>&) {
-    return in_all_states([&](const ArmState& s) {
-      Workspace<double> w(model);
-      Forces<double> forces(model);
-      forces.tau = {s.tau1, s.tau2};
-      aba(model, state_of(model, s), forces, w);
-      return CaseReadings(w.qdd);
-    });
-  };
-  c.reference = [](double) {
-    return in_all_states([](const ArmState& s) {
-      const special::Two qdd = accelerations_of(terms_of({}, s.q2, s.qd1, s.qd2), {s.tau1, s.tau2});
-      return doubles({qdd.first, qdd.second});
-    });
-  };
-  return c;
+  return arm_case(
+      {"q1'' [rad/s^2]", "q2'' [rad/s^2]"},
+      [](const Model<double>& model, const ArmState& s) {
+        Workspace<double> w(model);
+        Forces<double> forces(model);
+        forces.tau = {s.tau1, s.tau2};
+        aba(model, state_of(model, s), forces, w);
+        return w.qdd;
+      },
+      [](const ArmState& s, const PlanarArmTerms& terms) {
+        const special::Two qdd = accelerations_of(terms, {s.tau1, s.tau2});
+        return doubles({qdd.first, qdd.second});
+      });
 }
 
 TrajectoryCase no_weight() {
-  TrajectoryCase c = mass_matrix();
-  c.statement = "The same two links at rest: their axes stand along gravity, <p>G = 0</p>";
-  c.readings = names_in_all_states({"G1 [N m]", "G2 [N m]"});
-  c.observe = [](const Model<double>& model, const State<double>&) {
-    return in_all_states([&](ArmState s) {
-      s.qd1 = s.qd2 = 0;
-      return CaseReadings(inverse_dynamics(model, state_of(model, s), {0, 0}));
-    });
-  };
-  c.reference = [](double) { return CaseReadings(2 * kArmStates, 0); };
+  TrajectoryCase c = arm_case(
+      {"G1 [N m]", "G2 [N m]"},
+      [](const Model<double>& model, const ArmState& s) {
+        return torques_at_rate(model, {s.q1, s.q2, 0, 0, 0, 0});
+      },
+      [](const ArmState&, const PlanarArmTerms&) {
+        return CaseReadings{0, 0};
+      });
   c.measure = largest_difference;
   c.mutant = [](CaseScene& scene) { scene.model.gravity.x = 1e-3 * kGravity; };  // it leans
   return c;
@@ -172,18 +149,11 @@ TrajectoryCase no_weight() {
 }  // namespace
 
 CaseFamily planar_arm_cases() {
-  const char* group = "robots";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("F2", group, "planar two-link arm: mass matrix in ten states [relative]",
-                      1e-12, mass_matrix()),
-      trajectory_case("F2-velocity", group, "the same: velocity terms C qd [relative]", 1e-12,
-                      velocity_terms()),
-      trajectory_case("F2-forward", group, "the same: accelerations under torques [relative]",
-                      1e-12, arm_accelerations()),
-      trajectory_case("F2-weight", group, "the same: gravity along its axes does nothing [N m]",
-                      1e-12, no_weight()),
-  };
-  return {330, cases};
+  return {330,
+          {{"F2", 1e-12, arm_mass_matrix()},
+           {"F2-velocity", 1e-12, velocity_terms()},
+           {"F2-forward", 1e-12, arm_accelerations()},
+           {"F2-weight", 1e-12, no_weight()}}};
 }
 
 }  // namespace twinarm

@@ -8,7 +8,6 @@
 #include <limits>
 #include <string>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/joints/puma560_values.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/dynamics.h"
@@ -83,11 +82,13 @@ State<double> puma_state(const Model<double>& model, const Joints& q, const Join
   x.qd.assign(qd.begin(), qd.end());
   return x;
 }
-void append(CaseReadings& all, const std::vector<double>& values) {
-  all.insert(all.end(), values.begin(), values.end());
+CaseReadings joined(const std::vector<CaseReadings>& parts) {
+  CaseReadings all;
+  for (const CaseReadings& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
-void append(CaseReadings& all, const Joints& values) {
-  all.insert(all.end(), values.begin(), values.end());
+CaseReadings values_of(const Joints& values) {
+  return {values.begin(), values.end()};
 }
 
 // rne(q, qd, qdd) of the toolbox, with motors and joint friction.
@@ -143,53 +144,47 @@ std::vector<std::string> puma_names(const std::vector<std::string>& rows, const 
   return names;
 }
 
+using PumaReadings = CaseReadings (*)(const Model<double>& model);
+TrajectoryCase puma_case(std::vector<std::string> readings, PumaReadings seen, CaseReadings exact,
+                         CaseMeasure measure = relative_by_six) {
+  const CaseObserver observe = [seen](const Model<double>& model, const State<double>&) {
+    return seen(model);
+  };
+  return evaluation([] { return at_rest(puma()); }, std::move(readings), observe, std::move(exact),
+                    measure);
+}
+
 TrajectoryCase puma_weight() {
-  return {.statement =
-              "The PUMA 560 holds itself at rest in four postures, <i>qn, qz, qr, qs</i> of the "
-              "Robotics Toolbox: <p>&tau; = G(q)</p>",
-          .scene = [] { return at_rest(puma()); },
-          .times = {0},
-          .readings = puma_names({"qn", "qz", "qr", "qs"}, "N m"),
-          .observe =
-              [](const Model<double>& model, const State<double>&) {
-                CaseReadings all;
-                for (const puma560::GravityLoad& load : puma560::kGravityLoads)
-                  append(all, puma_torques(model, load.q, {}, 0));
-                return all;
-              },
-          .reference =
-              [](double) {
-                CaseReadings all;
-                for (const puma560::GravityLoad& load : puma560::kGravityLoads)
-                  append(all, load.tau);
-                return all;
-              },
-          .measure = relative_by_six};
+  CaseReadings exact;
+  for (const puma560::GravityLoad& load : puma560::kGravityLoads)
+    exact = joined({exact, values_of(load.tau)});
+  return puma_case(
+      puma_names({"qn", "qz", "qr", "qs"}, "N m"),
+      [](const Model<double>& model) {
+        CaseReadings all;
+        for (const puma560::GravityLoad& load : puma560::kGravityLoads)
+          all = joined({all, puma_torques(model, load.q, {}, 0)});
+        return all;
+      },
+      exact);
 }
 
 TrajectoryCase puma_mass() {
-  TrajectoryCase c = puma_weight();
-  c.statement =
-      "Inertia of the PUMA's motors seen at the joints, and its mass matrix in the posture "
-      "<i>qn</i>: <p>M = M<sub>links</sub> + G<sup>2</sup> J<sub>m</sub></p>";
-  c.readings = puma_names({"armature", "M diagonal"}, "kg m^2");
+  std::vector<std::string> readings = puma_names({"armature", "M diagonal"}, "kg m^2");
   for (const char* entry : {"M12", "M13", "M23"})
-    c.readings.push_back(std::string(entry) + " [kg m^2]");
-  c.observe = [](const Model<double>& model, const State<double>&) {
-    CaseReadings all = model.armature;
-    const Eigen::MatrixXd M = mass_matrix(model, puma_state(model, puma560::kNominal));
-    for (Eigen::Index k = 0; k < 6; ++k) all.push_back(M(k, k));
-    for (const double entry : {M(0, 1), M(0, 2), M(1, 2)}) all.push_back(entry);
-    return all;
-  };
-  c.reference = [](double) {
-    CaseReadings all;
-    append(all, puma560::kArmature);
-    append(all, puma560::kMassDiagonal);
-    append(all, CaseReadings{puma560::kM12, puma560::kM13, puma560::kM23});
-    return all;
-  };
-  c.measure = relative_to_largest;
+    readings.push_back(std::string(entry) + " [kg m^2]");
+  TrajectoryCase c = puma_case(
+      readings,
+      [](const Model<double>& model) {
+        CaseReadings all = model.armature;
+        const Eigen::MatrixXd M = mass_matrix(model, puma_state(model, puma560::kNominal));
+        for (Eigen::Index k = 0; k < 6; ++k) all.push_back(M(k, k));
+        return joined({all, {M(0, 1), M(0, 2), M(1, 2)}});
+      },
+      joined({values_of(puma560::kArmature),
+              values_of(puma560::kMassDiagonal),
+              {puma560::kM12, puma560::kM13, puma560::kM23}}),
+      relative_to_largest);
   c.mutant = more_inertia;
   return c;
 }
@@ -197,48 +192,24 @@ TrajectoryCase puma_mass() {
 constexpr Joints kOnes{1, 1, 1, 1, 1, 1};
 
 TrajectoryCase puma_inverse() {
-  TrajectoryCase c = puma_weight();
-  c.statement =
-      "Torques of the PUMA in the posture <i>qn</i> for q'' = 1: from rest; at q' = 1 with joint "
-      "friction; the same of the links alone. <p>&tau; = M q'' + C q' + G + B q' + "
-      "T<sub>c</sub> sign q'</p>";
-  c.readings = puma_names({"from rest", "moving", "links alone"}, "N m");
-  c.observe = [](const Model<double>& model, const State<double>&) {
-    const Joints& qn = puma560::kNominal;
-    CaseReadings all = puma_torques(model, qn, {}, 1);
-    append(all, puma_torques(model, qn, kOnes, 1));
-    append(all, puma_torques(links_alone(model), qn, kOnes, 1));
-    return all;
-  };
-  c.reference = [](double) {
-    CaseReadings all;
-    append(all, puma560::kTauFromRest);
-    append(all, puma560::kTauMoving);
-    append(all, puma560::kTauMovingLinks);
-    return all;
-  };
-  return c;
+  return puma_case(
+      puma_names({"from rest", "moving", "links alone"}, "N m"),
+      [](const Model<double>& model) {
+        const Joints& qn = puma560::kNominal;
+        return joined({puma_torques(model, qn, {}, 1), puma_torques(model, qn, kOnes, 1),
+                       puma_torques(links_alone(model), qn, kOnes, 1)});
+      },
+      joined({values_of(puma560::kTauFromRest), values_of(puma560::kTauMoving),
+              values_of(puma560::kTauMovingLinks)}));
 }
 
 TrajectoryCase puma_forward() {
-  TrajectoryCase c = puma_weight();
-  c.statement =
-      "Accelerations of the PUMA in the posture <i>qn</i>, moving, under torques, with joint "
-      "friction and without: <p>q'' = M<sup>&minus;1</sup> (&tau; &minus; C q' &minus; G &minus; "
-      "B q' &minus; T<sub>c</sub> sign q')</p>";
-  c.readings = puma_names({"with friction", "without"}, "rad/s^2");
-  c.observe = [](const Model<double>& model, const State<double>&) {
-    CaseReadings all = puma_accelerations(model);
-    append(all, puma_accelerations(without_friction(model)));
-    return all;
-  };
-  c.reference = [](double) {
-    CaseReadings all;
-    append(all, puma560::kAcceleration);
-    append(all, puma560::kAccelerationNoFriction);
-    return all;
-  };
-  return c;
+  return puma_case(
+      puma_names({"with friction", "without"}, "rad/s^2"),
+      [](const Model<double>& model) {
+        return joined({puma_accelerations(model), puma_accelerations(without_friction(model))});
+      },
+      joined({values_of(puma560::kAcceleration), values_of(puma560::kAccelerationNoFriction)}));
 }
 
 // rne from rest, moving; accel. And the unit of the last digit of each.
@@ -247,47 +218,31 @@ constexpr std::array<double, 18> kPublished{
     1.45452, 1.29911, 0.713781, -7.4102,  -9.8432,  -10.9694, -4.4314, -0.9881, 21.0228};
 constexpr std::array<double, 18> kLastDigit{1e-5, 1e-4, 1e-5, 1e-6, 1e-6, 1e-6, 1e-4, 1e-4, 1e-4,
                                             1e-5, 1e-5, 1e-6, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4};
+CaseReadings in_last_digits(CaseReadings all) {
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] /= kLastDigit[i];
+  return all;
+}
 TrajectoryCase puma_published() {
-  TrajectoryCase c = puma_weight();
-  c.statement =
-      "The PUMA's torques and accelerations as the Robotics Toolbox publishes them, to 4 to 6 "
-      "digits, in units of the last one: <p>rne(qn, 0, 1), rne(qn, 1, 1), accel(qn, q', &tau;)</p>";
-  c.readings = puma_names({"from rest", "moving", "acceleration"}, "last digits");
-  c.observe = [](const Model<double>& model, const State<double>&) {
-    const Joints& qn = puma560::kNominal;
-    CaseReadings all = puma_torques(model, qn, {}, 1);
-    append(all, puma_torques(model, qn, kOnes, 1));
-    append(all, puma_accelerations(model));
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] /= kLastDigit[i];
-    return all;
-  };
-  c.reference = [](double) {
-    CaseReadings all;
-    for (std::size_t i = 0; i < 18; ++i) all.push_back(kPublished[i] / kLastDigit[i]);
-    return all;
-  };
-  c.measure = largest_difference;
-  return c;
+  return puma_case(
+      puma_names({"from rest", "moving", "acceleration"}, "last digits"),
+      [](const Model<double>& model) {
+        const Joints& qn = puma560::kNominal;
+        return in_last_digits(
+            joined({puma_torques(model, qn, {}, 1), puma_torques(model, qn, kOnes, 1),
+                    puma_accelerations(model)}));
+      },
+      in_last_digits({kPublished.begin(), kPublished.end()}), largest_difference);
 }
 
 }  // namespace
 
 CaseFamily puma560_cases() {
-  const char* group = "robots";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("F1", group, "PUMA 560: gravity load in four postures [relative]", 1e-12,
-                      puma_weight()),
-      trajectory_case("F1-mass", group, "PUMA 560: armature and mass matrix at qn [relative]",
-                      1e-12, puma_mass()),
-      trajectory_case("F1-inverse", group, "PUMA 560: inverse dynamics at qn [relative]", 1e-12,
-                      puma_inverse()),
-      trajectory_case("F1-forward", group, "PUMA 560: forward dynamics at qn [relative]", 1e-12,
-                      puma_forward()),
-      trajectory_case("F1-published", group,
-                      "PUMA 560: published torques, accelerations [of the last digit]", 0.5,
-                      puma_published()),
-  };
-  return {320, cases};
+  return {320,
+          {{"F1", 1e-12, puma_weight()},
+           {"F1-mass", 1e-12, puma_mass()},
+           {"F1-inverse", 1e-12, puma_inverse()},
+           {"F1-forward", 1e-12, puma_forward()},
+           {"F1-published", 0.5, puma_published()}}};
 }
 
 }  // namespace twinarm

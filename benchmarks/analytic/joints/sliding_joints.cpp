@@ -4,10 +4,10 @@
 // v = m g sin 30 / c.
 // B9, cylindrical, planar and free joints: each coordinate for itself, parabolas in time, on which
 // every scheme of second order is exact.
+#include <array>
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/world_kinematics.h"
 
@@ -26,47 +26,36 @@ CaseScene screw(double damping) {
 }
 
 TrajectoryCase screw_at_rest() {
-  return {.statement =
-              "2 kg, 0.05 kg m<sup>2</sup> on a vertical screw of 0.1 m a turn: <p>q'' = m g "
-              "p / (I + m p<sup>2</sup>), &tau; = &minus;m g p holds it</p>",
-          .scene = [] { return screw(0); },
-          .times = {0},
-          .readings = {"turning [rad/s2]", "sinking [m/s2]", "holding torque [N m]"},
-          .observe =
-              [](const Model<double>& model, const State<double>& x) {
-                const Workspace<double> w = evaluate(model, x);
-                return CaseReadings{w.qdd[0], -point_acceleration(model, w, 1, {}).z,
-                                    -inverse_dynamics(model, x, {0})[0]};
-              },
-          .reference =
-              [](double) {
-                const double qdd = kSlidingMass * kGravity * kPitch /
-                                   (kScrewInertia + kSlidingMass * kPitch * kPitch);
-                return CaseReadings{qdd, kPitch * qdd, kSlidingMass * kGravity * kPitch};
-              },
-          .measure = relative_each};
+  const double qdd =
+      kSlidingMass * kGravity * kPitch / (kScrewInertia + kSlidingMass * kPitch * kPitch);
+  return evaluation([] { return screw(0); },
+                    {"turning [rad/s2]", "sinking [m/s2]", "holding torque [N m]"},
+                    [](const Model<double>& model, const State<double>& x) {
+                      const Workspace<double> w = evaluate(model, x);
+                      return CaseReadings{w.qdd[0], -point_acceleration(model, w, 1, {}).z,
+                                          -inverse_dynamics(model, x, {0})[0]};
+                    },
+                    {qdd, kPitch * qdd, kSlidingMass * kGravity * kPitch}, relative_each);
+}
+// Accelerations at rest and at a rate, in which they are linear.
+std::array<double, 2> accelerations(const Model<double>& model, const State<double>& x,
+                                    double rate) {
+  State<double> moving = x;
+  moving.qd[0] = rate;
+  return {evaluate(model, x).qdd[0], evaluate(model, moving).qdd[0]};
 }
 
 // With damping: the rate at which nothing accelerates, and how it is come near.
 TrajectoryCase screw_terminal() {
-  TrajectoryCase c = screw_at_rest();
-  c.statement = "The same screw with 0.01 N m s/rad tends to <p>m g p / b</p>";
-  c.scene = [] { return screw(0.01); };
-  c.readings = {"terminal rate [rad/s]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    State<double> moving = x;
-    moving.qd[0] = 32;  // accelerations are linear in the rate
-    const double rest = evaluate(model, x).qdd[0], fast = evaluate(model, moving).qdd[0];
-    return CaseReadings{32 * rest / (rest - fast)};
-  };
-  c.reference = [](double) { return CaseReadings{kSlidingMass * kGravity * kPitch / 0.01}; };
-  return c;
+  return evaluation([] { return screw(0.01); }, {"terminal rate [rad/s]"},
+                    [](const Model<double>& model, const State<double>& x) {
+                      const auto [rest, fast] = accelerations(model, x, 32);
+                      return CaseReadings{32 * rest / (rest - fast)};
+                    },
+                    {kSlidingMass * kGravity * kPitch / 0.01}, relative_each);
 }
 TrajectoryCase screw_motion() {
   TrajectoryCase c = screw_terminal();
-  c.statement =
-      "The same screw from rest: <p>q' = m g p / b (1 &minus; exp(&minus;t/T)), T = (I + m "
-      "p<sup>2</sup>)/b</p>";
   c.scene = [] {
     CaseScene scene = screw(0.01);
     scene.conserves = false;
@@ -84,10 +73,7 @@ TrajectoryCase screw_motion() {
 }
 
 TrajectoryCase incline() {
-  return {.statement =
-              "2 kg slide down 30&deg; from rest, damped by 0.8 N s/m: <p>x = v (t &minus; "
-              "T(1 &minus; exp(&minus;t/T))), T = m/c, v = m g sin 30&deg;/c</p>",
-          .scene =
+  return {.scene =
               [] {
                 CaseScene scene =
                     at_rest(one_body(JointType::prismatic, {std::sqrt(3.0) / 2, 0, -0.5},
@@ -105,30 +91,19 @@ TrajectoryCase incline() {
               }};
 }
 TrajectoryCase incline_start() {
-  TrajectoryCase c = incline();
-  c.statement =
-      "The same: how it starts, and its last speed. <p>x''(0) = g sin 30&deg;, v = m g sin "
-      "30&deg;/c</p>";
-  c.times = {0};
-  c.readings = {"start [m/s2]", "terminal speed [m/s]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    State<double> moving = x;
-    moving.qd[0] = 10;
-    const double rest = evaluate(model, x).qdd[0], fast = evaluate(model, moving).qdd[0];
-    return CaseReadings{rest, 10 * rest / (rest - fast)};
-  };
-  c.reference = [](double) { return CaseReadings{4.905, 12.2625}; };
-  c.measure = relative_each;
-  return c;
+  return evaluation(
+      incline().scene, {"start [m/s2]", "terminal speed [m/s]"},
+      [](const Model<double>& model, const State<double>& x) {
+        const auto [rest, fast] = accelerations(model, x, 10);
+        return CaseReadings{rest, 10 * rest / (rest - fast)};
+      },
+      {4.905, 12.2625}, relative_each);
 }
 
 // ---- B9 ----
 
 TrajectoryCase cylindrical() {
-  return {.statement =
-              "1.5 kg, 0.02 kg m<sup>2</sup> on a vertical cylindrical joint, turned by "
-              "0.3 N m: <p>z = &minus;g t<sup>2</sup>/2, &theta; = 15 t<sup>2</sup>/2</p>",
-          .scene =
+  return {.scene =
               [] {
                 CaseScene scene =
                     at_rest(one_body(JointType::cylindrical, Vector3::UnitZ(),
@@ -149,9 +124,6 @@ TrajectoryCase cylindrical() {
 
 TrajectoryCase planar() {
   return {
-      .statement =
-          "A body slides and turns freely on a plane of 20&deg;: <p>x = t + g sin 20&deg; "
-          "t<sup>2</sup>/2, y = 2t, &theta; = 3t</p>",
       .scene =
           [] {
             const double slope = 20 * kDegree;
@@ -170,10 +142,7 @@ TrajectoryCase planar() {
 }
 
 TrajectoryCase thrown() {
-  return {.statement =
-              "A free body is thrown from (0, 0, 1) with (3, 0, 4) m/s: <p>r = r<sub>0</sub> + "
-              "v<sub>0</sub>t + g t<sup>2</sup>/2</p>",
-          .scene =
+  return {.scene =
               [] {
                 return start_at(
                     one_body(JointType::free, Vector3::UnitZ(),
@@ -201,32 +170,17 @@ TrajectoryCase by(Lane lane, TrajectoryCase c) {
 }  // namespace
 
 CaseFamily sliding_joints_cases() {
-  const char* group = "joints";
   const Lane verlet{Integrator::verlet, 1e-2, 0};
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("B4", group,
-                      "screw: 6.1825971606954312, 0.098399089927059503, torque "
-                      "0.31226199834629865 [relative]",
-                      1e-12, screw_at_rest()),
-      trajectory_case("B4-terminal", group, "damped screw: 31.226199834629865 rad/s [relative]",
-                      1e-12, screw_terminal()),
-      trajectory_case("B4-motion", group, "damped screw: rate, 30 s [rad/s]; exponential", 1e-8,
-                      screw_motion()),
-      trajectory_case("B5", group, "damped slide on 30 degrees: x [m], v [m/s], 10 s; exponential",
-                      1e-8, incline()),
-      trajectory_case("B5-start", group, "the same: 4.905 m/s^2, 12.2625 m/s [relative]", 1e-12,
-                      incline_start()),
-      trajectory_case("B9-cylindrical", group,
-                      "z'' = -9.81, angle'' = 15: motion in 1 s [relative]", 1e-12, cylindrical()),
-      trajectory_case("B9-planar", group,
-                      "on 20 degrees: (18.098479227111646, 6, 9) at 3 s [relative]", 1e-12,
-                      planar()),
-      trajectory_case("B9-free", group, "thrown: (4.5, 0, -4.03625) at 1.5 s [relative]", 1e-12,
-                      thrown()),
-      trajectory_case("B9-verlet", group, "the planar one by verlet, 10 ms: exact [relative]",
-                      1e-12, by(verlet, planar())),
-  };
-  return {70, cases};
+  return {70,
+          {{"B4", 1e-12, screw_at_rest()},
+           {"B4-terminal", 1e-12, screw_terminal()},
+           {"B4-motion", 1e-8, screw_motion()},
+           {"B5", 1e-8, incline()},
+           {"B5-start", 1e-12, incline_start()},
+           {"B9-cylindrical", 1e-12, cylindrical()},
+           {"B9-planar", 1e-12, planar()},
+           {"B9-free", 1e-12, thrown()},
+           {"B9-verlet", 1e-12, by(verlet, planar())}}};
 }
 
 }  // namespace twinarm

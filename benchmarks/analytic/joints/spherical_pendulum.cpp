@@ -6,7 +6,6 @@
 // W^2 = g / cos a, small swings have w^2 = W^2 (1 + 3 cos^2 a).
 #include <cmath>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/kinematics.h"
@@ -85,11 +84,7 @@ const ConeMotion& wide() {
 }
 
 TrajectoryCase cone_swing(JointType type) {
-  return {.statement =
-              "A spherical pendulum of 1 m starts 60&deg; from hanging and goes round at 2 "
-              "rad/s: <p>z = z<sub>1</sub> + (z<sub>2</sub> &minus; z<sub>1</sub>) "
-              "cd<sup>2</sup>(k t), azimuth' = L/(1 &minus; z<sup>2</sup>)</p>",
-          .scene = [type] { return start(type, 60 * kDegree, 2); },
+  return {.scene = [type] { return start(type, 60 * kDegree, 2); },
           .times = {1, 2, 5},
           .readings = {"x [m]", "y [m]", "z [m]", "vx [m/s]", "vy [m/s]", "vz [m/s]"},
           .observe = observe_place,
@@ -118,9 +113,6 @@ TrajectoryCase cone_bounds() {
 
 TrajectoryCase momentum_kept() {
   TrajectoryCase c = cone_swing(JointType::spherical);
-  c.statement =
-      "The same: its angular momentum about the vertical stays. <p>L = m (x y' &minus; y x') = 1.5 "
-      "N m s</p>";
   c.readings = {"Lz [N m s]"};
   c.observe = [](const Model<double>& model, const State<double>& x) {
     const CaseReadings p = observe_place(model, x);
@@ -138,7 +130,6 @@ constexpr double kAside = 1e-5;  // its square is beyond the tolerance
 
 TrajectoryCase conical() {
   TrajectoryCase c = cone_swing(JointType::spherical);
-  c.statement = "A conical pendulum at 30&deg; goes round at <p>W = &radic;(g/(l cos a))</p>";
   c.scene = [] { return start(JointType::spherical, kCone, kRound); };
   c.reference = [](double t) {
     const double r = std::sin(kCone), z = -std::cos(kCone), C = std::cos(kRound * t);
@@ -151,51 +142,32 @@ TrajectoryCase conical() {
 // The same angular momentum, a little aside: it swings about the cone.
 TrajectoryCase near_conical() {
   TrajectoryCase c = conical();
-  c.statement =
-      "A little aside of the cone, with the same angular momentum, it swings at <p>w<sup>2</sup> = "
-      "W<sup>2</sup> (1 + 3 cos<sup>2</sup> a)</p>";
   c.scene = [] {
     const double ratio = std::sin(kCone) / std::sin(kCone + kAside);
     return start(JointType::spherical, kCone + kAside, kRound * ratio * ratio);
   };
-  c.times = {};
-  c.readings = {};
-  c.observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
-  c.reference = [](double n) {
-    const double cone_swing = kRound * std::sqrt(1 + 3 * std::cos(kCone) * std::cos(kCone));
-    return CaseReadings{n * std::acos(-1.0) / cone_swing};
-  };
-  c.events = {
-      [](const Model<double>& model, const State<double>& x) { return observe_place(model, x)[5]; },
-      4, 5};
-  return c;
+  return times_of(c,
+                  {[](const Model<double>& model, const State<double>& x) {
+                     return observe_place(model, x)[5];
+                   },
+                   4, 5},
+                  [](double n) {
+                    const double cone_swing =
+                        kRound * std::sqrt(1 + 3 * std::cos(kCone) * std::cos(kCone));
+                    return CaseReadings{n * std::acos(-1.0) / cone_swing};
+                  });
 }
 
 }  // namespace
 
 CaseFamily spherical_pendulum_cases() {
-  const char* group = "joints";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("B7", group,
-                      "spherical pendulum on a ball: place [m], velocity [m/s], 5 s; elliptic "
-                      "functions",
-                      1e-8, cone_swing(JointType::spherical)),
-      trajectory_case("B7-universal", group, "the same on a universal joint", 1e-8,
-                      cone_swing(JointType::universal)),
-      trajectory_case("B7-bounds", group,
-                      "the same: z from -0.5 to -0.88759739960796994 m, 3.8311623896149764 rad "
-                      "round in 1.0796691626572801 s [s, m]",
-                      1e-8, cone_bounds()),
-      trajectory_case("B7-momentum", group, "the same: Lz [N m s]; dopri5, tolerance 1e-13", 1e-11,
-                      momentum_kept()),
-      trajectory_case("B7-conical", group,
-                      "conical at 30 degrees, 3.3656518360490673 rad/s: place, velocity, 5 s", 1e-8,
-                      conical()),
-      trajectory_case("B7-near", group,
-                      "1e-5 rad from it: swings at 6.0675151351172159 rad/s, four half swings [s]",
-                      1e-8, near_conical()),
-  };
-  return {90, cases};
+  return {90,
+          {{"B7", 1e-8, cone_swing(JointType::spherical)},
+           {"B7-universal", 1e-8, cone_swing(JointType::universal)},
+           {"B7-bounds", 1e-8, cone_bounds()},
+           {"B7-momentum", 1e-11, momentum_kept()},
+           {"B7-conical", 1e-8, conical()},
+           {"B7-near", 1e-8, near_conical()}}};
 }
 
 }  // namespace twinarm

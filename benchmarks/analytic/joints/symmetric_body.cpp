@@ -4,7 +4,6 @@
 // Kane, Likins, Levinson, Spacecraft Dynamics (1983), 3.1.
 #include <cmath>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/energy_momentum.h"
@@ -35,12 +34,7 @@ CaseReadings reference(double t) {
 }
 
 TrajectoryCase symmetric_motion() {
-  return {.statement =
-              "A free body with moments of inertia 0.04, 0.04 and 0.02 kg m<sup>2</sup> starts "
-              "with (2, 0, 5) rad/s. Its axis e<sub>3</sub> goes round the angular momentum H: "
-              "<p>R(t) = Rot(H/|H|, |H| t/I<sub>1</sub>) Rot(e<sub>3</sub>, &omega;<sub>3</sub> "
-              "(I<sub>1</sub> &minus; I<sub>3</sub>) t/I<sub>1</sub>)</p>",
-          .scene = scene,
+  return {.scene = scene,
           .times = {1, 5, 10},
           .readings = {"qw", "qx", "qy", "qz", "w1 [rad/s]", "w2 [rad/s]", "w3 [rad/s]"},
           .observe = observe_attitude_and_rate,
@@ -51,22 +45,20 @@ TrajectoryCase symmetric_motion() {
 
 // In one state: kinetic energy, |H|, and the angle between the axis and H.
 TrajectoryCase at_start() {
-  TrajectoryCase c = symmetric_motion();
-  c.times = {0};
-  c.readings = {"kinetic energy [J]", "|H| [N m s]", "angle of e3 to H [rad]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    Workspace<double> w(model);
-    kinematics(model, x, w);
-    const Vec3<double> H = momentum(model, w).n;
-    return CaseReadings{kinetic_energy(model, x), std::sqrt(dot(H, H)),
-                        std::atan2(std::hypot(H.x, H.y), H.z)};
-  };
-  c.reference = [](double) {
-    const double across = kAcross * kRate.x(), along = kAxial * kRate.z();
-    return CaseReadings{(across * kRate.x() + along * kRate.z()) / 2, std::hypot(across, along),
-                        std::atan2(across, along)};
-  };
-  c.measure = relative_each;
+  const double across = kAcross * kRate.x(), along = kAxial * kRate.z();
+  TrajectoryCase c = evaluation(
+      scene, {"kinetic energy [J]", "|H| [N m s]", "angle of e3 to H [rad]"},
+      [](const Model<double>& model, const State<double>& x) {
+        Workspace<double> w(model);
+        kinematics(model, x, w);
+        const Vec3<double> H = momentum(model, w).n;
+        return CaseReadings{kinetic_energy(model, x), std::sqrt(dot(H, H)),
+                            std::atan2(std::hypot(H.x, H.y), H.z)};
+      },
+      {(across * kRate.x() + along * kRate.z()) / 2, std::hypot(across, along),
+       std::atan2(across, along)},
+      relative_each);
+  c.mutant = more_inertia;
   return c;
 }
 
@@ -75,19 +67,10 @@ TrajectoryCase at_start() {
 CaseFamily symmetric_body_cases() {
   TrajectoryCase adaptive = symmetric_motion();
   adaptive.lane = dopri5_lane(1e-12);
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("A1", "free-body",
-                      "symmetric body: attitude [rad], rate [rad/s], 10 s; closed form", 1e-8,
-                      symmetric_motion()),
-      trajectory_case(
-          "A1-start", "free-body",
-          "0.33 J, |H| = 0.12806248474865697 N m s, 38.659808254090091 degrees from the "
-          "axis [relative]",
-          1e-12, at_start()),
-      trajectory_case("A1-adaptive", "free-body", "the same, dopri5 with a tolerance of 1e-12",
-                      1e-10, adaptive),
-  };
-  return {10, cases};
+  return {10,
+          {{"A1", 1e-8, symmetric_motion()},
+           {"A1-start", 1e-12, at_start()},
+           {"A1-adaptive", 1e-10, adaptive}}};
 }
 
 }  // namespace twinarm

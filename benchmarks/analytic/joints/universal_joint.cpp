@@ -4,7 +4,6 @@
 // kg, hung by the middle of its short edge: w^2 = m g (1/2) / I about either axis of the joint.
 #include <cmath>
 
-#include "benchmarks/analytic/joints/joint_cases.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"
@@ -52,64 +51,37 @@ Output output(const Model<double>& model, const State<double>& start, double inp
 }
 
 TrajectoryCase hooke() {
-  return {.statement =
-              "Hooke's joint between shafts at 30&deg;: <p>tan(out) = tan(in)/cos b, the "
-              "ratio of the rates goes from cos b to 1/cos b</p>",
-          .scene = [] { return at_rest(shafts(kAngle)); },
-          .times = {0},
-          .readings = {"angle out at 30 degrees in [rad]", "ratio there", "ratio at 0",
-                       "ratio at 90 degrees"},
-          .observe =
-              [](const Model<double>& model, const State<double>& x) {
-                const Output at_30 = output(model, x, 30 * kDegree);
-                return CaseReadings{at_30.angle, at_30.ratio, output(model, x, 0).ratio,
-                                    output(model, x, 90 * kDegree).ratio};
-              },
-          .reference =
-              [](double) {
-                const double c = std::cos(kAngle), in = 30 * kDegree;
-                const double C = std::cos(in) * c, S = std::sin(in);
-                return CaseReadings{std::atan(std::tan(in) / c), c / (C * C + S * S), 1 / c, c};
-              },
-          .measure = relative_each,
-          .mutant = [](CaseScene& scene) { scene.model = shafts(1.001 * kAngle); }};
+  const double c = std::cos(kAngle), in = 30 * kDegree;
+  const double C = std::cos(in) * c, S = std::sin(in);
+  TrajectoryCase all = evaluation(
+      [] { return at_rest(shafts(kAngle)); },
+      {"angle out at 30 degrees in [rad]", "ratio there", "ratio at 0", "ratio at 90 degrees"},
+      [](const Model<double>& model, const State<double>& x) {
+        const Output at_30 = output(model, x, 30 * kDegree);
+        return CaseReadings{at_30.angle, at_30.ratio, output(model, x, 0).ratio,
+                            output(model, x, 90 * kDegree).ratio};
+      },
+      {std::atan(std::tan(in) / c), c / (C * C + S * S), 1 / c, c}, relative_each);
+  all.mutant = [](CaseScene& scene) { scene.model = shafts(1.001 * kAngle); };
+  return all;
 }
 
 TrajectoryCase plate() {
-  return {.statement =
-              "A plate of 1 m &times; 0.6 m, 1 kg, hangs by the middle of its short edge on "
-              "a universal joint: <p>w<sup>2</sup> = m g l / 2I</p> about each of its axes.",
-          .scene =
-              [] {
-                const Vector3 moments(1. / 12, 1.36 / 12, 0.36 / 12);
-                return at_rest(one_body(JointType::universal, Vector3::UnitX(),
-                                        {1, {0, 0, -0.5}, moments.asDiagonal()}));
-              },
-          .times = {0},
-          .readings = {"about the normal [rad/s]", "about the edge [rad/s]"},
-          .observe = [](const Model<double>& model,
-                        const State<double>& x) { return small_frequencies(model, x); },
-          .reference =
-              [](double) {
-                const double torque = kGravity / 2;
-                return CaseReadings{std::sqrt(torque / (1.36 / 12 + 0.25)), std::sqrt(torque * 3)};
-              }};
+  const Vector3 moments(1. / 12, 1.36 / 12, 0.36 / 12);
+  const auto hanging_plate = [moments] {
+    return at_rest(
+        one_body(JointType::universal, Vector3::UnitX(), {1, {0, 0, -0.5}, moments.asDiagonal()}));
+  };
+  const double torque = kGravity / 2;
+  return evaluation(
+      hanging_plate, {"about the normal [rad/s]", "about the edge [rad/s]"}, small_frequencies,
+      {std::sqrt(torque / (1.36 / 12 + 0.25)), std::sqrt(torque * 3)}, largest_difference);
 }
 
 }  // namespace
 
 CaseFamily universal_joint_cases() {
-  const char* group = "joints";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("B8", group,
-                      "Hooke's joint at 30 degrees: 33.690067525979787 degrees, ratio "
-                      "1.065877420042386, from 0.86602540378443865 to its inverse [relative]",
-                      1e-12, hooke()),
-      trajectory_case("B8-plate", group,
-                      "plate on a universal joint: 3.6742346141747671, 3.8360135557633265 rad/s",
-                      1e-6, plate()),
-  };
-  return {100, cases};
+  return {100, {{"B8", 1e-12, hooke()}, {"B8-plate", 1e-6, plate()}}};
 }
 
 }  // namespace twinarm

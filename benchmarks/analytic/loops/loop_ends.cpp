@@ -17,10 +17,9 @@ namespace twinarm {
 namespace {
 
 // The motion of a mechanism, with other readings at one of its times.
-TrajectoryCase read_at(LoopCase (*make)(), const char* statement, double t,
-                       std::vector<std::string> readings, CaseObserver observe,
-                       CaseReadings known) {
-  TrajectoryCase motion = loop_motion(make, statement);
+TrajectoryCase read_at(LoopCase (*make)(), double t, std::vector<std::string> readings,
+                       CaseObserver observe, CaseReadings known) {
+  TrajectoryCase motion = loop_motion(make);
   motion.times = {t};
   motion.readings = std::move(readings);
   motion.observe = std::move(observe);
@@ -32,7 +31,7 @@ TrajectoryCase read_at(LoopCase (*make)(), const char* statement, double t,
 TrajectoryCase squeezer_rates() {
   const auto c = std::make_shared<const LoopCase>(squeezer());
   TrajectoryCase motion =
-      read_at(squeezer, "Rates of Andrews' mechanism at 0.03 s: <p>J q' = 0</p>", 0.03,
+      read_at(squeezer, 0.03,
               {"beta [rad/s]", "Theta [rad/s]", "gamma [rad/s]", "Phi [rad/s]", "delta [rad/s]",
                "Omega [rad/s]", "epsilon [rad/s]"},
               [c](const Model<double>& model, const State<double>& x) {
@@ -48,9 +47,7 @@ TrajectoryCase squeezer_rates() {
 }
 
 TrajectoryCase bricard_velocity() {
-  return read_at(bricard,
-                 "Velocity of the corner of Bricard's bars at 10 s: <p>J q' = 0, rank J = 4</p>",
-                 10, {"vx [m/s]", "vy [m/s]", "vz [m/s]"},
+  return read_at(bricard, 10, {"vx [m/s]", "vy [m/s]", "vz [m/s]"},
                  [](const Model<double>& model, const State<double>& x) {
                    Kinematics k(model);
                    forward_kinematics(model, x, k);
@@ -62,11 +59,7 @@ TrajectoryCase bricard_velocity() {
 
 // Dofs of the governor: shaft, slider, rods.
 TrajectoryCase governor_end() {
-  return read_at([] { return governor(Couplers::springs); },
-                 "The governor with stiff couplers at 10 s: angle of its rods below the "
-                 "horizontal, and the rate of its shaft. <p>T + V + work of the dampers = "
-                 "const</p>",
-                 10, {"alpha [rad]", "omega [rad/s]"},
+  return read_at([] { return governor(Couplers::springs); }, 10, {"alpha [rad]", "omega [rad/s]"},
                  [](const Model<double>&, const State<double>& x) {
                    return CaseReadings{x.q[2], x.qd[0]};
                  },
@@ -96,15 +89,15 @@ Swing swing(Couplers couplers, Integrator integrator) {
 }
 // What implicit couplers change of it: as implicit struts against rods by the same scheme, whose
 // first order makes both swing more; by the midpoint rule against its own start.
-CaseResult governor_swings() {
+CaseResult governor_swings(bool mistaken) {
+  if (mistaken) {
+    const Swing damped = swing(Couplers::springs, Integrator::implicit_euler);
+    return {std::abs(damped.last / damped.first - 1)};
+  }
   const double rods = swing(Couplers::rods, Integrator::semi_implicit).last;
   const double struts = swing(Couplers::implicit_struts, Integrator::semi_implicit).last;
   const Swing midpoint = swing(Couplers::springs, Integrator::implicit_midpoint);
   return {worse(std::abs(struts / rods - 1), std::abs(midpoint.last / midpoint.first - 1))};
-}
-CaseResult governor_damped() {
-  const Swing damped = swing(Couplers::springs, Integrator::implicit_euler);
-  return {std::abs(damped.last / damped.first - 1)};
 }
 
 // The crank held at 60 degrees.
@@ -115,9 +108,6 @@ TrajectoryCase piston_place() {
   c->loops.push_back(input);
   c->start.q = {1.0, -1.2, 0.34};
   return {
-      .statement =
-          "The slider-crank with its crank at 60&deg;: <p>x = r cos &theta; + "
-          "&radic;(l<sup>2</sup> &minus; r<sup>2</sup> sin<sup>2</sup>&theta;)</p>",
       .scene =
           [c] {
             return CaseScene{c->model, c->start};
@@ -135,8 +125,7 @@ TrajectoryCase piston_place() {
 
 TrajectoryCase crank_energy() {
   TrajectoryCase motion =
-      read_at(slider_crank, "The slider-crank keeps its energy: <p>T + V = 1/8&nbsp;J</p>", 10,
-              {"energy [J]"},
+      read_at(slider_crank, 10, {"energy [J]"},
               [](const Model<double>& model, const State<double>& x) {
                 return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
               },
@@ -150,30 +139,13 @@ TrajectoryCase crank_energy() {
 }  // namespace
 
 CaseFamily loop_ends_cases() {
-  const char* group = "loops";
-  const std::vector<AnalyticCase> cases = {
-      trajectory_case("D3-rates", group, "Andrews' squeezer: rates at 0.03 s [relative]", 1e-8,
-                      squeezer_rates()),
-      trajectory_case("D4-velocity", group, "Bricard's 6R: velocity of the corner at 10 s [m/s]",
-                      1e-6, bricard_velocity()),
-      trajectory_case("D5-end", group, "governor with stiff couplers at 10 s [rad, rad/s]", 1e-8,
-                      governor_end()),
-      experiment_case(
-          "D5-implicit", group,
-          "governor, 5 ms: what implicit couplers change of its swing in 10 s [relative]", 0.01,
-          governor_swings, governor_damped,
-          "The governor's couplers have an eigenvalue of &minus;8117/s, its slow motion "
-          "one of 7.35 "
-          "rad/s. In steps of 5 ms implicit struts leave the slow one the swing that it "
-          "has with "
-          "rods, and the implicit midpoint rule keeps it; implicit Euler damps it by "
-          "<p>e<sup>&minus;"
-          "w<sup>2</sup>h t/2</sup>, w<sup>2</sup>h/2 = 0.13/s</p>"),
-      trajectory_case("D6-place", group, "slider-crank at 60 degrees: piston [m]", 1e-12,
-                      piston_place()),
-      trajectory_case("D6-energy", group, "slider-crank: energy, 10 s [J]", 1e-8, crank_energy()),
-  };
-  return {170, cases};
+  return {170,
+          {{"D3-rates", 1e-8, squeezer_rates()},
+           {"D4-velocity", 1e-6, bricard_velocity()},
+           {"D5-end", 1e-8, governor_end()},
+           {"D5-implicit", 0.01, governor_swings},
+           {"D6-place", 1e-12, piston_place()},
+           {"D6-energy", 1e-8, crank_energy()}}};
 }
 
 }  // namespace twinarm

@@ -51,8 +51,8 @@ CaseReadings swinging(double t) {  // from 90 degrees at rest
   const LongReal angle = 2 * std::asin(k * j.sn);
   return rounded({-std::sin(angle), -std::cos(angle), -2 * k * w0 * j.cn});
 }
-TrajectoryCase swing_of(LoopCase (*make)(), const char* statement) {
-  TrajectoryCase motion = loop_motion(make, statement);
+TrajectoryCase swing_of(LoopCase (*make)()) {
+  TrajectoryCase motion = loop_motion(make);
   motion.reference = swinging;
   motion.at_times_only = false;
   return motion;
@@ -69,11 +69,7 @@ CaseReadings turning_windows(int count, double t) {
 }
 template <int count>
 TrajectoryCase windows_motion(double step) {
-  TrajectoryCase motion = loop_motion(
-      [] { return windows(count); },
-      "N four-bars in a row, 2 N + 1 rods of 1 m and 1 kg, turn over from upright, through places "
-      "where all rods lie in a line: <p>q'' = c (g/l) sin q, c = ((N + 1)/2 + N) / "
-      "((N + 1)/3 + N)</p>");
+  TrajectoryCase motion = loop_motion([] { return windows(count); });
   motion.times = {1, 10};
   motion.reference = [](double t) { return turning_windows(count, t); };
   motion.at_times_only = false;
@@ -110,10 +106,6 @@ CaseReadings four_bar_closed_form() {
 TrajectoryCase four_bar_place() {
   const auto c = std::make_shared<const LoopCase>(four_bar());
   return {
-      .statement =
-          "A four-bar with its crank at 60&deg; and 10 rad/s is put together: <p>a "
-          "e<sup>i&theta;<sub>2</sub></sup> + b e<sup>i&theta;<sub>3</sub></sup> = d + c "
-          "e<sup>i&theta;<sub>4</sub></sup></p>",
       .scene =
           [c] {
             return CaseScene{c->model, c->start};
@@ -130,11 +122,7 @@ TrajectoryCase four_bar_place() {
 // ---- the others ----
 
 TrajectoryCase squeezer_motion() {
-  TrajectoryCase motion = loop_motion(
-      squeezer,
-      "Andrews' squeezing mechanism: seven bodies in a plane, three loops, a motor of constant "
-      "torque and a spring (Hairer, Wanner, Solving Ordinary Differential Equations II, VII.7). "
-      "<p>T + V &minus; E<sub>0</sub> = &tau; (&beta; &minus; &beta;<sub>0</sub>)</p>");
+  TrajectoryCase motion = loop_motion(squeezer);
   motion.mutant = more_inertia;  // there is no gravity
   return motion;
 }
@@ -142,10 +130,9 @@ TrajectoryCase squeezer_motion() {
 }  // namespace
 
 // Each run has a mechanism of its own: sources keep what they point at.
-TrajectoryCase loop_motion(LoopCase (*make)(), const char* statement) {
+TrajectoryCase loop_motion(LoopCase (*make)()) {
   const auto c = std::make_shared<const LoopCase>(make());
   TrajectoryCase motion{};
-  motion.statement = statement;
   motion.scene = [make] { return scene_of(make()); };
   for (const LoopCase::Sample& sample : c->reference) motion.times.push_back(sample.t);
   motion.readings = c->readings;
@@ -161,48 +148,19 @@ TrajectoryCase loop_motion(LoopCase (*make)(), const char* statement) {
 }
 
 CaseFamily loop_runs_cases() {
-  const char* group = "loops";
-  const auto add = [&](const char* name, const char* reference, double tolerance,
-                       TrajectoryCase motion) {
-    return trajectory_case(name, group, reference, tolerance, std::move(motion));
-  };
-  const char* pendulum =
-      "A pendulum equivalent to a point mass on a rod of 1 m, as a loop, let go at 90&deg;: "
-      "<p>&theta; = 2 asin(k cd(&omega;<sub>0</sub>t, k<sup>2</sup>)), k = sin 45&deg;</p>";
-  const char* flyball =
-      "A flyball governor: a shaft that turns freely, two rods with balls, couplers to a slider. "
-      "<p>With rigid couplers s = 1&nbsp;m (1 &minus; sin &alpha;)</p>";
-  const std::vector<AnalyticCase> cases = {
-      add("D1-hinge", "pendulum, a free body on a hinge: place, rate; elliptic functions",
-          pendulum_on_hinge().tolerance, swing_of(pendulum_on_hinge, pendulum)),
-      add("D1-circle", "pendulum, a particle at a distance: the same",
-          pendulum_on_circle().tolerance, swing_of(pendulum_on_circle, pendulum)),
-      add("D2-2", "two four-bars through a singular place: 10 s [m, m/s]", windows(2).tolerance,
-          windows_motion<2>(1e-3)),
-      add("D2-40", "forty four-bars, 200 rows of rank 80, 8 ms: 10 s [m, m/s]",
-          windows(40).tolerance, windows_motion<40>(8e-3)),
-      add("D3", "Andrews' squeezer: angles at 0.01 to 0.05 s [rad]", squeezer().tolerance,
-          squeezer_motion()),
-      add("D4", "Bricard's over-constrained 6R: place of a corner, 10 s [m]", bricard().tolerance,
-          loop_motion(bricard,
-                      "Bricard's six bars of 1 m on six hinges at right angles, over-constrained, "
-                      "fall from rest. They close a loop by five conditions, one too many: <p>J q' "
-                      "= 0, rank "
-                      "J = 4</p>")),
-      add("D5-springs", "governor with stiff couplers: slider, 10 s [m]",
-          governor(Couplers::springs).tolerance,
-          loop_motion([] { return governor(Couplers::springs); }, flyball)),
-      add("D5-rods", "governor with rigid couplers: slider at 10 s [m]",
-          governor(Couplers::rods).tolerance,
-          loop_motion([] { return governor(Couplers::rods); }, flyball)),
-      add("D6", "slider-crank: crank and piston, 10 s [rad, rad/s, m]", slider_crank().tolerance,
-          loop_motion(slider_crank,
-                      "A slider-crank in a vertical plane turns freely: <p>x = r cos &theta; + "
-                      "&radic;(l<sup>2</sup> &minus; r<sup>2</sup> sin<sup>2</sup>&theta;)</p>")),
-      add("D7", "four-bar at one place: angles and rates [rad, rad/s]", four_bar().tolerance,
-          four_bar_place()),
-  };
-  return {160, cases};
+  return {160,
+          {{"D1-hinge", pendulum_on_hinge().tolerance, swing_of(pendulum_on_hinge)},
+           {"D1-circle", pendulum_on_circle().tolerance, swing_of(pendulum_on_circle)},
+           {"D2-2", windows(2).tolerance, windows_motion<2>(1e-3)},
+           {"D2-40", windows(40).tolerance, windows_motion<40>(8e-3)},
+           {"D3", squeezer().tolerance, squeezer_motion()},
+           {"D4", bricard().tolerance, loop_motion(bricard)},
+           {"D5-springs", governor(Couplers::springs).tolerance,
+            loop_motion([] { return governor(Couplers::springs); })},
+           {"D5-rods", governor(Couplers::rods).tolerance,
+            loop_motion([] { return governor(Couplers::rods); })},
+           {"D6", slider_crank().tolerance, loop_motion(slider_crank)},
+           {"D7", four_bar().tolerance, four_bar_place()}}};
 }
 
 }  // namespace twinarm

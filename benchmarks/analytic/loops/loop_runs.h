@@ -1,7 +1,5 @@
-// The cases with closed loops, group D of docs/cases.md.
+// Mechanisms with closed loops as known motions.
 #pragma once
-
-#include <vector>
 
 #include "benchmarks/analytic/support/analytic_case.h"
 
@@ -10,8 +8,6 @@ namespace twinarm {
 struct LoopCase;
 
 // What a mechanism of loop_cases.h does in time. Its references are known at its times alone.
-TrajectoryCase loop_motion(LoopCase (*make)(), const char* statement);
-
-const std::vector<CaseFamily>& loop_cases();  // made by twinarm_registry()
+TrajectoryCase loop_motion(LoopCase (*make)());
 
 }  // namespace twinarm

@@ -2,11 +2,7 @@
 
 #include <algorithm>
 
-#include "benchmarks/analytic/contact/contact_cases.h"
-#include "benchmarks/analytic/coupling/coupling_cases.h"
-#include "benchmarks/analytic/integrators/integrator_cases.h"
-#include "benchmarks/analytic/joints/joint_cases.h"
-#include "benchmarks/analytic/loops/loop_runs.h"
+#include "benchmarks/analytic/registry/case_texts.h"
 #include "benchmarks/analytic/support/run_trajectory.h"
 
 namespace twinarm {
@@ -22,6 +18,12 @@ const std::vector<AnalyticCase>& analytic_cases() {
     std::vector<AnalyticCase> cases;
     for (const CaseFamily& family : families)
       cases.insert(cases.end(), family.cases.begin(), family.cases.end());
+    for (AnalyticCase& c : cases)
+      if (const auto text = case_texts().find(c.name); text != case_texts().end()) {
+        c.group = text->second.group.c_str();
+        c.reference = text->second.reference.c_str();
+        c.statement = text->second.statement.c_str();
+      }
     return cases;
   }();
   return all;

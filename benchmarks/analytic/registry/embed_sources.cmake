@@ -1,4 +1,5 @@
-# Writes OUT, a .cpp with the text of FILES, named by their paths below ROOT, as string literals (benchmarks/analytic/registry/case_sources.h).
+# Writes OUT, a .cpp with the text of FILES, named by their paths below ROOT, as string literals that the function
+# FUNCTION lists (benchmarks/analytic/registry/case_sources.h).
 set(all "")
 foreach(file ${FILES})
   file(READ ${file} text)
@@ -10,7 +11,7 @@ file(WRITE ${OUT}.new "// Made by embed_sources.cmake.
 
 namespace twinarm {
 
-const std::vector<CaseSource>& case_sources() {
+const std::vector<CaseSource>& ${FUNCTION}() {
   static const std::vector<CaseSource> all = {
 ${all}  };
   return all;

@@ -6,6 +6,7 @@
 // any integrator can be tried on; and all else, an experiment of its own (run).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -24,34 +25,41 @@ struct CaseResult {
 struct ContactLook;
 
 struct AnalyticCase {
-  const char* name;       // "E1-times"
-  const char* group;      // "contact", "loops"
-  const char* reference;  // what is measured, with its unit, against what
-  double tolerance;       // the case passes where error <= tolerance; 0: nothing may be broken
-  CaseResult (*run)();    // null: a trajectory
+  const char* name;  // "E1-times"
+  double tolerance;  // the case passes where error <= tolerance; 0: nothing may be broken
+  std::function<CaseResult()> run{};       // null: a trajectory
+  std::function<CaseResult()> mistaken{};  // run() with a mistake in it, which must fail
   std::shared_ptr<const TrajectoryCase> trajectory{};
-  CaseResult (*mistaken)() = nullptr;  // run() with a mistake in it, which must fail
-  // What is known, for people: one paragraph, formulas in <p>, HTML without a stylesheet.
-  const char* statement = nullptr;
   std::shared_ptr<const ContactLook> look{};  // what a page draws; null: nothing
-};
+  // Of the list, from docs/cases/: "contact"; what is measured, with its unit, against what; and
+  // what is known, for people: one paragraph, formulas in <p>, HTML without a stylesheet.
+  const char *group = "", *reference = "", *statement = "";
 
-inline AnalyticCase trajectory_case(const char* name, const char* group, const char* reference,
-                                    double tolerance, TrajectoryCase trajectory) {
-  const auto motion = std::make_shared<const TrajectoryCase>(std::move(trajectory));
-  return {name, group, reference, tolerance, nullptr, motion, nullptr, motion->statement};
-}
-inline AnalyticCase experiment_case(const char* name, const char* group, const char* reference,
-                                    double tolerance, CaseResult (*run)(), CaseResult (*mistaken)(),
-                                    const char* statement) {
-  return {name, group, reference, tolerance, run, {}, mistaken, statement};
-}
+  AnalyticCase(const char* its_name, double its_tolerance, TrajectoryCase motion)
+      : name(its_name),
+        tolerance(its_tolerance),
+        trajectory(std::make_shared<const TrajectoryCase>(std::move(motion))) {}
+  AnalyticCase(const char* its_name, double its_tolerance,
+               const std::function<CaseResult(bool mistaken)>& experiment)
+      : name(its_name),
+        tolerance(its_tolerance),
+        run([experiment] { return experiment(false); }),
+        mistaken([experiment] { return experiment(true); }) {}
+};
 
 // The cases of one file, and their place among the families: they are shown in ascending order.
 struct CaseFamily {
   int order;
   std::vector<AnalyticCase> cases;
 };
+
+// Those of each folder, made by twinarm_registry(): a file NAME.cpp defines `CaseFamily
+// NAME_cases()`.
+const std::vector<CaseFamily>& joint_cases();       // groups A, B, C, F1, F2, G1 of docs/cases.md
+const std::vector<CaseFamily>& loop_cases();        // D
+const std::vector<CaseFamily>& contact_cases();     // E, H1
+const std::vector<CaseFamily>& coupling_cases();    // F3, F4
+const std::vector<CaseFamily>& integrator_cases();  // G2 to G4
 
 inline bool passes(const AnalyticCase& c, const CaseResult& result) {
   return result.error <= c.tolerance;

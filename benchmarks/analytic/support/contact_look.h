@@ -68,22 +68,29 @@ inline double zero(std::size_t, double) {
   return 0;
 }
 
+// The same without an error against the step, and why; or as runs on either side of a limit.
+inline ContactLook without_steps(ContactLook look, const char* why) {
+  look.no_steps = why;
+  return look;
+}
+inline ContactLook searched(ContactLook look, const char* what) {
+  look.search = what;
+  return without_steps(look, kSearch);
+}
+inline ContactLook of_runs(ContactLook look, std::vector<std::string> runs) {
+  look.runs = std::move(runs);
+  return look;
+}
+
 }  // namespace contact_looks
 
 // A case with its mistake: the experiment multiplies one thing in it by `off`, which is 1 in the
 // case; in the mistake it is some thousandths more or less, and the case must fail.
 template <CaseResult (*experiment)(double off), int thousandths>
-AnalyticCase contact_case(const char* name, const char* reference, double tolerance,
-                          const char* statement) {
-  return experiment_case(
-      name, "contact", reference, tolerance, [] { return experiment(1); },
-      [] { return experiment(1 + 1e-3 * thousandths); }, statement);
-}
-template <CaseResult (*experiment)(double off), int thousandths>
-AnalyticCase contact_case(const char* name, const char* reference, double tolerance,
-                          const char* statement, ContactLook look) {
-  AnalyticCase c = contact_case<experiment, thousandths>(name, reference, tolerance, statement);
-  c.look = std::make_shared<const ContactLook>(std::move(look));
+AnalyticCase contact_case(const char* name, double tolerance, ContactLook look = {}) {
+  AnalyticCase c(name, tolerance,
+                 [](bool mistaken) { return experiment(mistaken ? 1 + 1e-3 * thousandths : 1); });
+  if (look.read) c.look = std::make_shared<const ContactLook>(std::move(look));
   return c;
 }
 

@@ -1,4 +1,8 @@
 // Free bodies, fixed ones and turning ones under rigid contact: what the contact cases run.
+//
+// Steps are 1 ms where nothing else is said. Event times shall be met within one step, velocities
+// to 1e-3 of themselves; a place is measured by the time that its error is worth, at the speed
+// there.
 #pragma once
 
 #include <cmath>
@@ -17,7 +21,8 @@
 namespace twinarm {
 
 enum class Steps { fixed, located };
-constexpr double kStep = 1e-3;  // of the cases that name no other [s]
+constexpr double kStep = 1e-3;              // of the cases that name no other [s]
+inline constexpr double kBallRadius = 0.1;  // of the balls of several cases [m]
 
 // A body on the incline x: gravity is turned instead of the floor, which stays z = 0. [rad]
 inline Vector3 tilted_gravity(double angle) {
@@ -25,6 +30,9 @@ inline Vector3 tilted_gravity(double angle) {
 }
 inline Matrix3 turn_about(const Vector3& axis, double angle) {
   return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
+inline Matrix3 axis_along_y() {  // of a cylinder that rolls along x
+  return turn_about(Vector3::UnitX(), std::numbers::pi / 2);
 }
 inline ContactSurface surface(double friction, double restitution = 0) {
   ContactSurface s;

@@ -176,6 +176,23 @@ double relative_to_largest(const CaseReadings& seen, const CaseReadings& exact) 
   return largest_difference(seen, exact) / largest;
 }
 
+TrajectoryCase evaluation(std::function<CaseScene()> scene, std::vector<std::string> readings,
+                          CaseObserver observe, CaseReadings exact, CaseMeasure measure) {
+  return {.scene = std::move(scene),
+          .times = {0},
+          .readings = std::move(readings),
+          .observe = std::move(observe),
+          .reference = [exact](double) { return exact; },
+          .measure = measure};
+}
+
+TrajectoryCase times_of(TrajectoryCase motion, CaseEvents events, CaseReference reference) {
+  motion.times = {}, motion.readings = {}, motion.observe = TrajectoryCase{}.observe;
+  motion.reference = std::move(reference), motion.measure = largest_difference;
+  motion.events = std::move(events);
+  return motion;
+}
+
 void more_gravity(CaseScene& scene) {
   scene.model.gravity = 1.001 * scene.model.gravity;
 }

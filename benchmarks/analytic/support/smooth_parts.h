@@ -3,8 +3,9 @@
 
 #include <Eigen/Geometry>
 
+#include "benchmarks/analytic/support/analytic_case.h"
 #include "benchmarks/analytic/support/case_constants.h"
-#include "benchmarks/analytic/support/trajectory_case.h"
+#include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/model/workspace.h"
 #include "solver/support/checkpointable.h"
@@ -63,6 +64,10 @@ std::vector<double> small_frequencies(const Model<double>& model, const State<do
 // velocity in body axes.
 CaseReadings attitude_and_rate(const Eigen::Quaterniond& attitude, const Vector3& rate);
 CaseReadings observe_attitude_and_rate(const Model<double>&, const State<double>& x);
+
+inline CaseReadings observe_energy(const Model<double>& model, const State<double>& x) {
+  return {kinetic_energy(model, x) + potential_energy(model, x)};
+}
 
 // ---- measures ----
 

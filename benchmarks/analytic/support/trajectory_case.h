@@ -47,6 +47,7 @@ inline Lane dopri5_lane(double tolerance = 1e-10) {
 
 using CaseReadings = std::vector<double>;
 using CaseObserver = std::function<CaseReadings(const Model<double>&, const State<double>&)>;
+using CaseReference = std::function<CaseReadings(double)>;
 // One number from what was seen at one time and what should have been.
 using CaseMeasure = double (*)(const CaseReadings& seen, const CaseReadings& exact);
 
@@ -67,13 +68,12 @@ struct CaseEvents {
 };
 
 struct TrajectoryCase {
-  const char* statement;  // for people: one paragraph and the formula, HTML without a stylesheet
   std::function<CaseScene()> scene;
   std::vector<double> times{};          // ascending [s]; with events, none
   std::vector<std::string> readings{};  // what observe() gives, in order, with unit: "angle [rad]"
   CaseObserver observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
   // Computed in the case at every time; with events, for the number of the event, from 1 on.
-  std::function<CaseReadings(double)> reference;
+  CaseReference reference;
   Lane lane{};  // in which it is judged
   CaseMeasure measure = largest_difference;
   void (*mutant)(CaseScene&) = more_gravity;  // with this mistake the error is above the tolerance
@@ -85,5 +85,12 @@ struct TrajectoryCase {
   bool has_steps() const { return events.count > 0 || times.back() > 0; }
   bool takes_lanes() const { return has_steps() && !of_its_lane; }
 };
+
+// One evaluation, in the state at the start.
+TrajectoryCase evaluation(std::function<CaseScene()> scene, std::vector<std::string> readings,
+                          CaseObserver observe, CaseReadings exact,
+                          CaseMeasure measure = relative_to_largest);
+// Of the same motion the times of events alone.
+TrajectoryCase times_of(TrajectoryCase motion, CaseEvents events, CaseReference reference);
 
 }  // namespace twinarm

@@ -1,23 +1,35 @@
 // What the cases say of themselves, for people.
 #include <doctest/doctest.h>
 
+#include <set>
 #include <string>
 
 #include "benchmarks/analytic/registry/analytic_cases.h"
 #include "benchmarks/analytic/registry/case_sources.h"
+#include "benchmarks/analytic/registry/case_texts.h"
 
 using namespace twinarm;
 
 TEST_CASE("cases: every one says what is known of it, with a formula") {
   for (const AnalyticCase& c : analytic_cases()) {
     CAPTURE(std::string(c.name));
-    REQUIRE(c.statement != nullptr);
+    CHECK(std::string(c.group) != "");
+    CHECK(std::string(c.reference) != "");
     const std::string statement = c.statement;
     const std::size_t open = statement.find("<p>"), close = statement.find("</p>");
     CHECK(open != std::string::npos);
     CHECK(close != std::string::npos);
     CHECK(open + 4 < close);
     CHECK(statement.size() > 20);
+  }
+}
+
+TEST_CASE("cases: docs/cases/ tells of no case that is not there") {
+  std::set<std::string> names;
+  for (const AnalyticCase& c : analytic_cases()) names.insert(c.name);
+  for (const auto& [name, text] : case_texts()) {
+    CAPTURE(name);
+    CHECK(names.contains(name));
   }
 }
 

@@ -59,7 +59,6 @@ TEST_CASE("known motions: what is seen has a name each, and the times ascend") {
     CHECK(motion.reference(first).size() == seen + (has_events ? 1 : 0));
     for (std::size_t i = 1; i < motion.times.size(); ++i)
       CHECK(motion.times[i] > motion.times[i - 1]);
-    CHECK(std::string(motion.statement).size() > 20);
   });
 }
 
