@@ -3,7 +3,7 @@
 import '../ui/style.css';
 import { checkTable, checkWords } from '../inspector/checks';
 import { Inspector, type InspectorPage } from '../inspector/inspector';
-import type { BodyInspection } from '../protocol/body_inspection';
+import type { BodyInspection } from '../protocol/messages';
 import type { InspectedRobot, Inspection } from '../protocol/inspection';
 import type { SceneMessage } from '../protocol/messages';
 import { element } from '../ui/dom';
