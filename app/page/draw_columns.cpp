@@ -64,6 +64,20 @@ bool LabelColumns::add(const Label& label) {
   return true;
 }
 
+std::size_t append_array(std::string& bytes, const void* data, std::size_t size) {
+  bytes.resize((bytes.size() + 7) / 8 * 8);
+  const std::size_t at = bytes.size();
+  bytes.append(static_cast<const char*>(data), size);
+  return at;
+}
+
+std::vector<LayerWords> layer_words(const std::vector<const std::vector<Overlay>*>& overlays) {
+  std::vector<LayerWords> words{{"bodies", "robots, bodies and obstacles"}};
+  for (const auto* some : overlays)
+    for (const Overlay& overlay : *some) words.push_back({overlay.name, overlay.what});
+  return words;
+}
+
 std::string texture_file(const Image& image) {
   Image small = image;
   while (std::max(small.width, small.height) > kWidestTexture) small = halved(small);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/data/json_writer.h"
+#include "app/draw/overlays/overlays.h"
 #include "app/draw/scene_view.h"
 
 namespace twinarm {
@@ -22,6 +23,18 @@ struct InstanceColumns {
   std::vector<std::int16_t> turn;     // 4: quaternion x, y, z, w in units of 1/32767
   std::vector<float> scale;           // 3
   void add(const Instance& instance);
+  // Each column with its name in pages.
+  template <class Columns, class Visit>
+  static void each(Columns& all, const Visit& visit) {
+    visit("mesh", all.mesh);
+    visit("flags", all.flags);
+    visit("shininess", all.shininess);
+    visit("color", all.color);
+    visit("texture", all.texture);
+    visit("position", all.position);
+    visit("turn", all.turn);
+    visit("scale", all.scale);
+  }
 };
 
 // Those that stand at a point of the world; texts are kept by whoever knows how.
@@ -31,6 +44,17 @@ struct LabelColumns {
   // False, and nothing is added, for a line on the screen or at no finite place.
   bool add(const Label& label);
 };
+
+// Behind what is there, from the next multiple of 8 bytes on, so that a browser can look at arrays
+// in place: where that is. Little-endian, as the machine (solver/support/state_archive.h asserts
+// it).
+std::size_t append_array(std::string& bytes, const void* data, std::size_t size);
+
+// Layer 0, the bodies, and one for each overlay.
+struct LayerWords {
+  std::string name, what;
+};
+std::vector<LayerWords> layer_words(const std::vector<const std::vector<Overlay>*>& overlays);
 
 // Textures beyond that number are not sent: places in columns are bytes.
 inline constexpr std::size_t kMostTextures = 255;

@@ -5,14 +5,14 @@
 #include <stdexcept>
 
 #include "app/data/html_page.h"
+#include "app/page/draw_columns.h"
 
 namespace twinarm {
 
 void PageBytes::write_place(JsonWriter& json, const void* data, std::size_t count, std::size_t size,
                             const char* type) {
-  bytes_.resize((bytes_.size() + 7) / 8 * 8);
-  json.object({{"at", bytes_.size()}, {"count", count}, {"type", type}});
-  bytes_.append(static_cast<const char*>(data), count * size);
+  const std::size_t at = append_array(bytes_, data, count * size);
+  json.object({{"at", at}, {"count", count}, {"type", type}});
 }
 
 std::string PageBytes::packed() const {

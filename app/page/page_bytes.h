@@ -9,8 +9,6 @@
 
 namespace twinarm {
 
-// Little-endian. Each array begins at a multiple of 8 bytes, so that a browser can look at it in
-// place.
 class PageBytes {
  public:
   // Writes {"at": byte, "count": n, "type": "f64"} as the value of the key.

@@ -35,10 +35,7 @@ void PageChannels::write(JsonWriter& json, PageBytes& bytes) const {
   for (std::size_t i = 0; i < channels_.all().size(); ++i) {
     const RunColumn& channel = channels_.all()[i];
     json.begin_object();
-    json.members({{"name", channel.name},
-                  {"unit", channel.unit},
-                  {"kind", channel.kind},
-                  {"of", channel.of}});
+    write_channel(json, channel);
     bytes.add(json, "values", values_[i]);
     json.end_object();
   }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/draw/overlays/overlays.h"
-
 namespace twinarm {
 namespace {
 
@@ -65,14 +63,9 @@ void write_layer(JsonWriter& json, PageBytes& bytes, const PageLayer& layer) {
   write_legend(json, layer.legend);
   json.key("instances").begin_object();
   bytes.add(json, "first", layer.first);
-  bytes.add(json, "mesh", layer.instances.mesh);
-  bytes.add(json, "flags", layer.instances.flags);
-  bytes.add(json, "shininess", layer.instances.shininess);
-  bytes.add(json, "color", layer.instances.color);
-  bytes.add(json, "texture", layer.instances.texture);
-  bytes.add(json, "position", layer.instances.position);
-  bytes.add(json, "turn", layer.instances.turn);
-  bytes.add(json, "scale", layer.instances.scale);
+  InstanceColumns::each(layer.instances, [&](const char* name, const auto& column) {
+    bytes.add(json, name, column);
+  });
   json.end_object();
   json.key("labels").begin_object();
   bytes.add(json, "first", layer.first_label);
@@ -86,14 +79,10 @@ void write_layer(JsonWriter& json, PageBytes& bytes, const PageLayer& layer) {
 }  // namespace
 
 PageLayers::PageLayers(Stage& stage) : stage_(stage) {
-  layers_.emplace_back();
-  layers_.back().name = "bodies";
-  layers_.back().what = "robots, bodies and obstacles";
-  for (const Overlay& overlay : all_overlays()) {
+  for (const LayerWords& words : layer_words({&all_overlays()})) {
     layers_.emplace_back();
-    PageLayer& layer = layers_.back();
-    layer.name = overlay.name;
-    layer.what = overlay.what;
+    layers_.back().name = words.name;
+    layers_.back().what = words.what;
   }
   std::vector<std::string> usual = usual_overlays(Overlay::Shown::on_pages);
   usual.emplace_back("bodies");

@@ -85,4 +85,9 @@ void RunChannels::values(const RecordedFrame& frame, const Moment& moment,
   }
 }
 
+void write_channel(JsonWriter& json, const RunColumn& channel) {
+  json.members(
+      {{"name", channel.name}, {"unit", channel.unit}, {"kind", channel.kind}, {"of", channel.of}});
+}
+
 }  // namespace twinarm

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/data/json_writer.h"
 #include "app/draw/snapshot.h"
 #include "app/record/recording.h"
 #include "app/run/run_columns.h"
@@ -46,5 +47,8 @@ class RunChannels {
   std::map<std::pair<int, int>, std::size_t> pairs_;  // places by geometries
   std::vector<Led> led_;
 };
+
+// Its members, of the object that is open.
+void write_channel(JsonWriter& json, const RunColumn& channel);
 
 }  // namespace twinarm

@@ -12,7 +12,7 @@ namespace twinarm {
 
 struct RunColumn {
   std::string name, unit;  // "q/arm1" [rad], "links/hand/x" [m], "kinetic_energy" [J]
-  std::string kind, of;    // "coordinate" of "arm1"; as in app/web/src/data/run.ts
+  std::string kind, of;    // "coordinate" of "arm1"; as in app/web/src/protocol/run.ts
 
   std::string with_unit() const { return name + "[" + unit + "]"; }
 };

@@ -11,21 +11,15 @@ constexpr std::uint16_t kNoBody = 65535;
 constexpr std::size_t kPlace = 7;  // numbers of a body's place
 constexpr double kFarthest = 1e9;  // [m]: a run that flies apart
 
-// Little-endian, as the machine: solver/support/state_archive.h asserts it.
 class Block {
  public:
   template <class T>
   void put(T value) {
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
-  // Arrays begin at multiples of 8 bytes: a browser looks at them in place.
-  void put_all(const void* data, std::size_t size) {
-    bytes_.resize((bytes_.size() + 7) / 8 * 8);
-    bytes_.append(static_cast<const char*>(data), size);
-  }
-  template <class T>
-  void put_all(const std::vector<T>& values) {
-    put_all(values.data(), values.size() * sizeof(T));
+  template <class Values>
+  void put_all(const Values& values) {
+    append_array(bytes_, values.data(), values.size() * sizeof(*values.data()));
   }
   void reserve(std::size_t size) { bytes_.reserve(size); }
   std::string take() { return std::move(bytes_); }
@@ -38,17 +32,6 @@ std::uint32_t count_of(std::size_t n) {
   return static_cast<std::uint32_t>(n);
 }
 
-void clear_all(InstanceColumns& columns) {
-  columns.mesh.clear();
-  columns.flags.clear();
-  columns.shininess.clear();
-  columns.color.clear();
-  columns.texture.clear();
-  columns.position.clear();
-  columns.turn.clear();
-  columns.scale.clear();
-}
-
 bool is_near(const Vector3& v) {
   return v.cwiseAbs().maxCoeff() < kFarthest && v.allFinite();
 }
@@ -56,7 +39,7 @@ bool is_near(const Vector3& v) {
 }  // namespace
 
 void FrameColumns::clear_entries() {
-  clear_all(instances);
+  InstanceColumns::each(instances, [](const char*, auto& column) { column.clear(); });
   body.clear();
   labels.position.clear();
   labels.offset.clear();
@@ -129,7 +112,7 @@ std::string frame_bytes(const FrameColumns& frame) {
   block.put_all(frame.instances.flags);
   block.put_all(frame.instances.shininess);
   block.put_all(frame.instances.texture);
-  block.put_all(frame.text.data(), frame.text.size());
+  block.put_all(frame.text);
   return block.take();
 }
 

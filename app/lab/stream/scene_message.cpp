@@ -10,25 +10,16 @@
 namespace twinarm {
 namespace {
 
-struct LayerWords {
-  std::string name, what;
-};
-
-const std::vector<LayerWords>& layer_words() {
-  static const std::vector<LayerWords> all = [] {
-    std::vector<LayerWords> words{{"bodies", "robots, bodies and obstacles"}};
-    for (const auto* overlays : {&all_overlays(), &live_overlays()})
-      for (const Overlay& overlay : *overlays) words.push_back({overlay.name, overlay.what});
-    return words;
-  }();
+const std::vector<LayerWords>& lab_layers() {
+  static const std::vector<LayerWords> all = layer_words({&all_overlays(), &live_overlays()});
   return all;
 }
 
 void write_layers(JsonWriter& json, const std::vector<std::vector<LegendLine>>& legends) {
   json.key("layers").begin_array();
-  for (std::size_t i = 0; i < layer_words().size(); ++i) {
+  for (std::size_t i = 0; i < lab_layers().size(); ++i) {
     json.begin_object();
-    json.members({{"name", layer_words()[i].name}, {"what", layer_words()[i].what}});
+    json.members({{"name", lab_layers()[i].name}, {"what", lab_layers()[i].what}});
     json.key("legend");
     write_legend(json, legends[i]);
     json.end_object();
@@ -38,10 +29,7 @@ void write_layers(JsonWriter& json, const std::vector<std::vector<LegendLine>>& 
 
 void write_channels(JsonWriter& json, const std::vector<RunColumn>& channels) {
   json.key("channels").list(channels, [&](const RunColumn& channel) {
-    json.object({{"name", channel.name},
-                 {"unit", channel.unit},
-                 {"kind", channel.kind},
-                 {"of", channel.of}});
+    json.object([&] { write_channel(json, channel); });
   });
 }
 
@@ -90,7 +78,7 @@ void write_joints(JsonWriter& json, const RobotInput& robots, const std::vector<
 const std::vector<std::string>& layer_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const LayerWords& layer : layer_words()) all.push_back(layer.name);
+    for (const LayerWords& layer : lab_layers()) all.push_back(layer.name);
     return all;
   }();
   return names;

@@ -11,7 +11,6 @@ const KEPT = 240; // stamps and delays
 
 export class Operator {
   readonly delays: number[] = []; // from a movement to its picture [ms], the newest last
-  grip = false;
   clutch = false;
   private readonly waiting = new Map<string, Unstamped>();
   private readonly stamps = new Set<number>();
@@ -23,6 +22,9 @@ export class Operator {
     private readonly say: (words: string) => void,
   ) {}
 
+  get grip(): boolean {
+    return this.state()?.hand.gripper ?? false;
+  }
   get holds(): boolean {
     const state = this.state();
     return state !== null && state.holder === state.you;
@@ -41,7 +43,7 @@ export class Operator {
   // The robot is led by this from now on.
   lead(source: 'drag' | 'joints'): boolean {
     if (!this.claim()) return false;
-    if (this.state()?.hand && this.state()!.hand!.source !== source)
+    if (this.state()?.hand.source !== source)
       this.link.send({ do: 'hand', source });
     return true;
   }
@@ -64,8 +66,7 @@ export class Operator {
   button(index: 0 | 1, down: boolean): boolean {
     if (!this.claim()) return false;
     this.sendNow({ do: 'button', index, down });
-    if (index === 0) this.grip = down;
-    else this.clutch = down;
+    if (index === 1) this.clutch = down;
     return true;
   }
   drop(): void {

@@ -1,5 +1,6 @@
 // The quantities of a pass at a body, each in its equation where it has one.
-import type { Equation, BodyInspection } from '../protocol/body_inspection';
+import type { Equation } from '../protocol/inspection';
+import type { BodyInspection } from '../protocol/messages';
 import type { Quantity } from '../protocol/inspection';
 import { bold, fraction, math, mathNumber, operator, signedSum, source } from './math';
 import { quantityCard, unitOfSix } from './quantity';

@@ -1,7 +1,6 @@
 // An equation of the passes with its numbers in: columns as on paper, one for each term, with the
 // signs between; matrices below one another; of one number all in a line.
-import type { Equation, Term } from '../protocol/body_inspection';
-import type { Value } from '../protocol/inspection';
+import type { Equation, Term, Value } from '../protocol/inspection';
 import { element, largestOf, short, unitText } from '../ui/dom';
 import { bold, math, mathNumber, operator, set, signedSum } from './math';
 import { numberCell, row, table } from '../ui/table';

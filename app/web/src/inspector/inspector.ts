@@ -2,7 +2,7 @@
 // the equations, the free-body diagram, contacts, ledger; and, while time stands still, a walk
 // through one call of the algorithm.
 import './inspector.css';
-import type { BodyInspection } from '../protocol/body_inspection';
+import type { BodyInspection } from '../protocol/messages';
 import { balanceTable, wrenchColor } from './balance';
 import { checkTable, checkWords } from './checks';
 import { button, element, icon, short } from '../ui/dom';

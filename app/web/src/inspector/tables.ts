@@ -1,7 +1,6 @@
 // What else acts on the body: along its joint, in contacts, in joules; and what a pass has found so
 // far.
-import type { CallStep, Neighbour } from '../protocol/body_inspection';
-import type { JointBalance, NamedForce, Quantity } from '../protocol/inspection';
+import type { JointBalance, NamedForce, Neighbour, PassStep, Quantity } from '../protocol/inspection';
 import { NUMERICAL } from '../protocol/run';
 import { EnergyTable, inOrder } from '../panels/energy';
 import { element, largestOf, short, unitText } from '../ui/dom';
@@ -85,7 +84,7 @@ const TOLD: Record<number, { of: string; heads: string[]; read: (value: never) =
 };
 
 // Row by row as the call goes on: what comes later is not known yet.
-export function soFar(rows: CallStep[], body: string): HTMLElement {
+export function soFar(rows: Omit<PassStep, 'joint'>[], body: string): HTMLElement {
   const { pass } = rows[0];
   const at = rows.findIndex((step) => step.body === body);
   const told = TOLD[pass];

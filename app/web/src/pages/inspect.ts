@@ -1,22 +1,14 @@
 // The page of one inspected state: the inspector over the numbers that the page carries, with the
 // robot beside it.
-import '../ui/style.css';
 import { checkTable, checkWords } from '../inspector/checks';
 import { Inspector, type InspectorPage } from '../inspector/inspector';
-import type { BodyInspection } from '../protocol/body_inspection';
 import type { InspectedRobot, Inspection } from '../protocol/inspection';
-import type { SceneMessage } from '../protocol/messages';
+import type { BodyInspection, SceneMessage } from '../protocol/messages';
+import type { Layer } from '../protocol/run';
 import { element } from '../ui/dom';
-import { help, key, listen, MOUSE, pageHeader, viewKeys, type Key } from '../ui/keys';
-import { Tabs } from '../ui/tabs';
-import { Theme } from '../ui/theme';
-import { Labels } from '../view/labels';
-import { LayerChoice } from '../view/layers';
-import { Stage } from '../view/stage';
-import { Views } from '../view/views';
+import { key, MOUSE, viewKeys, type Key } from '../ui/keys';
 import './inspect.css';
-import { onPaper } from './paper';
-import './print.css';
+import { RecordedPage, type Instant } from './recorded_page';
 import { start } from './start';
 
 const FAINT = 60; // of 255: bodies that are not looked at
@@ -39,47 +31,31 @@ function inspectionOf(all: Inspection, name: string): BodyInspection {
   };
 }
 
-class Page {
-  private stale = true;
+class Page extends RecordedPage {
   private readonly inspector: Inspector;
-  private readonly host = element('div', { class: 'stage' });
-  private readonly stage: Stage;
-  private readonly labels: Labels;
-  private readonly layers: LayerChoice;
-  private readonly theme: Theme;
+  private readonly bodies: Layer[];
 
   constructor(private readonly robot: InspectedRobot) {
-    this.theme = new Theme(() => {
-      this.stage?.setTheme(this.theme.dark);
-      this.inspector?.onTheme();
-    });
-    const overlays = robot.layers.filter((layer) => !layer.name.startsWith('body/'));
-    this.layers = new LayerChoice(overlays, () => this.touch());
-    const views = new Views((name) => this.stage.look(name), () => undefined);
-    this.host.append(
-      element('div', { class: 'labels', 'aria-hidden': 'true' }),
-      this.layers.switches,
-      this.layers.legend,
-      views.root,
-    );
-    this.stage = new Stage(this.host, robot.view, robot, () => this.touch());
-    this.labels = new Labels(this.host.querySelector('.labels')!);
+    const isBody = ({ name }: Layer) => name.startsWith('body/');
+    super(robot, robot.layers.filter((layer) => !isBody(layer)));
+    this.bodies = robot.layers.filter(isBody);
     this.inspector = new Inspector(this.source());
-    this.build();
-    const asked = new URLSearchParams(location.hash.slice(1));
-    const theme = asked.get('theme');
-    if (theme) this.theme.set(theme === 'dark');
-    this.stage.setTheme(this.theme.dark);
-    this.inspector.go(Number(asked.get('step') ?? 1) - 1);
-    onPaper(this.host, () => {
-      this.stage.resize();
-      this.paint();
-    });
-    const tick = () => {
-      if (this.stale) this.paint();
-      requestAnimationFrame(tick);
-    };
-    tick();
+    const { checks, warnings } = robot.inspection;
+    this.tabs.add('Passes', this.inspector.root);
+    this.tabs.add(`Checks: ${checkWords(checks)}`, checkTable(checks, warnings));
+    this.tabs.root.parentElement!.classList.add('inspect');
+    const title = [
+      element('h1', {}, robot.title),
+      element('p', {}, robot.state.replaceAll('\n', ' · ')),
+    ];
+    const foot = element(
+      'footer',
+      { class: 'made-by' },
+      element('code', { id: 'command' }, robot.command),
+      element('span', {}, `twinarm ${robot.version}`),
+    );
+    this.begin(title, foot, this.keys(), MOUSE);
+    this.inspector.go(Number(this.asked('step') ?? 1) - 1);
   }
 
   get state() {
@@ -112,32 +88,6 @@ class Page {
     return page;
   }
 
-  private build(): void {
-    const { robot } = this;
-    const keys = this.keys();
-    const dialog = help(keys, MOUSE);
-    const tabs = new Tabs();
-    const { checks, warnings } = robot.inspection;
-    tabs.add('Passes', this.inspector.root);
-    tabs.add(`Checks: ${checkWords(checks)}`, checkTable(checks, warnings));
-    const title = [
-      element('h1', {}, robot.title),
-      element('p', {}, robot.state.replaceAll('\n', ' · ')),
-    ];
-    document.body.append(
-      pageHeader(title, dialog, () => this.theme.toggle()),
-      element('main', { class: 'inspect' }, this.host, tabs.root),
-      element(
-        'footer',
-        { class: 'made-by' },
-        element('code', { id: 'command' }, robot.command),
-        element('span', {}, `twinarm ${robot.version}`),
-      ),
-      dialog,
-    );
-    listen(keys);
-  }
-
   private keys(): Key[] {
     const pass = (number: number) => () => this.inspector.goPass(number);
     return [
@@ -148,32 +98,30 @@ class Page {
       key(['3'], '', '', pass(3)),
       ...viewKeys({
         orbit: (...by) => this.stage.orbit(...by),
-        look: (name) => this.stage.look(name),
+        look: (name) => this.look(name),
         toggleTheme: () => this.theme.toggle(),
       }),
     ];
   }
 
-  private touch(): void {
-    this.stale = true;
+  protected recolor(): void {
+    super.recolor();
+    this.inspector.onTheme();
+  }
+
+  protected before(): Instant {
+    return { a: 0, b: 0, share: 0 };
   }
 
   // The body of the step solid, the others as ghosts.
-  private paint(): void {
-    this.stale = false;
+  protected parts(shown: Layer[], instant: Instant) {
     const { body } = this.inspector.state;
-    const parts = this.robot.layers
-      .filter((layer) => layer.name.startsWith('body/'))
-      .map((layer) => {
-        const alpha = layer.name === `body/${body}` ? undefined : FAINT;
-        return { columns: layer.instances, a: 0, b: 0, share: 0, alpha, shadow: true };
-      });
-    const shown = this.layers.shown.filter((layer) => layer.name !== 'bodies');
-    const overlays = shown.map((layer) => ({ columns: layer.instances, a: 0, b: 0, share: 0 }));
-    this.stage.paint([...parts, ...overlays]);
-    this.stage.draw();
-    const labels = shown.map((layer) => ({ columns: layer.labels, frame: 0 }));
-    this.labels.paint(this.stage, this.robot.texts, labels);
+    const bodies = this.bodies.map(({ name, instances }) => {
+      const alpha = name === `body/${body}` ? undefined : FAINT;
+      return { ...instant, columns: instances, alpha, shadow: true };
+    });
+    const overlays = shown.filter(({ name }) => name !== 'bodies');
+    return [...bodies, ...super.parts(overlays, instant)];
   }
 }
 

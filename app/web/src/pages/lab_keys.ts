@@ -62,10 +62,11 @@ function handKeys({ page, panels, hand, keys }: KeyTargets): Key[] {
     key(['PageUp'], '', '', move(0, 0, 1)),
     key(['PageDown'], '', '', move(0, 0, -1)),
     key(['g'], 'g', 'gripper', () => {
-      if (hand.button(0, !hand.grip)) page.say(hand.grip ? 'The gripper is closed.' : 'The gripper is open.');
+      const closed = !hand.grip;
+      if (hand.button(0, closed)) page.say(`The gripper is ${closed ? 'closed' : 'open'}.`);
     }),
     key(['c'], 'c', 'clutch', () => {
-      if (hand.button(1, !hand.clutch)) page.say(hand.clutch ? 'The clutch is pressed.' : 'The clutch is released.');
+      if (hand.button(1, !hand.clutch)) page.say(`The clutch is ${hand.clutch ? 'pressed' : 'released'}.`);
     }),
   ];
 }

@@ -83,12 +83,14 @@ export class InputBar implements Panel {
 
   onState(state: StateMessage): void {
     const { hand } = state;
-    const leads = !!hand && hand.source !== '';
+    const leads = hand.source !== '';
     const isWatching = watches(state);
     if (!this.choosing) this.source.value = leads ? chosen(hand) : 'scene';
     this.source.disabled = isWatching || !leads;
     this.grip.disabled = isWatching;
     this.grip.hidden = !leads;
+    this.grip.setAttribute('aria-pressed', String(hand.gripper));
+    this.grip.textContent = hand.gripper ? 'grips' : 'grip';
     const words: string[] = [];
     if (leads) {
       words.push(`${hand.mapping} mapping`);
@@ -105,11 +107,6 @@ export class InputBar implements Panel {
   }
 
   draw(): void {
-    const closed = String(this.page.hand.grip);
-    if (this.grip.getAttribute('aria-pressed') !== closed) {
-      this.grip.setAttribute('aria-pressed', closed);
-      this.grip.textContent = closed === 'true' ? 'grips' : 'grip';
-    }
     const force = this.newest && this.column >= 0 ? this.newest.channels[this.column] : NaN;
     const hasForce = Number.isFinite(force);
     const text = hasForce ? `${force.toFixed(2)} N` : '';
@@ -135,7 +132,7 @@ export class InputBar implements Panel {
     this.choosing = asks;
     this.spec.hidden = !asks;
     if (asks) {
-      const file = name === 'trace' ? (this.page.state?.hand?.trace ?? '') : '';
+      const file = name === 'trace' ? (this.page.state?.hand.trace ?? '') : '';
       this.spec.value = source.spec! + file;
       this.spec.focus();
       this.spec.select();

@@ -3,7 +3,7 @@
 // The page calls a panel where the panel has such a function: onScene and onState when a message
 // comes, onFrame and draw only when the next picture is made, onFrame with the newest frame alone.
 // A panel that is not seen (its tab is closed) gets everything but draw.
-import type { BodyInspection } from '../protocol/body_inspection';
+import type { BodyInspection } from '../protocol/messages';
 import type { Arrow } from '../view/arrows';
 import type { Clock } from './time_bar';
 import type { Command, Frame, SceneMessage, StateMessage } from '../source/link';

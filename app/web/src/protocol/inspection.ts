@@ -61,6 +61,29 @@ export interface JointBalance {
   residual: number;
 }
 
+// How a quantity came to be: terms with the body that hands each over.
+export interface Term {
+  symbol: string; // "Xup v_p", with its sign where that is a minus
+  words: string;
+  of: string;
+  value: Value;
+}
+
+export interface Equation {
+  pass: number;
+  name: string; // of the left side: "v", "D qdd"
+  text: string;
+  terms: Term[];
+  value: Value;
+  residual: number | null;
+}
+
+export interface Neighbour {
+  body: string;
+  is: 'parent' | 'child';
+  quantities: Quantity[];
+}
+
 export interface Inspection {
   passes: PassStep[];
   balance: Balance[];

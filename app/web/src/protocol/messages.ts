@@ -1,5 +1,7 @@
-// What goes between the lab and its page, as docs/lab_protocol.md has it. World frame: z up;
-// metres, seconds, radians, newtons.
+// What goes between the lab and its page. TypeScript's types are the description: the page compiles
+// against them, docs/lab_protocol.md shows them, and tests/cli/test_lab_protocol.py holds the
+// program's messages and commands against them. World frame: z up; metres, seconds, radians, newtons.
+import type { Equation, Inspection, Neighbour, PassStep } from './inspection';
 import type { Channel, LegendLine, View } from './run';
 
 export type Vector = [number, number, number];
@@ -38,7 +40,7 @@ export interface SceneMessage {
   scene: number; // counts up; frames carry it
   title: string;
   file: string;
-  look: string[];
+  look: string[]; // what to look for
   meshes: string[]; // hashes, by number in frames
   textures: string[];
   layers: SceneLayer[];
@@ -50,22 +52,26 @@ export interface SceneMessage {
   view: View;
 }
 
-export type Limit = { value: number | null; words: string; state: 'ok' | 'near' | 'beyond' };
+export interface Limit {
+  value: number | null;
+  words: string; // "stable up to 12 kN/m at this step"
+  state: 'ok' | 'near' | 'beyond';
+}
 
 export interface Knob {
-  path: string;
+  path: string; // "coupling.stiffness"
   label: string;
   group: string;
   value: number | string | null; // null: the scene leaves it out
   start?: string; // as the scene was opened; '': left out; absent: it had no such knob
   unit: string;
   form: 'log' | 'linear' | 'choice' | 'number';
-  low?: number;
-  high?: number;
-  choices?: string[];
+  low: number;
+  high: number;
+  choices: string[];
   meaning: string;
-  limit?: Limit | null;
-  lag?: string | null;
+  limit?: Limit;
+  lag?: string; // "0.9 degrees at 1 rad/s"
   restarts: boolean;
 }
 
@@ -78,9 +84,9 @@ export interface Death {
   words: string[];
   time: number;
   from: number; // the last change: to go on from with a remedy
-  quantity?: string;
-  body?: string;
-  spring?: string;
+  quantity: string; // '': none, as body and spring
+  body: string;
+  spring: string;
   remedies: Remedy[];
 }
 
@@ -92,19 +98,34 @@ export interface Note {
 
 export interface HandState {
   source: 'scene' | 'drag' | 'joints' | 'device' | ''; // '': no hand leads this scene
-  spec: string; // of a device, as it was chosen
-  mapping: string;
-  q: number[];
-  felt: string; // what device it is
-  mode?: string; // live, held, released
-  trace?: string; // file of a recorded hand
+  spec: string; // of a device, as it was chosen after --device; else ''
+  mapping: string; // "paper", "arm", "cartesian"
+  q: number[]; // targets of the driven joints
+  felt: string; // what device it is, in words
+  mode: string; // of a device: live, held (it is silent), released (silent for longer); else ''
+  gripper: boolean; // closed
+  trace?: string; // file of a recorded hand, where one lies with the program
+}
+
+// Variants side by side.
+export interface Lanes {
+  path: string;
+  values: string[];
+  stopped: (number | null)[]; // when one stopped [s]
+}
+
+export interface Branch {
+  from: number;
+  changes: string[];
+  number: number;
 }
 
 export interface StateMessage {
   kind: 'state';
+  scene: number;
   you: number;
   secret: string; // of this page: goes with an upload
-  holder: number | null; // 0, null: nobody
+  holder: number | null; // of the hand; null: nobody
   clients: number;
   asked: number[]; // who asks for the hand
   playing: boolean;
@@ -113,44 +134,61 @@ export interface StateMessage {
   first: number; // what is remembered [s]
   last: number;
   at: number | null; // the instant that is looked at, if not the newest
-  branch: { from: number; changes: string[]; number: number } | null;
+  branch: Branch | null;
+  lanes: Lanes | null;
   pace: number;
   step: number;
   step_us: number;
-  hand?: HandState | null;
+  hand: HandState;
   knobs: Knob[];
   presets: { name: string; what: string }[];
   gallery: { name: string; title: string; look: string[] }[];
-  name?: string; // of the gallery
-  changes?: string[]; // to the scene's file
-  building?: string; // what is being prepared
+  name: string; // of the gallery
+  changes: string[]; // to the scene's file
+  building: string; // what is being prepared
   dead: Death | null;
-  notes: Note[];
+  notes: Note[]; // the last twenty
 }
 
+// What the inspector tells of one body in one frame. Absent: the frame could not be looked into,
+// and a warning says why.
+export interface BodyInspection extends Partial<Inspection> {
+  kind: 'glass';
+  scene: number;
+  t?: number; // absent: of a state alone
+  step?: number;
+  stands: boolean;
+  body?: number;
+  name?: string;
+  equations?: Equation[];
+  neighbours?: Neighbour[];
+  rows?: Omit<PassStep, 'joint'>[]; // the whole call in its order, where time stands
+}
+
+// Those marked * need no hand.
 export type Command =
-  | { do: 'layers'; names: string[] }
-  | { do: 'glass'; on: boolean; body?: number; pass?: number }
-  | { do: 'look'; at: number | null }
-  | { do: 'take' }
-  | { do: 'give'; to: number }
-  | { do: 'play'; on: boolean }
-  | { do: 'step'; steps: number }
-  | { do: 'speed'; factor: number }
-  | { do: 'set'; changes: string[] }
-  | { do: 'branch'; at: number; changes: string[] }
-  | { do: 'preset'; name: string }
-  | { do: 'scene'; name: string }
-  | { do: 'reset' }
-  | { do: 'restore' }
-  | { do: 'hand'; source: 'scene' | 'drag' | 'joints' | 'device'; spec?: string }
-  | { do: 'tip'; goal: Vector; stamp: number }
-  | { do: 'joint'; index: number; value: number; stamp: number }
-  | { do: 'turn'; yaw: number; pitch: number; roll: number; stamp: number }
-  | { do: 'axes'; rates: number[]; stamp: number }
-  | { do: 'button'; index: number; down: boolean; stamp: number }
-  | { do: 'pull'; body: number; point: Vector; goal: Vector; stamp: number }
-  | { do: 'drop' };
+  | { do: 'layers'; names: string[] } // * which layers come in this client's frames
+  | { do: 'glass'; on: boolean; body?: number } // * inspection of a body comes, or not
+  | { do: 'look'; at: number | null } // * this instant is shown (to all); null: the newest
+  | { do: 'take' } // * asks for the hand; it is given at once where nobody holds it
+  | { do: 'give'; to: number } // * the hand
+  | { do: 'play'; on: boolean } // goes on, or stands
+  | { do: 'step'; steps: number } // so many, then it stands
+  | { do: 'speed'; factor: number } // run time over wall time, 0.001 to 10
+  | { do: 'set'; changes: string[] } // "coupling.stiffness=800": turns knobs, at this instant
+  | { do: 'branch'; at: number | null; changes: string[] } // back to that instant, and on from there
+  | { do: 'preset'; name: string } // all of its values, and its scene
+  | { do: 'scene'; name: string } // another one of the gallery
+  | { do: 'reset' } // to the start
+  | { do: 'restore' } // all knobs as the scene was opened, at this instant
+  | { do: 'hand'; source: 'scene' | 'drag' | 'joints' | 'device'; spec?: string } // who moves the robot
+  | { do: 'tip'; goal: Vector; stamp: number } // where the tip of the kinematic robot is dragged to
+  | { do: 'joint'; index: number; value: number; stamp: number } // a driven joint is dragged there
+  | { do: 'turn'; yaw: number; pitch: number; roll: number; stamp: number } // the stylus
+  | { do: 'axes'; rates: number[]; stamp: number } // right, up, toward, yaw, pitch, roll: -1 to 1
+  | { do: 'button'; index: number; down: boolean; stamp: number } // 0: gripper, 1: clutch
+  | { do: 'pull'; body: number; point: Vector; goal: Vector; stamp: number } // point: link axes
+  | { do: 'drop' }; // spring, axes and clutch are released, the gripper stays as it is
 
 // Whether it differs from what the scene came with.
 export function isTurned({ value, start }: Knob): boolean {

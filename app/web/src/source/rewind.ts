@@ -1,21 +1,20 @@
 // Looking back: which instant is asked for. What is remembered can also be played again, in slow
 // motion too; the lab only knows instants, the clock is here.
 import type { LabPage } from '../panels/panel';
+import { Playhead } from './playhead';
 
 const PAUSE = 33; // between two instants that are asked for [ms]
 const SETTLE = 400; // until the lab says what was asked for [ms]
 
-export class Rewind {
-  playing = false;
-  at: number | null = null; // as asked for, which is newer than what the lab says; null: the newest
-  private rate = 1;
-  private until: number | null = null; // null: to the newest
-  private last = 0; // of the wall clock [ms]
+// `at` is as asked for, which is newer than what the lab says.
+export class Rewind extends Playhead {
   private startedAt = -Infinity;
   private sentAt = -Infinity;
   private sent: number | null = null;
 
-  constructor(private readonly page: LabPage) {}
+  constructor(private readonly page: LabPage) {
+    super(null);
+  }
 
   // Of the lab's state, unless this page is just choosing.
   follow(at: number | null): void {
@@ -24,43 +23,22 @@ export class Rewind {
     if (!this.playing && now - this.sentAt > SETTLE) this.at = this.sent = at;
   }
 
-  seek(at: number | null): void {
-    this.playing = false;
-    this.ask(at);
-  }
-
-  // From an instant on, at so many seconds of the run a second.
   play(from: number, rate: number, until: number | null = null): void {
-    this.playing = true;
-    this.rate = rate;
-    this.until = until;
-    this.last = this.startedAt = performance.now();
-    this.ask(from);
-  }
-
-  pause(): void {
-    this.playing = false;
+    this.startedAt = performance.now();
+    super.play(from, rate, until);
   }
 
   tick(): void {
-    const now = performance.now();
-    if (this.playing && this.at !== null) {
-      const end = this.until ?? this.page.state?.last ?? this.at;
-      this.at += this.rate * Math.min(0.1, (now - this.last) / 1000);
-      this.last = now;
-      if (this.at >= end) {
-        this.playing = false;
-        this.at = this.until;
-      }
-    }
-    if (this.at !== this.sent && now - this.sentAt >= PAUSE) this.ask(this.at);
+    this.advance(performance.now(), this.page.state?.last ?? Infinity);
+    if (this.at !== this.sent) this.put(this.at);
   }
 
-  private ask(at: number | null): void {
+  protected put(at: number | null): void {
     this.at = at;
-    if (performance.now() - this.sentAt < PAUSE && at !== null) return; // with the next tick
+    const now = performance.now();
+    if (now - this.sentAt < PAUSE && at !== null) return; // with a later tick
     this.sent = at;
-    this.sentAt = performance.now();
+    this.sentAt = now;
     this.page.send({ do: 'look', at });
   }
 }
