@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -87,6 +88,48 @@ inline bool tells(const std::vector<Fault>& faults, int line, const std::string&
         to_string(fault).find(value) != std::string::npos)
       return true;
   return false;
+}
+
+// What a file of bad input says of itself: lines START LINE CODE WORDS END, or START LINE WORDS END
+// of a warning, which has no code. The words are in the fault; - stands for any code.
+struct ExpectedFault {
+  int line = 0;
+  std::string code, words;
+};
+
+inline std::vector<ExpectedFault> expected_in(const std::string& text, const std::string& start,
+                                              const std::string& end) {
+  std::vector<ExpectedFault> found;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind(start, 0) != 0) continue;
+    std::istringstream words(line.substr(start.size(), line.size() - start.size() - end.size()));
+    ExpectedFault& one = found.emplace_back();
+    words >> one.line;
+    if (start.find("fault") != std::string::npos) words >> one.code;
+    std::getline(words >> std::ws, one.words);
+  }
+  return found;
+}
+
+// These faults and no others, in the order of the file's lines.
+inline void check_faults(const std::vector<Fault>& faults,
+                         const std::vector<ExpectedFault>& expected, const fs::path& file) {
+  INFO(listing(faults));
+  CHECK(faults.size() == expected.size());
+  for (const ExpectedFault& one : expected)
+    CHECK(std::any_of(faults.begin(), faults.end(), [&](const Fault& fault) {
+      return fault.line == one.line &&
+             (one.code.empty() || one.code == "-" || fault.code == one.code) &&
+             to_string(fault).find(one.words) != std::string::npos;
+    }));
+  for (const Fault& fault : faults) {
+    CHECK(fault.file == file.string());
+    CHECK(!fault.rule.empty());
+    CHECK(!fault.remedy.empty());
+  }
+  CHECK(std::is_sorted(faults.begin(), faults.end(),
+                       [](const Fault& a, const Fault& b) { return a.line < b.line; }));
 }
 
 // Largest difference of two numbers or arrays relative to the size of the array; a tolerance of 0
