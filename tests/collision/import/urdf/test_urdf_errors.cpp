@@ -14,9 +14,11 @@ TEST_CASE("each bad or odd URDF gives its faults or warnings, in the order of th
     INFO(file.filename().string());
     const std::string text = text_of(file);
     std::vector<Fault> warnings;
-    check_faults(faults_of([&] { warnings = read_urdf(file).warnings; }),
-                 expected_in(text, "<!-- fault ", " -->"), file);
+    const std::vector<Fault> faults = faults_of([&] { warnings = read_urdf(file).warnings; });
+    check_faults(faults, expected_in(text, "<!-- fault ", " -->"), file);
     check_faults(warnings, expected_in(text, "<!-- warning ", " -->"), file);
+    for (const std::vector<Fault>& told : {faults, warnings})
+      for (const Fault& fault : told) CHECK(!fault.remedy.empty());
     ++files;
   }
   CHECK(files == 111);
