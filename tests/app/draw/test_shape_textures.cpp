@@ -1,11 +1,7 @@
 // Pictures on plain shapes: where they lie, from a list and from files of robots and scenes.
 #include <doctest/doctest.h>
 
-#include <unistd.h>
-
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -15,27 +11,13 @@
 #include "collision/import/urdf/urdf.h"
 #include "tests/app/render/list/quarters.h"
 #include "tests/app/scene/model/helpers.h"
+#include "tests/support/temporary_folder.h"
 
 namespace twinarm {
 namespace {
 
-namespace fs = std::filesystem;
-
-class TextureFolder {
- public:
-  TextureFolder()
-      : path_(fs::temp_directory_path() / ("twinarm_texture_" + std::to_string(getpid()))) {
-    fs::create_directories(path_);
-    write_png((path_ / "quarters.png").string(), quarters(64));
-  }
-  ~TextureFolder() { fs::remove_all(path_); }
-  fs::path write(const std::string& name, const std::string& content) const {
-    std::ofstream(path_ / name, std::ios::binary) << content;
-    return path_ / name;
-  }
-
- private:
-  fs::path path_;
+struct TextureFolder : TemporaryFolder {
+  TextureFolder() { write_png((path() / "quarters.png").string(), quarters(64)); }
 };
 
 // What the eye sees of the list, looking at the origin; `up` upwards, light from where it stands.

@@ -40,28 +40,7 @@ DeviceState turned(double theta1) {
   return state;
 }
 
-const char* const kScene = R"(
-step = 0.001
-[[robot]]
-name = "arm"
-model = "robots/s103/s103.urdf"
-[[coupling]]
-name = "one"
-type = "torsional"
-measure = "joint"
-link = "arm1"
-stiffness = 2000
-damping = 100
-target = "device"
-[[coupling]]
-name = "two"
-type = "torsional"
-measure = "joint"
-link = "arm2"
-stiffness = 1000
-damping = 50
-target = "device"
-)";
+const std::string kScene = test_data("app/servo/two_springs.toml");
 
 SceneModel live_scene(const std::string& more = "") {
   const TemporaryFolder folder;

@@ -21,7 +21,11 @@ struct PairScene {
     world.add({"a", a, 0});
     world.add({"b", b, 0});
   }
-  const std::vector<Contact>& touch(const Pose& X_WA, const Pose& X_WB, double margin = 1e-3) {
+  PairScene(const Shape& a, const Shape& b, double margin) : PairScene(a, b) { usual = margin; }
+  const std::vector<Contact>& touch(const Pose& X_WA, const Pose& X_WB) {
+    return touch(X_WA, X_WB, usual);
+  }
+  const std::vector<Contact>& touch(const Pose& X_WA, const Pose& X_WB, double margin) {
     world.detect(std::array{X_WA, X_WB}, margin, contacts);
     return contacts;
   }
@@ -29,8 +33,11 @@ struct PairScene {
     return *std::max_element(contacts.begin(), contacts.end(),
                              [](const Contact& x, const Contact& y) { return x.depth < y.depth; });
   }
+  // Far below 0 where nothing touches.
+  double depth() const { return contacts.empty() ? -1e300 : deepest().depth; }
   CollisionWorld world;
   std::vector<Contact> contacts;
+  double usual = 1e-3;  // margin
 };
 
 }  // namespace twinarm::test

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "collision/detection/collision_world.h"
+#include "tests/collision/detection/pair_scene.h"
 #include "tests/collision/narrow_phase/oracle.h"
 
 using namespace twinarm;
@@ -39,23 +40,6 @@ bool is_convex(const Shape& s) {
   return !std::holds_alternative<HalfSpace>(s) && !std::holds_alternative<HollowSphere>(s) &&
          !std::holds_alternative<HollowCylinder>(s) && !std::holds_alternative<MeshShape>(s);
 }
-
-struct Pair {
-  Pair(const Shape& a, const Shape& b) {
-    world.add({"a", a, 0});
-    world.add({"b", b, 0});
-  }
-  const std::vector<Contact>& touch(const Pose& X_WA, const Pose& X_WB) {
-    world.detect(std::array{X_WA, X_WB}, kMargin, contacts);
-    return contacts;
-  }
-  const Contact& deepest() const {
-    return *std::max_element(contacts.begin(), contacts.end(),
-                             [](const Contact& x, const Contact& y) { return x.depth < y.depth; });
-  }
-  CollisionWorld world;
-  std::vector<Contact> contacts;
-};
 
 // B near the surface of A; `b` is convex.
 Pose placed_near(Random& random, const Shape& a, const Pose& X_WA, const Shape& b, double gap) {
@@ -95,7 +79,7 @@ void for_all_pairs(Visit visit) {
 TEST_CASE("every pair: contacts do not depend on where the world's origin is") {
   for_all_pairs([](const Shape& a, const Shape& b) {
     Random random(61);
-    Pair pair(a, b);
+    PairScene pair(a, b, kMargin);
     double depth = 0, place = 0, normal = 0;
     int other_count = 0;
     for (int k = 0; k < 300; ++k) {
@@ -124,7 +108,7 @@ TEST_CASE("every pair: contacts do not depend on where the world's origin is") {
 TEST_CASE("every pair: swapped roles give the same contacts with the normals turned round") {
   for_all_pairs([](const Shape& a, const Shape& b) {
     Random random(62);
-    Pair ab(a, b), ba(b, a);
+    PairScene ab(a, b, kMargin), ba(b, a, kMargin);
     double depth = 0, normal = 0, place = 0;
     for (int k = 0; k < 300; ++k) {
       const Pose X_WA = random_pose(random);
@@ -148,7 +132,7 @@ TEST_CASE("every pair: swapped roles give the same contacts with the normals tur
 TEST_CASE("every pair, along short motions: depths never jump and normals never flip") {
   for_all_pairs([](const Shape& a, const Shape& b) {
     Random random(63);
-    Pair pair(a, b);
+    PairScene pair(a, b, kMargin);
     const double step = 1e-5, reach = 0.25;  // no point of B is farther from its origin [m]
     double excess = 0;
     int flips = 0;
@@ -182,7 +166,7 @@ TEST_CASE("every pair, along short motions: depths never jump and normals never 
 TEST_CASE("every pair: while a body slides along, the names of its contacts persist") {
   for_all_pairs([](const Shape& a, const Shape& b) {
     Random random(64);
-    Pair pair(a, b);
+    PairScene pair(a, b, kMargin);
     int steps = 0, renamed = 0;
     for (int k = 0; k < 5000 && steps < 1000; ++k) {
       const Pose X_WA = random_pose(random);
@@ -208,7 +192,7 @@ TEST_CASE("every pair: while a body slides along, the names of its contacts pers
 TEST_CASE("every pair: a detection gives the same bits whatever was asked before") {
   for_all_pairs([](const Shape& a, const Shape& b) {
     Random random(65);
-    Pair pair(a, b);
+    PairScene pair(a, b, kMargin);
     const Pose X_WA = random_pose(random), X_WB = placed_near(random, a, X_WA, b, -1e-4);
     const std::vector<Contact> before = pair.touch(X_WA, X_WB);
     pair.touch(X_WA, placed_near(random, a, X_WA, b, -2e-3));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "collision/detection/collision_world.h"
+#include "tests/collision/detection/pair_scene.h"
 #include "tests/collision/narrow_phase/oracle.h"
 
 using namespace twinarm;
@@ -37,25 +38,6 @@ bool has_curved(const Shape& a, const Shape& b) {
   return std::holds_alternative<Cylinder>(a) || std::holds_alternative<Cylinder>(b) ||
          is_ellipsoid(a) || is_ellipsoid(b);
 }
-
-struct BoundedPair {
-  BoundedPair(const Shape& a, const Shape& b) {
-    world.add({"a", a, 0});
-    world.add({"b", b, 0});
-  }
-  const std::vector<Contact>& detect(const Pose& X_WA, const Pose& X_WB) {
-    const std::array<Pose, 2> poses{X_WA, X_WB};
-    world.detect(poses, kWideMargin, contacts);
-    return contacts;
-  }
-  double deepest() const {
-    double depth = -1e300;
-    for (const Contact& c : contacts) depth = std::max(depth, c.depth);
-    return depth;
-  }
-  CollisionWorld world;
-  std::vector<Contact> contacts;
-};
 
 // Largest departures over a run, to be compared once and shown.
 struct Worst {
@@ -88,7 +70,7 @@ TEST_CASE(
     const bool round = core_vertices(a).size() + core_vertices(b).size() <= 4;  // no volume
     if (has_curved(a, b) || round) return;
     Random random(11);
-    BoundedPair pair(a, b);
+    PairScene pair(a, b, kWideMargin);
     Worst distance, depth;
     int wrong = 0;
     for (int k = 0; k < 400; ++k) {
@@ -96,8 +78,8 @@ TEST_CASE(
       const Pose X_WB = pushed_against(random, a, X_WA, b, random.uniform(-0.06, 0.02));
       const double truth = oracle_distance(a, X_WA, b, X_WB);
       distance.see(std::abs(pair.world.distance(0, 1, X_WA, X_WB) - truth));
-      if (pair.detect(X_WA, X_WB).empty() != (truth >= kWideMargin)) ++wrong;
-      if (!pair.contacts.empty()) depth.see(std::abs(pair.deepest() + truth));
+      if (pair.touch(X_WA, X_WB).empty() != (truth >= kWideMargin)) ++wrong;
+      if (!pair.contacts.empty()) depth.see(std::abs(pair.depth() + truth));
     }
     CHECK(distance.value < 1e-8);
     CHECK(depth.value < 1e-8);
@@ -108,7 +90,7 @@ TEST_CASE(
 TEST_CASE("capsule-capsule: distance and depth agree with a search over one centre line to 1e-8") {
   Random random(13);
   const Capsule a{0.05, 0.2}, b{0.03, 0.3};
-  BoundedPair pair(a, b);
+  PairScene pair(a, b, kWideMargin);
   Worst distance, depth;
   for (int k = 0; k < 5000; ++k) {
     const Pose X_WA = random_pose(random);
@@ -127,7 +109,7 @@ TEST_CASE("capsule-capsule: distance and depth agree with a search over one cent
     }
     const double truth = from_b((low + high) / 2) - 0.08;
     distance.see(std::abs(pair.world.distance(0, 1, X_WA, X_WB) - truth));
-    if (!pair.detect(X_WA, X_WB).empty()) depth.see(std::abs(pair.deepest() + truth));
+    if (!pair.touch(X_WA, X_WB).empty()) depth.see(std::abs(pair.depth() + truth));
   }
   CHECK(distance.value < 1e-8);
   CHECK(depth.value < 1e-8);
@@ -137,7 +119,7 @@ TEST_CASE("cylinder pairs: distance agrees with a 48-gon prism, depth is an uppe
   for_bounded_pairs([](const Shape& a, const Shape& b) {
     if (!has_curved(a, b) || is_ellipsoid(a) || is_ellipsoid(b)) return;
     Random random(17);
-    BoundedPair pair(a, b);
+    PairScene pair(a, b, kWideMargin);
     Worst apart, too_shallow, too_deep;
     for (int k = 0; k < 40; ++k) {
       const Pose X_WA = random_pose(random);
@@ -161,17 +143,17 @@ TEST_CASE("cylinder pairs: distance agrees with a 48-gon prism, depth is an uppe
 TEST_CASE("moving b by the depth along the normal parts the bodies") {
   for_bounded_pairs([](const Shape& a, const Shape& b) {
     Random random(19);
-    BoundedPair pair(a, b);
+    PairScene pair(a, b, kWideMargin);
     Worst length;
     int still_touching = 0, wrong_way = 0;
     for (int k = 0; k < 1000; ++k) {
       const Pose X_WA = random_pose(random);
       Pose X_WB = pushed_against(random, a, X_WA, b, random.uniform(-0.06, 0.01));
-      if (pair.detect(X_WA, X_WB).empty()) continue;
+      if (pair.touch(X_WA, X_WB).empty()) continue;
       const Vector3 n = pair.contacts[0].n_W;
       length.see(std::abs(n.norm() - 1));
       const double clearance = 1e-9;
-      X_WB.p += (pair.deepest() + clearance) * n;
+      X_WB.p += (pair.depth() + clearance) * n;
       if (!(pair.world.distance(0, 1, X_WA, X_WB) > 0)) ++still_touching;
       X_WB.p -= 2 * clearance * n;
       if (pair.world.distance(0, 1, X_WA, X_WB) > 1e-3) ++wrong_way;
@@ -185,14 +167,14 @@ TEST_CASE("moving b by the depth along the normal parts the bodies") {
 TEST_CASE("swapping the roles flips the normal and keeps depths and places") {
   for_bounded_pairs([](const Shape& a, const Shape& b) {
     Random random(23);
-    BoundedPair ab(a, b), ba(b, a);
+    PairScene ab(a, b, kWideMargin), ba(b, a, kWideMargin);
     Worst depth, normal;
     for (int k = 0; k < 500; ++k) {
       const Pose X_WA = random_pose(random);
       const Pose X_WB = pushed_against(random, a, X_WA, b, random.uniform(-0.02, 0.01));
-      if (ab.detect(X_WA, X_WB).empty()) continue;
-      REQUIRE(!ba.detect(X_WB, X_WA).empty());
-      depth.see(std::abs(ab.deepest() - ba.deepest()));
+      if (ab.touch(X_WA, X_WB).empty()) continue;
+      REQUIRE(!ba.touch(X_WB, X_WA).empty());
+      depth.see(std::abs(ab.depth() - ba.depth()));
       normal.see((ab.contacts[0].n_W + ba.contacts[0].n_W).norm());
     }
     CHECK(depth.value < 1e-8);
@@ -203,7 +185,7 @@ TEST_CASE("swapping the roles flips the normal and keeps depths and places") {
 TEST_CASE("the depth changes by no more than the bodies move") {
   for_bounded_pairs([](const Shape& a, const Shape& b) {
     Random random(29);
-    BoundedPair pair(a, b);
+    PairScene pair(a, b, kWideMargin);
     Worst excess;
     const double step = 1e-5, reach = 0.25;  // [m]: no point of these bodies is farther out
     for (int k = 0; k < 200; ++k) {
@@ -212,8 +194,8 @@ TEST_CASE("the depth changes by no more than the bodies move") {
       double before = -pair.world.distance(0, 1, X_WA, X_WB);
       for (int i = 0; i < 20; ++i) {
         X_WB = nudged(random, X_WB, step, step / reach);
-        pair.detect(X_WA, X_WB);
-        const double now = pair.contacts.empty() ? -kWideMargin : pair.deepest();
+        pair.touch(X_WA, X_WB);
+        const double now = pair.contacts.empty() ? -kWideMargin : pair.depth();
         if (i > 0 && before > -kWideMargin && now > -kWideMargin)
           excess.see(std::abs(now - before) - 2 * step);
         before = now;
@@ -228,20 +210,11 @@ TEST_CASE("poses turned by exact right angles, touching, are no special case") {
     const bool round = core_vertices(a).size() + core_vertices(b).size() <= 4;
     if (has_curved(a, b) || round) return;
     Random random(31);
-    BoundedPair pair(a, b);
+    PairScene pair(a, b, kWideMargin);
     Worst distance;
-    const auto quarter = [&] {
-      Matrix3 R = Matrix3::Identity();
-      for (int i = 0; i < 3; ++i) {
-        const Matrix3 turn =
-            Eigen::AngleAxisd(M_PI / 2, Vector3::Unit(i)).toRotationMatrix().array().round();
-        for (int n = static_cast<int>(random.uniform(0, 4)); n > 0; --n) R = turn * R;
-      }
-      return R;
-    };
     for (int k = 0; k < 300; ++k) {
-      const Pose X_WA{quarter(), Vector3::Zero()};
-      Pose X_WB{quarter(), Vector3::Zero()};
+      const Pose X_WA{quarter_turns(random), Vector3::Zero()};
+      Pose X_WB{quarter_turns(random), Vector3::Zero()};
       for (int i = 0; i < 3; ++i) X_WB.p[i] = 0.01 * std::round(random.uniform(-15, 15));
       const double truth = oracle_distance(a, X_WA, b, X_WB);
       distance.see(std::abs(pair.world.distance(0, 1, X_WA, X_WB) - truth));
@@ -254,15 +227,15 @@ TEST_CASE("curved pairs: no direction, sampled and refined, has less overlap tha
   for_bounded_pairs([](const Shape& a, const Shape& b) {
     if (!has_curved(a, b)) return;
     Random random(37);
-    BoundedPair pair(a, b);
+    PairScene pair(a, b, kWideMargin);
     const Solid solid_a(a), solid_b(b);
     Worst along_normal, beaten;
     for (int k = 0; k < 200; ++k) {
       const Pose X_WA = random_pose(random);
       const Pose X_WB = pushed_against(random, a, X_WA, b, random.uniform(-0.08, 0.01));
       const Placed placed_a{solid_a, X_WA}, placed_b{solid_b, X_WB};
-      if (pair.detect(X_WA, X_WB).empty()) continue;
-      const double depth = pair.deepest();
+      if (pair.touch(X_WA, X_WB).empty()) continue;
+      const double depth = pair.depth();
       along_normal.see(std::abs(overlap(placed_a, placed_b, pair.contacts[0].n_W) - depth));
       beaten.see(depth - sampled_depth(random, placed_a, placed_b));
     }
@@ -293,7 +266,7 @@ TEST_CASE("cylinders deep in each other: found poses whose least overlap is hard
   Random random(53);
   for (std::size_t i = 0; i < all.size(); ++i) {
     CAPTURE(i);
-    BoundedPair pair(drum, all[i].b);
+    PairScene pair(drum, all[i].b, kWideMargin);
     const Solid solid_a(drum), solid_b(all[i].b);
     const Pose X_WA, X_WB{all[i].turn.normalized().toRotationMatrix(), all[i].p_AB};
     const double depth = -pair.world.distance(0, 1, X_WA, X_WB);

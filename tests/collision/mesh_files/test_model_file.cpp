@@ -3,13 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "collision/mesh_files/mesh_file.h"
@@ -17,86 +13,20 @@
 #include "collision/mesh_files/sandboxed_process.h"
 #include "collision/shapes/shape.h"
 #include "solver/support/diagnostics.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace twinarm;
-namespace fs = std::filesystem;
 
 namespace {
 
-class ModelFolder {
- public:
-  ModelFolder() : path_(fs::temp_directory_path() / ("twinarm_model_" + std::to_string(getpid()))) {
-    fs::create_directories(path_ / "inner");
-  }
-  ~ModelFolder() { fs::remove_all(path_); }
-  fs::path write(const std::string& name, const std::string& content) const {
-    std::ofstream(path_ / name, std::ios::binary) << content;
-    return path_ / name;
-  }
-
- private:
-  fs::path path_;
-};
-
-// A tetrahedron of volume 1/6, in the syntax of each format; lengths in `unit` of a metre.
-const char* const kPly = R"(ply
-format ascii 1.0
-element vertex 4
-property float x
-property float y
-property float z
-element face 4
-property list uchar int vertex_indices
-end_header
-0 0 0
-1 0 0
-0 1 0
-0 0 1
-3 0 2 1
-3 0 1 3
-3 0 3 2
-3 1 2 3
-)";
-
-std::string collada(const std::string& unit, const std::string& up) {
-  return R"(<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><unit name="u" meter=")" +
-         unit + R"("/><up_axis>)" + up + R"(</up_axis></asset>
-<library_effects><effect id="red-fx"><profile_COMMON><technique sid="c"><phong>
-<diffuse><color>0.5 0.25 0 1</color></diffuse></phong></technique></profile_COMMON></effect></library_effects>
-<library_materials><material id="red"><instance_effect url="#red-fx"/></material></library_materials>
-<library_geometries><geometry id="g"><mesh>
-<source id="p"><float_array id="pa" count="12">0 0 0 1 0 0 0 1 0 0 0 2</float_array>
-<technique_common><accessor source="#pa" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<triangles count="4" material="m"><input semantic="VERTEX" source="#v" offset="0"/><p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles>
-</mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"><bind_material><technique_common>
-<instance_material symbol="m" target="#red"/></technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+// models/: a tetrahedron of volume 1/6 in PLY, one of 1/3 in Collada, an OBJ with a texture.
+std::string sample(const std::string& file) {
+  return test_data("collision/mesh_files/models/" + file);
 }
-
-const char* const kObj = R"(mtllib looks.mtl
-v 0 0 0
-v 1 0 0
-v 0 1 0
-v 0 0 1
-vt 0 0
-vt 1 0
-vt 0.25 1
-usemtl painted
-f 1/1 2/2 3/3
-usemtl plain
-f 1 2 4
-)";
-const char* const kLooks = R"(newmtl painted
-Kd 1 1 1
-map_Kd inner/wood.png
-newmtl plain
-Kd 0.5 0.25 0
-d 0.5
-)";
+// Lengths in `unit` of a metre.
+std::string collada(const std::string& unit, const std::string& up) {
+  return replaced(replaced(sample("red.dae"), "UNIT", unit), "UP", up);
+}
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -105,14 +35,14 @@ bool contains(const std::string& text, const std::string& part) {
 }  // namespace
 
 TEST_CASE("a tetrahedron in PLY has the volume of one") {
-  const ModelFolder folder;
-  const TriangleMesh mesh = load_mesh(folder.write("t.ply", kPly), 1);
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = load_mesh(folder.write("t.ply", sample("tetrahedron.ply")), 1);
   REQUIRE(is_closed(mesh));
   CHECK(mass_properties(mesh, 1).mass == doctest::Approx(1.0 / 6));
 }
 
 TEST_CASE("Collada comes in metres by its own unit, with its axes as they stand in the file") {
-  const ModelFolder folder;
+  const TemporaryFolder folder;
   for (const char* up : {"Z_UP", "Y_UP"}) {
     const TriangleMesh mesh = load_mesh(folder.write("t.dae", collada("0.001", up)), 1);
     REQUIRE(is_closed(mesh));
@@ -128,10 +58,10 @@ TEST_CASE("Collada comes in metres by its own unit, with its axes as they stand 
 }
 
 TEST_CASE("each part of an OBJ has its colour or texture; the picture's top left is (0, 0)") {
-  const ModelFolder folder;
-  folder.write("looks.mtl", kLooks);
+  const TemporaryFolder folder;
+  folder.write("looks.mtl", sample("looks.mtl"));
   folder.write("inner/wood.png", "bytes of a picture");
-  const ModelFile model = read_model(folder.write("two.obj", kObj));
+  const ModelFile model = read_model(folder.write("two.obj", sample("two.obj")));
   REQUIRE(model.parts.size() == 2);
   REQUIRE(model.textures.size() == 1);
   CHECK(model.notes.empty());
@@ -152,11 +82,11 @@ TEST_CASE("each part of an OBJ has its colour or texture; the picture's top left
 }
 
 TEST_CASE("a texture that is missing, or lies outside the model's folder, is told and left out") {
-  const ModelFolder folder;
+  const TemporaryFolder folder;
   folder.write("secret.png", "outside");
   for (const char* name : {"none.png", "../secret.png", "/etc/passwd"}) {
     folder.write("inner/looks.mtl", std::string("newmtl painted\nmap_Kd ") + name + "\n");
-    const ModelFile model = read_model(folder.write("inner/two.obj", kObj));
+    const ModelFile model = read_model(folder.write("inner/two.obj", sample("two.obj")));
     CHECK(model.textures.empty());
     REQUIRE(model.notes.size() == 1);
     CHECK(contains(model.notes[0], name));
@@ -164,7 +94,7 @@ TEST_CASE("a texture that is missing, or lies outside the model's folder, is tol
 }
 
 TEST_CASE("an STL states no colour") {
-  const ModelFolder folder;
+  const TemporaryFolder folder;
   const ModelFile model = read_model(folder.write(
       "t.stl",
       "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"

@@ -112,6 +112,16 @@ Pose random_pose(Random& random) {
   return {random.rotation(), random.uniform(0, 1) * random.direction()};
 }
 
+Matrix3 quarter_turns(Random& random) {
+  Matrix3 R = Matrix3::Identity();
+  for (int i = 0; i < 3; ++i) {
+    const Matrix3 turn =
+        Eigen::AngleAxisd(M_PI / 2, Vector3::Unit(i)).toRotationMatrix().array().round();
+    for (int n = static_cast<int>(random.uniform(0, 4)); n > 0; --n) R = turn * R;
+  }
+  return R;
+}
+
 Pose pushed_against(Random& random, const Shape& a, const Pose& X_WA, const Shape& b, double gap) {
   Pose X_WB{random.rotation(), Vector3::Zero()};
   const Vector3 n = random.direction();

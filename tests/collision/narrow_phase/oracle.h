@@ -40,6 +40,9 @@ Pose pushed_against(Random& random, const Shape& a, const Pose& X_WA, const Shap
 
 Pose random_pose(Random& random);
 
+// By exact right angles.
+Matrix3 quarter_turns(Random& random);
+
 // 40 random points of an ellipsoid: a hull with many small faces.
 ConvexHull random_hull(Random& random);
 

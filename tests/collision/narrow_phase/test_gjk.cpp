@@ -36,16 +36,6 @@ std::vector<Shape> shapes_of_all_sizes() {
           Ellipsoid{{1e-4, 2e-4, 1e-4}}};
 }
 
-Matrix3 quarter_turns(Random& random) {
-  Matrix3 R = Matrix3::Identity();
-  for (int i = 0; i < 3; ++i) {
-    const Matrix3 turn =
-        Eigen::AngleAxisd(M_PI / 2, Vector3::Unit(i)).toRotationMatrix().array().round();
-    for (int n = static_cast<int>(random.uniform(0, 4)); n > 0; --n) R = turn * R;
-  }
-  return R;
-}
-
 // Deep, touching, just apart, near, up to 100 m away, and aligned on a grid, in turns.
 struct Poses {
   Pose X_WA, X_WB;

@@ -3,12 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include <unistd.h>
-
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -16,25 +12,12 @@
 #include "collision/shapes/shape.h"
 #include "solver/support/diagnostics.h"
 #include "tests/collision/narrow_phase/oracle.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace twinarm;
 using namespace twinarm::test;
-namespace fs = std::filesystem;
 
 namespace {
-
-// A folder of its own, gone at the end.
-struct Folder {
-  Folder() : path(fs::temp_directory_path() / ("twinarm_mesh_" + std::to_string(getpid()))) {
-    fs::create_directories(path / "model");
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path write(const std::string& name, const std::string& content) const {
-    std::ofstream(path / name, std::ios::binary) << content;
-    return path / name;
-  }
-  fs::path path;
-};
 
 std::string binary_stl(const TriangleMesh& mesh) {
   std::string text(80, ' ');
@@ -93,7 +76,7 @@ bool mentions(const std::string& text, const char* word) {
 }  // namespace
 
 TEST_CASE("a box of 1 mm in metres comes back welded and closed from STL and OBJ") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const TriangleMesh box = box_mesh({0.001, 0.002, 0.0005});
   for (const fs::path& file :
        {folder.write("box.stl", binary_stl(box)), folder.write("box.STL", binary_stl(box)),
@@ -107,33 +90,33 @@ TEST_CASE("a box of 1 mm in metres comes back welded and closed from STL and OBJ
 }
 
 TEST_CASE("an OBJ of two parts is one mesh") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string text = obj(box_mesh({1, 1, 1}), "o first\n");
   text += "o second\nv 5 5 5\nv 6 5 5\nv 5 6 5\nf 9 10 11\n";
   CHECK(load_mesh(folder.write("two.obj", text), 1).triangles.size() == 13);
 }
 
 TEST_CASE("a glTF buffer is read beside the model, and not from outside its folder") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const std::string bytes(reinterpret_cast<const char*>(corners), sizeof corners);
   folder.write("model/inside.bin", bytes);
   folder.write("outside.bin", bytes);
-  fs::create_symlink(folder.path / "outside.bin", folder.path / "model/link.bin");
+  fs::create_symlink(folder.path() / "outside.bin", folder.path() / "model/link.bin");
   CHECK(load_mesh(folder.write("model/good.gltf", gltf_of("inside.bin")), 1).triangles.size() == 1);
   CHECK(refusal(folder.write("model/bad.gltf", gltf_of("../outside.bin"))) != "accepted");
   CHECK(refusal(folder.write("model/link.gltf", gltf_of("link.bin"))) != "accepted");
-  CHECK(refusal(folder.write("model/root.gltf", gltf_of((folder.path / "outside.bin").string()))) !=
-        "accepted");
+  CHECK(refusal(folder.write("model/root.gltf",
+                             gltf_of((folder.path() / "outside.bin").string()))) != "accepted");
 }
 
 TEST_CASE("missing, foreign, malformed, empty and non-finite files are refused with a reason") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const TriangleMesh box = box_mesh({1, 1, 1});
   TriangleMesh bad = box;
   bad.vertices[5].y() = std::nan("");
-  CHECK(mentions(refusal(folder.path / "none.stl"), "no such file"));
-  CHECK(mentions(refusal(folder.path), "not a file"));
+  CHECK(mentions(refusal(folder.path() / "none.stl"), "no such file"));
+  CHECK(mentions(refusal(folder.path()), "not a file"));
   CHECK(mentions(refusal(folder.write("cad.step", "ISO-10303-21;")), "not a mesh format"));
   CHECK(mentions(refusal(folder.write("mesh.off", "OFF\n")), "not a mesh format"));
   CHECK(
@@ -150,14 +133,14 @@ TEST_CASE("missing, foreign, malformed, empty and non-finite files are refused w
 }
 
 TEST_CASE("a file above the size cap is refused unread") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.write("huge.stl", "solid");
   fs::resize_file(file, (64u << 20) + 1);  // sparse
   CHECK(mentions(refusal(file), "64 MiB"));
 }
 
 TEST_CASE("random damage to a file is an error or a finite mesh, never a crash") {
-  const Folder folder;
+  const TemporaryFolder folder;
   Random random(15);
   for (const std::string& good : {binary_stl(box_mesh({1, 2, 3})), obj(box_mesh({1, 2, 3}))}) {
     for (int k = 0; k < 150; ++k) {
@@ -179,7 +162,7 @@ TEST_CASE("random damage to a file is an error or a finite mesh, never a crash")
 }
 
 TEST_CASE("files whose surface is no solid's: each is read, and told what is wrong and how much") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const TriangleMesh good = box_mesh({1, 2, 3});
   const auto fault_of = [&](const TriangleMesh& mesh) {
     return MeshShape{load_mesh(folder.write("surface.stl", binary_stl(mesh)), 1)}.fault();
@@ -209,7 +192,7 @@ TEST_CASE("files whose surface is no solid's: each is read, and told what is wro
 TEST_CASE(
     "triangles whose corners are the same vertex are left out, and a file of nothing else is "
     "empty") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const TriangleMesh good = box_mesh({1, 1, 1});
   TriangleMesh dotted = good, nothing = good;
   dotted.triangles.push_back({0, 0, 1});

@@ -1,5 +1,5 @@
-// The coupled two-link arm against continuous-time references that were computed by an independent
-// code (docs/cases_robots.md, F3), and against the claims about the paper (docs/findings.md).
+// The coupled two-link arm against the claims about the paper (docs/findings.md). In continuous
+// time it is benchmarks/analytic/coupling/tracking.cpp, F3.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -8,37 +8,6 @@
 
 using namespace twinarm;
 using namespace twinarm::testing;
-
-TEST_CASE("rk4 at 0.1 ms meets the continuous reference of four couplings (CASES F3)") {
-  const TwoLink arm;
-  struct Row {
-    const char* name;
-    CouplingSpec spec;
-    double max1, max2, mean1, mean2, q1, q2, qd1, qd2;
-  };
-  const Row rows[] = {
-      {"torsional world 1200 40", torsional(arm.springs(1200, 40), Measure::world), 4.5491672,
-       3.5904684, 0.23450014, 0.20688893, -1.5705486491534029, 0.7841626280637461,
-       -3.141160562738077, 1.5686390200655729},
-      {"torsional joint 1200 40", torsional(arm.springs(1200, 40), Measure::joint), 5.0608814,
-       1.0008448, 0.33861819, 0.082941202, -1.5715393942737186, 0.7844085374252503,
-       -3.142889748161778, 1.56906998525831},
-      {"linear 22000 400", linear(arm.springs(22000, 400)), 2.2315105, 2.147409, 0.11838638,
-       0.33044263, -1.5697393065367373, 0.7799431084388347, -3.143398821147832, 1.5750229081762126},
-      {"torsional world 300 0", torsional(arm.springs(300, 0), Measure::world), 13.51285, 11.86284,
-       6.1254053, 4.6802616, -1.542622579885601, 0.7725853769809631, -0.8066396833891154,
-       -0.6629241236732122}};
-  for (const Row& row : rows) {
-    CAPTURE(row.name);
-    const Tracking run = track(arm, row.spec, 1e-4, Integrator::rk4);
-    CHECK(std::abs(run.error.max[0] - row.max1) < 1e-4);
-    CHECK(std::abs(run.error.max[1] - row.max2) < 1e-4);
-    CHECK(std::abs(run.error.mean[0] - row.mean1) < 1e-5);
-    CHECK(std::abs(run.error.mean[1] - row.mean2) < 1e-5);
-    const double reference[] = {row.q1, row.q2, row.qd1, row.qd2};
-    for (std::size_t s = 0; s < 4; ++s) CHECK(std::abs(run.end[s] - reference[s]) < 1e-8);
-  }
-}
 
 namespace {
 using Type = CouplingSpec::Type;

@@ -1,14 +1,12 @@
 // Recorded traces: the round trip, interpolation, and every fault of a bad file, all at once.
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "coupling/target/recorded_trace.h"
 #include "coupling/target/synthetic_operator.h"
 #include "solver/support/diagnostics.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace twinarm;
 namespace fs = std::filesystem;
@@ -17,24 +15,6 @@ namespace {
 
 const std::string kHeader =
     "t[s],theta1[rad],theta2[rad],theta3[rad],theta4[rad],theta5[rad],theta6[rad],button\n";
-
-// A folder of its own that goes with the test.
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / ("twinarm-trace-" + std::to_string(getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  fs::path file(const std::string& name) const { return path_ / name; }
-  fs::path write(const std::string& content) const {
-    std::ofstream(file("trace.csv"), std::ios::binary) << content;
-    return file("trace.csv");
-  }
-
- private:
-  fs::path path_;
-};
 
 std::vector<Fault> faults_of(const fs::path& file) {
   try {
@@ -57,11 +37,11 @@ bool names(const std::vector<Fault>& faults, int line, const std::string& word) 
 }  // namespace
 
 TEST_CASE("a trace that was written is read back to its six decimals, angles and button") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const SyntheticOperator hand(3, 4.0);
-  write_trace(hand, 200, folder.file("hand.csv"));
-  CHECK_FALSE(fs::exists(folder.file("hand.csv.tmp")));
-  const RecordedTrace trace(folder.file("hand.csv"));
+  write_trace(hand, 200, (folder.path() / "hand.csv"));
+  CHECK_FALSE(fs::exists(folder.path() / "hand.csv.tmp"));
+  const RecordedTrace trace(folder.path() / "hand.csv");
   CHECK(trace.duration() == doctest::Approx(4.0));
   for (int n = 0; n <= 800; ++n) {
     const double t = n / 200.0;
@@ -72,9 +52,10 @@ TEST_CASE("a trace that was written is read back to its six decimals, angles and
 }
 
 TEST_CASE("between samples a trace is linear; at a sample the rate is that of the side asked for") {
-  const Folder folder;
+  const TemporaryFolder folder;
   // Columns in another order, comments, blanks, another start of time, Windows line ends.
   const RecordedTrace trace(folder.write(
+      "trace.csv",
       "# made by hand\r\n"
       "button, theta6[rad], theta5[rad],theta4[rad],theta3[rad],theta2[rad],theta1[rad],t[s]\r\n"
       "0, 0,0,0,0,0, 1.0, 10\r\n# a pause\r\n\n1, 0,0,0,0,0, 2.0, 10.5\r\n"
@@ -100,40 +81,41 @@ TEST_CASE("between samples a trace is linear; at a sample the rate is that of th
 }
 
 TEST_CASE("a trace without a button column is read, its button never pressed") {
-  const Folder folder;
-  const RecordedTrace trace(folder.write(kHeader.substr(0, kHeader.find(",button")) +
-                                         "\n0,1,2,3,4,5,6\n1,1,2,3,4,5,6\n"));
+  const TemporaryFolder folder;
+  const RecordedTrace trace(folder.write("trace.csv", kHeader.substr(0, kHeader.find(",button")) +
+                                                          "\n0,1,2,3,4,5,6\n1,1,2,3,4,5,6\n"));
   CHECK_FALSE(trace.sample(0.5, 1).button);
   CHECK(trace.sample(0.5, 1).theta[5] == 6);
 }
 
 TEST_CASE("a trace file that is not there, or is a folder, is refused by name") {
-  const Folder folder;
-  CHECK(faults_of(folder.file("nowhere.csv")).size() == 1);
-  CHECK_FALSE(faults_of(folder.file("")).empty());
+  const TemporaryFolder folder;
+  CHECK(faults_of(folder.path() / "nowhere.csv").size() == 1);
+  CHECK_FALSE(faults_of(folder.path()).empty());
 }
 
 TEST_CASE("all columns that a trace lacks are named at once") {
-  const Folder folder;
-  const auto faults =
-      faults_of(folder.write("# x\ntime,theta1,theta2[rad],theta3[deg],theta4[rad],button\n"));
+  const TemporaryFolder folder;
+  const auto faults = faults_of(
+      folder.write("trace.csv", "# x\ntime,theta1,theta2[rad],theta3[deg],theta4[rad],button\n"));
   for (const char* column : {"t[s]", "theta1[rad]", "theta5[rad]", "theta6[rad]"})
     CHECK(names(faults, 2, column));
   CHECK(faults.size() == 4);
 }
 
 TEST_CASE("all bad lines of a trace are named at once: text, nan, inf, missing cells, time back") {
-  const Folder folder;
-  const auto faults = faults_of(folder.write(kHeader + "0,0,0,0,0,0,0,0\n"     // 2
-                                                       "1,0,oops,0,0,0,0,0\n"  // 3
-                                                       "2,0,0,nan,0,inf,0,0\n"
-                                                       "3,0,0,0,0,0,0,0\n"    // 5
-                                                       "2.5,0,0,0,0,0,0,0\n"  // 6
-                                                       "4,0,0,0\n"            // 7
-                                                       "5,0,0,0,0,0,1e999,0\n"
-                                                       "6,0,0,0,0,0,1.5x,0\n"
-                                                       "3,0,0,0,0,0,0,0\n"  // 10: equal time
-                                                       "7,0,0,0,0,0,0,yes\n"));
+  const TemporaryFolder folder;
+  const auto faults =
+      faults_of(folder.write("trace.csv", kHeader + "0,0,0,0,0,0,0,0\n"     // 2
+                                                    "1,0,oops,0,0,0,0,0\n"  // 3
+                                                    "2,0,0,nan,0,inf,0,0\n"
+                                                    "3,0,0,0,0,0,0,0\n"    // 5
+                                                    "2.5,0,0,0,0,0,0,0\n"  // 6
+                                                    "4,0,0,0\n"            // 7
+                                                    "5,0,0,0,0,0,1e999,0\n"
+                                                    "6,0,0,0,0,0,1.5x,0\n"
+                                                    "3,0,0,0,0,0,0,0\n"  // 10: equal time
+                                                    "7,0,0,0,0,0,0,yes\n"));
   CHECK(names(faults, 3, "theta2"));
   CHECK(names(faults, 3, "oops"));
   CHECK(names(faults, 4, "theta3"));
@@ -148,39 +130,42 @@ TEST_CASE("all bad lines of a trace are named at once: text, nan, inf, missing c
 }
 
 TEST_CASE("a trace with fewer than two samples is refused, whatever else is in it") {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const std::string& body :
        {std::string(), kHeader, kHeader + "0,0,0,0,0,0,0,0\n", std::string("# only a comment\n")})
-    CHECK_FALSE(faults_of(folder.write(body)).empty());
+    CHECK_FALSE(faults_of(folder.write("trace.csv", body)).empty());
 }
 
 TEST_CASE("a trace with a hundred bad lines names the first twenty and counts the others") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string body = kHeader;
   for (int n = 0; n < 100; ++n) body += "x,0,0,0,0,0,0,0\n";
-  const auto faults = faults_of(folder.write(body));
+  const auto faults = faults_of(folder.write("trace.csv", body));
   CHECK(faults.size() == 21);
   CHECK(faults.back().rule.find("80") != std::string::npos);
 }
 
 TEST_CASE("a trace that cannot be written is refused and leaves nothing behind") {
-  const Folder folder;
-  const fs::path below_a_file = folder.write("x") / "trace.csv";
+  const TemporaryFolder folder;
+  const fs::path below_a_file = folder.write("trace.csv", "x") / "trace.csv";
   CHECK_THROWS_AS(write_trace(SyntheticOperator(1, 1), 10, below_a_file), InputError);
-  fs::create_directories(folder.file("taken.csv") / "inside");
-  CHECK_THROWS_AS(write_trace(SyntheticOperator(1, 1), 10, folder.file("taken.csv")), InputError);
-  CHECK_FALSE(fs::exists(folder.file("taken.csv.tmp")));
+  fs::create_directories((folder.path() / "taken.csv") / "inside");
+  CHECK_THROWS_AS(write_trace(SyntheticOperator(1, 1), 10, (folder.path() / "taken.csv")),
+                  InputError);
+  CHECK_FALSE(fs::exists(folder.path() / "taken.csv.tmp"));
 }
 
 TEST_CASE("a blank line with a Windows line end is skipped") {
-  const Folder folder;
-  CHECK(faults_of(folder.write(kHeader + "0,0,0,0,0,0,0,0\r\n\r\n1,0,0,0,0,0,0,0\r\n")).empty());
+  const TemporaryFolder folder;
+  CHECK(faults_of(folder.write("trace.csv", kHeader + "0,0,0,0,0,0,0,0\r\n\r\n1,0,0,0,0,0,0,0\r\n"))
+            .empty());
 }
 
 TEST_CASE("a column that says [deg] is converted, its neighbours in radians are not") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const RecordedTrace trace(
-      folder.write("t[s],theta1[deg],theta2[rad],theta3[rad],theta4[deg],theta5[rad],theta6[rad]\n"
+      folder.write("trace.csv",
+                   "t[s],theta1[deg],theta2[rad],theta3[rad],theta4[deg],theta5[rad],theta6[rad]\n"
                    "0,45,0.5,0,-90,0,0\n1,30,1.5,0,180,0,0\n"));
   CHECK(trace.sample(0, 1).theta[0] == doctest::Approx(std::acos(-1.0) / 4).epsilon(1e-14));
   CHECK(trace.sample(0, 1).theta[1] == 0.5);
@@ -188,37 +173,40 @@ TEST_CASE("a column that says [deg] is converted, its neighbours in radians are 
 }
 
 TEST_CASE("angles beyond a whole turn are refused: degrees are asked for where they would fit") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto degrees =
-      faults_of(folder.write(kHeader + "0,20,60,-10,0,0,0,0\n1,-40,75,5,3,0,1,0\n"));
+      faults_of(folder.write("trace.csv", kHeader + "0,20,60,-10,0,0,0,0\n1,-40,75,5,3,0,1,0\n"));
   CHECK(names(degrees, 1, "theta1[rad]"));
   CHECK(names(degrees, 1, "theta2[rad]"));
   CHECK(names(degrees, 1, "looks like degrees"));
   CHECK(names(degrees, 1, "theta1[deg]"));
   CHECK(degrees.size() == 3);  // joints 1 to 3
-  const auto nonsense = faults_of(folder.write(kHeader + "0,4000,0,0,0,0,0,0\n1,0,0,0,0,0,0,0\n"));
+  const auto nonsense =
+      faults_of(folder.write("trace.csv", kHeader + "0,4000,0,0,0,0,0,0\n1,0,0,0,0,0,0,0\n"));
   CHECK(names(nonsense, 1, "4000"));
   CHECK_FALSE(names(nonsense, 1, "looks like degrees"));
 }
 
 TEST_CASE("angles that an Omni cannot reach are doubted in words, and played as they are") {
-  const Folder folder;
-  const RecordedTrace doubted(folder.write(kHeader + "0,0,0,0,0,0,0,0\n1,5,0,0,0,0,0,0\n"));
+  const TemporaryFolder folder;
+  const RecordedTrace doubted(
+      folder.write("trace.csv", kHeader + "0,0,0,0,0,0,0,0\n1,5,0,0,0,0,0,0\n"));
   CHECK(doubted.sample(1, 2).theta[0] == 5);
   REQUIRE(doubted.quality().warnings.size() == 1);
   CHECK(doubted.quality().warnings[0].find("theta1[deg]") != std::string::npos);
   const RecordedTrace tiny(
-      folder.write("t[s],theta1[deg],theta2[deg],theta3[deg],theta4[deg],theta5[deg],theta6[deg]\n"
+      folder.write("trace.csv",
+                   "t[s],theta1[deg],theta2[deg],theta3[deg],theta4[deg],theta5[deg],theta6[deg]\n"
                    "0,0,1.2,0,0,0,0\n1,0.9,0,0,0,0,-0.4\n"));
   REQUIRE(tiny.quality().warnings.size() == 1);
   CHECK(tiny.quality().warnings[0].find("theta1[rad]") != std::string::npos);
 }
 
 TEST_CASE("a trace says its rate, whatever it is, and nothing more when it is even") {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const double rate : {7.0, 60.0, 1000.0}) {
-    write_trace(SyntheticOperator(2, 3), rate, folder.file("even.csv"));
-    const TraceQuality quality = RecordedTrace(folder.file("even.csv")).quality();
+    write_trace(SyntheticOperator(2, 3), rate, (folder.path() / "even.csv"));
+    const TraceQuality quality = RecordedTrace(folder.path() / "even.csv").quality();
     CHECK(quality.rate == doctest::Approx(rate).epsilon(1e-3));
     CHECK(quality.largest_gap == doctest::Approx(1 / rate).epsilon(1e-3));
     CHECK(quality.jitter < 1e-6);  // six decimals of a second in the file
@@ -227,14 +215,14 @@ TEST_CASE("a trace says its rate, whatever it is, and nothing more when it is ev
 }
 
 TEST_CASE("gaps and jitter of a trace are measured and said") {
-  const Folder folder;
+  const TemporaryFolder folder;
   // 100 Hz, every other sample 4 ms late: intervals 14 and 6 ms, and one gap of 0.5 s from t = 2.
   std::string body = kHeader;
   for (int n = 0; n < 200; ++n) {
     const double t = 1 + 0.01 * n + (n % 2 == 1 ? 0.004 : 0.0) + (n > 100 ? 0.49 : 0.0);
     body += std::to_string(t) + ",0,1,0,0,0,0,0\n";
   }
-  const TraceQuality quality = RecordedTrace(folder.write(body)).quality();
+  const TraceQuality quality = RecordedTrace(folder.write("trace.csv", body)).quality();
   CHECK(quality.interval == doctest::Approx(0.014));
   CHECK(quality.largest_gap == doctest::Approx(0.504));
   CHECK(quality.gap_start == doctest::Approx(2.0));

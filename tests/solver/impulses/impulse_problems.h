@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -116,11 +116,17 @@ inline ImpulseProblem struck_pyramid(unsigned seed, int levels) {
   return problem;
 }
 
-// What found_impulses.h describes; bodies are free.
-inline ImpulseProblem read_problem(const char* text) {
-  std::istringstream in(text);
+// problems/NAME.txt: a problem that a run of shoved scenes met; bodies are free. A line each: # and
+// a comment; tree, the lower triangle of M, v0; or law, rows, trees of both sides (-1: none), of,
+// mu or radius, b, the guess of p, J of both sides.
+inline ImpulseProblem read_problem(const std::string& name) {
+  std::ifstream in(TWINARM_SOURCE_DIR "/tests/solver/impulses/problems/" + name + ".txt");
   ImpulseProblem problem;
   for (std::string word; in >> word;) {
+    if (word == "#") {
+      std::getline(in, word);
+      continue;
+    }
     if (word == "tree") {
       const int t = problem.add_tree(6);
       for (int r = 0; r < 6; ++r)

@@ -1,4 +1,4 @@
-// Friction in one joint: closed forms (docs/cases.md, B5, B6), coming to rest, breaking loose.
+// Friction in one joint: recurrences, coming to rest, breaking loose.
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -40,24 +40,6 @@ struct Push final : ForceSource {
 };
 
 }  // namespace
-
-TEST_CASE("a block on an incline with a viscous slide meets the closed form to 1e-8 (rk4, 1 ms)") {
-  JointProperties p;
-  p.damping = 0.8;
-  const double tilt = std::numbers::pi / 6;
-  const Model<double> model = slider(2, {std::cos(tilt), 0, -std::sin(tilt)}, p);
-  Simulation simulation(model, State<double>(model));
-  simulation.set_integrator(Integrator::rk4);
-  Forces<double> none(model);
-  none.clear();
-  Workspace<double> w(model);
-  ForwardDynamics dynamics(model);
-  dynamics(simulation.state(), none, w);
-  CHECK(std::abs(w.qdd[0] - 4.905) < 1e-13);
-  for (int n = 0; n < 2000; ++n) simulation.step(1e-3);
-  CHECK(std::abs(simulation.state().qd[0] - 6.7526035775125702) < 1e-12);
-  CHECK(std::abs(simulation.state().q[0] - 7.6434910562185744) < 1e-12);
-}
 
 TEST_CASE(
     "viscous friction under the semi-implicit methods: v' (1 + h b/m) = v + h g, at every h") {

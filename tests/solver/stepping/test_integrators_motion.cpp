@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -41,55 +40,7 @@ Model<double> on_carrier(JointType type, const BodyInertia& body, const Vector3&
   return builder.build();
 }
 
-// Kapitza's pendulum (C7), 0.01 rad from upright at rest: when it falls past 1 rad, or the largest
-// angle until 20 s.
-struct Kapitza {
-  double falls_at = 0, largest = 0;
-};
-Kapitza kapitza(double w, Integrator integrator, double h) {
-  constexpr double l = 0.5, a = 0.02;
-  const Model<double> model =
-      on_carrier(JointType::revolute, {1, {0, 0, -l}, Matrix3::Zero()}, {0, 0, -9.81});
-  State<double> x(model);
-  x.q[model.iq[2]] = std::numbers::pi - 0.01;
-  Simulation simulation(model, x);
-  simulation.prescribe(1, [w](double t) {
-    PrescribedMotion motion;
-    motion.X_JL.p.z() = a * std::cos(w * t);
-    motion.velocity.z() = -a * w * std::sin(w * t);
-    motion.acceleration.z() = -a * w * w * std::cos(w * t);
-    return motion;
-  });
-  simulation.set_integrator(integrator);
-  simulation.set_tolerance(1e-10);
-  Kapitza result;
-  while (simulation.state().t < 20) {
-    if (!simulation.step(h).ok()) throw std::runtime_error("the step failed");
-    const double angle = std::abs(simulation.state().q[model.iq[2]] - std::numbers::pi);
-    result.largest = std::max(result.largest, angle);
-    if (angle > 1) {
-      result.falls_at = simulation.state().t;
-      break;
-    }
-  }
-  return result;
-}
-
 }  // namespace
-
-TEST_CASE("Kapitza's pendulum stays upright above its limit and falls at the known time below it") {
-  for (const Integrator integrator : {Integrator::rk4, Integrator::dopri5}) {
-    CAPTURE(std::string(integrator_name(integrator)));
-    const double h = integrator == Integrator::rk4 ? 2e-4 : 1e-2;
-    for (const double w : {157.5, 160.0}) {
-      const Kapitza k = kapitza(w, integrator, h);
-      CHECK(k.falls_at == 0);
-      CHECK(k.largest < 0.0101);
-    }
-    CHECK(std::abs(kapitza(156, integrator, h).falls_at - 10.2) < 0.05);
-    CHECK(std::abs(kapitza(150, integrator, h).falls_at - 3.9) < 0.05);
-  }
-}
 
 TEST_CASE("a body that is free on a tumbling carrier goes straight on, under every integrator") {
   const BodyInertia sphere{2, Vector3::Zero(), 0.1 * Matrix3::Identity()};

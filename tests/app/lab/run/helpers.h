@@ -16,57 +16,9 @@
 
 namespace twinarm {
 
-inline const char* const kArm = R"(
-step = 0.001
-duration = 1
-[[robot]]
-name = "arm"
-model = "robots/s103/s103.urdf"
-[[body]]
-name = "box"
-shape = { box = { size = [0.1, 0.1, 0.1] } }
-mass = 2
-position = [0.9, 0.5, 0.0505]
-[[body]]
-name = "floor"
-fixed = true
-shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
-[[coupling]]
-name = "one"
-type = "linear"
-link = "arm1"
-point = [0.25, 0, 0.365]
-stiffness = 4000
-damping = 200
-target = "TARGET"
-[[coupling]]
-name = "two"
-type = "linear"
-link = "arm2"
-point = [0.35, 0, 0.1]
-stiffness = 2000
-damping = 100
-target = "TARGET"
-[[coupling]]
-name = "three"
-type = "torsional"
-measure = "joint"
-link = "quill"
-stiffness = 20
-damping = 1
-target = "TARGET"
-)";
+inline const std::string kArm = test_data("app/lab/run/arm.toml");
 
-inline const char* const kFreeBox = R"(
-step = 0.001
-duration = 1
-gravity = [0, 0, 0]
-[[body]]
-name = "box"
-shape = { box = { size = [0.1, 0.2, 0.3] } }
-mass = 2
-position = [0, 0, 1]
-)";
+inline const std::string kFreeBox = test_data("app/lab/run/free_box.toml");
 
 inline std::string arm_with(const std::string& target) {
   std::string text = kArm;

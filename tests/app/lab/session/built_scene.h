@@ -10,21 +10,7 @@
 namespace twinarm {
 
 // The paper's robot, one joint of it drawn after a hand.
-inline const char* const kSlowlyDriven = R"(
-step = 0.001
-duration = 1
-[[robot]]
-name = "arm"
-model = "robots/s103/s103.urdf"
-[[coupling]]
-name = "one"
-type = "torsional"
-measure = "joint"
-link = "arm1"
-stiffness = 20
-damping = 1
-target = "device"
-)";
+inline const std::string kSlowlyDriven = test_data("app/lab/session/slowly_driven.toml");
 
 inline Built built_from(const std::string& text) {
   const TemporaryFolder folder;

@@ -19,24 +19,7 @@ LabScene swinging() {
 }
 
 // Held by an explicit spring, which gains energy from 3.96e6 N m/rad on: slowly at 4e6.
-const char* const kRod = R"(
-step = 0.001
-duration = 1
-[[robot]]
-name = "rod"
-model = "robots/teaching/pendulum.urdf"
-q = { hinge = 0.7 }
-collide = false
-[[coupling]]
-name = "pull"
-type = "torsional"
-measure = "joint"
-link = "bob"
-stiffness = 2000
-damping = 20
-treatment = "explicit"
-target = "device"
-)";
+const std::string kRod = test_data("app/lab/stream/rod.toml");
 const LaneSet kOneExplodes{"coupling.stiffness", {"2000", "4e6", "500"}, {}};
 
 // A run with its lanes, as the session has them, and what is remembered: a frame each 4 steps.

@@ -12,25 +12,7 @@
 
 namespace twinarm {
 
-inline const char* const kBoxes = R"(
-step = 0.001
-[[body]]
-name = "floor"
-fixed = true
-shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
-[[body]]
-name = "resting"
-shape = { box = { size = [0.4, 0.3, 0.2] } }
-mass = 2
-position = [0.5, 0, 0.1]
-[[body]]
-name = "spinning"
-shape = { box = { size = [0.1, 0.2, 0.3] } }
-mass = 1
-position = [-0.3, 0.4, 1.25]
-orientation = [0.8, 0.2, -0.4, 0.4]
-angular_velocity = [1, 2, 3]
-)";
+inline const std::string kBoxes = test_data("app/lab/stream/boxes.toml");
 
 struct Watched {
   std::unique_ptr<LabScene> scene;

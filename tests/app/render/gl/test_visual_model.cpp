@@ -4,57 +4,25 @@
 #include <doctest/doctest.h>
 #include <turbojpeg.h>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <utility>
 
 #include "app/render/gl/painter.h"
 #include "solver/support/diagnostics.h"
 #include "tests/app/render/list/quarters.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace twinarm;
-namespace fs = std::filesystem;
 
 namespace {
 
-class VisualFolder {
- public:
-  VisualFolder()
-      : path_(fs::temp_directory_path() / ("twinarm_visual_" + std::to_string(getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~VisualFolder() { fs::remove_all(path_); }
-  fs::path write(const std::string& name, const std::string& content) const {
-    std::ofstream(path_ / name, std::ios::binary) << content;
-    return path_ / name;
-  }
-
- private:
-  fs::path path_;
-};
-
 // A unit square in the plane z = 0, seen from above, with the picture upright: u along x, v down y.
-const char* const kSquare = R"(mtllib square.mtl
-v 0 0 0
-v 1 0 0
-v 1 1 0
-v 0 1 0
-vt 0 0
-vt 1 0
-vt 1 1
-vt 0 1
-usemtl painted
-f 1/1 2/2 3/3
-f 1/1 3/3 4/4
-)";
+const std::string kSquare = test_data("app/render/gl/square.obj");
 
-VisualModel painted_square(const VisualFolder& folder, const std::string& picture) {
+VisualModel painted_square(const TemporaryFolder& folder, const std::string& picture) {
   folder.write("square.mtl", "newmtl painted\nKd 1 1 1\nmap_Kd picture.png\n");
   folder.write("picture.png", picture);
   return load_visual(folder.write("square.obj", kSquare));
@@ -83,7 +51,7 @@ bool any_note(const VisualModel& model, const std::string& words) {
 }  // namespace
 
 TEST_CASE("a texture lies on the square as the file says, upright, from both sides") {
-  const VisualFolder folder;
+  const TemporaryFolder folder;
   const std::string picture = encode_png(quarters(64));
   const VisualModel model = painted_square(folder, picture);
   REQUIRE(model.parts.size() == 1);
@@ -102,7 +70,7 @@ std::string upper_half_of(const Image& image) {
 }  // namespace
 
 TEST_CASE("a texture stays where it lay when triangles are turned about, or the mesh is mirrored") {
-  const VisualFolder folder;
+  const TemporaryFolder folder;
   const std::string picture = encode_png(quarters(64));
   std::string one_turned = kSquare;
   one_turned.replace(one_turned.find("f 1/1 3/3 4/4"), 13, "f 4/4 3/3 1/1");
@@ -126,7 +94,7 @@ TEST_CASE("a texture stays where it lay when triangles are turned about, or the 
 }
 
 TEST_CASE("a mesh that is mirrored by its scale has its outside outside, and nothing is said") {
-  const VisualFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.write(
       "t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   for (const Vector3& scale : {Vector3(1, 1, 1), Vector3(-1, 2, 3), Vector3(1, 1, -0.1)}) {
@@ -142,7 +110,7 @@ TEST_CASE("a mesh that is mirrored by its scale has its outside outside, and not
 }
 
 TEST_CASE("a picture that is broken is told, and the mesh drawn without it") {
-  const VisualFolder folder;
+  const TemporaryFolder folder;
   const std::string good = encode_png(quarters(64));
   for (const std::string& bad : {good.substr(0, good.size() / 2), std::string("text"),
                                  std::string("\xff\xd8 no jpeg"), std::string()}) {
@@ -177,7 +145,7 @@ TEST_CASE("what PNG encodes, decoding gives back") {
 }
 
 TEST_CASE("triangles that look inwards are turned about, and that is said") {
-  const VisualFolder folder;
+  const TemporaryFolder folder;
   const VisualModel model = load_visual(folder.write(
       "t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 4 2\nf 1 4 3\nf 2 3 4\n"));
   CHECK(any_note(model, "1 triangles looked inwards"));
@@ -185,7 +153,7 @@ TEST_CASE("triangles that look inwards are turned about, and that is said") {
 }
 
 TEST_CASE("each part has the picture that its own material names") {
-  const VisualFolder folder;
+  const TemporaryFolder folder;
   Image picture = quarters(8);
   for (const auto& [name, channel] :
        {std::pair<const char*, std::size_t>("red.png", 0), {"blue.png", 2}}) {

@@ -128,44 +128,5 @@ TEST_CASE("scene: pull and ends of any coupling have the power that it gives the
   }
 }
 
-TEST_CASE("scene: a key that a type of coupling has not is told, and so is a bad value") {
-  const auto fault = [&](const std::string& type, const std::string& key, const std::string& code) {
-    const std::string text = kRobot + coupling_of(type);
-    int lines = 1;
-    for (const char c : text) lines += c == '\n';
-    check_fault(text + key + "\n", lines, code, key.substr(0, key.find(' ')));
-  };
-  fault("linear", "turn_stiffness = 1", "scene.key-useless");
-  fault("linear", "time_constant = 1", "scene.key-useless");
-  fault("torsional", "point = [0, 0, 0]", "scene.key-useless");
-  fault("bushing", "measure = 'joint'", "scene.key-useless");
-  fault("bushing", "turn_damping2 = 1", "scene.unknown-key");
-  fault("weld", "stiffness = 1", "scene.key-useless");
-  fault("weld", "damper = 'relative'", "scene.key-useless");
-  fault("weld", "time_constant = 0", "scene.not-positive");
-  fault("weld", "impedance = 1", "scene.range");
-  fault("weld", "rate = 100", "scene.key-useless");
-  fault("matched", "treatment = 'implicit'", "scene.treatment");
-  fault("stable-pd", "treatment = 'implicit'", "scene.key-useless");
-  fault("god-object", "link = 'arm1'", "scene.key-useless");
-  fault("god-object", "damping = 1", "scene.key-useless");
-  fault("printed-linear", "damper = 'absolute'", "scene.key-useless");
-  fault("printed-torsional", "measure = 'joint'", "scene.key-useless");
-  const auto type = scene_faults(kRobot + "[[coupling]]\ntype = 'god'\nlink = 'arm1'\n");
-  CHECK(std::any_of(type.begin(), type.end(), [](const Fault& found) {
-    return to_string(found).find("god-object") != std::string::npos;
-  }));
-}
-
-TEST_CASE("scene: a god object of a robot that floats is refused, with the line of its coupling") {
-  const SceneModel scene = built(
-      "[[robot]]\nname = 'r'\nmodel = 'robots/s103/s103.urdf'\n"
-      "base = 'floating'\n[[coupling]]\ntype = 'god-object'\n");
-  const auto faults = faults_of([&] { SceneCouplings(scene, 1e-3); });
-  REQUIRE(faults.size() == 1);
-  CHECK(faults[0].line == 5);
-  CHECK(to_string(faults[0]).find("6 degrees of freedom") != std::string::npos);
-}
-
 }  // namespace
 }  // namespace twinarm

@@ -80,19 +80,6 @@ TEST_CASE("scene: a distance begins at origins, and one point alone belongs to w
   CHECK(length("a = 'ball'\nb = 'left/base'\npoint = [3, 4, 0]\n") == doctest::Approx(5));
 }
 
-TEST_CASE("scene: a constraint of the world with itself, or of no length, is told") {
-  const std::string boxes =
-      "[[body]]\nname = 'a'\nfixed = true\nshape.sphere.radius = 1\n"
-      "[[body]]\nname = 'b'\nmass = 1\nshape.sphere.radius = 1\n";
-  const auto faults = faults_of([&] {
-    built(boxes + "[[constraint]]\ntype = 'weld'\na = 'world'\nb = 'a'\n" +
-          "[[constraint]]\ntype = 'distance'\na = 'world'\nb = 'b'\npoint = [0, 0, 0]\n");
-  });
-  REQUIRE(faults.size() == 2);
-  CHECK(faults[0].line == 9);
-  CHECK(faults[1].line == 13);
-}
-
 TEST_CASE("scene: a coupling without target pulls back to where the robot started") {
   SceneModel scene =
       built(kTwoArms +
@@ -208,20 +195,6 @@ TEST_CASE("scene: the target of a device that is not there stands still where it
     CHECK(kvr.x.q[1] == doctest::Approx(-0.3).epsilon(1e-14));
     CHECK(kvr.x.qd[0] == 0);
   }
-}
-
-TEST_CASE("scene: a rate that is no part of the steps is told") {
-  const std::string pull =
-      "[[robot]]\nname = 'r'\nmodel = 'robots/findings_set0/findings_set0.urdf'\n[[coupling]]\n"
-      "type = 'linear'\nlink = 'arm1'\nstiffness = 10\n";
-  const auto faults_at = [&](const std::string& more, double h) {
-    const SceneModel scene = built(pull + more);
-    return faults_of([&] { SceneCouplings(scene, h); });
-  };
-  CHECK(faults_at("rate = 250\n", 0.001).empty());
-  const auto faults = faults_at("rate = 30\n", 0.001);
-  REQUIRE(faults.size() == 1);
-  CHECK(faults[0].line == 4);
 }
 
 TEST_CASE("scene: an absolute damper brakes the link, a relative one follows the target") {

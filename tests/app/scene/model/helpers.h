@@ -18,25 +18,6 @@ inline SceneModel built(const std::string& text) {
   return build_scene(scene_of(text));
 }
 
-inline std::vector<Fault> scene_faults(const std::string& text) {
-  return faults_of([&] { scene_of(text); });
-}
-
-// The one fault: its line, its code, and a value, key or name that it tells.
-inline void check_fault(const std::string& text, int line, const std::string& code,
-                        const std::string& value = "") {
-  INFO(text);
-  const std::vector<Fault> faults = scene_faults(text);
-  std::string all;
-  for (const Fault& fault : faults) all += to_string(fault) + "\n";
-  INFO(all);
-  REQUIRE(faults.size() == 1);
-  CHECK(faults[0].line == line);
-  CHECK(faults[0].file.find("test.toml") != std::string::npos);
-  CHECK(faults[0].code == code);
-  CHECK(to_string(faults[0]).find(value) != std::string::npos);
-}
-
 inline bool close(const Matrix3& a, const Matrix3& b, double tolerance = 1e-14) {
   return (a - b).cwiseAbs().maxCoeff() <= tolerance * std::max(1.0, b.cwiseAbs().maxCoeff());
 }

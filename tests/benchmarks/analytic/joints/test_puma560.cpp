@@ -1,5 +1,5 @@
-// The PUMA 560, read from its URDF, against published and recomputed torques and accelerations
-// (benchmarks/analytic/joints/puma560_values.h).
+// The PUMA 560, read from its URDF, against published and recomputed torques: all of its numbers
+// count in them. Built from its tables it is benchmarks/analytic/joints/puma560.cpp, F1.
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +7,6 @@
 #include "collision/import/robot/robot_model.h"
 #include "collision/import/urdf/urdf.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/mass_matrix.h"
 #include "tests/collision/import/robot/helpers.h"
 
 namespace twinarm {
@@ -62,20 +61,6 @@ TEST_CASE("F1: the PUMA 560 bears its weight as published") {
     CHECK(difference(inverse(model, state(model, load.q), 0), load.tau) < 1e-14);
 }
 
-TEST_CASE("F1: the PUMA 560's mass matrix, with the armature of its motors") {
-  const Model<double> model = puma(true, true);
-  Joints armature;
-  std::copy_n(model.armature.begin(), 6, armature.begin());
-  CHECK(difference(armature, puma560::kArmature) < 1e-15);
-  const Eigen::MatrixXd M = mass_matrix(model, state(model, puma560::kNominal));
-  Joints diagonal;
-  for (std::size_t k = 0; k < 6; ++k) diagonal[k] = M.diagonal()[static_cast<Eigen::Index>(k)];
-  CHECK(difference(diagonal, puma560::kMassDiagonal) < 1e-14);
-  CHECK(std::abs(M(0, 1) - puma560::kM12) < 1e-14);
-  CHECK(std::abs(M(0, 2) - puma560::kM13) < 1e-14);
-  CHECK(std::abs(M(1, 2) - puma560::kM23) < 1e-14);
-}
-
 TEST_CASE(
     "F1: inverse dynamics of the PUMA 560 from rest, moving with friction, and of its links") {
   const Model<double> model = puma(true, true), bare = puma(false, false);
@@ -84,22 +69,6 @@ TEST_CASE(
   CHECK(difference(inverse(model, state(model, qn), 1), puma560::kTauFromRest) < 1e-14);
   CHECK(difference(inverse(model, state(model, qn, ones), 1), puma560::kTauMoving) < 1e-14);
   CHECK(difference(inverse(bare, state(bare, qn, ones), 1), puma560::kTauMovingLinks) < 1e-14);
-}
-
-TEST_CASE("F1: forward dynamics of the PUMA 560 with and without joint friction") {
-  for (const bool rubs : {true, false}) {
-    const Model<double> model = puma(true, rubs);
-    const State<double> x = state(model, puma560::kNominal, puma560::kRate);
-    Forces<double> forces(model);
-    const Joints resists = friction(model, puma560::kRate);
-    for (std::size_t k = 0; k < 6; ++k) forces.tau[k] = puma560::kTorque[k] - resists[k];
-    Workspace<double> w(model);
-    aba(model, x, forces, w);
-    Joints qdd;
-    std::copy(w.qdd.begin(), w.qdd.end(), qdd.begin());
-    CHECK(difference(qdd, rubs ? puma560::kAcceleration : puma560::kAccelerationNoFriction) <
-          1e-14);
-  }
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <string>
 
@@ -12,6 +11,7 @@
 #include "solver/dynamics/model_builder.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/loops/loop_closure.h"
+#include "solver/loops/loop_assembly.h"
 #include "solver/stepping/simulation.h"
 #include "tests/support/count_allocations.h"
 
@@ -137,40 +137,6 @@ TEST_CASE("loops: Bricard's mechanism is closed to 1e-8 and keeps its energy ove
   }
   CHECK(open < 1e-12);
   CHECK(energy < 1e-8);
-}
-
-TEST_CASE("loops: the governor's stiff couplers as implicit struts are stable at 5 ms (D5)") {
-  const LoopCase c = governor(Couplers::implicit_struts);
-  const LoopCase rods = governor(Couplers::rods);
-  Simulation simulation = simulation_of(c, Integrator::semi_implicit);
-  Simulation rigid = simulation_of(rods, Integrator::semi_implicit);
-  double apart = 0, least = 1, most = 0;
-  for (int n = 0; n < 2000; ++n) {
-    CHECK(simulation.step(5e-3).ok());
-    rigid.step(5e-3);
-    const double s = c.read(simulation.state(), simulation.kinematics())[0];
-    apart = std::max(apart, std::abs(s - rods.read(rigid.state(), rigid.kinematics())[0]));
-    if (n >= 1800) least = std::min(least, s), most = std::max(most, s);
-  }
-  CAPTURE(apart);
-  CHECK(error_of(c, simulation, c.reference.back()) < 0.05);
-  CHECK(apart < 0.02);        // as it would move with rods in place of springs
-  CHECK(most - least > 0.2);  // the slow motion lives on after 9 s
-}
-
-TEST_CASE("loops: the assembled four-bar has the angles and rates of the closed form (D7)") {
-  const LoopCase c = four_bar();
-  State<double> x = close_loops(c.model, c.loops, c.start);
-  // Rates: J qd = 0 with the crank's given.
-  Kinematics k(c.model);
-  forward_kinematics(c.model, x, k);
-  LoopClosures loops(c.model, {c.loops[0]});
-  loops.evaluate(x, k);
-  const Eigen::VectorXd rates = shortest_solution(loops.J().rightCols(2), -10 * loops.J().col(0));
-  x.qd = {10, rates[0], rates[1]};
-  const std::vector<double> found = c.read(x, k);
-  for (std::size_t i = 0; i < found.size(); ++i)
-    CHECK(std::abs(found[i] - c.reference[0].values[i]) < 1e-12);
 }
 
 TEST_CASE("loops: a four-bar whose crank is driven by a law comes round to where it was") {

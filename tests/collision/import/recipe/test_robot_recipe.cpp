@@ -21,38 +21,7 @@ TriangleMesh box_mesh(const Vector3& low, const Vector3& high) {
 }
 
 // A cube of edge 1 m, in two halves of different metals, drawn in millimetres, on a foot.
-const char* const kCube = R"(name = "cube"
-mesh_scale = 0.001
-[paper]
-unit = 0.5
-hinge = [1, 2, 3]
-[material.light]
-density = 100
-color = [1, 0, 0, 1]
-[material.heavy]
-density = 300.0
-color = [0, 0, 1, 1]
-[[link]]
-name = "foot"
-[[link]]
-name = "body"
-  [[link.part]]
-  mesh = "lower"
-  material = "heavy"
-  [[link.part]]
-  mesh = "upper"
-  material = "light"
-  [[link.collision]]
-  parts = ["lower", "upper"]
-[[joint]]
-name = "hinge"
-type = "revolute"
-parent = "foot"
-child = "body"
-axis = [0, 0, 2]
-limits = [-1, 2]
-damping = 0.25
-)";
+const std::string kCube = test_data("collision/import/recipe/cube.toml");
 
 struct CubeFolder : TemporaryFolder {
   CubeFolder() {

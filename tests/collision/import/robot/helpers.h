@@ -1,12 +1,10 @@
-// What the tests of collision/import share: a folder that goes away, robots compared, faults found.
+// What the tests of collision/import share: robots compared, faults found.
 #pragma once
 
 #include <doctest/doctest.h>
-#include <stdlib.h>
 
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <sstream>
 #include <string>
@@ -14,48 +12,9 @@
 
 #include "collision/import/robot/robot_description.h"
 #include "solver/support/diagnostics.h"
+#include "tests/support/temporary_folder.h"
 
 namespace twinarm {
-
-namespace fs = std::filesystem;
-
-// A folder of its own below the system's temporary folder, removed at the end of the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "twinarm_import_XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-  fs::path write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
-  }
-
- private:
-  fs::path path_;
-};
-
-inline std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  REQUIRE_MESSAGE(at != std::string::npos, from);
-  return text.replace(at, from.size(), to);
-}
 
 inline std::vector<Fault> faults_of(const std::function<void()>& f) {
   try {
@@ -87,6 +46,47 @@ inline bool tells(const std::vector<Fault>& faults, int line, const std::string&
         to_string(fault).find(value) != std::string::npos)
       return true;
   return false;
+}
+
+// What a file of bad input says of itself: lines START LINE CODE WORDS END, or START LINE WORDS END
+// of a warning, which has no code. The words are in the fault; - stands for any code.
+struct ExpectedFault {
+  int line = 0;
+  std::string code, words;
+};
+
+inline std::vector<ExpectedFault> expected_in(const std::string& text, const std::string& start,
+                                              const std::string& end) {
+  std::vector<ExpectedFault> found;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind(start, 0) != 0) continue;
+    std::istringstream words(line.substr(start.size(), line.size() - start.size() - end.size()));
+    ExpectedFault& one = found.emplace_back();
+    words >> one.line;
+    if (start.find("fault") != std::string::npos) words >> one.code;
+    std::getline(words >> std::ws, one.words);
+  }
+  return found;
+}
+
+// These faults and no others, in the order of the file's lines.
+inline void check_faults(const std::vector<Fault>& faults,
+                         const std::vector<ExpectedFault>& expected, const fs::path& file) {
+  INFO(listing(faults));
+  CHECK(faults.size() == expected.size());
+  for (const ExpectedFault& one : expected)
+    CHECK(std::any_of(faults.begin(), faults.end(), [&](const Fault& fault) {
+      return fault.line == one.line &&
+             (one.code.empty() || one.code == "-" || fault.code == one.code) &&
+             to_string(fault).find(one.words) != std::string::npos;
+    }));
+  for (const Fault& fault : faults) {
+    CHECK(fault.file == file.string());
+    CHECK(!fault.rule.empty());
+  }
+  CHECK(std::is_sorted(faults.begin(), faults.end(),
+                       [](const Fault& a, const Fault& b) { return a.line < b.line; }));
 }
 
 // Largest difference of two numbers or arrays relative to the size of the array; a tolerance of 0

@@ -2,6 +2,7 @@
 #include "collision/import/urdf/urdf.h"
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdlib>
 #include <numbers>
 #include <optional>
@@ -236,30 +237,23 @@ TEST_CASE("a material is found by name, at the robot or where another visual sta
   }
 }
 
-TEST_CASE("joints are put in order from the root, whatever their order in the file") {
-  RobotDescription robot;
-  robot.root = "r";
-  const auto joint = [](const char* name, const char* parent, const char* child) {
-    JointDescription j;
-    j.name = name, j.parent = parent, j.child = child;
-    return j;
+TEST_CASE("joints are put in order from the root, those of equal rank in that of the file") {
+  const auto order = [](const std::vector<std::array<const char*, 2>>& links) {  // parent, child
+    RobotDescription robot;
+    robot.root = "r";
+    for (const auto& [parent, child] : links) {
+      JointDescription joint;
+      joint.name = joint.child = child, joint.parent = parent;
+      robot.joints.push_back(joint);
+    }
+    return joints_from_root(robot);
   };
-  robot.joints = {joint("j3", "b", "c"), joint("j2", "a", "b"), joint("j1", "r", "a")};
-  CHECK(joints_from_root(robot) == std::vector<std::size_t>{2, 1, 0});
-}
-
-TEST_CASE("joints of equal rank keep the order of the file") {
-  // Swept again and again: j2 waits for j3, and then comes in the next sweep, after j4 and j5.
-  RobotDescription robot;
-  robot.root = "r";
-  const auto joint = [](const char* name, const char* parent, const char* child) {
-    JointDescription j;
-    j.name = name, j.parent = parent, j.child = child;
-    return j;
-  };
-  robot.joints = {joint("j1", "r", "a"), joint("j2", "c", "b"), joint("j3", "r", "c"),
-                  joint("j4", "c", "d"), joint("j5", "a", "e"), joint("j6", "b", "f")};
-  CHECK(joints_from_root(robot) == std::vector<std::size_t>{0, 2, 3, 4, 1, 5});
+  using Order = std::vector<std::size_t>;
+  CHECK(order({{"b", "c"}, {"a", "b"}, {"r", "a"}}) == Order{2, 1, 0});
+  // Swept again and again: the second waits for the third, and then comes in the next sweep, after
+  // those behind it.
+  CHECK(order({{"r", "a"}, {"c", "b"}, {"r", "c"}, {"c", "d"}, {"a", "e"}, {"b", "f"}}) ==
+        Order{0, 2, 3, 4, 1, 5});
 }
 
 }  // namespace
