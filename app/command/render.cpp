@@ -186,17 +186,13 @@ std::unique_ptr<Film> make_film(const RenderOptions& options, const RenderPlan& 
 
 void print_render_json(const std::string& file, const RenderPlan& plan, const FilmedRun& run,
                        const std::vector<std::string>& notes) {
-  JsonWriter json;
-  json.begin_object();
-  json.key("file").text(file);
-  json.key("width").count(plan.picture.width);
-  json.key("height").count(plan.picture.height);
-  json.key("pictures").count(static_cast<long>(run.shown.size()));
-  json.key("from").number(run.shown.front().x.t);
-  json.key("to").number(run.shown.back().x.t);
-  json.key("warnings").texts(notes);
-  json.end_object();
-  fmt::print("{}\n", json.str());
+  fmt::print("{}\n", json_text({{"file", file},
+                                {"width", plan.picture.width},
+                                {"height", plan.picture.height},
+                                {"pictures", run.shown.size()},
+                                {"from", run.shown.front().x.t},
+                                {"to", run.shown.back().x.t},
+                                {"warnings", notes}}));
 }
 
 int run_render(const RenderOptions& options) {

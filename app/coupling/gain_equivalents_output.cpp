@@ -73,29 +73,29 @@ void write_gains(JsonWriter& json, const SpringGains& gains) {
 }
 
 void write_one(JsonWriter& json, const Equivalents& e) {
-  json.begin_object();
-  json.key("name").text(e.name);
-  json.key("kind").text(e.kind);
-  json.key("inertia").number(e.inertia);
-  write_gains(json.key("gains"), e.gains);
-  json.key("frequency").number(e.response.omega);
-  json.key("damping_ratio").number(e.response.zeta);
-  json.key("wanted");
-  e.wanted ? write_gains(json, *e.wanted) : json.null();
-  json.key("torsional");
-  e.as_torsional ? write_gains(json, *e.as_torsional) : json.null();
-  const auto write_solref = [&](const std::optional<Solref>& solref) {
-    solref ? json.numbers({solref->first, solref->second}) : json.null();
+  const auto gains = [&json](const std::optional<SpringGains>& of) {
+    return [&json, of] { json.or_null(of, [&](const SpringGains& is) { write_gains(json, is); }); };
   };
-  json.key("solref");
-  write_solref(e.solref);
-  json.key("solref_direct");
-  write_solref(e.direct);
-  json.key("solref_static_stiffness").number(e.static_stiffness);
-  write_gains(json.key("drive_force"), {e.force_drive.stiffness, e.force_drive.damping});
-  write_gains(json.key("drive_acceleration"),
-              {e.acceleration_drive.stiffness, e.acceleration_drive.damping});
-  json.end_object();
+  const auto solref = [&json](const std::optional<Solref>& of) {
+    return [&json, of] {
+      json.or_null(of, [&](const Solref& is) { json.numbers({is.first, is.second}); });
+    };
+  };
+  const SpringGains force{e.force_drive.stiffness, e.force_drive.damping};
+  const SpringGains acceleration{e.acceleration_drive.stiffness, e.acceleration_drive.damping};
+  json.object({{"name", e.name},
+               {"kind", e.kind},
+               {"inertia", e.inertia},
+               {"gains", gains(e.gains)},
+               {"frequency", e.response.omega},
+               {"damping_ratio", e.response.zeta},
+               {"wanted", gains(e.wanted)},
+               {"torsional", gains(e.as_torsional)},
+               {"solref", solref(e.solref)},
+               {"solref_direct", solref(e.direct)},
+               {"solref_static_stiffness", e.static_stiffness},
+               {"drive_force", gains(force)},
+               {"drive_acceleration", gains(acceleration)}});
 }
 
 }  // namespace
@@ -118,11 +118,9 @@ std::string equivalents_table(const std::vector<Equivalents>& all, double step) 
 }
 
 std::string equivalents_json(const std::vector<Equivalents>& all) {
-  JsonWriter json;
-  json.begin_object();
-  json.key("couplings").list(all, [&](const Equivalents& e) { write_one(json, e); });
-  json.end_object();
-  return json.str();
+  return json_text([&](JsonWriter& json) {
+    json.key("couplings").list(all, [&](const Equivalents& e) { write_one(json, e); });
+  });
 }
 
 }  // namespace twinarm

@@ -12,10 +12,10 @@ namespace twinarm {
 namespace {
 
 void write_axis(JsonWriter& json, const char* name, const MapAxis& axis, const std::string& unit) {
-  json.key(name).begin_array();
-  for (int i = 0; i < axis.count; ++i) json.number(axis.at(i));
-  json.end_array();
-  json.members({{std::string(name) + "_path", axis.path}, {std::string(name) + "_unit", unit}});
+  std::vector<double> values;
+  for (int i = 0; i < axis.count; ++i) values.push_back(axis.at(i));
+  const std::string prefix = name;
+  json.members({{name, values}, {prefix + "_path", axis.path}, {prefix + "_unit", unit}});
 }
 
 std::string or_empty(double value) {

@@ -1,16 +1,16 @@
 #include "app/robot/robot_json.h"
 
+#include <span>
+
 namespace twinarm {
 namespace {
 
 template <class Values>
 void write_each(JsonWriter& json, const Coordinates& coordinates, Values values) {
-  json.begin_object();
-  for (std::size_t j = coordinates.first_joint(); j < coordinates.all().size(); ++j) {
-    const NamedJoint& joint = coordinates.all()[j];
-    json.key(joint.name).number_or_list(values(joint));
-  }
-  json.end_object();
+  json.object([&] {
+    for (std::size_t j = coordinates.first_joint(); j < coordinates.all().size(); ++j)
+      json.key(coordinates.all()[j].name).number_or_list(values(coordinates.all()[j]));
+  });
 }
 
 }  // namespace
@@ -33,24 +33,22 @@ void write_velocities(JsonWriter& json, const Coordinates& coordinates, const St
 void write_base(JsonWriter& json, const Coordinates& coordinates, const State<double>& x) {
   const std::vector<double> q = coordinates_of(coordinates.base(), x);
   const std::vector<double> qd = from_solver(coordinates.base(), x, x.qd);
-  json.begin_object();
-  json.key("position").numbers({q[0], q[1], q[2]});
-  json.key("orientation").numbers({q[3], q[4], q[5], q[6]});
-  json.key("linear_velocity").numbers({qd[0], qd[1], qd[2]});
-  json.key("angular_velocity").numbers({qd[3], qd[4], qd[5]});
-  json.end_object();
+  json.object({{"position", std::span(q).first(3)},
+               {"orientation", std::span(q).subspan(3, 4)},
+               {"linear_velocity", std::span(qd).first(3)},
+               {"angular_velocity", std::span(qd).subspan(3, 3)}});
 }
 
 void write_links(JsonWriter& json, const Model<double>& model, const Kinematics& k) {
-  json.begin_object();
-  for (std::size_t i = 1; i < model.parent.size(); ++i)
-    json.key(model.body_name[i])
-        .object({{"position", k.X_WL[i].p},
-                 {"orientation", quaternion_of(k.X_WL[i].R)},
-                 {"rotation", k.X_WL[i].R},
-                 {"linear_velocity", k.v_WLo[i]},
-                 {"angular_velocity", k.w_WL[i]}});
-  json.end_object();
+  json.object([&] {
+    for (std::size_t i = 1; i < model.parent.size(); ++i)
+      json.key(model.body_name[i])
+          .object({{"position", k.X_WL[i].p},
+                   {"orientation", quaternion_of(k.X_WL[i].R)},
+                   {"rotation", k.X_WL[i].R},
+                   {"linear_velocity", k.v_WLo[i]},
+                   {"angular_velocity", k.w_WL[i]}});
+  });
 }
 
 Eigen::Vector4d quaternion_of(const Matrix3& R) {

@@ -95,17 +95,21 @@ void write_equations(JsonWriter& json, const Inspection& in, std::size_t body) {
   json.begin_array();
   for (const int pass : {1, 2, 3})
     for (const Equation& equation : equations_of(in, pass, body)) {
-      json.begin_object();
-      json.members({{"pass", pass}, {"name", equation.name}, {"text", equation.text}});
-      json.key("terms").list(equation.terms, [&](const EquationTerm& term) {
+      const auto write_value_of = [&](const auto& of) {
+        return [&] { write_terms(json, of.value, equation.by_columns); };
+      };
+      const auto write_term = [&](const EquationTerm& term) {
         json.object({{"symbol", term.symbol},
                      {"words", term.words},
                      {"of", in.model.body_name[term.of]},
-                     {"value", [&] { write_terms(json, term.value, equation.by_columns); }}});
-      });
-      write_terms(json.key("value"), equation.value, equation.by_columns);
-      json.key("residual").number(equation.residual);
-      json.end_object();
+                     {"value", write_value_of(term)}});
+      };
+      json.object({{"pass", pass},
+                   {"name", equation.name},
+                   {"text", equation.text},
+                   {"terms", [&] { json.list(equation.terms, write_term); }},
+                   {"value", write_value_of(equation)},
+                   {"residual", equation.residual}});
     }
   json.end_array();
 }
@@ -151,12 +155,11 @@ Shown origin_acceleration(const Inspection& in, std::size_t body) {
 void write_call(JsonWriter& json, const Inspection& in) {
   json.begin_array();
   const auto step = [&](int pass, std::size_t body, Names names) {
-    json.begin_object();
-    json.members({{"pass", pass}, {"body", in.model.body_name[body]}});
     std::vector<Shown> results = some_of(in, pass, body, names);
     if (pass == 3) results.push_back(origin_acceleration(in, body));
-    write_quantities(json.key("quantities"), results);
-    json.end_object();
+    json.object({{"pass", pass},
+                 {"body", in.model.body_name[body]},
+                 {"quantities", [&] { write_quantities(json, results); }}});
   };
   for (std::size_t i = 1; i < in.body_count(); ++i) step(1, i, {"v"});
   for (std::size_t i = in.body_count(); i-- > 1;) step(2, i, {"D", "u"});
@@ -250,26 +253,21 @@ Glass::Glass(Glass&&) noexcept = default;
 Glass& Glass::operator=(Glass&&) noexcept = default;
 
 std::string Glass::message(const LabFrame& frame, const GlassQuestion& question) {
-  const auto begin = [&](JsonWriter& json) {
-    json.begin_object();
-    json.members({{"kind", "glass"},
-                  {"scene", question.scene},
-                  {"t", frame.recorded.t},
-                  {"step", frame.recorded.step},
-                  {"stands", question.stands}});
+  const auto text_with = [&](const auto& write) {
+    return json_text([&](JsonWriter& json) {
+      json.members({{"kind", "glass"},
+                    {"scene", question.scene},
+                    {"t", frame.recorded.t},
+                    {"step", frame.recorded.step},
+                    {"stands", question.stands}});
+      write(json);
+    });
   };
   try {
-    JsonWriter json;
-    begin(json);
-    impl_->write(json, frame, question);
-    json.end_object();
-    return json.str();
+    return text_with([&](JsonWriter& json) { impl_->write(json, frame, question); });
   } catch (const std::exception& error) {
-    JsonWriter json;
-    begin(json);
-    json.key("warnings").texts({std::string("this frame cannot be looked into: ") + error.what()});
-    json.end_object();
-    return json.str();
+    const std::string warning = std::string("this frame cannot be looked into: ") + error.what();
+    return text_with([&](JsonWriter& json) { json.key("warnings").texts({warning}); });
   }
 }
 

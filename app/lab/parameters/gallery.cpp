@@ -88,10 +88,7 @@ const GalleryScene* find_scene(const std::vector<GalleryScene>& gallery, const s
 
 void write_gallery(const std::vector<GalleryScene>& gallery, JsonWriter& json) {
   json.list(gallery, [&](const GalleryScene& scene) {
-    json.begin_object();
-    json.members({{"name", scene.name}, {"title", scene.title}});
-    json.key("look").texts({scene.look.begin(), scene.look.end()});
-    json.end_object();
+    json.object({{"name", scene.name}, {"title", scene.title}, {"look", scene.look}});
   });
 }
 

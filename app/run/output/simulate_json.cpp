@@ -26,34 +26,28 @@ class JsonOutput : public RunOutput {
   void sample(double t, const State<double>& x) override {
     const Coordinates& coordinates = input_.coordinates;
     forward_kinematics(input_.model, x, k_);
-    json_.begin_object();
-    json_.key("t").number(t);
-    write_coordinates(json_.key("q"), coordinates, x);
-    write_velocities(json_.key("qd"), coordinates, x);
-    if (coordinates.floating()) write_base(json_.key("base"), coordinates, x);
-    write_links(json_.key("links"), input_.model, k_);
-    if (simulated_.couplings) write_targets(t);
-    json_.members({{"kinetic_energy", kinetic_energy(input_.model, x)},
-                   {"potential_energy", potential_energy(input_.model, x)}});
-    json_.end_object();
+    json_.object([&] {
+      json_.put("t", t);
+      write_coordinates(json_.key("q"), coordinates, x);
+      write_velocities(json_.key("qd"), coordinates, x);
+      if (coordinates.floating()) write_base(json_.key("base"), coordinates, x);
+      write_links(json_.key("links"), input_.model, k_);
+      if (simulated_.couplings) write_targets(t);
+      json_.members({{"kinetic_energy", kinetic_energy(input_.model, x)},
+                     {"potential_energy", potential_energy(input_.model, x)}});
+    });
   }
 
   void end(const SimulateResult& result) override {
     json_.end_array();
-    json_.key("contacts").count(result.contacts);
-    json_.key("ledger").begin_object();
-    for (const LedgerRow& row : result.ledger) json_.key(row.name).number(row.work);
-    json_.end_object();
-    json_.key("momentum").begin_object();
-    for (const MomentumRow& row : result.momentum)
-      json_.key(row.name).object({{"linear", row.linear}, {"angular", row.angular}});
-    json_.end_object();
-    if (simulated_.couplings) {
-      json_.key("hand").begin_object();
-      for (const LedgerRow& row : result.hand) json_.key(row.name).number(row.work);
-      json_.end_object();
-    }
-    json_.key("steps").count(result.steps);
+    json_.put("contacts", result.contacts);
+    write_rows("ledger", result.ledger);
+    json_.key("momentum").object([&] {
+      for (const MomentumRow& row : result.momentum)
+        json_.key(row.name).object({{"linear", row.linear}, {"angular", row.angular}});
+    });
+    if (simulated_.couplings) write_rows("hand", result.hand);
+    json_.put("steps", result.steps);
     if (result.alarm)
       json_.key("alarm").object({{"row", result.alarm->row},
                                  {"time", result.alarm->t},
@@ -69,6 +63,11 @@ class JsonOutput : public RunOutput {
   }
 
  private:
+  void write_rows(const char* key, const std::vector<LedgerRow>& rows) {
+    json_.key(key).object([&] {
+      for (const LedgerRow& row : rows) json_.put(row.name, row.work);
+    });
+  }
   // The kinematic side of each coupling: joints of its robot, and the end of the spring.
   void write_targets(double t) {
     json_.key("targets").begin_object();
