@@ -221,22 +221,22 @@ int compute(const MapOptions& options, const MapJob& job) {
   const std::filesystem::path work = work_file(options, empty);
   if (!options.merge.empty()) {
     const TileFile file = merge_tile_files(options.merge, empty, blocks);
-    if (!options.work.empty()) write_result("--work", work, to_bytes(file));
+    if (!options.work.empty()) write_result("--work", work, to_text(file));
     put_out(options, job, file);
     return 0;
   }
   const std::vector<int> wanted = wanted_blocks(options, blocks);
   TileFile file = is_there(work) ? resume_tile_file(work, empty, blocks, options.force) : empty;
   make_folder_of(work, "--work");
-  const auto is_missing = [&](int block) { return !file.blocks.contains(block); };
-  if (std::any_of(wanted.begin(), wanted.end(), is_missing))
+  const auto is_there_already = [&](int block) { return file.has_all_of(blocks[block]); };
+  if (!std::ranges::all_of(wanted, is_there_already))
     require_writable_folder(work.has_parent_path() ? work.parent_path() : ".", "--work");
   try {
     compute_blocks(job, wanted, work, {options.threads, false}, file);
   } catch (const Interrupted&) {
     say("twinarm: {} of {} blocks of cells are finished, in {}; the same command goes on "
         "from there\n",
-        file.blocks.size(), wanted.size(), work.string());
+        std::ranges::count_if(wanted, is_there_already), wanted.size(), work.string());
     throw;
   }
   if (!is_part(options)) {
