@@ -127,7 +127,35 @@ std::uint32_t number_in(std::vector<std::string>& names, const std::string& name
   return static_cast<std::uint32_t>(place);
 }
 
+// Rows of the ledgers, by the numbers that their names have.
+template <class NumberOf, class MomentumNumberOf>
+void add_rows(const RunView& run, RecordedFrame& frame, const NumberOf& number_of,
+              const MomentumNumberOf& momentum_number_of) {
+  for (const LedgerRow& row : run.ledger()) {
+    frame.rows.push_back(number_of(row.name));
+    frame.works.push_back(row.work);
+  }
+  for (const MomentumRow& row : run.momentum()) {
+    frame.momentum_rows.push_back(momentum_number_of(row.name));
+    frame.momenta.insert(frame.momenta.end(), {row.linear, row.angular});
+  }
+}
+
 }  // namespace
+
+void describe_frames(const SimulatePlan& prepared, RecordingHeader& header) {
+  header.integrator = integrator_name(prepared.run.integrator);
+  header.step = prepared.run.step;
+  header.columns.clear();
+  header.couplings.clear();
+  header.geometries.clear();
+  for (const RunColumn& column : run_columns(prepared.input.robot))
+    header.columns.push_back({column.name, column.unit});
+  if (!prepared.input.scene) return;
+  const SceneModel& scene = *prepared.input.scene;
+  for (const SceneCoupling& coupling : scene.couplings) header.couplings.push_back(coupling.name);
+  for (const SceneGeometry& geometry : scene.geometries) header.geometries.push_back(geometry.name);
+}
 
 RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& prepared,
                           std::vector<std::string> command) {
@@ -137,17 +165,10 @@ RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& pr
   header.run = recorded_run(options);
   add_file(header.files, options.robot.model);
   add_file(header.files, options.robot.state);
-  header.integrator = integrator_name(prepared.run.integrator);
-  header.step = prepared.run.step;
   header.duration = prepared.run.duration;
-  for (const RunColumn& column : run_columns(prepared.input.robot))
-    header.columns.push_back({column.name, column.unit});
+  describe_frames(prepared, header);
   add_meshes_of(prepared.input.robot.robot, header.files);
-  if (!prepared.input.scene) return header;
-  const SceneModel& scene = *prepared.input.scene;
-  add_files_of(scene.description, header.files);
-  for (const SceneCoupling& coupling : scene.couplings) header.couplings.push_back(coupling.name);
-  for (const SceneGeometry& geometry : scene.geometries) header.geometries.push_back(geometry.name);
+  if (prepared.input.scene) add_files_of(prepared.input.scene->description, header.files);
   return header;
 }
 
@@ -167,14 +188,9 @@ RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared) {
 
 void add_ledgers(const RunView& run, std::vector<std::string>& names,
                  std::vector<std::string>& momentum_names, RecordedFrame& frame) {
-  for (const LedgerRow& row : run.ledger()) {
-    frame.rows.push_back(number_in(names, row.name));
-    frame.works.push_back(row.work);
-  }
-  for (const MomentumRow& row : run.momentum()) {
-    frame.momentum_rows.push_back(number_in(momentum_names, row.name));
-    frame.momenta.insert(frame.momenta.end(), {row.linear, row.angular});
-  }
+  add_rows(
+      run, frame, [&](const std::string& name) { return number_in(names, name); },
+      [&](const std::string& name) { return number_in(momentum_names, name); });
 }
 
 RunRecorder::RunRecorder(const std::filesystem::path& file, RecordingHeader header,
@@ -191,14 +207,9 @@ void RunRecorder::look(RunView& run) {
 
 void RunRecorder::write(RunView& run) {
   RecordedFrame frame = frame_of(run, prepared_);
-  for (const LedgerRow& row : run.ledger()) {
-    frame.rows.push_back(writer_.number_of(row.name));
-    frame.works.push_back(row.work);
-  }
-  for (const MomentumRow& row : run.momentum()) {
-    frame.momentum_rows.push_back(writer_.momentum_number_of(row.name));
-    frame.momenta.insert(frame.momenta.end(), {row.linear, row.angular});
-  }
+  add_rows(
+      run, frame, [&](const std::string& name) { return writer_.number_of(name); },
+      [&](const std::string& name) { return writer_.momentum_number_of(name); });
   writer_.write(frame);
 }
 

@@ -182,7 +182,7 @@ RecordedFrame Recording::frame(std::size_t n) const {
     return std::all_of(numbers.begin(), numbers.end(), [&](std::uint32_t i) { return i < count; });
   };
   fits = fits && frame.values.size() == header_.columns.size() &&
-         frame.pulls.size() <= header_.couplings.size() &&
+         frame.pulls.size() == header_.couplings.size() &&
          frame.works.size() == frame.rows.size() && all_below(frame.rows, names_.size()) &&
          frame.momenta.size() == 2 * frame.momentum_rows.size() &&
          all_below(frame.momentum_rows, momentum_names_.size());
