@@ -6,7 +6,6 @@
 #include "app/command/command.h"
 #include "app/command/parser/shared_options.h"
 #include "app/inspect/report/inspect_input.h"
-#include "app/inspect/report/inspect_options.h"
 #include "app/inspect/report/inspect_output.h"
 #include "app/inspect/report/inspect_view.h"
 #include "app/page/inspect_page.h"

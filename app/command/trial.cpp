@@ -14,7 +14,7 @@
 #include "app/study/calibration/calibration.h"
 #include "app/study/findings/variants.h"
 #include "app/study/study_scene.h"
-#include "app/support/find_assets.h"
+#include "app/support/find_files.h"
 #include "app/support/interrupt.h"
 #include "app/support/output_file.h"
 #include "app/support/streams.h"

@@ -9,7 +9,7 @@
 #include <mutex>
 
 #include "app/map/cell_batch.h"
-#include "app/map/cell_run.h"
+#include "app/map/cell_measure.h"
 #include "app/support/interrupt.h"
 #include "app/support/parallel_for.h"
 #include "app/support/progress.h"

@@ -6,7 +6,7 @@
 #include "app/record/unpack.h"
 #include "app/render/list/image.h"
 #include "app/run/run_columns.h"
-#include "app/support/find_assets.h"
+#include "app/support/find_files.h"
 #include "app/support/output_file.h"
 #include "app/support/version.h"
 #include "collision/mesh_files/model_file.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "app/data/html_text.h"
+#include "app/data/html_page.h"
 #include "benchmarks/analytic/registry/case_sources.h"
 
 namespace twinarm::compare_page {

@@ -7,7 +7,6 @@
 #include "app/compare/page/plots.h"
 #include "app/compare/page/small_svg.h"
 #include "app/data/html_page.h"
-#include "app/data/html_text.h"
 #include "benchmarks/analytic/registry/analytic_cases.h"
 
 namespace twinarm::compare_page {

@@ -13,7 +13,6 @@
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
-
 namespace {
 
 Overlays in_order(bool is_live) {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <charconv>
 
-#include "app/lab/app/uploaded_file.h"
+#include "app/lab/app/uploads.h"
 #include "app/page/replay_page.h"
 #include "app/render/gl/painter.h"
-#include "app/support/find_assets.h"
+#include "app/support/find_files.h"
 #include "app/support/output_file.h"
 #include "solver/support/diagnostics.h"
 

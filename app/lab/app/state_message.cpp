@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "app/data/json_writer.h"
-#include "app/lab/parameters/presets.h"
-#include "app/support/find_assets.h"
+#include "app/lab/parameters/gallery.h"
+#include "app/support/find_files.h"
 
 namespace twinarm {
 namespace {

@@ -37,26 +37,15 @@ struct FrameHand {
   }
 };
 
-class Led final : public HandSource {
- public:
-  Led(const FrameHand& hand, std::unique_ptr<HandSource> own) : hand_(hand), own_(std::move(own)) {}
-  HandSample sample(double t, double toward) const override {
-    return hand_.live ? hand_.live->sample(t, toward) : own_->sample(t, toward);
-  }
-  double duration() const override { return own_->duration(); }
-  std::string description() const override { return own_->description(); }
-
- private:
-  const FrameHand& hand_;
-  std::unique_ptr<HandSource> own_;
-};
-
 // Those pulls that the run's hand would lead (input_override.h).
 HandInPlace in_place_of(HandLead& lead, const FrameHand& hand) {
-  return [&hand, leads = lead.in_place()](std::size_t pull, std::unique_ptr<HandSource> own) {
+  return [&hand, leads = lead.in_place()](
+             std::size_t pull, std::unique_ptr<HandSource> own) -> std::unique_ptr<HandSource> {
     const HandSource* before = own.get();
     std::unique_ptr<HandSource> made = leads(pull, std::move(own));
-    return made.get() == before ? std::move(made) : std::make_unique<Led>(hand, std::move(made));
+    if (made.get() == before) return made;
+    const auto instead = [&hand](double, double) { return hand.live ? &*hand.live : nullptr; };
+    return std::make_unique<ReplacedHand>(std::move(made), instead);
   };
 }
 

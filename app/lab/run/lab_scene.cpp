@@ -9,7 +9,6 @@
 #include "solver/support/number_text.h"
 
 namespace twinarm {
-
 namespace {
 
 // What a change turns that stands beside the scene, as on the command line of `simulate`.

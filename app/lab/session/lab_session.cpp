@@ -23,13 +23,7 @@ LabSession::LabSession(Built scene, const std::vector<GalleryScene>& gallery,
       commands_(state_, gallery, [this](Order order) { open(std::move(order)); }) {
   commands_.adopt(std::move(scene));
   publish();  // from now on there is something to be seen
-  builder_ = std::make_unique<Workshop>(
-      Workshop::Out{[this](Built built) { state_.inbox.push(std::move(built)); },
-                    [this](const Order& order) {
-                      if (!order.asked.empty())
-                        state_.inbox.push_refused(order.asked.back().number);
-                    },
-                    [this](const std::string& why) { note("error", why); }});
+  builder_ = std::make_unique<Workshop>(state_.inbox);
   thread_ = std::thread([this] { work(); });
 }
 

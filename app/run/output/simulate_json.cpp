@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "app/robot/robot_json.h"
+#include "app/robot/robot_output.h"
 #include "app/run/output/simulate_output.h"
 #include "solver/dynamics/energy_momentum.h"
 
