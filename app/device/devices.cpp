@@ -94,8 +94,8 @@ const Entry& entry_named(const std::vector<Entry>& entries, const std::string& n
 const std::vector<DeviceKind>& device_kinds() {
   static const std::vector<DeviceKind> kinds = [] {
     std::vector<DeviceKind> sorted = device_kinds_of_files();
-    std::sort(sorted.begin(), sorted.end(),
-              [](const DeviceKind& a, const DeviceKind& b) { return a.place < b.place; });
+    std::ranges::sort(sorted,
+                      [](const DeviceKind& a, const DeviceKind& b) { return a.place < b.place; });
     return sorted;
   }();
   return kinds;

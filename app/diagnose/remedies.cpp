@@ -78,8 +78,8 @@ class RemedyFinder {
   }
 
   bool any_rate() const {
-    return std::any_of(scene_.couplings.begin(), scene_.couplings.end(),
-                       [](const CouplingDescription& c) { return c.rate > 0; });
+    return std::ranges::any_of(scene_.couplings,
+                               [](const CouplingDescription& c) { return c.rate > 0; });
   }
 
   void add(std::string words, std::vector<std::string> changes) {

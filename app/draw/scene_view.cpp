@@ -89,7 +89,7 @@ void widen_to(double& largest, double value) {
 
 // "box_stack" reads better as two words.
 std::string words_of(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
+  std::ranges::replace(name, '_', ' ');
   return name;
 }
 
@@ -189,8 +189,8 @@ void measure(Stage& stage, const Moment& moment, Measured measured) {
 void set_view(Stage& stage, const CameraWish& wish, double aspect) {
   stage.scales.length = stage.extent.radius();
   Ground& ground = stage.list.ground;
-  const bool has_slope = std::any_of(stage.cast.planes.begin(), stage.cast.planes.end(),
-                                     [](const CastPlane& plane) { return !is_level(plane); });
+  const bool has_slope = std::ranges::any_of(
+      stage.cast.planes, [](const CastPlane& plane) { return !is_level(plane); });
   const double radius = stage.extent.radius();
   ground.cell = round_down(0.3 * radius);
   const double lead = ground.cell / std::pow(10.0, std::floor(std::log10(1.001 * ground.cell)));

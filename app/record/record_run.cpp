@@ -19,8 +19,7 @@ void add_file(std::vector<RecordedFile>& files, const std::filesystem::path& fil
   if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) return;
   const std::string path = std::filesystem::absolute(file).lexically_normal().string();
   const auto is_same = [&](const RecordedFile& f) { return f.path == path; };
-  if (std::none_of(files.begin(), files.end(), is_same))
-    files.push_back({path, read_whole_file(file)});
+  if (std::ranges::none_of(files, is_same)) files.push_back({path, read_whole_file(file)});
 }
 
 // The program's own files need no check, which costs milliseconds each.
@@ -61,7 +60,7 @@ void add_picture(std::vector<RecordedFile>& files, const std::filesystem::path& 
 void add_companions(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
   constexpr int kMost = 1000;  // files of a folder that are looked at
   static const std::vector<std::string> naming{".obj", ".mtl", ".dae", ".gltf"};
-  if (std::find(naming.begin(), naming.end(), file.extension()) == naming.end()) return;
+  if (std::ranges::find(naming, file.extension()) == naming.end()) return;
   const std::string text = files.back().bytes;
   std::error_code error;
   int looked_at = 0;
@@ -122,7 +121,7 @@ void add_contacts_of(const SceneContacts* all, RecordedFrame& frame) {
 }
 
 std::uint32_t number_in(std::vector<std::string>& names, const std::string& name) {
-  const auto place = std::find(names.begin(), names.end(), name) - names.begin();
+  const auto place = std::ranges::find(names, name) - names.begin();
   if (static_cast<std::size_t>(place) == names.size()) names.push_back(name);
   return static_cast<std::uint32_t>(place);
 }

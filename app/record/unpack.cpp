@@ -105,7 +105,7 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
   for (std::size_t i = 0; i < changes.size(); ++i)
     if (changes[i].path == "gravity")
       options.robot.gravity = changes[i].value;
-    else if (std::find(kept.begin(), kept.end(), changes[i].path) != kept.end())
+    else if (std::ranges::find(kept, changes[i].path) != kept.end())
       faults.add({"", 0, "--set " + changes[i].path,
                   "a fork keeps the grid and the method of its recording",
                   "run `twinarm simulate` with another " + changes[i].path, "change.method"});

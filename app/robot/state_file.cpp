@@ -67,7 +67,7 @@ class StateReader {
   void check_keys(const JsonValue& object, const std::string& where,
                   const std::vector<std::string>& known) {
     for (const JsonValue& member : object.members)
-      if (std::find(known.begin(), known.end(), member.key) == known.end())
+      if (std::ranges::find(known, member.key) == known.end())
         fault(member.line, where + member.key, "is not known here",
               name_remedy(member.key, known, "keys"));
   }

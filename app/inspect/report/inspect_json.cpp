@@ -63,8 +63,7 @@ void write_forces(JsonWriter& json, const Inspection& in, const InspectView& vie
 void write_joints(JsonWriter& json, const Inspection& in, const InspectView& view) {
   json.begin_array();
   for (const JointBalance& joint : joint_balances(in)) {
-    if (std::find(view.bodies.begin(), view.bodies.end(), joint.body) == view.bodies.end())
-      continue;
+    if (std::ranges::find(view.bodies, joint.body) == view.bodies.end()) continue;
     json.begin_object();
     json.members({{"joint", in.model.joint_name[joint.body]},
                   {"component", joint.dof - in.model.iv[joint.body]}});

@@ -16,7 +16,7 @@ std::size_t index_of_body(const std::string& option, const std::string& name,
                           const std::string& others, const Model<double>& model,
                           FaultList& faults) {
   const std::vector<std::string> names = names_of_bodies(model);
-  const auto found = std::find(names.begin(), names.end(), name);
+  const auto found = std::ranges::find(names, name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin()) + 1;
   faults.add({"", 0, option, "there is no body '" + name + "'",
               others + name_remedy(name, names, "bodies")});
@@ -70,14 +70,14 @@ void read_passes(const InspectOptions& options, InspectView& view, FaultList& fa
   static const std::vector<std::string> names{"1", "2", "3"};
   if (!options.passes.empty()) view.passes.clear();
   for (const std::string& pass : options.passes) {
-    const auto found = std::find(names.begin(), names.end(), pass);
+    const auto found = std::ranges::find(names, pass);
     if (found == names.end())
       faults.add({"", 0, "--pass", "there is no pass '" + pass + "'",
                   "give 1 (velocities), 2 (inertias and forces) or 3 (accelerations)"});
     else
       view.passes.push_back(static_cast<int>(found - names.begin()) + 1);
   }
-  std::sort(view.passes.begin(), view.passes.end());
+  std::ranges::sort(view.passes);
   view.passes.erase(std::unique(view.passes.begin(), view.passes.end()), view.passes.end());
 }
 

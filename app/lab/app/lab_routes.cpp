@@ -69,7 +69,7 @@ bool is_plain(const std::string& name) {
     return std::isalnum(c) || c == '.' || c == '_' || c == '-' || c == ' ' || c == '/';
   };
   return !name.empty() && name.size() < 200 && name.front() != '/' && name.front() != '.' &&
-         name.find("..") == std::string::npos && std::all_of(name.begin(), name.end(), is_good);
+         name.find("..") == std::string::npos && std::ranges::all_of(name, is_good);
 }
 
 std::string after(const std::string& path, const std::string& start) {

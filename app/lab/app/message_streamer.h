@@ -28,7 +28,6 @@ namespace twinarm {
 
 // So many a second, and no more: what is evenly spaced goes on without a wait, and of what comes in
 // a burst two may go at once. After a pause nothing is made up for.
-
 class Allowance {
  public:
   using Time = std::chrono::steady_clock::time_point;

@@ -40,8 +40,8 @@ std::string why_no_robot(const std::string& root) {
 
 std::filesystem::path UploadFolder::write(const std::string& name, const std::string& bytes) {
   const std::filesystem::path file = (folder_ / name).lexically_normal();
-  const auto same = std::find_if(uploads_.begin(), uploads_.end(),
-                                 [&](const Upload& upload) { return upload.file == file; });
+  const auto same =
+      std::ranges::find_if(uploads_, [&](const Upload& upload) { return upload.file == file; });
   if (same != uploads_.end()) {
     bytes_ -= same->bytes;
     uploads_.erase(same);
@@ -74,9 +74,7 @@ BroughtFile brought_file(const std::string& name, const std::string& bytes) {
   std::transform(end.begin(), end.end(), end.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   BroughtFile file{name, false, ""};
-  const auto is_one_of = [&](const auto& all) {
-    return std::find(all.begin(), all.end(), end) != all.end();
-  };
+  const auto is_one_of = [&](const auto& all) { return std::ranges::find(all, end) != all.end(); };
   if (end == ".xml" || end == ".xacro") {
     const std::string root = root_of(bytes);
     if (root != "robot") {

@@ -67,9 +67,9 @@ bool acts_on(const Actor& actor, const Model<double>& model, std::size_t body) {
   const auto is_its = [&](const Actor::OnJoint& on) {
     return on.dof >= model.iv[body] && on.dof < model.iv[body] + model.dofs(body);
   };
-  return std::any_of(actor.bodies.begin(), actor.bodies.end(),
-                     [&](const Actor::OnBody& on) { return on.body == body; }) ||
-         std::any_of(actor.joints.begin(), actor.joints.end(), is_its);
+  return std::ranges::any_of(actor.bodies,
+                             [&](const Actor::OnBody& on) { return on.body == body; }) ||
+         std::ranges::any_of(actor.joints, is_its);
 }
 
 // Of six columns, what a joint of several velocities has of each; else as it lies.
@@ -108,7 +108,7 @@ using Names = std::initializer_list<std::string_view>;
 std::vector<Shown> some_of(const Inspection& in, int pass, std::size_t body, Names names) {
   std::vector<Shown> all = shown_quantities(in, pass, body);
   std::erase_if(all, [&](const Shown& shown) {
-    return std::find(names.begin(), names.end(), shown.quantity.name) == names.end();
+    return std::ranges::find(names, shown.quantity.name) == names.end();
   });
   return all;
 }

@@ -56,7 +56,7 @@ void HandLead::choose_pulls() {
 
 HandInPlace HandLead::in_place() {
   return [this](std::size_t pull, std::unique_ptr<HandSource> own) -> std::unique_ptr<HandSource> {
-    if (std::find(led_.begin(), led_.end(), pull) == led_.end()) return own;
+    if (std::ranges::find(led_, pull) == led_.end()) return own;
     if (pull == led_.front()) own_ = own.get();
     const auto instead = [this](double t, double toward) { return source_at(t, toward); };
     return std::make_unique<ReplacedHand>(std::move(own), instead);
@@ -102,7 +102,7 @@ void HandLead::take_over(double t, double h) {
     target_.q = own_q(t, t + h);
     target_.gripper_closed = own_->sample(t, t + h).button;
   }
-  std::fill(target_.qd.begin(), target_.qd.end(), 0.0);
+  std::ranges::fill(target_.qd, 0.0);
   goes_on_ = false;
 }
 

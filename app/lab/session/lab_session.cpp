@@ -138,9 +138,9 @@ void LabSession::show_end() {
   if (!found->suspects.empty()) end.spring = found->suspects.front().name;
   end.remedies = remedies_of(state_.loop.run().prepared(), *found);
   std::erase_if(end.remedies, [this](const Remedy& remedy) {
-    return std::any_of(
-        remedy.changes.begin(), remedy.changes.end(),
-        [this](const std::string& text) { return is_of_lanes(state_.status, parse_change(text)); });
+    return std::ranges::any_of(remedy.changes, [this](const std::string& text) {
+      return is_of_lanes(state_.status, parse_change(text));
+    });
   });
   state_.status.dead = std::move(end);
 }

@@ -91,7 +91,7 @@ std::optional<Order> Workshop::order(Order order) {
 // It was tried already, with an order before this one.
 void Workshop::leave_out_refused(Order& order) const {
   std::erase_if(order.asked, [this](const Asked& asked) {
-    return std::find(refused_.begin(), refused_.end(), asked.number) != refused_.end();
+    return std::ranges::find(refused_, asked.number) != refused_.end();
   });
 }
 

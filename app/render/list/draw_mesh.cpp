@@ -19,7 +19,7 @@ std::vector<int> weld(const std::vector<Vector3>& vertices) {
   std::vector<int> order(vertices.size()), first(vertices.size());
   std::iota(order.begin(), order.end(), 0);
   const auto at = [&](int i) -> const Vector3& { return vertices[static_cast<std::size_t>(i)]; };
-  std::sort(order.begin(), order.end(), [&](int i, int j) {
+  std::ranges::sort(order, [&](int i, int j) {
     const Vector3 &a = at(i), &b = at(j);
     if (a.x() != b.x()) return a.x() < b.x();
     if (a.y() != b.y()) return a.y() < b.y();

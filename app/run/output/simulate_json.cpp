@@ -70,28 +70,29 @@ class JsonOutput : public RunOutput {
   }
   // The kinematic side of each coupling: joints of its robot, and the end of the spring.
   void write_targets(double t) {
-    json_.key("targets").begin_object();
-    for (std::size_t c = 0; c < simulated_.couplings->size(); ++c) {
-      const SceneCoupling& spec = simulated_.couplings->spec(c);
-      const KvrSample& kvr = simulated_.couplings->target(c, t);
-      const auto body = static_cast<std::size_t>(spec.spring.body);
-      json_.key(spec.name).begin_object();
-      write_joints("q", spec, [&](const NamedJoint& j) { return coordinates_of(j, kvr.x); });
-      write_joints("qd", spec,
-                   [&](const NamedJoint& j) { return from_solver(j, kvr.x, kvr.x.qd); });
-      const Vector3 p = kvr.k.position(spec.spring.body, spec.spring.p_L);
-      json_.members({{"position", p},
-                     {"orientation", quaternion_of(kvr.k.X_WL[body].R)},
-                     {"linear_velocity", kvr.k.velocity(spec.spring.body, p)},
-                     {"angular_velocity", kvr.k.w_WL[body]}});
-      json_.end_object();
-    }
-    json_.end_object();
+    json_.key("targets").object([&] {
+      for (std::size_t c = 0; c < simulated_.couplings->size(); ++c)
+        json_.put(simulated_.couplings->spec(c).name, [&] { write_target(c, t); });
+    });
+  }
+  void write_target(std::size_t c, double t) {
+    const SceneCoupling& spec = simulated_.couplings->spec(c);
+    const KvrSample& kvr = simulated_.couplings->target(c, t);
+    const auto body = static_cast<std::size_t>(spec.spring.body);
+    const Vector3 p = kvr.k.position(spec.spring.body, spec.spring.p_L);
+    const auto q = [&](const NamedJoint& j) { return coordinates_of(j, kvr.x); };
+    const auto qd = [&](const NamedJoint& j) { return from_solver(j, kvr.x, kvr.x.qd); };
+    json_.object({{"q", [&] { write_joints(spec, q); }},
+                  {"qd", [&] { write_joints(spec, qd); }},
+                  {"position", p},
+                  {"orientation", quaternion_of(kvr.k.X_WL[body].R)},
+                  {"linear_velocity", kvr.k.velocity(spec.spring.body, p)},
+                  {"angular_velocity", kvr.k.w_WL[body]}});
   }
   template <class Values>
-  void write_joints(const char* key, const SceneCoupling& spec, Values values) {
+  void write_joints(const SceneCoupling& spec, const Values& values) {
     const auto [first, last] = simulated_.scene->bodies_of_robot(spec.robot);
-    json_.key(key).begin_object();
+    json_.begin_object();
     for (std::size_t j = input_.coordinates.first_joint(); j < input_.coordinates.all().size();
          ++j) {
       const NamedJoint& joint = input_.coordinates.all()[j];
