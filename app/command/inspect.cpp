@@ -9,7 +9,7 @@
 #include "app/inspect/report/inspect_output.h"
 #include "app/inspect/report/inspect_view.h"
 #include "app/page/inspect_page.h"
-#include "app/record/recorded_instant.h"
+#include "app/record/unpack.h"
 #include "app/support/output_file.h"
 #include "solver/support/atomic_file.h"
 

@@ -8,7 +8,7 @@
 #include "app/command/parser/shared_options.h"
 #include "app/data/json_writer.h"
 #include "app/map/compute_map.h"
-#include "app/map/map_options.h"
+#include "app/map/map_job.h"
 #include "app/map/map_output.h"
 #include "app/map/open_cell.h"
 #include "app/plot/gnuplot.h"

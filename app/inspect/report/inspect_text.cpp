@@ -7,9 +7,7 @@
 
 #include "app/data/number_sheet.h"
 #include "app/data/text_table.h"
-#include "app/inspect/report/force_pages.h"
 #include "app/inspect/report/inspect_output.h"
-#include "app/inspect/report/pass_pages.h"
 
 namespace twinarm {
 namespace {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "app/lab/run/lab_frame.h"
-#include "app/lab/run/lab_input.h"
 #include "app/lab/run/lab_scene.h"
 
 namespace twinarm {
