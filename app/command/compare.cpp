@@ -67,8 +67,8 @@ std::vector<std::string> make_sections(const std::vector<CompareRow>& rows,
   constexpr double kDrawing = 0.1;  // [s], beside what a case takes
   std::vector<std::size_t> order(rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return rows[a].seconds > rows[b].seconds; });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return rows[a].seconds > rows[b].seconds; });
   std::vector<double> before{0};  // the work of the first n
   for (const std::size_t i : order) before.push_back(before.back() + rows[i].seconds + kDrawing);
   std::vector<std::string> sections(rows.size());

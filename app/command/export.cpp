@@ -48,14 +48,10 @@ int export_page(const ExportOptions& options) {
                1e-6 * static_cast<double>(page.html.size()));
     return 0;
   }
-  JsonWriter json;
-  json.begin_object();
-  json.key("file").text(file);
-  json.key("frames").count(static_cast<long>(page.frames));
-  json.key("rate").number(page.rate);
-  json.key("bytes").count(static_cast<long>(page.html.size()));
-  json.end_object();
-  fmt::print("{}\n", json.str());
+  fmt::print("{}\n", json_text({{"file", file},
+                                {"frames", page.frames},
+                                {"rate", page.rate},
+                                {"bytes", page.html.size()}}));
   return 0;
 }
 

@@ -69,7 +69,7 @@ void add_options(CLI::App& command, HandOptions& options) {
 
 MappingSpec mapping_of(const HandOptions& options, FaultList& faults) {
   MappingSpec spec;
-  const auto found = std::find(kMappingNames.begin(), kMappingNames.end(), options.mapping);
+  const auto found = std::ranges::find(kMappingNames, options.mapping);
   if (found == kMappingNames.end())
     faults.add(
         {"", 0, "--mapping", "'" + options.mapping + "' is none", "give paper, arm or cartesian"});

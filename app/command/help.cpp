@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/command/command.h"
-#include "app/command/parser/manual.h"
+#include "app/command/parser/command_tree.h"
 #include "app/support/nearest_name.h"
 #include "app/support/version.h"
 #include "solver/support/diagnostics.h"

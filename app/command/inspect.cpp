@@ -6,11 +6,10 @@
 #include "app/command/command.h"
 #include "app/command/parser/shared_options.h"
 #include "app/inspect/report/inspect_input.h"
-#include "app/inspect/report/inspect_options.h"
 #include "app/inspect/report/inspect_output.h"
 #include "app/inspect/report/inspect_view.h"
 #include "app/page/inspect_page.h"
-#include "app/record/recorded_instant.h"
+#include "app/record/unpack.h"
 #include "app/support/output_file.h"
 #include "solver/support/atomic_file.h"
 
@@ -117,7 +116,7 @@ int run_inspect(const InspectOptions& options, const Words& typed) {
   fmt::print("{}\n",
              options.json ? inspect_json(in, view, checks) : inspect_text(in, view, checks));
   const bool all_pass =
-      std::all_of(checks.begin(), checks.end(), [](const Check& check) { return check.pass(); });
+      std::ranges::all_of(checks, [](const Check& check) { return check.pass(); });
   return all_pass ? 0 : kFellShort;
 }
 

@@ -8,7 +8,7 @@
 #include "app/command/parser/shared_options.h"
 #include "app/data/json_writer.h"
 #include "app/map/compute_map.h"
-#include "app/map/map_options.h"
+#include "app/map/map_job.h"
 #include "app/map/map_output.h"
 #include "app/map/open_cell.h"
 #include "app/plot/gnuplot.h"
@@ -171,9 +171,9 @@ void put_out(const MapOptions& options, const MapJob& job, const TileFile& file)
 }
 
 int open_it(const MapOptions& options, const MapJob& job) {
-  const auto [ix, iy] = parse_cell(options.cell, job);
+  const auto at = parse_cell(options.cell, job);
   make_folder_of(options.record, "--record");
-  const OpenedCell cell = open_cell(job, ix, iy, options.record);
+  const OpenedCell cell = open_cell(job, at.first, at.second, options.record);
   if (!options.json) {
     fmt::print("{} = {} {}, {} = {} {}\n", job.x.path, number_text(cell.x), job.x_unit, job.y.path,
                number_text(cell.y), job.y_unit);
@@ -182,21 +182,14 @@ int open_it(const MapOptions& options, const MapJob& job) {
     fmt::print("recording: {}\nthe same run: {}\n", options.record.string(), cell.command);
     return 0;
   }
-  JsonWriter json;
-  json.begin_object();
-  json.key("cell").begin_array();
-  json.count(ix);
-  json.count(iy);
-  json.end_array();
-  json.key("x").number(cell.x);
-  json.key("y").number(cell.y);
-  for (std::size_t m = 0; m < kMapMeasures.size(); ++m)
-    json.key(kMapMeasures[m]).number(cell.values[m]);
-  json.key("recording").text(options.record.string());
-  json.key("scene").text(cell.scene.string());
-  json.key("command").text(cell.command);
-  json.end_object();
-  fmt::print("{}\n", json.str());
+  const auto write = [&](JsonWriter& json) {
+    json.members({{"cell", std::array{at.first, at.second}}, {"x", cell.x}, {"y", cell.y}});
+    for (std::size_t m = 0; m < kMapMeasures.size(); ++m) json.put(kMapMeasures[m], cell.values[m]);
+    json.members({{"recording", options.record.string()},
+                  {"scene", cell.scene.string()},
+                  {"command", cell.command}});
+  };
+  fmt::print("{}\n", json_text(write));
   return 0;
 }
 
@@ -228,35 +221,31 @@ int compute(const MapOptions& options, const MapJob& job) {
   const std::filesystem::path work = work_file(options, empty);
   if (!options.merge.empty()) {
     const TileFile file = merge_tile_files(options.merge, empty, blocks);
-    if (!options.work.empty()) write_result("--work", work, to_bytes(file));
+    if (!options.work.empty()) write_result("--work", work, to_text(file));
     put_out(options, job, file);
     return 0;
   }
   const std::vector<int> wanted = wanted_blocks(options, blocks);
   TileFile file = is_there(work) ? resume_tile_file(work, empty, blocks, options.force) : empty;
   make_folder_of(work, "--work");
-  const auto is_missing = [&](int block) { return !file.blocks.contains(block); };
-  if (std::any_of(wanted.begin(), wanted.end(), is_missing))
+  const auto is_there_already = [&](int block) { return file.has_all_of(blocks[block]); };
+  if (!std::ranges::all_of(wanted, is_there_already))
     require_writable_folder(work.has_parent_path() ? work.parent_path() : ".", "--work");
   try {
     compute_blocks(job, wanted, work, {options.threads, false}, file);
   } catch (const Interrupted&) {
     say("twinarm: {} of {} blocks of cells are finished, in {}; the same command goes on "
         "from there\n",
-        file.blocks.size(), wanted.size(), work.string());
+        std::ranges::count_if(wanted, is_there_already), wanted.size(), work.string());
     throw;
   }
   if (!is_part(options)) {
     put_out(options, job, file);
   } else if (options.json) {
-    JsonWriter json;
-    json.begin_object();
-    json.key("tile").count(options.tile);
-    json.key("tiles").count(options.tiles);
-    json.key("blocks").count(static_cast<long>(wanted.size()));
-    json.key("file").text(work.string());
-    json.end_object();
-    fmt::print("{}\n", json.str());
+    fmt::print("{}\n", json_text({{"tile", options.tile},
+                                  {"tiles", options.tiles},
+                                  {"blocks", wanted.size()},
+                                  {"file", work.string()}}));
   } else {
     fmt::print("{}\n", work.string());
   }

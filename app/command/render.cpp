@@ -98,7 +98,7 @@ bool parse_size(const std::string& text, RenderPlan& plan) {
 template <class T>
 void choose_word(const char* option, const std::string& word, const std::vector<std::string>& names,
                  const std::vector<T>& values, T& chosen, FaultList& faults) {
-  const auto found = std::find(names.begin(), names.end(), word);
+  const auto found = std::ranges::find(names, word);
   if (found != names.end())
     chosen = values[static_cast<std::size_t>(found - names.begin())];
   else
@@ -111,7 +111,7 @@ void check_kind(const char* option, const std::filesystem::path& file, const std
   static const std::vector<std::string> others{".png", ".jpg", ".jpeg", ".svg", ".pdf",
                                                ".gif", ".mp4", ".webm", ".avi", ".html"};
   const std::string kind = file.extension().string();
-  if (kind != own && std::find(others.begin(), others.end(), kind) != others.end())
+  if (kind != own && std::ranges::find(others, kind) != others.end())
     faults.add({file.string(), 0, option, "is named as a file of another kind",
                 "let its name end in " + own});
 }
@@ -186,17 +186,13 @@ std::unique_ptr<Film> make_film(const RenderOptions& options, const RenderPlan& 
 
 void print_render_json(const std::string& file, const RenderPlan& plan, const FilmedRun& run,
                        const std::vector<std::string>& notes) {
-  JsonWriter json;
-  json.begin_object();
-  json.key("file").text(file);
-  json.key("width").count(plan.picture.width);
-  json.key("height").count(plan.picture.height);
-  json.key("pictures").count(static_cast<long>(run.shown.size()));
-  json.key("from").number(run.shown.front().x.t);
-  json.key("to").number(run.shown.back().x.t);
-  json.key("warnings").texts(notes);
-  json.end_object();
-  fmt::print("{}\n", json.str());
+  fmt::print("{}\n", json_text({{"file", file},
+                                {"width", plan.picture.width},
+                                {"height", plan.picture.height},
+                                {"pictures", run.shown.size()},
+                                {"from", run.shown.front().x.t},
+                                {"to", run.shown.back().x.t},
+                                {"warnings", notes}}));
 }
 
 int run_render(const RenderOptions& options) {

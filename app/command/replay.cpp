@@ -1,6 +1,7 @@
 // `twinarm replay`: the same bits from a recorded step on, or a fork beside its recording.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <array>
 
 #include "app/command/command.h"
 #include "app/command/parser/shared_options.h"
@@ -33,67 +34,55 @@ constexpr int kDiffers = 1;
 
 void write_branch(JsonWriter& json, const char* name, const Recording& recording,
                   const Replay& replay, bool forked) {
-  json.begin_object();
-  json.key("name").text(name);
-  json.key("t").begin_array();
-  for (const RecordedFrame& frame : replay.frames) json.number(frame.t);
-  json.end_array();
-  json.key("values").begin_object();
   const auto& columns = recording.header().columns;
+  std::vector<double> times;
   std::vector<std::vector<double>> values(columns.size());
   for (std::size_t n = 0; n < replay.frames.size(); ++n) {
+    times.push_back(replay.frames[n].t);
     const RecordedFrame frame = forked ? replay.frames[n] : recording.frame(replay.first + n);
     for (std::size_t c = 0; c < columns.size(); ++c) values[c].push_back(frame.values[c]);
   }
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    json.key(columns[c].with_unit()).numbers(values[c]);
-  json.end_object();
-  json.end_object();
+  const auto write_values = [&] {
+    for (std::size_t c = 0; c < columns.size(); ++c) json.put(columns[c].with_unit(), values[c]);
+  };
+  json.object({{"name", name}, {"t", times}, {"values", [&] { json.object(write_values); }}});
 }
 
 void write_ledgers(JsonWriter& json, const ComparedLedgers& ledgers) {
-  json.key("ledger").begin_object();
-  for (const ComparedWork& row : ledgers.works) {
-    json.key(row.name).begin_object();
-    json.key("recorded").number(row.recorded);
-    json.key("fork").number(row.fork);
-    json.end_object();
-  }
-  json.end_object();
-  json.key("momentum").begin_object();
-  for (const ComparedMomentum& row : ledgers.momenta) {
-    json.key(row.name).begin_object();
-    json.key("recorded").vector(row.recorded);
-    json.key("fork").vector(row.fork);
-    json.end_object();
-  }
-  json.end_object();
+  const auto write_rows = [&](const auto& rows) {
+    return [&] {
+      for (const auto& row : rows)
+        json.key(row.name).object({{"recorded", row.recorded}, {"fork", row.fork}});
+    };
+  };
+  json.key("ledger").object(write_rows(ledgers.works));
+  json.key("momentum").object(write_rows(ledgers.momenta));
+}
+
+bool is_same(const Replay& exact) {
+  return exact.hash == exact.hash_again && exact.equal == exact.compared;
 }
 
 void print_replay_json(const Recording& recording, const Replay& exact, const Replay* fork,
                        const std::vector<std::string>& changes) {
-  JsonWriter json;
-  json.begin_object();
-  json.key("from").number(exact.from);
-  json.key("to").number(exact.to);
-  json.key("step").count(exact.step);
-  json.key("hash").text(fmt::format("{:016x}", exact.hash));
-  json.key("hash_again").text(fmt::format("{:016x}", exact.hash_again));
-  json.key("compared").count(static_cast<long>(exact.compared));
-  json.key("equal").count(static_cast<long>(exact.equal));
-  json.key("bit_exact").boolean(exact.hash == exact.hash_again && exact.equal == exact.compared);
-  if (exact.first_different >= 0) json.key("first_different").number(exact.first_different);
-  json.key("set").texts(changes);
-  json.key("notes").texts(recording.notes());
-  if (fork) {
-    json.key("branches").begin_array();
-    write_branch(json, "recorded", recording, *fork, false);
-    write_branch(json, "fork", recording, *fork, true);
-    json.end_array();
+  const auto write = [&](JsonWriter& json) {
+    json.members({{"from", exact.from},
+                  {"to", exact.to},
+                  {"step", exact.step},
+                  {"hash", fmt::format("{:016x}", exact.hash)},
+                  {"hash_again", fmt::format("{:016x}", exact.hash_again)},
+                  {"compared", exact.compared},
+                  {"equal", exact.equal},
+                  {"bit_exact", is_same(exact)}});
+    if (exact.first_different >= 0) json.put("first_different", exact.first_different);
+    json.members({{"set", changes}, {"notes", recording.notes()}});
+    if (!fork) return;
+    json.key("branches").list(std::array{false, true}, [&](bool forked) {
+      write_branch(json, forked ? "fork" : "recorded", recording, *fork, forked);
+    });
     write_ledgers(json, compared_ledgers(exact, *fork));
-  }
-  json.end_object();
-  fmt::print("{}\n", json.str());
+  };
+  fmt::print("{}\n", json_text(write));
 }
 
 int run_replay(const ReplayOptions& options) {
@@ -109,7 +98,7 @@ int run_replay(const ReplayOptions& options) {
   const Replay exact = replay(recording, first, {});
   std::optional<Replay> fork;
   if (!changes.empty()) fork = replay(recording, first, changes);
-  const bool same = exact.hash == exact.hash_again && exact.equal == exact.compared;
+  const bool same = is_same(exact);
   if (options.json) {
     print_replay_json(recording, exact, fork ? &*fork : nullptr, options.changes);
   } else {

@@ -12,7 +12,7 @@
 #include "app/study/findings/variants.h"
 #include "app/study/report/recordings.h"
 #include "app/study/report/report.h"
-#include "app/support/find_assets.h"
+#include "app/support/find_files.h"
 #include "app/support/interrupt.h"
 #include "app/support/output_file.h"
 #include "app/support/seconds.h"

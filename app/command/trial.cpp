@@ -14,7 +14,7 @@
 #include "app/study/calibration/calibration.h"
 #include "app/study/findings/variants.h"
 #include "app/study/study_scene.h"
-#include "app/support/find_assets.h"
+#include "app/support/find_files.h"
 #include "app/support/interrupt.h"
 #include "app/support/output_file.h"
 #include "app/support/streams.h"
@@ -70,7 +70,7 @@ std::vector<std::string> chosen(const std::string& text, const std::vector<std::
   std::vector<std::string> all;
   std::stringstream words(text);
   for (std::string word; std::getline(words, word, ',');) {
-    if (std::find(known.begin(), known.end(), word) == known.end())
+    if (std::ranges::find(known, word) == known.end())
       faults.add({"", 0, option, "'" + word + "' is none",
                   fmt::format("give some of {}", fmt::join(known, ","))});
     all.push_back(word);
@@ -154,7 +154,7 @@ class TerminalShow {
   void operator()(const std::string& picture, double t) {
     if (lines_ > 0) say("\x1b[{}A", lines_);
     say("{}{:5.1f} s of {:.0f}   # robot  . your hand  o object  [ ] goal\n", picture, t, seconds_);
-    lines_ = static_cast<int>(std::count(picture.begin(), picture.end(), '\n')) + 1;
+    lines_ = static_cast<int>(std::ranges::count(picture, '\n')) + 1;
   }
 
  private:
@@ -201,8 +201,9 @@ int run_trial(const TrialOptions& options) {
   if (options.simulated && !options.device.starts_with("virtual"))
     faults.add({"", 0, "--simulated", "a person has no simulated time",
                 "leave it out, or give --device virtual:HAND"});
-  if (!std::all_of(options.subject.begin(), options.subject.end(),
-                   [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; }))
+  if (!std::ranges::all_of(options.subject, [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '_';
+      }))
     faults.add({"", 0, "--subject",
                 "'" + options.subject + "' has characters other than letters, digits, - and _",
                 "it names a folder below --out: give a code such as S7"});

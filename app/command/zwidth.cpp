@@ -7,7 +7,7 @@
 #include "app/command/command.h"
 #include "app/command/parser/shared_options.h"
 #include "app/plot/gnuplot.h"
-#include "app/support/find_assets.h"
+#include "app/support/find_files.h"
 #include "app/support/interrupt.h"
 #include "app/support/output_file.h"
 #include "app/support/progress.h"

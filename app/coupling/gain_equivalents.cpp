@@ -1,8 +1,105 @@
 #include "app/coupling/gain_equivalents.h"
 
+#include <fmt/format.h>
+#include <array>
+#include <cmath>
+#include <numbers>
+
 #include "app/coupling/posed_couplings.h"
+#include "app/data/json_writer.h"
+#include "app/data/number_sheet.h"
+#include "app/data/text_table.h"
 
 namespace twinarm {
+namespace {
+
+std::string pair(double k, double b, const char* k_unit, const char* b_unit) {
+  return fmt::format("k = {} {}, b = {} {}", cell(k), k_unit, cell(b), b_unit);
+}
+std::string gains_words(const SpringGains& gains, bool is_length) {
+  return is_length ? pair(gains.k, gains.b, "N/m", "N s/m")
+                   : pair(gains.k, gains.b, "N m/rad", "N m s/rad");
+}
+
+// Three columns of words, all to the left.
+class Lines {
+ public:
+  void add(const std::array<std::string, 3>& words) {
+    text_ += fmt::format("  {:<20} {:<38} {}\n", words[0], words[1], words[2]);
+  }
+  const std::string& str() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::string one_table(const Equivalents& e, double step) {
+  Lines table;
+  const auto hertz = e.response.omega / (2 * std::numbers::pi);
+  table.add({"spring and damper", gains_words(e.gains, e.is_length),
+             e.is_weld ? "that swings as the weld does" : "as it is"});
+  table.add(
+      {"frequency",
+       fmt::format("w = {} rad/s ({} Hz), z = {}", cell(e.response.omega), cell(hertz),
+                   cell(e.response.zeta)),
+       fmt::format("on {} {}, all else free", cell(e.inertia), e.is_length ? "kg" : "kg m^2")});
+  if (e.wanted) table.add({"wanted", gains_words(*e.wanted, e.is_length), "for what was asked"});
+  if (e.as_torsional)
+    table.add({"torsional", gains_words(*e.as_torsional, false),
+               fmt::format("k r^2, r = {} m: the same for small errors of this link alone",
+                           cell(e.radius))});
+  if (e.solref)
+    table.add({"MuJoCo solref", fmt::format("{} {}", cell(e.solref->first), cell(e.solref->second)),
+               e.solref->first < shortest_timeconst(step)
+                   ? fmt::format("timeconst dampratio; its floor at this step: {} s",
+                                 cell(shortest_timeconst(step)))
+                   : "timeconst [s], dampratio"});
+  if (e.direct)
+    table.add({"MuJoCo solref", fmt::format("{} {}", cell(e.direct->first), cell(e.direct->second)),
+               "-stiffness [1/s^2], -damping [1/s]"});
+  table.add({"  against a load", cell(e.static_stiffness) + (e.is_length ? " N/m" : " N m/rad"),
+             "k / (1 - d): MuJoCo's constraint sags less than it swings"});
+  table.add({"PhysX drive, force",
+             fmt::format("{}, {}", cell(e.force_drive.stiffness), cell(e.force_drive.damping)),
+             "stiffness, damping"});
+  table.add({"  acceleration",
+             fmt::format("{}, {}", cell(e.acceleration_drive.stiffness),
+                         cell(e.acceleration_drive.damping)),
+             "per unit of inertia [1/s^2, 1/s]"});
+  return table.str();
+}
+
+void write_gains(JsonWriter& json, const SpringGains& gains) {
+  json.object({{"stiffness", gains.k}, {"damping", gains.b}});
+}
+
+void write_one(JsonWriter& json, const Equivalents& e) {
+  const auto gains = [&json](const std::optional<SpringGains>& of) {
+    return [&json, of] { json.or_null(of, [&](const SpringGains& is) { write_gains(json, is); }); };
+  };
+  const auto solref = [&json](const std::optional<Solref>& of) {
+    return [&json, of] {
+      json.or_null(of, [&](const Solref& is) { json.numbers({is.first, is.second}); });
+    };
+  };
+  const SpringGains force{e.force_drive.stiffness, e.force_drive.damping};
+  const SpringGains acceleration{e.acceleration_drive.stiffness, e.acceleration_drive.damping};
+  json.object({{"name", e.name},
+               {"kind", e.kind},
+               {"inertia", e.inertia},
+               {"gains", gains(e.gains)},
+               {"frequency", e.response.omega},
+               {"damping_ratio", e.response.zeta},
+               {"wanted", gains(e.wanted)},
+               {"torsional", gains(e.as_torsional)},
+               {"solref", solref(e.solref)},
+               {"solref_direct", solref(e.direct)},
+               {"solref_static_stiffness", e.static_stiffness},
+               {"drive_force", gains(force)},
+               {"drive_acceleration", gains(acceleration)}});
+}
+
+}  // namespace
 
 Equivalents equivalents_of(const SpringGains& gains, double inertia,
                            const MujocoImpedance& impedance) {
@@ -46,6 +143,29 @@ std::vector<Equivalents> scene_equivalents(SimulateInput& input,
     all.push_back(std::move(found));
   }
   return all;
+}
+
+std::string equivalents_table(const std::vector<Equivalents>& all, double step) {
+  std::string text;
+  bool several = false;
+  for (const Equivalents& e : all) {
+    if (!e.name.empty()) text += fmt::format("coupling '{}', {}\n", e.name, e.kind);
+    text += one_table(e, step) + "\n";
+    several = several || (e.as_torsional && all.size() > 1);
+  }
+  if (several)
+    text += wrapped(
+                "k r^2 matches one link. Springs on several links of a chain hold each other's "
+                "joints too: a fair match has the same full K_q and B_q, as `twinarm coupling "
+                "predict` prints them.") +
+            "\n";
+  return text;
+}
+
+std::string equivalents_json(const std::vector<Equivalents>& all) {
+  return json_text([&](JsonWriter& json) {
+    json.key("couplings").list(all, [&](const Equivalents& e) { write_one(json, e); });
+  });
 }
 
 }  // namespace twinarm

@@ -29,7 +29,7 @@ double felt_mass(const SceneCoupling& spec) {
 
 PosedCouplings::PosedCouplings(const SimulateInput& input)
     : input_(input), model_(input.robot.model), x_(input.robot.state.x), k_(model_) {
-  std::fill(x_.qd.begin(), x_.qd.end(), 0.0);
+  std::ranges::fill(x_.qd, 0.0);
   forward_kinematics(model_, x_, k_);
   const Coordinates& coordinates = input_.robot.coordinates;
   P_ = coordinates.P(model_, x_).leftCols(coordinates.rows());

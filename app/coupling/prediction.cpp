@@ -130,7 +130,7 @@ VectorXd parts_of_move(const PredictTask& task, const Predicted& found) {
   VectorXd parts = VectorXd::Zero(found.M.rows());
   FaultList faults;
   for (const auto& [name, part] : task.along) {
-    const auto row = std::find(found.rows.begin(), found.rows.end(), name);
+    const auto row = std::ranges::find(found.rows, name);
     if (row == found.rows.end())
       faults.add({"", 0, "--along", "there is no joint '" + name + "'",
                   name_remedy(name, found.rows, "joints")});
@@ -185,7 +185,7 @@ std::string words_of_step(const Predicted& found) {
                        : c.printed          ? "as printed"
                                             : name_of(c.treatment);
     if (c.rate > 0) word += fmt::format(", held at {:g} Hz", c.rate);
-    if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
+    if (std::ranges::find(words, word) == words.end()) words.push_back(word);
   }
   return fmt::format("{}, couplings {}", integrator_name(found.integrator), fmt::join(words, "; "));
 }

@@ -10,70 +10,61 @@ namespace {
 constexpr std::array<const char*, 4> kSmoothNames{"cubic", "quintic", "cosine", "bang_bang"};
 
 void write_coupling(JsonWriter& json, const PredictedCoupling& c) {
-  json.begin_object();
-  json.members({{"name", c.name},
-                {"kind", c.kind},
-                {"treatment", c.is_own_treatment() ? "own" : name_of(c.treatment)},
-                {"damper", c.absolute_damper ? "absolute" : "relative"},
-                {"rate", c.rate},
-                {"delay", c.delay},
-                {"stiffness", c.gains.k},
-                {"damping", c.gains.b},
-                {"offset", c.offset},
-                {"K", c.K},
-                {"K_zero_offset", c.K_zero},
-                {"B", c.B},
-                {"frequency", c.alone.omega},
-                {"damping_ratio", c.alone.zeta}});
-  json.key("arms").list(c.arms, [&](const SpringArm& arm) {
+  const auto write_arm = [&](const SpringArm& arm) {
     json.object({{"joint", arm.joint},
                  {"radius", arm.radius},
                  {"target_radius", arm.target_radius},
                  {"largest_target_radius", arm.largest_target_radius},
                  {"largest_torque", arm.largest_torque}});
-  });
-  json.key("through_wall");
-  c.with_wall ? json.number(*c.with_wall) : json.null();
-  json.end_object();
+  };
+  json.object({{"name", c.name},
+               {"kind", c.kind},
+               {"treatment", c.is_own_treatment() ? "own" : name_of(c.treatment)},
+               {"damper", c.absolute_damper ? "absolute" : "relative"},
+               {"rate", c.rate},
+               {"delay", c.delay},
+               {"stiffness", c.gains.k},
+               {"damping", c.gains.b},
+               {"offset", c.offset},
+               {"K", c.K},
+               {"K_zero_offset", c.K_zero},
+               {"B", c.B},
+               {"frequency", c.alone.omega},
+               {"damping_ratio", c.alone.zeta},
+               {"arms", [&] { json.list(c.arms, write_arm); }},
+               {"through_wall", c.with_wall}});
 }
 
 void write_by_rows(JsonWriter& json, const Predicted& found, const Eigen::VectorXd& values) {
-  json.begin_object();
-  for (std::size_t r = 0; r < found.rows.size(); ++r)
-    json.key(found.rows[r]).number(values[static_cast<Eigen::Index>(r)]);
-  json.end_object();
+  json.object([&] {
+    for (std::size_t r = 0; r < found.rows.size(); ++r)
+      json.put(found.rows[r], values[static_cast<Eigen::Index>(r)]);
+  });
 }
 
-void write_errors(JsonWriter& json, const Predicted& found) {
-  json.key("joint_errors");
-  if (!found.errors) {
-    json.null();
-    return;
-  }
-  const RowErrors& errors = *found.errors;
-  json.begin_object();
-  write_by_rows(json.key("distance"), found, errors.distance);
-  write_by_rows(json.key("start"), found, errors.start);
-  write_by_rows(json.key("reversal"), found, errors.reversal);
-  for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
-    write_by_rows(json.key(kSmoothNames[i]), found, errors.smooth[i]);
-  write_by_rows(json.key("lag"), found, errors.lag);
-  json.end_object();
+void write_errors(JsonWriter& json, const Predicted& found, const RowErrors& errors) {
+  json.object([&] {
+    write_by_rows(json.key("distance"), found, errors.distance);
+    write_by_rows(json.key("start"), found, errors.start);
+    write_by_rows(json.key("reversal"), found, errors.reversal);
+    for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
+      write_by_rows(json.key(kSmoothNames[i]), found, errors.smooth[i]);
+    write_by_rows(json.key("lag"), found, errors.lag);
+  });
 }
 
 void write_mode(JsonWriter& json, const Predicted& found, const PredictedMode& mode) {
-  json.begin_object();
-  json.key("frequency").number(mode.omega);
-  json.key("damping_ratio").number(mode.zeta);
-  write_by_rows(json.key("shape"), found, mode.shape);
-  json.key("errors").begin_object();
-  json.members({{"start", mode.errors.start}, {"reversal", mode.errors.reversal}});
-  for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
-    json.key(kSmoothNames[i]).number(mode.errors.smooth[i]);
-  json.key("absolute_damper_lag").number(mode.errors.absolute_lag);
-  json.key("mocap_weld_lag").number(mode.errors.weld_lag);
-  json.end_object();
-  json.end_object();
+  const auto write_mode_errors = [&] {
+    json.members({{"start", mode.errors.start}, {"reversal", mode.errors.reversal}});
+    for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
+      json.put(kSmoothNames[i], mode.errors.smooth[i]);
+    json.members({{"absolute_damper_lag", mode.errors.absolute_lag},
+                  {"mocap_weld_lag", mode.errors.weld_lag}});
+  };
+  json.object({{"frequency", mode.omega},
+               {"damping_ratio", mode.zeta},
+               {"shape", [&] { write_by_rows(json, found, mode.shape); }},
+               {"errors", [&] { json.object(write_mode_errors); }}});
 }
 
 }  // namespace
@@ -81,7 +72,7 @@ void write_mode(JsonWriter& json, const Predicted& found, const PredictedMode& m
 std::string predicted_json(const Predicted& found, const PredictTask& task) {
   JsonWriter json;
   json.begin_object();
-  json.key("rows").texts(found.rows);
+  json.put("rows", found.rows);
   json.key("couplings").list(found.couplings, [&](const PredictedCoupling& c) {
     write_coupling(json, c);
   });
@@ -89,7 +80,9 @@ std::string predicted_json(const Predicted& found, const PredictTask& task) {
   json.key("target").object({{"distance", task.distance}, {"time", task.time}});
   json.key("modes").list(found.modes,
                          [&](const PredictedMode& mode) { write_mode(json, found, mode); });
-  write_errors(json, found);
+  json.key("joint_errors").or_null(found.errors, [&](const RowErrors& errors) {
+    write_errors(json, found, errors);
+  });
   json.key("limits").list(found.limits, [&](const SchemeLimit& limit) {
     json.object({{"scheme", name_of(limit.scheme)},
                  {"largest_step", limit.largest_step},

@@ -1,10 +1,8 @@
 #include "app/data/html_page.h"
 
 #include <fmt/format.h>
-
 #include <cstdint>
 
-#include "app/data/html_text.h"
 #include "app/data/page_style.h"
 
 namespace twinarm {
@@ -42,6 +40,31 @@ std::string base64_of(const std::string& bytes) {
       text += i + k <= bytes.size() ? kDigits[three >> (18 - 6 * k) & 63] : '=';
   }
   return text;
+}
+
+std::string escaped(const std::string& text) {
+  std::string html;
+  for (char c : text) switch (c) {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      default:
+        html += c;
+    }
+  return html;
+}
+
+std::string yes_no(bool yes, const char* yes_word, const char* no_word) {
+  return fmt::format("<span class={}>{}</span>", yes ? "yes" : "no", yes ? yes_word : no_word);
 }
 
 }  // namespace twinarm

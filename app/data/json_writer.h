@@ -112,6 +112,12 @@ class JsonWriter {
   // As the command line has joint values: a number where there is one, else a list.
   void number_or_list(const std::vector<double>& values);
 
+  // `write` writes the one value of what is there; else null.
+  template <class T, class Write>
+  void or_null(const std::optional<T>& what, const Write& write) {
+    what ? static_cast<void>(write(*what)) : null();
+  }
+
   const std::string& str() const { return text_; }
 
  private:
@@ -141,5 +147,18 @@ class JsonWriter {
   bool first_ = true;  // nothing stands between the last opening bracket and here
   bool keyed_ = false;
 };
+
+// A text that is one object, by its members, or by a function that writes them.
+inline std::string json_text(JsonWriter::Members members) {
+  JsonWriter json;
+  json.object(members);
+  return json.str();
+}
+template <class Write>
+std::string json_text(const Write& write) {
+  JsonWriter json;
+  json.object([&] { write(json); });
+  return json.str();
+}
 
 }  // namespace twinarm

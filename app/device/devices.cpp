@@ -6,7 +6,6 @@
 #include <functional>
 #include <optional>
 
-#include "app/device/device_spec.h"
 #include "app/support/nearest_name.h"
 #include "app/support/streams.h"
 #include "coupling/device/device_log.h"
@@ -29,12 +28,6 @@ OmniAngles turned_by(double angle) {
   return turned;
 }
 
-// With how it is made from the text after its name.
-struct HandEntry {
-  ScriptedHand hand;
-  std::function<std::shared_ptr<const HandSource>(const std::string&)> make;
-};
-
 std::shared_ptr<const HandSource> synthetic_hand_of(const std::string& seed) {
   const auto number = seed.empty() ? std::optional<unsigned>(1) : whole_number<unsigned>(seed);
   if (!number)
@@ -42,26 +35,28 @@ std::shared_ptr<const HandSource> synthetic_hand_of(const std::string& seed) {
   return std::make_shared<SyntheticOperator>(*number);
 }
 
-const std::vector<HandEntry>& hand_entries() {
-  static const std::vector<HandEntry> entries{
-      {{"paper", "", "the paper's automatic motion: three sweeps of a second each", true},
+}  // namespace
+
+const std::vector<ScriptedHand>& scripted_hands() {
+  static const std::vector<ScriptedHand> hands{
+      {"paper", "", "the paper's automatic motion: three sweeps of a second each", true,
        [](const std::string&) { return std::make_shared<AutomaticMotion>(HandMapping{}); }},
-      {{"step", "", "rests 1 s, jumps by 0.3 rad in every joint, rests", true},
+      {"step", "", "rests 1 s, jumps by 0.3 rad in every joint, rests", true,
        [](const std::string&) {
          return std::make_shared<StepHand>(kPosture, turned_by(kScriptTurn), 1.0, 5.0);
        }},
-      {{"chirp", "", "0.15 rad in every joint, from 0.1 to 5 Hz in 20 s", true},
+      {"chirp", "", "0.15 rad in every joint, from 0.1 to 5 Hz in 20 s", true,
        [](const std::string&) {
          OmniAngles amplitude{};
          amplitude.fill(kChirpTurn);
          return std::make_shared<ChirpHand>(kPosture, amplitude, 0.1, 5.0, 20.0);
        }},
-      {{"minimum-jerk", "", "rests 1 s, reaches 0.3 rad further in every joint in 1 s", true},
+      {"minimum-jerk", "", "rests 1 s, reaches 0.3 rad further in every joint in 1 s", true,
        [](const std::string&) {
          return std::make_shared<ReachHand>(kPosture, turned_by(kScriptTurn), 1.0, 1.0);
        }},
-      {{"synthetic", "[:SEED]", "random reaches with tremor; no person", true}, synthetic_hand_of},
-      {{"trace", ":FILE", "a recorded hand, from a CSV file"},
+      {"synthetic", "[:SEED]", "random reaches with tremor; no person", true, synthetic_hand_of},
+      {"trace", ":FILE", "a recorded hand, from a CSV file", false,
        [](const std::string& file) -> std::shared_ptr<const HandSource> {
          if (file.empty()) refuse_spec("trace", "no file is given", "give one: trace:hand.csv");
          if (is_hand_log(file)) return read_hand_log(file);
@@ -70,8 +65,10 @@ const std::vector<HandEntry>& hand_entries() {
            say("twinarm: warning: {}: {}\n", file, warning);
          return trace;
        }}};
-  return entries;
+  return hands;
 }
+
+namespace {
 
 // "name:rest" parted at the first colon.
 std::pair<std::string, std::string> parted(const std::string& spec) {
@@ -80,21 +77,16 @@ std::pair<std::string, std::string> parted(const std::string& spec) {
   return {spec.substr(0, colon), spec.substr(colon + 1)};
 }
 
-template <class Entries, class NameOf>
-auto& entry_named(const Entries& entries, const NameOf& name_of, const std::string& name,
-                  const std::string& kind) {
+template <class Entry>
+const Entry& entry_named(const std::vector<Entry>& entries, const std::string& name,
+                         const std::string& kind) {
   std::vector<std::string> names;
-  for (const auto& entry : entries) {
-    names.push_back(name_of(entry));
-    if (names.back() == name) return entry;
+  for (const Entry& entry : entries) {
+    if (entry.name == name) return entry;
+    names.push_back(entry.name);
   }
   refuse_spec(name, fmt::format("there is no {} of this name", kind),
               name_remedy(name, names, kind + "s"));
-}
-
-const DeviceKind& device_kind(const std::string& name) {
-  return entry_named(
-      device_kinds(), [](const DeviceKind& kind) { return kind.name; }, name, "device");
 }
 
 }  // namespace
@@ -102,20 +94,11 @@ const DeviceKind& device_kind(const std::string& name) {
 const std::vector<DeviceKind>& device_kinds() {
   static const std::vector<DeviceKind> kinds = [] {
     std::vector<DeviceKind> sorted = device_kinds_of_files();
-    std::sort(sorted.begin(), sorted.end(),
-              [](const DeviceKind& a, const DeviceKind& b) { return a.place < b.place; });
+    std::ranges::sort(sorted,
+                      [](const DeviceKind& a, const DeviceKind& b) { return a.place < b.place; });
     return sorted;
   }();
   return kinds;
-}
-
-const std::vector<ScriptedHand>& scripted_hands() {
-  static const std::vector<ScriptedHand> hands = [] {
-    std::vector<ScriptedHand> made;
-    for (const HandEntry& entry : hand_entries()) made.push_back(entry.hand);
-    return made;
-  }();
-  return hands;
 }
 
 std::string device_list() {
@@ -131,28 +114,23 @@ std::string device_list() {
 
 std::shared_ptr<const HandSource> scripted_hand(const std::string& spec) {
   const auto [name, argument] = parted(spec);
-  const auto& entry = entry_named(
-      hand_entries(), [](const HandEntry& e) { return e.hand.name; }, name, "hand");
-  if (entry.hand.argument.empty() && !argument.empty())
+  const ScriptedHand& hand = entry_named(scripted_hands(), name, "hand");
+  if (hand.argument.empty() && !argument.empty())
     refuse_spec(spec, "this hand takes nothing after its name", "give " + name + " alone");
-  return entry.make(argument);
+  return hand.make(argument);
 }
 
 bool stays_inside(const std::string& spec) {
   const auto [name, argument] = parted(spec);
-  const auto& device = device_kind(name);
+  const DeviceKind& device = entry_named(device_kinds(), name, "device");
   if (!device.stays_inside || argument.empty()) return device.stays_inside;
-  const auto& entry = entry_named(
-      hand_entries(), [](const HandEntry& e) { return e.hand.name; }, parted(argument).first,
-      "hand");
-  return entry.hand.stays_inside;
+  return entry_named(scripted_hands(), parted(argument).first, "hand").stays_inside;
 }
 
 std::unique_ptr<HandDevice> open_device(const std::string& spec,
                                         const VirtualOmniSettings& settings) {
   const auto [name, argument] = parted(spec);
-  const auto& entry = device_kind(name);
-  return entry.open(argument, settings);
+  return entry_named(device_kinds(), name, "device").open(argument, settings);
 }
 
 }  // namespace twinarm

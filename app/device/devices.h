@@ -2,13 +2,16 @@
 // `DeviceKind NAME_kind()` (docs/develop/extending_device.md).
 #pragma once
 
+#include <charconv>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "coupling/device/input_device.h"
 #include "coupling/device/virtual_omni.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 
@@ -28,6 +31,7 @@ const std::vector<DeviceKind>& device_kinds_of_files();  // not in their order
 struct ScriptedHand {
   std::string name, argument, help;
   bool stays_inside = false;
+  std::function<std::shared_ptr<const HandSource>(const std::string&)> make;  // of the argument
 };
 const std::vector<ScriptedHand>& scripted_hands();
 
@@ -46,5 +50,19 @@ bool stays_inside(const std::string& spec);
 
 // The hand alone: "paper", "synthetic:7", "trace:hand.csv". Throws InputError.
 std::shared_ptr<const HandSource> scripted_hand(const std::string& spec);
+
+// What these read from the text after a name, and how they refuse it.
+[[noreturn]] inline void refuse_spec(const std::string& spec, const std::string& rule,
+                                     const std::string& remedy) {
+  throw InputError({{"", 0, "--device " + spec, rule, remedy}});
+}
+
+template <class Number>
+std::optional<Number> whole_number(const std::string& text) {
+  Number value{};
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size()) return std::nullopt;
+  return value;
+}
 
 }  // namespace twinarm

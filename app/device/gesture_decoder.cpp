@@ -114,7 +114,7 @@ void KeyDecoder::forget() {
 JoystickDecoder::JoystickDecoder(std::vector<std::uint8_t> axis_codes)
     : codes_(std::move(axis_codes)) {
   if (codes_.empty()) codes_ = {ABS_X, ABS_Y, ABS_Z, ABS_RX, ABS_RY, ABS_RZ, ABS_HAT0X, ABS_HAT0Y};
-  has_right_stick_ = std::find(codes_.begin(), codes_.end(), ABS_RX) != codes_.end();
+  has_right_stick_ = std::ranges::find(codes_, ABS_RX) != codes_.end();
 }
 
 double JoystickDecoder::tilt(int code) const {

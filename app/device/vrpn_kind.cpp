@@ -1,4 +1,3 @@
-#include "app/device/device_spec.h"
 #include "app/device/devices.h"
 #include "app/device/vrpn_client.h"
 

@@ -43,7 +43,7 @@ void write_f32(VrpnBytes& out, double value) {
 }  // namespace
 
 long VrpnStream::Names::count_of(const std::string& name) const {
-  return std::count_if(of.begin(), of.end(), [&](const auto& item) { return item.second == name; });
+  return std::ranges::count_if(of, [&](const auto& item) { return item.second == name; });
 }
 
 bool VrpnStream::Names::is(std::int32_t number, const char* name) const {
@@ -130,7 +130,7 @@ void VrpnStream::take_pose(const Message& message) {
   std::array<double, 7> x{};
   for (std::size_t n = 0; n < 7; ++n) x[n] = read_f64(message.payload + 8 + 8 * n);
   const Eigen::Quaterniond turn(x[6], x[3], x[4], x[5]);
-  const bool finite = std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); });
+  const bool finite = std::ranges::all_of(x, [](double v) { return std::isfinite(v); });
   if (!finite || std::abs(turn.norm() - 1) > 0.1) {
     ++not_finite_;
     return;

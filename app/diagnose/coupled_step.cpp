@@ -16,13 +16,13 @@ constexpr double kRounding = 1e-9;
 
 // Its number in the scene's list: pulls know the name of their coupling.
 int number_of(const SceneDescription& scene, const std::string& name) {
-  const auto found = std::find_if(scene.couplings.begin(), scene.couplings.end(),
-                                  [&](const CouplingDescription& c) { return c.name == name; });
+  const auto found = std::ranges::find_if(
+      scene.couplings, [&](const CouplingDescription& c) { return c.name == name; });
   return static_cast<int>(found - scene.couplings.begin());
 }
 
 bool is_one_of(const std::vector<int>& which, int coupling) {
-  return std::find(which.begin(), which.end(), coupling) != which.end();
+  return std::ranges::find(which, coupling) != which.end();
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ std::vector<StepPart> CoupledStep::merged(const Pulls& pulls, double step) const
     StepPart part = pull.part;
     if (part.hold_steps > 0 && step != step_)
       part.hold_steps = std::max(1, static_cast<int>(std::lround(part.hold_steps * step_ / step)));
-    const auto same = std::find_if(parts.begin(), parts.end(), [&](const StepPart& other) {
+    const auto same = std::ranges::find_if(parts, [&](const StepPart& other) {
       return other.law == part.law && other.treatment == part.treatment &&
              other.hold_steps == part.hold_steps && part.law != StepLaw::god_object;
     });

@@ -78,8 +78,8 @@ class RemedyFinder {
   }
 
   bool any_rate() const {
-    return std::any_of(scene_.couplings.begin(), scene_.couplings.end(),
-                       [](const CouplingDescription& c) { return c.rate > 0; });
+    return std::ranges::any_of(scene_.couplings,
+                               [](const CouplingDescription& c) { return c.rate > 0; });
   }
 
   void add(std::string words, std::vector<std::string> changes) {
@@ -191,14 +191,9 @@ std::vector<Remedy> remedies_of(const SimulatePlan& plan, const PostMortem& dead
 }
 
 void write_remedies(const std::vector<Remedy>& remedies, JsonWriter& json) {
-  json.begin_array();
-  for (const Remedy& remedy : remedies) {
-    json.begin_object();
-    json.key("words").text(remedy.words);
-    json.key("changes").texts(remedy.changes);
-    json.end_object();
-  }
-  json.end_array();
+  json.list(remedies, [&](const Remedy& remedy) {
+    json.object({{"words", remedy.words}, {"changes", remedy.changes}});
+  });
 }
 
 }  // namespace twinarm

@@ -253,7 +253,7 @@ std::vector<Suspect> find_suspects(const SimulatePlan& prepared) {
   if (prepared.run.is_adaptive() || model.nv == 0) return suspects;
   if (input.couplings) add_couplings(prepared, suspects);
   add_dampers(prepared, mass_matrix(model, input.robot.state.x), suspects);
-  std::stable_sort(suspects.begin(), suspects.end(), [](const Suspect& a, const Suspect& b) {
+  std::ranges::stable_sort(suspects, [](const Suspect& a, const Suspect& b) {
     return a.step * b.largest_step > b.step * a.largest_step;
   });
   return suspects;

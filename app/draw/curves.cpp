@@ -98,7 +98,7 @@ std::vector<const CurveKind*> parse_curves(const std::string& text) {
   FaultList faults;
   for (const std::string& word : split(text)) {
     if (word == "none" || word.empty()) continue;
-    const auto found = std::find(known.begin(), known.end(), word);
+    const auto found = std::ranges::find(known, word);
     if (found == known.end())
       faults.add({"", 0, "--plot", "there is no curve '" + word + "'",
                   name_remedy(word, known, "curves")});
@@ -120,8 +120,8 @@ void CurveTrace::add(const SceneModel* scene, const Moment& moment) {
     if (!plot.t.empty() && !(moment.x.t > plot.t.back())) continue;
     for (PlotCurve& curve : plot.curves) curve.y.push_back(kNoValue);
     for (const CurveSample& sample : kinds_[p]->sample(scene, moment)) {
-      auto curve = std::find_if(plot.curves.begin(), plot.curves.end(),
-                                [&](const PlotCurve& c) { return c.name == sample.name; });
+      auto curve = std::ranges::find_if(plot.curves,
+                                        [&](const PlotCurve& c) { return c.name == sample.name; });
       if (curve == plot.curves.end())
         curve =
             plot.curves.insert(plot.curves.end(), {sample.name, palette::curve(plot.curves.size()),

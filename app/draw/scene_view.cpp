@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/draw/palette.h"
-#include "app/draw/variants.h"
+#include "coupling/device/omni.h"
 #include "solver/spatial/rotation_to_axis.h"
 
 namespace twinarm {
@@ -39,6 +39,14 @@ void draw_planes(Stage& stage, const Moment& moment) {
   }
 }
 
+// What stands fixed beside the robots looks alike in all.
+Color lane_color(const CastPart& part, std::size_t lane) {
+  if (part.body == 0 && part.robot < 0) return part.color;
+  Color color = palette::lane(lane);
+  color.a = part.color.a;
+  return color;
+}
+
 void draw_first_variant(Stage& stage, const Moment& moment) {
   for (const CastPart& part : stage.cast.parts) {
     const OfBody mark(stage.list, part.body);
@@ -55,13 +63,33 @@ void draw_first_variant(Stage& stage, const Moment& moment) {
             palette::kConstraint);
 }
 
+// Runs side by side: the same cast once for each, in one colour each, with its name above it.
+void draw_lanes(Stage& stage, const Moment& moment) {
+  DrawList& list = stage.list;
+  for (std::size_t i = 0; i < moment.lanes.size(); ++i) {
+    const ShownLane& lane = moment.lanes[i];
+    add_label(list, lane.above_W, lane.name, {6, -14});
+    list.legend.push_back({palette::lane(i), lane.name});
+    if (i == 0) continue;  // has been drawn: it is the run itself
+    for (const CastPart& part : stage.cast.parts) {
+      Pose X_WM = lane.X_WL[part.body] * part.X_LM;
+      X_WM.p += lane.offset_W;
+      add_mesh_instance(list, part.mesh, X_WM, lane_color(part, i), part.scale);
+    }
+    for (const CastTie& tie : stage.cast.ties)
+      add_rod(list, lane.offset_W + lane.X_WL[tie.a] * tie.p_La,
+              lane.offset_W + lane.X_WL[tie.b] * tie.p_Lb, 0.004 * stage.extent.radius(),
+              palette::kConstraint);
+  }
+}
+
 void widen_to(double& largest, double value) {
   if (std::isfinite(value)) largest = std::max(largest, value);
 }
 
 // "box_stack" reads better as two words.
 std::string words_of(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
+  std::ranges::replace(name, '_', ' ');
   return name;
 }
 
@@ -161,8 +189,8 @@ void measure(Stage& stage, const Moment& moment, Measured measured) {
 void set_view(Stage& stage, const CameraWish& wish, double aspect) {
   stage.scales.length = stage.extent.radius();
   Ground& ground = stage.list.ground;
-  const bool has_slope = std::any_of(stage.cast.planes.begin(), stage.cast.planes.end(),
-                                     [](const CastPlane& plane) { return !is_level(plane); });
+  const bool has_slope = std::ranges::any_of(
+      stage.cast.planes, [](const CastPlane& plane) { return !is_level(plane); });
   const double radius = stage.extent.radius();
   ground.cell = round_down(0.3 * radius);
   const double lead = ground.cell / std::pow(10.0, std::floor(std::log10(1.001 * ground.cell)));
@@ -182,6 +210,26 @@ void set_view(Stage& stage, const CameraWish& wish, double aspect) {
   }
   if (stage.has_hand) place_device(stage);
   stage.list.camera = make_camera(wish, stage.extent, aspect);
+}
+
+Vector3 device_shoulder() {
+  const OmniFigures omni;
+  return {0, omni.lift, -omni.back};
+}
+
+void place_device(Stage& stage) {
+  // Device axes: x right, y up, z to the user, who sits at the world's -y.
+  Pose X_WD;
+  for (int c = 0; c < 3; ++c) X_WD.R.col(c) = world_from_device(Vector3::Unit(c));
+  const Vector3 foot = device_shoulder() - Vector3(0, kDeviceShoulder, 0);
+  const Vector3 place(stage.extent.low().x() - 0.2, stage.extent.low().y(),
+                      stage.list.ground.height);
+  X_WD.p = place - X_WD.R * foot;
+  stage.X_WDevice = X_WD;
+  if (!stage.frames_device) return;
+  for (const double x : {-0.13, 0.13})
+    for (const double y : {0.0, 0.4})
+      for (const double z : {-0.09, 0.3}) stage.extent.add(X_WD * (foot + Vector3(x, y, z)));
 }
 
 void draw_bodies(Stage& stage, const Moment& moment) {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include "app/render/list/texture_places.h"
+#include "app/render/list/draw_mesh.h"
 #include "collision/geometry/convex_hull.h"
 #include "collision/import/robot/mesh_geometry.h"
 

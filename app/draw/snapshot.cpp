@@ -30,12 +30,10 @@ std::vector<std::size_t> leaders(const SceneModel& scene) {
     const auto outranks = [&](const SceneCoupling& other) {
       return other.robot == all[c].robot && other.target != CouplingTarget::Kind::start;
     };
-    if (all[c].target == CouplingTarget::Kind::start &&
-        std::any_of(all.begin(), all.end(), outranks))
+    if (all[c].target == CouplingTarget::Kind::start && std::ranges::any_of(all, outranks))
       continue;
-    const auto same = std::find_if(found.begin(), found.end(), [&](std::size_t other) {
-      return is_one_twin(all[c], all[other]);
-    });
+    const auto same = std::ranges::find_if(
+        found, [&](std::size_t other) { return is_one_twin(all[c], all[other]); });
     if (same == found.end())
       found.push_back(c);
     else if (all[*same].driven.gripper.empty())

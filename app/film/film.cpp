@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "app/support/interrupt.h"
+#include "app/support/text_fields.h"
 #include "solver/support/diagnostics.h"
 
 extern char** environ;
@@ -44,38 +45,19 @@ class PngFilm final : public Film {
 
 std::vector<std::string> ffmpeg_words(const std::string& program, const std::string& out,
                                       const FilmFormat& format) {
-  std::vector<std::string> words{program,
-                                 "-hide_banner",
-                                 "-loglevel",
-                                 "error",
-                                 "-y",
-                                 "-f",
-                                 "rawvideo",
-                                 "-pix_fmt",
-                                 "rgba",
-                                 "-s",
-                                 fmt::format("{}x{}", format.width, format.height),
-                                 "-r",
-                                 fmt::format("{:g}", format.rate),
-                                 "-i",
-                                 "-",
-                                 "-an"};
-  const std::vector<std::string> mp4{
-      "-vf",       "pad=ceil(iw/2)*2:ceil(ih/2)*2",  // this pixel format has no odd sizes
-      "-c:v",      "libx264",
-      "-crf",      "18",
-      "-preset",   "fast",
-      "-pix_fmt",  "yuv420p",
-      "-movflags", "+faststart",
-      "-f",        "mp4",
-      out};
-  const std::string one_palette =  // of its own, for the whole film
-      "[0:v]split[a][b];[a]palettegen=stats_mode=diff[p];"
-      "[b][p]paletteuse=dither=bayer:bayer_scale=4";
-  const std::vector<std::string> gif{
-      "-filter_complex", one_palette, "-loop", "0", "-f", "gif", out};
-  const auto& more = format.kind == FilmKind::mp4 ? mp4 : gif;
-  words.insert(words.end(), more.begin(), more.end());
+  // This pixel format of mp4 has no odd sizes; a gif has one palette of its own.
+  const char* const mp4 =
+      "-vf pad=ceil(iw/2)*2:ceil(ih/2)*2 -c:v libx264 -crf 18 -preset fast -pix_fmt yuv420p "
+      "-movflags +faststart -f mp4";
+  const char* const gif =
+      "-filter_complex [0:v]split[a][b];[a]palettegen=stats_mode=diff[p];"
+      "[b][p]paletteuse=dither=bayer:bayer_scale=4 -loop 0 -f gif";
+  const std::string options = fmt::format(
+      "-hide_banner -loglevel error -y -f rawvideo -pix_fmt rgba -s {}x{} -r {:g} -i - -an {}",
+      format.width, format.height, format.rate, format.kind == FilmKind::mp4 ? mp4 : gif);
+  std::vector<std::string> words = split(options, ' ');
+  words.insert(words.begin(), program);
+  words.push_back(out);
   return words;
 }
 

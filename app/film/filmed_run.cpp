@@ -7,7 +7,7 @@
 
 #include "app/draw/cameras.h"
 #include "app/record/record_run.h"
-#include "app/record/recorded_instant.h"
+#include "app/record/unpack.h"
 #include "app/run/run.h"
 #include "app/support/interrupt.h"
 #include "app/support/streams.h"

@@ -49,8 +49,7 @@ class Rendering::View {
                                          : static_cast<int>(std::lround(kPlotShare * wish.height))),
         height_(wish.height - plot_height_) {
     if (!run.name.empty()) stage_.name = run.name;
-    stage_.frames_device =
-        std::find(wish.overlays.begin(), wish.overlays.end(), "device") != wish.overlays.end();
+    stage_.frames_device = std::ranges::find(wish.overlays, "device") != wish.overlays.end();
     stage_.list.background = wish.background;
     for (const RunInstant& instant : run.around) look_ahead(stage_, run.moment(instant));
     for (const RunInstant& instant : run.shown) look_at(stage_, run.moment(instant));
@@ -151,7 +150,7 @@ std::vector<std::string> Rendering::notes() const {
   std::vector<std::string> all;
   for (const auto& view : views_)
     for (const std::string& note : view->notes())
-      if (std::find(all.begin(), all.end(), note) == all.end()) all.push_back(note);
+      if (std::ranges::find(all, note) == all.end()) all.push_back(note);
   return all;
 }
 

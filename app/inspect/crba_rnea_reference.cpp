@@ -13,7 +13,7 @@ std::vector<double> as_list(const Eigen::VectorXd& v) {
 
 // Nothing moves, those of given motion neither.
 State<double> at_rest(const Model<double>& model, State<double> x) {
-  std::fill(x.qd.begin(), x.qd.end(), 0);
+  std::ranges::fill(x.qd, 0);
   for (std::size_t i = 1; i < model.parent.size(); ++i)
     if (model.joint[i] == JointType::prescribed)
       std::fill_n(x.q.begin() + static_cast<std::ptrdiff_t>(model.iq[i] + 7), 12, 0);

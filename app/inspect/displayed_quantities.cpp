@@ -111,11 +111,6 @@ Eigen::MatrixXd LinkAxes::square(const std::vector<double>& D) const {
   return T_.transpose() * Eigen::Map<const RowMajor>(D.data() + in_.w.iD[body_], nv, nv) * T_;
 }
 
-ArticulatedInertia<double> own_inertia(const Inspection& in, std::size_t body) {
-  ArticulatedInertia<double> own(in.model.I[body]);
-  if (in.forces.has_impedance) own += in.forces.impedance[body];
-  return own;
-}
 Force<double> own_force(const Inspection& in, std::size_t body) {
   return crf(in.w.v[body], in.model.I[body] * in.w.v[body]) - in.forces.f_ext[body];
 }

@@ -74,8 +74,7 @@ struct Shown {
 // inputs that are not zero.
 std::vector<Shown> shown_quantities(const Inspection& in, int pass, std::size_t body);
 
-// The rigid-body inertia, and the force of the body alone, v x* I v - f_ext.
-ArticulatedInertia<double> own_inertia(const Inspection& in, std::size_t body);
+// The force of the body alone, v x* I v - f_ext.
 Force<double> own_force(const Inspection& in, std::size_t body);
 
 }  // namespace twinarm

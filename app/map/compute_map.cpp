@@ -9,7 +9,7 @@
 #include <mutex>
 
 #include "app/map/cell_batch.h"
-#include "app/map/cell_run.h"
+#include "app/map/cell_measure.h"
 #include "app/support/interrupt.h"
 #include "app/support/parallel_for.h"
 #include "app/support/progress.h"
@@ -20,28 +20,35 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+struct MapCell {
+  std::pair<int, int> place;  // (iy, ix)
+  CellBatch::Place at;
+};
 // What a thread takes at once: rows of a block where cells run alone; where they run side by side,
 // blocks whose cells share steps of one length, and with them the table of the twin's motion.
-struct MapTask {
-  std::vector<std::size_t> blocks;
-  int row = -1;  // of the map; -1: all rows
-};
+using MapTask = std::vector<MapCell>;
 
 class MapWork {
  public:
-  MapWork(const MapJob& job, const std::vector<int>& missing) : job_(job), blocks_(blocks_of(job)) {
-    std::map<int, MapTask> groups;
-    for (const int b : missing) {
-      const MapBlocks::Block block = blocks_[b];
-      const std::size_t place = open_.size();
-      open_.push_back({b, job.side_by_side ? 1 : block.y1 - block.y0,
-                       std::vector<double>(kMapMeasures.size() * block.cells())});
-      if (job.side_by_side)
-        groups[group_of(b)].blocks.push_back(place);
-      else
-        for (int y = block.y0; y < block.y1; ++y) tasks_.push_back({{place}, y});
+  // Those cells of the blocks that the file does not have.
+  MapWork(const MapJob& job, const std::vector<int>& numbers, const TileFile& file) : job_(job) {
+    const MapBlocks blocks = blocks_of(job);
+    std::map<std::pair<int, int>, MapTask> groups;  // by group, and by row where cells run alone
+    for (const int b : numbers) {
+      const MapBlocks::Block block = blocks[b];
+      for (int y = block.y0; y < block.y1; ++y)
+        for (int x = block.x0; x < block.x1; ++x)
+          if (!file.cells.contains({y, x})) {
+            const auto group =
+                job.side_by_side ? std::pair{group_of(b, blocks), 0} : std::pair{b, y};
+            groups[group].push_back({{y, x}, {job.x.at(x), job.y.at(y)}});
+          }
     }
-    for (auto& [number, task] : groups) tasks_.push_back(std::move(task));
+    for (auto& [group, task] : groups) tasks_.push_back(std::move(task));
+    const auto step_of = [by_x = job.x.path == "step"](const MapCell& cell) {
+      return by_x ? cell.at.x : cell.at.y;
+    };
+    for (MapTask& task : tasks_) std::ranges::stable_sort(task, {}, step_of);
   }
 
   std::size_t tasks() const { return tasks_.size(); }
@@ -50,31 +57,20 @@ class MapWork {
   void work(std::size_t number) {
     const MapTask& task = tasks_[number];
     std::unique_ptr<CellBatch> batch = job_.side_by_side ? free_batch() : nullptr;
-    compute(task, batch.get());
+    const std::vector<CellValues> values = compute(task, batch.get());
     const std::lock_guard held(lock_);
     if (batch) free_.push_back(std::move(batch));
-    for (const std::size_t b : task.blocks)
-      if (--open_[b].tasks_left == 0)
-        finished_.emplace_back(open_[b].number, std::move(open_[b].values));
+    for (std::size_t i = 0; i < task.size(); ++i) finished_.emplace_back(task[i].place, values[i]);
   }
 
   // Takes over what is finished since the last call.
   void collect(TileFile& file) {
     const std::lock_guard held(lock_);
-    for (auto& [number, values] : finished_) file.blocks[number] = std::move(values);
+    file.cells.insert(finished_.begin(), finished_.end());
     finished_.clear();
   }
 
  private:
-  struct OpenBlock {
-    int number, tasks_left;
-    std::vector<double> values;
-  };
-  struct Cell {
-    CellBatch::Place place;
-    double* out;
-  };
-
   // As many are made as threads work at once.
   std::unique_ptr<CellBatch> free_batch() {
     {
@@ -88,72 +84,56 @@ class MapWork {
     return CellBatch::of(job_);
   }
 
-  int group_of(int b) const {
-    if (job_.x.path == "step") return b % blocks_.columns();
-    return job_.y.path == "step" ? b / blocks_.columns() : b;
+  int group_of(int b, const MapBlocks& blocks) const {
+    if (job_.x.path == "step") return b % blocks.columns();
+    return job_.y.path == "step" ? b / blocks.columns() : b;
   }
 
-  std::vector<Cell> cells_of(const MapTask& task) {
-    std::vector<Cell> cells;
-    for (const std::size_t b : task.blocks) {
-      const MapBlocks::Block block = blocks_[open_[b].number];
-      double* out = open_[b].values.data();
-      for (int y = block.y0; y < block.y1; ++y)
-        for (int x = block.x0; x < block.x1; ++x, out += kMapMeasures.size())
-          if (task.row < 0 || task.row == y) cells.push_back({{job_.x.at(x), job_.y.at(y)}, out});
-    }
-    const bool by_x = job_.x.path == "step";
-    std::stable_sort(cells.begin(), cells.end(), [&](const Cell& a, const Cell& b) {
-      return by_x ? a.place.x < b.place.x : a.place.y < b.place.y;
-    });
-    return cells;
-  }
-
-  void compute(const MapTask& task, CellBatch* batch) {
+  std::vector<CellValues> compute(const MapTask& task, CellBatch* batch) const {
     constexpr std::size_t kAtOnce = 512;  // between two looks for Ctrl-C
-    const std::vector<Cell> cells = cells_of(task);
-    for (std::size_t first = 0; first < cells.size(); first += kAtOnce) {
-      const std::size_t count = std::min(kAtOnce, cells.size() - first);
+    std::vector<CellValues> values;
+    for (std::size_t first = 0; first < task.size(); first += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, task.size() - first);
       std::vector<CellBatch::Place> places;
-      for (std::size_t i = 0; i < count; ++i) places.push_back(cells[first + i].place);
+      for (std::size_t i = 0; i < count; ++i) places.push_back(task[first + i].at);
       std::vector<std::optional<CellValues>> found(count);
       if (batch) found = batch->run(places);
       for (std::size_t i = 0; i < count; ++i) {
         check_interrupt();
         const CellBatch::Place& at = places[i];
-        if (!found[i]) found[i] = run_cell(job_, prepare_cell(job_, at.x, at.y));
-        std::copy(found[i]->begin(), found[i]->end(), cells[first + i].out);
+        values.push_back(found[i] ? *found[i] : run_cell(job_, prepare_cell(job_, at.x, at.y)));
       }
     }
+    return values;
   }
 
   const MapJob& job_;
-  const MapBlocks blocks_;
   std::vector<MapTask> tasks_;
   std::mutex lock_{};  // of what follows
-  std::vector<OpenBlock> open_;
-  std::vector<std::pair<int, std::vector<double>>> finished_;
+  std::vector<std::pair<std::pair<int, int>, CellValues>> finished_;
   std::vector<std::unique_ptr<CellBatch>> free_;
 };
 
-// Writes the file where something came in and the last time is a second ago, or at the end.
+// Writes the file where something came in, every second or, of a large file, more seldom; and at
+// the end.
 class Keeper {
  public:
   Keeper(const TileFile& file, const std::filesystem::path& path)
-      : file_(file), path_(path), kept_(file.blocks.size()) {}
+      : file_(file), path_(path), kept_(file.cells.size()) {}
   void keep(bool at_once) {
-    if (file_.blocks.size() == kept_) return;
-    if (!at_once && Clock::now() - last_ < std::chrono::seconds(1)) return;
-    write_whole_file(path_, to_bytes(file_));
-    kept_ = file_.blocks.size();
-    last_ = Clock::now();
+    const Clock::time_point begin = Clock::now();
+    if (file_.cells.size() == kept_ || (!at_once && begin < next_)) return;
+    write_whole_file(path_, to_text(file_));
+    kept_ = file_.cells.size();
+    const Clock::time_point end = Clock::now();
+    next_ = end + std::max<Clock::duration>(std::chrono::seconds(1), 10 * (end - begin));
   }
 
  private:
   const TileFile& file_;
   const std::filesystem::path& path_;
   std::size_t kept_;
-  Clock::time_point last_{};
+  Clock::time_point next_{};
 };
 
 }  // namespace
@@ -161,11 +141,11 @@ class Keeper {
 void compute_blocks(const MapJob& job, const std::vector<int>& wanted,
                     const std::filesystem::path& work, const ComputeOptions& options,
                     TileFile& file) {
-  std::vector<int> missing;
-  for (const int b : wanted)
-    if (!file.blocks.contains(b)) missing.push_back(b);
+  std::vector<int> missing = wanted;
+  const MapBlocks blocks = blocks_of(job);
+  std::erase_if(missing, [&](int b) { return file.has_all_of(blocks[b]); });
   if (missing.empty()) return;
-  MapWork cells(job, missing);
+  MapWork cells(job, missing, file);
   Keeper keeper(file, work);
   Progress progress(options.quiet);
   progress.stage(

@@ -12,10 +12,10 @@ namespace twinarm {
 namespace {
 
 void write_axis(JsonWriter& json, const char* name, const MapAxis& axis, const std::string& unit) {
-  json.key(name).begin_array();
-  for (int i = 0; i < axis.count; ++i) json.number(axis.at(i));
-  json.end_array();
-  json.members({{std::string(name) + "_path", axis.path}, {std::string(name) + "_unit", unit}});
+  std::vector<double> values;
+  for (int i = 0; i < axis.count; ++i) values.push_back(axis.at(i));
+  const std::string prefix = name;
+  json.members({{name, values}, {prefix + "_path", axis.path}, {prefix + "_unit", unit}});
 }
 
 std::string or_empty(double value) {
@@ -25,15 +25,11 @@ std::string or_empty(double value) {
 }  // namespace
 
 std::vector<double> values_of(const MapJob& job, const TileFile& file, MapMeasure measure) {
-  const MapBlocks blocks = blocks_of(job);
   const auto which = static_cast<std::size_t>(measure), nx = static_cast<std::size_t>(job.nx());
   std::vector<double> values(nx * static_cast<std::size_t>(job.ny()));
-  for (const auto& [number, cells] : file.blocks) {
-    const MapBlocks::Block block = blocks[number];
-    std::size_t at = which;
-    for (int iy = block.y0; iy < block.y1; ++iy)
-      for (int ix = block.x0; ix < block.x1; ++ix, at += kMapMeasures.size())
-        values[static_cast<std::size_t>(iy) * nx + static_cast<std::size_t>(ix)] = cells[at];
+  for (const auto& [place, cell] : file.cells) {
+    const auto [iy, ix] = place;
+    values[static_cast<std::size_t>(iy) * nx + static_cast<std::size_t>(ix)] = cell[which];
   }
   return values;
 }

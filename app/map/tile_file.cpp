@@ -2,52 +2,82 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
-#include "app/record/recording.h"
 #include "app/support/output_file.h"
+#include "app/support/text_fields.h"
 #include "app/support/version.h"
-#include "solver/support/state_archive.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
 
-constexpr const char* kFirstLine = "twinarm map 1";
-constexpr std::size_t kHeadMost = 65536;               // bytes
-constexpr std::uintmax_t kMostTileBytes = 256u << 20;  // four million cells
+constexpr const char* kFirstLine = "# twinarm map 2\n";
+constexpr const char* kFirstLineOfOld = "twinarm map 1\n";
+constexpr std::uintmax_t kMostTileBytes = 512u << 20;  // four million cells
+constexpr const char* kOtherFile =
+    "give a file that `twinarm map` has written with --work or --tile";
 
-std::string block_bytes(int number, const std::vector<double>& values) {
-  Memory memory;
-  auto n = static_cast<std::uint32_t>(number);
-  auto cells = static_cast<std::uint32_t>(values.size());
-  memory.visit(n);
-  memory.visit(cells);
-  for (double value : values) memory.visit(value);
-  auto sum = hash_of(memory.bytes());
-  memory.visit(sum);
-  return memory.bytes();
+std::string table_heading() {
+  std::string line = "ix,iy";
+  for (const char* measure : kMapMeasures) line += std::string(",") + measure;
+  return line;
 }
 
-InputError is_damaged(const std::filesystem::path& path, const std::string& how,
-                      std::string_view code) {
-  return InputError({{path.string(), 0, "", "the file of a map is damaged: " + how,
-                      "delete it, and compute its part again", code}});
+InputError not_readable(const std::filesystem::path& path, int line, const std::string& rule,
+                        const std::string& remedy, std::string_view code) {
+  return InputError({{path.string(), line, "", rule, remedy, code}});
 }
 
 std::string key_of(const std::string& line) {
   return line.substr(0, line.find(' '));
 }
 
-bool is_compared(const std::string& key) {
-  return key != "scene";  // its content is; where it lies may differ
+// A line of the table into `file`; false where it is none.
+bool read_cell(const std::string& line, TileFile& file) {
+  const std::vector<std::string> fields = split(line);
+  if (fields.size() != 2 + kMapMeasures.size()) return false;
+  std::array<double, 2 + kMapMeasures.size()> numbers{};
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const std::optional<double> number = parse_number(fields[i]);
+    const bool is_empty = i > 2 && fields[i].empty();  // a measure without a value
+    if (!number && !is_empty) return false;
+    numbers[i] = number.value_or(std::numeric_limits<double>::quiet_NaN());
+  }
+  for (const double index : {numbers[0], numbers[1]})
+    if (index < 0 || index > 1e9 || index != std::floor(index)) return false;
+  const std::pair place{static_cast<int>(numbers[1]), static_cast<int>(numbers[0])};
+  CellValues values;
+  std::copy(numbers.begin() + 2, numbers.end(), values.begin());
+  return file.cells.emplace(place, values).second;
+}
+
+bool is_same(const CellValues& a, const CellValues& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), [](double one, double other) {
+    return one == other || (std::isnan(one) && std::isnan(other));
+  });
 }
 
 }  // namespace
+
+MapBlocks::Block MapBlocks::operator[](int b) const {
+  const int x0 = b % columns() * kSide, y0 = b / columns() * kSide;
+  return {x0, std::min(x0 + kSide, nx), y0, std::min(y0 + kSide, ny)};
+}
 
 std::string TileFile::value_of(const std::string& key) const {
   for (const std::string& line : head)
     if (key_of(line) == key) return line.size() > key.size() ? line.substr(key.size() + 1) : "";
   return "";
+}
+
+bool TileFile::has_all_of(const MapBlocks::Block& block) const {
+  for (int iy = block.y0; iy < block.y1; ++iy)
+    for (int ix = block.x0; ix < block.x1; ++ix)
+      if (!cells.contains({iy, ix})) return false;
+  return true;
 }
 
 MapBlocks blocks_of(const MapJob& job) {
@@ -62,61 +92,63 @@ TileFile empty_tile_file(const MapJob& job) {
   return file;
 }
 
-std::string to_bytes(const TileFile& file) {
-  std::string bytes = std::string(kFirstLine) + "\n";
-  for (const std::string& line : file.head) bytes += line + "\n";
-  bytes += "\n";
-  for (const auto& [number, values] : file.blocks) bytes += block_bytes(number, values);
-  return bytes;
+std::string to_text(const TileFile& file) {
+  std::string text = kFirstLine;
+  for (const std::string& line : file.head) text += "# " + line + "\n";
+  text += table_heading() + "\n";
+  for (const auto& [place, values] : file.cells) {
+    text += std::to_string(place.second) + "," + std::to_string(place.first);
+    for (const double value : values) {
+      text += ',';
+      if (std::isfinite(value)) text += number_text(value);
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 TileFile read_tile_file(const std::filesystem::path& path) {
   std::error_code unknown;
   if (std::filesystem::file_size(path, unknown) > kMostTileBytes && !unknown)
-    throw InputError(
-        {{path.string(), 0, "", "has more than 256 MiB: no map is as large",
-          "give a file that `twinarm map` has written with --work or --tile", "file.too-large"}});
-  const std::string bytes = read_whole_file(path);
-  const std::size_t end = bytes.substr(0, kHeadMost).find("\n\n");
-  if (!bytes.starts_with(std::string(kFirstLine) + "\n") || end == std::string::npos)
-    throw InputError(
-        {{path.string(), 0, "", "is no file of a map",
-          "give a file that `twinarm map` has written with --work or --tile", "map.file-form"}});
+    throw not_readable(path, 0, "has more than 512 MiB: no map is as large", kOtherFile,
+                       "file.too-large");
+  const std::string text = read_whole_file(path);
+  if (text.starts_with(kFirstLineOfOld))
+    throw not_readable(path, 0, "an earlier version of twinarm has written it",
+                       "delete it, and compute its part again", "map.old-file");
+  if (!text.starts_with(kFirstLine))
+    throw not_readable(path, 0, "is no file of a map", kOtherFile, "map.file-form");
   TileFile file;
-  for (std::size_t at = bytes.find('\n') + 1; at < end + 1;) {
-    const std::size_t line_end = bytes.find('\n', at);
-    file.head.push_back(bytes.substr(at, line_end - at));
-    at = line_end + 1;
+  bool is_table = false;
+  int number = 1;
+  for (std::size_t at = text.find('\n') + 1, end = 0; at < text.size(); at = end + 1) {
+    end = text.find('\n', at);
+    ++number;
+    const auto damaged = [&](const std::string& how, std::string_view code) {
+      return not_readable(path, number, "the file of a map is damaged: " + how,
+                          "delete it, and compute its part again", code);
+    };
+    if (end == text.npos) throw damaged("its end is cut off", "map.cut-short");
+    const std::string line = text.substr(at, end - at);
+    if (!is_table && line.starts_with("# "))
+      file.head.push_back(line.substr(2));
+    else if (!is_table && line == table_heading())
+      is_table = true;
+    else if (!is_table || !read_cell(line, file))
+      throw damaged(is_table ? "no cell, or one that is there twice" : "no line of its head",
+                    "map.row");
   }
-  for (std::size_t at = end + 2; at < bytes.size();) {
-    std::uint32_t number = 0, cells = 0;
-    constexpr std::size_t kFrame = 2 * sizeof number + sizeof(std::uint64_t);
-    if (bytes.size() - at < kFrame) throw is_damaged(path, "its end is cut off", "map.cut-short");
-    std::memcpy(&number, bytes.data() + at, sizeof number);
-    std::memcpy(&cells, bytes.data() + at + sizeof number, sizeof cells);
-    if (cells > kMapMeasures.size() * MapBlocks::kSide * MapBlocks::kSide)
-      throw is_damaged(path, "a block is too large", "map.block-size");
-    if (bytes.size() - at < kFrame + 8 * cells)
-      throw is_damaged(path, "its end is cut off", "map.cut-short");
-    std::vector<double> values(cells);
-    if (cells > 0)  // else there is no place to copy to
-      std::memcpy(values.data(), bytes.data() + at + 2 * sizeof number, 8 * cells);
-    const std::string again = block_bytes(static_cast<int>(number), values);
-    if (bytes.compare(at, again.size(), again) != 0)
-      throw is_damaged(path, fmt::format("block {} has another check sum", number), "map.checksum");
-    file.blocks[static_cast<int>(number)] = std::move(values);
-    at += again.size();
-  }
+  if (!is_table) throw not_readable(path, 0, "is no file of a map", kOtherFile, "map.file-form");
   return file;
 }
 
-void check_same_map(const TileFile& found, const TileFile& wanted,
-                    const std::filesystem::path& path, const std::string& remedy,
-                    FaultList& faults) {
-  for (const std::string& line : wanted.head) {
+void add_cells(const TileFile& from, const MapBlocks& blocks, const std::filesystem::path& path,
+               const std::string& remedy, TileFile& into) {
+  FaultList faults;
+  for (const std::string& line : into.head) {
     const std::string key = key_of(line);
-    if (!is_compared(key)) continue;
-    const std::string here = found.value_of(key), there = wanted.value_of(key);
+    if (key == "scene") continue;  // its content is compared; where it lies may differ
+    const std::string here = from.value_of(key), there = into.value_of(key);
     if (here == there) continue;
     const std::string what = key == "content"
                                  ? "the scene, or a file that it names, is not the same"
@@ -125,35 +157,30 @@ void check_same_map(const TileFile& found, const TileFile& wanted,
     faults.add(
         {path.string(), 0, "", "the file is of another map: " + what, remedy, "map.other-map"});
   }
-}
-
-void add_blocks(const TileFile& from, const MapBlocks& blocks, const std::filesystem::path& path,
-                TileFile& into, FaultList& faults) {
-  const auto fault = [&](int number, const char* rule) {
-    faults.add({path.string(), 0, fmt::format("block {}", number), rule,
-                "delete the file, and compute its part again", "map.blocks"});
-  };
-  for (const auto& [number, values] : from.blocks) {
-    if (number < 0 || number >= blocks.count() ||
-        values.size() != kMapMeasures.size() * blocks[number].cells()) {
-      fault(number, "the map has no block of that size there");
-      continue;
-    }
-    const auto [place, is_new] = into.blocks.emplace(number, values);
-    if (!is_new && std::memcmp(place->second.data(), values.data(), 8 * values.size()) != 0)
-      fault(number, "another file has other values for it");
+  faults.check();
+  for (const auto& [place, values] : from.cells) {
+    const auto [iy, ix] = place;
+    const auto fault = [&, x = ix, y = iy](const char* rule) {
+      faults.add({path.string(), 0, fmt::format("cell {},{}", x, y), rule,
+                  "delete the file, and compute its part again", "map.blocks"});
+    };
+    if (ix >= blocks.nx || iy >= blocks.ny)
+      fault("the map has no such cell");
+    else if (!is_same(into.cells.emplace(place, values).first->second, values))
+      fault("another file has other values for it");
   }
+  faults.check();
 }
 
 TileFile resume_tile_file(const std::filesystem::path& work, const TileFile& empty,
                           const MapBlocks& blocks, bool force) {
   TileFile file = empty;
-  FaultList faults;
-  const auto found = attempt(faults, [&] { return read_tile_file(work); });
-  if (found) check_same_map(*found, empty, work, "name another --work, or give --force", faults);
-  if (found && faults.empty()) add_blocks(*found, blocks, work, file, faults);
-  if (force && !faults.empty()) return empty;
-  faults.check();
+  try {
+    add_cells(read_tile_file(work), blocks, work, "name another --work, or give --force", file);
+  } catch (const InputError&) {
+    if (force) return empty;
+    throw;
+  }
   return file;
 }
 
@@ -161,21 +188,15 @@ TileFile merge_tile_files(const std::vector<std::filesystem::path>& parts, const
                           const MapBlocks& blocks) {
   TileFile file = empty;
   FaultList faults;
-  for (const std::filesystem::path& path : parts) {
-    const auto part = attempt(faults, [&] { return read_tile_file(path); });
-    if (!part) continue;
-    FaultList of_this;
-    check_same_map(*part, empty, path, "merge files of one map", of_this);
-    if (of_this.empty()) add_blocks(*part, blocks, path, file, of_this);
+  for (const std::filesystem::path& path : parts)
     attempt(faults, [&] {
-      of_this.check();
+      add_cells(read_tile_file(path), blocks, path, "merge files of one map", file);
       return true;
     });
-  }
   std::string missing;
   int count = 0;
   for (int b = 0; b < blocks.count(); ++b)
-    if (!file.blocks.contains(b) && ++count <= 10) missing += " " + std::to_string(b);
+    if (!file.has_all_of(blocks[b]) && ++count <= 10) missing += " " + std::to_string(b);
   if (count > 0)
     faults.add({"", 0, "--merge",
                 fmt::format("{} of {} blocks are missing:{}{}", count, blocks.count(), missing,

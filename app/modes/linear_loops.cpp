@@ -123,7 +123,7 @@ Split split_by(const MatrixXd& J) {
   }
   split.follow.assign(order.begin(), order.begin() + rank);
   split.lead.assign(order.begin() + rank, order.end());
-  std::sort(split.lead.begin(), split.lead.end());
+  std::ranges::sort(split.lead);
   split.Z = MatrixXd::Zero(n, n - rank);
   split.J_follow = J(Eigen::all, split.follow);
   for (std::size_t k = 0; k < split.lead.size(); ++k) {
@@ -184,7 +184,7 @@ LoopedSystem linearise_with_loops(const Model<double>& model, const State<double
   MatrixXd J = MatrixXd::Zero(rows + signed_index(still.size()), n);
   if (loops.any()) J.topRows(rows) = conditions.J() * G;
   for (std::size_t k = 0; k < still.size(); ++k) {
-    const auto found = std::find(free.dofs.begin(), free.dofs.end(), still[k]);
+    const auto found = std::ranges::find(free.dofs, still[k]);
     if (found != free.dofs.end()) J(rows + signed_index(k), found - free.dofs.begin()) = 1;
   }
   const Split split = split_by(J);

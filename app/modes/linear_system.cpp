@@ -194,8 +194,8 @@ std::vector<Mode> modes_of(const Eigen::MatrixXd& given) {
       x += Z.cast<std::complex<double>>() * (into.cast<std::complex<double>>() * y) / lambda;
     modes.push_back(mode_of(lambda / T, x));
   }
-  std::stable_sort(modes.begin(), modes.end(),
-                   [](const Mode& a, const Mode& b) { return a.frequency() < b.frequency(); });
+  std::ranges::stable_sort(
+      modes, [](const Mode& a, const Mode& b) { return a.frequency() < b.frequency(); });
   return modes;
 }
 

@@ -58,8 +58,8 @@ std::vector<std::string> warnings_of(const SimulateInput& input,
   std::vector<std::string> warnings = input.robot.warnings;
   const Model<double>& model = input.robot.model;
   const auto is_positive = [](double limit) { return limit > 0; };
-  if (std::any_of(model.coulomb_plus.begin(), model.coulomb_plus.end(), is_positive) ||
-      std::any_of(model.coulomb_minus.begin(), model.coulomb_minus.end(), is_positive))
+  if (std::ranges::any_of(model.coulomb_plus, is_positive) ||
+      std::ranges::any_of(model.coulomb_minus, is_positive))
     warnings.emplace_back("Coulomb friction of joints has no linear part: it is left out");
   if (input.scene && input.scene->may_touch())
     warnings.emplace_back(

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,10 +15,10 @@ namespace {
 
 void write_shape(JsonWriter& json, const SimulateInput& input, const ModesOf& found,
                  const Eigen::VectorXd& by_velocity) {
-  json.begin_object();
-  for (const NamedJoint& joint : found.joints)
-    json.key(name_of_part(input, joint)).number_or_list(shape_part(input, joint, by_velocity));
-  json.end_object();
+  json.object([&] {
+    for (const NamedJoint& joint : found.joints)
+      json.key(name_of_part(input, joint)).number_or_list(shape_part(input, joint, by_velocity));
+  });
 }
 
 const char* word_for(const Mode& mode) {
@@ -63,20 +64,18 @@ std::string shape_table(const SimulateInput& input, const ModesOf& found, std::s
 
 std::string modes_json(const SimulateInput& input, const ModesOf& found) {
   JsonWriter json;
-  json.begin_object();
-  json.key("modes").list(found.modes, [&](const Mode& mode) {
-    json.begin_object();
-    json.members({{"frequency", mode.frequency()}, {"damping_ratio", mode.damping_ratio()}});
-    json.key("eigenvalue").numbers({mode.eigenvalue.real(), mode.eigenvalue.imag()});
-    write_shape(json.key("shape"), input, found, mode.shape.real());
-    write_shape(json.key("shape_imaginary"), input, found, mode.shape.imag());
-    json.end_object();
-  });
-  json.members({{"rows", found.rows},
-                {"A", found.looped.system.A},
-                {"B", found.looped.system.B},
-                {"warnings", found.warnings}});
-  json.end_object();
+  const auto write_mode = [&](const Mode& mode) {
+    json.object({{"frequency", mode.frequency()},
+                 {"damping_ratio", mode.damping_ratio()},
+                 {"eigenvalue", std::array{mode.eigenvalue.real(), mode.eigenvalue.imag()}},
+                 {"shape", [&] { write_shape(json, input, found, mode.shape.real()); }},
+                 {"shape_imaginary", [&] { write_shape(json, input, found, mode.shape.imag()); }}});
+  };
+  json.object({{"modes", [&] { json.list(found.modes, write_mode); }},
+               {"rows", found.rows},
+               {"A", found.looped.system.A},
+               {"B", found.looped.system.B},
+               {"warnings", found.warnings}});
   return json.str();
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "app/robot/robot_table.h"
+#include "app/robot/robot_output.h"
 
 namespace twinarm {
 namespace {

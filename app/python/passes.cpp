@@ -23,7 +23,7 @@ void take_q(const char* function, const Rows& q, std::size_t call, Robot& robot)
 // Wrenches in link axes into the passes' body axes; zero where none are given.
 void take_wrenches(const char* function, PyObject* given, const Robot& robot,
                    std::vector<Force<double>>& f_ext) {
-  std::fill(f_ext.begin(), f_ext.end(), Force<double>{});
+  std::ranges::fill(f_ext, Force<double>{});
   if (!given) return;
   const std::string what = std::string(function) + "(): f_ext";
   const Array numbers = numbers_of(given, what);
@@ -114,12 +114,12 @@ PyObject* call_crba(PyObject*, PyObject* const* given, Py_ssize_t count, PyObjec
 PyObject* call_minv(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {
   return call_by_q("minv", given, count, keywords, [](Robot& robot, double* M_inverse) {
     const std::size_t nv = robot.model.nv;
-    std::fill(robot.x.qd.begin(), robot.x.qd.end(), 0.0);
+    std::ranges::fill(robot.x.qd, 0.0);
     const Forces<double> none(robot.model);
     aba(robot.model, robot.x, none, robot.w);  // minv_times() takes the inertias that it leaves
     std::vector<double>& unit = robot.qdd;
     for (std::size_t k = 0; k < nv; ++k) {
-      std::fill(unit.begin(), unit.end(), 0.0);
+      std::ranges::fill(unit, 0.0);
       unit[k] = 1;
       minv_times(robot.model, unit, none.f_ext, robot.w);
       std::copy_n(robot.w.y.data(), nv, M_inverse + k * nv);

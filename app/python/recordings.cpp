@@ -59,7 +59,7 @@ std::vector<std::string> channel_names(const Opened& opened) {
 
 Array channel(const Opened& opened, const std::string& name) {
   const std::vector<std::string> names = channel_names(opened);
-  const auto found = std::find(names.begin(), names.end(), name);
+  const auto found = std::ranges::find(names, name);
   if (found == names.end())
     throw py::key_error("there is no channel '" + name + "'; " +
                         name_remedy(name, names, "channels"));
@@ -71,9 +71,8 @@ Array channel(const Opened& opened, const std::string& name) {
 Array beginning(const Opened& opened, const std::string& with) {
   const std::vector<std::string> names = channel_names(opened);
   const auto fits = [&](const std::string& name) { return name.starts_with(with); };
-  const auto first =
-      static_cast<std::size_t>(std::find_if(names.begin(), names.end(), fits) - names.begin());
-  const auto count = static_cast<std::size_t>(std::count_if(names.begin(), names.end(), fits));
+  const auto first = static_cast<std::size_t>(std::ranges::find_if(names, fits) - names.begin());
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(names, fits));
   Array all = zeros({static_cast<py::ssize_t>(opened.frames()), static_cast<py::ssize_t>(count)});
   for (std::size_t n = 0; n < opened.frames(); ++n)
     std::copy_n(opened.values.begin() + static_cast<std::ptrdiff_t>(n * opened.columns() + first),

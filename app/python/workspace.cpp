@@ -151,8 +151,8 @@ void add_workspace(py::module_& m) {
   workspace.def(
       "__contains__",
       [](const LeftByAba& left, const std::string& name) {
-        return std::any_of(left.all.begin(), left.all.end(),
-                           [&](const Left& one) { return one.quantity.name == name; });
+        return std::ranges::any_of(left.all,
+                                   [&](const Left& one) { return one.quantity.name == name; });
       },
       py::arg("name"), "whether there is a quantity of that name");
   workspace.def(

@@ -6,7 +6,7 @@
 #include "app/record/unpack.h"
 #include "app/render/list/image.h"
 #include "app/run/run_columns.h"
-#include "app/support/find_assets.h"
+#include "app/support/find_files.h"
 #include "app/support/output_file.h"
 #include "app/support/version.h"
 #include "collision/mesh_files/model_file.h"
@@ -19,8 +19,7 @@ void add_file(std::vector<RecordedFile>& files, const std::filesystem::path& fil
   if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) return;
   const std::string path = std::filesystem::absolute(file).lexically_normal().string();
   const auto is_same = [&](const RecordedFile& f) { return f.path == path; };
-  if (std::none_of(files.begin(), files.end(), is_same))
-    files.push_back({path, read_whole_file(file)});
+  if (std::ranges::none_of(files, is_same)) files.push_back({path, read_whole_file(file)});
 }
 
 // The program's own files need no check, which costs milliseconds each.
@@ -61,7 +60,7 @@ void add_picture(std::vector<RecordedFile>& files, const std::filesystem::path& 
 void add_companions(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
   constexpr int kMost = 1000;  // files of a folder that are looked at
   static const std::vector<std::string> naming{".obj", ".mtl", ".dae", ".gltf"};
-  if (std::find(naming.begin(), naming.end(), file.extension()) == naming.end()) return;
+  if (std::ranges::find(naming, file.extension()) == naming.end()) return;
   const std::string text = files.back().bytes;
   std::error_code error;
   int looked_at = 0;
@@ -122,12 +121,40 @@ void add_contacts_of(const SceneContacts* all, RecordedFrame& frame) {
 }
 
 std::uint32_t number_in(std::vector<std::string>& names, const std::string& name) {
-  const auto place = std::find(names.begin(), names.end(), name) - names.begin();
+  const auto place = std::ranges::find(names, name) - names.begin();
   if (static_cast<std::size_t>(place) == names.size()) names.push_back(name);
   return static_cast<std::uint32_t>(place);
 }
 
+// Rows of the ledgers, by the numbers that their names have.
+template <class NumberOf, class MomentumNumberOf>
+void add_rows(const RunView& run, RecordedFrame& frame, const NumberOf& number_of,
+              const MomentumNumberOf& momentum_number_of) {
+  for (const LedgerRow& row : run.ledger()) {
+    frame.rows.push_back(number_of(row.name));
+    frame.works.push_back(row.work);
+  }
+  for (const MomentumRow& row : run.momentum()) {
+    frame.momentum_rows.push_back(momentum_number_of(row.name));
+    frame.momenta.insert(frame.momenta.end(), {row.linear, row.angular});
+  }
+}
+
 }  // namespace
+
+void describe_frames(const SimulatePlan& prepared, RecordingHeader& header) {
+  header.integrator = integrator_name(prepared.run.integrator);
+  header.step = prepared.run.step;
+  header.columns.clear();
+  header.couplings.clear();
+  header.geometries.clear();
+  for (const RunColumn& column : run_columns(prepared.input.robot))
+    header.columns.push_back({column.name, column.unit});
+  if (!prepared.input.scene) return;
+  const SceneModel& scene = *prepared.input.scene;
+  for (const SceneCoupling& coupling : scene.couplings) header.couplings.push_back(coupling.name);
+  for (const SceneGeometry& geometry : scene.geometries) header.geometries.push_back(geometry.name);
+}
 
 RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& prepared,
                           std::vector<std::string> command) {
@@ -137,17 +164,10 @@ RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& pr
   header.run = recorded_run(options);
   add_file(header.files, options.robot.model);
   add_file(header.files, options.robot.state);
-  header.integrator = integrator_name(prepared.run.integrator);
-  header.step = prepared.run.step;
   header.duration = prepared.run.duration;
-  for (const RunColumn& column : run_columns(prepared.input.robot))
-    header.columns.push_back({column.name, column.unit});
+  describe_frames(prepared, header);
   add_meshes_of(prepared.input.robot.robot, header.files);
-  if (!prepared.input.scene) return header;
-  const SceneModel& scene = *prepared.input.scene;
-  add_files_of(scene.description, header.files);
-  for (const SceneCoupling& coupling : scene.couplings) header.couplings.push_back(coupling.name);
-  for (const SceneGeometry& geometry : scene.geometries) header.geometries.push_back(geometry.name);
+  if (prepared.input.scene) add_files_of(prepared.input.scene->description, header.files);
   return header;
 }
 
@@ -167,14 +187,9 @@ RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared) {
 
 void add_ledgers(const RunView& run, std::vector<std::string>& names,
                  std::vector<std::string>& momentum_names, RecordedFrame& frame) {
-  for (const LedgerRow& row : run.ledger()) {
-    frame.rows.push_back(number_in(names, row.name));
-    frame.works.push_back(row.work);
-  }
-  for (const MomentumRow& row : run.momentum()) {
-    frame.momentum_rows.push_back(number_in(momentum_names, row.name));
-    frame.momenta.insert(frame.momenta.end(), {row.linear, row.angular});
-  }
+  add_rows(
+      run, frame, [&](const std::string& name) { return number_in(names, name); },
+      [&](const std::string& name) { return number_in(momentum_names, name); });
 }
 
 RunRecorder::RunRecorder(const std::filesystem::path& file, RecordingHeader header,
@@ -191,14 +206,9 @@ void RunRecorder::look(RunView& run) {
 
 void RunRecorder::write(RunView& run) {
   RecordedFrame frame = frame_of(run, prepared_);
-  for (const LedgerRow& row : run.ledger()) {
-    frame.rows.push_back(writer_.number_of(row.name));
-    frame.works.push_back(row.work);
-  }
-  for (const MomentumRow& row : run.momentum()) {
-    frame.momentum_rows.push_back(writer_.momentum_number_of(row.name));
-    frame.momenta.insert(frame.momenta.end(), {row.linear, row.angular});
-  }
+  add_rows(
+      run, frame, [&](const std::string& name) { return writer_.number_of(name); },
+      [&](const std::string& name) { return writer_.momentum_number_of(name); });
   writer_.write(frame);
 }
 

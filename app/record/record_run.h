@@ -15,6 +15,9 @@ namespace twinarm {
 RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& prepared,
                           std::vector<std::string> command);
 
+// What the frames of such a run hold: integrator, step, columns, couplings, geometries.
+void describe_frames(const SimulatePlan& prepared, RecordingHeader& header);
+
 // Without the numbers of the ledger's rows, which a file gives them.
 RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared);
 

@@ -179,10 +179,10 @@ RecordedFrame Recording::frame(std::size_t n) const {
     fits = false;
   }
   const auto all_below = [](const std::vector<std::uint32_t>& numbers, std::size_t count) {
-    return std::all_of(numbers.begin(), numbers.end(), [&](std::uint32_t i) { return i < count; });
+    return std::ranges::all_of(numbers, [&](std::uint32_t i) { return i < count; });
   };
   fits = fits && frame.values.size() == header_.columns.size() &&
-         frame.pulls.size() <= header_.couplings.size() &&
+         frame.pulls.size() == header_.couplings.size() &&
          frame.works.size() == frame.rows.size() && all_below(frame.rows, names_.size()) &&
          frame.momenta.size() == 2 * frame.momentum_rows.size() &&
          all_below(frame.momentum_rows, momentum_names_.size());

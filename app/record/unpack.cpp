@@ -1,14 +1,22 @@
 #include "app/record/unpack.h"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
-
 #include <algorithm>
+#include <fstream>
+#include <string>
 #include <utility>
 
+#include "app/record/recording_reader.h"
+#include "app/record/recording_writer.h"
+#include "app/robot/dynamics.h"
+#include "app/run/run.h"
 #include "app/support/output_file.h"
+#include "app/support/streams.h"
 #include "solver/support/atomic_file.h"
 
 namespace twinarm {
+
 namespace {
 
 // No file has such a line: faults in what a change wrote are known by it.
@@ -105,7 +113,7 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
   for (std::size_t i = 0; i < changes.size(); ++i)
     if (changes[i].path == "gravity")
       options.robot.gravity = changes[i].value;
-    else if (std::find(kept.begin(), kept.end(), changes[i].path) != kept.end())
+    else if (std::ranges::find(kept, changes[i].path) != kept.end())
       faults.add({"", 0, "--set " + changes[i].path,
                   "a fork keeps the grid and the method of its recording",
                   "run `twinarm simulate` with another " + changes[i].path, "change.method"});
@@ -144,6 +152,57 @@ InputError UnpackedRun::as_typed(const InputError& error,
     }
   }
   return InputError(std::move(faults));
+}
+
+bool is_recording(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(8, '\0');
+  stream.read(start.data(), 8);
+  if (stream && start == std::string(recording_format::kMagic, 8)) return true;
+  if (file.extension() == ".twinrec") return true;  // one that is not there is told by its reader
+  std::error_code ignored;
+  return !std::filesystem::exists(file, ignored) && std::filesystem::exists(part_of(file), ignored);
+}
+
+void check_recorded(const RobotOptions& given, FaultList& faults) {
+  if (given.state.empty() && given.gravity.empty() && !given.floating && given.friction &&
+      given.armature && !given.strict)
+    return;
+  faults.add({"", 0, "--state, --gravity, --floating, --no-friction, --no-armature, --strict",
+              "a recording has its own state and model", "leave them out; choose by --at",
+              "option.conflict"});
+}
+
+RecordedInstant open_instant(const std::filesystem::path& file, std::optional<double> at) {
+  const Recording recording(file);
+  for (const std::string& note : recording.notes()) say("twinarm: {}\n", note);
+  const RecordedFrame frame =
+      recording.frame(at ? recording.at(*at, "--at") : recording.size() - 1);
+  const auto files = std::make_shared<const UnpackedRun>(recording.header());
+  SimulateOptions options = files->options();
+  options.integrator = "semi-implicit";
+  options.step = recording.header().step;
+  options.tolerance.reset();
+  auto prepared = [&] {
+    try {
+      return prepare_simulation(options);
+    } catch (const InputError& error) {
+      throw files->as_typed(error);
+    }
+  }();
+  prepared.run.integrator =
+      find_integrator(recording.header().integrator).value_or(Integrator::semi_implicit);
+  RecordedInstant instant{std::move(prepared), simulation_memory(frame.memory), frame.t, {}, files};
+  for (std::size_t i = 0; i < frame.rows.size(); ++i)
+    instant.ledger.push_back(
+        {LedgerKind::earlier, recording.rows()[frame.rows[i]], frame.works[i]});
+  Memory memory = instant.memory;
+  State<double> x(instant.prepared.input.robot.model);
+  memory.visit(x.q);
+  memory.visit(x.qd);
+  memory.visit(x.t);
+  stand_at(instant.prepared.input.robot, x);
+  return instant;
 }
 
 }  // namespace twinarm

@@ -36,8 +36,8 @@ Coordinates::Coordinates(const Model<double>& model, bool floating, int last)
   std::size_t row = 0;
   for (std::size_t i = 1; i <= static_cast<std::size_t>(last); ++i) {
     const std::size_t nv = model.dofs(i), iv = model.iv[i];
-    const bool follows = std::any_of(model.mimics.begin(), model.mimics.end(),
-                                     [&](const Mimic& m) { return nv == 1 && m.follower == iv; });
+    const bool follows = std::ranges::any_of(
+        model.mimics, [&](const Mimic& m) { return nv == 1 && m.follower == iv; });
     if (nv == 0 || follows) continue;
     const std::size_t nq = facts_of(model.joint[i]).nq;
     all_.push_back({model.joint_name[i], i, model.joint[i], nq, nv, model.iq[i], iv, row});

@@ -1,6 +1,6 @@
 #include "app/run/run_columns.h"
 
-#include "app/robot/robot_table.h"
+#include "app/robot/robot_output.h"
 #include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {

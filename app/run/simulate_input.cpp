@@ -28,7 +28,7 @@ void refuse_robot_options(const RobotOptions& options, FaultList& faults) {
 // What the command line says in place of the scene; null where that could not be read.
 void choose_contact(const std::string& name, SceneDescription* scene, FaultList& faults) {
   if (name.empty()) return;
-  const auto found = std::find(kContactModes.begin(), kContactModes.end(), name);
+  const auto found = std::ranges::find(kContactModes, name);
   if (found == kContactModes.end())
     faults.add({"", 0, "--contact", "'" + name + "' is not known",
                 name_remedy(name, kContactModes, "possible"), "option.choice"});
@@ -98,9 +98,9 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
       attempt(faults, [&] { return std::make_unique<SceneCouplings>(made, plan.step); });
   faults.check();
   std::vector<std::string> warnings = made.description.warnings;
-  if (!options.has_hand &&
-      std::any_of(made.couplings.begin(), made.couplings.end(),
-                  [](const SceneCoupling& c) { return c.target == CouplingTarget::Kind::device; }))
+  if (!options.has_hand && std::ranges::any_of(made.couplings, [](const SceneCoupling& c) {
+        return c.target == CouplingTarget::Kind::device;
+      }))
     warnings.push_back(
         "no hand device moves the targets of couplings here: they stand still; `twinarm hand` runs "
         "the scene with one");

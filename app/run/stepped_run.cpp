@@ -29,7 +29,7 @@ void visit_head(Memory& memory, long& steps, double& end, long& unsolved, long& 
 // A new one stands before the last, `numerical`.
 LedgerRow& row_like(const LedgerRow& wanted, std::vector<LedgerRow>& rows) {
   const auto is_it = [&](const LedgerRow& row) { return row.name == wanted.name; };
-  const auto found = std::find_if(rows.begin(), rows.end(), is_it);
+  const auto found = std::ranges::find_if(rows, is_it);
   if (found != rows.end()) return *found;
   return *rows.insert(rows.empty() ? rows.end() : rows.end() - 1, {wanted.kind, wanted.name, 0});
 }

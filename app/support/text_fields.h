@@ -7,6 +7,14 @@
 namespace twinarm {
 
 // "a,b" parted at each separator; of an empty text one empty field.
-std::vector<std::string> split(const std::string& text, char separator = ',');
+inline std::vector<std::string> split(const std::string& text, char separator = ',') {
+  std::vector<std::string> fields(1);
+  for (const char c : text)
+    if (c == separator)
+      fields.emplace_back();
+    else
+      fields.back() += c;
+  return fields;
+}
 
 }  // namespace twinarm

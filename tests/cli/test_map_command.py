@@ -119,7 +119,7 @@ class Maps(MapCommand):
                          text)
         self.assertEqual(joined.read_bytes(), whole.read_bytes())
 
-    def test_a_killed_map_goes_on_from_its_finished_blocks(self):
+    def test_a_killed_map_goes_on_from_its_finished_cells(self):
         scene = self.scene(duration=1)
         axes = ["--x", "coupling.damping:0.5:20:64", "--y", "coupling.stiffness:10:1e5:32:log",
                 "--alone"]  # slow enough to be struck
@@ -188,12 +188,15 @@ class Faults(MapCommand):
         for value in ("step:0.005:0.04:20", "step:0.005:0.05:20"):
             self.tells(told, "map.other-map", value)
         self.tells(told, "map.blocks-missing", "2 of 6")
-        data = bytearray(parts[2].read_bytes())
-        data[-100] ^= 1
-        parts[2].write_bytes(data)
-        self.refused("map.checksum", "p2", "--merge", *parts)
+        data = parts[2].read_bytes()
+        parts[2].write_bytes(data.replace(b"\n32,", b"\nx,", 1))
+        self.refused("map.row", "p2", "--merge", *parts)
+        parts[2].write_bytes(data + data.splitlines()[-1] + b"\n")
+        self.refused("map.row", "p2", "--merge", *parts)
         parts[2].write_bytes(data[:-100])
         self.refused("map.cut-short", "p2", "--merge", *parts)
+        parts[2].write_text("twinarm map 1\nprogram 0.1.0\n\n")
+        self.refused("map.old-file", "p2", "--merge", *parts)
         parts[2].write_text("hello")
         self.refused("map.file-form", "p2", "--merge", *parts)
 

@@ -6,7 +6,7 @@ import subprocess
 import threading
 
 from blows import ROOT, Victim, demand
-from whole_files import check_whole, map_blocks, recorded_blocks
+from whole_files import check_whole, map_cells, recorded_blocks
 
 from live_socket import Lab
 from program import data
@@ -73,7 +73,7 @@ class Map(Victim):
 
     def keep_reference(self):
         self.whole = {p.name: p.read_bytes() for p in self.files()}
-        self.blocks = map_blocks(self.whole["work.twinmap"])
+        self.cells = map_cells(self.whole["work.twinmap"])
         self.kept = set()
         self.begin_anew()
 
@@ -84,9 +84,9 @@ class Map(Victim):
 
     def look(self, is_done):
         work = self.out / "work.twinmap"
-        now = map_blocks(work.read_bytes()) if work.exists() else {}
-        demand(self.kept <= set(now), f"finished blocks are lost: {sorted(self.kept - set(now))}")
-        demand(all(self.blocks[number] == values for number, values in now.items()), "a block has other values")
+        now = map_cells(work.read_bytes()) if work.exists() else {}
+        demand(self.kept <= set(now), f"finished cells are lost: {sorted(self.kept - set(now))}")
+        demand(all(self.cells[place] == values for place, values in now.items()), "a cell has other values")
         self.kept = set(now)
         if is_done:
             for name, data in self.whole.items():

@@ -27,27 +27,15 @@ def recorded_blocks(data):
     return found
 
 
-def fnv(data):
-    h = 0xcbf29ce484222325
-    for byte in data:
-        h = (h ^ byte) * 0x100000001b3 & 0xffffffffffffffff
-    return h
-
-
-def map_blocks(data):
-    """{number: bytes} of the work file of a map, each with its check sum (docs/map.md)."""
-    head = data.find(b"\n\n")
-    if not data.startswith(b"twinarm map 1\n") or head < 0:
-        raise Half("no head")
-    found, at = {}, head + 2
-    while at < len(data):
-        number, cells = struct.unpack_from("<II", data, at)
-        end = at + 8 + 8 * cells
-        if fnv(data[at:end]) != struct.unpack_from("<Q", data, end)[0]:
-            raise Half(f"block {number}")
-        found[number] = data[at:end]
-        at = end + 8
-    return found
+def map_cells(data):
+    """{(ix, iy): line} of the work file of a map (docs/map.md)."""
+    lines = data.decode().split("\n")
+    if lines[0] != "# twinarm map 2" or lines[-1]:
+        raise Half("no head, or no end")
+    table = [line.split(",") for line in lines[1:-1] if not line.startswith("# ")]
+    if any(len(row) != len(table[0]) for row in table):
+        raise Half("a row is not whole")
+    return {tuple(row[:2]): row for row in table[1:]}
 
 
 def png(data):
@@ -97,7 +85,7 @@ def ends_with(words):
 
 
 CHECKS = {".json": json.loads, ".svg": ends_with(b"</svg>"), ".html": ends_with(b"</html>"), ".png": png,
-          ".mp4": mp4, ".csv": table, ".twinrec": recording, ".twinmap": map_blocks,
+          ".mp4": mp4, ".csv": table, ".twinrec": recording, ".twinmap": map_cells,
           ".toml": lambda data: data.decode()}
 
 

@@ -67,7 +67,7 @@ void check_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  if (std::ranges::find(names, argv[1]) != names.end()) return;
   throw InputError({{"", 0, "command line", fmt::format("there is no command '{}'", argv[1]),
                      name_remedy(argv[1], names, "commands")}});
 }
@@ -101,8 +101,7 @@ int run_program(int argc, char** argv) {
   app.set_version_flag("--version", std::string("twinarm ") + kProgramVersion,
                        "Print the version and exit");
   std::vector<Command> listed = commands();
-  std::sort(listed.begin(), listed.end(),
-            [](const Command& a, const Command& b) { return a.place < b.place; });
+  std::ranges::sort(listed, [](const Command& a, const Command& b) { return a.place < b.place; });
   std::function<int(const Words&)> chosen;
   for (const Command& command : listed) add_command(app, command, chosen);
   const bool as_json =

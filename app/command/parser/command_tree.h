@@ -29,4 +29,10 @@ struct ToldCommand {
 // The program first; each before the commands below it.
 std::vector<ToldCommand> command_tree(CLI::App& program);
 
+// That tree as a man page, in man(7), section 1; and as completion for a shell, to be sourced by
+// bash, or by zsh after bashcompinit. Made from what reads the command line itself, so that neither
+// can go stale.
+std::string man_page(CLI::App& program, const std::string& version);
+std::string shell_completion(CLI::App& program);
+
 }  // namespace twinarm

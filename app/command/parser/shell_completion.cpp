@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 
 #include "app/command/parser/command_tree.h"
-#include "app/command/parser/manual.h"
 
 namespace twinarm {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "app/compare/page/page_style.h"
 #include "app/data/html_page.h"
-#include "app/data/html_text.h"
 #include "app/plot/gnuplot.h"
 #include "app/support/output_file.h"
 #include "benchmarks/analytic/registry/case_sources.h"

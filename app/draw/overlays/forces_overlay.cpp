@@ -17,7 +17,7 @@ constexpr double kLeastForce = 0.004;  // of the largest
 double least_of_largest(const std::vector<PairForce>& pairs, std::size_t most) {
   std::vector<double> sizes;
   for (const PairForce& pair : pairs) sizes.push_back(pair.force.norm());
-  std::sort(sizes.begin(), sizes.end(), std::greater<>());
+  std::ranges::sort(sizes, std::greater<>());
   return sizes.empty() ? 0 : sizes[std::min(most, sizes.size()) - 1];
 }
 

@@ -13,7 +13,6 @@
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
-
 namespace {
 
 Overlays in_order(bool is_live) {
@@ -21,8 +20,7 @@ Overlays in_order(bool is_live) {
   for (const Overlays& of_file : overlays_of_files())
     for (const Overlay& overlay : of_file)
       if (overlay.is_live == is_live) found.push_back(overlay);
-  std::sort(found.begin(), found.end(),
-            [](const Overlay& a, const Overlay& b) { return a.place < b.place; });
+  std::ranges::sort(found, [](const Overlay& a, const Overlay& b) { return a.place < b.place; });
   return found;
 }
 
@@ -52,7 +50,7 @@ std::vector<std::string> parse_overlays(const std::string& text) {
   for (const std::string& word : split(text)) {
     if (word == "none" || word.empty()) continue;
     if (word == "all") return known;
-    if (std::find(known.begin(), known.end(), word) == known.end())
+    if (std::ranges::find(known, word) == known.end())
       faults.add({"", 0, "--show", "there is no overlay '" + word + "'",
                   name_remedy(word, known, "overlays")});
     chosen.push_back(word);
@@ -68,7 +66,7 @@ std::vector<Drawn> draw(Stage& stage, const Moment& moment,
   std::vector<Drawn> drawn{{}};
   for (const auto* known : {&all_overlays(), &live_overlays()})
     for (const Overlay& overlay : *known) {
-      if (std::find(overlays.begin(), overlays.end(), overlay.name) == overlays.end()) continue;
+      if (std::ranges::find(overlays, overlay.name) == overlays.end()) continue;
       const std::size_t first = list.instances.size();
       drawn.push_back({&overlay, first, list.labels.size(), list.legend.size()});
       overlay.add(stage, moment);

@@ -1,4 +1,4 @@
-#include "app/inspect/report/force_pages.h"
+#include "app/inspect/report/inspect_output.h"
 
 #include <fmt/format.h>
 
@@ -38,12 +38,12 @@ void write_joint_balance(const Inspection& in, const JointBalance& joint, Sheet&
 // Whether it acts on one of the bodies that are asked for.
 bool concerns(const InspectView& view, const NamedForce& named) {
   const auto is_shown = [&](std::size_t body) {
-    return std::find(view.bodies.begin(), view.bodies.end(), body) != view.bodies.end();
+    return std::ranges::find(view.bodies, body) != view.bodies.end();
   };
-  return std::any_of(named.ends.begin(), named.ends.end(),
-                     [&](const NamedForce::End& end) { return is_shown(end.body); }) ||
-         std::any_of(named.joints.begin(), named.joints.end(),
-                     [&](const NamedForce::OnJoint& on) { return is_shown(on.body); });
+  return std::ranges::any_of(named.ends,
+                             [&](const NamedForce::End& end) { return is_shown(end.body); }) ||
+         std::ranges::any_of(named.joints,
+                             [&](const NamedForce::OnJoint& on) { return is_shown(on.body); });
 }
 
 std::string point_text(const Vector3& p) {
@@ -71,7 +71,7 @@ std::vector<NamedForce> forces_in_view(const Inspection& in, const InspectView& 
   std::vector<NamedForce> all = named_forces(in, view.from);
   if (view.forces_alone)
     std::erase_if(all, [&](const NamedForce& named) {
-      return std::find(view.forces.begin(), view.forces.end(), named.source) == view.forces.end();
+      return std::ranges::find(view.forces, named.source) == view.forces.end();
     });
   return all;
 }

@@ -17,21 +17,23 @@ void write_value(JsonWriter& json, const Shown& shown) {
   const Eigen::MatrixXd& m = shown.value;
   if (m.cols() == 1) return json.number_or_list(list_of(m));
   if (shown.quantity.by != By::velocity) return json.matrix(m);
-  json.begin_array();
-  for (Eigen::Index c = 0; c < m.cols(); ++c) json.vector(m.col(c));
-  json.end_array();
+  json.matrix(m.transpose());
 }
 
 void write_balances(JsonWriter& json, const Inspection& in, const InspectView& view) {
   json.list(view.bodies, [&](const std::size_t body) {
     const BodyBalance balance = balance_of(in, body, view.from);
-    json.begin_object();
-    json.members({{"body", in.model.body_name[body]}, {"about", view.from.p_WV(in, body)}});
-    json.key("wrenches").list(balance.wrenches, [&](const NamedWrench& wrench) {
-      json.object({{"source", wrench.source}, {"force", wrench.force}, {"torque", wrench.torque}});
-    });
-    json.members({{"largest", balance.largest}, {"residual", balance.residual}});
-    json.end_object();
+    const auto write_wrenches = [&] {
+      json.list(balance.wrenches, [&](const NamedWrench& wrench) {
+        json.object(
+            {{"source", wrench.source}, {"force", wrench.force}, {"torque", wrench.torque}});
+      });
+    };
+    json.object({{"body", in.model.body_name[body]},
+                 {"about", view.from.p_WV(in, body)},
+                 {"wrenches", write_wrenches},
+                 {"largest", balance.largest},
+                 {"residual", balance.residual}});
   });
 }
 
@@ -61,8 +63,7 @@ void write_forces(JsonWriter& json, const Inspection& in, const InspectView& vie
 void write_joints(JsonWriter& json, const Inspection& in, const InspectView& view) {
   json.begin_array();
   for (const JointBalance& joint : joint_balances(in)) {
-    if (std::find(view.bodies.begin(), view.bodies.end(), joint.body) == view.bodies.end())
-      continue;
+    if (std::ranges::find(view.bodies, joint.body) == view.bodies.end()) continue;
     json.begin_object();
     json.members({{"joint", in.model.joint_name[joint.body]},
                   {"component", joint.dof - in.model.iv[joint.body]}});
@@ -122,20 +123,16 @@ void write_inspection(JsonWriter& json, const Inspection& in, const InspectView&
   write_forces(json.key("forces"), in, view);
   write_checks(json.key("checks"), checks);
   if (!view.ledger.empty()) {
-    json.key("ledger").begin_object();
-    for (const LedgerRow& row : view.ledger) json.key(row.name).number(row.work);
-    json.end_object();
+    json.key("ledger").object([&] {
+      for (const LedgerRow& row : view.ledger) json.put(row.name, row.work);
+    });
   }
   json.members({{"axes", view.axes}, {"about", view.about}, {"warnings", view.warnings}});
 }
 
 std::string inspect_json(const Inspection& in, const InspectView& view,
                          const std::vector<Check>& checks) {
-  JsonWriter json;
-  json.begin_object();
-  write_inspection(json, in, view, checks);
-  json.end_object();
-  return json.str();
+  return json_text([&](JsonWriter& json) { write_inspection(json, in, view, checks); });
 }
 
 }  // namespace twinarm

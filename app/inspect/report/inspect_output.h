@@ -6,6 +6,7 @@
 
 #include "app/accounting/energy_balance.h"
 #include "app/data/json_writer.h"
+#include "app/data/number_sheet.h"
 #include "app/inspect/cross_checks.h"
 #include "app/inspect/displayed_quantities.h"
 #include "app/inspect/force_balance.h"
@@ -44,5 +45,23 @@ std::string inspect_json(const Inspection& in, const InspectView& view,
                          const std::vector<Check>& checks);
 std::string inspect_text(const Inspection& in, const InspectView& view,
                          const std::vector<Check>& checks);
+
+// "world axes, about each link's origin".
+std::string viewpoint_in_words(const InspectView& view);
+
+// The wrenches on each body, and the forces that have names of their own.
+void write_balances(const Inspection& in, const InspectView& view, Sheet& sheet);
+void write_named_forces(const Inspection& in, const InspectView& view, Sheet& sheet);
+
+// A number, or several in brackets.
+std::string name_of_number(const Eigen::VectorXd& v);
+// Of a unit "angular; linear": that of the body's joint. Empty where it has several velocities.
+std::string unit_at_joint(const Inspection& in, std::size_t body, std::string_view unit);
+
+// Which joint carries the body, and where it stands.
+void write_body_head(const Inspection& in, std::size_t body, Sheet& sheet);
+// The quantities of a pass (1 to 3) by the equations of table 7.1, with the numbers put in, in the
+// order in which they are found. `D_error`: of the cross-check of D.
+void write_pass(const Inspection& in, int pass, std::size_t body, double D_error, Sheet& sheet);
 
 }  // namespace twinarm

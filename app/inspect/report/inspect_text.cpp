@@ -7,9 +7,7 @@
 
 #include "app/data/number_sheet.h"
 #include "app/data/text_table.h"
-#include "app/inspect/report/force_pages.h"
 #include "app/inspect/report/inspect_output.h"
-#include "app/inspect/report/pass_pages.h"
 
 namespace twinarm {
 namespace {
@@ -46,7 +44,7 @@ void write_ledger(std::vector<LedgerRow> rows, Sheet& sheet) {
   double change = 0;
   for (const LedgerRow& row : rows) change += row.work;
   std::erase_if(rows, [](const LedgerRow& row) { return row.work == 0; });
-  std::stable_sort(rows.begin(), rows.end(), [](const LedgerRow& a, const LedgerRow& b) {
+  std::ranges::stable_sort(rows, [](const LedgerRow& a, const LedgerRow& b) {
     return std::abs(a.work) > std::abs(b.work);
   });
   std::string text = " ";

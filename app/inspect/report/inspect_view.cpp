@@ -1,8 +1,12 @@
 #include "app/inspect/report/inspect_view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "app/support/nearest_name.h"
+#include "solver/model/non_finite.h"
 
 namespace twinarm {
 namespace {
@@ -16,7 +20,7 @@ std::size_t index_of_body(const std::string& option, const std::string& name,
                           const std::string& others, const Model<double>& model,
                           FaultList& faults) {
   const std::vector<std::string> names = names_of_bodies(model);
-  const auto found = std::find(names.begin(), names.end(), name);
+  const auto found = std::ranges::find(names, name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin()) + 1;
   faults.add({"", 0, option, "there is no body '" + name + "'",
               others + name_remedy(name, names, "bodies")});
@@ -70,14 +74,14 @@ void read_passes(const InspectOptions& options, InspectView& view, FaultList& fa
   static const std::vector<std::string> names{"1", "2", "3"};
   if (!options.passes.empty()) view.passes.clear();
   for (const std::string& pass : options.passes) {
-    const auto found = std::find(names.begin(), names.end(), pass);
+    const auto found = std::ranges::find(names, pass);
     if (found == names.end())
       faults.add({"", 0, "--pass", "there is no pass '" + pass + "'",
                   "give 1 (velocities), 2 (inertias and forces) or 3 (accelerations)"});
     else
       view.passes.push_back(static_cast<int>(found - names.begin()) + 1);
   }
-  std::sort(view.passes.begin(), view.passes.end());
+  std::ranges::sort(view.passes);
   view.passes.erase(std::unique(view.passes.begin(), view.passes.end()), view.passes.end());
 }
 
@@ -108,6 +112,33 @@ void read_forces(const InspectOptions& options, const std::vector<Actor>& actors
       faults.add({"", 0, "--force", "nothing called '" + wanted + "' acts in this state",
                   names.empty() ? "gravity alone does" : name_remedy(wanted, names, "forces")});
   }
+}
+
+Check step_check(const Inspection& in, const std::vector<double>& qdd_of_step) {
+  constexpr double kTolerance = 1e-9;  // of what the impulse solver leaves
+  Check check{"step", "the step's own accelerations, forces by name", 0, kTolerance, ""};
+  const Vector3 g = to_eigen(in.model.gravity);
+  double size = std::max(g.norm(), 1e-300);
+  for (const double qdd : qdd_of_step) size = std::max(size, std::abs(qdd));
+  for (std::size_t i = 1; i < in.body_count(); ++i)
+    for (std::size_t dof = in.model.iv[i]; dof < in.model.iv[i] + in.model.dofs(i); ++dof) {
+      const double error = std::abs(in.w.qdd[dof] - qdd_of_step[dof]) / size;
+      if (!(error <= check.error)) {
+        check.error = std::isfinite(error) ? error : 1e300;
+        check.worst = in.model.body_name[i];
+      }
+    }
+  return check;
+}
+
+void warn_of_bad_numbers(const Inspection& in, std::vector<std::string>& warnings) {
+  const BadQuantity bad = first_bad_quantity(in.model, in.forces, in.w);
+  if (bad.body == 0) return;
+  const std::string pass = bad.pass == 0 ? "an input" : "of pass " + std::to_string(bad.pass);
+  warnings.push_back(fmt::format(
+      "not all numbers are finite; the first that is not is '{}' of body '{}', {}: look at an "
+      "earlier instant",
+      bad.name, in.model.body_name[bad.body], pass));
 }
 
 }  // namespace twinarm

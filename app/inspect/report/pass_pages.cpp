@@ -1,4 +1,4 @@
-#include "app/inspect/report/pass_pages.h"
+#include "app/inspect/report/inspect_output.h"
 
 #include <fmt/format.h>
 

@@ -32,7 +32,7 @@ void Audience::take(ClientId client) {
   if (!clients_.contains(client) || holder_ == client) return;
   if (holder_ == 0)
     holder_ = client;
-  else if (std::find(asked_.begin(), asked_.end(), client) == asked_.end())
+  else if (std::ranges::find(asked_, client) == asked_.end())
     asked_.push_back(client);
 }
 

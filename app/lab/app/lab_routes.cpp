@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <charconv>
 
-#include "app/lab/app/uploaded_file.h"
+#include "app/lab/app/uploads.h"
 #include "app/page/replay_page.h"
 #include "app/render/gl/painter.h"
-#include "app/support/find_assets.h"
+#include "app/support/find_files.h"
 #include "app/support/output_file.h"
 #include "solver/support/diagnostics.h"
 
@@ -69,7 +69,7 @@ bool is_plain(const std::string& name) {
     return std::isalnum(c) || c == '.' || c == '_' || c == '-' || c == ' ' || c == '/';
   };
   return !name.empty() && name.size() < 200 && name.front() != '/' && name.front() != '.' &&
-         name.find("..") == std::string::npos && std::all_of(name.begin(), name.end(), is_good);
+         name.find("..") == std::string::npos && std::ranges::all_of(name, is_good);
 }
 
 std::string after(const std::string& path, const std::string& start) {

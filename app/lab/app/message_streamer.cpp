@@ -153,8 +153,7 @@ void LabPainter::look_at_knobs(const LabNow& now) {
   SimulatePlan& plan = now.scene->knobs->prepared;
   const State<double> x = instant_of(now.frame->recorded, plan.input.robot.model).x;
   const auto is_finite = [](double value) { return std::isfinite(value); };
-  if (std::all_of(x.q.begin(), x.q.end(), is_finite) &&
-      std::all_of(x.qd.begin(), x.qd.end(), is_finite))
+  if (std::ranges::all_of(x.q, is_finite) && std::ranges::all_of(x.qd, is_finite))
     predict_knobs(plan, x, knobs_);
 }
 

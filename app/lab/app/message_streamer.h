@@ -3,6 +3,8 @@
 // too, one thing after the other.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -14,7 +16,6 @@
 #include <vector>
 
 #include "app/lab/app/clients.h"
-#include "app/lab/app/rate_limiter.h"
 #include "app/lab/inspector/body_inspector.h"
 #include "app/lab/parameters/gallery.h"
 #include "app/lab/parameters/parameters.h"
@@ -24,6 +25,27 @@
 #include "app/render/list/draw_list.h"
 
 namespace twinarm {
+
+// So many a second, and no more: what is evenly spaced goes on without a wait, and of what comes in
+// a burst two may go at once. After a pause nothing is made up for.
+class Allowance {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  // Until the next may go [s]; 0: now.
+  double wait(Time now) const {
+    return std::max(0.0, std::chrono::duration<double>(next_ - now).count());
+  }
+  // One goes now, at so many a second.
+  void take(Time now, double per_second) {
+    const auto interval =
+        std::chrono::duration_cast<Time::duration>(std::chrono::duration<double>(1 / per_second));
+    next_ = std::max(next_, now - interval) + interval;
+  }
+
+ private:
+  Time next_{};
+};
 
 class LabPainter {
  public:

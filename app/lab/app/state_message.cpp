@@ -3,15 +3,11 @@
 #include <filesystem>
 
 #include "app/data/json_writer.h"
-#include "app/lab/parameters/presets.h"
-#include "app/support/find_assets.h"
+#include "app/lab/parameters/gallery.h"
+#include "app/support/find_files.h"
 
 namespace twinarm {
 namespace {
-
-long as_long(ClientId client) {
-  return static_cast<long>(client);
-}
 
 void write_changes(JsonWriter& json, const std::vector<Change>& changes) {
   json.key("changes").list(
@@ -19,14 +15,9 @@ void write_changes(JsonWriter& json, const std::vector<Change>& changes) {
 }
 
 void write_audience(JsonWriter& json, const Audience::View& audience) {
-  json.key("holder");
-  if (audience.holder != 0)
-    json.count(as_long(audience.holder));
-  else
-    json.null();
-  json.key("clients").count(static_cast<long>(audience.clients.size()));
-  json.key("asked").list(audience.asked,
-                         [&](const ClientId client) { json.count(as_long(client)); });
+  const auto holder = audience.holder != 0 ? std::optional(audience.holder) : std::nullopt;
+  json.members(
+      {{"holder", holder}, {"clients", audience.clients.size()}, {"asked", audience.asked}});
 }
 
 void write_time(JsonWriter& json, const LabStatus& status) {
@@ -34,22 +25,15 @@ void write_time(JsonWriter& json, const LabStatus& status) {
                 {"speed", status.speed},
                 {"time", status.time},
                 {"first", status.first},
-                {"last", status.last}});
-  json.key("at");
-  if (status.at)
-    json.number(*status.at);
-  else
-    json.null();
-  json.key("branch");
-  if (status.branch) {
-    json.begin_object();
-    json.key("from").number(status.branch->from);
-    write_changes(json, status.branch->changes);
-    json.key("number").count(status.branch->number);
-    json.end_object();
-  } else {
-    json.null();
-  }
+                {"last", status.last},
+                {"at", status.at}});
+  json.key("branch").or_null(status.branch, [&](const auto& branch) {
+    json.object([&] {
+      json.put("from", branch.from);
+      write_changes(json, branch.changes);
+      json.put("number", branch.number);
+    });
+  });
   json.members({{"pace", status.pace}, {"step", status.step}, {"step_us", 1e6 * status.step_time}});
 }
 
@@ -69,17 +53,9 @@ const std::string& recorded_hand() {
 void write_lanes(JsonWriter& json, const LabStatus& status) {
   json.key("lanes");
   if (status.lanes.empty()) return json.null();
-  json.begin_object();
-  json.members({{"path", status.lanes.path}, {"values", status.lanes.values}});
-  json.key("stopped").begin_array();
-  json.null();  // the first, of which `dead` tells
-  for (const std::optional<double>& end : status.lane_ends)
-    if (end)
-      json.number(*end);
-    else
-      json.null();
-  json.end_array();
-  json.end_object();
+  std::vector<std::optional<double>> stopped(1);  // the first, of which `dead` tells
+  stopped.insert(stopped.end(), status.lane_ends.begin(), status.lane_ends.end());
+  json.object({{"path", status.lanes.path}, {"values", status.lanes.values}, {"stopped", stopped}});
 }
 
 void write_hand(JsonWriter& json, const LabHandStatus& hand) {
@@ -96,19 +72,15 @@ void write_hand(JsonWriter& json, const LabHandStatus& hand) {
 }
 
 void write_end(JsonWriter& json, const LabStatus& status) {
-  json.key("dead");
-  if (!status.dead) return json.null();
-  const LabEnd& dead = *status.dead;
-  json.begin_object();
-  json.members({{"words", dead.words},
-                {"time", dead.time},
-                {"from", dead.from},
-                {"quantity", dead.quantity},
-                {"body", dead.body},
-                {"spring", dead.spring}});
-  json.key("remedies");
-  write_remedies(dead.remedies, json);
-  json.end_object();
+  json.key("dead").or_null(status.dead, [&](const LabEnd& dead) {
+    json.object({{"words", dead.words},
+                 {"time", dead.time},
+                 {"from", dead.from},
+                 {"quantity", dead.quantity},
+                 {"body", dead.body},
+                 {"spring", dead.spring},
+                 {"remedies", [&] { write_remedies(dead.remedies, json); }}});
+  });
 }
 
 void write_notes(JsonWriter& json, const std::vector<LabNote>& notes) {
@@ -122,27 +94,22 @@ void write_notes(JsonWriter& json, const std::vector<LabNote>& notes) {
 std::string state_message(const LabStatus& status, const Audience::View& audience,
                           const std::vector<Knob>& knobs,
                           const std::vector<GalleryScene>& gallery) {
-  JsonWriter json;
-  json.begin_object();
-  json.members({{"kind", "state"},
-                {"scene", status.scene},
-                {"name", status.scene_name},
-                {"building", status.building}});
-  write_changes(json, status.changes);
-  write_lanes(json, status);
-  write_audience(json, audience);
-  write_time(json, status);
-  write_hand(json, status.hand);
-  json.key("knobs");
-  write_knobs(knobs, json);
-  json.key("presets");
-  write_presets(json);
-  json.key("gallery");
-  write_gallery(gallery, json);
-  write_end(json, status);
-  write_notes(json, status.notes);
-  json.end_object();
-  return json.str();
+  return json_text([&](JsonWriter& json) {
+    json.members({{"kind", "state"},
+                  {"scene", status.scene},
+                  {"name", status.scene_name},
+                  {"building", status.building}});
+    write_changes(json, status.changes);
+    write_lanes(json, status);
+    write_audience(json, audience);
+    write_time(json, status);
+    write_hand(json, status.hand);
+    write_knobs(knobs, json.key("knobs"));
+    write_presets(json.key("presets"));
+    write_gallery(gallery, json.key("gallery"));
+    write_end(json, status);
+    write_notes(json, status.notes);
+  });
 }
 
 std::string addressed(const std::string& state, ClientId you, const std::string& secret) {

@@ -37,26 +37,15 @@ struct FrameHand {
   }
 };
 
-class Led final : public HandSource {
- public:
-  Led(const FrameHand& hand, std::unique_ptr<HandSource> own) : hand_(hand), own_(std::move(own)) {}
-  HandSample sample(double t, double toward) const override {
-    return hand_.live ? hand_.live->sample(t, toward) : own_->sample(t, toward);
-  }
-  double duration() const override { return own_->duration(); }
-  std::string description() const override { return own_->description(); }
-
- private:
-  const FrameHand& hand_;
-  std::unique_ptr<HandSource> own_;
-};
-
 // Those pulls that the run's hand would lead (input_override.h).
 HandInPlace in_place_of(HandLead& lead, const FrameHand& hand) {
-  return [&hand, leads = lead.in_place()](std::size_t pull, std::unique_ptr<HandSource> own) {
+  return [&hand, leads = lead.in_place()](
+             std::size_t pull, std::unique_ptr<HandSource> own) -> std::unique_ptr<HandSource> {
     const HandSource* before = own.get();
     std::unique_ptr<HandSource> made = leads(pull, std::move(own));
-    return made.get() == before ? std::move(made) : std::make_unique<Led>(hand, std::move(made));
+    if (made.get() == before) return made;
+    const auto instead = [&hand](double, double) { return hand.live ? &*hand.live : nullptr; };
+    return std::make_unique<ReplacedHand>(std::move(made), instead);
   };
 }
 
@@ -78,9 +67,9 @@ bool acts_on(const Actor& actor, const Model<double>& model, std::size_t body) {
   const auto is_its = [&](const Actor::OnJoint& on) {
     return on.dof >= model.iv[body] && on.dof < model.iv[body] + model.dofs(body);
   };
-  return std::any_of(actor.bodies.begin(), actor.bodies.end(),
-                     [&](const Actor::OnBody& on) { return on.body == body; }) ||
-         std::any_of(actor.joints.begin(), actor.joints.end(), is_its);
+  return std::ranges::any_of(actor.bodies,
+                             [&](const Actor::OnBody& on) { return on.body == body; }) ||
+         std::ranges::any_of(actor.joints, is_its);
 }
 
 // Of six columns, what a joint of several velocities has of each; else as it lies.
@@ -95,17 +84,21 @@ void write_equations(JsonWriter& json, const Inspection& in, std::size_t body) {
   json.begin_array();
   for (const int pass : {1, 2, 3})
     for (const Equation& equation : equations_of(in, pass, body)) {
-      json.begin_object();
-      json.members({{"pass", pass}, {"name", equation.name}, {"text", equation.text}});
-      json.key("terms").list(equation.terms, [&](const EquationTerm& term) {
+      const auto write_value_of = [&](const auto& of) {
+        return [&] { write_terms(json, of.value, equation.by_columns); };
+      };
+      const auto write_term = [&](const EquationTerm& term) {
         json.object({{"symbol", term.symbol},
                      {"words", term.words},
                      {"of", in.model.body_name[term.of]},
-                     {"value", [&] { write_terms(json, term.value, equation.by_columns); }}});
-      });
-      write_terms(json.key("value"), equation.value, equation.by_columns);
-      json.key("residual").number(equation.residual);
-      json.end_object();
+                     {"value", write_value_of(term)}});
+      };
+      json.object({{"pass", pass},
+                   {"name", equation.name},
+                   {"text", equation.text},
+                   {"terms", [&] { json.list(equation.terms, write_term); }},
+                   {"value", write_value_of(equation)},
+                   {"residual", equation.residual}});
     }
   json.end_array();
 }
@@ -115,7 +108,7 @@ using Names = std::initializer_list<std::string_view>;
 std::vector<Shown> some_of(const Inspection& in, int pass, std::size_t body, Names names) {
   std::vector<Shown> all = shown_quantities(in, pass, body);
   std::erase_if(all, [&](const Shown& shown) {
-    return std::find(names.begin(), names.end(), shown.quantity.name) == names.end();
+    return std::ranges::find(names, shown.quantity.name) == names.end();
   });
   return all;
 }
@@ -151,12 +144,11 @@ Shown origin_acceleration(const Inspection& in, std::size_t body) {
 void write_call(JsonWriter& json, const Inspection& in) {
   json.begin_array();
   const auto step = [&](int pass, std::size_t body, Names names) {
-    json.begin_object();
-    json.members({{"pass", pass}, {"body", in.model.body_name[body]}});
     std::vector<Shown> results = some_of(in, pass, body, names);
     if (pass == 3) results.push_back(origin_acceleration(in, body));
-    write_quantities(json.key("quantities"), results);
-    json.end_object();
+    json.object({{"pass", pass},
+                 {"body", in.model.body_name[body]},
+                 {"quantities", [&] { write_quantities(json, results); }}});
   };
   for (std::size_t i = 1; i < in.body_count(); ++i) step(1, i, {"v"});
   for (std::size_t i = in.body_count(); i-- > 1;) step(2, i, {"D", "u"});
@@ -250,26 +242,21 @@ Glass::Glass(Glass&&) noexcept = default;
 Glass& Glass::operator=(Glass&&) noexcept = default;
 
 std::string Glass::message(const LabFrame& frame, const GlassQuestion& question) {
-  const auto begin = [&](JsonWriter& json) {
-    json.begin_object();
-    json.members({{"kind", "glass"},
-                  {"scene", question.scene},
-                  {"t", frame.recorded.t},
-                  {"step", frame.recorded.step},
-                  {"stands", question.stands}});
+  const auto text_with = [&](const auto& write) {
+    return json_text([&](JsonWriter& json) {
+      json.members({{"kind", "glass"},
+                    {"scene", question.scene},
+                    {"t", frame.recorded.t},
+                    {"step", frame.recorded.step},
+                    {"stands", question.stands}});
+      write(json);
+    });
   };
   try {
-    JsonWriter json;
-    begin(json);
-    impl_->write(json, frame, question);
-    json.end_object();
-    return json.str();
+    return text_with([&](JsonWriter& json) { impl_->write(json, frame, question); });
   } catch (const std::exception& error) {
-    JsonWriter json;
-    begin(json);
-    json.key("warnings").texts({std::string("this frame cannot be looked into: ") + error.what()});
-    json.end_object();
-    return json.str();
+    const std::string warning = std::string("this frame cannot be looked into: ") + error.what();
+    return text_with([&](JsonWriter& json) { json.key("warnings").texts({warning}); });
   }
 }
 

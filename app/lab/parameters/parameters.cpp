@@ -118,13 +118,6 @@ const char* word_of(Knob::Form form) {
   return kWords[static_cast<std::size_t>(form)];
 }
 
-void write_value(const std::optional<double>& value, JsonWriter& json) {
-  if (value)
-    json.number(*value);
-  else
-    json.null();
-}
-
 }  // namespace
 
 std::string Knob::value() const {
@@ -159,11 +152,7 @@ void write_knobs(const std::vector<Knob>& knobs, JsonWriter& json) {
   json.list(knobs, [&](const Knob& knob) {
     json.begin_object();
     json.members({{"path", knob.path}, {"label", knob.label}, {"group", knob.group}});
-    json.key("value");
-    if (knob.form == Knob::Form::choice)
-      json.text(knob.text);
-    else
-      write_value(knob.number, json);
+    knob.form == Knob::Form::choice ? json.put("value", knob.text) : json.put("value", knob.number);
     if (knob.start) json.key("start").text(*knob.start);
     json.members({{"unit", knob.unit},
                   {"form", word_of(knob.form)},
@@ -171,15 +160,12 @@ void write_knobs(const std::vector<Knob>& knobs, JsonWriter& json) {
                   {"high", knob.high},
                   {"choices", knob.choices},
                   {"meaning", knob.meaning}});
-    if (knob.limit) {
-      json.key("limit").begin_object();
-      json.key("value");
-      write_value(knob.limit->value, json);
-      json.members({{"words", knob.limit->words}, {"state", word_of(knob.limit->state)}});
-      json.end_object();
-    }
-    if (!knob.lag.empty()) json.key("lag").text(knob.lag);
-    json.key("restarts").boolean(knob.restarts);
+    if (knob.limit)
+      json.key("limit").object({{"value", knob.limit->value},
+                                {"words", knob.limit->words},
+                                {"state", word_of(knob.limit->state)}});
+    if (!knob.lag.empty()) json.put("lag", knob.lag);
+    json.put("restarts", knob.restarts);
     json.end_object();
   });
 }

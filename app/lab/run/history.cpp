@@ -84,16 +84,6 @@ std::size_t LabHistory::at(double t) const {
   return later == frames_.begin() ? 0 : static_cast<std::size_t>(later - frames_.begin()) - 1;
 }
 
-const LabHistory::Segment& LabHistory::segment_of(long step) const {
-  std::size_t s = segments_.size() - 1;
-  while (s > 0 && segments_[s].first_step > step) --s;
-  return segments_[s];
-}
-
-const std::vector<Change>& LabHistory::changes_of(std::size_t n) const {
-  return segment_of(frames_[n]->recorded.step).changes;
-}
-
 const LabInput* LabHistory::input(long step) const {
   const auto place = std::lower_bound(inputs_.begin(), inputs_.end(), step, is_earlier_step);
   return place != inputs_.end() && place->step == step ? &*place : nullptr;

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "app/lab/run/lab_frame.h"
-#include "app/lab/run/lab_input.h"
 #include "app/lab/run/lab_scene.h"
 
 namespace twinarm {
@@ -40,14 +39,8 @@ class LabHistory {
   std::size_t at(double t) const;
   std::size_t bytes() const { return bytes_; }
   std::size_t most_bytes() const { return most_; }
-  // The changes of the run that frame n belongs to.
-  const std::vector<Change>& changes_of(std::size_t n) const;
-
   // What came in that step; null: nothing, or it is no longer remembered.
   const LabInput* input(long step) const;
-  // The last step whose input is known, if any: until then a branch can be moved as before.
-  long last_input() const { return inputs_.empty() ? 0 : inputs_.back().step; }
-
   // A branch from frame n: what came after it is forgotten here and given back, the frame included.
   LabHistory cut(std::size_t n);
 
@@ -67,7 +60,6 @@ class LabHistory {
     std::vector<Change> changes;
   };
   void trim();
-  const Segment& segment_of(long step) const;
   long first_step_to_save() const;
   std::string log_of_hand() const;
 

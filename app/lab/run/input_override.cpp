@@ -27,26 +27,6 @@ bool has_one_hand(const SceneCoupling& a, const SceneCoupling& b) {
 
 }  // namespace
 
-// The lab's hand where it leads, the scene's own before and elsewhere.
-class HandLead::Led final : public HandSource {
- public:
-  Led(const HandLead& lead, std::unique_ptr<HandSource> own) : lead_(lead), own_(std::move(own)) {}
-  HandSample sample(double t, double toward) const override {
-    double inside = t + 1e-9 * (toward - t);
-    if (inside == t) inside = std::nextafter(t, toward);
-    if (!lead_.leads_ || inside < lead_.first_.newest().t) return own_->sample(t, toward);
-    const bool is_first = inside <= lead_.first_.duration();
-    return (is_first ? lead_.first_ : lead_.live_).sample(t, toward);
-  }
-  double duration() const override { return own_->duration(); }
-  std::string description() const override { return own_->description(); }
-  const HandSource& own() const { return *own_; }
-
- private:
-  const HandLead& lead_;
-  std::unique_ptr<HandSource> own_;
-};
-
 HandLead::HandLead(SceneModel* scene, LabHand& hand, double h)
     : scene_(scene), hand_(hand), live_(steps_remembered(h)), first_(1) {
   if (scene_) choose_pulls();
@@ -76,11 +56,19 @@ void HandLead::choose_pulls() {
 
 HandInPlace HandLead::in_place() {
   return [this](std::size_t pull, std::unique_ptr<HandSource> own) -> std::unique_ptr<HandSource> {
-    if (std::find(led_.begin(), led_.end(), pull) == led_.end()) return own;
-    auto led = std::make_unique<Led>(*this, std::move(own));
-    if (pull == led_.front()) own_ = &led->own();
-    return led;
+    if (std::ranges::find(led_, pull) == led_.end()) return own;
+    if (pull == led_.front()) own_ = own.get();
+    const auto instead = [this](double t, double toward) { return source_at(t, toward); };
+    return std::make_unique<ReplacedHand>(std::move(own), instead);
   };
+}
+
+// Null: the scene's own, before the lab's hand leads and elsewhere.
+const HandSource* HandLead::source_at(double t, double toward) const {
+  double inside = t + 1e-9 * (toward - t);
+  if (inside == t) inside = std::nextafter(t, toward);
+  if (!leads_ || inside < first_.newest().t) return nullptr;
+  return inside <= first_.duration() ? &first_ : &live_;
 }
 
 void HandLead::go_on_from(const LabHandFrame& frame) {
@@ -114,7 +102,7 @@ void HandLead::take_over(double t, double h) {
     target_.q = own_q(t, t + h);
     target_.gripper_closed = own_->sample(t, t + h).button;
   }
-  std::fill(target_.qd.begin(), target_.qd.end(), 0.0);
+  std::ranges::fill(target_.qd, 0.0);
   goes_on_ = false;
 }
 

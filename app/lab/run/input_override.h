@@ -7,8 +7,10 @@
 // to be taken again.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,25 @@
 #include "coupling/device/device_motion.h"
 
 namespace twinarm {
+
+// A hand in whose place another leads at times.
+class ReplacedHand final : public HandSource {
+ public:
+  // Null: its own.
+  using Instead = std::function<const HandSource*(double t, double toward)>;
+  ReplacedHand(std::unique_ptr<HandSource> own, Instead instead)
+      : own_(std::move(own)), instead_(std::move(instead)) {}
+  HandSample sample(double t, double toward) const override {
+    const HandSource* other = instead_(t, toward);
+    return (other ? *other : *own_).sample(t, toward);
+  }
+  double duration() const override { return own_->duration(); }
+  std::string description() const override { return own_->description(); }
+
+ private:
+  std::unique_ptr<HandSource> own_;
+  Instead instead_;
+};
 
 class HandLead {
  public:
@@ -47,8 +68,8 @@ class HandLead {
   bool leads() const { return leads_; }
 
  private:
-  class Led;
   void choose_pulls();
+  const HandSource* source_at(double t, double toward) const;
   std::vector<double> own_q(double t, double toward) const;
   void take_over(double t, double h);
   void make_loop(double h);

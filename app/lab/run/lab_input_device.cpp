@@ -39,17 +39,6 @@ void LabHand::choose(Source source, const std::string& spec) {
   ++chosen_;
 }
 
-void LabHand::set_mapping(const MappingSpec& mapping) {
-  mapping_ = mapping;
-  tip_.reset();
-  ++chosen_;
-}
-
-void LabHand::set_force(const HandForceSpec& force) {
-  force_ = force;
-  ++chosen_;
-}
-
 std::string LabHand::description() const {
   if (device_) return device_->description();
   return source_ == Source::joints ? "driven joint by joint" : "as the scene says";

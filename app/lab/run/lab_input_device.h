@@ -30,8 +30,6 @@ class LabHand {
   LabHand();
   // Throws InputError: a device that is not known, or not there. `spec` only of Source::device.
   void choose(Source source, const std::string& spec = "");
-  void set_mapping(const MappingSpec& mapping);  // of drag and device; cartesian at first
-  void set_force(const HandForceSpec& force);
 
   Source source() const { return source_; }
   const MappingSpec& mapping() const { return mapping_; }

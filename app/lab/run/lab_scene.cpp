@@ -9,7 +9,6 @@
 #include "solver/support/number_text.h"
 
 namespace twinarm {
-
 namespace {
 
 // What a change turns that stands beside the scene, as on the command line of `simulate`.
@@ -144,8 +143,7 @@ RecordingHeader LabScene::header(const std::vector<Change>& changes, const Hand&
   for (const Change& change : of_the_scene(changes, options, faults))
     if (change.path == "gravity") options.robot.gravity = change.value;
   header.run = recorded_run(options);
-  header.integrator = integrator_name(planned->prepared.run.integrator);
-  header.step = planned->prepared.run.step;
+  describe_frames(planned->prepared, header);
   header.run.step = header.step;
   if (!is_scene()) return header;
   const std::filesystem::path log = header.run.model.parent_path() / "lab_hand.csv";

@@ -55,7 +55,7 @@ void MousePull::book(double h, std::span<const double> weights, const State<doub
   shown_.setZero();
   if (!pull_) return;
   const auto on_it = [&](const Given& part) { return part.body == pull_->body; };
-  auto place = std::find_if(given_.begin(), given_.end(), on_it);
+  auto place = std::ranges::find_if(given_, on_it);
   if (place == given_.end()) place = given_.insert(given_.end(), {pull_->body, {}});
   const Vector3 before = place->exchange.impulse;
   if (is_implicit_) {

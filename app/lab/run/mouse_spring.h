@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/run/lab_input.h"
+#include "app/lab/run/lab_frame.h"
 #include "app/run/simulate_options.h"
 #include "app/scene/forces/outside_force.h"
 #include "solver/model/model.h"

@@ -36,7 +36,7 @@ LaneSet parse_lanes(const std::string& text) {
 std::optional<LaneFault> fault_of(const LaneSet& lanes) {
   const std::vector<std::string>& values = lanes.values;
   const auto is_empty = [](const std::string& value) { return value.empty(); };
-  if (lanes.path.empty() || values.empty() || std::any_of(values.begin(), values.end(), is_empty))
+  if (lanes.path.empty() || values.empty() || std::ranges::any_of(values, is_empty))
     return LaneFault{"a path or a value is missing", "write integrator=semi-implicit,rk4"};
   if (values.size() < 2 || values.size() > LaneSet::kMost)
     return LaneFault{std::to_string(values.size()) + " values make no lanes", "give 2 to 7 values"};

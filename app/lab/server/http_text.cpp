@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/beast/http/status.hpp>
 #include <stdexcept>
 
 namespace twinarm {
@@ -31,9 +32,8 @@ std::optional<std::string> unescaped(std::string_view text, bool plus_is_space) 
       plain += plus_is_space && text[i] == '+' ? ' ' : text[i];
     }
   }
-  const bool is_text = std::none_of(plain.begin(), plain.end(), [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-  });
+  const bool is_text = std::ranges::none_of(
+      plain, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
   if (!is_text || !is_utf8(plain)) return {};
   return plain;
 }
@@ -44,39 +44,6 @@ bool is_numeric(std::string_view host) {
   if (inet_pton(AF_INET, text.c_str(), bytes.data()) == 1) return true;
   if (text.size() < 3 || text.front() != '[' || text.back() != ']') return false;
   return inet_pton(AF_INET6, text.substr(1, text.size() - 2).c_str(), bytes.data()) == 1;
-}
-
-const char* reason(int status) {
-  switch (status) {
-    case 200:
-      return "OK";
-    case 202:
-      return "Accepted";
-    case 304:
-      return "Not Modified";
-    case 400:
-      return "Bad Request";
-    case 403:
-      return "Forbidden";
-    case 404:
-      return "Not Found";
-    case 405:
-      return "Method Not Allowed";
-    case 413:
-      return "Content Too Large";
-    case 422:
-      return "Unprocessable Content";
-    case 429:
-      return "Too Many Requests";
-    case 431:
-      return "Request Header Fields Too Large";
-    case 500:
-      return "Internal Server Error";
-    case 503:
-      return "Service Unavailable";
-    default:
-      return "Status";
-  }
 }
 
 // A line of a head has no room for what would end it.
@@ -161,12 +128,14 @@ bool HostNames::has(std::string_view host) const {
     host.remove_suffix(port_.size());
   else if (port_ != ":80")
     return false;
-  return std::find(names_.begin(), names_.end(), host) != names_.end() ||
-         (is_any_ && is_numeric(host));
+  return std::ranges::find(names_, host) != names_.end() || (is_any_ && is_numeric(host));
 }
 
 std::string to_string(const ResponseHead& head) {
-  std::string text = "HTTP/1.1 " + std::to_string(head.status) + ' ' + reason(head.status);
+  const auto reason = boost::beast::http::obsolete_reason(
+      boost::beast::http::int_to_status(static_cast<unsigned>(head.status)));
+  std::string text = "HTTP/1.1 " + std::to_string(head.status) + ' ';
+  text.append(reason.data(), reason.size());
   if (head.status != 304) {
     text += "\r\nContent-Type: " + header_text(head.type);
     text += "\r\nContent-Length: " + std::to_string(head.size);

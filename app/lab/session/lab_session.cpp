@@ -23,13 +23,7 @@ LabSession::LabSession(Built scene, const std::vector<GalleryScene>& gallery,
       commands_(state_, gallery, [this](Order order) { open(std::move(order)); }) {
   commands_.adopt(std::move(scene));
   publish();  // from now on there is something to be seen
-  builder_ = std::make_unique<Workshop>(
-      Workshop::Out{[this](Built built) { state_.inbox.push(std::move(built)); },
-                    [this](const Order& order) {
-                      if (!order.asked.empty())
-                        state_.inbox.push_refused(order.asked.back().number);
-                    },
-                    [this](const std::string& why) { note("error", why); }});
+  builder_ = std::make_unique<Workshop>(state_.inbox);
   thread_ = std::thread([this] { work(); });
 }
 
@@ -144,9 +138,9 @@ void LabSession::show_end() {
   if (!found->suspects.empty()) end.spring = found->suspects.front().name;
   end.remedies = remedies_of(state_.loop.run().prepared(), *found);
   std::erase_if(end.remedies, [this](const Remedy& remedy) {
-    return std::any_of(
-        remedy.changes.begin(), remedy.changes.end(),
-        [this](const std::string& text) { return is_of_lanes(state_.status, parse_change(text)); });
+    return std::ranges::any_of(remedy.changes, [this](const std::string& text) {
+      return is_of_lanes(state_.status, parse_change(text));
+    });
   });
   state_.status.dead = std::move(end);
 }

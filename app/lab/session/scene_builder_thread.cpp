@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/lab/session/inbox.h"
 #include "app/record/recording_reader.h"
-#include "app/support/find_assets.h"
+#include "app/support/find_files.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -66,7 +67,7 @@ Built build(Order order) {
   return built;
 }
 
-Workshop::Workshop(Out out) : out_(std::move(out)), thread_([this] { work(); }) {}
+Workshop::Workshop(Inbox& inbox) : inbox_(inbox), thread_([this] { work(); }) {}
 
 Workshop::~Workshop() {
   {
@@ -90,7 +91,7 @@ std::optional<Order> Workshop::order(Order order) {
 // It was tried already, with an order before this one.
 void Workshop::leave_out_refused(Order& order) const {
   std::erase_if(order.asked, [this](const Asked& asked) {
-    return std::find(refused_.begin(), refused_.end(), asked.number) != refused_.end();
+    return std::ranges::find(refused_, asked.number) != refused_.end();
   });
 }
 
@@ -110,11 +111,16 @@ std::optional<Built> Workshop::build_one_by_one(const Order& order) {
       refused_.push_back(asked.number);
       if (&asked == &order.asked.back() && order.what == Order::What::branch && built)
         built->order.what = Order::What::change;  // the branch was for what is refused
-      out_.refused(words_of(error));
+      inbox_.note("error", words_of(error));
     }
   }
   if (built) built->order.asked = order.asked;  // all of it is done with
   return built;
+}
+
+// Nothing of it holds; why was told.
+void Workshop::fail(const Order& order) {
+  if (!order.asked.empty()) inbox_.push_refused(order.asked.back().number);
 }
 
 void Workshop::work() {
@@ -131,19 +137,19 @@ void Workshop::work() {
     leave_out_refused(order);
     try {
       try {
-        out_.built(build(order));
+        inbox_.push(build(order));
       } catch (const InputError& error) {
         if (order.asked.size() < 2) throw;
         auto built = build_one_by_one(order);
-        built ? out_.built(std::move(*built)) : out_.failed(order);
+        built ? inbox_.push(std::move(*built)) : fail(order);
       }
     } catch (const std::exception& error) {
       const auto* faults = dynamic_cast<const InputError*>(&error);
       const std::string why = faults ? words_of(*faults) : error.what();
       for (const Asked& asked : order.asked) refused_.push_back(asked.number);
       if (order.done) order.done(why);
-      out_.refused(why);
-      out_.failed(order);
+      inbox_.note("error", why);
+      fail(order);
     }
   }
 }

@@ -57,16 +57,12 @@ struct Built {
   std::vector<std::shared_ptr<LabScene::Plan>> lane_views;
 };
 
+class Inbox;
+
 class Workshop {
  public:
-  // Both are called by the workshop's thread.
-  struct Out {
-    std::function<void(Built)> built;
-    std::function<void(const Order&)> failed;  // nothing of it holds; why was told
-    std::function<void(const std::string& why)>
-        refused;  // a part, or all; its faults, line by line
-  };
-  explicit Workshop(Out out);
+  // What is built goes to the inbox, and so does what is refused, with its faults, line by line.
+  explicit Workshop(Inbox& inbox);
   ~Workshop();
   // From any thread. Takes the place of one that has not been begun, which is returned.
   [[nodiscard]] std::optional<Order> order(Order order);
@@ -75,8 +71,9 @@ class Workshop {
   void work();
   void leave_out_refused(Order& order) const;
   std::optional<Built> build_one_by_one(const Order& order);
+  void fail(const Order& order);
 
-  Out out_;
+  Inbox& inbox_;
   std::vector<long> refused_;  // numbers of what was asked for; of the workshop's thread alone
   std::mutex mutex_;
   std::condition_variable wake_;

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "app/accounting/energy_balance.h"
-#include "app/robot/robot_table.h"
+#include "app/robot/robot_output.h"
 
 namespace twinarm {
 namespace {

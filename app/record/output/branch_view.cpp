@@ -50,8 +50,7 @@ std::vector<Parted> parted(const Recording& recording, const Replay& fork) {
   }
   std::vector<Parted> order;
   for (const auto& [motion, found] : by_motion) order.push_back(found);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const Parted& a, const Parted& b) { return a.by > b.by; });
+  std::ranges::stable_sort(order, [](const Parted& a, const Parted& b) { return a.by > b.by; });
   return order;
 }
 
@@ -91,7 +90,7 @@ void print_values(const Recording& recording, const Replay& fork) {
 }
 
 std::size_t place_of(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
 // Of all frames, since the first; a row comes in when it first does something.
@@ -155,7 +154,7 @@ void print_ledgers(const ComparedLedgers& ledgers, double from, double to) {
 // The rows that part most.
 std::vector<std::string> parted_rows(const ComparedLedgers& ledgers) {
   std::vector<ComparedWork> rows = ledgers.works;
-  std::stable_sort(rows.begin(), rows.end(), [](const ComparedWork& a, const ComparedWork& b) {
+  std::ranges::stable_sort(rows, [](const ComparedWork& a, const ComparedWork& b) {
     return std::abs(a.fork - a.recorded) > std::abs(b.fork - b.recorded);
   });
   std::vector<std::string> names;

@@ -19,7 +19,7 @@ std::vector<GeometryPair> pairs_of(const Recording& recording) {
   std::vector<GeometryPair> pairs;
   for (std::size_t n = 0; n < recording.size(); ++n)
     for (const RecordedContact& c : recording.frame(n).contacts) pairs.emplace_back(c.a, c.b);
-  std::sort(pairs.begin(), pairs.end());
+  std::ranges::sort(pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }

@@ -10,32 +10,11 @@
 namespace twinarm {
 namespace {
 
-constexpr std::array<const char*, static_cast<std::size_t>(Uniform::count)> kUniformNames = {
-    "world_from_mesh",
-    "normal_from_mesh",
-    "clip_from_world",
-    "world_from_clip",
-    "key_from_world",
-    "sky_from_world",
-    "normal_offset",
-    "eye",
-    "key_direction",
-    "sky_direction",
-    "color",
-    "picture",
-    "shininess",
-    "key_shadow",
-    "sky_shadow",
-    "texel",
-    "shadow_reach",
-    "per_height",
-    "background_bottom",
-    "background_top",
-    "background_ground",
-    "ground",
-    "grid",
-    "per_grid"};
-static_assert(kUniformNames.back() != nullptr, "one name for each Uniform");
+constexpr const char* kUniformNames[] = {
+#define TWINARM_UNIFORM_NAME(name) #name,
+    TWINARM_UNIFORMS(TWINARM_UNIFORM_NAME)
+#undef TWINARM_UNIFORM_NAME
+};
 
 // A shader that does not compile is a mistake of ours, not of the user.
 GLuint compile(const GlTable& gl, GLenum stage, const std::string& source) {

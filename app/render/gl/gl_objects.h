@@ -15,33 +15,19 @@
 
 namespace twinarm {
 
-// Every uniform of every shader: here, and in kUniformNames of gl_objects.cpp in the same order.
+// Every uniform of every shader, by its name there.
+// clang-format off
+#define TWINARM_UNIFORMS(X)                                                                       \
+  X(world_from_mesh) X(normal_from_mesh) X(clip_from_world) X(world_from_clip) X(key_from_world)  \
+  X(sky_from_world) X(normal_offset) X(eye) X(key_direction) X(sky_direction) X(color) X(picture) \
+  X(shininess) X(key_shadow) X(sky_shadow) X(texel) X(shadow_reach) X(per_height)                 \
+  X(background_bottom) X(background_top) X(background_ground) X(ground) X(grid) X(per_grid)
+// clang-format on
 enum class Uniform : std::size_t {
-  world_from_mesh,
-  normal_from_mesh,
-  clip_from_world,
-  world_from_clip,
-  key_from_world,
-  sky_from_world,
-  normal_offset,
-  eye,
-  key_direction,
-  sky_direction,
-  color,
-  picture,
-  shininess,
-  key_shadow,
-  sky_shadow,
-  texel,
-  shadow_reach,
-  per_height,
-  background_bottom,
-  background_top,
-  background_ground,
-  ground,
-  grid,
-  per_grid,
-  count
+#define TWINARM_UNIFORM(name) name,
+  TWINARM_UNIFORMS(TWINARM_UNIFORM)
+#undef TWINARM_UNIFORM
+      count
 };
 
 // A linked program with its uniform locations looked up once. Setting a uniform that a shader

@@ -19,18 +19,8 @@ Eigen::Vector3f linear(const Color& c) {
   return {linear(c.r), linear(c.g), linear(c.b)};
 }
 
-ShaderVariant with_texture(ShaderVariant variant) {
-  variant.textured = true;
-  return variant;
-}
-
-ShaderVariant with_horizon(ShaderVariant variant, bool horizon) {
-  variant.horizon = horizon;
-  return variant;
-}
-
-ShaderVariant without_shadow(ShaderVariant variant) {
-  variant.key_shadow = false;
+ShaderVariant with(bool ShaderVariant::*part, bool value, ShaderVariant variant) {
+  variant.*part = value;
   return variant;
 }
 
@@ -53,8 +43,8 @@ ScenePass::ScenePass(const GlTable& gl, int width, int height, const ShaderVaria
       key_map_(gl, kKeyMapSide, !variant.soft_shadow),
       variant_(variant),
       solid_(gl, solid_vertex_shader(variant), solid_fragment_shader(variant)),
-      textured_(gl, solid_vertex_shader(with_texture(variant)),
-                solid_fragment_shader(with_texture(variant))),
+      textured_(gl, solid_vertex_shader(with(&ShaderVariant::textured, true, variant)),
+                solid_fragment_shader(with(&ShaderVariant::textured, true, variant))),
       ghost_(gl, solid_vertex_shader(variant), ghost_fragment_shader()),
       depth_(gl, depth_vertex_shader(), depth_fragment_shader()) {
   if (variant.sky_sample) sky_map_.emplace(gl, kSkyMapSide, true);
@@ -69,12 +59,12 @@ void ScenePass::prepare(const DrawList& list) {
                                           bounds_, floor_radius_);
   std::optional<Backdrop>& backdrop = backdrops_[has_horizon() ? 1 : 0];
   if (!backdrop) {
-    const ShaderVariant variant = with_horizon(variant_, has_horizon());
+    const ShaderVariant variant = with(&ShaderVariant::horizon, has_horizon(), variant_);
     const std::string vertex = floor_vertex_shader(variant);
-    backdrop.emplace(
-        Backdrop{{gl_, vertex, floor_fragment_shader(variant)},
-                 {gl_, vertex, floor_fragment_shader(without_shadow(variant))},
-                 {gl_, background_vertex_shader(), background_fragment_shader(variant)}});
+    backdrop.emplace(Backdrop{
+        {gl_, vertex, floor_fragment_shader(variant)},
+        {gl_, vertex, floor_fragment_shader(with(&ShaderVariant::key_shadow, false, variant))},
+        {gl_, background_vertex_shader(), background_fragment_shader(variant)}});
   }
   forget_unused();
   items_.clear();
@@ -144,7 +134,7 @@ void ScenePass::draw(const LightSample& sample) {
 
 void ScenePass::draw_blended(const LightSample& sample) const {
   const auto is_blended = [](const Item& item) { return item.ghost || item.seen_through; };
-  if (std::none_of(items_.begin(), items_.end(), is_blended)) return;
+  if (std::ranges::none_of(items_, is_blended)) return;
   gl_.Enable(GL_FRAMEBUFFER_SRGB);
   gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // stays opaque
   draw_hidden(sample);

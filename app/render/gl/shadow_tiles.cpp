@@ -89,7 +89,7 @@ std::vector<FloorTiles> floor_tiles(const std::vector<CasterBox>& casters, const
   std::vector<FloorTiles> tiles;
   std::vector<char> row(static_cast<std::size_t>((width + kTile - 1) / kTile));
   for (int y = 0; y < height; y += kTile) {
-    std::fill(row.begin(), row.end(), char{0});
+    std::ranges::fill(row, char{0});
     for (const ShadowCorners& corners : shadows) mark(row, reach(corners, y - 1, y + kTile + 1));
     const int rows = std::min(kTile, height - y);
     for (std::size_t i = 0; i < row.size();) {

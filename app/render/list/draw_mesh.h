@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "collision/geometry/mesh.h"
@@ -49,12 +50,26 @@ enum class UnitShape {
   cylinder,  // radius 1, axis z from 0 to 1
   cone,      // base radius 1 at z = 0, tip at z = 1
 };
-// With places in a texture (texture_places.h), but for the cone.
+// With places in a texture (below), but for the cone.
 DrawMesh make_unit_mesh(UnitShape shape);
 
 // A helical spring along z from 0 to 1, coil radius 1, with straight leads on the axis. Stretching
 // it to its place would also stretch its wire; so the wire is drawn flat in such a way that it is
 // round again when the spring is scaled to `aspect` = length / coil radius.
 DrawMesh make_unit_spring(double aspect);
+
+// Where the corners of plain shapes lie in a texture, (0, 0) at its top left, (1, 1) at its bottom
+// right. World or body axes: z up.
+//
+// Of a box of edge 1, centred: each face shows the whole picture. Of the four at the sides up is z,
+// of top and bottom y.
+std::vector<CornerUv> places_on_box(const TriangleMesh& box);
+
+// The picture once around z, its left and right border where y = 0 and x < 0; `down` gives how far
+// below its upper border a point lies. Facets that look along z show the circle of radius `cap`
+// within the picture; 0: there are none.
+std::vector<CornerUv> places_around_z(const TriangleMesh& mesh,
+                                      const std::function<double(const Vector3&)>& down,
+                                      double cap = 0);
 
 }  // namespace twinarm

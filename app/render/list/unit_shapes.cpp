@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "app/render/list/draw_mesh.h"
-#include "app/render/list/texture_places.h"
 
 namespace twinarm {
 namespace {

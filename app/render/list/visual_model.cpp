@@ -59,7 +59,7 @@ VisualMesh visual_of(const ModelPart& part, const Vector3& scale, KeepPlaces kee
   const MendedWinding mended = mend_winding(surface.mesh);
   for (std::size_t i = 0; i < surface.uv.size(); ++i)
     if (mended.turned[i]) turn(surface.uv[i]);
-  turned += static_cast<std::size_t>(std::count(mended.turned.begin(), mended.turned.end(), true));
+  turned += static_cast<std::size_t>(std::ranges::count(mended.turned, true));
   VisualMesh visual;
   visual.mesh = make_draw_mesh(surface.mesh, surface.uv);
   visual.mesh.two_sided = !mended.is_closed;

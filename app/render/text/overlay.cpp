@@ -55,7 +55,7 @@ class TakenRoom {
  public:
   void take(const Vector2d& low, const Vector2d& high) { boxes_.push_back({low, high}); }
   bool is_free(const Vector2d& low, const Vector2d& high) const {
-    return std::none_of(boxes_.begin(), boxes_.end(), [&](const Box& box) {
+    return std::ranges::none_of(boxes_, [&](const Box& box) {
       return (low.array() < box.high.array()).all() && (high.array() > box.low.array()).all();
     });
   }

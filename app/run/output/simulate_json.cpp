@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "app/robot/robot_json.h"
+#include "app/robot/robot_output.h"
 #include "app/run/output/simulate_output.h"
 #include "solver/dynamics/energy_momentum.h"
 
@@ -26,34 +26,28 @@ class JsonOutput : public RunOutput {
   void sample(double t, const State<double>& x) override {
     const Coordinates& coordinates = input_.coordinates;
     forward_kinematics(input_.model, x, k_);
-    json_.begin_object();
-    json_.key("t").number(t);
-    write_coordinates(json_.key("q"), coordinates, x);
-    write_velocities(json_.key("qd"), coordinates, x);
-    if (coordinates.floating()) write_base(json_.key("base"), coordinates, x);
-    write_links(json_.key("links"), input_.model, k_);
-    if (simulated_.couplings) write_targets(t);
-    json_.members({{"kinetic_energy", kinetic_energy(input_.model, x)},
-                   {"potential_energy", potential_energy(input_.model, x)}});
-    json_.end_object();
+    json_.object([&] {
+      json_.put("t", t);
+      write_coordinates(json_.key("q"), coordinates, x);
+      write_velocities(json_.key("qd"), coordinates, x);
+      if (coordinates.floating()) write_base(json_.key("base"), coordinates, x);
+      write_links(json_.key("links"), input_.model, k_);
+      if (simulated_.couplings) write_targets(t);
+      json_.members({{"kinetic_energy", kinetic_energy(input_.model, x)},
+                     {"potential_energy", potential_energy(input_.model, x)}});
+    });
   }
 
   void end(const SimulateResult& result) override {
     json_.end_array();
-    json_.key("contacts").count(result.contacts);
-    json_.key("ledger").begin_object();
-    for (const LedgerRow& row : result.ledger) json_.key(row.name).number(row.work);
-    json_.end_object();
-    json_.key("momentum").begin_object();
-    for (const MomentumRow& row : result.momentum)
-      json_.key(row.name).object({{"linear", row.linear}, {"angular", row.angular}});
-    json_.end_object();
-    if (simulated_.couplings) {
-      json_.key("hand").begin_object();
-      for (const LedgerRow& row : result.hand) json_.key(row.name).number(row.work);
-      json_.end_object();
-    }
-    json_.key("steps").count(result.steps);
+    json_.put("contacts", result.contacts);
+    write_rows("ledger", result.ledger);
+    json_.key("momentum").object([&] {
+      for (const MomentumRow& row : result.momentum)
+        json_.key(row.name).object({{"linear", row.linear}, {"angular", row.angular}});
+    });
+    if (simulated_.couplings) write_rows("hand", result.hand);
+    json_.put("steps", result.steps);
     if (result.alarm)
       json_.key("alarm").object({{"row", result.alarm->row},
                                  {"time", result.alarm->t},
@@ -69,30 +63,36 @@ class JsonOutput : public RunOutput {
   }
 
  private:
+  void write_rows(const char* key, const std::vector<LedgerRow>& rows) {
+    json_.key(key).object([&] {
+      for (const LedgerRow& row : rows) json_.put(row.name, row.work);
+    });
+  }
   // The kinematic side of each coupling: joints of its robot, and the end of the spring.
   void write_targets(double t) {
-    json_.key("targets").begin_object();
-    for (std::size_t c = 0; c < simulated_.couplings->size(); ++c) {
-      const SceneCoupling& spec = simulated_.couplings->spec(c);
-      const KvrSample& kvr = simulated_.couplings->target(c, t);
-      const auto body = static_cast<std::size_t>(spec.spring.body);
-      json_.key(spec.name).begin_object();
-      write_joints("q", spec, [&](const NamedJoint& j) { return coordinates_of(j, kvr.x); });
-      write_joints("qd", spec,
-                   [&](const NamedJoint& j) { return from_solver(j, kvr.x, kvr.x.qd); });
-      const Vector3 p = kvr.k.position(spec.spring.body, spec.spring.p_L);
-      json_.members({{"position", p},
-                     {"orientation", quaternion_of(kvr.k.X_WL[body].R)},
-                     {"linear_velocity", kvr.k.velocity(spec.spring.body, p)},
-                     {"angular_velocity", kvr.k.w_WL[body]}});
-      json_.end_object();
-    }
-    json_.end_object();
+    json_.key("targets").object([&] {
+      for (std::size_t c = 0; c < simulated_.couplings->size(); ++c)
+        json_.put(simulated_.couplings->spec(c).name, [&] { write_target(c, t); });
+    });
+  }
+  void write_target(std::size_t c, double t) {
+    const SceneCoupling& spec = simulated_.couplings->spec(c);
+    const KvrSample& kvr = simulated_.couplings->target(c, t);
+    const auto body = static_cast<std::size_t>(spec.spring.body);
+    const Vector3 p = kvr.k.position(spec.spring.body, spec.spring.p_L);
+    const auto q = [&](const NamedJoint& j) { return coordinates_of(j, kvr.x); };
+    const auto qd = [&](const NamedJoint& j) { return from_solver(j, kvr.x, kvr.x.qd); };
+    json_.object({{"q", [&] { write_joints(spec, q); }},
+                  {"qd", [&] { write_joints(spec, qd); }},
+                  {"position", p},
+                  {"orientation", quaternion_of(kvr.k.X_WL[body].R)},
+                  {"linear_velocity", kvr.k.velocity(spec.spring.body, p)},
+                  {"angular_velocity", kvr.k.w_WL[body]}});
   }
   template <class Values>
-  void write_joints(const char* key, const SceneCoupling& spec, Values values) {
+  void write_joints(const SceneCoupling& spec, const Values& values) {
     const auto [first, last] = simulated_.scene->bodies_of_robot(spec.robot);
-    json_.key(key).begin_object();
+    json_.begin_object();
     for (std::size_t j = input_.coordinates.first_joint(); j < input_.coordinates.all().size();
          ++j) {
       const NamedJoint& joint = input_.coordinates.all()[j];

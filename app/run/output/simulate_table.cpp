@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/data/text_table.h"
@@ -21,24 +22,17 @@ void sum_up(MomentumRow& sum, const MomentumRow& row) {
 
 // Of the rows of a kind that are summed where there are many; others have none.
 const char* name_of_sum(LedgerKind kind) {
-  switch (kind) {
-    case LedgerKind::contact:
-      return "contact, all";
-    case LedgerKind::contact_normal:
-      return "contact, all/normal";
-    case LedgerKind::contact_friction:
-      return "contact, all/friction";
-    case LedgerKind::contact_impact:
-      return "contact, all/impact";
-    case LedgerKind::contact_stabilisation:
-      return "contact, all/stabilisation";
-    case LedgerKind::constraint:
-      return "constraint, all";
-    case LedgerKind::constraint_stabilisation:
-      return "constraint, all/stabilisation";
-    default:
-      return nullptr;
-  }
+  static constexpr std::pair<LedgerKind, const char*> kSums[] = {
+      {LedgerKind::contact, "contact, all"},
+      {LedgerKind::contact_normal, "contact, all/normal"},
+      {LedgerKind::contact_friction, "contact, all/friction"},
+      {LedgerKind::contact_impact, "contact, all/impact"},
+      {LedgerKind::contact_stabilisation, "contact, all/stabilisation"},
+      {LedgerKind::constraint, "constraint, all"},
+      {LedgerKind::constraint_stabilisation, "constraint, all/stabilisation"}};
+  for (const auto& [summed, name] : kSums)
+    if (summed == kind) return name;
+  return nullptr;
 }
 
 // Rows of many contacts or constraints are summed by kind: the JSON has them all.
@@ -46,12 +40,11 @@ template <class Row>
 std::vector<Row> shortened(const std::vector<Row>& rows) {
   constexpr std::ptrdiff_t most = 12;
   const auto is_summed = [](const Row& row) { return name_of_sum(row.kind) != nullptr; };
-  if (std::count_if(rows.begin(), rows.end(), is_summed) <= most) return rows;
+  if (std::ranges::count_if(rows, is_summed) <= most) return rows;
   std::vector<Row> out;
   for (const Row& row : rows) {
-    const auto same = std::find_if(out.begin(), out.end(), [&](const Row& other) {
-      return is_summed(row) && other.kind == row.kind;
-    });
+    const auto same = std::ranges::find_if(
+        out, [&](const Row& other) { return is_summed(row) && other.kind == row.kind; });
     if (same != out.end()) {
       sum_up(*same, row);
       continue;

@@ -5,7 +5,7 @@
 #include "app/scene/read/scene_keys.h"
 #include "app/scene/read/scene_names.h"
 #include "app/scene/read/scene_reader.h"
-#include "app/support/find_assets.h"
+#include "app/support/find_files.h"
 #include "app/support/nearest_name.h"
 
 namespace twinarm {

@@ -43,23 +43,23 @@ std::string timing_table(const ServoResult& servo) {
   return text + "\n";
 }
 
-void write_times(JsonWriter& json, const char* name, const TickTimes& times) {
-  json.key(name).object({{"median", times.quantile(0.5)},
-                         {"p99", times.quantile(0.99)},
-                         {"p999", times.quantile(0.999)},
-                         {"largest", times.largest()},
-                         {"mean", times.mean()}});
-}
-
 void write_figures(JsonWriter& json, const char* name, const TickFigures& figures) {
-  json.key(name).begin_object();
-  json.key("ticks").count(figures.cpu.count());
-  write_times(json, "cpu", figures.cpu);
-  write_times(json, "wall", figures.wall);
-  write_times(json, "late", figures.late);
-  write_times(json, "interval", figures.interval);
-  json.members({{"overruns", figures.overruns}, {"slipped", figures.slipped}});
-  json.end_object();
+  const auto times_of = [&json](const TickTimes& times) {
+    return [&json, &times] {
+      json.object({{"median", times.quantile(0.5)},
+                   {"p99", times.quantile(0.99)},
+                   {"p999", times.quantile(0.999)},
+                   {"largest", times.largest()},
+                   {"mean", times.mean()}});
+    };
+  };
+  json.key(name).object({{"ticks", figures.cpu.count()},
+                         {"cpu", times_of(figures.cpu)},
+                         {"wall", times_of(figures.wall)},
+                         {"late", times_of(figures.late)},
+                         {"interval", times_of(figures.interval)},
+                         {"overruns", figures.overruns},
+                         {"slipped", figures.slipped}});
 }
 
 void write_files(JsonWriter& json, const LiveSummary& summary) {

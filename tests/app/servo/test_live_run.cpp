@@ -7,7 +7,6 @@
 #include "app/servo/servo_clock.h"
 #include "app/servo/servo_loop.h"
 #include "app/servo/servo_run.h"
-#include "app/servo/tick_times.h"
 #include "tests/app/scene/model/helpers.h"
 #include "tests/support/count_allocations.h"
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "app/lab/app/task_queue.h"
-#include "app/lab/app/upload_folder.h"
+#include "app/lab/app/uploads.h"
 #include "tests/app/scene/model/helpers.h"
 
 namespace twinarm {

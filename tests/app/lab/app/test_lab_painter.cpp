@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "app/lab/app/message_streamer.h"
-#include "app/lab/app/rate_limiter.h"
 #include "app/lab/app/state_message.h"
 #include "tests/app/lab/run/helpers.h"
 #include "tests/app/lab/session/built_scene.h"

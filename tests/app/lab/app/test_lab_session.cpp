@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "app/lab/app/clients.h"
-#include "app/lab/app/uploaded_file.h"
+#include "app/lab/app/uploads.h"
 #include "app/lab/session/lab_command.h"
 #include "app/lab/session/lab_session.h"
-#include "app/lab/session/pace.h"
+#include "app/lab/session/run_loop.h"
 #include "solver/support/diagnostics.h"
 #include "tests/app/lab/run/helpers.h"
 #include "tests/app/lab/session/built_scene.h"

@@ -7,7 +7,6 @@
 
 #include "app/lab/parameters/gallery.h"
 #include "app/lab/parameters/parameters.h"
-#include "app/lab/parameters/presets.h"
 #include "app/record/unpack.h"
 #include "app/run/run.h"
 #include "tests/collision/import/robot/helpers.h"

@@ -78,6 +78,21 @@ TEST_CASE("lab history: what is saved replays bit for bit, hand and changes and 
   check(1.3, 20);
 }
 
+TEST_CASE("lab history: the header of what is saved has the couplings that its frames have") {
+  Session s(arm_with("device"));
+  const std::size_t couplings = s.scene.header({}, {}).couplings.size();
+  const std::vector<Change> changes{{"coupling.two.type", "god-object"}};
+  s.change(changes);
+  s.step(32);
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "lab.twinrec";
+  s.history.save(s.scene, s.names, s.run->led(), file);
+  const Recording recording(file);
+  CHECK(recording.header().couplings.size() > couplings);
+  for (std::size_t n = 0; n < recording.size(); ++n)
+    CHECK(recording.frame(n).pulls.size() == recording.header().couplings.size());
+}
+
 TEST_CASE("lab run: another step length goes on at the same place and time, to be gone back to") {
   Session s(arm_with("paper"));
   s.step(500);

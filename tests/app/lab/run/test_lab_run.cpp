@@ -1,5 +1,5 @@
 // A run of the lab: the bits of `simulate`, changed on the way, led by a hand, pulled by a mouse.
-#include "app/record/recorded_instant.h"
+#include "app/record/unpack.h"
 #include "tests/app/lab/run/helpers.h"
 
 namespace twinarm {

@@ -1,9 +1,11 @@
-#include "app/lab/app/uploaded_file.h"
+#include "app/lab/app/uploads.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
+
+#include "solver/support/atomic_file.h"
 
 namespace twinarm {
 namespace {
@@ -36,15 +38,43 @@ std::string why_no_robot(const std::string& root) {
 
 }  // namespace
 
+std::filesystem::path UploadFolder::write(const std::string& name, const std::string& bytes) {
+  const std::filesystem::path file = (folder_ / name).lexically_normal();
+  const auto same =
+      std::ranges::find_if(uploads_, [&](const Upload& upload) { return upload.file == file; });
+  if (same != uploads_.end()) {
+    bytes_ -= same->bytes;
+    uploads_.erase(same);
+  }
+  while (!uploads_.empty() &&
+         (uploads_.size() >= most_files_ || bytes_ + bytes.size() > most_bytes_)) {
+    remove(uploads_.front());
+    uploads_.pop_front();
+  }
+  std::error_code ignored;
+  std::filesystem::create_directories(file.parent_path(), ignored);
+  write_whole_file(file, bytes);
+  uploads_.push_back({file, bytes.size()});
+  bytes_ += bytes.size();
+  return file;
+}
+
+// With the folders that are empty then.
+void UploadFolder::remove(const Upload& upload) {
+  bytes_ -= upload.bytes;
+  std::error_code error;
+  for (std::filesystem::path path = upload.file; path != folder_ && !error;
+       path = path.parent_path())
+    std::filesystem::remove(path, error);
+}
+
 BroughtFile brought_file(const std::string& name, const std::string& bytes) {
   std::filesystem::path path = name;
   std::string end = path.extension().string();
   std::transform(end.begin(), end.end(), end.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   BroughtFile file{name, false, ""};
-  const auto is_one_of = [&](const auto& all) {
-    return std::find(all.begin(), all.end(), end) != all.end();
-  };
+  const auto is_one_of = [&](const auto& all) { return std::ranges::find(all, end) != all.end(); };
   if (end == ".xml" || end == ".xacro") {
     const std::string root = root_of(bytes);
     if (root != "robot") {

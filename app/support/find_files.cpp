@@ -1,7 +1,6 @@
-#include "app/support/find_assets.h"
+#include "app/support/find_files.h"
 
 #include <dlfcn.h>
-
 #include <vector>
 
 #include "solver/support/diagnostics.h"
@@ -40,6 +39,18 @@ std::filesystem::path find_assets(const std::filesystem::path& given) {
   throw InputError(
       {{places.front().string(), 0, "assets", "the folder with the robots is not there",
         "run from the project's folder, or give --assets"}});
+}
+
+std::filesystem::path find_input(const std::filesystem::path& name) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (name.empty() || *name.begin() != "assets" || fs::exists(name, error)) return name;
+  try {
+    const fs::path found = find_assets() / name.lexically_relative("assets");
+    return fs::exists(found, error) ? found : name;
+  } catch (const InputError&) {  // no assets: the name is told as it was typed
+    return name;
+  }
 }
 
 }  // namespace twinarm
