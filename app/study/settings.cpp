@@ -11,29 +11,28 @@ namespace {
 constexpr const char* kRemedy = "see the file as it was shipped";
 
 // The tables of the settings: every key must be there. What is at fault comes back as nothing.
-class SettingsTable : public SceneTable {
+class SettingsTable : public TableReader {
  public:
-  SettingsTable(const TomlValue& table, std::string where, const std::string& file,
-                FaultList& faults)
-      : SceneTable(table, std::move(where), file, faults), file_(file), faults_(faults) {}
+  SettingsTable(const Value& table, std::string where, const std::string& file, FaultList& faults)
+      : TableReader(table, std::move(where), file, faults), file_(file), faults_(faults) {}
 
   SettingsTable part(const std::string& key) {
-    static const TomlValue kNone;
+    static const Value kNone;
     missing(key, kRemedy);
-    const TomlValue* part = table(key);
+    const Value* part = table(key);
     return {part ? *part : kNone, key, file_, faults_};
   }
   double number(const std::string& key) {
     missing(key, kRemedy);
-    return SceneTable::number(key).value_or(0);
+    return TableReader::number(key).value_or(0);
   }
   std::string text(const std::string& key) {
     missing(key, kRemedy);
-    return SceneTable::text(key).value_or("");
+    return TableReader::text(key).value_or("");
   }
   Vector3 vector(const std::string& key) {
     missing(key, kRemedy);
-    return SceneTable::vector(key).value_or(Vector3::Zero());
+    return TableReader::vector(key).value_or(Vector3::Zero());
   }
   unsigned whole(const std::string& key) {
     const double value = number(key);
@@ -44,24 +43,24 @@ class SettingsTable : public SceneTable {
   }
   std::vector<double> numbers(const std::string& key) {
     std::vector<double> all;
-    for (const TomlValue& item : items(key, TomlValue::Kind::number, "a list of finite numbers"))
+    for (const Value& item : items(key, Value::Kind::number, "a list of finite numbers"))
       all.push_back(item.number);
     return all;
   }
   std::vector<std::string> texts(const std::string& key, std::size_t count) {
     std::vector<std::string> all;
-    for (const TomlValue& item :
-         items(key, TomlValue::Kind::text, "a list of " + std::to_string(count) + " texts", count))
+    for (const Value& item :
+         items(key, Value::Kind::text, "a list of " + std::to_string(count) + " texts", count))
       all.push_back(item.text);
     return all;
   }
 
  private:
   // Of any length but none where `count` is 0.
-  std::vector<TomlValue> items(const std::string& key, TomlValue::Kind kind,
-                               const std::string& wanted, std::size_t count = 0) {
-    const TomlValue* list = find(key);
-    bool good = list && list->kind == TomlValue::Kind::list && !list->items.empty() &&
+  std::vector<Value> items(const std::string& key, Value::Kind kind, const std::string& wanted,
+                           std::size_t count = 0) {
+    const Value* list = find(key);
+    bool good = list && list->kind == Value::Kind::list && !list->items.empty() &&
                 (count == 0 || list->items.size() == count);
     for (std::size_t i = 0; good && i < list->items.size(); ++i)
       good = list->items[i].kind == kind && std::isfinite(list->items[i].number);
@@ -84,7 +83,7 @@ void read_robot(SettingsTable robot, const std::string& file, FaultList& faults,
   const auto mounts = robot.tables("mount");
   if (mounts.size() != 2)  // of the two linear springs
     robot.fault("mount", "must be 2 tables [[robot.mount]]", kRemedy);
-  for (const TomlValue* one : mounts) {
+  for (const Value* one : mounts) {
     SettingsTable mount(*one, "robot.mount", file, faults);
     s.mounts.push_back({mount.text("link"), mount.vector("point")});
     mount.done();
@@ -97,7 +96,7 @@ void read_robot(SettingsTable robot, const std::string& file, FaultList& faults,
 StudySettings read_settings(const std::filesystem::path& assets) {
   const std::filesystem::path path = assets / "study" / "settings.toml";
   const std::string file = path.string();
-  const TomlValue root = read_toml(path);
+  const Value root = read_toml(path);
   FaultList faults;
   SettingsTable all(root, "settings", file, faults);
   StudySettings s;

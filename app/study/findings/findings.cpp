@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/data/toml_tree.h"
+#include "app/data/value.h"
 #include "app/study/findings/findings_detail.h"
 #include "app/study/findings/variants.h"
 #include "app/support/interrupt.h"
@@ -32,33 +32,33 @@ const char* robot_words(const std::string& name) {
 
 namespace {
 
-std::string text_of(const TomlValue& table, const char* key) {
-  const TomlValue* value = table.find(key);
+std::string text_of(const Value& table, const char* key) {
+  const Value* value = table.find(key);
   return value ? value->text : "";
 }
 
-std::optional<std::array<double, 2>> pair_of(const TomlValue& table, const char* key) {
-  const TomlValue* list = table.find(key);
+std::optional<std::array<double, 2>> pair_of(const Value& table, const char* key) {
+  const Value* list = table.find(key);
   if (!list || list->items.size() != 2) return {};
   return std::array<double, 2>{list->items[0].number, list->items[1].number};
 }
 
 Predictions read_predictions(const std::filesystem::path& assets) {
-  const TomlValue root = read_toml(assets / "study" / "predictions.toml");
+  const Value root = read_toml(assets / "study" / "predictions.toml");
   Predictions predictions;
-  if (const TomlValue* rows = root.find("row"))
-    for (const TomlValue& row : rows->items) {
-      const TomlValue* rate = row.find("rate");
+  if (const Value* rows = root.find("row"))
+    for (const Value& row : rows->items) {
+      const Value* rate = row.find("rate");
       predictions.rows.push_back(
           {text_of(row, "robot"), text_of(row, "law"), rate ? rate->number : 0,
            pair_of(row, "max").value_or(std::array<double, 2>{}), pair_of(row, "mean")});
     }
-  if (const TomlValue* modes = root.find("modes"))
-    for (const TomlValue& table : modes->items) {
+  if (const Value* modes = root.find("modes"))
+    for (const Value& table : modes->items) {
       PredictedModes& mode = predictions.modes.emplace_back();
       mode.robot = text_of(table, "robot");
       for (const char* law : {"world", "joint", "linear"})
-        if (const TomlValue* ratio = table.find(law)) mode.ratio[law] = ratio->number;
+        if (const Value* ratio = table.find(law)) mode.ratio[law] = ratio->number;
     }
   return predictions;
 }

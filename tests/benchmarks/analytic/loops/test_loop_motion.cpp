@@ -11,7 +11,6 @@
 #include "solver/dynamics/model_builder.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/loops/loop_closure.h"
-#include "solver/loops/loop_assembly.h"
 #include "solver/stepping/simulation.h"
 #include "tests/support/count_allocations.h"
 
