@@ -11,16 +11,20 @@
 namespace twinarm::compare_page {
 namespace {
 
-// gnuplot opens a group at each change of its pen, and says again what the style sheet says of all
-// figures (page_style.h, `figure svg`): half of a page of hundreds of figures. Its names of plots
-// are not unique in the page, and would be shown where the pointer is.
+// gnuplot opens a group at each change of its pen, writes hundredths of a pixel, and says again
+// what the style sheet says of all figures (page_style.h, `figure svg`): more than half of a page
+// of hundreds of figures. Its names of plots are not unique in the page, and would be shown where
+// the pointer is.
 std::string figure(const std::string& drawn, const std::string& caption, const char* kind = "") {
   static const std::regex kIdle(
       R"re(<g fill="none"[^>]*>\s*</g>\s*|<title>[^<]*</title>| id="gnuplot_plot[^"]*")re"
-      R"re(| stroke-line(cap|join)="round"| font-family="[^"]*"| stroke-width="1.00"|\n\s+)re");
+      R"re(|<rect x="0" y="0"[^>]*>|<filter[^>]*>[\s\S]*?</filter>\s*)re"
+      R"re(|<g transform[^>]*>\s*<text>\s*</text>\s*</g>| class="gridline"| font-size="13.00")re"
+      R"re(| color="black" stroke="currentColor"| stroke-line(?:cap|join)="round")re"
+      R"re(| font-family="[^"]*"| stroke-width="1.00"|(\.\d)\d(?=,|\)| [LM ]))re");
   if (drawn.empty()) return "";
   return fmt::format("<figure{}>{}<figcaption>{}</figcaption></figure>\n", kind,
-                     inline_svg(std::regex_replace(drawn, kIdle, " ")), caption);
+                     inline_svg(std::regex_replace(drawn, kIdle, "$1")), caption);
 }
 
 // HTML; formulas stand in paragraphs of their own.

@@ -24,8 +24,8 @@ section.case figure { margin: .7rem 0; }
 .facts { display: flex; flex-wrap: wrap; gap: .1rem 1.7rem; font-size: .9rem; margin: .5rem 0; }
 .facts b { font-weight: 600; font-variant-numeric: tabular-nums; }
 .facts span { color: var(--soft); }
-figure svg { font: 13px "DejaVu Sans", Verdana, sans-serif; stroke-linecap: round;
-  stroke-linejoin: round; }
+figure svg { font: 13px "DejaVu Sans", Verdana, sans-serif; color: #000; stroke: currentColor;
+  stroke-linecap: round; stroke-linejoin: round; }
 .pair > .note { align-self: center; margin: 0; }
 section.case p sub, section.case p sup { line-height: 0; font-size: .72em; }
 .readings { width: auto; }

@@ -10,7 +10,7 @@ namespace twinarm::compare_page {
 namespace {
 
 // A page has hundreds of curves: fewer points than in a report of ten figures.
-constexpr std::size_t kStretches = 120;
+constexpr std::size_t kStretches = 80;
 constexpr std::size_t kMostPanels = 4;
 
 struct LineLook {
