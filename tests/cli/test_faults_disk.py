@@ -86,7 +86,8 @@ class FullDisk(Case):
 
     def test_a_recording_for_which_there_is_no_more_room_keeps_its_frames(self):
         limit = 100_000
-        done = self.run_it([program.PROGRAM, "simulate", SCENES / "box_stack.toml", "--duration", 0.5, "--record", "run"],
+        words = ["simulate", SCENES / "box_stack.toml", "--duration", 0.5, "--record", "run"]
+        done = self.run_it([program.PROGRAM, *words],
                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
         self.told_well("recording", done)
         self.assertIn("has room", done.stderr)

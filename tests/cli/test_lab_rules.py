@@ -99,7 +99,7 @@ class LabRules(LabTest):
 
     def test_another_scene_brings_rows_and_instants_of_its_own(self):
         self.frame(lambda f: f.time > 0.3)
-        ball = ('[[body]]\nname = "b"\nshape = { sphere = { radius = 0.1 } }\nmass = 1\n')
+        ball = '[[body]]\nname = "b"\nshape = { sphere = { radius = 0.1 } }\nmass = 1\n'
         number = self.live.wait_for("scene")["scene"]
         self.live.do("play", on=True)
         self.lab.upload("ball.toml", ball, self.live)

@@ -7,7 +7,7 @@ import os
 import struct
 
 import picture
-from program import SCENES, ProgramTest, data, main, run
+from program import SCENES, ProgramTest, data, main
 
 BALL = data("dropped_ball.toml")
 # In place of ffmpeg: writes what it was told and how many bytes it was given; fails on demand.

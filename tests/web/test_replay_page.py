@@ -9,7 +9,7 @@ import tempfile
 import unittest
 
 from browser import NO_BROWSER, find_browser
-from page_file import PageTest, data_of, main, page_browser, png
+from page_file import PageTest, data_of, main, page_browser, png, setUpModule  # noqa: F401
 from program import SCENES, data, twinarm
 
 
