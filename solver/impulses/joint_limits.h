@@ -28,7 +28,7 @@ class JointLimits final : public EventSource, public Rewindable {
   void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
   void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
             std::size_t first) noexcept override;
-  // joint_limits_events.cpp
+  // Steps that locate their events.
   bool closes(const ConstraintFrame& frame) noexcept override;
   void hold(const ConstraintFrame& frame, bool struck) noexcept override;
   void hold_again() noexcept override;

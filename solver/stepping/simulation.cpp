@@ -1,13 +1,63 @@
 #include "solver/stepping/simulation.h"
 
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "solver/loops/loop_closure.h"
-#include "solver/stepping/step_checks.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
+namespace {
+
+// What a simulation is made of: not all integrators, sources of forces and sources of constraints
+// go with one another. check_parts() throws std::invalid_argument where they do not.
+struct StepParts {
+  Integrator integrator;
+  bool constrained, located;  // steps under constraints; that locate their events
+  const std::vector<ForceSource*>& forces;
+  const std::vector<ConstraintSource*>& constraints;
+};
+
+void check_integrator(const StepParts& parts) {
+  const std::string name = integrator_name(parts.integrator);
+  if (parts.constrained && parts.integrator != Integrator::semi_implicit)
+    throw std::invalid_argument("contacts and limits go with the integrator 'semi-implicit' only");
+  if (parts.located && parts.integrator != Integrator::semi_implicit)
+    throw std::invalid_argument(
+        "steps that locate their events go with the integrator 'semi-implicit' only, not with '" +
+        name + "'");
+  for (const ForceSource* source : parts.forces)
+    if (source->needs_semi_implicit() && !facts_of(parts.integrator).implicit_force)
+      throw std::invalid_argument(
+          "implicit spring-dampers and contacts go with the semi-implicit integrators only, not "
+          "with " +
+          name);
+}
+
+void check_located(const StepParts& parts) {
+  for (const ForceSource* source : parts.forces)
+    if (source->needs_semi_implicit())
+      throw std::invalid_argument(
+          "implicit spring-dampers do not go with steps that locate their events");
+  for (const ConstraintSource* source : parts.constraints)
+    if (!dynamic_cast<const EventSource*>(source))
+      throw std::invalid_argument("a source of constraints cannot have its events located");
+}
+
+void check_parts(const StepParts& parts) {
+  check_integrator(parts);
+  if (parts.located) check_located(parts);
+  // Its force would be that of the first round: a wrong one, and nobody would say so.
+  for (const ForceSource* source : parts.forces)
+    if (parts.constrained && source->needs_rounds())
+      throw std::invalid_argument(
+          "a force that is found in rounds (ForceSource::refine) does not go with contacts, limits "
+          "and locks: their step has one round; give the contact as a constraint, or leave them "
+          "out");
+}
+
+}  // namespace
 
 Simulation::Simulation(const Model<double>& model, State<double> start)
     : m_(model, std::move(start)), integrator_step_(m_), constrained_(model) {}
@@ -107,16 +157,15 @@ void Simulation::evaluate_at(const State<double>& x,
 
 std::vector<Rewindable*> Simulation::memories() const {
   std::vector<Rewindable*> memories;
-  for (ForceSource* source : m_.sources) {
-    memories.push_back(dynamic_cast<Rewindable*>(source));
-    if (!memories.back())
-      throw std::invalid_argument("a source of forces does not let a step be taken back");
-  }
-  for (ConstraintSource* source : constraint_sources()) {
-    memories.push_back(dynamic_cast<Rewindable*>(source));
-    if (!memories.back())
-      throw std::invalid_argument("a source of constraints does not let a step be taken back");
-  }
+  const auto add_all = [&](const auto& sources, const std::string& what) {
+    for (auto* source : sources) {
+      memories.push_back(dynamic_cast<Rewindable*>(source));
+      if (!memories.back())
+        throw std::invalid_argument("a source of " + what + " does not let a step be taken back");
+    }
+  };
+  add_all(m_.sources, "forces");
+  add_all(constraint_sources(), "constraints");
   return memories;
 }
 
