@@ -9,7 +9,7 @@ import shutil
 
 from program import ROOT, ProgramTest, main, run
 from robot_command import HAND_COLUMNS
-from waiting import processor_time, processor_time_of_ended
+from waiting import TIMEOUT, processor_time, processor_time_of_ended
 
 ASSETS = ROOT / "assets"
 
@@ -36,7 +36,7 @@ class CommandLine(ProgramTest):
     def test_a_study_gives_its_json_its_report_and_the_numbers_that_it_must_reach(self):
         out = self.folder / "new" / "study"
         trace = ASSETS / "traces" / "synthetic_seed1.csv"
-        study = self.json_of("study", "--out", out, "--trace", trace, timeout=3000)
+        study = self.json_of("study", "--out", out, "--trace", trace, timeout=4 * TIMEOUT)
         published = {"E3": (16.6, 23.5, 8.6, 5.2), "E4": (3.4, 6.0, 0.3, 0.6)}
         for name, numbers in published.items():
             run_ = study["runs"][name]

@@ -299,7 +299,7 @@ class LabLanes(ProgramTest):
 class LabEnds(ProgramTest):
     def test_it_ends_with_0_when_it_is_told_and_leaves_nothing(self):
         for how in (signal.SIGINT, signal.SIGTERM):
-            running = Running("cradle", env=dict(os.environ, TMPDIR=str(self.folder)))
+            running = Running(SCENES / "cradle.toml", env=dict(os.environ, TMPDIR=str(self.folder)))
             with Lab(running.url).live() as live:
                 live.wait_for("frame")
             self.assertEqual(running.end(how), (0, ""))

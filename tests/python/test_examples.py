@@ -10,6 +10,7 @@ import tempfile
 import unittest
 
 from notebook import PRELOADED, ROOT, main, twinarm
+from waiting import TIMEOUT
 
 ENVIRONMENT = {**os.environ, **PRELOADED, "PYTHONPATH": os.path.dirname(twinarm.__file__)}
 EXAMPLES = ROOT / "app" / "python" / "examples"
@@ -17,7 +18,7 @@ EXAMPLES = ROOT / "app" / "python" / "examples"
 
 def printed(*command, cwd=ROOT):
     done = subprocess.run([sys.executable, "-B", *map(str, command)], capture_output=True, text=True,
-                          cwd=cwd, env=ENVIRONMENT, timeout=600)
+                          cwd=cwd, env=ENVIRONMENT, timeout=TIMEOUT)
     if done.returncode != 0:
         raise AssertionError(done.stderr)
     return done.stdout

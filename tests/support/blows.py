@@ -61,7 +61,7 @@ class Victim:
     def finish(self):
         """The same command succeeds after all that."""
         done = subprocess.run(self.command(), capture_output=True, text=True, cwd=ROOT, env=self.environment,
-                              timeout=600)
+                              timeout=TIMEOUT)
         demand(done.returncode == self.done_code, f"the same command ended with {done.returncode}: {done.stderr}")
         self.look(True)
         left = [p.name for p in self.files() if p.name.endswith(".part")]
@@ -72,7 +72,7 @@ class Victim:
     def prepare(self):
         start = time.monotonic()
         done = subprocess.run(self.command(), capture_output=True, text=True, cwd=ROOT, env=self.environment,
-                              timeout=600)
+                              timeout=TIMEOUT)
         demand(done.returncode == self.done_code, f"ended with {done.returncode}, unstruck: {done.stderr}")
         self.length = time.monotonic() - start
         self.printed = done.stdout

@@ -11,6 +11,7 @@ import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 import recording_format  # noqa: E402
+from waiting import TIMEOUT  # noqa: E402
 
 SCENES = sorted((ROOT / "assets/scenes").glob("*.toml"))
 TABLE = ROOT / "tests/cli/golden_hashes.toml"
@@ -41,7 +42,7 @@ def run(program, scene, steps, file, every_step=False, environment=GENERIC):
     words = [program, "simulate", scene, "--duration", repr(duration), "--record", file, "--json"]
     if not every_step:
         words += ["--record-every", repr(duration)]
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=600, cwd=ROOT,
+    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=TIMEOUT, cwd=ROOT,
                           env=environment)
     if done.returncode != 0:
         raise RuntimeError(f"{scene.name}: exit code {done.returncode}\n{done.stderr}")

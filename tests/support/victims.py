@@ -194,7 +194,7 @@ class LabUnderFire(Victim):
         self.client = threading.Thread(target=self.live_with, args=(process,), daemon=True)
         self.client.start()
         if self.length is None:
-            demand(self.saved.wait(120), "not one run could be saved")
+            demand(self.saved.wait(TIMEOUT), "not one run could be saved")
         else:
             self.client.join(seconds)
 
