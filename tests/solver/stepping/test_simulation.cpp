@@ -5,9 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
-#include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/stepping/simulation.h"
 #include "tests/solver/dynamics/random_tree.h"
@@ -18,39 +16,18 @@ using namespace twinarm::testing;
 
 namespace {
 
-// A tree of n bodies whose inertias are kept, so that energies can be summed without the passes.
-struct Tree {
-  Model<double> model;
-  std::vector<BodyInertia> inertia{{}};
-  Tree(Random& random, int n, bool floating, const Vector3& gravity) {
-    ModelBuilder builder;
-    builder.set_gravity(gravity);
-    for (int i = 1; i <= n; ++i) {
-      inertia.push_back(random.inertia());
-      const JointType type = i == 1 && floating ? JointType::free
-                             : i % 4 == 3       ? JointType::prismatic
-                                                : JointType::revolute;
-      builder.add_body("body" + std::to_string(i), floating ? random.integer(i > 1, i - 1) : i - 1,
-                       "joint" + std::to_string(i), type, {random.rotation(), random.vector(0.3)},
-                       random.vector(1), inertia.back());
-    }
-    model = builder.build();
+Model<double> mixed_tree(Random& random, int n, bool floating) {
+  ModelBuilder builder;
+  for (int i = 1; i <= n; ++i) {
+    const JointType type = i == 1 && floating ? JointType::free
+                           : i % 4 == 3       ? JointType::prismatic
+                                              : JointType::revolute;
+    builder.add_body("body" + std::to_string(i), floating ? random.integer(i > 1, i - 1) : i - 1,
+                     "joint" + std::to_string(i), type, {random.rotation(), random.vector(0.3)},
+                     random.vector(1), random.inertia());
   }
-  // Kinetic and potential.
-  std::pair<double, double> energies(const State<double>& x) const {
-    Kinematics k(model);
-    forward_kinematics(model, x, k);
-    std::pair sum{0.0, 0.0};
-    for (int i = 1; i < model.body_count(); ++i) {
-      const auto b = static_cast<std::size_t>(i);
-      const Vector3 com = k.position(i, inertia[b].com), v = k.velocity(i, com), w = k.w_WL[b];
-      const Matrix3 I = k.X_WL[b].R * inertia[b].inertia * k.X_WL[b].R.transpose();
-      sum.first += 0.5 * inertia[b].mass * v.squaredNorm() + 0.5 * w.dot(I * w);
-      sum.second -= inertia[b].mass * to_eigen(model.gravity).dot(com);
-    }
-    return sum;
-  }
-};
+  return builder.build();
+}
 
 // At a joint.
 struct Torque final : ForceSource {
@@ -76,27 +53,15 @@ struct ImplicitArmature final : ForceSource {
 
 }  // namespace
 
-TEST_CASE(
-    "energy_momentum.h gives the kinetic and potential energy that a sum over the links gives") {
-  Random random(3);
-  for (int n = 1; n <= 12; ++n) {
-    const Tree tree(random, n, n % 2 == 0, {0.2, -0.4, -9.81});
-    const State<double> x = random_state(random, tree.model);
-    const auto [kinetic, potential] = tree.energies(x);
-    CHECK(kinetic_energy(tree.model, x) == doctest::Approx(kinetic).epsilon(1e-12));
-    CHECK(potential_energy(tree.model, x) == doctest::Approx(potential).epsilon(1e-12));
-  }
-}
-
 TEST_CASE("a step takes nothing from the heap, under every integrator, nor does its report") {
   Random random(8);
-  const Tree tree(random, 8, true, {0, 0, -9.81});
+  const Model<double> model = mixed_tree(random, 8, true);
   CHECK(allocations_in([] { std::vector<double>(3).swap(kept()); }) == 1);  // the count counts
   for (const IntegratorFacts& facts : all_integrators) {
     const Integrator integrator = facts.integrator;
     CAPTURE(std::string(facts.name));
     Torque torque;
-    Simulation simulation(tree.model, random_state(random, tree.model));
+    Simulation simulation(model, random_state(random, model));
     simulation.add(torque);
     simulation.set_integrator(integrator);
     CHECK(allocations_in([&] {
@@ -139,15 +104,15 @@ TEST_CASE("nor does a step with joint friction, its events, and joints that foll
 
 TEST_CASE("a torque that is not a number is reported in its step and in all later ones") {
   Random random(9);
-  const Tree tree(random, 5, false, {0, 0, -9.81});
+  const Model<double> model = mixed_tree(random, 5, false);
   for (const IntegratorFacts& facts : all_integrators)
     for (double bad :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
       const Integrator integrator = facts.integrator;
       CAPTURE(std::string(facts.name));
       Torque torque;
-      torque.joint = tree.model.iv[3];
-      Simulation simulation(tree.model, State<double>(tree.model));
+      torque.joint = model.iv[3];
+      Simulation simulation(model, State<double>(model));
       simulation.add(torque);
       simulation.set_integrator(integrator);
       const StepReport good = simulation.step(1e-3);
@@ -167,13 +132,13 @@ TEST_CASE("a torque that is not a number is reported in its step and in all late
 
 TEST_CASE("a source that is implicit goes with the semi-implicit methods, whichever comes first") {
   Random random(10);
-  const Tree tree(random, 2, false, {0, 0, -9.81});
+  const Model<double> model = mixed_tree(random, 2, false);
   for (const IntegratorFacts& facts : all_integrators) {
     CAPTURE(std::string(facts.name));
     ImplicitArmature source;
-    Simulation source_last(tree.model, State<double>(tree.model));
+    Simulation source_last(model, State<double>(model));
     source_last.set_integrator(facts.integrator);
-    Simulation source_first(tree.model, State<double>(tree.model));
+    Simulation source_first(model, State<double>(model));
     source_first.add(source);
     if (std::string(facts.name).starts_with("semi-implicit")) {
       CHECK_NOTHROW(source_last.add(source));
