@@ -5,8 +5,12 @@
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "tests/support/temporary_folder.h"
 
 namespace vrpn_bytes {
 
@@ -32,62 +36,27 @@ inline Bytes all(std::initializer_list<Bytes> parts) {
   return bytes;
 }
 
-// v  r  p  n  :     v  e  r  .     0  7  .  3  8        0 (no logs), zeros up to 24 bytes.
-inline const Bytes cookie =
-    hex("76 72 70 6e 3a 20 76 65 72 2e 20 30 37 2e 33 38 20 20 30 00 00 00 00 00");
+// By its name in vrpn_bytes.txt.
+inline Bytes message(const std::string& name) {
+  std::istringstream file(twinarm::test_data("app/device/vrpn_bytes.txt"));
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind(name + " ", 0) == 0) return hex(line.c_str() + name.size());
+  throw std::runtime_error("there is no message " + name);
+}
 
-// Header: length, seconds, microseconds, sender, type, sequence number. A description bears the
-// number that it describes as its sender; type -1 describes a sender, -2 a type.
-// Sender 0 is "VRPN Control" (13 with its zero): 24 + 4 + 13 = 0x29, 7 zeros up to 24.
-inline const Bytes control =
-    hex("00 00 00 29|5b 9b c4 00|00 00 00 01|00 00 00 00|ff ff ff ff|00 00 00 00|"
-        "00 00 00 0d|56 52 50 4e 20 43 6f 6e 74 72 6f 6c 00|00 00 00 00 00 00 00");
-// Sender 3 is "Phantom0": 24 + 4 + 9 = 0x25, 3 zeros up to 16.
-inline const Bytes phantom =
-    hex("00 00 00 25|5b 9b c4 00|00 00 00 01|00 00 00 03|ff ff ff ff|00 00 00 01|"
-        "00 00 00 09|50 68 61 6e 74 6f 6d 30 00|00 00 00");
-// Type 5 is "vrpn_Tracker Pos_Quat": 24 + 4 + 22 = 0x32, 6 zeros up to 32.
-inline const Bytes pos_quat =
-    hex("00 00 00 32|5b 9b c4 00|00 00 00 01|00 00 00 05|ff ff ff fe|00 00 00 02|"
-        "00 00 00 16|76 72 70 6e 5f 54 72 61 63 6b 65 72 20 50 6f 73 5f 51 75 61 74 00|00 00 00 00 "
-        "00 00");
-// Type 6 is "vrpn_Button Change": 24 + 4 + 19 = 0x2f, one zero up to 24.
-inline const Bytes button_change =
-    hex("00 00 00 2f|5b 9b c4 00|00 00 00 01|00 00 00 06|ff ff ff fe|00 00 00 03|"
-        "00 00 00 13|76 72 70 6e 5f 42 75 74 74 6f 6e 20 43 68 61 6e 67 65 00|00");
-// Type 7 is "vrpn_ForceDevice Force_Field": 24 + 4 + 29 = 0x39, 7 zeros up to 40.
-inline const Bytes force_field =
-    hex("00 00 00 39|5b 9b c4 00|00 00 00 01|00 00 00 07|ff ff ff fe|00 00 00 04|00 00 00 1d|"
-        "76 72 70 6e 5f 46 6f 72 63 65 44 65 76 69 63 65 20 46 6f 72 63 65 5f 46 69 65 6c 64 00|"
-        "00 00 00 00 00 00 00");
-// What a server says first. A UDP description too (type -3), with its port (0x1f41) as sender and
-// the address "127.0.0.1" as payload, 24 + 10 = 0x22, which is not for us.
-inline const Bytes udp =
-    hex("00 00 00 22|5b 9b c4 00|00 00 00 01|00 00 1f 41|ff ff ff fd|00 00 00 05|"
-        "31 32 37 2e 30 2e 30 2e 31 00|00 00 00 00 00 00");
+inline const Bytes cookie = message("cookie");
+inline const Bytes control = message("control");
+inline const Bytes phantom = message("phantom");
+inline const Bytes pos_quat = message("pos_quat");
+inline const Bytes button_change = message("button_change");
+inline const Bytes force_field = message("force_field");
 inline const Bytes greeting =
-    all({cookie, udp, control, phantom, pos_quat, button_change, force_field});
-
-// Sensor 0 of sender 3, type 5: 24 + 8 + 7 * 8 = 0x58. All joints at zero: position
-// (0, -0.11, -0.035), where the published kinematics has it, and no turn: quaternion x, y, z, w.
-inline const Bytes pose =
-    hex("00 00 00 58|5b 9b c4 00|00 00 00 02|00 00 00 03|00 00 00 05|00 00 00 06|00 00 00 00|00 00 "
-        "00 00|"
-        "00 00 00 00 00 00 00 00|bf bc 28 f5 c2 8f 5c 29|bf a1 eb 85 1e b8 51 ec|"
-        "00 00 00 00 00 00 00 00|00 00 00 00 00 00 00 00|00 00 00 00 00 00 00 00|3f f0 00 00 00 00 "
-        "00 00");
-// Button 0 and button 1 pressed; 24 + 8 = 0x20.
-inline const Bytes press_0 =
-    hex("00 00 00 20|5b 9b c4 00|00 00 00 03|00 00 00 03|00 00 00 06|00 00 00 07|00 00 00 00|00 00 "
-        "00 01");
-inline const Bytes press_1 =
-    hex("00 00 00 20|5b 9b c4 00|00 00 00 03|00 00 00 03|00 00 00 06|00 00 00 07|00 00 00 01|00 00 "
-        "00 01");
-inline const Bytes release_0 =
-    hex("00 00 00 20|5b 9b c4 00|00 00 00 03|00 00 00 03|00 00 00 06|00 00 00 07|00 00 00 00|00 00 "
-        "00 00");
-inline const Bytes goodbye =
-    hex("00 00 00 18|5b 9b c4 00|00 00 00 04|00 00 00 00|ff ff ff fb|00 00 00 08");
+    all({cookie, message("udp"), control, phantom, pos_quat, button_change, force_field});
+inline const Bytes pose = message("pose");
+inline const Bytes press_0 = message("press_0");
+inline const Bytes press_1 = message("press_1");
+inline const Bytes release_0 = message("release_0");
+inline const Bytes goodbye = message("goodbye");
 
 // The pose above with another number in place of its n-th (x, y, z, then the quaternion).
 inline Bytes pose_with(std::size_t n, double value, Bytes bytes = pose) {

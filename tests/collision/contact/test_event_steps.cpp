@@ -69,19 +69,6 @@ TEST_CASE("event steps: a bouncing ball is where it should be, whatever the step
     }
 }
 
-TEST_CASE("event steps: through the point where impacts accumulate a ball comes to rest") {
-  ContactScene scene;
-  const int ball = falling_ball(scene, 0.8);
-  run_well(scene.simulation(), 4, 0.01);
-  CHECK(scene.velocity(ball).norm() > 1e-2);
-  run_well(scene.simulation(), 0.07, 0.01);  // all impacts are over at 4.0637 s
-  for (int n = 0; n < 100; ++n) {
-    CHECK(scene.simulation().step(0.01).ok());
-    CHECK(scene.velocity(ball).norm() < 1e-9);
-    CHECK(std::abs(scene.position(ball).z() - kEventBall) < 1e-9);
-  }
-}
-
 TEST_CASE("event steps: sliding ends where friction says, to 1e-9") {
   ContactScene scene;
   scene.set_gravity({0, 0, -kG});

@@ -7,6 +7,7 @@
 
 #include "collision/contact/contact_constraints.h"
 #include "tests/coupling/analysis/one_joint.h"
+#include "tests/coupling/analysis/two_link.h"
 
 using namespace twinarm;
 using namespace twinarm::testing;
@@ -14,19 +15,6 @@ using namespace twinarm::testing;
 namespace {
 
 constexpr double kArm = 0.25, kFore = 0.35, kSpeed = 2.0, kTime = 0.45;  // m, m, rad/s, s
-
-Model<double> two_arms() {
-  const auto rod = [](double m, double l) {
-    const double I = m * l * l / 12;
-    return BodyInertia{m, {l / 2, 0, 0}, Vector3(0.1 * I, I, I).asDiagonal()};
-  };
-  ModelBuilder builder;
-  builder.set_gravity(Vector3::Zero());
-  builder.add_body("arm1", 0, "joint1", JointType::revolute, {}, Vector3::UnitZ(), rod(5, kArm));
-  builder.add_body("arm2", 1, "joint2", JointType::revolute, {Matrix3::Identity(), {kArm, 0, 0}},
-                   Vector3::UnitZ(), rod(3, kFore));
-  return builder.build();
-}
 
 // Turns joint 1 at kSpeed for kTime, then holds.
 class StoppingHand final : public HandSource {
@@ -79,7 +67,7 @@ std::array<double, 2> pull(int kind, const CouplingSpec& spec, const std::vector
 TEST_CASE("an arm pushed against a box stays outside, and rests on it with the coupling's force") {
   for (int kind = 0; kind < 3; ++kind) {
     CAPTURE(kind);
-    const Model<double> model = two_arms();
+    const Model<double> model = TwoLink{5, 3, kArm, kFore}.model();
     StoppingHand hand;
     KinematicRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1", "joint2"}, "", 0, 0});
     const CouplingSpec spec = coupling_of(kind);

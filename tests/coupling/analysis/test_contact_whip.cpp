@@ -6,24 +6,12 @@
 
 #include "collision/contact/contact_force.h"
 #include "tests/coupling/analysis/one_joint.h"
+#include "tests/coupling/analysis/two_link.h"
 
 using namespace twinarm;
 using namespace twinarm::testing;
 
 namespace {
-
-Model<double> long_arms() {
-  const auto rod = [](double m, double l) {
-    const double I = m * l * l / 12;
-    return BodyInertia{m, {l / 2, 0, 0}, Vector3(0.1 * I, I, I).asDiagonal()};
-  };
-  ModelBuilder builder;
-  builder.set_gravity(Vector3::Zero());
-  builder.add_body("arm1", 0, "joint1", JointType::revolute, {}, Vector3::UnitZ(), rod(5, 0.25));
-  builder.add_body("arm2", 1, "joint2", JointType::revolute, {Matrix3::Identity(), {0.25, 0, 0}},
-                   Vector3::UnitZ(), rod(3, 0.35));
-  return builder.build();
-}
 
 // Largest depth while a hand that turns steadily drags the arm against the post [m].
 double deepest_on_the_way(const Model<double>& model, double friction, double speed, double q2,
@@ -56,7 +44,7 @@ double deepest_on_the_way(const Model<double>& model, double friction, double sp
 
 TEST_CASE(
     "an arm that is whipped against a post with friction enters it by less than a millimetre") {
-  const Model<double> model = long_arms();
+  const Model<double> model = TwoLink{5, 3, 0.25, 0.35}.model();
   double worst = 0;
   for (double speed : {3.0, 6.0, 12.0})
     for (double q2 = -2; q2 <= 2; q2 += 0.25)

@@ -91,19 +91,6 @@ TEST_CASE("what a coupling remembers, put back into another, lets the run go on 
   }
 }
 
-TEST_CASE("a coupled run gives the same bits when it is run again") {
-  for (const Run& run : runs()) {
-    const auto end = [&] {
-      System s(run, KvrRates::from_hand);
-      for (int n = 0; n < 160; ++n) s.system->simulation().step(1e-3);
-      return s.system->simulation().state();
-    };
-    const State<double> a = end(), b = end();
-    CHECK(std::memcmp(a.q.data(), b.q.data(), 2 * sizeof(double)) == 0);
-    CHECK(std::memcmp(a.qd.data(), b.qd.data(), 2 * sizeof(double)) == 0);
-  }
-}
-
 TEST_CASE("a coupling that is implicit in the step is refused by rk4 and by explicit Euler") {
   for (const Law& law : all_laws()) {
     const bool in_stages =

@@ -1,13 +1,11 @@
-// What a step promises whatever the mechanism: conservation, the same bits, no allocation, no
-// silent NaN, no implicit source in a Runge-Kutta step.
+// What a step promises whatever the mechanism: no allocation, no silent NaN, no implicit source in
+// a Runge-Kutta step. Conservation is benchmarks/analytic/joints/floating_tree.cpp, A5.
 #include <doctest/doctest.h>
 
-#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/stepping/simulation.h"
 #include "tests/solver/dynamics/random_tree.h"
@@ -18,46 +16,20 @@ using namespace twinarm::testing;
 
 namespace {
 
-// A tree of n bodies whose inertias are kept, so that momentum can be summed without the passes.
-struct Tree {
-  Model<double> model;
-  std::vector<BodyInertia> inertia{{}};
-  Tree(Random& random, int n, bool floating, const Vector3& gravity) {
-    ModelBuilder builder;
-    builder.set_gravity(gravity);
-    for (int i = 1; i <= n; ++i) {
-      inertia.push_back(random.inertia());
-      const JointType type = i == 1 && floating ? JointType::free
-                             : i % 4 == 3       ? JointType::prismatic
-                                                : JointType::revolute;
-      builder.add_body("body" + std::to_string(i), floating ? random.integer(i > 1, i - 1) : i - 1,
-                       "joint" + std::to_string(i), type, {random.rotation(), random.vector(0.3)},
-                       random.vector(1), inertia.back());
-    }
-    model = builder.build();
+Model<double> mixed_tree(Random& random, int n, bool floating) {
+  ModelBuilder builder;
+  for (int i = 1; i <= n; ++i) {
+    const JointType type = i == 1 && floating ? JointType::free
+                           : i % 4 == 3       ? JointType::prismatic
+                                              : JointType::revolute;
+    builder.add_body("body" + std::to_string(i), floating ? random.integer(i > 1, i - 1) : i - 1,
+                     "joint" + std::to_string(i), type, {random.rotation(), random.vector(0.3)},
+                     random.vector(1), random.inertia());
   }
-  struct Momentum {
-    Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();  // about the world's origin
-    double kinetic = 0, potential = 0;
-  };
-  Momentum momentum(const State<double>& x) const {
-    Kinematics k(model);
-    forward_kinematics(model, x, k);
-    Momentum sum;
-    for (int i = 1; i < model.body_count(); ++i) {
-      const auto b = static_cast<std::size_t>(i);
-      const Vector3 com = k.position(i, inertia[b].com), v = k.velocity(i, com), w = k.w_WL[b];
-      const Matrix3 I = k.X_WL[b].R * inertia[b].inertia * k.X_WL[b].R.transpose();
-      sum.linear += inertia[b].mass * v;
-      sum.angular += inertia[b].mass * com.cross(v) + I * w;
-      sum.kinetic += 0.5 * inertia[b].mass * v.squaredNorm() + 0.5 * w.dot(I * w);
-      sum.potential -= inertia[b].mass * to_eigen(model.gravity).dot(com);
-    }
-    return sum;
-  }
-};
+  return builder.build();
+}
 
-// Equal and opposite to nothing: a torque at joints, internal to a floating tree.
+// At a joint.
 struct Torque final : ForceSource {
   std::size_t joint = 0;
   double value = 0;
@@ -81,109 +53,15 @@ struct ImplicitArmature final : ForceSource {
 
 }  // namespace
 
-TEST_CASE(
-    "energy_momentum.h gives the kinetic and potential energy that a sum over the links gives") {
-  Random random(3);
-  for (int n = 1; n <= 12; ++n) {
-    const Tree tree(random, n, n % 2 == 0, {0.2, -0.4, -9.81});
-    const State<double> x = random_state(random, tree.model);
-    const Tree::Momentum sum = tree.momentum(x);
-    CHECK(kinetic_energy(tree.model, x) == doctest::Approx(sum.kinetic).epsilon(1e-12));
-    CHECK(potential_energy(tree.model, x) == doctest::Approx(sum.potential).epsilon(1e-12));
-  }
-}
-
-TEST_CASE("energy of a swinging chain of five links is constant to 1e-9 for 2 s (rk4, 0.2 ms)") {
-  Random random(4);
-  const Tree tree(random, 5, false, {0, 0, -9.81});
-  State<double> x(tree.model);
-  for (double& qd : x.qd) qd = random.uniform(-1, 1);
-  Simulation simulation(tree.model, x);
-  simulation.set_integrator(Integrator::rk4);
-  const auto energy = [&] {
-    const Tree::Momentum sum = tree.momentum(simulation.state());
-    return sum.kinetic + sum.potential;
-  };
-  const double start = energy();
-  double scale = 1e-3, worst = 0;  // [J]
-  for (int n = 0; n < 10000; ++n) {
-    simulation.step(2e-4);
-    scale = std::max(scale, tree.momentum(simulation.state()).kinetic);
-    worst = std::max(worst, std::abs(energy() - start));
-  }
-  CHECK(scale > 1);
-  CHECK(worst < 1e-9 * scale);
-}
-
-TEST_CASE("momentum of a floating tree is constant to 1e-9 for 2 s, torques at its joints or not") {
-  Random random(5);
-  const Tree tree(random, 6, true, Vector3::Zero());
-  for (double torque : {0.0, 3.0}) {
-    State<double> x(tree.model);
-    for (double& qd : x.qd) qd = random.uniform(-1, 1);
-    Torque inner;
-    inner.joint = tree.model.iv[4];
-    inner.value = torque;
-    Simulation simulation(tree.model, x);
-    simulation.add(inner);
-    simulation.set_integrator(Integrator::rk4);
-    const Tree::Momentum before = tree.momentum(x);
-    for (int n = 0; n < 10000; ++n) simulation.step(2e-4);
-    const Tree::Momentum after = tree.momentum(simulation.state());
-    CHECK((after.linear - before.linear).norm() < 1e-9 * before.linear.norm());
-    CHECK((after.angular - before.angular).norm() < 1e-9 * before.angular.norm());
-    if (torque != 0) CHECK(std::abs(after.kinetic - before.kinetic) > 1e-3);
-  }
-}
-
-TEST_CASE("a floating tree under gravity gains linear momentum m g t (rk4)") {
-  Random random(6);
-  const Vector3 g(0.5, 1, -9.81);
-  const Tree tree(random, 6, true, g);
-  State<double> x(tree.model);
-  for (double& qd : x.qd) qd = random.uniform(-1, 1);
-  double mass = 0;
-  for (const BodyInertia& body : tree.inertia) mass += body.mass;
-  Simulation simulation(tree.model, x);
-  simulation.set_integrator(Integrator::rk4);
-  for (int n = 0; n < 1000; ++n) simulation.step(1e-3);
-  const Vector3 gained = tree.momentum(simulation.state()).linear - tree.momentum(x).linear;
-  CHECK((gained - mass * g).norm() < 1e-8 * mass * g.norm());
-}
-
-TEST_CASE("the same inputs give the same bits, under every integrator") {
-  Random random(7);
-  const Tree tree(random, 8, true, {0, 0, -9.81});
-  const State<double> start = random_state(random, tree.model);
-  for (const IntegratorFacts& facts : all_integrators) {
-    const Integrator integrator = facts.integrator;
-    CAPTURE(std::string(facts.name));
-    const auto end = [&] {
-      Torque torque;
-      torque.joint = 7;
-      torque.value = 0.3;
-      Simulation simulation(tree.model, start);
-      simulation.add(torque);
-      simulation.set_integrator(integrator);
-      for (int n = 0; n < 300; ++n) simulation.step(1e-3);
-      return simulation.state();
-    };
-    const State<double> a = end(), b = end();
-    CHECK(std::memcmp(a.q.data(), b.q.data(), a.q.size() * sizeof(double)) == 0);
-    CHECK(std::memcmp(a.qd.data(), b.qd.data(), a.qd.size() * sizeof(double)) == 0);
-    CHECK(a.t == b.t);
-  }
-}
-
 TEST_CASE("a step takes nothing from the heap, under every integrator, nor does its report") {
   Random random(8);
-  const Tree tree(random, 8, true, {0, 0, -9.81});
+  const Model<double> model = mixed_tree(random, 8, true);
   CHECK(allocations_in([] { std::vector<double>(3).swap(kept()); }) == 1);  // the count counts
   for (const IntegratorFacts& facts : all_integrators) {
     const Integrator integrator = facts.integrator;
     CAPTURE(std::string(facts.name));
     Torque torque;
-    Simulation simulation(tree.model, random_state(random, tree.model));
+    Simulation simulation(model, random_state(random, model));
     simulation.add(torque);
     simulation.set_integrator(integrator);
     CHECK(allocations_in([&] {
@@ -226,15 +104,15 @@ TEST_CASE("nor does a step with joint friction, its events, and joints that foll
 
 TEST_CASE("a torque that is not a number is reported in its step and in all later ones") {
   Random random(9);
-  const Tree tree(random, 5, false, {0, 0, -9.81});
+  const Model<double> model = mixed_tree(random, 5, false);
   for (const IntegratorFacts& facts : all_integrators)
     for (double bad :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
       const Integrator integrator = facts.integrator;
       CAPTURE(std::string(facts.name));
       Torque torque;
-      torque.joint = tree.model.iv[3];
-      Simulation simulation(tree.model, State<double>(tree.model));
+      torque.joint = model.iv[3];
+      Simulation simulation(model, State<double>(model));
       simulation.add(torque);
       simulation.set_integrator(integrator);
       const StepReport good = simulation.step(1e-3);
@@ -254,13 +132,13 @@ TEST_CASE("a torque that is not a number is reported in its step and in all late
 
 TEST_CASE("a source that is implicit goes with the semi-implicit methods, whichever comes first") {
   Random random(10);
-  const Tree tree(random, 2, false, {0, 0, -9.81});
+  const Model<double> model = mixed_tree(random, 2, false);
   for (const IntegratorFacts& facts : all_integrators) {
     CAPTURE(std::string(facts.name));
     ImplicitArmature source;
-    Simulation source_last(tree.model, State<double>(tree.model));
+    Simulation source_last(model, State<double>(model));
     source_last.set_integrator(facts.integrator);
-    Simulation source_first(tree.model, State<double>(tree.model));
+    Simulation source_first(model, State<double>(model));
     source_first.add(source);
     if (std::string(facts.name).starts_with("semi-implicit")) {
       CHECK_NOTHROW(source_last.add(source));

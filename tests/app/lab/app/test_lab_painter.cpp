@@ -147,11 +147,14 @@ TEST_CASE("lab frames: commands and notes send no frame twice, and inputs come i
     CHECK(frames[n].stamp >= frames[n - 1].stamp);
   }
   CHECK(static_cast<double>(frames.size()) <= 63.0 * seconds_since(start) + 5);
-  // The 100 `look`s are told, the movements are not.
+  // The 100 `look`s are told, the movements are not; without news a few times a second.
+  CHECK(told > 0);
   CHECK(static_cast<double>(told) <= 100 + 8 * gone + 5);
 }
 
-TEST_CASE("lab frames: while time stands one comes for each change of what is seen, and no more") {
+TEST_CASE(
+    "lab frames: while time stands one comes for each change of what is seen, no more, and the "
+    "last one of many steps") {
   Painted lab(kSlowlyDriven);
   lab.session.push(said(R"({"do": "play", "on": false})"));
   REQUIRE(comes_true([&] { return (lab.frames().back().flags & 1) != 0; }));
@@ -170,24 +173,11 @@ TEST_CASE("lab frames: while time stands one comes for each change of what is se
   lab.settle();
   CHECK(lab.frames().size() == before + 1);
   const std::uint64_t step = lab.frames().back().step;
-  lab.session.push(said(R"({"do": "step", "steps": 3})"));
-  REQUIRE(comes_true([&] { return lab.frames().back().step == step + 3; }));
+  lab.session.push(said(R"({"do": "step", "steps": 5000})"));
+  REQUIRE(comes_true([&] { return lab.frames().back().step == step + 5000; }));
   lab.session.push(said(R"({"do": "look", "at": 0})"));
   REQUIRE(comes_true([&] { return (lab.frames().back().flags & 2) != 0; }));
   CHECK(lab.frames().back().step == 0);
-}
-
-TEST_CASE("lab frames: a run that rushes sends no more of them, and at last the last one") {
-  Painted lab(kFreeBox);
-  lab.session.push(said(R"({"do": "play", "on": false})"));
-  REQUIRE(comes_true([&] { return (lab.frames().back().flags & 1) != 0; }));
-  const auto start = std::chrono::steady_clock::now();
-  const std::size_t before = lab.frames().size();
-  const std::uint64_t step = lab.frames().back().step;
-  lab.session.push(said(R"({"do": "step", "steps": 50000})"));
-  REQUIRE(comes_true([&] { return lab.frames().back().step == step + 50000; }));
-  const auto count = static_cast<double>(lab.frames().size() - before);
-  CHECK(count <= 63 * seconds_since(start) + 2);
 }
 
 TEST_CASE("lab painter: a failure while it draws is shown as an error, and frames go on") {
@@ -202,16 +192,6 @@ TEST_CASE("lab painter: a failure while it draws is shown as an error, and frame
   CHECK(notes.size() == 2);  // the other one is that of settle()
   const std::size_t before = lab.frames().size();
   CHECK(comes_true([&] { return lab.frames().size() > before + 5; }));
-}
-
-TEST_CASE("lab session: the status goes with news at once, else a few times a second") {
-  Painted lab(kSlowlyDriven);
-  const auto start = std::chrono::steady_clock::now();
-  const std::size_t states = lab.states(), frames = lab.frames().size();
-  REQUIRE(comes_true([&] { return lab.frames().size() > frames + 60; }));
-  // Each quarter of a second, and the limits beside the knobs at their own time.
-  CHECK(static_cast<double>(lab.states() - states) <= 7 * seconds_since(start) + 3);
-  CHECK(lab.states() > states);
 }
 
 TEST_CASE("lab session: whoever is woken between a look and the wait does not wait") {

@@ -58,6 +58,14 @@ TEST_CASE("knobs: each has a label, a group, a meaning, and its value among its 
 
 namespace {
 
+// Of a scene with changes, with their limits.
+std::vector<Knob> predicted(const std::string& text, const std::vector<std::string>& changes = {}) {
+  SimulatePlan plan = planned(temporary_scene("predicted", text), changes);
+  std::vector<Knob> knobs = knobs_of(plan);
+  predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
+  return knobs;
+}
+
 struct LimitCase {
   const char *name, *top, *spring, *path;
 };
@@ -105,9 +113,7 @@ TEST_CASE("knobs: a run holds 10 percent this side of a predicted limit, and not
     INFO(std::string(c.name), ": ", std::string(c.path));
     std::string text = held_arm(c.top, c.spring);
     if (std::string(c.spring).find("torsional") != std::string::npos) text = pointless(text);
-    SimulatePlan plan = planned(temporary_scene("limit", text), {});
-    std::vector<Knob> knobs = knobs_of(plan);
-    predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
+    const std::vector<Knob> knobs = predicted(text);
     const Knob& knob = knob_at(knobs, c.path);
     REQUIRE(knob.limit);
     REQUIRE(knob.limit->value);
@@ -122,13 +128,11 @@ TEST_CASE("knobs: a run holds 10 percent this side of a predicted limit, and not
 TEST_CASE("knobs: a held force holds at the predicted rate, and not a quarter slower") {
   const std::string text =
       held_arm("", "type = \"linear\"\nstiffness = 4000\ndamping = 40\nrate = 500");
-  SimulatePlan plan = planned(temporary_scene("rate", text), {});
-  std::vector<Knob> knobs = knobs_of(plan);
-  predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
+  const std::vector<Knob> knobs = predicted(text);
   const Knob& knob = knob_at(knobs, "coupling[1].rate");
   REQUIRE(knob.limit);
   REQUIRE(knob.limit->value);
-  const long steps = std::lround(1 / (*knob.limit->value * plan.run.step));
+  const long steps = std::lround(1 / (*knob.limit->value * 1e-3));
   CHECK(steps > 2);
   const auto at = [&](long n) { return fmt::format("coupling[1].rate={}", 1000.0 / double(n)); };
   CHECK(dies_out(text, at(steps)));
@@ -138,10 +142,7 @@ TEST_CASE("knobs: a held force holds at the predicted rate, and not a quarter sl
 TEST_CASE("knobs: amber within a quarter of the limit, beyond it says what would be stable") {
   const std::string text = held_arm("", std::string(kLinear) + "treatment = \"explicit\"");
   const auto limit_at = [&](const std::vector<std::string>& changes) {
-    SimulatePlan plan = planned(temporary_scene("amber", text), changes);
-    std::vector<Knob> knobs = knobs_of(plan);
-    predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
-    return *knob_at(knobs, "coupling.stiffness").limit;
+    return *knob_at(predicted(text, changes), "coupling.stiffness").limit;
   };
   const KnobLimit at_start = limit_at({});
   REQUIRE(at_start.value);
@@ -165,16 +166,10 @@ TEST_CASE("knobs: where it does not hold, those that would mend it alone say so,
   std::string text = held_arm("",
                               "type = \"linear\"\nstiffness = 2e4\ndamping = 40\n"
                               "treatment = \"explicit\"");
-  const auto knobs_with = [&](const std::vector<std::string>& changes) {
-    SimulatePlan plan = planned(temporary_scene("once", text), changes);
-    std::vector<Knob> knobs = knobs_of(plan);
-    predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
-    return knobs;
-  };
-  const std::vector<Knob> at_start = knobs_with({});
+  const std::vector<Knob> at_start = predicted(text);
   const double limit = *knob_at(at_start, "coupling[0].stiffness").limit->value;
   const std::string too_stiff = fmt::format("coupling[0].stiffness={}", 3 * limit);
-  const std::vector<Knob> one = knobs_with({too_stiff});
+  const std::vector<Knob> one = predicted(text, {too_stiff});
   CHECK(knob_at(one, "coupling[0].stiffness").limit->state == KnobLimit::State::beyond);
   CHECK(knob_at(one, "step").limit->state == KnobLimit::State::beyond);
   CHECK(knob_at(one, "step").limit->value);
@@ -182,7 +177,7 @@ TEST_CASE("knobs: where it does not hold, those that would mend it alone say so,
   CHECK_FALSE(knob_at(one, "coupling[1].damping").limit);
   // Both beyond: neither alone mends it, a shorter step does.
   const std::vector<Knob> both =
-      knobs_with({too_stiff, fmt::format("coupling[1].stiffness={}", 100 * limit)});
+      predicted(text, {too_stiff, fmt::format("coupling[1].stiffness={}", 100 * limit)});
   CHECK_FALSE(knob_at(both, "coupling[0].stiffness").limit);
   CHECK_FALSE(knob_at(both, "coupling[1].stiffness").limit);
   CHECK(knob_at(both, "step").limit->value);
@@ -224,9 +219,7 @@ link = "arm1"
 stiffness = 500
 damping = 0
 )";
-  SimulatePlan plan = planned(temporary_scene("lag", text), {});
-  std::vector<Knob> knobs = knobs_of(plan);
-  predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
+  const std::vector<Knob> knobs = predicted(text);
   const std::string lag = knob_at(knobs, "coupling[0].stiffness").lag;
   // The period of a free swing says the inertia: a run from 1e-3 rad, its first zero.
   SimulatePlan swing =
