@@ -16,17 +16,12 @@
 #include <cstring>
 #include <filesystem>
 
+#include "app/device/devices.h"
 #include "app/device/gesture_device.h"
 #include "app/device/raw_terminal.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {
-
-[[noreturn]] void refuse_device(const std::string& device, const std::string& rule,
-                                const std::string& remedy) {
-  throw InputError({{"", 0, "--device " + device, rule, remedy}});
-}
 
 OwnedFd open_quietly(const std::string& path) {
   return OwnedFd(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
@@ -60,12 +55,12 @@ GestureSource open_keyboard(const std::string& path) {
   const std::string terminal = path.empty() ? "/dev/tty" : path;
   OwnedFd fd = open_quietly(terminal);
   if (fd.get() < 0)
-    refuse_device("keyboard", fmt::format("{}: {}", terminal, std::strerror(errno)),
-                  "run it from a terminal, not from a service or a pipe");
+    refuse_spec("keyboard", fmt::format("{}: {}", terminal, std::strerror(errno)),
+                "run it from a terminal, not from a service or a pipe");
   auto mode = std::make_shared<RawTerminal>(fd.get());
   if (!mode->is_terminal())
-    refuse_device("keyboard", fmt::format("{} is no terminal, or is a hand's already", terminal),
-                  "run it from a terminal, with one keyboard device");
+    refuse_spec("keyboard", fmt::format("{} is no terminal, or is a hand's already", terminal),
+                "run it from a terminal, with one keyboard device");
   return {"keyboard (arrows, w s, a d, r f, q e; space: gripper, c: clutch, x: stand still)",
           std::make_unique<KeyDecoder>(), std::move(fd), nullptr, mode};
 }
@@ -75,10 +70,9 @@ GestureSource open_gamepad(const std::string& path) {
   OwnedFd fd = open_quietly(file);
   const int error = errno;
   if (fd.get() < 0)
-    refuse_device("gamepad", fmt::format("{}: {}", file, std::strerror(error)),
-                  error == EACCES
-                      ? "log in at the machine itself, or join the group 'input'"
-                      : "plug the controller in, and load the kernel's module 'joydev'");
+    refuse_spec("gamepad", fmt::format("{}: {}", file, std::strerror(error)),
+                error == EACCES ? "log in at the machine itself, or join the group 'input'"
+                                : "plug the controller in, and load the kernel's module 'joydev'");
   std::array<char, 128> name{};
   std::array<std::uint8_t, 64> codes{};
   std::uint8_t axes = 0;
@@ -97,9 +91,9 @@ GestureSource open_space_mouse(const std::string& path) {
   const std::string file = !path.empty() ? path : named ? named : "/var/run/spnav.sock";
   OwnedFd fd = open_socket(file);
   if (fd.get() < 0)
-    refuse_device("spacemouse",
-                  fmt::format("no spacenavd answers at {}: {}", file, std::strerror(errno)),
-                  "install and start it: scripts/setup --hand; systemctl start spacenavd");
+    refuse_spec("spacemouse",
+                fmt::format("no spacenavd answers at {}: {}", file, std::strerror(errno)),
+                "install and start it: scripts/setup --hand; systemctl start spacenavd");
   return {fmt::format("space mouse by spacenavd at {}", file),
           std::make_unique<SpaceMouseDecoder>(), std::move(fd),
           [file] { return open_socket(file); }, nullptr};

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "app/run/run_end.h"
-#include "app/support/interrupt.h"
 #include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
@@ -113,16 +112,6 @@ CellValues CellMeasure::values(const SimulateResult& result) const {
   const double none = std::numeric_limits<double>::quiet_NaN();
   return {1, joints_.iq.empty() ? none : largest_, joints_.iq.empty() ? none : mean, energy,
           least_put_in_};
-}
-
-CellValues run_cell(const MapJob& job, const SimulatePlan& plan) {
-  CellMeasure measure(plan, measured_joints(*plan.input.scene, job.measured_coupling));
-  RunWatch watch;
-  watch.sample = [](double, const State<double>&) {};
-  watch.interrupted = is_interrupted;
-  watch.tick = [](double) { check_interrupt(); };
-  watch.look = [&](RunView& run) { measure.look(run); };
-  return measure.values(run_plan(plan.input, plan.run, watch));
 }
 
 }  // namespace twinarm

@@ -16,7 +16,6 @@
 #include <string>
 #include <vector>
 
-#include "app/map/map_job.h"
 #include "app/run/run.h"
 
 namespace twinarm {
@@ -67,9 +66,5 @@ class CellMeasure {
   std::vector<double> before_, integral_;  // by joint
   double largest_ = 0, least_put_in_ = 0;
 };
-
-// A run of the cell's scene as `twinarm simulate` makes it. Throws Interrupted. All of its state is
-// its own: cells run beside one another.
-CellValues run_cell(const MapJob& job, const SimulatePlan& plan);
 
 }  // namespace twinarm

@@ -28,6 +28,18 @@ struct MapCell {
 // blocks whose cells share steps of one length, and with them the table of the twin's motion.
 using MapTask = std::vector<MapCell>;
 
+// A run of the cell's scene as `twinarm simulate` makes it. Throws Interrupted. All of its state is
+// its own: cells run beside one another.
+CellValues run_cell(const MapJob& job, const SimulatePlan& plan) {
+  CellMeasure measure(plan, measured_joints(*plan.input.scene, job.measured_coupling));
+  RunWatch watch;
+  watch.sample = [](double, const State<double>&) {};
+  watch.interrupted = is_interrupted;
+  watch.tick = [](double) { check_interrupt(); };
+  watch.look = [&](RunView& run) { measure.look(run); };
+  return measure.values(run_plan(plan.input, plan.run, watch));
+}
+
 class MapWork {
  public:
   // Those cells of the blocks that the file does not have.

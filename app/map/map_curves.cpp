@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <functional>
-#include <optional>
 
 #include "coupling/analysis/prediction.h"
-#include "solver/linear_algebra/dense_algebra.h"
+#include "coupling/analysis/step_matrix.h"
 
 namespace twinarm {
 namespace {
@@ -19,81 +17,34 @@ constexpr int kPoses = 24;       // along the twin's way
 constexpr int kMostColumns = 96, kRows = 48;
 constexpr int kHalvings = 12;  // of a row
 
-// About a pose. Of all couplings, and of those whose spring, and whose damper, is implicit.
-struct LinearStep {
-  MatrixXd M, K, B, added_K, added_B;
-};
-
-// Of a method whose step is a polynomial of its matrix: the truncated exponential of its order.
-std::optional<int> polynomial_order(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::euler:
-      return 1;
-    case Integrator::midpoint:
-    case Integrator::heun:
-      return 2;
-    case Integrator::rk4:
-      return 4;
-    default:
-      return std::nullopt;
-  }
-}
-
 bool is_semi_implicit(Integrator integrator) {
   return integrator == Integrator::semi_implicit || integrator == Integrator::semi_implicit_xv;
 }
 
-double largest_growth(const LinearStep& s, Integrator integrator, double h) {
-  const Eigen::Index n = s.M.rows();
-  const MatrixXd one = MatrixXd::Identity(n, n);
-  MatrixXd A(2 * n, 2 * n);
-  if (is_semi_implicit(integrator)) {
-    const MatrixXd felt = s.M + h * s.added_B + h * h * s.added_K, inverse = inverse_of(felt);
-    A.bottomLeftCorner(n, n) = -h * inverse * s.K;
-    A.bottomRightCorner(n, n) = one - h * inverse * (s.B + h * s.added_K);
-    A.topLeftCorner(n, n) = one + h * A.bottomLeftCorner(n, n);
-    A.topRightCorner(n, n) = h * A.bottomRightCorner(n, n);
-    return eigenvalues_of(A).cwiseAbs().maxCoeff();
-  }
-  const MatrixXd inverse = inverse_of(s.M);
-  A.topLeftCorner(n, n).setZero();
-  A.topRightCorner(n, n) = one;
-  A.bottomLeftCorner(n, n) = -inverse * s.K;
-  A.bottomRightCorner(n, n) = -inverse * s.B;
-  double largest = 0;
-  for (const std::complex<double> lambda : eigenvalues_of(A)) {
-    std::complex<double> term = 1, sum = 1;
-    for (int i = 1; i <= *polynomial_order(integrator); ++i) {
-      term *= h * lambda / static_cast<double>(i);
-      sum += term;
-    }
-    largest = std::max(largest, std::abs(sum));
-  }
-  return largest;
+// Those whose step of a linear system is a polynomial of its matrix.
+bool is_polynomial(Integrator integrator) {
+  return integrator == Integrator::euler || integrator == Integrator::midpoint ||
+         integrator == Integrator::heun || integrator == Integrator::rk4;
 }
 
-LinearStep linear_step(const SimulatePlan& plan, const State<double>& x) {
+// About a pose.
+bool is_stable_at(const SimulatePlan& plan, const State<double>& x) {
   const Model<double>& model = plan.input.robot.model;
   const SceneCouplings& couplings = *plan.input.couplings;
   Kinematics k(model);
   forward_kinematics(model, x, k);
-  const auto n = static_cast<Eigen::Index>(model.nv);
-  const MatrixXd none = MatrixXd::Zero(n, n);
-  LinearStep step{mass_matrix(model, x), none, none, none, none};
+  std::vector<StepPart> parts;
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     if (!couplings.spec(c).leads()) continue;
     const Coupling::JointSpace space = couplings.coupling(c).joint_space(k);
-    const Treatment treatment = couplings.spec(c).treatment;
-    step.K += space.K;
-    step.B += space.B;
-    if (treatment == Treatment::implicit) step.added_K += space.K;
-    if (treatment != Treatment::explicit_) step.added_B += space.B;
+    parts.push_back({space.K, space.K, space.B, couplings.spec(c).treatment, 0});
   }
-  return step;
+  return growth_per_step(mass_matrix(model, x), parts, plan.run.integrator, plan.run.step) <=
+         1 + kRound;
 }
 
-bool is_stable_at(const SimulatePlan& plan, const State<double>& x) {
-  return largest_growth(linear_step(plan, x), plan.run.integrator, plan.run.step) <= 1 + kRound;
+bool is_stable_at_start(const SimulatePlan& plan) {
+  return is_stable_at(plan, plan.input.robot.state.x);
 }
 
 bool is_implicit_point(const SceneCoupling& coupling) {
@@ -203,7 +154,7 @@ bool has_theory(const SimulatePlan& plan) {
   const SceneModel& scene = *plan.input.scene;
   const Integrator integrator = plan.run.integrator;
   if (scene.couplings.empty() || !scene.constraints.empty()) return false;
-  if (!is_semi_implicit(integrator) && !polynomial_order(integrator)) return false;
+  if (!is_semi_implicit(integrator) && !is_polynomial(integrator)) return false;
   return std::all_of(scene.couplings.begin(), scene.couplings.end(),
                      [](const SceneCoupling& c) { return c.rate == 0 && is_spring_damper(c); });
 }
@@ -223,10 +174,6 @@ std::string scheme_words(const SimulatePlan& plan) {
 
 }  // namespace
 
-bool is_stable_in_theory(const SimulatePlan& plan) {
-  return is_stable_at(plan, plan.input.robot.state.x);
-}
-
 std::vector<MapCurve> theory_curves(const MapJob& job) {
   std::vector<MapCurve> curves;
   const SimulatePlan corner = prepare_cell(job, job.x.from, job.y.from);
@@ -237,7 +184,7 @@ std::vector<MapCurve> theory_curves(const MapJob& job) {
     MapCurve curve = search.find(name, good);
     if (!curve.x.empty()) curves.push_back(std::move(curve));
   };
-  add(scheme_words(corner) + ", start pose", is_stable_in_theory);
+  add(scheme_words(corner) + ", start pose", is_stable_at_start);
   if (std::any_of(couplings.begin(), couplings.end(),
                   [](const SceneCoupling& c) { return !c.driven.turned.empty(); }))
     add("the same, worst pose of the twin", is_stable_on_the_way);

@@ -24,7 +24,4 @@ struct MapCurve {
 // step is no polynomial. Found by bisection along columns, to 1e-4 of the axis' length.
 std::vector<MapCurve> theory_curves(const MapJob& job);
 
-// Whether theory calls the step of the couplings stable about the start pose.
-bool is_stable_in_theory(const SimulatePlan& plan);
-
 }  // namespace twinarm

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "app/support/output_file.h"
 #include "app/support/text_fields.h"
@@ -15,6 +16,7 @@ namespace twinarm {
 namespace {
 
 constexpr const char* kFirstLine = "# twinarm map 2\n";
+constexpr std::string_view kHeadMark = "# ";  // before each line of the head
 constexpr const char* kFirstLineOfOld = "twinarm map 1\n";
 constexpr std::uintmax_t kMostTileBytes = 512u << 20;  // four million cells
 constexpr const char* kOtherFile =
@@ -94,7 +96,7 @@ TileFile empty_tile_file(const MapJob& job) {
 
 std::string to_text(const TileFile& file) {
   std::string text = kFirstLine;
-  for (const std::string& line : file.head) text += "# " + line + "\n";
+  for (const std::string& line : file.head) text += std::string(kHeadMark) + line + "\n";
   text += table_heading() + "\n";
   for (const auto& [place, values] : file.cells) {
     text += std::to_string(place.second) + "," + std::to_string(place.first);
@@ -130,8 +132,8 @@ TileFile read_tile_file(const std::filesystem::path& path) {
     };
     if (end == text.npos) throw damaged("its end is cut off", "map.cut-short");
     const std::string line = text.substr(at, end - at);
-    if (!is_table && line.starts_with("# "))
-      file.head.push_back(line.substr(2));
+    if (!is_table && line.starts_with(kHeadMark))
+      file.head.push_back(line.substr(kHeadMark.size()));
     else if (!is_table && line == table_heading())
       is_table = true;
     else if (!is_table || !read_cell(line, file))

@@ -60,7 +60,7 @@ void add_picture(std::vector<RecordedFile>& files, const std::filesystem::path& 
 void add_companions(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
   constexpr int kMost = 1000;  // files of a folder that are looked at
   static const std::vector<std::string> naming{".obj", ".mtl", ".dae", ".gltf"};
-  if (std::ranges::find(naming, file.extension()) == naming.end()) return;
+  if (std::ranges::find(naming, file.extension().string()) == naming.end()) return;
   const std::string text = files.back().bytes;
   std::error_code error;
   int looked_at = 0;

@@ -59,7 +59,6 @@ class TickTimes {
 
 // From one thread to another without a lock: a ring that one writes and one reads. A full ring
 // refuses, it never waits.
-
 template <class T>
 class SpscRing {
  public:

@@ -13,7 +13,6 @@
 namespace twinarm {
 
 // Options of `twinarm inspect`.
-
 struct InspectOptions {
   std::filesystem::path html;  // a page; empty: text on stdout
   RobotOptions robot;

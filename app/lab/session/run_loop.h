@@ -16,7 +16,6 @@
 namespace twinarm {
 
 // Run time against wall time: how far the run is to be, and how well it keeps up.
-
 class Pace {
  public:
   using Time = std::chrono::steady_clock::time_point;
