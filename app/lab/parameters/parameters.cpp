@@ -18,7 +18,7 @@ Knob slider(std::string path, const SliderRow& row, double value, std::string un
   knob.label = row.label;
   knob.number = value;
   knob.unit = std::move(unit);
-  knob.form = row.is_linear ? Knob::Form::linear : Knob::Form::log;
+  knob.form = row.scale == SliderRow::linear ? Knob::Form::linear : Knob::Form::log;
   knob.low = row.low;
   knob.high = row.high;
   knob.meaning = row.meaning;
@@ -87,11 +87,9 @@ Knob integrator_knob(const SimulatePlan& plan) {
 }
 
 Knob gravity_knob(const Vector3& gravity) {
-  const SliderRow row{.label = "gravity, up",
-                      .low = -25,
-                      .high = 25,
-                      .meaning = "Downward is negative: Earth -9.81, Moon -1.62, free flight 0.",
-                      .is_linear = true};
+  const SliderRow row{"gravity, up", -25, 25,
+                      "Downward is negative: Earth -9.81, Moon -1.62, free flight 0.",
+                      SliderRow::linear};
   Knob knob = slider("gravity[2]", row, gravity.z(), "m/s²");
   knob.group = "world";
   return knob;

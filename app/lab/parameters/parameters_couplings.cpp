@@ -13,13 +13,10 @@ namespace {
 
 using CouplingKind = CouplingSpec::Type;
 
-// A joint of one degree of freedom of its own carries the link: what acts at joints needs that.
+// What acts at joints needs one.
 const JointDescription* own_joint(const SceneDescription& scene, const CouplingDescription& c) {
-  for (const RobotInScene& robot : scene.robots) {
-    if (robot.name != c.robot) continue;
-    for (const JointDescription& joint : robot.description.joints)
-      if (joint.child == c.link && joint.dofs() == 1 && !joint.mimic) return &joint;
-  }
+  for (const RobotInScene& robot : scene.robots)
+    if (robot.name == c.robot) return twinarm::own_joint(robot.description, c.link);
   return nullptr;
 }
 

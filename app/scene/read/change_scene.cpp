@@ -39,13 +39,13 @@ void add_left_out(const std::string& name, int line, Value& scene) {
   static const std::array kLeftOut{"gravity", "step", "integrator", "contact", "duration"};
   if (scene.find(name) || std::find(kLeftOut.begin(), kLeftOut.end(), name) == kLeftOut.end())
     return;
-  Value& made = scene.put(name, Value::of(0.0));
+  Value made = Value::of(0.0);  // its text or number comes in its place
   if (name == "gravity") {
-    std::vector<Value> components;
-    for (const double g : SceneDescription().gravity) components.push_back(Value::of(g));
-    made = scene.put(name, Value::list(std::move(components)));
+    made = Value::list({});
+    for (const double g : SceneDescription().gravity) made.items.push_back(Value::of(g));
   }
   made.line = line;
+  scene.put(name, std::move(made));
 }
 
 }  // namespace

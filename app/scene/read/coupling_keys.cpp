@@ -10,17 +10,26 @@ using Gains = CouplingFacts::Gains;
 using Sign = NumberRange::Sign;
 using TargetKind = CouplingTarget::Kind;
 
+template <Gains gains>
+bool has(const CouplingFacts& facts) {
+  return facts.gains == gains;
+}
 bool has_springs(const CouplingFacts& facts) {
   return facts.gains == Gains::spring || facts.gains == Gains::two_springs;
 }
-bool has_two_springs(const CouplingFacts& facts) {
-  return facts.gains == Gains::two_springs;
-}
-bool has_reference(const CouplingFacts& facts) {
-  return facts.gains == Gains::reference;
-}
 bool any_coupling(const CouplingFacts&) {
   return true;
+}
+template <auto... members>
+double& at(CouplingDescription& coupling) {
+  return (coupling.*....*members);
+}
+
+bool moves(TargetKind kind) {
+  return kind != TargetKind::start && kind != TargetKind::state;
+}
+bool is_played(TargetKind kind) {
+  return moves(kind) && kind != TargetKind::device;
 }
 
 constexpr const char* kNoGain = "this type of coupling has no such gain";
@@ -30,113 +39,66 @@ const NumberRange kPositive{Sign::positive};
 
 const std::vector<CouplingKey>& coupling_keys() {
   using C = CouplingDescription;
+  using F = CouplingFacts;
+  using W = WeldReference;
+  // clang-format off
   static const std::vector<CouplingKey> rows{
-      {.key = "measure",
-       .has = [](const CouplingFacts& facts) { return facts.has_measure; },
+      {.key = "measure", .has = [](const F& f) { return f.has_measure; },
        .useless = "is of a torsional coupling"},
-      {.key = "point",
-       .has = [](const CouplingFacts& facts) { return facts.at_point; },
-       .useless = "this type of coupling turns the link: it has no point",
-       .unit = "m"},
-      {.key = "damper",
-       .has = [](const CouplingFacts& facts) { return has_springs(facts) && !facts.printed; },
+      {.key = "point", .has = [](const F& f) { return f.at_point; },
+       .useless = "this type of coupling turns the link: it has no point", .unit = "m"},
+      {.key = "damper", .has = [](const F& f) { return has_springs(f) && !f.printed; },
        .useless = "this type of coupling has a damper of its own, or none"},
-      {.key = "stiffness",
-       .has = has_springs,
-       .useless = kNoGain,
-       .unit = "N/m",
-       .turning_unit = "N m/rad",
-       .number = [](C& c) -> double& { return c.stiffness; },
-       .added = 1000,
-       .slider = {"stiffness k", 1, 1e7,
-                  "Pull per distance between the robot and its twin: stiffer follows closer, and "
-                  "swings faster."},
-       .turning_low = 0.01,
-       .turning_high = 1e6},
-      {.key = "damping",
-       .has = has_springs,
-       .useless = kNoGain,
-       .unit = "N s/m",
-       .turning_unit = "N m s/rad",
-       .number = [](C& c) -> double& { return c.damping; },
-       .slider = {"damping b", 0.01, 1e5,
-                  "Pull per difference of their velocities: it calms the swinging."},
-       .turning_low = 1e-4,
-       .turning_high = 1e4},
-      {.key = "turn_stiffness",
-       .has = has_two_springs,
-       .useless = "is of a bushing",
-       .unit = "N m/rad",
-       .number = [](C& c) -> double& { return c.turn_stiffness; },
-       .added = 0.01,  // as if the stiffness had an arm of 0.1 m
-       .added_times = "stiffness",
+      {.key = "stiffness", .has = has_springs, .useless = kNoGain,
+       .unit = "N/m", .turning_unit = "N m/rad", .number = at<&C::stiffness>, .added = 1000,
+       .slider = {"stiffness k", 1, 1e7, "Pull per distance between the robot and its twin: "
+                  "stiffer follows closer, and swings faster."},
+       .turning_low = 0.01, .turning_high = 1e6},
+      {.key = "damping", .has = has_springs, .useless = kNoGain,
+       .unit = "N s/m", .turning_unit = "N m s/rad", .number = at<&C::damping>,
+       .slider = {"damping b", 0.01, 1e5, "Pull per difference of their velocities: "
+                  "it calms the swinging."},
+       .turning_low = 1e-4, .turning_high = 1e4},
+      {.key = "turn_stiffness", .has = has<Gains::two_springs>, .useless = "is of a bushing",
+       .unit = "N m/rad", .number = at<&C::turn_stiffness>,
+       .added = 0.01, .added_times = "stiffness",  // as if that had an arm of 0.1 m
        .slider = {"turn stiffness", 0.01, 1e5, "Couple per angle between the two links."}},
-      {.key = "turn_damping",
-       .has = has_two_springs,
-       .useless = "is of a bushing",
-       .unit = "N m s/rad",
-       .number = [](C& c) -> double& { return c.turn_damping; },
+      {.key = "turn_damping", .has = has<Gains::two_springs>, .useless = "is of a bushing",
+       .unit = "N m s/rad", .number = at<&C::turn_damping>,
        .slider = {"turn damping", 1e-4, 1e4, "Couple per difference of their rates of turn."}},
-      {.key = "time_constant",
-       .has = has_reference,
-       .useless = "is of a weld",
-       .unit = "s",
-       .range = kPositive,
-       .number = [](C& c) -> double& { return c.reference.time_constant; },
+      {.key = "time_constant", .has = has<Gains::reference>, .useless = "is of a weld",
+       .unit = "s", .range = kPositive, .number = at<&C::reference, &W::time_constant>,
        .slider = {"time constant", 1e-3, 1, "The weld follows as a swing of this time does."}},
-      {.key = "damping_ratio",
-       .has = has_reference,
-       .useless = "is of a weld",
-       .range = kPositive,
-       .number = [](C& c) -> double& { return c.reference.damping_ratio; },
+      {.key = "damping_ratio", .has = has<Gains::reference>, .useless = "is of a weld",
+       .range = kPositive, .number = at<&C::reference, &W::damping_ratio>,
        .slider = {"damping ratio", 0.05, 10, "1: it comes back without swinging past."}},
-      {.key = "impedance",
-       .has = has_reference,
-       .useless = "is of a weld",
+      {.key = "impedance", .has = has<Gains::reference>, .useless = "is of a weld",
        .range = {Sign::positive, [](double d) { return d < 1; },
                  "must be below 1: at 1 the weld would be rigid",
                  "give a number between 0 and 1, or a [[constraint]] of type \"weld\""},
-       .number = [](C& c) -> double& { return c.reference.impedance; },
-       .slider = {.label = "impedance",
-                  .low = 0.05,
-                  .high = 0.999,
-                  .meaning = "How firm the weld is: towards 1 as a rigid one.",
-                  .is_linear = true}},
-      {.key = "rate",
-       .has = [](const CouplingFacts& facts) { return facts.can_hold; },
+       .number = at<&C::reference, &W::impedance>,
+       .slider = {"impedance", 0.05, 0.999, "How firm the weld is: towards 1 as a rigid one.",
+                  SliderRow::linear}},
+      {.key = "rate", .has = [](const F& f) { return f.can_hold; },
        .useless = "this type of coupling is computed at every step",
-       .unit = "Hz",
-       .range = kPositive,
-       .number = [](C& c) -> double& { return c.rate; }},
-      {.key = "treatment",
-       .has = [](const CouplingFacts& f) { return f.treatments == CouplingFacts::Treatments::all; },
+       .unit = "Hz", .range = kPositive, .number = at<&C::rate>},
+      {.key = "treatment", .has = [](const F& f) { return f.treatments == F::Treatments::all; },
        .useless = "this type of coupling is a treatment of its own"},
-      {.key = "link",
-       .has = [](const CouplingFacts& facts) { return facts.gains != Gains::none; },
+      {.key = "link", .has = [](const F& f) { return f.gains != Gains::none; },
        .useless = "a god object drives all joints"},
-      {.key = "outside", .has = [](const CouplingFacts& facts) { return facts.has_measure; }},
-      {.key = "delay",
-       .has = any_coupling,
+      {.key = "outside", .has = [](const F& f) { return f.has_measure; }},
+      {.key = "delay", .has = any_coupling,
        .useless = "the target stands still: seen late, it is the same",
-       .unit = "s",
-       .number = [](C& c) -> double& { return c.delay; },
-       .of_target = [](TargetKind t) { return t != TargetKind::start && t != TargetKind::state; },
-       .help = "leave it out, or give a target that moves"},
-      {.key = "speed",
-       .has = any_coupling,
+       .unit = "s", .number = at<&C::delay>,
+       .of_target = moves, .help = "leave it out, or give a target that moves"},
+      {.key = "speed", .has = any_coupling,
        .useless = "is of a target that is a motion by name or a trace",
-       .range = kPositive,
-       .number = [](C& c) -> double& { return c.speed; },
-       .slider = {.label = "speed of the motion",
-                  .low = 0.1,
-                  .high = 10,
-                  .meaning = "How many times faster the twin's motion is played.",
-                  .restarts = true},
-       .of_target =
-           [](TargetKind t) {
-             return t == TargetKind::paper || t == TargetKind::trace || t == TargetKind::synthetic;
-           },
+       .range = kPositive, .number = at<&C::speed>,
+       .slider = {"speed of the motion", 0.1, 10,
+                  "How many times faster the twin's motion is played.", SliderRow::log, true},
+       .of_target = is_played,
        .help = "leave it out, or give target = \"paper\" or a trace file"}};
+  // clang-format on
   return rows;
 }
 

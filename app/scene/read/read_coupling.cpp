@@ -38,13 +38,12 @@ void read_link(TableReader& table, const RobotDescription& robot, CouplingDescri
   if (!find_link(robot, coupling.link))
     return table.fault("link", "there is no link '" + coupling.link + "'",
                        name_remedy(coupling.link, names, "links"), "scene.unknown-name");
-  if (coupling.type != CouplingDescription::Type::torsional || coupling.measure != Measure::joint)
-    return;
-  for (const JointDescription& joint : robot.joints)
-    if (joint.child == coupling.link && joint.dofs() == 1 && !joint.mimic) return;
-  table.fault("link", "its joint has not one degree of freedom of its own",
-              "name a link on a revolute, prismatic or screw joint, or give measure = \"world\"",
-              "scene.degrees-of-freedom");
+  const bool at_joint =
+      coupling.type == CouplingDescription::Type::torsional && coupling.measure == Measure::joint;
+  if (at_joint && !own_joint(robot, coupling.link))
+    table.fault("link", "its joint has not one degree of freedom of its own",
+                "name a link on a revolute, prismatic or screw joint, or give measure = \"world\"",
+                "scene.degrees-of-freedom");
 }
 
 // Whether the type has the key; told where it stands and is none of the type's.

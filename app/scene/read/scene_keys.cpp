@@ -12,41 +12,27 @@ namespace twinarm {
 const std::vector<SurfaceKey>& surface_keys() {
   using Sign = NumberRange::Sign;
   using P = PairDescription;
+  // clang-format off
   static const std::vector<SurfaceKey> rows{
-      {.key = "friction",
-       .unit = "",
-       .member = &Surface::friction,
-       .of_pair = &P::friction,
-       .slider = {.label = "friction",
-                  .low = 0,
-                  .high = 2,
-                  .meaning = "Coulomb's: a pair takes the geometric mean of its two.",
-                  .is_linear = true}},
+      {.key = "friction", .member = &Surface::friction, .of_pair = &P::friction,
+       .slider = {"friction", 0, 2, "Coulomb's: a pair takes the geometric mean of its two.",
+                  SliderRow::linear}},
       {.key = "restitution",
-       .unit = "",
        .range = {Sign::not_negative, [](double e) { return e <= 1; },
                  "must be at most 1: an impact creates no energy", "give a number from 0 to 1"},
-       .member = &Surface::restitution,
-       .of_pair = &P::restitution,
-       .slider = {.label = "restitution",
-                  .low = 0,
-                  .high = 1,
-                  .meaning = "Speed after an impact over speed before: a pair takes the product.",
-                  .is_linear = true}},
+       .member = &Surface::restitution, .of_pair = &P::restitution,
+       .slider = {"restitution", 0, 1, "Speed after an impact over speed before: a pair takes the "
+                  "product.", SliderRow::linear}},
       {.key = "torsional_friction", .unit = "m", .member = &Surface::torsional_friction},
       {.key = "rolling_friction", .unit = "m", .member = &Surface::rolling_friction},
-      {.key = "stiffness",
-       .unit = "N/m",
-       .range = {Sign::positive},
-       .member = &Surface::stiffness,
-       .of_pair = &P::stiffness,
-       .slider = {"contact stiffness", 1e3, 1e9,
-                  "Of each contact point; two surfaces are springs in series."},
+      {.key = "stiffness", .unit = "N/m", .range = {Sign::positive},
+       .member = &Surface::stiffness, .of_pair = &P::stiffness,
+       .slider = {"contact stiffness", 1e3, 1e9, "Of each contact point; two surfaces are springs "
+                  "in series."},
        .is_of_compliant = true},
-      {.key = "dissipation",
-       .unit = "s/m",
-       .member = &Surface::dissipation,
-       .of_pair = &P::dissipation}};
+      {.key = "dissipation", .unit = "s/m",
+       .member = &Surface::dissipation, .of_pair = &P::dissipation}};
+  // clang-format on
   return rows;
 }
 

@@ -23,16 +23,17 @@ struct NumberRange {
 
 // What the lab offers; without a label, nothing.
 struct SliderRow {
+  enum Scale { log, linear };
   const char* label = nullptr;
   double low = 0, high = 0;
   const char* meaning = "";
-  bool is_linear = false;  // else logarithmic
-  bool restarts = false;   // the run goes on from coordinates and velocities alone
+  Scale scale = log;
+  bool restarts = false;  // the run goes on from coordinates and velocities alone
 };
 
 // Of robots and bodies, and of pairs in place of what these have.
 struct SurfaceKey {
-  const char *key, *unit;
+  const char *key, *unit = "";
   NumberRange range = {};
   double Surface::*member;
   std::optional<double> PairDescription::*of_pair = nullptr;  // nullptr: pairs have none

@@ -58,6 +58,12 @@ std::string name_in_scene(const SceneDescription& scene, std::size_t robot,
   return scene.robots.size() == 1 ? name : scene.robots[robot].name + "/" + name;
 }
 
+const JointDescription* own_joint(const RobotDescription& robot, const std::string& link) {
+  for (const JointDescription& joint : robot.joints)
+    if (joint.child == link && joint.dofs() == 1 && !joint.mimic) return &joint;
+  return nullptr;
+}
+
 const LinkDescription* find_link(const RobotDescription& robot, const std::string& name) {
   for (const LinkDescription& link : robot.links)
     if (link.name == name) return &link;

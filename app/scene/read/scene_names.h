@@ -33,6 +33,10 @@ std::optional<JointReference> find_joint(const SceneDescription& scene, const st
 std::string name_in_scene(const SceneDescription& scene, std::size_t robot,
                           const std::string& name);
 
+// The joint that carries the link, of one degree of freedom of its own; nullptr where it is
+// another.
+const JointDescription* own_joint(const RobotDescription& robot, const std::string& link);
+
 const LinkDescription* find_link(const RobotDescription& robot, const std::string& name);
 
 }  // namespace twinarm
