@@ -48,7 +48,7 @@ export class Player extends Playhead implements RunSource, Clock {
     const here = this.frame;
     const between = this.at > this.times[here] + 1e-9;
     const to = here + frames + (between && frames < 0 ? 1 : 0);
-    this.seek(this.times[Math.min(this.times.length - 1, Math.max(0, to))]);
+    this.look(this.times[Math.min(this.times.length - 1, Math.max(0, to))]);
   }
 
   toggle(): void {
@@ -62,11 +62,16 @@ export class Player extends Playhead implements RunSource, Clock {
     this.changed();
   }
 
+  // Goes on from there, if it was going.
+  seek(time: number): void {
+    this.put(time);
+  }
+  // And stays there.
   look(time: number): void {
-    this.seek(time);
+    super.seek(time);
   }
   seekShare(share: number): void {
-    this.seek(this.start + share * (this.end - this.start));
+    this.look(this.start + share * (this.end - this.start));
   }
 
   tick(now: number): void {

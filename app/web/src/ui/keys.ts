@@ -63,6 +63,7 @@ function isTaken(event: KeyboardEvent): boolean {
   const at = event.target;
   if (at instanceof HTMLSelectElement || at instanceof HTMLTextAreaElement) return true;
   if (at instanceof HTMLInputElement && ['text', 'number', 'search'].includes(at.type)) return true;
+  if (at instanceof HTMLInputElement && at.type === 'radio' && /^(Arrow| )/.test(event.key)) return true;
   const checks = at instanceof HTMLInputElement && at.type === 'checkbox';
   const presses = at instanceof HTMLButtonElement || checks;
   return presses && (event.key === ' ' || event.key === 'Enter');

@@ -1,45 +1,23 @@
-// A choice among few, as buttons side by side: one stop of the tab key, arrows change it.
+// A choice among few, side by side: one stop of the tab key, arrows change it.
 import { element } from './dom';
+
+let groups = 0;
 
 export class Segments {
   readonly root: HTMLElement;
-  private readonly buttons: HTMLButtonElement[];
-  chosen = '';
+  private readonly choices: HTMLInputElement[];
 
-  constructor(
-    label: string,
-    private readonly names: string[],
-    choose: (name: string) => void,
-  ) {
+  constructor(label: string, names: string[], choose: (name: string) => void) {
+    const name = `segments-${groups++}`;
+    this.choices = names.map((value) =>
+      element('input', { type: 'radio', name, value, 'aria-label': value }),
+    );
     this.root = element('div', { class: 'segments', role: 'radiogroup', 'aria-label': label });
-    this.buttons = names.map((name) => {
-      const made = element('button', { type: 'button', role: 'radio' }, name);
-      made.addEventListener('click', () => {
-        this.show(name);
-        choose(name);
-      });
-      return made;
-    });
-    this.root.append(...this.buttons);
-    this.root.addEventListener('keydown', (event) => {
-      const way = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
-      if (!way) return;
-      event.preventDefault();
-      event.stopPropagation();
-      const at = Math.max(0, this.names.indexOf(this.chosen));
-      const next = this.buttons[(at + way + names.length) % names.length];
-      next.focus();
-      next.click();
-    });
-    this.show('');
+    this.root.append(...this.choices);
+    this.root.addEventListener('change', ({ target }) => choose((target as HTMLInputElement).value));
   }
 
   show(name: string): void {
-    this.chosen = name;
-    const at = Math.max(0, this.names.indexOf(name));
-    this.buttons.forEach((made, i) => {
-      made.setAttribute('aria-checked', String(this.names[i] === name));
-      made.tabIndex = i === at ? 0 : -1;
-    });
+    for (const choice of this.choices) choice.checked = choice.value === name;
   }
 }
