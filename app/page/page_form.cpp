@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/data/html_text.h"
+#include "app/data/html_page.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

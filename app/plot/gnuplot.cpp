@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "app/data/html_text.h"
+#include "app/data/html_page.h"
 #include "app/support/interrupt.h"
 #include "app/support/output_file.h"
 #include "solver/support/atomic_file.h"

@@ -6,7 +6,6 @@
 #include "app/compare/page/curves.h"
 #include "app/compare/page/page.h"
 #include "app/data/html_page.h"
-#include "app/data/html_text.h"
 #include "benchmarks/analytic/registry/analytic_cases.h"
 
 namespace twinarm::compare_page {

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "app/data/html_text.h"
+#include "app/data/html_page.h"
 #include "app/study/findings/results.h"
 
 namespace twinarm {
