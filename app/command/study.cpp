@@ -7,7 +7,7 @@
 #include "app/device/devices.h"
 #include "app/plot/gnuplot.h"
 #include "app/servo/record_device.h"
-#include "app/study/calibration/calibrate.h"
+#include "app/study/calibration/calibration.h"
 #include "app/study/findings/findings.h"
 #include "app/study/findings/variants.h"
 #include "app/study/report/recordings.h"

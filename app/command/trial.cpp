@@ -18,7 +18,7 @@
 #include "app/support/interrupt.h"
 #include "app/support/output_file.h"
 #include "app/support/streams.h"
-#include "app/trial/trial_output.h"
+#include "app/trial/trial.h"
 #include "solver/support/atomic_file.h"
 
 namespace twinarm {

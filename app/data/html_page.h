@@ -7,6 +7,10 @@
 
 namespace twinarm {
 
+std::string escaped(const std::string& text);
+// Green or red.
+std::string yes_no(bool yes, const char* yes_word, const char* no_word);
+
 struct HtmlPage {
   std::string title, style;                                   // what it adds to the style sheet
   std::string header;                                         // this and all below in HTML

@@ -1,4 +1,4 @@
-#include "app/trial/trial_output.h"
+#include "app/trial/trial.h"
 
 #include <fmt/format.h>
 

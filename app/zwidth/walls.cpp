@@ -1,8 +1,14 @@
-// Walls of the device alone: by rate, delay and damping, and over the plane of K and B.
+// Walls of the device alone: by rate, delay and damping, and over the plane of K and B; and what is
+// left of a wall through a virtual coupling: a link pressed against it by its kinematic twin.
 #include <cmath>
 #include <limits>
 
 #include "app/zwidth/zwidth.h"
+#include "coupling/analysis/static_deflection.h"
+#include "coupling/device/force_feedback.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/forces/spring.h"
+#include "solver/stepping/simulation.h"
 
 namespace twinarm {
 namespace {
@@ -24,6 +30,70 @@ WallRow wall_row(const SampledDevice& device, double wall_damping) {
     row.stepped_law = abbott_okamura_stiffness(device);
   }
   return row;
+}
+
+constexpr double kLink = 0.4, kLinkMass = 1;  // of the link [m], [kg]
+
+Model<double> pressed_link() {
+  const double I = kLinkMass * kLink * kLink / 12;
+  ModelBuilder builder;
+  builder.add_body("link", 0, "joint", JointType::revolute, {}, Vector3::UnitZ(),
+                   {kLinkMass, {kLink / 2, 0, 0}, Vector3(0.01 * I, I, I).asDiagonal()});
+  return builder.build();
+}
+
+// Solid where y > 0, at the link's end.
+class SoftWall final : public ForceSource {
+ public:
+  explicit SoftWall(double stiffness) : k_(stiffness) {}
+  void add_forces(const State<double>&, const Kinematics& K,
+                  Forces<double>& forces) noexcept override {
+    const Vector3 p = K.position(1, {kLink, 0, 0});
+    if (p.y() > 0) add_point_force(K, 1, p, Vector3(0, -k_ * p.y(), 0), forces);
+  }
+
+ private:
+  double k_;
+};
+
+class StillHand final : public HandSource {
+ public:
+  explicit StillHand(double angle) : angle_(angle) {}
+  HandSample sample(double, double) const override {
+    HandSample hand;
+    HandMapping{}.set_robot_angle(hand, 0, angle_, 0);
+    return hand;
+  }
+  double duration() const override { return 1; }
+  std::string description() const override { return "still"; }
+
+ private:
+  double angle_;
+};
+
+// The force on the hand at the link's end, once all is at rest [N].
+double force_at_rest(double k_c, double k_e, double angle) {
+  const Model<double> model = pressed_link();
+  const StillHand hand(angle);
+  KinematicRobot kvr(model, hand, HandMapping{}, {{"joint"}, "", 0, 0});
+  CouplingSpec spec;
+  spec.type = CouplingSpec::Type::linear;
+  spec.treatment = Treatment::implicit;
+  spec.springs = {{"end", 1, {kLink, 0, 0}, k_c, 2 * std::sqrt((k_c + k_e) * kLinkMass / 3)}};
+  const auto coupling = make_coupling(spec, model, kvr);
+  SoftWall wall(k_e);
+  Simulation simulation(model, State<double>(model));
+  simulation.add(*coupling);
+  simulation.add(wall);
+  CouplingReaction reaction(model, {1});
+  reaction.add(spec, *coupling);
+  constexpr double h = 1e-3;
+  double torque = 0;
+  for (int n = 0; n < 3000; ++n) {
+    simulation.step(h);
+    torque = reaction.after_step(kvr.end(), simulation.state(), simulation.kinematics(), h)[0];
+  }
+  return torque / kLink;
 }
 
 }  // namespace
@@ -65,6 +135,18 @@ WallPlane measure_plane(const SampledDevice& device, const Tell& tell) {
     tell((n + 1.0) / kPoints);
   }
   return plane;
+}
+
+std::vector<SeriesRow> measure_series(const Tell& tell) {
+  std::vector<SeriesRow> rows;
+  for (const double k_c : {200.0, 1000.0, 5000.0})
+    for (const double k_e : {500.0, 2000.0, 20000.0}) {
+      const double near = 0.001 / kLink, far = 0.003 / kLink;  // 1 and 3 mm of the hand
+      const double rise = force_at_rest(k_c, k_e, far) - force_at_rest(k_c, k_e, near);
+      rows.push_back({k_c, k_e, -rise / (kLink * (far - near)), series_stiffness(k_c, k_e)});
+      tell(static_cast<double>(rows.size()) / 9);
+    }
+  return rows;
 }
 
 }  // namespace twinarm

@@ -12,7 +12,7 @@
 // Only k/m and b/m count: of the masses that the paper does not publish, one ratio is a parameter.
 #pragma once
 
-#include "app/study/calibration/calibrate.h"
+#include "app/study/calibration/calibration.h"
 #include "app/support/progress.h"
 
 namespace twinarm {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/study/calibration/calibrate.h"
+#include "app/study/calibration/calibration.h"
 #include "collision/import/urdf/urdf.h"
 
 namespace twinarm {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "app/study/calibration/calibrate.h"
 #include "app/study/calibration/calibration.h"
 #include "app/study/calibration/identify.h"
 #include "app/study/study_run.h"

@@ -46,8 +46,7 @@ std::string question_line(const StudyResults& results) {
   return fmt::format(
       "Does linear hold better? With one k and b for both links at 60 Hz it depends on where the "
       "springs sit: uniform arms, springs at the centres of mass: linear {} against torsional {} "
-      "deg, "
-      "{}; the S-103, springs at the arms' ends: {} against {} deg, {}.",
+      "deg, {}; the S-103, springs at the arms' ends: {} against {} deg, {}.",
       words(linear.max_deg), words(torsional.max_deg), verdict(linear.max_deg, torsional.max_deg),
       words(s103_linear.max_deg), words(s103_torsional.max_deg),
       verdict(s103_linear.max_deg, s103_torsional.max_deg));
@@ -58,8 +57,8 @@ std::string reason_line(const StudyResults& results) {
   const RunResult& linear = *find_run(results.variants, "trial/printed-linear/60");
   return fmt::format(
       "Why: the fastest mode sets the largest stable step, the slowest one the error, so equal "
-      "gains "
-      "are judged by the spread of the squared frequencies: {:.1f} torsional against {:.1f} linear "
+      "gains are judged by the spread of the squared frequencies: {:.1f} torsional against {:.1f} "
+      "linear "
       "on the S-103; springs at the centres of mass, stiff as the masses, spread them least.",
       spread(torsional), spread(linear));
 }
@@ -69,8 +68,7 @@ std::string damper_line(const StudyResults& results) {
   const RunResult& mended = *find_run(results.variants, "trial/signed-torsional/60");
   return fmt::format(
       "The printed torsional damper takes an unsigned angle and cannot dissipate: at 60 Hz its "
-      "best "
-      "is {} deg, mean {}; with a signed damper {} deg, mean {}.",
+      "best is {} deg, mean {}; with a signed damper {} deg, mean {}.",
       words(printed.max_deg), words(printed.mean_deg), words(mended.max_deg),
       words(mended.mean_deg));
 }
@@ -82,8 +80,7 @@ std::string law_line(const StudyResults& results) {
   const RunResult& implicit_l = *find_run(results.variants, "implicit/linear/1000");
   return fmt::format(
       "It is not the law: with the full stiffness of the linear coupling a torsional one errs by "
-      "{} "
-      "deg, the linear one by {}; implicit at 1 kHz torsional {} deg, linear {} deg.",
+      "{} deg, the linear one by {}; implicit at 1 kHz torsional {} deg, linear {} deg.",
       words(matched.max_deg), words(linear.max_deg), words(implicit_t.max_deg),
       words(implicit_l.max_deg));
 }

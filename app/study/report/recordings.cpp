@@ -92,31 +92,6 @@ RunSpec spec_of(const ObstacleRun& run, double rate) {
   return spec;
 }
 
-class Recorder {
- public:
-  explicit Recorder(std::filesystem::path folder) : folder_(std::move(folder)) {}
-
-  void operator()(const StudyScene& scene, const StudyAngles& angles, double every) {
-    StudyRecording made;
-    made.name = scene.spec.name;
-    made.title = scene.spec.title;
-    made.scene = folder_ / (made.name + ".toml");
-    made.recording = folder_ / (made.name + ".twinrec");
-    write_whole_file(made.scene, scene_text(scene));
-    made.apart_deg = record(made.scene, made.recording, every, angles);
-    if (!web_bundle().replay.empty()) {
-      made.page = folder_ / (made.name + ".html");
-      write_whole_file(made.page, replay_page(made.recording).html);
-    }
-    all_.push_back(std::move(made));
-  }
-  std::vector<StudyRecording> take() { return std::move(all_); }
-
- private:
-  std::filesystem::path folder_;
-  std::vector<StudyRecording> all_;
-};
-
 // When joint 1 errs most, or joint 2 if that is more.
 double time_of_largest_error(const TrackingSeries& series) {
   double largest = 0, at = 0;
@@ -135,7 +110,19 @@ std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const St
                                              const SceneHand& hand, const StudyResults& results,
                                              const std::filesystem::path& folder,
                                              Progress& progress) {
-  Recorder add(folder);
+  std::vector<StudyRecording> all;
+  const auto add = [&](const StudyScene& scene, const StudyAngles& angles, double every) {
+    StudyRecording& made = all.emplace_back();
+    made.name = scene.spec.name;
+    made.title = scene.spec.title;
+    made.scene = folder / (made.name + ".toml");
+    made.recording = folder / (made.name + ".twinrec");
+    write_whole_file(made.scene, scene_text(scene));
+    made.apart_deg = record(made.scene, made.recording, every, angles);
+    if (web_bundle().replay.empty()) return;
+    made.page = folder / (made.name + ".html");
+    write_whole_file(made.page, replay_page(made.recording).html);
+  };
   StudyScene scene{&inputs.settings, &robot, {}, {}, false};
   const double count = static_cast<double>(results.reproduction.size() + results.obstacle.size());
   double done = 0;
@@ -152,7 +139,7 @@ std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const St
     add(scene, angles_of(robot, run), kObstacleEvery);
     progress.advance(++done / count);
   }
-  return add.take();
+  return all;
 }
 
 void paint_pictures(const StudyResults& results, const std::filesystem::path& folder,

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "app/study/calibration/calibrate.h"
+#include "app/study/calibration/calibration.h"
 #include "app/study/findings/results.h"
 #include "app/study/study_scene.h"
 

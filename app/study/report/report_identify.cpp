@@ -114,8 +114,7 @@ std::string row_table(const std::vector<Identification>& all, const std::string&
          "</h3>\n<div class=scroll><table class=dense><thead><tr><th class=text>law</th>"
          "<th>rate<br>Hz</th><th>misfit</th><th>max, degrees,<br>joints 1 / 2</th>"
          "<th>mean, degrees,<br>joints 1 / 2</th><th class=text>parameters, and how far they can "
-         "go</th>"
-         "<th class=text>not held</th>"
+         "go</th><th class=text>not held</th>"
          "<th>max at half speed,<br>degrees, joints 1 / 2</th></tr></thead><tbody>\n" +
          published + rows + "</tbody></table></div>\n";
 }

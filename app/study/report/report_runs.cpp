@@ -99,16 +99,14 @@ std::string angle_caption(const RunResult& run) {
                       "synthetic: look at the kind of error, not at its moments.",
                       run.max_deg[0], run.max_deg[1], run.mean_deg[0], run.mean_deg[1],
                       100 * one.below_one, 100 * two.below_one);
-  return head +
-         fmt::format(
-             "Largest errors: {:.1f}° of joint 1, {:.0f} ms after the last jump of the hand's "
-             "speed, "
-             "and {:.1f}° of joint 2, {:.0f} ms after it. In the last 0.2 s of the sweeps, when a "
-             "damped error has died out, it still reaches {:.2f}° and {:.2f}°. Along the motion "
-             "the "
-             "DVR trails by {:.2f}° and {:.2f}° on average.",
-             one.largest, 1e3 * one.since_jump, two.largest, 1e3 * two.since_jump, one.at_end,
-             two.at_end, one.lag, two.lag);
+  return head + fmt::format(
+                    "Largest errors: {:.1f}° of joint 1, {:.0f} ms after the last jump of the "
+                    "hand's speed, and {:.1f}° of joint 2, {:.0f} ms after it. In the last 0.2 s "
+                    "of the sweeps, when a "
+                    "damped error has died out, it still reaches {:.2f}° and {:.2f}°. Along the "
+                    "motion the DVR trails by {:.2f}° and {:.2f}° on average.",
+                    one.largest, 1e3 * one.since_jump, two.largest, 1e3 * two.since_jump,
+                    one.at_end, two.at_end, one.lag, two.lag);
 }
 
 // "semi-implicit/linear/60" as words: the group where it tells the treatment, not the rate.
