@@ -40,22 +40,6 @@ ContactScene::Body body_of(ConvexHull hull, double mu) {
   return body;
 }
 
-// Forces along x at the centres of mass of free bodies.
-class Press final : public ForceSource {
- public:
-  Press(const Model<double>& model, int left, int right)
-      : left_(model.iv[static_cast<std::size_t>(left)] + 3),
-        right_(model.iv[static_cast<std::size_t>(right)] + 3) {}
-  void add_forces(const State<double>&, const Kinematics&,
-                  Forces<double>& forces) noexcept override {
-    forces.tau[left_] += kPress;
-    forces.tau[right_] -= kPress;
-  }
-
- private:
-  std::size_t left_, right_;
-};
-
 // How far the wedge comes up in half a second [m].
 double rise(double half_angle, double mu) {
   const double slope = std::tan(half_angle);
@@ -66,8 +50,8 @@ double rise(double half_angle, double mu) {
   const int wedge = scene.add(body_of(prism(left, right), mu));
   const int b = scene.add(body_of(prism(right, {3 * kHalfWidth, 0}), mu));
   scene.start();
-  Press press(scene.model(), a, b);
-  scene.simulation().add(press);
+  scene.push(a, {kPress, 0, 0});
+  scene.push(b, {-kPress, 0, 0});
   const double start = scene.p(wedge).z();
   scene.run(0.5, kStep);
   return scene.ok() ? scene.p(wedge).z() - start : NAN;

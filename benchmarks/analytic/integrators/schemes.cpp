@@ -106,11 +106,7 @@ TrajectoryCase steady_turning() {
 }
 TrajectoryCase unit_quaternion() {
   TrajectoryCase c = steady_turning();
-  c.scene = [scene = c.scene] {
-    CaseScene all = scene();
-    all.conserves = false;
-    return all;
-  };
+  c.scene = [scene = c.scene] { return not_conserving(scene()); };
   c.times = {10000};
   c.readings = {"|q|", "rate [rad/s]"};
   c.observe = [](const Model<double>&, const State<double>& x) {
@@ -135,8 +131,7 @@ double error_after_a_second(const char* name, CaseMeasure measure, const Lane& l
       c.times = {1};
       c.measure = measure;
       c.scene = [scene = c.scene, mistakes] {
-        CaseScene all = scene();
-        all.conserves = false;
+        CaseScene all = not_conserving(scene());
         for (int k = 0; k < mistakes; ++k) more_gravity(all);
         return all;
       };

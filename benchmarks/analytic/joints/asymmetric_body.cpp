@@ -113,9 +113,7 @@ TrajectoryCase flip_time() {
   static const AsymmetricMotion motion(1e-3L, 1, 0);
   return times_of(flip(),
                   {[](const Model<double>&, const State<double>& x) { return x.qd[1]; }, 2, 60},
-                  [](double k) {
-                    return CaseReadings{static_cast<double>((2 * k - 1) * motion.u0 / motion.n)};
-                  });
+                  [](double k) { return rounded({(2 * k - 1) * motion.u0 / motion.n}); });
 }
 
 // Near a steady spin w2 the other two rates grow as exp(n t): n^2 = (I3 - I2) (I2 - I1) / (I1 I3).

@@ -46,8 +46,7 @@ TrajectoryCase rod_swing_time() {
       .reference =
           [](double k) {
             const Real root = special::arithmetic_geometric_mean(1, std::cos(amplitude / 2));
-            return CaseReadings{
-                static_cast<double>((2 * Real(k) - 1) * kPiOfRod / (2 * rod_w0 * root)), 0};
+            return rounded({(2 * Real(k) - 1) * kPiOfRod / (2 * rod_w0 * root), 0});
           },
       .events = {[](const Model<double>&, const State<double>& x) { return x.q[0]; }, 3, 30}};
 }
@@ -61,9 +60,8 @@ TrajectoryCase rod_motion() {
               [](double t) {
                 const Real m = 0.25L, k = 0.5L;
                 const special::Jacobi j = special::jacobi(rod_w0 * Real(t), m);
-                return CaseReadings{
-                    static_cast<double>(2 * std::asin(k * j.cn / j.dn)),
-                    static_cast<double>(-2 * k * std::sqrt(1 - m) * rod_w0 * j.sn / j.dn)};
+                return rounded({2 * std::asin(k * j.cn / j.dn),
+                                -2 * k * std::sqrt(1 - m) * rod_w0 * j.sn / j.dn});
               }};
 }
 
@@ -74,8 +72,7 @@ TrajectoryCase fall() {
   c.observe = [](const Model<double>&, const State<double>& x) { return CaseReadings{x.qd[0]}; };
   c.reference = [](double) {
     const Real root = special::arithmetic_geometric_mean(1, std::cos(kPiOfRod / 4));
-    return CaseReadings{static_cast<double>(kPiOfRod / (2 * rod_w0 * root)),
-                        -static_cast<double>(std::sqrt(3 * 9.81L))};
+    return rounded({kPiOfRod / (2 * rod_w0 * root), -std::sqrt(3 * 9.81L)});
   };
   c.events.count = 1;
   return c;

@@ -124,9 +124,7 @@ TrajectoryCase ballistic() {
           [] {
             Model<double> model = free_body(2, {0.1, 0.2, 0.25});
             model.gravity = {0, 0, -kGravity};
-            CaseScene scene = at_rest(std::move(model));
-            scene.conserves = false;
-            return scene;
+            return not_conserving(at_rest(std::move(model)));
           },
       .times = {0.5, 1, 2},
       .readings = {"energy [J]"},

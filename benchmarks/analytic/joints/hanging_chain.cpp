@@ -59,9 +59,8 @@ TrajectoryCase chain_modes(const ChainLink& link, int n, const CaseReadings& exa
   const std::size_t count = exact.size();
   return evaluation([link, n] { return at_rest(plane_chain(link, n)); }, mode_names(count),
                     [count](const Model<double>& model, const State<double>& x) {
-                      CaseReadings all = squared_frequencies_of(model, x);
+                      CaseReadings all = small_frequencies(model, x);
                       all.resize(count);
-                      for (double& w : all) w = std::sqrt(w);
                       return all;
                     },
                     exact, relative_each);
@@ -116,8 +115,7 @@ long double folded_fall_time(long double depth) {
 
 TrajectoryCase folded_fall() {
   return {.scene = folded_chain,
-          .reference =
-              [](double) { return CaseReadings{static_cast<double>(folded_fall_time(kDeep))}; },
+          .reference = [](double) { return rounded({folded_fall_time(kDeep)}); },
           .measure = relative_each,
           .mutant = stiffen,
           .events = {[](const Model<double>& model, const State<double>& x) {

@@ -52,17 +52,16 @@ special::Numbers shaken_solution(double w, const special::Numbers& x, long doubl
 TrajectoryCase shaken_motion(double w, double until) {
   std::vector<double> times;
   for (int k = 1; k <= 8; ++k) times.push_back(until * k / 8);
-  return {
-      .scene = [w] { return shaken(w, kFromTop); },
-      .times = times,
-      .readings = {"angle from upright [rad]"},
-      .observe = [](const Model<double>& model,
-                    const State<double>& x) { return CaseReadings{from_top(model, x)}; },
-      .reference =
-          [w](double t) {
-            return CaseReadings{static_cast<double>(shaken_solution(w, {kFromTop, 0}, 0, t)[0])};
-          },
-      .lane = rk4_lane(2e-4)};
+  return {.scene = [w] { return shaken(w, kFromTop); },
+          .times = times,
+          .readings = {"angle from upright [rad]"},
+          .observe = [](const Model<double>& model,
+                        const State<double>& x) { return CaseReadings{from_top(model, x)}; },
+          .reference =
+              [w](double t) {
+                return rounded({shaken_solution(w, {kFromTop, 0}, 0, t)[0]});
+              },
+          .lane = rk4_lane(2e-4)};
 }
 
 // The largest angle of 20 s, looked at every 2 ms.
@@ -106,7 +105,7 @@ TrajectoryCase falls(double w, double about) {
                       else
                         end = middle;
                     }
-                    return CaseReadings{static_cast<double>(end)};
+                    return rounded({end});
                   });
 }
 

@@ -34,7 +34,7 @@ TrajectoryCase swing_time() {
           .reference =
               [](double k) {
                 static const Real quarter = period(amplitude) / 4;
-                return CaseReadings{static_cast<double>((2 * Real(k) - 1) * quarter)};
+                return rounded({(2 * Real(k) - 1) * quarter});
               },
           .events = {[](const Model<double>&, const State<double>& x) { return x.q[0]; }, 3, 30}};
 }
@@ -59,8 +59,7 @@ TrajectoryCase motion(std::function<CaseScene()> scene, std::vector<double> time
 CaseReadings swinging(double t) {
   const Real k2 = 0.5L, k = std::sqrt(k2);
   const special::Jacobi j = special::jacobi(w0 * Real(t), k2);
-  return {static_cast<double>(2 * std::asin(k * j.cn / j.dn)),
-          static_cast<double>(-2 * k * std::sqrt(1 - k2) * w0 * j.sn / j.dn)};
+  return rounded({2 * std::asin(k * j.cn / j.dn), -2 * k * std::sqrt(1 - k2) * w0 * j.sn / j.dn});
 }
 TrajectoryCase swing() {
   return motion([] { return released(std::numbers::pi / 2, 0); }, {1, 2, 5, 10}, swinging);
@@ -89,8 +88,7 @@ TrajectoryCase turning() {
                   const Real within = std::atan2(j.sn, j.cn);
                   const Real about = u * kPi / (2 * special::quarter_period(m));
                   const Real turns = std::round((about - within) / (2 * kPi));
-                  return CaseReadings{static_cast<double>(2 * (within + 2 * kPi * turns)),
-                                      static_cast<double>(kOver * j.dn)};
+                  return rounded({2 * (within + 2 * kPi * turns), kOver * j.dn});
                 });
 }
 TrajectoryCase turn_time() {
@@ -99,7 +97,7 @@ TrajectoryCase turn_time() {
       {[](const Model<double>&, const State<double>& x) { return std::sin(x.q[0] / 2); }, 3, 30},
       [](double k) {
         const Real turn = 4 * special::quarter_period(4 * w0 * w0 / (kOver * kOver)) / kOver;
-        return CaseReadings{static_cast<double>(turn * Real(k))};
+        return rounded({turn * Real(k)});
       });
 }
 
@@ -107,8 +105,7 @@ TrajectoryCase separatrix() {
   return motion([] { return released(0, static_cast<double>(2 * w0)); }, {0.25, 0.5, 1},
                 [](double t) {
                   const Real u = w0 * Real(t);
-                  return CaseReadings{static_cast<double>(4 * std::atan(std::exp(u)) - kPi),
-                                      static_cast<double>(2 * w0 / std::cosh(u))};
+                  return rounded({4 * std::atan(std::exp(u)) - kPi, 2 * w0 / std::cosh(u)});
                 });
 }
 

@@ -58,9 +58,6 @@ CaseReadings in_all_states(F&& readings) {
     for (const double value : readings(arm_state(n))) all.push_back(value);
   return all;
 }
-CaseReadings doubles(std::initializer_list<long double> values) {
-  return {values.begin(), values.end()};
-}
 std::vector<std::string> names_in_all_states(const std::vector<std::string>& names) {
   std::vector<std::string> all;
   for (int n = 1; n <= kArmStates; ++n)
@@ -105,14 +102,14 @@ TrajectoryCase arm_mass_matrix() {
         return CaseReadings{M(0, 0), M(0, 1), M(1, 1)};
       },
       [](const ArmState&, const PlanarArmTerms& terms) {
-        return doubles({terms.M11, terms.M12, terms.M22});
+        return rounded({terms.M11, terms.M12, terms.M22});
       });
 }
 
 TrajectoryCase velocity_terms() {
   return arm_case({"C1 [N m]", "C2 [N m]"}, torques_at_rate,
                   [](const ArmState&, const PlanarArmTerms& terms) {
-                    return doubles({terms.C1, terms.C2});
+                    return rounded({terms.C1, terms.C2});
                   });
 }
 
@@ -128,7 +125,7 @@ TrajectoryCase arm_accelerations() {
       },
       [](const ArmState& s, const PlanarArmTerms& terms) {
         const special::Two qdd = accelerations_of(terms, {s.tau1, s.tau2});
-        return doubles({qdd.first, qdd.second});
+        return rounded({qdd.first, qdd.second});
       });
 }
 

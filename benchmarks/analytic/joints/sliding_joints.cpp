@@ -56,11 +56,7 @@ TrajectoryCase screw_terminal() {
 }
 TrajectoryCase screw_motion() {
   TrajectoryCase c = screw_terminal();
-  c.scene = [] {
-    CaseScene scene = screw(0.01);
-    scene.conserves = false;
-    return scene;
-  };
+  c.scene = [] { return not_conserving(screw(0.01)); };
   c.times = {1, 10, 30};
   c.readings = {"rate [rad/s]"};
   c.observe = [](const Model<double>&, const State<double>& x) { return x.qd; };
@@ -75,11 +71,9 @@ TrajectoryCase screw_motion() {
 TrajectoryCase incline() {
   return {.scene =
               [] {
-                CaseScene scene =
+                return not_conserving(
                     at_rest(one_body(JointType::prismatic, {std::sqrt(3.0) / 2, 0, -0.5},
-                                     {2, Vector3::Zero(), Matrix3::Identity()}, {0, 0, 0.8}));
-                scene.conserves = false;
-                return scene;
+                                     {2, Vector3::Zero(), Matrix3::Identity()}, {0, 0, 0.8})));
               },
           .times = {0.5, 2, 10},
           .readings = {"x [m]", "v [m/s]"},

@@ -103,7 +103,7 @@ TrajectoryCase cone_bounds() {
   c.reference = [](double n) {
     const Real t = wide().half_period() * Real(n);
     const CaseReadings all = wide().place(t);
-    return CaseReadings{static_cast<double>(t), all[0], all[1], all[2]};
+    return rounded({t, all[0], all[1], all[2]});
   };
   c.events = {
       [](const Model<double>& model, const State<double>& x) { return observe_place(model, x)[5]; },

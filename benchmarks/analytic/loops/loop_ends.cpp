@@ -8,7 +8,7 @@
 
 #include "benchmarks/analytic/loops/loop_runs.h"
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
-#include "solver/dynamics/energy_momentum.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/loops/loop_closure.h"
 #include "solver/stepping/simulation.h"
@@ -107,29 +107,22 @@ TrajectoryCase piston_place() {
   input.offset = std::numbers::pi / 3;
   c->loops.push_back(input);
   c->start.q = {1.0, -1.2, 0.34};
-  return {
-      .scene =
-          [c] {
-            return CaseScene{c->model, c->start};
-          },
-      .times = {0},
-      .readings = {"piston [m]"},
-      .observe =
-          [c](const Model<double>& model, const State<double>& x) {
-            return CaseReadings{close_loops(model, c->loops, x).q[2]};
-          },
-      .reference = [](double) { return CaseReadings{0.05 + std::sqrt(0.09 - 0.0075)}; },
-      // A crank that is 0.1 % longer.
-      .mutant = [](CaseScene& scene) { scene.model.Xtree[2].r = 1.001 * scene.model.Xtree[2].r; }};
+  TrajectoryCase place = evaluation(
+      [c] {
+        return CaseScene{c->model, c->start};
+      },
+      {"piston [m]"},
+      [c](const Model<double>& model, const State<double>& x) {
+        return CaseReadings{close_loops(model, c->loops, x).q[2]};
+      },
+      {0.05 + std::sqrt(0.09 - 0.0075)}, largest_difference);
+  place.mutant = longer_crank;
+  return place;
 }
 
 TrajectoryCase crank_energy() {
   TrajectoryCase motion =
-      read_at(slider_crank, 10, {"energy [J]"},
-              [](const Model<double>& model, const State<double>& x) {
-                return CaseReadings{kinetic_energy(model, x) + potential_energy(model, x)};
-              },
-              {0.125});
+      read_at(slider_crank, 10, {"energy [J]"}, smooth_parts::observe_energy, {0.125});
   motion.times = {1, 2, 5, 10};
   motion.at_times_only = false;
   motion.mutant = more_inertia;

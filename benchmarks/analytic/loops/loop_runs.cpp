@@ -23,10 +23,6 @@ namespace {
 
 using LongReal = long double;
 
-CaseReadings rounded(std::initializer_list<LongReal> values) {
-  return {values.begin(), values.end()};
-}
-
 // Its readings at the times of its table; not numbers between them.
 CaseReadings tabulated(const LoopCase& c, double t) {
   for (const LoopCase::Sample& sample : c.reference)
@@ -105,18 +101,15 @@ CaseReadings four_bar_closed_form() {
 }
 TrajectoryCase four_bar_place() {
   const auto c = std::make_shared<const LoopCase>(four_bar());
-  return {
-      .scene =
-          [c] {
-            return CaseScene{c->model, c->start};
-          },
-      .times = {0},
-      .readings = c->readings,
-      .observe = [c](const Model<double>& model,
-                     const State<double>& x) { return assembled(*c, model, x); },
-      .reference = [](double) { return four_bar_closed_form(); },
-      // A crank that is 0.1 % longer.
-      .mutant = [](CaseScene& scene) { scene.model.Xtree[2].r = 1.001 * scene.model.Xtree[2].r; }};
+  TrajectoryCase place = evaluation(
+      [c] {
+        return CaseScene{c->model, c->start};
+      },
+      c->readings,
+      [c](const Model<double>& model, const State<double>& x) { return assembled(*c, model, x); },
+      four_bar_closed_form(), largest_difference);
+  place.mutant = longer_crank;
+  return place;
 }
 
 // ---- the others ----
@@ -128,6 +121,10 @@ TrajectoryCase squeezer_motion() {
 }
 
 }  // namespace
+
+void longer_crank(CaseScene& scene) {
+  scene.model.Xtree[2].r = 1.001 * scene.model.Xtree[2].r;
+}
 
 // Each run has a mechanism of its own: sources keep what they point at.
 TrajectoryCase loop_motion(LoopCase (*make)()) {

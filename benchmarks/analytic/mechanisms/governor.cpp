@@ -69,23 +69,19 @@ BodyInertia rod_and_ball() {
 }
 
 void set_reference(LoopCase& c, Couplers couplers) {
-  if (couplers == Couplers::rods) {
-    c.reference = {{10, {0.6196414445946037}}};
-    c.readings = {"s [m]"};
-    return;
-  }
   c.readings = {"s [m]"};
   c.reference = {{0.1, {0.5238364755695755}}, {0.25, {0.6220927215961464}},
                  {0.5, {0.7432494247863226}}, {1, {0.5014209223795681}},
                  {2, {0.5059092942967035}},   {5, {0.535563103721643}},
                  {10, {0.6196229170613594}}};
+  if (couplers == Couplers::rods) c.reference = {{10, {0.6196414445946037}}};
 }
 
 }  // namespace
 
 LoopCase governor(Couplers couplers) {
   constexpr double angle = std::numbers::pi / 6, omega = 2 * std::numbers::pi;
-  LoopCase c{"D5", "flyball governor"};
+  LoopCase c{"flyball governor"};
   ModelBuilder builder;
   const double axial = 0.3 * 2e-4 / 12;
   const int shaft =
@@ -122,8 +118,7 @@ LoopCase governor(Couplers couplers) {
     }
     c.loops.push_back(end);
   }
-  c.model = builder.build();
-  c.start = State<double>(c.model);
+  c.set_model(builder.build());
   const auto iv = [&](int body) { return c.model.iv[static_cast<std::size_t>(body)]; };
   c.start.q[iv(slider)] = 0.5;
   c.start.qd[iv(shaft)] = omega;
@@ -138,7 +133,7 @@ LoopCase governor(Couplers couplers) {
   c.read = [i = iv(slider)](const State<double>& x, const Kinematics&) {
     return std::vector{x.q[i]};
   };
-  if (couplers == Couplers::rods) c.name = "D5-rods", c.title += ", couplers of constant length";
+  if (couplers == Couplers::rods) c.title += ", couplers of constant length";
   set_reference(c, couplers);
   c.step = couplers == Couplers::springs ? 1e-4 : 1e-3;
   c.tolerance = 1e-8;

@@ -12,15 +12,13 @@ using namespace loop_parts;
 // A body of 1 kg, 0.25 kg m^2, held 0.5 m beside its centre of mass: equivalent to a particle at
 // (I + m c^2) / (m c) = 1 m.
 LoopCase pendulum_on_hinge() {
-  LoopCase c{"D1-hinge", "pendulum: a free body hinged to the world"};
+  LoopCase c{"pendulum: a free body hinged to the world"};
   ModelBuilder builder;
   builder.add_body("body", 0, "free", JointType::free, {}, Vector3::UnitZ(),
                    {1, Vector3::Zero(), 0.25 * Matrix3::Identity()});
-  c.model = builder.build();
-  c.start = State<double>(c.model);
+  c.set_model(builder.build());
   c.start.q[0] = -0.5;
-  c.loops = {{"pivot", LoopType::hinge, 1, 0, {z_along_y(), {0.5, 0, 0}}, {z_along_y(), {}}}};
-  c.loops[0].X_LbC.p.setZero();
+  c.loops = {hinge_closure("pivot", 1, 0, {0.5, 0, 0}, Vector3::Zero())};
   c.read = [](const State<double>& x, const Kinematics& k) {
     return std::vector{2 * k.X_WL[1].p.x(), 2 * k.X_WL[1].p.z(), x.qd[1]};
   };
@@ -38,14 +36,13 @@ LoopCase pendulum_on_hinge() {
 
 LoopCase pendulum_on_circle() {
   LoopCase c = pendulum_on_hinge();
-  c.name = "D1-circle", c.title = "pendulum: a particle in a plane, at a distance";
+  c.title = "pendulum: a particle in a plane, at a distance";
   ModelBuilder builder;
   const int slide =
       builder.add_body("slide", 0, "x", JointType::prismatic, {}, Vector3::UnitX(), {});
   builder.add_body("bob", slide, "z", JointType::prismatic, {}, Vector3::UnitZ(),
                    {1, Vector3::Zero(), Matrix3::Zero()});
-  c.model = builder.build();
-  c.start = State<double>(c.model);
+  c.set_model(builder.build());
   c.start.q[0] = -1;
   LoopClosure rod{"rod", LoopType::distance, 2, 0};
   rod.length = 1;
@@ -58,7 +55,7 @@ LoopCase pendulum_on_circle() {
 
 // Exact reduction: q'' = c (g / l) sin q, c = ((N + 1)/2 + N) / ((N + 1)/3 + N).
 LoopCase windows(int count) {
-  LoopCase c{"D2-" + std::to_string(count), std::to_string(count) + " four-bars in a row"};
+  LoopCase c{std::to_string(count) + " four-bars in a row"};
   ModelBuilder builder;
   std::vector<int> posts, beams;
   for (int i = 0; i <= count; ++i) {
@@ -69,17 +66,12 @@ LoopCase windows(int count) {
       beams.push_back(builder.add_body("beam" + n, posts.back(), "top" + n, JointType::revolute,
                                        at(0, 0, 1), Vector3::UnitY(), rod(1, 1, Vector3::UnitX())));
   }
-  c.model = builder.build();
-  c.start = State<double>(c.model);
+  c.set_model(builder.build());
   for (const int post : posts) c.start.qd[c.model.iv[static_cast<std::size_t>(post)]] = 1;
   for (const int beam : beams) c.start.qd[c.model.iv[static_cast<std::size_t>(beam)]] = -1;
   for (std::size_t i = 0; i < beams.size(); ++i)
-    c.loops.push_back({"corner" + std::to_string(i + 1),
-                       LoopType::hinge,
-                       beams[i],
-                       posts[i + 1],
-                       {z_along_y(), {1, 0, 0}},
-                       {z_along_y(), {0, 0, 1}}});
+    c.loops.push_back(hinge_closure("corner" + std::to_string(i + 1), beams[i], posts[i + 1],
+                                    {1, 0, 0}, {0, 0, 1}));
   c.read = [](const State<double>& x, const Kinematics&) {
     const double s = std::sin(x.q[0]), r = std::cos(x.q[0]);
     return std::vector{s, r, r * x.qd[0], -s * x.qd[0]};
@@ -99,7 +91,7 @@ LoopCase windows(int count) {
 
 // Joint axes y, z, x, y, z, x at the corners of a cube's edge path; the last one closes the loop.
 LoopCase bricard() {
-  LoopCase c{"D4", "Bricard's 6R mechanism"};
+  LoopCase c{"Bricard's 6R mechanism"};
   ModelBuilder builder;
   builder.set_gravity({0, -9.81, 0});
   const Vector3 x = Vector3::UnitX(), y = Vector3::UnitY(), z = Vector3::UnitZ();
@@ -114,8 +106,7 @@ LoopCase bricard() {
         builder.add_body("bar" + std::to_string(i + 1), parent, "joint" + std::to_string(i + 1),
                          JointType::revolute, joint, axes[i], bar);
   }
-  c.model = builder.build();
-  c.start = State<double>(c.model);
+  c.set_model(builder.build());
   Matrix3 z_along_x;
   z_along_x << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   c.loops = {{"joint6", LoopType::hinge, 5, 0, {z_along_x, y}, {z_along_x, z}}};
@@ -135,25 +126,16 @@ LoopCase bricard() {
 
 // Crank 0.1 m, 1 kg; rod 0.3 m, 2 kg; piston 1.5 kg on the x axis. Angles turn x to z.
 LoopCase slider_crank() {
-  LoopCase c{"D6", "slider-crank"};
+  LoopCase c{"slider-crank"};
   ModelBuilder builder;
-  const Vector3 axis = -Vector3::UnitY();
-  const int crank = builder.add_body("crank", 0, "bearing", JointType::revolute, {}, axis,
-                                     rod(1, 0.1, Vector3::UnitX()));
-  const int link = builder.add_body("rod", crank, "pin", JointType::revolute, at(0.1, 0, 0), axis,
-                                    rod(2, 0.3, Vector3::UnitX()));
+  const int crank = add_rod(builder, "crank", 0, "bearing", 0, 1, 0.1);
+  const int link = add_rod(builder, "rod", crank, "pin", 0.1, 2, 0.3);
   const int piston = builder.add_body("piston", 0, "slide", JointType::prismatic, {},
                                       Vector3::UnitX(), {1.5, Vector3::Zero(), Matrix3::Zero()});
-  c.model = builder.build();
-  c.start = State<double>(c.model);
+  c.set_model(builder.build());
   c.start.q[2] = 0.4;
   c.start.qd = {5, -5 - 5 / 3.0, 0};  // the rod's end has no velocity along z
-  c.loops = {{"wrist",
-              LoopType::hinge,
-              link,
-              piston,
-              {z_along_y(), {0.3, 0, 0}},
-              {z_along_y(), {0, 0, 0}}}};
+  c.loops = {hinge_closure("wrist", link, piston, {0.3, 0, 0}, Vector3::Zero())};
   c.read = [](const State<double>& x, const Kinematics&) {
     return std::vector{x.q[0], x.qd[0], x.q[2]};
   };
@@ -168,27 +150,16 @@ LoopCase slider_crank() {
 // Crank 0.1, coupler 0.35, rocker 0.3, ground 0.4 m; the crank at 60 degrees and 10 rad/s. Starts
 // nearby, open; one sample at t = 0, to be assembled.
 LoopCase four_bar() {
-  LoopCase c{"D7", "four-bar at one place"};
+  LoopCase c{"four-bar at one place"};
   ModelBuilder builder;
-  const Vector3 axis = -Vector3::UnitY();
-  const int crank = builder.add_body("crank", 0, "A", JointType::revolute, {}, axis,
-                                     rod(1, 0.1, Vector3::UnitX()));
-  const int coupler = builder.add_body("coupler", crank, "B", JointType::revolute, at(0.1, 0, 0),
-                                       axis, rod(1, 0.35, Vector3::UnitX()));
-  const int rocker = builder.add_body("rocker", 0, "D", JointType::revolute, at(0.4, 0, 0), axis,
-                                      rod(1, 0.3, Vector3::UnitX()));
-  c.model = builder.build();
-  c.start = State<double>(c.model);
+  const int crank = add_rod(builder, "crank", 0, "A", 0, 1, 0.1);
+  const int coupler = add_rod(builder, "coupler", crank, "B", 0.1, 1, 0.35);
+  const int rocker = add_rod(builder, "rocker", 0, "D", 0.4, 1, 0.3);
+  c.set_model(builder.build());
   c.start.q = {1.0, -0.4, 1.8};
   LoopClosure input{"input", LoopType::locked, crank};
   input.offset = std::numbers::pi / 3;
-  c.loops = {{"C",
-              LoopType::hinge,
-              coupler,
-              rocker,
-              {z_along_y(), {0.35, 0, 0}},
-              {z_along_y(), {0.3, 0, 0}}},
-             input};
+  c.loops = {hinge_closure("C", coupler, rocker, {0.35, 0, 0}, {0.3, 0, 0}), input};
   c.read = [](const State<double>& x, const Kinematics&) {
     return std::vector{x.q[0] + x.q[1], x.q[2], x.qd[0] + x.qd[1], x.qd[2]};
   };

@@ -17,7 +17,7 @@
 namespace twinarm {
 
 struct LoopCase {
-  std::string name{}, title{};
+  std::string title{};
   Model<double> model{};
   std::vector<LoopClosure> loops{};
   State<double> start{};
@@ -33,6 +33,11 @@ struct LoopCase {
   std::vector<Sample> reference{};
   double step = 1e-3;       // of rk4, with which
   double tolerance = 1e-6;  // holds for the largest error of all readings at all times
+
+  void set_model(Model<double> made) {  // which starts at rest, at zero
+    model = std::move(made);
+    start = State<double>(model);
+  }
 };
 
 LoopCase pendulum_on_hinge();   // D1: a free body, hinged to the world

@@ -46,7 +46,7 @@ BodyInertia plate(double mass, double inertia, double x, double y) {
 }  // namespace
 
 LoopCase squeezer() {
-  LoopCase c{"D3", "Andrews' squeezing mechanism"};
+  LoopCase c{"Andrews' squeezing mechanism"};
   ModelBuilder builder;
   builder.set_gravity(Vector3::Zero());
   const auto add = [&](const char* name, int parent, const Vector3& p, const BodyInertia& inertia) {
@@ -60,7 +60,7 @@ LoopCase squeezer() {
   const int k4 = add("K4", k5, {zt, 0, 0}, plate(0.00706, 5.667e-7, 0, -(e - ea)));
   const int k7 = add("K7", 0, A, plate(0.05498, 1.912e-5, ub, -ua));
   const int k6 = add("K6", k7, {0, -u, 0}, plate(0.00706, 5.667e-7, zf - fa, 0));
-  c.model = builder.build();
+  c.set_model(builder.build());
   const auto loop = [&](const char* name, int body, const Vector3& E) {
     c.loops.push_back({name, LoopType::hinge, k2, body, at(-d, 0, 0), {Matrix3::Identity(), E}});
   };
@@ -76,7 +76,6 @@ LoopCase squeezer() {
                        0.455279819163070380,   0.222668390165885885,
                        0.487364979543842550,   -0.222668390165885885,
                        1.23054744454982119};
-  c.start = State<double>(c.model);
   for (std::size_t i = 0; i < 7; ++i) c.start.q[order[i]] = q0[i];
   const auto source = std::make_shared<MotorAndSpring>(order[0], k3);
   c.source = source;

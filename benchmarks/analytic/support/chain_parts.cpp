@@ -1,10 +1,5 @@
 #include "benchmarks/analytic/support/chain_parts.h"
 
-#include <algorithm>
-
-#include "solver/dynamics/derivatives.h"
-#include "solver/linear_algebra/dense_algebra.h"
-
 namespace twinarm::smooth_parts {
 
 Model<double> plane_chain(const std::vector<ChainLink>& links, double gravity) {
@@ -36,15 +31,6 @@ CaseObserver absolute_angles() {
     }
     return all;
   };
-}
-
-std::vector<double> squared_frequencies_of(const Model<double>& model, const State<double>& x) {
-  const Eigen::MatrixXd dq = forward_dynamics_derivatives(model, x, Forces<double>(model)).dq;
-  const Eigen::VectorXcd values = eigenvalues_of(dq);
-  std::vector<double> all;
-  for (const std::complex<double>& value : values) all.push_back(-value.real());
-  std::sort(all.begin(), all.end());
-  return all;
 }
 
 std::function<CaseReadings(double)> solution_of(special::Rates rates, special::Numbers start) {

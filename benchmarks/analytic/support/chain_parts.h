@@ -26,9 +26,6 @@ Model<double> plane_chain(const ChainLink& link, int count);
 // Angles and rates from the vertical, in place of those of the joints.
 CaseObserver absolute_angles();
 
-// Eigenvalues of -d(qdd)/dq, ascending: squares of the frequencies, negative where it is unstable.
-std::vector<double> squared_frequencies_of(const Model<double>& model, const State<double>& x);
-
 // The case's own equations, from (q, qd) at time 0.
 std::function<CaseReadings(double)> solution_of(special::Rates rates, special::Numbers start);
 

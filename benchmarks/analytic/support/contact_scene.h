@@ -69,7 +69,8 @@ class ContactScene {
   void add_turning(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
                    double rate);
   void start();
-  // After start(): a constant force on a free body that no energy counts, for mistakes. World axes.
+  // After start(): a constant force at the centre of mass of a free body, which no energy counts.
+  // World axes.
   void push(int body, const Vector3& force);
   // From now on steps of any length, whose events are located in time.
   void locate_events() { simulation_->locate_events(); }

@@ -38,6 +38,11 @@ CaseScene at_rest(Model<double> model) {
   return scene;
 }
 
+CaseScene not_conserving(CaseScene scene) {
+  scene.conserves = false;
+  return scene;
+}
+
 CaseScene start_at(Model<double> model, std::vector<double> q, std::vector<double> qd) {
   CaseScene scene = at_rest(std::move(model));
   scene.start.q = std::move(q);
@@ -69,12 +74,18 @@ Vector3 reaction(const Model<double>& model, const State<double>& x) {
   return to_eigen(w.X0[1].E).transpose() * to_eigen(w.f[1].f);
 }
 
-std::vector<double> small_frequencies(const Model<double>& model, const State<double>& x) {
+std::vector<double> squared_frequencies_of(const Model<double>& model, const State<double>& x) {
   const Eigen::MatrixXd dq = forward_dynamics_derivatives(model, x, Forces<double>(model)).dq;
-  const Eigen::VectorXcd eigenvalues = eigenvalues_of(dq);
+  const Eigen::VectorXcd values = eigenvalues_of(dq);
   std::vector<double> all;
-  for (const std::complex<double>& value : eigenvalues) all.push_back(std::sqrt(-value.real()));
+  for (const std::complex<double>& value : values) all.push_back(-value.real());
   std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::vector<double> small_frequencies(const Model<double>& model, const State<double>& x) {
+  std::vector<double> all = squared_frequencies_of(model, x);
+  for (double& w : all) w = std::sqrt(w);
   return all;
 }
 

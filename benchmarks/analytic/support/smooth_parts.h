@@ -23,6 +23,8 @@ Model<double> one_body(JointType type, const Vector3& axis, const BodyInertia& i
 Model<double> point_pendulum(double length = 1);
 
 CaseScene at_rest(Model<double> model);
+// Something takes energy out of it, or puts it in.
+CaseScene not_conserving(CaseScene scene);
 CaseScene start_at(Model<double> model, std::vector<double> q, std::vector<double> qd);
 inline CaseObserver joint_state() {  // all coordinates, then all velocities
   return [](const Model<double>&, const State<double>& x) {
@@ -57,6 +59,8 @@ std::vector<double> inverse_dynamics(const Model<double>& model, const State<dou
                                      const std::vector<double>& qdd);
 // What the joint of the first body transmits, for its true acceleration: force, world axes [N].
 Vector3 reaction(const Model<double>& model, const State<double>& x);
+// Eigenvalues of -d(qdd)/dq, ascending: squares of the frequencies, negative where it is unstable.
+std::vector<double> squared_frequencies_of(const Model<double>& model, const State<double>& x);
 // Undamped frequencies about a state at rest, ascending [rad/s].
 std::vector<double> small_frequencies(const Model<double>& model, const State<double>& x);
 

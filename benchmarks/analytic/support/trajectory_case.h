@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,6 +47,9 @@ inline Lane dopri5_lane(double tolerance = 1e-10) {
 }
 
 using CaseReadings = std::vector<double>;
+inline CaseReadings rounded(std::initializer_list<long double> values) {
+  return {values.begin(), values.end()};
+}
 using CaseObserver = std::function<CaseReadings(const Model<double>&, const State<double>&)>;
 using CaseReference = std::function<CaseReadings(double)>;
 // One number from what was seen at one time and what should have been.
