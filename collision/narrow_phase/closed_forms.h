@@ -35,7 +35,7 @@ double half_space_distance(const Placed& half_space, const Aabb& box);
 void half_space_contacts(const Placed& half_space, const Placed& body, double margin,
                          std::vector<ManifoldPoint>& out);
 
-// ---- cavity_contact.cpp: the inside of a sphere or of a tube against a body that moves within ----
+// ---- cavity_contact.cpp: the inside of a sphere or tube against a body that moves within ----
 
 bool is_hollow(const Shape& shape);
 
