@@ -50,14 +50,8 @@ std::vector<std::uint8_t> letters(const std::string& text) {
 }
 // time, value, type, number; little-endian, as on the machines that have these devices.
 std::vector<std::uint8_t> joystick(int value, std::uint8_t type, std::uint8_t number) {
-  return {0x10,
-          0x27,
-          0,
-          0,
-          static_cast<std::uint8_t>(value & 0xff),
-          static_cast<std::uint8_t>(value >> 8 & 0xff),
-          type,
-          number};
+  const auto byte = [](int bits) { return static_cast<std::uint8_t>(bits & 0xff); };
+  return {0x10, 0x27, 0, 0, byte(value), byte(value >> 8), type, number};
 }
 std::vector<std::uint8_t> space_mouse(const std::array<std::int32_t, 8>& words) {
   std::vector<std::uint8_t> bytes(32);

@@ -103,22 +103,6 @@ TEST_CASE("VRPN device: greets with the cookie, is given poses and buttons, name
   CHECK(said.lines.empty());
 }
 
-TEST_CASE("VRPN device: torn into single bytes, or many messages in one packet, it is the same") {
-  for (const bool torn : {true, false}) {
-    VrpnServer server([&](const VrpnClient& client, int) {
-      const Bytes words = all({greeting, pose, press_1, pose_at_waist(0.2), pose_at_waist(0.4)});
-      torn ? client.say_byte_by_byte(words) : client.say(words);
-      client.go_on(pose_at_waist(0.4));
-    });
-    Said said;
-    VrpnDevice device({"Phantom0", "127.0.0.1", server.port()}, {}, quick(said));
-    CHECK(soon(device, [](const DeviceState& s) {
-      return std::abs(s.theta[0] - 0.4) < 1e-12 && s.buttons[1] && s.alive;
-    }));
-    CHECK(device.counts().malformed == 0);
-  }
-}
-
 TEST_CASE("VRPN device: a connection cut in the middle of a pose is made anew, said once") {
   VrpnServer server([&](const VrpnClient& client, int nth) {
     client.say(greeting);

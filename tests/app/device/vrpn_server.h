@@ -23,9 +23,6 @@ class VrpnClient {
   void say(const vrpn_bytes::Bytes& bytes) const {
     [[maybe_unused]] const auto sent = send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   }
-  void say_byte_by_byte(const vrpn_bytes::Bytes& bytes) const {
-    for (const std::uint8_t byte : bytes) say({byte});
-  }
   // The next `count` bytes, fewer where they do not come.
   vrpn_bytes::Bytes hear(std::size_t count) const {
     vrpn_bytes::Bytes bytes;

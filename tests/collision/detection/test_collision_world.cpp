@@ -23,12 +23,7 @@ namespace {
 
 std::vector<Contact> touch(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB,
                            double margin = 1e-3) {
-  CollisionWorld world;
-  world.add({"a", a, 0});
-  world.add({"b", b, 0});
-  std::vector<Contact> contacts;
-  world.detect(std::array{X_WA, X_WB}, margin, contacts);
-  return contacts;
+  return PairScene(a, b).touch(X_WA, X_WB, margin);
 }
 
 std::vector<Shape> things_to_put_down() {

@@ -42,50 +42,39 @@ CouplingSpec spec_of(const LinearCase& c, Treatment treatment, double k, double 
 
 }  // namespace
 
-TEST_CASE("implicit: one degree of freedom follows backward Euler's recurrence to 1e-12") {
+TEST_CASE("implicit and semi-implicit: one degree of freedom follows its recurrence to 1e-12") {
+  struct {
+    Treatment treatment;
+    double k, b;
+  } const rows[] = {{Treatment::implicit, 30, 0.05 * std::sqrt(30)},
+                    {Treatment::implicit, 7e3, 0.05 * std::sqrt(7e3)},
+                    {Treatment::implicit, 7e6, 0.05 * std::sqrt(7e6)},
+                    {Treatment::semi_implicit, 3e3, 400}};
   for (const LinearCase& c : kCases)
-    for (double k : {30.0, 7e3, 7e6}) {
+    for (const auto& row : rows) {
+      const double k = row.k, b = row.b, h = kStep;
       CAPTURE(c.name);
       CAPTURE(k);
-      const double b = 0.05 * std::sqrt(k), h = kStep;
+      const bool implicit = row.treatment == Treatment::implicit;
       const Model<double> model = one_joint(c.joint, kInertia);
       SteadyHand hand;
       hand.angle[0] = 0.4;
       hand.rate[0] = -0.6;
-      Coupled system(model, hand, {"joint1"}, spec_of(c, Treatment::implicit, k, b),
+      Coupled system(model, hand, {"joint1"}, spec_of(c, row.treatment, k, b),
                      state_of(model, {-0.3}, {0.8}));
       double x = -0.3, v = 0.8, worst = 0;
-      for (int n = 1; n <= 200; ++n) {
-        const double target = 0.4 - 0.6 * h * n;  // at the end of the step
-        v = (kInertia * v + h * k * (target - x) - h * b * 0.6) / (kInertia + h * b + h * h * k);
+      for (int n = 0; n < 200; ++n) {
+        // Where the target is at the end of the step, or at its start: backward Euler, or with an
+        // implicit damper alone.
+        const double target = 0.4 - 0.6 * h * (implicit ? n + 1 : n);
+        v = (kInertia * v + h * k * (target - x) - h * b * 0.6) /
+            (kInertia + h * b + (implicit ? h * h * k : 0));
         x += h * v;
         system.simulation.step(h);
         worst = std::max(worst, std::abs(system.simulation.state().q[0] - x));
       }
       CHECK(worst < 1e-12);
     }
-}
-
-TEST_CASE("semi-implicit: one degree of freedom follows its own recurrence to 1e-12") {
-  for (const LinearCase& c : kCases) {
-    CAPTURE(c.name);
-    const double k = 3e3, b = 400, h = kStep;
-    const Model<double> model = one_joint(c.joint, kInertia);
-    SteadyHand hand;
-    hand.angle[0] = 0.4;
-    hand.rate[0] = -0.6;
-    Coupled system(model, hand, {"joint1"}, spec_of(c, Treatment::semi_implicit, k, b),
-                   state_of(model, {-0.3}, {0.8}));
-    double x = -0.3, v = 0.8, worst = 0;
-    for (int n = 0; n < 200; ++n) {
-      const double target = 0.4 - 0.6 * h * n;  // at the start of the step
-      v = (kInertia * v + h * k * (target - x) - h * b * 0.6) / (kInertia + h * b);
-      x += h * v;
-      system.simulation.step(h);
-      worst = std::max(worst, std::abs(system.simulation.state().q[0] - x));
-    }
-    CHECK(worst < 1e-12);
-  }
 }
 
 TEST_CASE("implicit: the two eigenvalues of a step multiply to 1/(1 + alpha + beta)") {

@@ -35,6 +35,19 @@ ImpulseProblem hard_problem(unsigned seed) {
   return problem;
 }
 
+// The i-th constraint once more, on trees whose numbers are so much larger.
+void add_copy(ImpulseProblem& problem, std::size_t i, int shift) {
+  const ImpulseConstraint original = problem.constraints()[i];
+  const auto moved = [&](int t) { return t == ImpulseConstraint::no_tree ? t : t + shift; };
+  ImpulseConstraint& c =
+      problem.add(original.law, original.rows, moved(original.tree[0]), moved(original.tree[1]));
+  c.mu = original.mu, c.b = original.b;
+  for (int side = 0; side < 2; ++side)
+    if (c.tree[side] != ImpulseConstraint::no_tree)
+      std::copy_n(problem.J(original, side), c.rows * problem.size(c.tree[side]),
+                  problem.J(c, side));
+}
+
 }  // namespace
 
 TEST_CASE("1000 random problems of every law end in velocities and impulses that obey them") {
@@ -215,16 +228,7 @@ TEST_CASE("the same contact many times over changes no velocity") {
     ImpulseProblem once = random_problem(seed, 3, 4, 10, true);
     ImpulseProblem often = once;
     for (int copy = 0; copy < 7; ++copy)
-      for (std::size_t i = 0; i < 4; ++i) {
-        const ImpulseConstraint original = often.constraints()[i];
-        ImpulseConstraint& c =
-            often.add(original.law, original.rows, original.tree[0], original.tree[1]);
-        c.mu = original.mu, c.b = original.b;
-        for (int side = 0; side < 2; ++side)
-          if (c.tree[side] != ImpulseConstraint::no_tree)
-            std::copy_n(often.J(original, side), c.rows * often.size(c.tree[side]),
-                        often.J(c, side));
-      }
+      for (std::size_t i = 0; i < 4; ++i) add_copy(often, i, 0);
     ImpulseSolver solver;
     REQUIRE(solver.solve(once).converged);
     REQUIRE(solver.solve(often).converged);
@@ -257,16 +261,7 @@ TEST_CASE("islands do not feel one another") {
     std::copy_n(both.M(t), both.size(t) * both.size(t), both.M(copy));
     std::copy_n(both.v0(t), both.size(t), both.v0(copy));
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    const ImpulseConstraint original = both.constraints()[i];
-    const auto moved = [](int t) { return t == ImpulseConstraint::no_tree ? t : t + 3; };
-    ImpulseConstraint& c =
-        both.add(original.law, original.rows, moved(original.tree[0]), moved(original.tree[1]));
-    c.mu = original.mu, c.b = original.b;
-    for (int side = 0; side < 2; ++side)
-      if (c.tree[side] != ImpulseConstraint::no_tree)
-        std::copy_n(both.J(original, side), c.rows * both.size(c.tree[side]), both.J(c, side));
-  }
+  for (std::size_t i = 0; i < count; ++i) add_copy(both, i, 3);
   ImpulseSolver solver;
   solver.solve(first);
   solver.solve(both);

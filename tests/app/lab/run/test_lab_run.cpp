@@ -4,6 +4,24 @@
 
 namespace twinarm {
 
+namespace {
+
+// A run with a frame every `period` seconds.
+std::filesystem::path recorded(const TemporaryFolder& folder, const SimulateOptions& options,
+                               double period) {
+  const SimulatePlan plan = prepare_simulation(options);
+  const std::filesystem::path file = folder.path() / "run.twinrec";
+  RunRecorder recorder(file, header_of(options, plan, {}), plan, period);
+  RunWatch watch;
+  watch.look = [&](RunView& run) { recorder.look(run); };
+  watch.sample = [](double, const State<double>&) {};
+  run_plan(plan.input, plan.run, watch);
+  recorder.finish("done");
+  return file;
+}
+
+}  // namespace
+
 TEST_CASE("lab run: a run step by step has the bits of `simulate`, its files gone meanwhile") {
   for (const char* target : {"paper", "device"}) {
     const TemporaryFolder folder;
@@ -32,14 +50,7 @@ TEST_CASE("lab run: a run step by step has the bits of `simulate`, its files gon
 TEST_CASE("recorded instant: its files can be read again after the recording is closed") {
   const TemporaryFolder folder;
   const SimulateOptions options = options_of(folder, arm_with("paper"));
-  const SimulatePlan plan = prepare_simulation(options);
-  const std::filesystem::path file = folder.path() / "run.twinrec";
-  RunRecorder recorder(file, header_of(options, plan, {}), plan, 0.5);
-  RunWatch watch;
-  watch.look = [&](RunView& run) { recorder.look(run); };
-  watch.sample = [](double, const State<double>&) {};
-  run_plan(plan.input, plan.run, watch);
-  recorder.finish("done");
+  const std::filesystem::path file = recorded(folder, options, 0.5);
   const RecordedInstant instant = open_instant(file, {});
   const SimulateOptions again = instant.files->options();
   CHECK(again.robot.model.filename() == options.robot.model.filename());
@@ -49,14 +60,7 @@ TEST_CASE("recorded instant: its files can be read again after the recording is 
 TEST_CASE("lab run: a stiffness changed on the way is the fork of a recording from that frame") {
   const TemporaryFolder folder;
   SimulateOptions options = options_of(folder, arm_with("paper"));
-  const SimulatePlan plan = prepare_simulation(options);
-  const std::filesystem::path file = folder.path() / "run.twinrec";
-  RunRecorder recorder(file, header_of(options, plan, {}), plan, 0.05);
-  RunWatch watch;
-  watch.look = [&](RunView& run) { recorder.look(run); };
-  watch.sample = [](double, const State<double>&) {};
-  run_plan(plan.input, plan.run, watch);
-  recorder.finish("done");
+  const std::filesystem::path file = recorded(folder, options, 0.05);
   const Recording recording(file);
   const std::vector<Change> changes{{"coupling.one.stiffness", "900"}};
   const Replay fork = replay(recording, 8, changes);

@@ -21,7 +21,7 @@ TEST_CASE(
     check_faults(faults, expected_in(text_of(file), "# fault ", ""), file);
     ++files;
   }
-  CHECK(files == 132);
+  CHECK(files == 133);
 }
 
 }  // namespace

@@ -72,15 +72,6 @@ TEST_CASE("loops: every case of group D keeps its reference with rk4, closed to 
   }
 }
 
-TEST_CASE("loops: forty four-bars, 200 rows of rank 80, through a singular place (D2)") {
-  const LoopCase c = windows(40);
-  Simulation simulation = simulation_of(c, Integrator::rk4);
-  CHECK(simulation.dynamics().bilateral().loops().rows() == 200);
-  CHECK(simulation.dynamics().bilateral().rank() == 80);
-  for (int n = 0; n < 200; ++n) CHECK(simulation.step(5e-3).ok());
-  CHECK(error_of(c, simulation, c.reference[0]) < 1e-6);
-}
-
 TEST_CASE(
     "loops: four-bars stay on their branch whatever the step, however near they come to 90 deg") {
   const LoopCase c = windows(2);
