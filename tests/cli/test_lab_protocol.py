@@ -4,15 +4,11 @@
     test_lab_protocol.py PROGRAM
 """
 import json
-import pathlib
 import re
-import sys
-import unittest
 
-import test_lab_command as command
-from live_socket import Frame
+from lab_test import LabTest
+from program import ROOT, main
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "app/web/src/protocol"
 TEXT = "".join(re.sub(r"(?<!:)//.*", "", (FOLDER / f"{name}.ts").read_text())
                for name in ("run", "inspection", "messages"))
@@ -99,9 +95,7 @@ class Types:
                          for fault in self.faults(value[key], fields[key][1], f"{where}.{key}")]
 
 
-class LabProtocol(unittest.TestCase):
-    setUp, tearDown = command.LabTest.setUp, command.LabTest.tearDown
-    state, frame, stand = command.LabTest.state, command.LabTest.frame, command.LabTest.stand
+class LabProtocol(LabTest):
     types = Types(TEXT)
 
     def check(self, name, message):
@@ -158,5 +152,4 @@ class LabProtocol(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    command.PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
-    unittest.main()
+    main()
