@@ -27,8 +27,4 @@ std::string made_by(const std::string& command, double seconds);
 
 std::string base64_of(const std::string& bytes);
 
-std::string escaped(const std::string& text);
-// Green or red.
-std::string yes_no(bool yes, const char* yes_word, const char* no_word);
-
 }  // namespace twinarm
