@@ -64,6 +64,7 @@ class TableReader {
   void fault(const std::string& key, std::string rule, std::string remedy,
              std::string_view code = {});
   void missing(const std::string& key, std::string remedy);
+  bool is_full() const { return faults_.is_full(); }  // more faults are not kept
   void done();
 
  private:

@@ -151,12 +151,16 @@ RecordingHeader parse_header(std::string_view text) try {
   constexpr std::size_t kMaxBytes = 32u << 20;
   constexpr int kMaxDepth = 8;
   if (text.size() > kMaxBytes) throw std::runtime_error("its header has more than 32 MiB");
-  return header_from(Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {
-    if (depth > kMaxDepth) throw std::runtime_error("its header is nested too deeply");
+  return header_from(Json::parse(text, [](int depth, Json::parse_event_t event, const Json&) {
+    const bool opens =
+        event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+    if (opens && depth >= kMaxDepth) throw std::runtime_error("its header is nested too deeply");
     return true;
   }));
 } catch (const Json::exception& error) {
-  throw std::runtime_error(std::string("its header cannot be read: ") + error.what());
+  const std::string what = error.what();  // with what was read last, which may be no text
+  throw std::runtime_error("its header cannot be read: " +
+                           what.substr(0, what.find("; last read")));
 }
 
 }  // namespace twinarm

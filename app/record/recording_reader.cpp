@@ -63,6 +63,7 @@ Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
   try {
     read_blocks();
   } catch (const std::runtime_error& error) {  // whole by its checksum, yet not to be understood
+    if (!has_header_) refuse(error.what(), "record it again", "recording.header");
     notes_.push_back(std::string("reading stopped: ") + error.what());
   }
   if (!has_header_ || files_ != header_.files.size() || places_.empty())

@@ -36,6 +36,7 @@ JointValueMap read_joint_values(TableReader& joints, const RobotDescription& rob
                                 std::vector<std::string>* warnings) {
   JointValueMap found;
   for (const Value& value : joints.value().members) {
+    if (joints.is_full()) break;  // each takes a search
     const std::string& name = value.key;
     const auto joint = std::find_if(robot.joints.begin(), robot.joints.end(),
                                     [&](const JointDescription& j) { return j.name == name; });

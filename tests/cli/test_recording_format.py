@@ -78,7 +78,7 @@ class Bytes(RecordingCommand):
         for name, text in refused.items():
             with self.subTest(name):
                 with_text(text)
-                self.assertIn(str(file), self.refused_as("recording.cut-short", "export", file))
+                self.assertIn(str(file), self.refused_as("recording.header", "export", file))
 
     def test_a_recording_of_version_2_is_read_and_replayed(self):
         """As programs wrote it before headers described themselves."""

@@ -34,7 +34,8 @@ int tell(const InputError& error, bool as_json) {
                       {"where", fault.where}});
   }
   if (as_json)
-    std::puts(Told{{"errors", errors}}.dump(1).c_str());  // does not throw where it is full
+    std::puts(  // does not throw where it is full
+        Told{{"errors", errors}}.dump(1, ' ', false, Told::error_handler_t::replace).c_str());
   return kBadInput;
 }
 

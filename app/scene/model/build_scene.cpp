@@ -148,21 +148,23 @@ class SceneBuilder {
     return name;
   }
 
-  bool is_of_robot(const Fault& fault, std::size_t r) const {
+  // A fault of robot r at its line in the robot's file; of the joint at its root, in the scene.
+  void locate(std::size_t r, Fault& fault) const {
     const RobotInScene& robot = description().robots[r];
     const std::string prefix = prefix_of(description(), r);
-    const auto is_joint = [&](const std::string& name) {
-      return fault.where == joint_called(prefix + name);
+    if (fault.where == joint_called(prefix + root_joint_name(robot.description, robot.floating)))
+      fault.line = robot.line;
+    const auto stands_at = [&](int line) {
+      fault.file = robot.description.file.string();
+      fault.line = line;
     };
-    return is_joint(root_joint_name(robot.description, robot.floating)) ||
-           std::any_of(
-               robot.description.links.begin(), robot.description.links.end(),
-               [&](const auto& link) { return fault.where == link_called(prefix + link.name); }) ||
-           std::any_of(robot.description.joints.begin(), robot.description.joints.end(),
-                       [&](const auto& joint) { return is_joint(joint.name); });
+    for (const LinkDescription& link : robot.description.links)
+      if (fault.where == link_called(prefix + link.name)) stands_at(link.line);
+    for (const JointDescription& joint : robot.description.joints)
+      if (fault.where == joint_called(prefix + joint.name)) stands_at(joint.line);
   }
 
-  // The builder knows the names of the model only; the line is the robot's.
+  // The builder knows the names of the model only.
   void build_model() {
     try {
       scene_.model = builder_.build();
@@ -170,8 +172,7 @@ class SceneBuilder {
       std::vector<Fault> faults = error.faults();
       for (Fault& fault : faults) {
         fault.file = description().file.string();
-        for (std::size_t r = 0; r < description().robots.size(); ++r)
-          if (is_of_robot(fault, r)) fault.line = description().robots[r].line;
+        for (std::size_t r = 0; r < description().robots.size(); ++r) locate(r, fault);
         for (const BodyDescription& body : description().bodies)
           if (fault.where == link_called(body.name) ||
               fault.where == joint_called(free_joint_name(body.name)))
