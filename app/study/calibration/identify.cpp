@@ -227,7 +227,7 @@ std::vector<Identification> identify(const StudyInputs& inputs, Progress& progre
       for (const FamilyLaw& law : family_laws()) asked.push_back({row, &law, rate});
   std::vector<Identification> found(asked.size());
   progress.stage("what Table 2 leaves open", 1);
-  constexpr unsigned kWorkers = 2;
+  constexpr unsigned kIdentifyWorkers = 2;
   std::vector<double> all{0};  // steps of the simulation up to each
   for (const Asked& a : asked) all.push_back(all.back() + a.rate);
   parallel_for(
@@ -235,7 +235,7 @@ std::vector<Identification> identify(const StudyInputs& inputs, Progress& progre
       [&](std::size_t i) {
         found[i] = Question(inputs, *asked[i].law, asked[i].row, asked[i].rate).answer();
       },
-      [&](std::size_t done) { progress.advance(all[done] / all.back()); }, kWorkers);
+      [&](std::size_t done) { progress.advance(all[done] / all.back()); }, kIdentifyWorkers);
   return found;
 }
 

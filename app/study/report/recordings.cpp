@@ -160,7 +160,7 @@ void paint_pictures(const StudyResults& results, const std::filesystem::path& fo
   for (const auto& [name, run, time, camera] : pictures) {
     check_interrupt();
     const auto made = std::find_if(results.recordings.begin(), results.recordings.end(),
-                                   [&](const StudyRecording& r) { return r.name == run; });
+                                   [run = run](const StudyRecording& r) { return r.name == run; });
     const bool portrait = name == std::string("robot");
     RobotOptions options;
     options.model = made->recording;
