@@ -1,4 +1,6 @@
 // The header of a recording as JSON.
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -157,10 +159,10 @@ RecordingHeader parse_header(std::string_view text) try {
     if (opens && depth >= kMaxDepth) throw std::runtime_error("its header is nested too deeply");
     return true;
   }));
+} catch (const Json::parse_error& error) {  // whose text quotes what may be no text
+  throw std::runtime_error(fmt::format("its header is no JSON from its byte {} on", error.byte));
 } catch (const Json::exception& error) {
-  const std::string what = error.what();  // with what was read last, which may be no text
-  throw std::runtime_error("its header cannot be read: " +
-                           what.substr(0, what.find("; last read")));
+  throw std::runtime_error(std::string("its header cannot be read: ") + error.what());
 }
 
 }  // namespace twinarm
