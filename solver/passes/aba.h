@@ -15,7 +15,7 @@
 
 namespace twinarm::TWINARM_ISA {
 
-// M: a Model<S>, or what can be asked the same (coupling/batch_model.h).
+// M: a Model<S>, or a type with its members.
 template <class S, class M, class Trace = NoTrace>
 [[gnu::flatten]] void aba(const M& model, const State<S>& x, const Forces<S>& forces,
                           Workspace<S>& w, Trace&& trace = {}) {

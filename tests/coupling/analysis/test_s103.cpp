@@ -1,6 +1,6 @@
 // The KVR of the S-103 against the paper's forward kinematics, its offsets in z-up axes
-// (docs/reading.md, fact 3 and the choices): each joint's frame is its parent's times its fixed
-// offset times its own rotation about z. One unit of the paper is 25 mm here.
+// (docs/paper.md): each joint's frame is its parent's times its fixed offset times its own rotation
+// about z. One unit of the paper is 25 mm here.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
