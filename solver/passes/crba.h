@@ -37,16 +37,17 @@ template <class S>
     // M_ji = S_j^T F_i for j = i and every ancestor j of i
     for (std::size_t col = model.iv[i]; col < model.iv[i] + model.dofs(i); ++col) {
       Force<S> F = w.Ic[i] * w.S_[col];
+      S *const in_row = M.data() + col * nv, *const in_column = M.data() + col;
       for (std::size_t j = i; j > 0; j = static_cast<std::size_t>(model.parent[j])) {
         const std::size_t jv = model.iv[j];
         if (model.joint[j] == JointType::revolute)
-          M[jv * nv + col] = M[col * nv + jv] = F.n.z;
+          in_column[jv * nv] = in_row[jv] = F.n.z;
         else
           for (std::size_t row = jv; row < jv + model.dofs(j); ++row)
-            M[row * nv + col] = M[col * nv + row] = dot(w.S_[row], F);
+            in_column[row * nv] = in_row[row] = dot(w.S_[row], F);
         F = transpose_times(w.Xup[j], F);
       }
-      M[col * nv + col] = M[col * nv + col] + model.armature[col];
+      in_row[col] = in_row[col] + model.armature[col];
     }
   }
 }
