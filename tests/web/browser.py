@@ -44,8 +44,9 @@ def folder_for_pictures():
 
 
 class Browser:
-    def __init__(self, width=1280, height=720, timeout=TIMEOUT, dark=False):
+    def __init__(self, width=1280, height=720, timeout=TIMEOUT, dark=False, scale=1):
         self.timeout = timeout
+        self.scale = scale  # pixels for each of the layout's: drawn without a graphics card, they are what takes time
         self.errors = []  # of the console, and exceptions
         self.requests = []  # whatever the page asked for besides itself
         self.waiting = b""
@@ -82,8 +83,7 @@ class Browser:
         self.session = attached["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
-                  deviceScaleFactor=1, mobile=False)
+        self.resize(width, height)
         self.prefer(dark)
 
     def __enter__(self):
@@ -141,6 +141,10 @@ class Browser:
             if "error" in message:
                 raise RuntimeError(f"{method}: {message['error']}")
             return message["result"]
+
+    def resize(self, width, height, mobile=False):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                  deviceScaleFactor=self.scale, mobile=mobile)
 
     def prefer(self, dark):
         self.call("Emulation.setEmulatedMedia", features=[

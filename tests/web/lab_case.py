@@ -48,7 +48,7 @@ class LabCase(unittest.TestCase):
         self.path = pathlib.Path(self.folder.name)
         self.lab = Program(self.program)
         self.url = self.lab.url
-        self.page = Browser(width=1280, height=720)
+        self.page = Browser(width=1280, height=720, scale=1 if self.pictures else 0.25)
         self.page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=self.folder.name)
         self.page.open(self.url)
 

@@ -161,8 +161,7 @@ class Stranger:
 
     def act_resize(self):
         width, height = self.chance.choice(((1280, 720), (820, 1180), (1920, 1080), (400, 800), (1024, 600)))
-        self.page.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
-                       deviceScaleFactor=1, mobile=False)
+        self.page.resize(width, height)
 
     def act_speed(self):
         self.send(do="speed", factor=self.chance.choice((0.01, 0.1, 0.5, 1, 1, 1, 2, 10)))
@@ -172,7 +171,7 @@ def visit(program, seconds, seed, say):
     """What was wrong, in words; empty: nothing."""
     faults = []
     lab = Program(program)
-    with tempfile.TemporaryDirectory() as folder, Browser(width=1280, height=720) as page:
+    with tempfile.TemporaryDirectory() as folder, Browser(width=1280, height=720, scale=0.25) as page:
         page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder)
         page.open(lab.url)
         page.evaluate("window.sameStranger = true")

@@ -196,8 +196,7 @@ class GlassPanel(unittest.TestCase):
             return  # no test, but a way to look at them
         PICTURES.mkdir(parents=True, exist_ok=True)
         for width in (400, 1100):
-            self.browser.call("Emulation.setDeviceMetricsOverride", width=width, height=1500,
-                              deviceScaleFactor=1, mobile=False)
+            self.browser.resize(width, 1500)
             for pass_ in (1, 2, 3):
                 for dark in (False, True):
                     self.browser.evaluate(f"glass.theme({json.dumps(dark)})")
@@ -206,8 +205,7 @@ class GlassPanel(unittest.TestCase):
                     self.browser.frames(2)
                     theme = "dark" if dark else "light"
                     self.browser.picture(PICTURES / f"glass_{width}_{pass_}_{theme}.png")
-        self.browser.call("Emulation.setDeviceMetricsOverride", width=420, height=900,
-                          deviceScaleFactor=1, mobile=False)
+        self.browser.resize(420, 900)
 
 
 def is_number(text):

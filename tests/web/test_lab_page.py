@@ -209,8 +209,7 @@ class LabPage(LabCase):
                    "b.title.startsWith('light')).click()")
         self.until("document.documentElement.dataset.theme === 'dark'")
         self.picture("dark")
-        self.page.call("Emulation.setDeviceMetricsOverride", width=820, height=1180,
-                       deviceScaleFactor=1, mobile=True)
+        self.page.resize(820, 1180, mobile=True)
         self.page.frames(5)
         self.picture("tablet")
         self.assertLessEqual(self.value("document.documentElement.scrollWidth"), 820)

@@ -40,8 +40,7 @@ SMALL = """[...document.querySelectorAll('button, select, input, summary, a, lab
 class Touch(LabCase):
     def setUp(self):
         super().setUp()
-        self.page.call("Emulation.setDeviceMetricsOverride", width=820, height=1180,
-                       deviceScaleFactor=1, mobile=True)
+        self.page.resize(820, 1180, mobile=True)
         self.page.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
         self.page.open(self.url)
         self.page.frames(5)
