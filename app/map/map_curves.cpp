@@ -1,4 +1,4 @@
-#include "app/map/map_curves.h"
+#include "app/map/map_results.h"
 
 #include <algorithm>
 #include <cmath>

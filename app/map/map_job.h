@@ -33,7 +33,7 @@ struct MapOptions {
 
 // One axis of a map: a number of the scene, and the values that it takes.
 struct MapAxis {
-  std::string path;  // of the number in the scene file (app/scene/read/value_path.h)
+  std::string path;  // of the number in the scene file (app/scene/read/change_scene.h)
   double from = 0, to = 0;
   int count = 0;  // cells, both ends included
   bool log = false;

@@ -1,4 +1,4 @@
-#include "app/map/map_output.h"
+#include "app/map/map_results.h"
 
 #include <fmt/format.h>
 

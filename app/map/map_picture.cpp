@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/map/map_output.h"
+#include "app/map/map_results.h"
 #include "app/plot/gnuplot.h"
 #include "solver/support/number_text.h"
 
