@@ -17,4 +17,9 @@ inline std::vector<std::string> split(const std::string& text, char separator = 
   return fields;
 }
 
+// In quotes where a comma, a quote or a line's end needs them.
+std::string csv_field(const std::string& text);
+std::string csv_line(const std::vector<std::string>& fields);  // without its end
+std::string csv_line(const std::vector<double>& numbers);
+
 }  // namespace twinarm

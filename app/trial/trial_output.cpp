@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <sstream>
 
-#include "app/data/csv_text.h"
 #include "app/data/json_writer.h"
 #include "app/data/text_table.h"
 #include "app/support/output_file.h"
+#include "app/support/text_fields.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/data/csv_text.h"
 #include "app/data/json_writer.h"
 #include "app/support/interrupt.h"
+#include "app/support/text_fields.h"
 
 namespace twinarm {
 namespace {

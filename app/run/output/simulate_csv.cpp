@@ -2,10 +2,10 @@
 
 #include <cstdio>
 
-#include "app/data/csv_text.h"
 #include "app/run/output/simulate_output.h"
 #include "app/run/run_columns.h"
 #include "app/support/streams.h"
+#include "app/support/text_fields.h"
 
 namespace twinarm {
 namespace {
