@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/coupling/posed_couplings.h"
+#include "app/robot/robot_output.h"
 #include "app/support/nearest_name.h"
 
 namespace twinarm {
@@ -16,17 +17,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 void name_rows(const Coordinates& coordinates, Predicted& found) {
-  found.rows.resize(static_cast<std::size_t>(coordinates.rows()));
-  found.is_angle.resize(found.rows.size());
+  found.rows = row_names(coordinates);
   for (const NamedJoint& joint : coordinates.all())
-    for (const JointComponent& c : joint.components()) {
-      if (c.v < 0) continue;
-      const bool is_base = coordinates.floating() && joint.body == coordinates.base().body;
-      const std::string name = is_base ? "base" : joint.name;
-      const std::size_t row = joint.row + static_cast<std::size_t>(c.v);
-      found.rows[row] = *c.label ? name + "/" + c.label : name;
-      found.is_angle[row] = c.is_angle;
-    }
+    for (const JointComponent& c : joint.components())
+      if (c.v >= 0) found.is_angle.push_back(c.is_angle);
 }
 
 // A force of the start of the step, its velocity a difference.

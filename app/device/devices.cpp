@@ -80,13 +80,10 @@ std::pair<std::string, std::string> parted(const std::string& spec) {
 template <class Entry>
 const Entry& entry_named(const std::vector<Entry>& entries, const std::string& name,
                          const std::string& kind) {
-  std::vector<std::string> names;
-  for (const Entry& entry : entries) {
+  for (const Entry& entry : entries)
     if (entry.name == name) return entry;
-    names.push_back(entry.name);
-  }
   refuse_spec(name, fmt::format("there is no {} of this name", kind),
-              name_remedy(name, names, kind + "s"));
+              name_remedy(name, names_of(entries), kind + "s"));
 }
 
 }  // namespace

@@ -15,4 +15,11 @@ std::string nearest_name(std::string_view misspelt, const std::vector<std::strin
 std::string name_remedy(std::string_view misspelt, const std::vector<std::string>& names,
                         std::string_view kind);
 
+template <class Items>
+std::vector<std::string> names_of(const Items& items) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.emplace_back(item.name);
+  return names;
+}
+
 }  // namespace twinarm

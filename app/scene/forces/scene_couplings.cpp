@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/scene/forces/scene_inputs.h"
 #include "solver/forces/joint_stops.h"
 #include "solver/forces/spring.h"
 #include "solver/support/number_text.h"

@@ -2,19 +2,32 @@
 // by their pulls (SceneCoupling).
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "app/scene/forces/scene_inputs.h"
 #include "app/scene/model/scene_model.h"
 #include "coupling/laws/coupling.h"
 #include "coupling/target/operator_motion.h"
 #include "coupling/target/target_robot.h"
 #include "solver/stepping/simulation.h"
 #include "solver/support/checkpointable.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
+
+// What moves the kinematic side of a pull in place of the hand that the scene gives it, which is
+// handed over to be asked. Pulls with one kinematic robot between them are asked for once.
+using HandInPlace =
+    std::function<std::unique_ptr<HandSource>(std::size_t pull, std::unique_ptr<HandSource> own)>;
+
+// As the scene says of the pull; `device` is what couplings with target = "device" follow, nullptr
+// where none is connected. Adds a fault for a trace that cannot be read.
+std::unique_ptr<HandSource> make_hand(const SceneModel& scene, std::size_t pull,
+                                      const HandSource* device, const HandInPlace& in_place,
+                                      FaultList& faults);
 
 // A spring-damper as it stands in one state. Linear: the points of the link in both robots.
 // Torsional: rotation vectors in the world; at a joint its coordinate, in the first component.

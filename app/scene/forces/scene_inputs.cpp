@@ -1,4 +1,4 @@
-#include "app/scene/forces/scene_inputs.h"
+#include "app/scene/forces/scene_couplings.h"
 
 #include <limits>
 #include <utility>

@@ -21,23 +21,12 @@ std::size_t robot_named(const SceneDescription& scene, const std::string& name) 
 SceneCoupling without_pulls(const SceneModel& scene, std::size_t index) {
   const CouplingDescription& given = scene.description.couplings[index];
   SceneCoupling made;
+  static_cast<CouplingTraits&>(made) = given;
   made.description = index;
-  made.name = made.coupling = given.name;
-  made.line = given.line;
+  made.coupling = given.name;
   made.leader = scene.couplings.size();
-  made.law = given.law;
-  made.printed = given.printed;
-  made.type = given.type;
-  made.measure = given.measure;
-  made.reference = given.reference;
-  made.treatment = given.treatment;
-  made.outside = given.outside;
-  made.absolute_damper = given.absolute_damper;
-  made.rate = given.rate;
   made.robot = robot_named(scene.description, given.robot);
   made.target = given.target.kind;
-  made.delay = given.delay;
-  made.speed = given.speed;
   made.rest = scene.start;
   made.rest.qd.assign(scene.model.nv, 0);
   set_coordinates(scene, made.robot, given.target.q, made.rest);
@@ -121,6 +110,17 @@ void build_couplings(SceneModel& scene) {
     add_pull(scene, std::move(made), "", given.type, spring);
   }
   faults.check();
+}
+
+bool SceneCoupling::needs_semi_implicit() const {
+  return treatment != Treatment::explicit_ || law == CouplingSpec::Type::weld_like ||
+         facts_of(law, printed).treatments == CouplingFacts::Treatments::own;
+}
+
+SceneCoupling::ThirdRow SceneCoupling::third_row() const {
+  if (!facts_of(law, printed).is_spring_damper) return ThirdRow::drive;
+  if (needs_semi_implicit()) return ThirdRow::implicit;
+  return printed ? ThirdRow::as_printed : ThirdRow::none;
 }
 
 }  // namespace twinarm

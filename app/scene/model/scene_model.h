@@ -40,27 +40,17 @@ struct SceneMotion {
 };
 
 // One pull of a coupling. A coupling in six dimensions is two of them, NAME/force and NAME/couple;
-// a god object one for each joint, NAME/JOINT. Each is drawn, recorded and booked by itself.
-struct SceneCoupling {
-  std::string name, coupling;   // of the pull, of its coupling
+// a god object one for each joint, NAME/JOINT. Each is drawn, recorded and booked by itself: its
+// `name`, and the `type` by which it acts, are the pull's.
+struct SceneCoupling : CouplingTraits {
+  std::string coupling;         // its name
   std::size_t description = 0;  // of its coupling, in SceneDescription::couplings
-  int line = 0;
-  std::size_t leader = 0;  // the first pull of the same coupling, in SceneModel::couplings
-  CouplingSpec::Type law = CouplingSpec::Type::linear;
-  bool printed = false;
-  CouplingDescription::Type type = CouplingDescription::Type::linear;  // how this pull acts
-  Spring spring;  // with the gains of this pull
-  Measure measure = Measure::world;
+  std::size_t leader = 0;       // the first pull of the same coupling, in SceneModel::couplings
+  Spring spring;                // with the gains of this pull
   std::vector<Spring> springs;  // of the leader: all of the coupling's
-  WeldReference reference;
-  Treatment treatment = Treatment::implicit;
-  std::optional<std::pair<double, double>> outside;  // of a soft stop
-  bool absolute_damper = false;
-  double rate = 0;  // [Hz]; 0: every step
   // The kinematic side: a second copy of the whole model, of which the hand moves joints of this
   // robot; the others stand as in `rest`.
   CouplingTarget::Kind target = CouplingTarget::Kind::start;
-  double delay = 0, speed = 1;  // coupling/target/delayed_motion.h
   std::size_t robot = 0;
   State<double> rest;
   DrivenJoints driven;  // joints of the model that the hand moves

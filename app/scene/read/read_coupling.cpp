@@ -14,8 +14,7 @@ namespace {
 // The robot that carries the link; nullptr, told, where it cannot be found.
 const RobotInScene* read_robot_of(TableReader& table, const SceneDescription& scene,
                                   CouplingDescription& coupling) {
-  std::vector<std::string> names;
-  for (const RobotInScene& robot : scene.robots) names.push_back(robot.name);
+  const std::vector<std::string> names = names_of(scene.robots);
   if (!table.has("robot") && names.size() == 1)
     coupling.robot = names[0];
   else
@@ -33,11 +32,10 @@ void read_link(TableReader& table, const RobotDescription& robot, CouplingDescri
   table.missing("link", "name the link that is pulled");
   coupling.link = table.text("link").value_or("");
   if (coupling.link.empty() || robot.links.empty()) return;
-  std::vector<std::string> names;
-  for (const LinkDescription& link : robot.links) names.push_back(link.name);
   if (!find_link(robot, coupling.link))
     return table.fault("link", "there is no link '" + coupling.link + "'",
-                       name_remedy(coupling.link, names, "links"), "scene.unknown-name");
+                       name_remedy(coupling.link, names_of(robot.links), "links"),
+                       "scene.unknown-name");
   const bool at_joint =
       coupling.type == CouplingDescription::Type::torsional && coupling.measure == Measure::joint;
   if (at_joint && !own_joint(robot, coupling.link))
@@ -209,10 +207,8 @@ void SceneReader::read_coupling(const Value& value, std::size_t index) {
   CouplingDescription coupling;
   coupling.line = table.line();
   coupling.name = read_item_name(table, "coupling", index, scene.couplings);
-  std::vector<std::string> types;
-  for (const CouplingFacts& facts : all_couplings) types.emplace_back(facts.name);
   table.missing("type", "give type = \"linear\", \"torsional\" or another of docs/scenes.md");
-  const std::size_t chosen = table.choice("type", types).value_or(0);
+  const std::size_t chosen = table.choice("type", names_of(all_couplings)).value_or(0);
   const CouplingFacts& facts = all_couplings[chosen];
   coupling.law = facts.type;
   coupling.printed = facts.printed;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "app/scene/read/scene_reader.h"
@@ -11,8 +12,7 @@ namespace {
 
 // Masses of links by factors, and particles on links.
 void read_masses(SceneReader& reader, TableReader& table, RobotInScene& robot) {
-  std::vector<std::string> links;
-  for (const LinkDescription& link : robot.description.links) links.push_back(link.name);
+  const std::vector<std::string> links = names_of(robot.description.links);
   const auto check_link = [&](TableReader& where, const std::string& key, const std::string& name) {
     if (std::find(links.begin(), links.end(), name) == links.end())
       where.fault(key, "there is no link '" + name + "'", name_remedy(name, links, "links"),
@@ -65,13 +65,8 @@ void SceneReader::read_robot(const Value& value) {
   robot.surface = read_surface(table);
   robot.X_WR = read_pose(table);
   if (const auto base = table.choice("base", {"fixed", "floating"})) robot.floating = *base == 1;
-  for (const auto& [key, velocity] : {std::pair{"linear_velocity", &robot.linear_velocity},
-                                      std::pair{"angular_velocity", &robot.angular_velocity}}) {
-    *velocity = table.vector(key).value_or(Vector3::Zero());
-    if (!robot.floating && !velocity->isZero(0))
-      table.fault(key, "the robot stands on the world", "give base = \"floating\"",
-                  "scene.key-useless");
-  }
+  read_velocities(table, robot, robot.floating,
+                  {"the robot stands on the world", "give base = \"floating\""});
 
   table.missing("model", "give model = \"robots/.../robot.urdf\"");
   bool readable = false;
@@ -101,6 +96,70 @@ void SceneReader::read_robot(const Value& value) {
   }
   table.done();
   scene.robots.push_back(std::move(robot));
+}
+
+namespace {
+
+// Of a rotation, as Origin::pose() takes them.
+Vector3 fixed_angles(const Matrix3& R) {
+  const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
+  if (std::hypot(R(0, 0), R(1, 0)) < 1e-12)  // one angle is left to choose
+    return {0, pitch, std::atan2(-R(0, 1), R(1, 1))};
+  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
+}
+
+// The joint's frame as it stands at q.
+void fix_at(JointDescription& joint, double q) {
+  const Matrix3 R = joint.X_PJ().R;
+  if (joint.type == JointDescription::Type::prismatic)
+    joint.origin.xyz += R * joint.axis * q;
+  else if (q != 0)
+    joint.origin.rpy = fixed_angles(R * Eigen::AngleAxisd(q, joint.axis).toRotationMatrix());
+  joint.type = JointDescription::Type::fixed;
+}
+
+}  // namespace
+
+void SceneReader::lock_joints(TableReader& table, RobotInScene& robot) {
+  const Value* list = table.find("lock");
+  if (!list) return;
+  const auto fault = [&](const std::string& rule, const std::string& remedy,
+                         std::string_view code) { table.fault("lock", rule, remedy, code); };
+  if (list->kind != Value::Kind::list)
+    return fault("must be a list of joints, is " + describe(*list), "write lock = [\"joint1\"]",
+                 "scene.type");
+  std::vector<JointDescription>& joints = robot.description.joints;
+  std::vector<std::string> names;
+  for (const JointDescription& joint : joints)
+    if (joint.dofs() == 1) names.push_back(joint.name);
+  for (const Value& item : list->items) {
+    const auto joint = std::find_if(joints.begin(), joints.end(), [&](const JointDescription& j) {
+      return item.kind == Value::Kind::text && j.name == item.text;
+    });
+    const std::string quoted = "joint '" + item.text + "'";
+    const auto follows = [&](const JointDescription& j) {
+      return j.mimic && j.mimic->joint == item.text;
+    };
+    if (joint == joints.end())
+      fault("there is no joint " + describe(item), name_remedy(item.text, names, "joints"),
+            "scene.unknown-name");
+    else if (joint->mimic || std::any_of(joints.begin(), joints.end(), follows))
+      fault(quoted + " follows another, or another follows it", "leave both as they are",
+            "scene.lock");
+    else if (joint->type != JointDescription::Type::revolute &&
+             joint->type != JointDescription::Type::continuous &&
+             joint->type != JointDescription::Type::prismatic)
+      fault(quoted + " neither turns nor slides alone", "lock revolute and prismatic joints",
+            "scene.lock");
+    else if (robot.qd.contains(item.text))
+      fault(quoted + " has a velocity at the start", "leave it out of qd, or of lock",
+            "scene.lock");
+    else {
+      const auto q = robot.q.find(item.text);
+      fix_at(*joint, q == robot.q.end() ? 0 : q->second.values[0]);
+      robot.q.erase(item.text);
+    }
+  }
 }
 
 }  // namespace twinarm

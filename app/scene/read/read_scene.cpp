@@ -49,9 +49,7 @@ void SceneReader::read(const Value& root) {
   scene.duration = table.positive("duration");
   if (const auto law = table.choice("contact", kContactModes))
     scene.contact = static_cast<ContactMode>(*law);
-  std::vector<std::string> integrators;
-  for (const IntegratorFacts& facts : all_integrators) integrators.emplace_back(facts.name);
-  if (const auto chosen = table.choice("integrator", integrators))
+  if (const auto chosen = table.choice("integrator", names_of(all_integrators)))
     scene.integrator = all_integrators[*chosen].integrator;
 
   // Robots and bodies first: the others name them.

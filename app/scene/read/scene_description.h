@@ -97,7 +97,8 @@ struct CouplingTarget {
   bool is_hand() const { return kind != Kind::start && kind != Kind::state; }
 };
 
-struct CouplingDescription {
+// Of a coupling, and of each of its pulls in the model (app/scene/model/scene_model.h).
+struct CouplingTraits {
   // How it pulls: at a point of the link, or by turning it.
   enum class Type { linear, torsional };
   std::string name;
@@ -105,12 +106,8 @@ struct CouplingDescription {
   CouplingSpec::Type law = CouplingSpec::Type::linear;
   bool printed = false;
   Type type = Type::linear;
-  std::string robot, link;           // a god object has no link: it drives all joints
-  Vector3 point = Vector3::Zero();   // link axes; of laws that pull at a point
   Measure measure = Measure::world;  // of laws that turn
-  double stiffness = 0, damping = 0;
-  double turn_stiffness = 0, turn_damping = 0;  // bushing
-  WeldReference reference;                      // weld
+  WeldReference reference;           // weld
   Treatment treatment = Treatment::implicit;
   // A soft stop: it acts where the joint's coordinate is not between these two, back to them.
   std::optional<std::pair<double, double>> outside;
@@ -118,6 +115,13 @@ struct CouplingDescription {
   double rate = 0;               // [Hz] at which the force is computed; 0: every step
   double delay = 0;  // [s]: the kinematic side is seen this late; before, at its start, at rest
   double speed = 1;  // a motion or trace is played this many times faster
+};
+
+struct CouplingDescription : CouplingTraits {
+  std::string robot, link;          // a god object has no link: it drives all joints
+  Vector3 point = Vector3::Zero();  // link axes; of laws that pull at a point
+  double stiffness = 0, damping = 0;
+  double turn_stiffness = 0, turn_damping = 0;  // bushing
   CouplingTarget target;
 };
 

@@ -10,7 +10,6 @@
 
 #include "app/data/table_reader.h"
 #include "app/scene/read/scene_description.h"
-#include "app/scene/read/value_path.h"
 
 namespace twinarm {
 

@@ -43,6 +43,17 @@ struct SceneReader {
                     std::string("give each ") + kind + " its own name", "scene.name-taken");
     return name;
   }
+  // Of a robot or body that is free to move; else a fault of this rule and remedy.
+  template <class Item>
+  static void read_velocities(TableReader& table, Item& item, bool is_free,
+                              const std::pair<const char*, const char*>& fault) {
+    for (const auto& [key, velocity] : {std::pair{"linear_velocity", &item.linear_velocity},
+                                        std::pair{"angular_velocity", &item.angular_velocity}}) {
+      *velocity = table.vector(key).value_or(Vector3::Zero());
+      if (!is_free && !velocity->isZero(0))
+        table.fault(key, fault.first, fault.second, "scene.key-useless");
+    }
+  }
   Surface read_surface(TableReader& table);
   Pose read_pose(TableReader& table);
   JointValueMap read_joints(TableReader& table, const char* key, const RobotDescription& robot,
