@@ -1,4 +1,4 @@
-// Pages that are one file: with the style sheet (page_style.h), and nothing from outside.
+// Pages that are one file: with the style sheet of the report, and nothing from outside.
 #pragma once
 
 #include <string>

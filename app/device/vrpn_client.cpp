@@ -60,14 +60,6 @@ void VrpnDevice::render(const DeviceForce& force) noexcept {
   link_->forces.write({++rendered_, omni_force(figures_, at_, torque)});
 }
 
-const OmniFigures& VrpnDevice::figures() const {
-  return figures_;
-}
-
-std::string VrpnDevice::description() const {
-  return description_;
-}
-
 bool VrpnDevice::has_motors() const {
   return link_->takes_forces();
 }

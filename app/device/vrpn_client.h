@@ -56,8 +56,8 @@ class VrpnDevice final : public HandDevice {
   ~VrpnDevice() override;  // ends the force
   DeviceState poll(double now) noexcept override;
   void render(const DeviceForce& force) noexcept override;
-  const OmniFigures& figures() const override;
-  std::string description() const override;
+  const OmniFigures& figures() const override { return figures_; }
+  std::string description() const override { return description_; }
   bool has_motors() const override;  // the server takes forces for it
   VrpnCounts counts() const;
 

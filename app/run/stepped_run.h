@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/run/run.h"
+#include "app/scene/forces/add_contacts.h"
 #include "app/scene/forces/given_forces.h"
-#include "app/scene/forces/limit_watch.h"
 #include "app/scene/forces/outside_force.h"
 
 namespace twinarm {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/scene/model/scene_shapes.h"
+#include "app/scene/model/scene_model.h"
 #include "collision/contact/contact_constraints.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/impulses/joint_limits.h"

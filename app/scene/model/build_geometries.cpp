@@ -1,9 +1,12 @@
 // What touches what, and with which surface.
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "app/scene/model/scene_builder.h"
 #include "collision/contact/contact_constraints.h"
+#include "collision/geometry/convex_hull.h"
+#include "collision/import/robot/mesh_geometry.h"
 
 namespace twinarm {
 namespace {
@@ -155,6 +158,20 @@ Surface SceneModel::surface_of_pair(int a, int b) const {
     pair.dissipation = rule.dissipation.value_or(pair.dissipation);
   }
   return pair;
+}
+
+Shape collision_shape(const ShapeDescription& shape) {
+  return std::visit(
+      [](const auto& known) -> Shape {
+        if constexpr (!std::is_same_v<decltype(known), const MeshGeometry&>) {
+          return known;
+        } else {
+          TriangleMesh mesh = load_mesh(known);
+          if (known.convex) return convex_hull(mesh.vertices);
+          return MeshShape{std::move(mesh)};
+        }
+      },
+      shape);
 }
 
 }  // namespace twinarm

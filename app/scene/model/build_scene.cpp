@@ -4,7 +4,6 @@
 
 #include "app/robot/coordinates.h"
 #include "app/scene/model/scene_builder.h"
-#include "app/scene/model/scene_shapes.h"
 #include "collision/import/robot/mesh_geometry.h"
 #include "collision/import/robot/robot_model.h"
 #include "collision/shapes/mesh_shape.h"
@@ -23,7 +22,7 @@ std::string prefix_of(const SceneDescription& scene, std::size_t robot) {
 BodyInertia inertia_of(const BodyDescription& body) {
   const bool is_given = body.inertia && body.com && body.mass;
   MassProperties solid;
-  if (!is_given) solid = solid_properties(body.shape, body.density.value_or(1));
+  if (!is_given) solid = mass_properties(collision_shape(body.shape), body.density.value_or(1));
   const double mass = body.mass.value_or(solid.mass);
   return {mass, body.com.value_or(solid.com),
           body.inertia ? *body.inertia : Matrix3(solid.inertia * (mass / solid.mass))};

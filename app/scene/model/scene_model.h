@@ -14,6 +14,7 @@
 
 #include "app/scene/read/scene_description.h"
 #include "collision/import/robot/robot_model.h"
+#include "collision/shapes/shape.h"
 #include "coupling/target/target_robot.h"
 #include "solver/integration/integration_state.h"
 #include "solver/model/model.h"
@@ -112,6 +113,10 @@ struct SceneModel {
 
 // Joints that a hand turns, by name: the robot's first three of one degree of freedom.
 std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot);
+
+// What contacts know of it. Throws InputError for a mesh that cannot be read or spans no volume,
+// and for a shape that contacts do not know.
+Shape collision_shape(const ShapeDescription& shape);
 
 // `friction` and `armature` of the options count: false leaves them out of all robots. Throws
 // InputError with all faults that reading could not see: meshes without inside, joints that carry

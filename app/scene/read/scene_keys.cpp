@@ -10,7 +10,7 @@
 
 namespace twinarm {
 
-using Sign = NumberRange::Sign;
+using S = NumberRange::Sign;
 
 const std::vector<SurfaceKey>& surface_keys() {
   using P = PairDescription;
@@ -20,14 +20,14 @@ const std::vector<SurfaceKey>& surface_keys() {
        .slider = {"friction", 0, 2, "Coulomb's: a pair takes the geometric mean of its two.",
                   SliderRow::linear}},
       {.key = "restitution",
-       .range = {Sign::not_negative, [](double e) { return e <= 1; },
+       .range = {S::not_negative, [](double e) { return e <= 1; },
                  "must be at most 1: an impact creates no energy", "give a number from 0 to 1"},
        .member = &Surface::restitution, .of_pair = &P::restitution,
        .slider = {"restitution", 0, 1, "Speed after an impact over speed before: a pair takes the "
                   "product.", SliderRow::linear}},
       {.key = "torsional_friction", .unit = "m", .member = &Surface::torsional_friction},
       {.key = "rolling_friction", .unit = "m", .member = &Surface::rolling_friction},
-      {.key = "stiffness", .unit = "N/m", .range = {Sign::positive},
+      {.key = "stiffness", .unit = "N/m", .range = {S::positive},
        .member = &Surface::stiffness, .of_pair = &P::stiffness,
        .slider = {"contact stiffness", 1e3, 1e9, "Of each contact point; two surfaces are springs "
                   "in series."},
@@ -39,9 +39,9 @@ const std::vector<SurfaceKey>& surface_keys() {
 }
 
 std::optional<double> read_number(TableReader& table, const char* key, const NumberRange& range) {
-  const auto value = range.sign == Sign::positive       ? table.positive(key)
-                     : range.sign == Sign::not_negative ? table.not_negative(key)
-                                                        : table.number(key);
+  const auto value = range.sign == S::positive       ? table.positive(key)
+                     : range.sign == S::not_negative ? table.not_negative(key)
+                                                     : table.number(key);
   if (value && range.fits && !range.fits(*value))
     table.fault(key, range.rule, range.remedy, "scene.range");
   return value;

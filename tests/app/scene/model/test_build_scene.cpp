@@ -2,7 +2,7 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
-#include "app/scene/model/scene_shapes.h"
+#include "app/scene/model/scene_model.h"
 #include "collision/import/urdf/urdf.h"
 #include "coupling/analysis/prediction.h"
 #include "solver/dynamics/energy_momentum.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scene/model/scene_shapes.h"
+#include "app/scene/model/scene_model.h"
 #include "collision/detection/collision_world.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/stepping/simulation.h"
