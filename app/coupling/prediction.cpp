@@ -127,7 +127,7 @@ VectorXd parts_of_move(const PredictTask& task, const Predicted& found) {
     const auto row = std::ranges::find(found.rows, name);
     if (row == found.rows.end())
       faults.add({"", 0, "--along", "there is no joint '" + name + "'",
-                  name_remedy(name, found.rows, "joints")});
+                  name_remedy(name, found.rows, "joints"), "option.unknown-name"});
     else
       parts[row - found.rows.begin()] = part;
   }
@@ -258,13 +258,14 @@ Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
     found.M += coupling.felt;
   }
   if (found.couplings.empty())
-    throw InputError({{scene.description.file.string(), 0, "scene",
-                       "its couplings are stops, which do not act between their limits",
-                       "write a [[coupling]] without 'outside' (docs/scenes.md)"}});
-  if (!found.K.allFinite() || !found.M.allFinite())
     throw InputError(
-        {{scene.description.file.string(), 0, "",
-          "stiffness or inertia is not finite in this state", "give smaller numbers"}});
+        {{scene.description.file.string(), 0, "scene",
+          "its couplings are stops, which do not act between their limits",
+          "write a [[coupling]] without 'outside' (docs/scenes.md)", "scene.only-stops"}});
+  if (!found.K.allFinite() || !found.M.allFinite())
+    throw InputError({{scene.description.file.string(), 0, "",
+                       "stiffness or inertia is not finite in this state", "give smaller numbers",
+                       "state.not-finite"}});
   found.stepped = words_of_step(found);
   add_modes(task, found);
   const MatrixXd friction = posed.joint_damping();

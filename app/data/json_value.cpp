@@ -50,7 +50,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
   bool key(std::string& name) override {
     value_line_ = line_;
     if (!open_.back().seen.insert(name).second)
-      faults.add({file_, line_, name, "stands here twice", "leave one of them out"});
+      faults.add({file_, line_, name, "stands here twice", "leave one of them out", "json.twice"});
     open_.back().key = name;
     return true;
   }
@@ -58,7 +58,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
     // "[json.exception.parse_error.101] parse error at line 3, column 7: syntax error ..."
     std::string what = e.what();
     if (const auto colon = what.find(": "); colon != std::string::npos) what.erase(0, colon + 2);
-    faults.add({file_, line_, "", "is not JSON: " + what, "mend it; python3 -m json.tool helps"});
+    faults.add({file_, line_, "", "is not JSON: " + what, "mend it; python3 -m json.tool helps",
+                "json.form"});
     return false;
   }
 
@@ -87,7 +88,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
   bool open(Value::Kind kind) {
     constexpr std::size_t kDeepest = 64;
     if (open_.size() > kDeepest) {
-      faults.add({file_, line_, "", "is nested too deeply", "a state has four levels at most"});
+      faults.add({file_, line_, "", "is nested too deeply", "a state has four levels at most",
+                  "json.too-deep"});
       return false;
     }
     value_line_ = line_;
@@ -146,7 +148,7 @@ Value read_json(const std::filesystem::path& file) {
   constexpr std::uintmax_t kMostJsonBytes = 4u << 20;
   if (std::filesystem::file_size(file, error) > kMostJsonBytes && !error)
     throw InputError({{file.string(), 0, "", "has more than 4 MiB",
-                       "name a state file: a few numbers for each joint"}});
+                       "name a state file: a few numbers for each joint", "file.too-large"}});
   return parse_json(read_whole_file(file), file.string());
 }
 

@@ -158,7 +158,7 @@ void TableReader::fault(const std::string& key, std::string rule, std::string re
                         std::string_view code) {
   const Value* value = table_.find(key);
   faults_.add({file_, value ? value->line : table_.line, where(key), std::move(rule),
-               std::move(remedy), place_ ? std::string_view() : code});
+               std::move(remedy), code});
 }
 
 void TableReader::missing(const std::string& key, std::string remedy) {

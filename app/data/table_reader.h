@@ -22,7 +22,7 @@ class TableReader {
   TableReader(const Value& table, std::string where, const std::string& file, FaultList& faults)
       : table_(table), where_(std::move(where)), file_(file), faults_(faults) {}
   // An object of JSON: faults name `where` alone, or BEFORE KEY AFTER: "wrenches[0].link",
-  // "q of joint 'elbow'". They have no code.
+  // "q of joint 'elbow'".
   struct Place {
     std::string where, before, after;
   };

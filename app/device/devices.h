@@ -54,7 +54,7 @@ std::shared_ptr<const HandSource> scripted_hand(const std::string& spec);
 // What these read from the text after a name, and how they refuse it.
 [[noreturn]] inline void refuse_spec(const std::string& spec, const std::string& rule,
                                      const std::string& remedy) {
-  throw InputError({{"", 0, "--device " + spec, rule, remedy}});
+  throw InputError({{"", 0, "--device " + spec, rule, remedy, "device.spec"}});
 }
 
 template <class Number>

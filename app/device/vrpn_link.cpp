@@ -43,7 +43,7 @@ VrpnDevice::Link::Link(VrpnAddress address, const OmniFigures& figures, VrpnSett
   } catch (const std::runtime_error& error) {
     throw InputError(
         {{"", 0, "--device vrpn:" + name_, fmt::format("the host is not known: {}", error.what()),
-          "give its name or address: vrpn:NAME@HOST[:PORT]"}});
+          "give its name or address: vrpn:NAME@HOST[:PORT]", "device.host-unknown"}});
   }
   thread_ = std::thread([this] { run(); });
   std::unique_lock lock(mutex_);
@@ -51,8 +51,8 @@ VrpnDevice::Link::Link(VrpnAddress address, const OmniFigures& figures, VrpnSett
   if (!first_trouble_) return;
   lock.unlock();
   thread_.join();
-  throw InputError(
-      {{"", 0, "--device vrpn:" + name_, first_trouble_->rule, first_trouble_->remedy}});
+  throw InputError({{"", 0, "--device vrpn:" + name_, first_trouble_->rule, first_trouble_->remedy,
+                     "device.no-answer"}});
 }
 
 VrpnDevice::Link::~Link() {

@@ -16,12 +16,13 @@ std::optional<RobotDescription> read_model_file(const RobotOptions& options, Fau
   const std::filesystem::path& file = options.model;
   if (file.extension() == ".toml") {
     faults.add({file.string(), 0, "model", "a scene has no one state of one robot",
-                "give a robot's URDF, or run the scene with `twinarm simulate`"});
+                "give a robot's URDF, or run the scene with `twinarm simulate`", "file.is-scene"});
     return std::nullopt;
   }
   if (file.extension() == ".twinrec") {
     faults.add({file.string(), 0, "model", "is a recording",
-                "give a robot's URDF; `twinarm inspect` and `twinarm replay` open recordings"});
+                "give a robot's URDF; `twinarm inspect` and `twinarm replay` open recordings",
+                "file.is-recording"});
     return std::nullopt;
   }
   std::error_code ignored;

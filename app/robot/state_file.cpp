@@ -27,7 +27,7 @@ class StateReader {
   GivenState read(const Value& json) {
     if (!json.is_table()) {
       faults_.add({file_, json.line, "the state", "must be an object, is " + describe(json),
-                   "write {\"name\": value}"});
+                   "write {\"name\": value}", "scene.type"});
       return state_;
     }
     TableReader state(json, {"the state", "", ""}, file_, faults_);
@@ -73,7 +73,7 @@ class StateReader {
     if (!object) return;
     if (!coordinates_.floating())
       return state.fault("base", "the root link stands on the world",
-                         "give --floating, or leave 'base' out");
+                         "give --floating, or leave 'base' out", "scene.key-useless");
     TableReader base(*object, {"base", "base.", ""}, file_, faults_);
     double* q = state_.x.q.data() + coordinates_.base().iq;
     if (const auto p = base.vector("position")) std::copy(p->begin(), p->end(), q);
@@ -97,24 +97,25 @@ class StateReader {
     if (!list) return;
     if (!list->is_list())
       return state.fault("wrenches", "must be a list, is " + describe(*list),
-                         "write [{\"link\": .., \"force\": [..]}]");
+                         "write [{\"link\": .., \"force\": [..]}]", "scene.type");
     for (std::size_t i = 0; i < list->items.size(); ++i)
       read_wrench(list->items[i], fmt::format("wrenches[{}]", i));
   }
   void read_wrench(const Value& json, const std::string& where) {
     TableReader given(json, {where, where + ".", ""}, file_, faults_);
     if (!json.is_table())
-      return given.fault("", "must be an object, is " + describe(json), "write {\"name\": value}");
+      return given.fault("", "must be an object, is " + describe(json), "write {\"name\": value}",
+                         "scene.type");
     Wrench wrench;
     const Value* link = given.find("link");
     if (!link || !link->is_text())
       given.fault("link", "the name of the link that it acts on is missing",
-                  "give \"link\": \"NAME\"");
+                  "give \"link\": \"NAME\"", "scene.missing");
     else if (const auto body = find_link(link->text))
       wrench.body = *body;
     else
       given.fault("link", "there is no link '" + link->text + "'",
-                  name_remedy(link->text, link_names(), "links"));
+                  name_remedy(link->text, link_names(), "links"), "scene.unknown-name");
     wrench.in_link_axes = given.choice("frame", {"world", "link"}).value_or(0) == 1;
     wrench.point = given.vector("point").value_or(Vector3::Zero());
     wrench.force = given.vector("force").value_or(Vector3::Zero());

@@ -38,7 +38,7 @@ std::filesystem::path find_assets(const std::filesystem::path& given) {
     if (fs::is_directory(place / "robots", error)) return fs::weakly_canonical(place);
   throw InputError(
       {{places.front().string(), 0, "assets", "the folder with the robots is not there",
-        "run from the project's folder, or give --assets"}});
+        "run from the project's folder, or give --assets", "file.no-assets"}});
 }
 
 std::filesystem::path find_input(const std::filesystem::path& name) {

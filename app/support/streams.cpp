@@ -23,8 +23,9 @@ void check_stdout() {
   errno = 0;
   if (std::fflush(stdout) == 0 && !was_bad) return;
   const std::string why = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
-  throw InputError({{"", 0, "stdout", "what was printed did not all get out" + why,
-                     "is it closed, or the disk full? Let it go to a file that has room"}});
+  throw InputError(
+      {{"", 0, "stdout", "what was printed did not all get out" + why,
+        "is it closed, or the disk full? Let it go to a file that has room", "file.stdout"}});
 }
 
 }  // namespace twinarm

@@ -124,11 +124,13 @@ void add_open(const Model<double>& model, const LoopClosure& loop, const State<d
       "start where it is closed: close_loops() looks for such a state nearby";
   if (is_turned_over(loop, k))
     faults.push_back({"", 0, "loop '" + loop.name + "'",
-                      "its frames are turned over against each other at the start", remedy});
+                      "its frames are turned over against each other at the start", remedy,
+                      "loop.turned-over"});
   else if (!(open <= kOpenAtStart))
     faults.push_back(
         {"", 0, "loop '" + loop.name + "'",
-         text("it is open by ", open, " (m or rad) at the start, may be ", kOpenAtStart), remedy});
+         text("it is open by ", open, " (m or rad) at the start, may be ", kOpenAtStart), remedy,
+         "loop.open"});
 }
 
 void throw_all(const std::vector<std::vector<Fault>>& by_loop) {

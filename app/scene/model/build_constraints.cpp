@@ -48,9 +48,10 @@ class ConstraintBuilder {
     return {given.point.value_or(origin_a), given.point_b.value_or(origin_b)};
   }
 
-  void fault(const SceneConstraint& made, std::string rule, std::string remedy) {
+  void fault(const SceneConstraint& made, std::string rule, std::string remedy,
+             std::string_view code) {
     faults_.add({scene_.description.file.string(), made.line, "constraint '" + made.name + "'",
-                 std::move(rule), std::move(remedy)});
+                 std::move(rule), std::move(remedy), code});
   }
 
   void build_gear(const ConstraintDescription& given, SceneConstraint& made) {
@@ -74,13 +75,15 @@ class ConstraintBuilder {
     made.b = body_of(scene_, *find_reference(scene_.description, given.b));
     const Pose& X_WA = k_.X_WL[static_cast<std::size_t>(made.a)];
     const Pose& X_WB = k_.X_WL[static_cast<std::size_t>(made.b)];
-    if (made.a == made.b) fault(made, "both are the same body", "name two that can move");
+    if (made.a == made.b)
+      fault(made, "both are the same body", "name two that can move", "scene.same-ends");
     if (given.type == ConstraintDescription::Type::distance) {
       const auto [p_WA, p_WB] = ends(given, made);
       made.X_AC = X_WA.inverse() * Pose{Matrix3::Identity(), p_WA};
       made.X_BC = X_WB.inverse() * Pose{Matrix3::Identity(), p_WB};
       made.length = (p_WB - p_WA).norm();
-      if (!(made.length > 0)) fault(made, "its two ends are the same point", "give another point");
+      if (!(made.length > 0))
+        fault(made, "its two ends are the same point", "give another point", "scene.same-ends");
       return;
     }
     Pose X_WC;

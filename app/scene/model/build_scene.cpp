@@ -51,7 +51,7 @@ void check_mesh(const BodyDescription& body, SceneDescription& scene) {
   const std::string fault = MeshShape{std::move(mesh)}.fault();
   if (!fault.empty())
     throw InputError({{"", 0, "", "mesh '" + file->name + "': " + fault,
-                       "mend the mesh, or give convex = true: its hull"}});
+                       "mend the mesh, or give convex = true: its hull", "scene.mesh"}});
 }
 
 // X(t): the origin moves evenly along a line, the axes turn evenly about a fixed direction.
