@@ -76,11 +76,13 @@ void add_options(CLI::App& command, CouplingGainsOptions& options) {
 
 void check_positive(const std::string& option, double value, FaultList& faults) {
   if (value > 0 && std::isfinite(value)) return;
-  faults.add({"", 0, option, "must be positive, is " + number_text(value), ""});
+  faults.add(
+      {"", 0, option, "must be positive, is " + number_text(value), "", "option.not-positive"});
 }
 void check_not_negative(const std::string& option, double value, FaultList& faults) {
   if (value >= 0 && std::isfinite(value)) return;
-  faults.add({"", 0, option, "must not be negative, is " + number_text(value), ""});
+  faults.add(
+      {"", 0, option, "must not be negative, is " + number_text(value), "", "option.negative"});
 }
 
 // "joint1=1,joint2=-0.5"
@@ -93,8 +95,8 @@ std::vector<std::pair<std::string, double>> read_along(const std::string& text, 
     char* end = nullptr;
     const double part = std::strtod(value.c_str(), &end);
     if (value.empty() || *end != 0 || !std::isfinite(part))
-      faults.add(
-          {"", 0, "--along", "'" + one + "' is not joint=number", "give joint1=1,joint2=-0.5"});
+      faults.add({"", 0, "--along", "'" + one + "' is not joint=number",
+                  "give joint1=1,joint2=-0.5", "option.form"});
     else
       parts.emplace_back(one.substr(0, at), part);
   }
@@ -108,7 +110,8 @@ SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<do
   if (robot.model.extension() != ".toml" && !scene)
     faults.add({robot.model.string(), 0, "", "is no scene, and only a scene has couplings",
                 "write a scene with a [[robot]] and a [[coupling]] (docs/scenes.md); or give "
-                "`coupling predict` --link and --stiffness"});
+                "`coupling predict` --link and --stiffness",
+                "file.no-scene"});
   faults.check();
   SimulateOptions simulate;
   simulate.scene = std::move(scene);
@@ -120,7 +123,7 @@ SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<do
   faults.check();
   if (prepared->input.couplings->size() == 0)
     throw InputError({{robot.model.string(), 0, "scene", "it has no coupling",
-                       "write a [[coupling]] (docs/scenes.md)"}});
+                       "write a [[coupling]] (docs/scenes.md)", "scene.no-coupling"}});
   return std::move(*prepared);
 }
 
@@ -161,7 +164,8 @@ int run_coupling_predict(const CouplingPredictOptions& options) {
                             !options.treatment.empty();
   if (is_scene && has_coupling)
     faults.add({"", 0, "--link, --point, --measure, --treatment, --stiffness, --damping",
-                "are for a robot without a scene", "change the scene's [[coupling]]"});
+                "are for a robot without a scene", "change the scene's [[coupling]]",
+                "option.useless"});
   std::optional<Value> scene;
   if (!is_scene && has_coupling) scene = scene_of_options(options, faults);
   SimulatePlan prepared =
@@ -181,7 +185,8 @@ struct GivenGains {
 GivenGains read_given_gains(const CouplingGainsOptions& options, FaultList& faults) {
   GivenGains asked;
   if (options.frequency.has_value() != options.damping_ratio.has_value()) {
-    faults.add({"", 0, "--frequency, --damping-ratio", "go together", "give both, or neither"});
+    faults.add({"", 0, "--frequency, --damping-ratio", "go together", "give both, or neither",
+                "option.together"});
   } else if (options.frequency) {
     check_positive("--frequency", *options.frequency, faults);
     check_not_negative("--damping-ratio", *options.damping_ratio, faults);
@@ -193,7 +198,8 @@ GivenGains read_given_gains(const CouplingGainsOptions& options, FaultList& faul
       asked.solref = {two[0], two[1]};
     else
       faults.add({"", 0, "--solref", "'" + options.solref + "' is no solref",
-                  "give timeconst,dampratio, both positive, or -stiffness,-damping"});
+                  "give timeconst,dampratio, both positive, or -stiffness,-damping",
+                  "option.form"});
   }
   if (!options.impedance.empty()) {
     const std::vector<double> d = parse_list("--impedance", options.impedance, faults);
@@ -203,7 +209,7 @@ GivenGains read_given_gains(const CouplingGainsOptions& options, FaultList& faul
       asked.impedance = {d.front(), d.back()};
     else
       faults.add({"", 0, "--impedance", "'" + options.impedance + "' is none",
-                  "give d, or d,dmax, each above 0 and below 1"});
+                  "give d, or d,dmax, each above 0 and below 1", "option.form"});
   }
   return asked;
 }
@@ -214,13 +220,13 @@ Equivalents bare_equivalents(const CouplingGainsOptions& options, const GivenGai
   const int ways = (options.stiffness ? 1 : 0) + (asked.response ? 1 : 0) + (asked.solref ? 1 : 0);
   if (!options.inertia)
     faults.add({"", 0, "--inertia", "is needed where there is no scene",
-                "give what the spring moves [kg or kg m^2], or a scene"});
+                "give what the spring moves [kg or kg m^2], or a scene", "option.missing"});
   else
     check_positive("--inertia", *options.inertia, faults);
   if (ways != 1)
-    faults.add(
-        {"", 0, "gains", fmt::format("are given in {} ways", ways),
-         "give one of --stiffness and --damping, --frequency and --damping-ratio, --solref"});
+    faults.add({"", 0, "gains", fmt::format("are given in {} ways", ways),
+                "give one of --stiffness and --damping, --frequency and --damping-ratio, --solref",
+                "option.conflict"});
   if (options.stiffness) check_positive("--stiffness", *options.stiffness, faults);
   check_not_negative("--damping", options.damping, faults);
   faults.check();
@@ -241,13 +247,14 @@ int run_coupling_gains(const CouplingGainsOptions& options) {
   } else {
     if (options.stiffness || options.inertia || asked.solref)
       faults.add({"", 0, "--stiffness, --inertia, --solref", "are for gains without a scene",
-                  "leave the scene out, or these"});
+                  "leave the scene out, or these", "option.useless"});
     SimulatePlan prepared = prepare_couplings(options.robot, {}, "semi-implicit", faults);
     step = prepared.run.step;
     all = scene_equivalents(prepared.input, asked.response, asked.impedance);
     if (all.empty())
-      throw InputError({{options.robot.model.string(), 0, "scene",
-                         "none of its couplings has a stiffness", "give one"}});
+      throw InputError(
+          {{options.robot.model.string(), 0, "scene", "none of its couplings has a stiffness",
+            "give one", "scene.no-stiffness"}});
   }
   fmt::print("{}\n", options.json ? equivalents_json(all) : equivalents_table(all, step));
   return 0;

@@ -64,7 +64,8 @@ void check_finite(const std::string& file, const RobotInput& input, const Dynami
   const std::string first = d.first_bad.empty() ? "" : "; the first is " + d.first_bad;
   throw InputError({{file, 0, "", "not finite in this state: " + names + first,
                      "the largest number that was given is " + largest_input(input) +
-                         ": give numbers whose squares and products stay below 1e308"}});
+                         ": give numbers whose squares and products stay below 1e308",
+                     "state.not-finite"}});
 }
 
 int run_dynamics(const DynamicsOptions& options) {

@@ -34,10 +34,11 @@ void add_options(CLI::App& command, ExportOptions& options) {
 int export_page(const ExportOptions& options) {
   FaultList faults;
   if (options.csv)
-    faults.add({"", 0, "--csv", "prints on stdout, and a page is asked for", "give one of them"});
+    faults.add({"", 0, "--csv", "prints on stdout, and a page is asked for", "give one of them",
+                "option.conflict"});
   const std::string file = options.page.string(), end = options.page.extension().string();
   if (end != ".html" && end != ".htm")
-    faults.add({file, 0, "", "is no name of a page", "let it end in .html"});
+    faults.add({file, 0, "", "is no name of a page", "let it end in .html", "file.ending"});
   check_place(options.page, faults);
   faults.check();
 

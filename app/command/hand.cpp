@@ -71,8 +71,8 @@ MappingSpec mapping_of(const HandOptions& options, FaultList& faults) {
   MappingSpec spec;
   const auto found = std::ranges::find(kMappingNames, options.mapping);
   if (found == kMappingNames.end())
-    faults.add(
-        {"", 0, "--mapping", "'" + options.mapping + "' is none", "give paper, arm or cartesian"});
+    faults.add({"", 0, "--mapping", "'" + options.mapping + "' is none",
+                "give paper, arm or cartesian", "option.choice"});
   else
     spec.kind = static_cast<MappingKind>(found - kMappingNames.begin());
   if (options.scale) spec.scale = *options.scale;
@@ -97,12 +97,13 @@ void gather(const TickView& view, double step, LiveSummary& summary) {
 SceneModel scene_of(const HandOptions& options, FaultList& faults) {
   if (options.scene.extension() != ".toml")
     faults.add({options.scene.string(), 0, "scene", "it is no scene",
-                "give a TOML file with couplings whose target is \"device\""});
+                "give a TOML file with couplings whose target is \"device\"", "file.no-scene"});
   if (options.duration && !(*options.duration > 0))
-    faults.add({"", 0, "--duration", "must be a positive number of seconds", "give --duration 60"});
+    faults.add({"", 0, "--duration", "must be a positive number of seconds", "give --duration 60",
+                "option.not-positive"});
   if (options.control && options.simulated)
     faults.add({"", 0, "--control", "there is nothing to be compared without real time",
-                "leave --simulated out"});
+                "leave --simulated out", "option.conflict"});
   faults.check();
   return build_scene(read_scene(options.scene));
 }

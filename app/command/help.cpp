@@ -34,8 +34,9 @@ CLI::App* find_command(CLI::App& parent, const std::string& name) {
     if (command->get_name() == name) return command;
     names.push_back(command->get_name());
   }
-  throw InputError({{"", 0, "help", fmt::format("there is no command '{}'", name),
-                     names.empty() ? "leave it out" : name_remedy(name, names, "commands")}});
+  throw InputError(
+      {{"", 0, "help", fmt::format("there is no command '{}'", name),
+        names.empty() ? "leave it out" : name_remedy(name, names, "commands"), "command.unknown"}});
 }
 
 int run_help(const HelpOptions& asked) {

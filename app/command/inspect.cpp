@@ -59,12 +59,12 @@ int run_inspect(const InspectOptions& options, const Words& typed) {
   std::optional<Memory> memory;
   const bool is_recorded = is_recording(options.robot.model);
   if (options.at && !is_recorded)
-    faults.add({"", 0, "--at", "is for a recording", "give one, or --state"});
+    faults.add({"", 0, "--at", "is for a recording", "give one, or --state", "option.useless"});
   if (options.step && is_recorded)
-    faults.add({"", 0, "--step", "a recording has its own step", "leave it out"});
+    faults.add({"", 0, "--step", "a recording has its own step", "leave it out", "option.useless"});
   else if (options.step && options.robot.model.extension() != ".toml")
     faults.add({"", 0, "--step", "a robot alone takes no step: what is told is of one instant",
-                "leave it out, or give a scene"});
+                "leave it out, or give a scene", "option.useless"});
   if (is_recorded) check_recorded(options.robot, faults);
   std::shared_ptr<const UnpackedRun> files;
   double t = 0;

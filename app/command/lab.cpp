@@ -105,7 +105,8 @@ void refuse_what_opens(const LabCommand& command) {
                          "' opens a file, a device or a socket of the machine that the lab runs "
                          "on, and with --listen pages on other machines may not ask for that",
                      "take virtual:synthetic or the like, or start the lab without --listen (over "
-                     "ssh -L)"}});
+                     "ssh -L)",
+                     "lab.not-allowed"}});
 }
 
 LabCommand drop_all() {

@@ -34,7 +34,7 @@ int run_modes(const ModesOptions& options) {
     throw InputError({{input.scene->description.file.string(), 0, "scene",
                        "it has neither a robot with a joint nor a constraint, and modes are those "
                        "of what is held",
-                       ""}});
+                       "", "scene.nothing-held"}});
   const ModesOf found = find_modes(input);
   fmt::print("{}\n", options.json ? modes_json(input, found) : modes_table(input, found));
   return 0;

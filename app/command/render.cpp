@@ -102,7 +102,8 @@ void choose_word(const char* option, const std::string& word, const std::vector<
   if (found != names.end())
     chosen = values[static_cast<std::size_t>(found - names.begin())];
   else
-    faults.add({"", 0, option, "there is no '" + word + "'", name_remedy(word, names, "possible")});
+    faults.add({"", 0, option, "there is no '" + word + "'", name_remedy(word, names, "possible"),
+                "option.choice"});
 }
 
 // A film under the name of a picture, or the other way about, is a slip.
@@ -113,7 +114,7 @@ void check_kind(const char* option, const std::filesystem::path& file, const std
   const std::string kind = file.extension().string();
   if (kind != own && std::ranges::find(others, kind) != others.end())
     faults.add({file.string(), 0, option, "is named as a file of another kind",
-                "let its name end in " + own});
+                "let its name end in " + own, "file.ending"});
 }
 
 void check_outputs(const RenderOptions& options, RenderPlan& plan, FaultList& faults) {
@@ -122,7 +123,7 @@ void check_outputs(const RenderOptions& options, RenderPlan& plan, FaultList& fa
     outputs += file->empty() ? 0 : 1;
   if (outputs != 1)
     faults.add({"", 0, "output", outputs == 0 ? "none is named" : "more than one is named",
-                "give one of --png FILE, --frames DIR, --mp4 FILE, --gif FILE"});
+                "give one of --png FILE, --frames DIR, --mp4 FILE, --gif FILE", "option.outputs"});
   for (const auto* file : {&options.png, &options.mp4, &options.gif})
     if (!file->empty()) check_place(*file, faults);
   check_kind("--png", options.png, ".png", faults);
@@ -132,9 +133,10 @@ void check_outputs(const RenderOptions& options, RenderPlan& plan, FaultList& fa
     attempt(faults, [&] { return require_writable_folder(options.frames, "--frames"), true; });
   plan.times.is_film = outputs == 1 && options.png.empty();
   if (plan.times.is_film && options.at)
-    faults.add({"", 0, "--at", "is for a still", "give --from and --to, or --png FILE"});
+    faults.add(
+        {"", 0, "--at", "is for a still", "give --from and --to, or --png FILE", "option.useless"});
   if (!plan.times.is_film && (options.from || options.to))
-    faults.add({"", 0, "--from", "is for a film", "give --at for a still"});
+    faults.add({"", 0, "--from", "is for a film", "give --at for a still", "option.useless"});
   for (const auto& [file, option] :
        {std::pair{&options.mp4, "--mp4"}, std::pair{&options.gif, "--gif"}})
     if (!file->empty()) attempt(faults, [&, name = option] { return find_ffmpeg(name); });
@@ -146,7 +148,8 @@ RenderPlan read_render_options(const RenderOptions& options) {
   check_outputs(options, plan, faults);
   if (!parse_size(options.size, plan))
     faults.add({"", 0, "--size", "'" + options.size + "' is no size",
-                fmt::format("give WIDTHxHEIGHT, each from 16 to {} pixels", kMostPixels)});
+                fmt::format("give WIDTHxHEIGHT, each from 16 to {} pixels", kMostPixels),
+                "option.form"});
   choose_word<Quality>("--quality", options.quality, {"draft", "normal", "studio"},
                        {Quality::draft, Quality::normal, Quality::studio}, plan.picture.quality,
                        faults);
@@ -162,13 +165,15 @@ RenderPlan read_render_options(const RenderOptions& options) {
   plan.picture.camera = options.camera;
   plan.rate = options.fps.value_or(options.gif.empty() ? 30 : 25);  // GIF counts in 1/100 s
   if (!(options.slow > 0) || !std::isfinite(options.slow))
-    faults.add({"", 0, "--slow", "must be positive", "4 is four times slower than life"});
+    faults.add({"", 0, "--slow", "must be positive", "4 is four times slower than life",
+                "option.not-positive"});
   if (!(plan.rate > 0 && plan.rate <= 1000))
-    faults.add({"", 0, "--fps", "must be from above 0 to 1000", ""});
+    faults.add({"", 0, "--fps", "must be from above 0 to 1000", "", "option.range"});
   if (!options.beside.empty() && plan.picture.width < 64)
-    faults.add({"", 0, "--size", "is too narrow for two runs", "give a width from 64 on"});
+    faults.add(
+        {"", 0, "--size", "is too narrow for two runs", "give a width from 64 on", "option.range"});
   if (options.at && !(*options.at >= 0 && std::isfinite(*options.at)))
-    faults.add({"", 0, "--at", "must be seconds from 0 on", ""});
+    faults.add({"", 0, "--at", "must be seconds from 0 on", "", "option.negative"});
   faults.check();
   plan.times.at = options.at;
   plan.times.from = options.from;

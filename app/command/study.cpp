@@ -84,10 +84,11 @@ bool is_device(const StudyOptions& options) {
 
 std::unique_ptr<HandSource> make_hand(const StudyOptions& options, const StudySettings& settings) {
   if (options.device == "trace" && options.trace.empty())
-    throw InputError({{"", 0, "--device trace", "no trace is given", "add --trace FILE.csv"}});
+    throw InputError(
+        {{"", 0, "--device trace", "no trace is given", "add --trace FILE.csv", "option.missing"}});
   if (!options.device.empty() && options.device != "trace" && !options.trace.empty())
     throw InputError({{"", 0, "--trace", "a trace is given, but --device says " + options.device,
-                       "leave --device out, or give --device trace"}});
+                       "leave --device out, or give --device trace", "option.conflict"}});
   if (is_device(options)) return hand_of_device(options, settings);
   if (is_hand_log(options.trace)) return read_hand_log(options.trace);
   if (!options.trace.empty()) {

@@ -72,18 +72,20 @@ std::vector<std::string> chosen(const std::string& text, const std::vector<std::
   for (std::string word; std::getline(words, word, ',');) {
     if (std::ranges::find(known, word) == known.end())
       faults.add({"", 0, option, "'" + word + "' is none",
-                  fmt::format("give some of {}", fmt::join(known, ","))});
+                  fmt::format("give some of {}", fmt::join(known, ",")), "option.choice"});
     all.push_back(word);
   }
   if (all.empty())
-    faults.add({"", 0, option, "it names nothing", fmt::format("give {}", fmt::join(known, ","))});
+    faults.add({"", 0, option, "it names nothing", fmt::format("give {}", fmt::join(known, ",")),
+                "option.empty"});
   return all;
 }
 
 MappingKind mapping_kind(const std::string& name, FaultList& faults) {
   if (name == "paper") return MappingKind::paper;
   if (name == "arm") return MappingKind::arm;
-  faults.add({"", 0, "--mapping", "'" + name + "' is none for a trial", "give paper or arm"});
+  faults.add({"", 0, "--mapping", "'" + name + "' is none for a trial", "give paper or arm",
+              "option.choice"});
   return MappingKind::paper;
 }
 
@@ -180,7 +182,7 @@ TrialResult run_step(const TrialOptions& options, const MappingSpec& mapping, co
       say("Press Enter when you are ready. ");
       if (!wait_for_enter())
         throw InputError({{"", 0, "trial", "nobody pressed Enter: there is no terminal",
-                           "run it in a terminal, or give --yes"}});
+                           "run it in a terminal, or give --yes", "trial.no-terminal"}});
     }
     count_down();
   }
@@ -200,13 +202,13 @@ int run_trial(const TrialOptions& options) {
   mapping.force_scale = options.feel ? 1 : 0;
   if (options.simulated && !options.device.starts_with("virtual"))
     faults.add({"", 0, "--simulated", "a person has no simulated time",
-                "leave it out, or give --device virtual:HAND"});
+                "leave it out, or give --device virtual:HAND", "option.conflict"});
   if (!std::ranges::all_of(options.subject, [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '-' || c == '_';
       }))
     faults.add({"", 0, "--subject",
                 "'" + options.subject + "' has characters other than letters, digits, - and _",
-                "it names a folder below --out: give a code such as S7"});
+                "it names a folder below --out: give a code such as S7", "option.form"});
   faults.check();
 
   open_device(options.device);  // what is wrong with it is said before anyone waits

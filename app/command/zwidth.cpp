@@ -56,7 +56,8 @@ void check(const ZwidthOptions& options, FaultList& faults) {
     if (std::isfinite(value) && (positive ? value > 0 : value >= 0)) return;
     faults.add({"", 0, name,
                 fmt::format("is {}, must be {}", value, positive ? "positive" : "0 or positive"),
-                positive ? "give a positive number" : "give a number of at least 0"});
+                positive ? "give a positive number" : "give a number of at least 0",
+                "option.range"});
   };
   number("--mass", options.mass, true);
   number("--damping", options.damping, false);
@@ -66,18 +67,19 @@ void check(const ZwidthOptions& options, FaultList& faults) {
   number("--wall-damping", options.wall_damping, false);
   if (options.delay < 0 || options.delay > 1000)
     faults.add({"", 0, "--delay", fmt::format("is {} ticks", options.delay),
-                "give a number from 0 to 1000"});
+                "give a number from 0 to 1000", "option.range"});
   for (const auto* file : {&options.svg, &options.png})
     if (!file->empty()) check_place(*file, faults);
   const auto ends = [&](const char* option, const std::filesystem::path& file, const char* with) {
     if (!file.empty() && file.extension() != with)
       faults.add({file.string(), 0, option, std::string("writes a file that ends in ") + with,
-                  "give it that name"});
+                  "give it that name", "file.ending"});
   };
   ends("--svg", options.svg, ".svg");
   ends("--png", options.png, ".png");
   if (options.json && options.csv)
-    faults.add({"", 0, "--csv", "goes not with --json", "leave one of them out"});
+    faults.add(
+        {"", 0, "--csv", "goes not with --json", "leave one of them out", "option.conflict"});
 }
 
 int run_zwidth(const ZwidthOptions& options) {

@@ -45,11 +45,11 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
     for_each_name([&](const char* one, const char* of) { found |= means(name, one, of); });
     if (!found)
       faults.add({"", 0, "command line", fmt::format("there is no case or group '{}'", name),
-                  name_remedy(name, both, "cases and groups")});
+                  name_remedy(name, both, "cases and groups"), "compare.unknown"});
   }
   if (!group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
     faults.add({"", 0, "--group", fmt::format("there is no group '{}'", group),
-                name_remedy(group, groups, "groups")});
+                name_remedy(group, groups, "groups"), "option.choice"});
 
   const auto chosen = [&](const char* name, const char* of) {
     return (names.empty() && group.empty()) || group == of ||
@@ -74,12 +74,12 @@ std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
       found.push_back(*integrator);
     else
       faults.add({"", 0, "--integrator", fmt::format("there is no integrator '{}'", name),
-                  name_remedy(name, known, "integrators")});
+                  name_remedy(name, known, "integrators"), "option.choice"});
   }
   for (const double step : steps)
     if (!(step > 0) || !std::isfinite(step))
       faults.add({"", 0, "--step", fmt::format("a step is a positive time, not {}", step),
-                  "give seconds, as in --step 0.001,0.0005"});
+                  "give seconds, as in --step 0.001,0.0005", "option.not-positive"});
 
   std::vector<Lane> lanes;
   if (integrators.empty() && steps.empty()) return lanes;

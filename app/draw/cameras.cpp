@@ -23,7 +23,7 @@ Vector3 towards_eye(const CameraWish& wish) {
 
 [[noreturn]] void refuse(const std::string& text, const std::string& rule,
                          const std::string& remedy) {
-  throw InputError({{"", 0, "--camera", "'" + text + "' " + rule, remedy}});
+  throw InputError({{"", 0, "--camera", "'" + text + "' " + rule, remedy, "option.form"}});
 }
 
 CameraWish parse_orbit(const std::string& text) {

@@ -101,7 +101,7 @@ std::vector<const CurveKind*> parse_curves(const std::string& text) {
     const auto found = std::ranges::find(known, word);
     if (found == known.end())
       faults.add({"", 0, "--plot", "there is no curve '" + word + "'",
-                  name_remedy(word, known, "curves")});
+                  name_remedy(word, known, "curves"), "option.choice"});
     else
       chosen.push_back(&all_curves()[static_cast<std::size_t>(found - known.begin())]);
   }

@@ -31,7 +31,7 @@ class PngFilm final : public Film {
     if (error)
       throw InputError(
           {{folder_.string(), 0, "--frames", "the folder cannot be made: " + error.message(),
-            "give a folder that can be written"}});
+            "give a folder that can be written", "file.unwritable"}});
   }
   void add(const Image& image) override {
     write_png((folder_ / fmt::format("frame_{:05}.png", count_++)).string(), image);
@@ -100,8 +100,8 @@ class FfmpegFilm final : public Film {
     std::error_code error;
     std::filesystem::rename(part_, file_, error);
     if (error)
-      throw InputError(
-          {{file_.string(), 0, "", "cannot be written: " + error.message(), "give another place"}});
+      throw InputError({{file_.string(), 0, "", "cannot be written: " + error.message(),
+                         "give another place", "file.unwritable"}});
     finished_ = true;
   }
 
@@ -134,7 +134,7 @@ class FfmpegFilm final : public Film {
     if (error != 0) {
       close_pipe();
       throw InputError({{words[0], 0, "", std::string("cannot be started: ") + strerror(error),
-                         "install ffmpeg anew, or give --frames DIR"}});
+                         "install ffmpeg anew, or give --frames DIR", "program.not-started"}});
     }
     child_ = child;
   }
@@ -152,7 +152,7 @@ class FfmpegFilm final : public Film {
   [[noreturn]] void fail() {
     throw InputError(
         {{file_.string(), 0, "ffmpeg", "it did not make the film; its words stand above",
-          "is the folder there and writable? --frames DIR needs no ffmpeg"}});
+          "is the folder there and writable? --frames DIR needs no ffmpeg", "program.failed"}});
   }
 
   std::filesystem::path file_, part_;
@@ -184,8 +184,9 @@ std::filesystem::path find_ffmpeg(const char* option) {
     folder.clear();
     if (*c == '\0') break;
   }
-  throw InputError({{"", 0, option, "needs the program ffmpeg, which is not on the PATH",
-                     "install it (apt-get install ffmpeg), or give --frames DIR"}});
+  throw InputError(
+      {{"", 0, option, "needs the program ffmpeg, which is not on the PATH",
+        "install it (apt-get install ffmpeg), or give --frames DIR", "program.missing"}});
 }
 
 }  // namespace twinarm

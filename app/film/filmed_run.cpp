@@ -30,7 +30,7 @@ void take_forces_of_first_step(std::vector<RunInstant>& instants, const RunInsta
 std::vector<double> picture_times(double from, double to, double interval) {
   if ((to - from) / interval > kMostPictures)
     throw InputError({{"", 0, "--slow", "the film would have more than 100000 pictures",
-                       "give a shorter piece by --from and --to"}});
+                       "give a shorter piece by --from and --to", "film.too-long"}});
   std::vector<double> times;
   const auto count = static_cast<long>(std::floor((to - from) / interval + 1e-6));
   for (long i = 0; i <= count; ++i) times.push_back(from + static_cast<double>(i) * interval);
@@ -41,7 +41,7 @@ void check_piece(double from, double to) {
   if (!(from >= 0 && to > from))
     throw InputError(
         {{"", 0, "--from", fmt::format("the film goes from {:g} s to {:g} s", from, to),
-          "give --to after --from, neither negative"}});
+          "give --to after --from, neither negative", "option.order"}});
 }
 
 // Both ends at once, by the numbers that were given.
@@ -164,7 +164,7 @@ FilmedRun let_run(const RobotOptions& robot, const FilmTimes& times, const std::
         result.post_mortem->reason);
   if (run.shown.empty())
     throw InputError({{"", 0, "--at", "the run stopped before that time",
-                       fmt::format("give one up to {:g} s", result.end)}});
+                       fmt::format("give one up to {:g} s", result.end), "film.time"}});
   if (first) {
     take_forces_of_first_step(run.shown, *first);
     take_forces_of_first_step(run.around, *first);
@@ -180,7 +180,8 @@ std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
   for (const auto* file : {&left, &right})
     if (!is_recording(*file))
       faults.add({file->string(), 0, "--beside", "this is no recording",
-                  "give two that `twinarm simulate --record FILE` has written"});
+                  "give two that `twinarm simulate --record FILE` has written",
+                  "file.no-recording"});
   faults.check();
   double earliest = 1e300, first = 0, last = 0;
   for (const auto* file : {&left, &right}) {
@@ -195,7 +196,7 @@ std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
       faults.add({"", 0, option,
                   fmt::format("{:g} s is in neither recording: they go from {:g} to {:g} s", *t,
                               earliest, last),
-                  "give a time within"});
+                  "give a time within", "film.time"});
   faults.check();
   times.waits = true;
   if (!times.is_film && !times.at) times.at = last;

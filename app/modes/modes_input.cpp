@@ -137,9 +137,10 @@ ModesOf find_modes(SimulateInput& input) {
       },
       loops, still);
   if (!found.looped.system.A.allFinite())
-    throw InputError({{input.robot.robot.file.string(), 0, "",
-                       "the linear system is not finite in this state: there are no modes",
-                       "`twinarm inspect` shows what is not; give smaller numbers"}});
+    throw InputError(
+        {{input.robot.robot.file.string(), 0, "",
+          "the linear system is not finite in this state: there are no modes",
+          "`twinarm inspect` shows what is not; give smaller numbers", "state.not-finite"}});
   for (const Mode& mode : modes_of(found.looped.system.A))
     found.modes.push_back(by_all_velocities(found.looped, mode));
   for (const std::size_t dof : found.looped.system.dofs) found.rows.push_back(name_of[dof]);

@@ -19,8 +19,8 @@ std::string without_tags(std::string json) {  // "</script>" in a name would end
 
 void require_form(std::string_view form, std::string_view missing, const std::string& instead) {
   if (form.empty())
-    throw InputError(
-        {{"", 0, "page", "there is no page to fill in", std::string(missing) + "; " + instead}});
+    throw InputError({{"", 0, "page", "there is no page to fill in",
+                       std::string(missing) + "; " + instead, "page.missing"}});
 }
 
 std::string fill_form(std::string_view form, const std::string& title, const JsonWriter& json,

@@ -43,7 +43,7 @@ std::filesystem::path find_program(const std::string& name) {
     rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
   }
   throw InputError({{"", 0, name, "the program is not in PATH; it draws the figures",
-                     "install gnuplot-nox (scripts/setup does)"}});
+                     "install gnuplot-nox (scripts/setup does)", "program.missing"}});
 }
 
 // Runs the script in `folder`; no shell, so that no name needs quoting.

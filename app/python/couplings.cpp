@@ -61,7 +61,7 @@ py::object predict(const py::object& scene, const py::object& state,
   SimulatePlan prepared = prepare_simulation(options);
   if (!prepared.input.couplings || prepared.input.couplings->size() == 0)
     throw InputError({{options.robot.model.string(), 0, "", "it has no coupling",
-                       "give a scene with a [[coupling]] (docs/scenes.md)"}});
+                       "give a scene with a [[coupling]] (docs/scenes.md)", "scene.no-coupling"}});
   const std::string json = predicted_json(predict_couplings(prepared, task), task);
   return py::module_::import("json").attr("loads")(json);
 }

@@ -95,7 +95,7 @@ void RecordingWriter::flush() {
 
 void RecordingWriter::fail() const {
   throw InputError({{file_.string(), 0, "--record", "the recording cannot be written",
-                     "choose a folder that can be written, and has room"}});
+                     "choose a folder that can be written, and has room", "file.unwritable"}});
 }
 
 }  // namespace twinarm

@@ -20,9 +20,10 @@ RunDefaults defaults_of(const SceneDescription& scene) {
 void refuse_robot_options(const RobotOptions& options, FaultList& faults) {
   if (options.floating)
     faults.add({"", 0, "--floating", "the scene says which of its robots float",
-                "write base = \"floating\" in [[robot]]"});
+                "write base = \"floating\" in [[robot]]", "option.useless"});
   if (options.strict)
-    faults.add({"", 0, "--strict", "is for a robot's URDF alone", "leave it out"});
+    faults.add(
+        {"", 0, "--strict", "is for a robot's URDF alone", "leave it out", "option.useless"});
 }
 
 // What the command line says in place of the scene; null where that could not be read.

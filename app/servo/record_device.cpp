@@ -16,7 +16,7 @@ DeviceState first_state(HandDevice& device, ServoClock& clock, bool real_time, d
     if (state.alive) return state;
     if (waited > kPatience)
       throw InputError({{"", 0, "--device", device.description() + " says nothing",
-                         "see that it is switched on and not in use elsewhere"}});
+                         "see that it is switched on and not in use elsewhere", "device.silent"}});
     if (real_time) clock.wait();
   }
 }

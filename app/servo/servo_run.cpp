@@ -19,7 +19,7 @@ double step_of(const SceneModel& scene, const LiveOptions& options) {
       {{is_option ? "" : scene.description.file.string(), 0, is_option ? "--step" : "step",
         "with a hand device the step is from 1e-6 to 0.1 s, and here " + short_number_text(h) +
             " s",
-        "give 0.001"}});
+        "give 0.001", "hand.step"}});
 }
 
 // A tick takes one semi-implicit step of known work.
@@ -30,10 +30,10 @@ void check_steps(const SceneModel& scene, FaultList& faults) {
     faults.add({file, 0, "integrator",
                 std::string("a hand device goes with semi-implicit, not with ") +
                     integrator_name(integrator),
-                "leave it out of the scene"});
+                "leave it out of the scene", "hand.integrator"});
   if (locates_events(scene))
     faults.add({file, 0, "contact", "impacts that are located have no time for a hand device",
-                "give contact = \"rigid\""});
+                "give contact = \"rigid\"", "hand.contact"});
 }
 
 // The couplings that follow the device. All of them are to turn the same joints.
@@ -50,14 +50,14 @@ std::vector<std::size_t> find_led(const SceneModel& scene, double h) {
     const std::string where = "coupling '" + coupling.coupling + "'";
     if (coupling.driven.turned != scene.couplings[led.front()].driven.turned)
       faults.add({file, coupling.line, where, "it follows the device with another robot",
-                  "one device moves one robot: give it another target"});
+                  "one device moves one robot: give it another target", "hand.two-robots"});
     if (coupling.delay > kRemembered - h)
       faults.add({file, coupling.line, where + ", delay", "of a device it is at most 2 s",
-                  "give a shorter one"});
+                  "give a shorter one", "hand.delay"});
   }
   if (led.empty())
     faults.add({file, 0, "coupling", "none of them follows a hand device",
-                "give target = \"device\" to those that should"});
+                "give target = \"device\" to those that should", "hand.no-device"});
   faults.check();
   return led;
 }

@@ -35,7 +35,7 @@ std::string old_rows(const std::filesystem::path& file) {
   const std::string text = read_whole_file(file);
   if (!text.starts_with(kTrialHeader))
     throw InputError({{file.string(), 1, "header", "it is not the table of a trial's results",
-                       "give another folder with --out"}});
+                       "give another folder with --out", "trial.header"}});
   return text;
 }
 

@@ -71,7 +71,7 @@ bool is_hand_log(const std::filesystem::path& file) {
 std::unique_ptr<LiveHand> read_hand_log(const std::filesystem::path& file) {
   if (!is_hand_log(file))
     throw InputError({{file.string(), 1, "header", "it is not that of a hand's log",
-                       "give a file that `twinarm hand --log` wrote"}});
+                       "give a file that `twinarm hand --log` wrote", "hand.header"}});
   std::ifstream stream(file);
   std::string line;
   next_line(stream, line, file.string(), 1);
@@ -80,7 +80,7 @@ std::unique_ptr<LiveHand> read_hand_log(const std::filesystem::path& file) {
   for (int number = 2; next_line(stream, line, file.string(), number); ++number) {
     if (steps.size() == kMostLogSteps) {
       faults.add({file.string(), number, "", "the log has more than 4 million steps",
-                  "remove the lines from here on"});
+                  "remove the lines from here on", "hand.too-long"});
       break;
     }
     const bool torn = stream.eof();  // without its end of line
@@ -88,18 +88,19 @@ std::unique_ptr<LiveHand> read_hand_log(const std::filesystem::path& file) {
     if (torn) break;
     if (values.size() != kLogColumns || !(values[1] > 0)) {
       faults.add({file.string(), number, "", "it has not 15 finite numbers with a step above 0",
-                  "remove the lines from here on"});
+                  "remove the lines from here on", "hand.row"});
       break;
     }
     if (!steps.empty() && !(values[0] > steps.back().t)) {
-      faults.add(
-          {file.string(), number, "t[s]", "time does not go on", "remove the lines from here on"});
+      faults.add({file.string(), number, "t[s]", "time does not go on",
+                  "remove the lines from here on", "hand.time"});
       break;
     }
     steps.push_back(step_of(values));
   }
   if (steps.empty() && faults.empty())
-    faults.add({file.string(), 0, "", "the log has no steps", "record a run of at least one step"});
+    faults.add({file.string(), 0, "", "the log has no steps", "record a run of at least one step",
+                "hand.empty"});
   faults.check();
   auto hand = std::make_unique<LiveHand>(steps.size());
   for (const HandStep& step : steps) hand->set(step);

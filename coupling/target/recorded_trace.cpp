@@ -138,7 +138,7 @@ void TraceReader::read_sample(int line, const Cells& cells) {
   }
   if (samples.size() == kMostSamples)
     throw InputError({{trace_.file_, line, "", "the trace has more than 8 million samples",
-                       "cut it, or sample it more slowly"}});
+                       "cut it, or sample it more slowly", "trace.too-long"}});
   samples.push_back(sample);
 }
 
@@ -228,7 +228,8 @@ void TraceReader::measure_intervals(std::vector<double> intervals) {
 RecordedTrace::RecordedTrace(const std::filesystem::path& file) : file_(file.string()) {
   std::ifstream stream(file);
   if (!stream)
-    throw InputError({{file_, 0, "", "the trace cannot be opened", "name a CSV file that exists"}});
+    throw InputError({{file_, 0, "", "the trace cannot be opened", "name a CSV file that exists",
+                       "file.missing"}});
   TraceReader(*this).read(stream);
 }
 

@@ -59,7 +59,7 @@ void add_fault(std::vector<Fault>& faults, Fault fault) {
   else if (faults.size() == kMostFaults)
     faults.push_back({std::move(fault.file), 0, "",
                       "has more than " + std::to_string(kMostFaults) + " faults",
-                      "mend the others that are told, and try again"});
+                      "mend the others that are told, and try again", "faults.too-many"});
 }
 
 InputError::InputError(std::vector<Fault> faults)
@@ -79,7 +79,7 @@ void FaultList::check() const {
 void check_step_size(double h) {
   if (h > 0 && std::isfinite(h)) return;
   throw InputError({{"", 0, "step size", "is " + number_text(h) + " s, must be positive and finite",
-                     "give a step size in seconds, such as 0.001"}});
+                     "give a step size in seconds, such as 0.001", "run.step"}});
 }
 
 }  // namespace twinarm

@@ -70,7 +70,7 @@ void check_command(const CLI::App& app, int argc, char** argv) {
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (std::ranges::find(names, argv[1]) != names.end()) return;
   throw InputError({{"", 0, "command line", fmt::format("there is no command '{}'", argv[1]),
-                     name_remedy(argv[1], names, "commands")}});
+                     name_remedy(argv[1], names, "commands"), "command.unknown"}});
 }
 
 // `--png=` of a script whose variable is not set: CLI11 would take the next word for its value.
@@ -79,7 +79,7 @@ void check_values(int argc, char** argv) {
   for (const std::string_view word : std::vector<std::string_view>(argv, argv + argc))
     if (word.starts_with("--") && word.find('=') == word.size() - 1)
       faults.add({"", 0, "command line", fmt::format("'{}' has no value", word),
-                  "give one, or leave the option out"});
+                  "give one, or leave the option out", "option.no-value"});
   faults.check();
 }
 
@@ -115,7 +115,9 @@ int run_program(int argc, char** argv) {
     return tell(error, as_json);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return tell_help(app, error, as_json);
-    return tell(InputError({{"", 0, "command line", error.what(), "see twinarm --help"}}), as_json);
+    return tell(
+        InputError({{"", 0, "command line", error.what(), "see twinarm --help", "command.line"}}),
+        as_json);
   }
 
   catch_interrupts();

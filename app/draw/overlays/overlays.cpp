@@ -52,7 +52,7 @@ std::vector<std::string> parse_overlays(const std::string& text) {
     if (word == "all") return known;
     if (std::ranges::find(known, word) == known.end())
       faults.add({"", 0, "--show", "there is no overlay '" + word + "'",
-                  name_remedy(word, known, "overlays")});
+                  name_remedy(word, known, "overlays"), "option.choice"});
     chosen.push_back(word);
   }
   faults.check();

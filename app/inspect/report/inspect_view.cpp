@@ -23,7 +23,7 @@ std::size_t index_of_body(const std::string& option, const std::string& name,
   const auto found = std::ranges::find(names, name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin()) + 1;
   faults.add({"", 0, option, "there is no body '" + name + "'",
-              others + name_remedy(name, names, "bodies")});
+              others + name_remedy(name, names, "bodies"), "option.unknown-name"});
   return 0;
 }
 
@@ -60,7 +60,7 @@ void read_about(const std::string& text, const Model<double>& model, InspectView
       view.from.point = Vector3(numbers[0], numbers[1], numbers[2]);
     else
       faults.add({"", 0, "--about", "'" + text + "' is no point",
-                  "give three numbers x,y,z [m], of the world"});
+                  "give three numbers x,y,z [m], of the world", "option.form"});
   } else {
     view.from.about = About::body;
     view.from.about_body =
@@ -77,7 +77,8 @@ void read_passes(const InspectOptions& options, InspectView& view, FaultList& fa
     const auto found = std::ranges::find(names, pass);
     if (found == names.end())
       faults.add({"", 0, "--pass", "there is no pass '" + pass + "'",
-                  "give 1 (velocities), 2 (inertias and forces) or 3 (accelerations)"});
+                  "give 1 (velocities), 2 (inertias and forces) or 3 (accelerations)",
+                  "option.choice"});
     else
       view.passes.push_back(static_cast<int>(found - names.begin()) + 1);
   }
@@ -110,7 +111,8 @@ void read_forces(const InspectOptions& options, const std::vector<Actor>& actors
       }
     if (!found)
       faults.add({"", 0, "--force", "nothing called '" + wanted + "' acts in this state",
-                  names.empty() ? "gravity alone does" : name_remedy(wanted, names, "forces")});
+                  names.empty() ? "gravity alone does" : name_remedy(wanted, names, "forces"),
+                  "option.unknown-name"});
   }
 }
 

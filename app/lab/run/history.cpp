@@ -133,7 +133,8 @@ LabHistory::Saved LabHistory::save(const LabScene& scene, const LabNames& names,
                                    const std::vector<std::size_t>& led,
                                    const std::filesystem::path& file) const {
   if (empty())
-    throw InputError({{file.string(), 0, "save", "nothing is remembered yet", "let it run"}});
+    throw InputError({{file.string(), 0, "save", "nothing is remembered yet", "let it run",
+                       "lab.nothing-saved"}});
   const long first = first_step_to_save();
   RecordingHeader header = scene.header(segments_.back().changes, {led, log_of_hand()});
   // Beyond the last step, so that this one ends on the grid of the run and not where the run ends.

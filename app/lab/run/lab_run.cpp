@@ -91,8 +91,8 @@ void LabRun::begin_anew(const LabFrame& from) {
   State<double>& x = prepared.input.robot.state.x;
   const State<double> was = state_in(from.recorded.memory);
   if (was.q.size() != x.q.size() || was.qd.size() != x.qd.size())
-    throw InputError(
-        {{"", 0, "change", "the scene would have other joints", "begin from the start: reset"}});
+    throw InputError({{"", 0, "change", "the scene would have other joints",
+                       "begin from the start: reset", "change.joints"}});
   x.q = was.q;
   x.qd = was.qd;
   x.t = was.t;

@@ -16,7 +16,8 @@ bool turns_option(const Change& change, SimulateOptions& options, FaultList& fau
   const auto number = [&](std::optional<double>& value) {
     value = parse_number(change.value);
     if (!value)
-      faults.add({"", 0, "--set " + change.path + "=" + change.value, "it is no number", ""});
+      faults.add({"", 0, "--set " + change.path + "=" + change.value, "it is no number", "",
+                  "change.number"});
   };
   if (change.path == "step")
     number(options.step);

@@ -52,7 +52,8 @@ constexpr std::size_t kConnectionsPerClient = 8;
                           "address " + options.address + " cannot be listened on: " + why,
                           is_port ? "another program may have this port: leave --port out, and a "
                                     "free one is taken"
-                                  : "give a numeric address of this machine, as 127.0.0.1"}});
+                                  : "give a numeric address of this machine, as 127.0.0.1",
+                          "lab.address"}});
 }
 
 }  // namespace

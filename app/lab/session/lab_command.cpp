@@ -157,12 +157,13 @@ const Form& form_of(const Value& root) {
   std::vector<std::string> names;
   for (const Form& form : forms()) names.emplace_back(form.name);
   if (!what || what->kind != Kind::text)
-    throw InputError({{"command", 0, "do", "is missing", "write {\"do\": \"play\", ..}"}});
+    throw InputError(
+        {{"command", 0, "do", "is missing", "write {\"do\": \"play\", ..}", "lab.missing"}});
   const auto is_it = [&](const Form& form) { return form.name == what->text; };
   const auto found = std::find_if(forms().begin(), forms().end(), is_it);
   if (found == forms().end())
     throw InputError({{"command", 0, "do", "there is no '" + what->text + "'",
-                       name_remedy(what->text, names, "commands")}});
+                       name_remedy(what->text, names, "commands"), "lab.unknown-command"}});
   return *found;
 }
 
@@ -179,10 +180,11 @@ LabCommand parse_command(const std::string& text) {
     const Value* value = root.find(field.key);
     const std::string where = std::string(form.name) + ", " + field.key;
     if (!value && !field.may_be_missing)
-      faults.add({"command", 0, where, "is missing", std::string("give ") + field.wanted});
-    else if (value && !field.take(*value, command))
       faults.add(
-          {"command", 0, where, "is " + describe(*value), std::string("give ") + field.wanted});
+          {"command", 0, where, "is missing", std::string("give ") + field.wanted, "lab.missing"});
+    else if (value && !field.take(*value, command))
+      faults.add({"command", 0, where, "is " + describe(*value),
+                  std::string("give ") + field.wanted, "lab.type"});
   }
   faults.check();
   return command;

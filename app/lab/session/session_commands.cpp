@@ -107,7 +107,7 @@ void SessionCommands::choose_hand(const std::string& source, const std::string& 
   for (const auto& [name, kind] : all)
     if (name == source) return s_.hand.choose(kind, spec);
   throw InputError({{"command", 0, "hand, source", "there is no '" + source + "'",
-                     "give scene, drag, joints or device"}});
+                     "give scene, drag, joints or device", "lab.choice"}});
 }
 
 // From now on, or from an instant that is remembered.
@@ -116,8 +116,9 @@ void SessionCommands::change(const std::vector<std::string>& texts, std::optiona
   for (const std::string& text : texts) {
     const Change change = parse_change(text);
     if (is_of_lanes(s_.status, change))
-      throw InputError({{"command", 0, text, "it is what the lanes differ by",
-                         "turn another knob, or open the scene without lanes"}});
+      throw InputError(
+          {{"command", 0, text, "it is what the lanes differ by",
+            "turn another knob, or open the scene without lanes", "lab.lanes-differ"}});
     asked.changes.push_back(change);
   }
   s_.pending.add(std::move(asked));
@@ -130,7 +131,7 @@ void SessionCommands::open_preset(const std::string& name) {
   const Preset* preset = find_preset(name);
   if (!preset)
     throw InputError({{"command", 0, "preset", "there is no '" + name + "'",
-                       "the state lists them under presets"}});
+                       "the state lists them under presets", "lab.unknown-name"}});
   Order order;
   order.file = find_assets() / "scenes" / preset->scene;
   order.name = preset->name;
@@ -145,7 +146,7 @@ void SessionCommands::open_from_gallery(const std::string& name) {
   const GalleryScene* scene = find_scene(gallery_, name);
   if (!scene)
     throw InputError({{"command", 0, "scene", "there is no '" + name + "'",
-                       "the state lists them under gallery"}});
+                       "the state lists them under gallery", "lab.unknown-name"}});
   open_(order_to_open(*scene));
 }
 

@@ -179,8 +179,8 @@ std::string panel_at(double bottom, double top, const std::string& label) {
 void check_plot(const std::filesystem::path& file) {
   std::error_code ignored;
   if (file.extension() != ".svg" || std::filesystem::is_directory(file, ignored))
-    throw InputError(
-        {{file.string(), 0, "--plot", "is drawn as SVG, a file", "give a name that ends in .svg"}});
+    throw InputError({{file.string(), 0, "--plot", "is drawn as SVG, a file",
+                       "give a name that ends in .svg", "file.ending"}});
   require_gnuplot();
   make_folder(folder_of(file), "--plot");
 }
@@ -209,7 +209,8 @@ void draw_fork(const Recording& recording, const Replay& recorded, const Replay&
                const std::vector<std::string>& changes, const std::filesystem::path& file) {
   const std::vector<Parted> found = parted(recording, fork);
   if (found.empty())
-    throw InputError({{file.string(), 0, "--plot", "nothing moves that could be drawn", ""}});
+    throw InputError({{file.string(), 0, "--plot", "nothing moves that could be drawn", "",
+                       "plot.nothing-moves"}});
   const std::size_t shown = found.front().column;
   const RecordedColumn& column = recording.header().columns[shown];
   std::vector<double> t, first, second;

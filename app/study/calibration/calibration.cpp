@@ -39,8 +39,8 @@ template <class Read>
 auto read_file(const std::filesystem::path& file, const char* article, const std::string& thing,
                const char* option, Read&& read) {
   const auto fail = [&](const std::string& rule) {
-    return InputError(
-        {{file.string(), 0, "", rule, fmt::format("run `twinarm study {}`", option)}});
+    return InputError({{file.string(), 0, "", rule, fmt::format("run `twinarm study {}`", option),
+                        "study.calibration"}});
   };
   std::ifstream stream(file);
   if (!stream) throw fail("the " + thing + " cannot be opened");
@@ -84,7 +84,7 @@ const CalibrationEntry& Calibration::entry(const std::string& name) const {
   const auto found = entries.find(name);
   if (found == entries.end())
     throw InputError({{"", 0, "calibration", "there is no entry '" + name + "'",
-                       "run `twinarm study --recalibrate`"}});
+                       "run `twinarm study --recalibrate`", "study.calibration"}});
   return found->second;
 }
 

@@ -189,7 +189,7 @@ Identification Question::answer() const {
 Identification ask(const StudyInputs& inputs, const std::string& question) {
   FaultList faults;
   const auto fault = [&](std::string rule, std::string remedy) {
-    faults.add({"", 0, "--ask", std::move(rule), std::move(remedy)});
+    faults.add({"", 0, "--ask", std::move(rule), std::move(remedy), "study.question"});
   };
   const std::vector<std::string> parts = split(question, '/');
   if (parts.size() != 3) {

@@ -61,7 +61,8 @@ std::string filled(const std::filesystem::path& file, const Slots& slots) {
   try {
     return fmt::vformat(read_whole_file(file), places);
   } catch (const fmt::format_error& error) {
-    throw InputError({{file.string(), 0, "", error.what(), "see the file as it was shipped"}});
+    throw InputError(
+        {{file.string(), 0, "", error.what(), "see the file as it was shipped", "study.file"}});
   }
 }
 

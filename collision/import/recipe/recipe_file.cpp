@@ -138,9 +138,9 @@ toml::table parse(const std::filesystem::path& file) {
   try {
     return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
-    throw InputError(
-        {{file.string(), static_cast<int>(error.source().begin.line), "",
-          "not well-formed TOML: " + std::string(error.description()), "mend this line"}});
+    throw InputError({{file.string(), static_cast<int>(error.source().begin.line), "",
+                       "not well-formed TOML: " + std::string(error.description()),
+                       "mend this line", "file.toml"}});
   }
 }
 
