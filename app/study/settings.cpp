@@ -38,7 +38,7 @@ class SettingsTable : public TableReader {
     const double value = number(key);
     if (value >= 0 && value < 4294967296.0 && value == std::floor(value))
       return static_cast<unsigned>(value);
-    fault(key, "must be a whole number of at least 0", kRemedy);
+    fault(key, "must be a whole number of at least 0", kRemedy, "study.whole-number");
     return 0;
   }
   std::vector<double> numbers(const std::string& key) {
@@ -65,7 +65,7 @@ class SettingsTable : public TableReader {
     for (std::size_t i = 0; good && i < list->items.size(); ++i)
       good = list->items[i].kind == kind && std::isfinite(list->items[i].number);
     if (good) return list->items;
-    fault(key, "must be " + wanted, kRemedy);
+    fault(key, "must be " + wanted, kRemedy, "study.list");
     return {};
   }
 
@@ -82,7 +82,7 @@ void read_robot(SettingsTable robot, const std::string& file, FaultList& faults,
   s.added_mass = robot.number("added_mass");
   const auto mounts = robot.tables("mount");
   if (mounts.size() != 2)  // of the two linear springs
-    robot.fault("mount", "must be 2 tables [[robot.mount]]", kRemedy);
+    robot.fault("mount", "must be 2 tables [[robot.mount]]", kRemedy, "study.mounts");
   for (const Value* one : mounts) {
     SettingsTable mount(*one, "robot.mount", file, faults);
     s.mounts.push_back({mount.text("link"), mount.vector("point")});

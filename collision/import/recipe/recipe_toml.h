@@ -22,7 +22,8 @@ class TomlSource {
 
   static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
   void fault(int line, std::string where, std::string rule, std::string remedy) {
-    faults_.push_back({file_, line, std::move(where), std::move(rule), std::move(remedy)});
+    faults_.push_back(
+        {file_, line, std::move(where), std::move(rule), std::move(remedy), "recipe.value"});
   }
 
   // A misspelt key would else be left out in silence.

@@ -42,8 +42,8 @@ class Maker {
 
  private:
   void fault(int line, std::string where, std::string rule, std::string remedy) {
-    faults_.push_back(
-        {recipe_.file.string(), line, std::move(where), std::move(rule), std::move(remedy)});
+    faults_.push_back({recipe_.file.string(), line, std::move(where), std::move(rule),
+                       std::move(remedy), "recipe.robot"});
   }
 
   // Runs f; what it finds wrong is told at the line of the recipe that asked for it.
