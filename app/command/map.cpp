@@ -69,6 +69,8 @@ void check_output(const char* option, const std::filesystem::path& file, const c
   if (is_there(file) && !force)
     faults.add({file.string(), 0, option, "the file is there already",
                 "choose another name, or give --force", "file.exists"});
+  else if (std::error_code ignored; std::filesystem::is_directory(file, ignored))
+    faults.add({file.string(), 0, option, "is a folder", "name a file in it", "file.is-folder"});
   attempt(faults, [&] {
     require_writable_folder(file.has_parent_path() ? file.parent_path() : ".", option);
     return true;

@@ -95,22 +95,12 @@ footer { max-width: 960px; margin: 3rem auto 2rem; padding: 1rem 20px 0; color: 
 
 std::string escaped(const std::string& text) {
   std::string html;
-  for (char c : text) switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      default:
-        html += c;
-    }
+  for (const char c : text)
+    html += c == '&'   ? "&amp;"
+            : c == '<' ? "&lt;"
+            : c == '>' ? "&gt;"
+            : c == '"' ? "&quot;"
+                       : std::string(1, c);
   return html;
 }
 

@@ -7,8 +7,10 @@
 
 #include "app/map/cell_batch.h"
 #include "app/record/record_run.h"
+#include "app/scene/read/change_scene.h"
 #include "app/scene/read/scene_keys.h"
 #include "app/support/nearest_name.h"
+#include "app/support/text_fields.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -149,16 +151,6 @@ constexpr double kMostCells = 4096;  // along an axis
 const char* const kAxisForm =
     "write PATH:FROM:TO:N[:log], as in coupling[0].stiffness:100:1e5:64:log";
 
-std::vector<std::string> at_colons(const std::string& text) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(':', begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
-
 }  // namespace
 
 void put_in(const MapJob& job, double x, double y, Value& scene, FaultList& faults) {
@@ -247,7 +239,7 @@ std::optional<MapAxis> parse_axis(const std::string& option, const std::string& 
     faults.add({"", 0, option, rule, remedy, code});
     good = false;
   };
-  const std::vector<std::string> parts = at_colons(text);
+  const std::vector<std::string> parts = split(text, ':');
   if (parts.size() < 4 || parts.size() > 5 || parts[0].empty()) {
     fault("'" + text + "' is no axis", kAxisForm, "axis.form");
     return std::nullopt;

@@ -7,6 +7,7 @@
 #include "app/scene/read/scene_description.h"
 #include "app/scene/read/scene_keys.h"
 #include "app/support/nearest_name.h"
+#include "app/support/text_fields.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -110,9 +111,8 @@ class PathWalk {
 }  // namespace
 
 ValuePath::ValuePath(const std::string& path) : text(path) {
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    Part part{path.substr(begin, end - begin)};
+  for (const std::string& name : split(path, '.')) {
+    Part part{name};
     const std::size_t bracket = part.name.find('[');
     if (bracket != std::string::npos) {
       const std::string inside = part.name.substr(bracket + 1);
@@ -122,7 +122,6 @@ ValuePath::ValuePath(const std::string& path) : text(path) {
       part.name.resize(bracket);
     }
     parts.push_back(std::move(part));
-    begin = end + 1;
   }
 }
 
@@ -163,12 +162,10 @@ Value value_of_text(const std::string& text) {
     value.number = text == "true" ? 1 : 0;
   } else if (text.find(',') != std::string::npos) {
     std::vector<Value> items;  // "0,0,-1.62"
-    for (std::size_t begin = 0; begin <= text.size();) {
-      const std::size_t end = std::min(text.find(',', begin), text.size());
-      const auto number = parse_number(text.substr(begin, end - begin));
+    for (const std::string& item : split(text)) {
+      const auto number = parse_number(item);
       if (!number) return value;
       items.push_back(Value::of(*number));
-      begin = end + 1;
     }
     return Value::list(std::move(items));
   }
