@@ -4,7 +4,7 @@ namespace twinarm {
 namespace {
 
 // "arm/joint1" in two; the robot is empty where there is no stroke.
-std::pair<std::string, std::string> split(const std::string& name) {
+std::pair<std::string, std::string> robot_and_item(const std::string& name) {
   const auto stroke = name.find('/');
   if (stroke == std::string::npos) return {"", name};
   return {name.substr(0, stroke), name.substr(stroke + 1)};
@@ -27,7 +27,7 @@ std::optional<SceneReference> find_reference(const SceneDescription& scene,
     if (scene.bodies[b].name == name) return SceneReference{static_cast<int>(b), -1, ""};
   for (std::size_t r = 0; r < scene.robots.size(); ++r)
     if (scene.robots[r].name == name) return SceneReference{-1, static_cast<int>(r), ""};
-  const auto [robot_name, link] = split(name);
+  const auto [robot_name, link] = robot_and_item(name);
   const int robot = find_robot(scene, robot_name);
   if (robot < 0 || !find_link(scene.robots[static_cast<std::size_t>(robot)].description, link))
     return std::nullopt;
@@ -44,7 +44,7 @@ std::vector<std::string> reference_names(const SceneDescription& scene) {
 }
 
 std::optional<JointReference> find_joint(const SceneDescription& scene, const std::string& name) {
-  const auto [robot_name, joint_name] = split(name);
+  const auto [robot_name, joint_name] = robot_and_item(name);
   const int robot = find_robot(scene, robot_name);
   if (robot < 0) return std::nullopt;
   const auto r = static_cast<std::size_t>(robot);
