@@ -107,18 +107,12 @@ void PosedCouplings::add_arms(const SceneCoupling& spec, const Vector3& offset, 
 PredictedCoupling PosedCouplings::about_zero(std::size_t c) {
   const SceneCoupling& spec = input_.couplings->spec(c);
   PredictedCoupling found;
-  found.name = spec.name;
+  static_cast<CouplingTraits&>(found) = spec;
   found.kind = kind_of(spec);
-  found.treatment = spec.treatment;
-  found.law = spec.law;
-  found.printed = spec.printed;
   found.is_linear = spec.type == CouplingDescription::Type::linear;
   const auto body = static_cast<std::size_t>(spec.spring.body);
   found.is_length =
       found.is_linear || (spec.measure == Measure::joint && is_translational(model_.joint[body]));
-  found.absolute_damper = spec.absolute_damper;
-  found.rate = spec.rate;
-  found.delay = spec.delay;
   found.gains = {spec.spring.k, spec.spring.b};
   const MatrixXd J = jacobian(c) * P_, square = J.transpose() * J;
   found.K = found.K_zero = spec.spring.k * square;

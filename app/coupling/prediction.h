@@ -36,18 +36,12 @@ struct SpringArm {
   double largest_torque = 0;             // k r R_K, at a right angle [N m]
 };
 
-struct PredictedCoupling {
-  std::string name, kind;
-  Treatment treatment = Treatment::implicit;
-  bool is_linear = true;  // between points
-  bool is_length = true;  // it measures metres: between points, or along a slide
-  bool absolute_damper = false;
-  double rate = 0;    // [Hz]; 0: every step
-  double delay = 0;   // of its target [s]
-  SpringGains gains;  // N/m, N s/m of lengths; else N m/rad, N m s/rad
-  double offset = 0;  // of the target [m or rad]
-  CouplingSpec::Type law = CouplingSpec::Type::linear;
-  bool printed = false;
+struct PredictedCoupling : CouplingTraits {
+  std::string kind;
+  bool is_linear = true;            // between points
+  bool is_length = true;            // it measures metres: between points, or along a slide
+  SpringGains gains;                // N/m, N s/m of lengths; else N m/rad, N m s/rad
+  double offset = 0;                // of the target [m or rad]
   Eigen::MatrixXd K, K_zero, B;     // as it is; without the geometric part; damping
   double felt_mass = 0;             // [kg or kg m^2]
   Eigen::MatrixXd felt;             // inertia that the law adds (coupling/laws/mujoco_weld.h)
