@@ -1,11 +1,24 @@
 #include "app/device/gesture_device.h"
-#include "app/support/seconds.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <linux/joystick.h>
 #include <poll.h>
 #include <sys/eventfd.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 
+#include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "app/device/devices.h"
+#include "app/device/raw_terminal.h"
+#include "app/support/seconds.h"
 
 namespace twinarm {
 namespace {
@@ -61,6 +74,90 @@ bool GestureDevice::read_some() {
   if (count > 0)
     source_.decoder->feed(bytes.data(), static_cast<std::size_t>(count), steady_seconds(), *hand_);
   return count > 0 || (count < 0 && (errno == EAGAIN || errno == EINTR));
+}
+
+// Where keyboard, game controller and space mouse are found, and what to do where they are not.
+//
+// No library: a terminal's bytes, the kernel's joystick events and spacenavd's packets of eight
+// integers are each read in a few lines. SDL would bring libGL, which must not meet OSMesa;
+// libspnav would bring X11.
+
+namespace {
+
+OwnedFd open_quietly(const std::string& path) {
+  return OwnedFd(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+}
+
+std::string first_joystick() {
+  for (int n = 0; n < 32; ++n) {
+    const std::string path = fmt::format("/dev/input/js{}", n);
+    if (std::filesystem::exists(path)) return path;
+  }
+  return "/dev/input/js0";
+}
+
+OwnedFd open_socket(const std::string& path) {
+  sockaddr_un name{};
+  name.sun_family = AF_UNIX;
+  if (path.size() >= sizeof name.sun_path) {
+    errno = ENAMETOOLONG;
+    return OwnedFd();
+  }
+  std::memcpy(name.sun_path, path.c_str(), path.size() + 1);
+  OwnedFd fd(socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (connect(fd.get(), reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0)
+    return OwnedFd();
+  return fd;
+}
+
+}  // namespace
+
+GestureSource open_keyboard(const std::string& path) {
+  const std::string terminal = path.empty() ? "/dev/tty" : path;
+  OwnedFd fd = open_quietly(terminal);
+  if (fd.get() < 0)
+    refuse_spec("keyboard", fmt::format("{}: {}", terminal, std::strerror(errno)),
+                "run it from a terminal, not from a service or a pipe");
+  auto mode = std::make_shared<RawTerminal>(fd.get());
+  if (!mode->is_terminal())
+    refuse_spec("keyboard", fmt::format("{} is no terminal, or is a hand's already", terminal),
+                "run it from a terminal, with one keyboard device");
+  return {"keyboard (arrows, w s, a d, r f, q e; space: gripper, c: clutch, x: stand still)",
+          std::make_unique<KeyDecoder>(), std::move(fd), nullptr, mode};
+}
+
+GestureSource open_gamepad(const std::string& path) {
+  const std::string file = path.empty() ? first_joystick() : path;
+  OwnedFd fd = open_quietly(file);
+  const int error = errno;
+  if (fd.get() < 0)
+    refuse_spec("gamepad", fmt::format("{}: {}", file, std::strerror(error)),
+                error == EACCES ? "log in at the machine itself, or join the group 'input'"
+                                : "plug the controller in, and load the kernel's module 'joydev'");
+  std::array<char, 128> name{};
+  std::array<std::uint8_t, 64> codes{};
+  std::uint8_t axes = 0;
+  const bool is_joystick = ioctl(fd.get(), JSIOCGAXES, &axes) >= 0 &&
+                           ioctl(fd.get(), JSIOCGAXMAP, codes.data()) >= 0 && axes <= codes.size();
+  if (!is_joystick) axes = 0;
+  if (ioctl(fd.get(), JSIOCGNAME(name.size() - 1), name.data()) < 0) name[0] = '\0';
+  return {fmt::format("game controller {} at {}", name.data(), file),
+          std::make_unique<JoystickDecoder>(
+              std::vector<std::uint8_t>(codes.begin(), codes.begin() + axes)),
+          std::move(fd), [file] { return open_quietly(file); }, nullptr};
+}
+
+GestureSource open_space_mouse(const std::string& path) {
+  const char* named = std::getenv("SPNAV_SOCKET");  // spacenavd's own variable
+  const std::string file = !path.empty() ? path : named ? named : "/var/run/spnav.sock";
+  OwnedFd fd = open_socket(file);
+  if (fd.get() < 0)
+    refuse_spec("spacemouse",
+                fmt::format("no spacenavd answers at {}: {}", file, std::strerror(errno)),
+                "install and start it: scripts/setup --hand; systemctl start spacenavd");
+  return {fmt::format("space mouse by spacenavd at {}", file),
+          std::make_unique<SpaceMouseDecoder>(), std::move(fd),
+          [file] { return open_socket(file); }, nullptr};
 }
 
 }  // namespace twinarm
