@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "solver/dynamics/derivatives.h"
-#include "solver/dynamics/mass_matrix.h"
+#include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/model/mimic.h"
 

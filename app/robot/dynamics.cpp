@@ -1,7 +1,6 @@
 #include "app/robot/dynamics.h"
 
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/mass_matrix.h"
 #include "solver/dynamics/world_kinematics.h"
 #include "solver/loops/constrained_dynamics.h"
 #include "solver/model/non_finite.h"

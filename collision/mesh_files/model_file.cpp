@@ -27,7 +27,6 @@
 #include <utility>
 #include <vector>
 
-#include "collision/mesh_files/model_serialization.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

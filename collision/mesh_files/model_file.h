@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,5 +39,11 @@ struct ModelFile {
 // reader crashes on it or goes beyond its limits. Files that the model names (buffers, materials,
 // textures) are opened only inside its own folder.
 ModelFile read_model(const std::filesystem::path& file, const ChildLimits& limits = {});
+
+// A ModelFile as bytes, to be sent from the process that read it.
+std::string pack(ModelFile model);
+// Empty where the bytes are no such model: whoever sent them may have been broken. Indices are not
+// looked at.
+std::optional<ModelFile> unpack_model(std::string bytes);
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-#include "collision/mesh_files/model_serialization.h"
+#include "collision/mesh_files/model_file.h"
 
 #include <stdexcept>
 

@@ -2,7 +2,7 @@
 // slab (a face with the face opposite to it, if it is parallel) that may be better than the best
 // before.  Box-box: at most 48 products, 0.1 us.
 // Against a curved body: overlap(n), of a face only where it can be better than the best before.
-#include "collision/narrow_phase/flat_axis.h"
+#include "collision/narrow_phase/separating_axis.h"
 
 #include <utility>
 

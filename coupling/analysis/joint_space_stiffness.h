@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 #include <functional>
 
+#include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/kinematics.h"
-#include "solver/dynamics/mass_matrix.h"
 #include "solver/model/workspace.h"
 
 namespace twinarm {

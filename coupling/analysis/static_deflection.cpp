@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/dynamics/mass_matrix.h"
+#include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/support/diagnostics.h"
 

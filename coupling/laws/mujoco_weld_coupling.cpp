@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "coupling/laws/spring_damper.h"
-#include "solver/dynamics/mass_matrix.h"
+#include "solver/dynamics/dynamics.h"
 #include "solver/forces/spring.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/support/diagnostics.h"

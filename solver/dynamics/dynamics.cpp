@@ -106,4 +106,12 @@ void aba(const Model<double>& model, const State<double>& x, const Forces<double
   generic::aba(model, x, forces, w, trace);
 }
 
+Eigen::MatrixXd mass_matrix(const Model<double>& model, const State<double>& x) {
+  Workspace<double> w(model);
+  const auto n = static_cast<Eigen::Index>(model.nv);
+  Eigen::MatrixXd M(n, n);
+  crba(model, x, w, {M.data(), model.nv * model.nv});  // symmetric: by rows is by columns
+  return M;
+}
+
 }  // namespace twinarm

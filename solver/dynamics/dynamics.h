@@ -8,6 +8,7 @@
 // have no inertia about a joint, numbers become non-finite (ModelBuilder refuses such models).
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -51,6 +52,8 @@ void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w,
           std::type_identity_t<std::span<S>> M) {
   passes<S>().crba(model, x, w, M);
 }
+// The same as an Eigen matrix, for analyses: allocates.
+Eigen::MatrixXd mass_matrix(const Model<double>& model, const State<double>& x);
 // M^-1 (b + J^T f), solver/passes/minv.h: w.y, after aba() at the same q.
 template <class S>
 void minv_times(const Model<S>& model, const std::vector<S>& b, const std::vector<Force<S>>& f,

@@ -1,5 +1,5 @@
 // What comes home from the child process that reads a mesh, which may have been broken.
-#include "collision/mesh_files/model_serialization.h"
+#include "collision/mesh_files/model_file.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

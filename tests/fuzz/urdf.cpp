@@ -2,7 +2,6 @@
 #include "collision/import/urdf/urdf.h"
 
 #include "collision/import/robot/robot_model.h"
-#include "collision/import/urdf/urdf_writer.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

@@ -8,7 +8,6 @@
 
 #include "benchmarks/analytic/support/contact_look.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/mass_matrix.h"
 #include "solver/linear_algebra/dense_algebra.h"
 
 namespace twinarm {

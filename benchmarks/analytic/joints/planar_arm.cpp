@@ -6,7 +6,6 @@
 #include <string>
 
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/mass_matrix.h"
 
 namespace twinarm::smooth_parts {
 

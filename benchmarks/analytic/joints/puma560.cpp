@@ -11,7 +11,6 @@
 #include "benchmarks/analytic/joints/puma560_values.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/mass_matrix.h"
 #include "solver/loops/constrained_dynamics.h"
 
 namespace twinarm {

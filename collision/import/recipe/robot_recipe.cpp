@@ -13,7 +13,7 @@
 #include "collision/import/recipe/recipe_file.h"
 #include "collision/import/recipe/stl_writer.h"
 #include "collision/import/robot/robot_check.h"
-#include "collision/import/urdf/urdf_writer.h"
+#include "collision/import/urdf/urdf.h"
 #include "collision/mesh_files/mesh_file.h"
 #include "collision/shapes/shape.h"
 #include "solver/support/atomic_file.h"

@@ -1,5 +1,5 @@
 // Writes a robot as URDF.
-#include "collision/import/urdf/urdf_writer.h"
+#include "collision/import/urdf/urdf.h"
 
 #include <map>
 #include <sstream>

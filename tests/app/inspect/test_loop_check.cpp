@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "app/inspect/cross_checks.h"
-#include "solver/dynamics/mass_matrix.h"
+#include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/loops/loop_closure.h"
 #include "tests/solver/dynamics/random_tree.h"

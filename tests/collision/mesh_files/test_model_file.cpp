@@ -9,7 +9,6 @@
 #include <string>
 
 #include "collision/mesh_files/mesh_file.h"
-#include "collision/mesh_files/model_serialization.h"
 #include "collision/mesh_files/sandboxed_process.h"
 #include "collision/shapes/shape.h"
 #include "solver/support/diagnostics.h"

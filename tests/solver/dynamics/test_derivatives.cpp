@@ -1,6 +1,6 @@
 // Derivatives of forward dynamics by dual numbers against differences of forward dynamics.
 #include "solver/dynamics/derivatives.h"
-#include "solver/dynamics/mass_matrix.h"
+#include "solver/dynamics/dynamics.h"
 
 #include "tests/solver/dynamics/every_scalar.h"
 #include "tests/solver/dynamics/world_oracle.h"

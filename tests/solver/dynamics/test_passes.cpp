@@ -1,6 +1,6 @@
 // What the passes owe each other, for every joint, scalar and level of the instruction set: forward
 // and inverse dynamics, the mass matrix and its inverse come from four texts.
-#include "solver/dynamics/mass_matrix.h"
+#include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "tests/solver/dynamics/every_scalar.h"
 

@@ -1,6 +1,6 @@
 // What an observer in the world sees, against poses and their derivatives (world_oracle.h), the
 // laws of momentum and energy, and the dense mass matrix.
-#include "solver/dynamics/mass_matrix.h"
+#include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/world_kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 

@@ -6,7 +6,6 @@
 #include <random>
 
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/mass_matrix.h"
 #include "solver/impulses/impulse_solver.h"
 #include "solver/impulses/kinematic_trees.h"
 #include "solver/linear_algebra/envelope_lu.h"

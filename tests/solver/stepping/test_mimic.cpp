@@ -5,7 +5,6 @@
 
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/energy_momentum.h"
-#include "solver/dynamics/mass_matrix.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/loops/constrained_dynamics.h"

@@ -6,7 +6,6 @@
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/mass_matrix.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/model/mimic.h"
 #include "solver/stepping/simulation.h"

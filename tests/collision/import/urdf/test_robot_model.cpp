@@ -1,6 +1,5 @@
 // From the description to the solver's model.
 #include "collision/import/robot/robot_model.h"
-#include "solver/dynamics/mass_matrix.h"
 
 #include <cmath>
 #include <numbers>

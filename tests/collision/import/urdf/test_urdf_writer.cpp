@@ -1,5 +1,4 @@
 // Writing a robot and reading it again changes nothing, to the last bit.
-#include "collision/import/urdf/urdf_writer.h"
 
 #include <random>
 

@@ -10,7 +10,6 @@
 
 #include "collision/import/robot/robot_check.h"
 #include "collision/import/urdf/urdf.h"
-#include "collision/import/urdf/urdf_writer.h"
 #include "tests/collision/import/robot/helpers.h"
 
 namespace twinarm {
