@@ -200,8 +200,6 @@ class Painter::Impl {
 Painter::Painter(Backend backend, int width, int height, Quality quality)
     : impl_(std::make_unique<Impl>(backend, width, height, quality)) {}
 Painter::~Painter() = default;
-Painter::Painter(Painter&&) noexcept = default;
-Painter& Painter::operator=(Painter&&) noexcept = default;
 
 Image Painter::paint(const DrawList& list) {
   return impl_->paint(list, false);

@@ -23,9 +23,8 @@ namespace {
 
 constexpr int kCompressionLevel = 3;
 
-[[noreturn]] void fail(const std::string& file, const std::string& rule,
-                       const std::string& remedy) {
-  throw InputError({Fault{file, 0, "picture", rule, remedy}});
+[[noreturn]] void fail(const std::string& rule, const std::string& remedy) {
+  throw InputError({Fault{"", 0, "picture", rule, remedy}});
 }
 
 void check(const Image& image) {
@@ -34,8 +33,7 @@ void check(const Image& image) {
                                         static_cast<std::size_t>(image.height)
                                   : 0;
   if (!sized || image.rgba.size() != bytes) {
-    fail("",
-         "has " + std::to_string(image.rgba.size()) + " bytes for " + std::to_string(image.width) +
+    fail("has " + std::to_string(image.rgba.size()) + " bytes for " + std::to_string(image.width) +
              " x " + std::to_string(image.height) + " pixels",
          "give 4 bytes for each pixel and at least one pixel");
   }
@@ -141,7 +139,7 @@ std::string encode_png(const Image& image) {
   check(image);
   PngWriter writer;
   if (!encode(writer, image, is_opaque(image))) {
-    fail("", "libpng could not encode it", "use a smaller picture or free memory");
+    fail("libpng could not encode it", "use a smaller picture or free memory");
   }
   return std::move(writer.bytes);
 }

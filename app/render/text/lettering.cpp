@@ -201,8 +201,6 @@ class Lettering::Impl {
 
 Lettering::Lettering() : impl_(std::make_unique<Impl>()) {}
 Lettering::~Lettering() = default;
-Lettering::Lettering(Lettering&&) noexcept = default;
-Lettering& Lettering::operator=(Lettering&&) noexcept = default;
 
 double Lettering::width(const std::string& text, double size_px, Weight weight) {
   return impl_->width(text, size_px, weight);

@@ -19,8 +19,6 @@ class Lettering {
  public:
   Lettering();  // throws InputError where the fonts are missing
   ~Lettering();
-  Lettering(Lettering&&) noexcept;
-  Lettering& operator=(Lettering&&) noexcept;
 
   // `text` is UTF-8, one line; a malformed byte becomes the replacement character.
   double width(const std::string& text, double size_px, Weight weight = Weight::regular);
