@@ -22,19 +22,12 @@ std::vector<CurveSample> sample_energy(const SceneModel*, const Moment& moment) 
   return all;
 }
 
-std::vector<CurveSample> sample_pulls(const Moment& moment, ShownPull::Kind kind) {
+template <ShownPull::Kind kind>
+std::vector<CurveSample> sample_pulls(const SceneModel*, const Moment& moment) {
   std::vector<CurveSample> all;
   for (const ShownPull& pull : moment.pulls)
     if (pull.kind == kind) all.push_back({pull.name, pull.pull_W.norm()});
   return all;
-}
-
-std::vector<CurveSample> sample_forces(const SceneModel*, const Moment& moment) {
-  return sample_pulls(moment, ShownPull::Kind::force);
-}
-
-std::vector<CurveSample> sample_couples(const SceneModel*, const Moment& moment) {
-  return sample_pulls(moment, ShownPull::Kind::couple);
 }
 
 std::vector<CurveSample> sample_contacts(const SceneModel*, const Moment& moment) {
@@ -83,11 +76,13 @@ void take_off_lowest(Plot& plot) {
 }  // namespace
 
 const std::vector<CurveKind>& all_curves() {
-  static const std::vector<CurveKind> all{{"energy", "energy [J]", sample_energy},
-                                          {"forces", "spring-dampers [N]", sample_forces},
-                                          {"couples", "spring-dampers [N m]", sample_couples},
-                                          {"contacts", "contact forces [N]", sample_contacts},
-                                          {"lag", "angle to the twin [deg]", sample_lag}};
+  using Kind = ShownPull::Kind;
+  static const std::vector<CurveKind> all{
+      {"energy", "energy [J]", sample_energy},
+      {"forces", "spring-dampers [N]", sample_pulls<Kind::force>},
+      {"couples", "spring-dampers [N m]", sample_pulls<Kind::couple>},
+      {"contacts", "contact forces [N]", sample_contacts},
+      {"lag", "angle to the twin [deg]", sample_lag}};
   return all;
 }
 

@@ -41,7 +41,6 @@ inline const Color kFelt{0.00f, 0.45f, 0.70f, 1.0f};      // by the hand
 inline const Color kFeltMost{0.84f, 0.37f, 0.00f, 1.0f};  // at the device's limit
 inline const Color kFeltRest{0.50f, 0.55f, 0.60f, 0.35f};
 inline const Color kMouse{0.80f, 0.20f, 0.55f, 1.0f};
-inline const Color kInk{0.10f, 0.12f, 0.15f, 1.0f};
 
 // The axes x, y, z, as everywhere, but told apart by lightness too.
 inline const std::array<Color, 3> kAxes{Color{0.80f, 0.22f, 0.16f, 1.0f},

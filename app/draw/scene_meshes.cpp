@@ -27,33 +27,24 @@ Color color_of(const VisualPart& visual, ShapeLook& look, std::size_t body) {
   return {c(0), c(1), c(2), c(3)};
 }
 
-void set_bounds_of(CastPart& part, const DrawMesh& mesh) {
-  if (mesh.positions.empty()) return;
-  Vector3 low = Vector3::Constant(1e300), high = -low;
-  for (const auto& p : mesh.positions) {
-    const Vector3 q(p[0], p[1], p[2]);
-    low = low.cwiseMin(q);
-    high = high.cwiseMax(q);
-  }
-  part.low_M = low.cwiseProduct(part.scale);
-  part.high_M = high.cwiseProduct(part.scale);
-}
-
 class CastMaker {
  public:
   CastMaker(Cast& cast, DrawList& list) : cast_(cast), list_(list) {}
 
   void add(std::size_t body, int robot, const ShapeLook& look, const Pose& X_LG, Color color) {
     if (look.is_hollow) color.a = palette::kHollow;
-    CastPart part;
-    part.body = body;
-    part.robot = robot;
-    part.mesh = look.mesh;
-    part.X_LM = X_LG * look.X_GM;
-    part.scale = look.scale;
-    part.color = color;
-    part.texture = look.texture;
-    set_bounds_of(part, *list_.meshes[look.mesh]);
+    CastPart part{.body = body,
+                  .robot = robot,
+                  .mesh = look.mesh,
+                  .X_LM = X_LG * look.X_GM,
+                  .scale = look.scale,
+                  .color = color,
+                  .texture = look.texture};
+    const Eigen::AlignedBox3d box = bounding_box(*list_.meshes[look.mesh]);
+    if (!box.isEmpty()) {
+      part.low_M = box.min().cwiseProduct(look.scale);
+      part.high_M = box.max().cwiseProduct(look.scale);
+    }
     cast_.parts.push_back(part);
   }
 

@@ -70,12 +70,8 @@ TriangleMesh hull_of(const S& shape) {
 
 ShapeLook placed(const DrawList& list, MeshId mesh, const Vector3& scale = Vector3::Ones(),
                  const Pose& X_GM = {}) {
-  ShapeLook look;
-  look.can_be_textured = !list.meshes[mesh]->uv.empty();
-  look.mesh = mesh;
-  look.scale = scale;
-  look.X_GM = X_GM;
-  return look;
+  const bool has_uv = !list.meshes[mesh]->uv.empty();
+  return {.mesh = mesh, .X_GM = X_GM, .scale = scale, .can_be_textured = has_uv};
 }
 
 // A tube of no thickness, seen from outside.

@@ -14,12 +14,12 @@ namespace twinarm {
 
 struct ShapeLook {
   MeshId mesh = 0;
-  Pose X_GM;                         // the mesh's own frame M in that of the shape
-  Vector3 scale = Vector3::Ones();   // of the mesh, in M
-  bool is_hollow = false;            // one looks into it: to be drawn translucent
-  std::optional<Color> color;        // where a file of meshes states one
-  std::optional<TextureId> texture;  // likewise
-  bool can_be_textured = false;      // the mesh knows where each of its corners lies in a picture
+  Pose X_GM;                              // the mesh's own frame M in that of the shape
+  Vector3 scale = Vector3::Ones();        // of the mesh, in M
+  bool is_hollow = false;                 // one looks into it: to be drawn translucent
+  std::optional<Color> color = {};        // where a file of meshes states one
+  std::optional<TextureId> texture = {};  // likewise
+  bool can_be_textured = false;  // the mesh knows where each of its corners lies in a picture
 };
 
 // Nothing for a half-space, which has no extent of its own. A mesh of a scene is drawn as contacts

@@ -42,30 +42,25 @@ std::vector<std::size_t> leaders(const SceneModel& scene) {
   return found;
 }
 
-// The axis of a joint of one degree of freedom is z of its body.
-Vector3 joint_axis(const Kinematics& k, std::size_t body) {
-  return k.R_WB[body].col(2);
-}
-
 ShownPull pull_of(const SceneModel& scene, SceneCouplings& couplings, std::size_t c,
                   const Moment& moment, const Vector3& pull) {
   const SceneCoupling& spec = scene.couplings[c];
+  const CouplingEnds ends = couplings.ends(c, moment.x, moment.k);
   ShownPull shown;
   shown.name = spec.name;
+  shown.kind = kind_of_pull(scene, c);
+  shown.has_ends = spec.type == CouplingDescription::Type::linear;
   shown.body = static_cast<std::size_t>(spec.spring.body);
-  const CouplingEnds ends = couplings.ends(c, moment.x, moment.k);
+  shown.pull_W = pull;
   shown.energy = 0.5 * spec.spring.k * ends.offset.squaredNorm();
-  if (spec.type == CouplingDescription::Type::linear) {
-    shown.has_ends = true;
+  if (shown.has_ends) {
     shown.p_D = moment.k.position(spec.spring.body, spec.spring.p_L);
     shown.p_K = shown.p_D + ends.offset;
-    shown.pull_W = pull;
     return shown;
   }
   shown.p_D = shown.p_K = moment.k.X_WL[shown.body].p;
-  shown.kind = kind_of_pull(scene, c);
-  shown.pull_W = pull;
-  if (spec.measure == Measure::joint) shown.pull_W = pull.x() * joint_axis(moment.k, shown.body);
+  // The axis of a joint of one degree of freedom is z of its body.
+  if (spec.measure == Measure::joint) shown.pull_W = pull.x() * moment.k.R_WB[shown.body].col(2);
   return shown;
 }
 
@@ -129,6 +124,49 @@ Moment moment_of(const SceneModel& scene, SceneCouplings& couplings, const State
     moment.hands.push_back({hand.theta, hand.button});
   }
   return moment;
+}
+
+Vector3 com_of(const Model<double>& model, const Kinematics& k, std::size_t body) {
+  const Inertia<double>& I = model.I[body];
+  if (!(I.m > 0)) return k.X_WL[body].p;
+  return k.X_WL[body].p + k.R_WB[body] * to_eigen(I.h) / I.m;
+}
+
+// About the centre of mass c from that about the origin: I_c = I_o - m (c.c 1 - c c^T), c = h / m.
+Matrix3 inertia_of(const Model<double>& model, const Kinematics& k, std::size_t body) {
+  const Inertia<double>& I = model.I[body];
+  Matrix3 I_B;
+  for (int column = 0; column < 3; ++column) {
+    const Vector3 unit = Vector3::Unit(column);
+    I_B.col(column) = to_eigen(I.I * from_eigen(unit));
+  }
+  if (I.m > 0) {
+    const Vector3 h = to_eigen(I.h);
+    I_B -= (h.squaredNorm() * Matrix3::Identity() - h * h.transpose()) / I.m;
+  }
+  return k.R_WB[body] * I_B * k.R_WB[body].transpose();
+}
+
+TotalMotion total_motion(const Model<double>& model, const Kinematics& k) {
+  TotalMotion total;
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    const double m = model.I[i].m;
+    if (!(m > 0)) continue;
+    const Vector3 c = com_of(model, k, i);
+    total.mass += m;
+    total.com_W += m * c;
+    total.linear += m * k.velocity(static_cast<int>(i), c);
+  }
+  if (!(total.mass > 0)) return total;
+  total.com_W /= total.mass;
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    const double m = model.I[i].m;
+    if (!(m > 0)) continue;
+    const Vector3 c = com_of(model, k, i);
+    const Vector3 p = m * k.velocity(static_cast<int>(i), c);
+    total.angular += inertia_of(model, k, i) * k.w_WL[i] + (c - total.com_W).cross(p);
+  }
+  return total;
 }
 
 }  // namespace twinarm

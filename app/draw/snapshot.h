@@ -94,4 +94,19 @@ Moment moment_of(const Model<double>& model, const State<double>& x);
 Moment moment_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
                  const std::vector<Vector3>& pulls);
 
+// From the model in body axes B to the world: centre of mass of a body; of one without mass its
+// origin.
+Vector3 com_of(const Model<double>& model, const Kinematics& k, std::size_t body);
+
+// Of all bodies that have mass and move by forces, or stand.
+struct TotalMotion {
+  double mass = 0;
+  Vector3 com_W = Vector3::Zero();
+  Vector3 linear = Vector3::Zero();   // [kg m/s]
+  Vector3 angular = Vector3::Zero();  // about the common centre of mass [kg m^2/s]
+};
+TotalMotion total_motion(const Model<double>& model, const Kinematics& k);
+// Rotational inertia about its centre of mass, world axes [kg m^2].
+Matrix3 inertia_of(const Model<double>& model, const Kinematics& k, std::size_t body);
+
 }  // namespace twinarm

@@ -173,16 +173,9 @@ std::unique_ptr<Film> ffmpeg_film(const std::filesystem::path& file, const FilmF
 
 std::filesystem::path find_ffmpeg(const char* option) {
   const char* path = std::getenv("PATH");
-  std::string folder;
-  for (const char* c = path ? path : "";; ++c) {
-    if (*c != ':' && *c != '\0') {
-      folder += *c;
-      continue;
-    }
+  for (const std::string& folder : split(path ? path : "", ':')) {
     const std::filesystem::path candidate = std::filesystem::path(folder) / "ffmpeg";
     if (!folder.empty() && access(candidate.c_str(), X_OK) == 0) return candidate;
-    folder.clear();
-    if (*c == '\0') break;
   }
   throw InputError(
       {{"", 0, option, "needs the program ffmpeg, which is not on the PATH",

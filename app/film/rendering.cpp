@@ -15,13 +15,6 @@ namespace {
 constexpr int kGap = 4;              // between two views [px]
 constexpr double kPlotShare = 0.24;  // of the picture's height
 
-Image blank_image(int width, int height) {
-  Image image{width, height, {}};
-  image.rgba.assign(
-      std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 255);
-  return image;
-}
-
 void copy_into(Image& image, const Image& part, int left, int top) {
   for (int y = 0; y < part.height; ++y)
     std::copy_n(part.pixel(0, y), 4 * part.width, image.pixel(left, top + y));
@@ -137,7 +130,7 @@ Rendering::Rendering(const PictureWish& wish, const std::vector<const FilmedRun*
 Rendering::~Rendering() = default;
 
 Image Rendering::paint(std::size_t picture) {
-  Image image = blank_image(wish_.width, wish_.height);
+  Image image = make_image(wish_.width, wish_.height, 255);
   const std::vector<LegendLine>* before = nullptr;
   for (const auto& view : views_) {
     view->paint(picture, wish_.overlays, before, image);

@@ -30,7 +30,7 @@ OUTSIDE = {
 }
 # Headers that show an outside library. Each is of use inside its own folder only.
 INNER_HEADERS = {"app/lab/server/connection.h", "collision/import/recipe/recipe_toml.h",
-                 "app/render/gl/gl_table.h", "app/render/gl/gl_objects.h"}
+                 "app/render/gl/gl_objects.h"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 

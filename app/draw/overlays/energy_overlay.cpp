@@ -21,14 +21,12 @@ void draw_bar(DrawList& list, const Bar& bar, double top_px, double largest) {
   const Eigen::Vector2d low(-kRight - kWidth, top_px + 9);
   list.bars.push_back({low, {kWidth, kHeight}, {0.97f, 0.98f, 0.99f, 0.62f}});
   list.bars.push_back({low, {share * kWidth, kHeight}, bar.color});
-  Label label;
   // What rounding has left is nothing.
   const double told = std::abs(bar.value) > 1e-9 * largest ? bar.value : 0;
-  label.text = std::string(bar.name) + ": " + with_unit(told, "J");
-  label.anchor = Label::Anchor::screen;
-  label.offset_px = {-kRight - kWidth, top_px};
-  label.size_px = 14;
-  list.labels.push_back(label);
+  list.labels.push_back({.text = std::string(bar.name) + ": " + with_unit(told, "J"),
+                         .anchor = Label::Anchor::screen,
+                         .offset_px = {-kRight - kWidth, top_px},
+                         .size_px = 14});
 }
 
 void show_energy(Stage& stage, const Moment& moment) {
@@ -41,8 +39,7 @@ void show_energy(Stage& stage, const Moment& moment) {
   bars[3].value = bars[0].value + bars[1].value + bars[2].value;
   double top = 60;
   for (const Bar& bar : bars) {
-    const bool is_empty = bar.name == std::string("in springs") && moment.pulls.empty();
-    if (is_empty) continue;
+    if (bar.name == std::string("in springs") && moment.pulls.empty()) continue;
     draw_bar(stage.list, bar, top, 1.02 * largest);
     top += 44;
   }

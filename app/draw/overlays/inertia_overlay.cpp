@@ -34,19 +34,11 @@ Principal principal(const Matrix3& A) {
 }
 
 // A body without extent along an axis is still to be seen.
-Vector3 at_least(const Vector3& semi_axes, double least) {
-  return semi_axes.cwiseMax(least);
-}
-
 void draw_ellipsoid(Stage& stage, std::size_t body, const Vector3& center, const Principal& shape,
                     const Vector3& semi_axes, const Color& color) {
   const OfBody mark(stage.list, body);
   add_mesh_instance(stage.list, stage.list.unit_mesh(UnitShape::sphere), {shape.axes, center},
-                    color, at_least(semi_axes, 0.004 * stage.scales.length));
-}
-
-bool is_free_body(const Model<double>& model, std::size_t i) {
-  return model.joint[i] == JointType::free;
+                    color, semi_axes.cwiseMax(0.004 * stage.scales.length));
 }
 
 void show_inertia(Stage& stage, const Moment& moment) {
@@ -79,7 +71,7 @@ void show_articulated(Stage& stage, const Moment& moment) {
   const double scale = largest > 0 ? round_down(0.3 * stage.scales.length / largest) : 0;
   if (!(scale > 0)) return;
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
-    if (is_free_body(model, i) || !all[i].values.allFinite()) continue;
+    if (model.joint[i] == JointType::free || !all[i].values.allFinite()) continue;
     if (!(all[i].values.maxCoeff() > 0)) continue;
     draw_ellipsoid(stage, i, moment.k.X_WL[i].p, all[i], scale * all[i].values,
                    palette::kArticulated);

@@ -98,20 +98,16 @@ void main() {
 
 }  // namespace
 
-std::string floor_vertex_shader(const ShaderVariant& variant) {
-  return shader_header(variant) + kPlaceVertex + kFloorVertex;
+ShaderSource floor_shader(const ShaderVariant& variant) {
+  const std::string header = shader_header(variant);
+  return {
+      header + kPlaceVertex + kFloorVertex,
+      header + kFinishColor + kArrivingLight + (variant.horizon ? kHaze : kRoom) + kFloorFragment};
 }
-std::string floor_fragment_shader(const ShaderVariant& variant) {
-  return shader_header(variant) + kFinishColor + kArrivingLight +
-         (variant.horizon ? kHaze : kRoom) + kFloorFragment;
-}
-std::string background_vertex_shader() {
-  return kBackgroundVertex;
-}
-std::string background_fragment_shader(const ShaderVariant& variant) {
-  if (variant.horizon) return shader_header(variant) + kFinishColor + kSkyFragment;
-  return shader_header(variant) + kFinishColor + kRoom +
-         "void main() { color_out = finished(room()); }\n";
+ShaderSource background_shader(const ShaderVariant& variant) {
+  const std::string start = shader_header(variant) + kFinishColor;
+  if (variant.horizon) return {kBackgroundVertex, start + kSkyFragment};
+  return {kBackgroundVertex, start + kRoom + "void main() { color_out = finished(room()); }\n"};
 }
 
 }  // namespace twinarm

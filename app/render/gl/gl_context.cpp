@@ -85,7 +85,6 @@ class OsMesaContext final : public OffscreenContext {
   }
   void release() override { make_current_(nullptr, nullptr, 0, 0, 0); }
   void* proc(const char* name) override { return reinterpret_cast<void*>(proc_(name)); }
-  const char* name() const override { return "osmesa"; }
 
  private:
   static constexpr int kSide = 4;  // OSMesa wants memory for a picture, though none is drawn there
@@ -123,7 +122,6 @@ class EglContext final : public OffscreenContext {
     make_current_(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
   void* proc(const char* name) override { return reinterpret_cast<void*>(proc_(name)); }
-  const char* name() const override { return "egl"; }
 
  private:
   void open_display() {

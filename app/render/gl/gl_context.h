@@ -18,7 +18,6 @@ class OffscreenContext {
   virtual void release() = 0;       // from the calling thread; another may take it then
   // Address of a gl* function. Not a feature test: OSMesa gives one for names that do not exist.
   virtual void* proc(const char* name) = 0;
-  virtual const char* name() const = 0;
 
  protected:
   OffscreenContext() = default;

@@ -54,10 +54,9 @@ void check_framebuffer(const GlTable& gl, const std::string& what) {
 
 }  // namespace
 
-Program::Program(const GlTable& gl, const std::string& vertex, const std::string& fragment)
-    : gl_(gl), id_(gl.CreateProgram()) {
-  const GLuint shaders[] = {compile(gl, GL_VERTEX_SHADER, vertex),
-                            compile(gl, GL_FRAGMENT_SHADER, fragment)};
+Program::Program(const GlTable& gl, const ShaderSource& source) : gl_(gl), id_(gl.CreateProgram()) {
+  const GLuint shaders[] = {compile(gl, GL_VERTEX_SHADER, source.vertex),
+                            compile(gl, GL_FRAGMENT_SHADER, source.fragment)};
   for (const GLuint shader : shaders) gl.AttachShader(id_, shader);
   gl.LinkProgram(id_);
   for (const GLuint shader : shaders) gl.DeleteShader(shader);  // once the program goes

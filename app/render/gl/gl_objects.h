@@ -1,19 +1,63 @@
-// What the painter keeps inside OpenGL: programs, meshes, and the surfaces that it draws on.
+// What the painter keeps inside OpenGL, and how it calls it: programs, meshes, and the surfaces
+// that it draws on.
 //
 // All of them need their context current, and vanish with it; only meshes are freed one by one,
 // because scenes come and go while a painter stays.
 #pragma once
 
+#define GL_GLEXT_PROTOTYPES
+#include <GL/gl.h>
+#include <GL/glext.h>
+
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 
-#include "app/render/gl/gl_table.h"
+#include "app/render/gl/shaders.h"
 #include "app/render/list/draw_mesh.h"
 #include "app/render/list/image.h"
 
 namespace twinarm {
+
+// GlTable: the OpenGL 3.3 functions that the painter calls, by name from an OffscreenContext.
+//
+// One list makes the members and loads them. The types are taken from the system's headers by
+// decltype, which is not evaluated: no gl* symbol is linked. To use a further function, add its
+// name (without "gl") to the list.
+// clang-format off
+#define TWINARM_GL_FUNCTIONS(X)                                                                   \
+  X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindRenderbuffer)           \
+  X(BindTexture) X(BindVertexArray) X(BlendFuncSeparate) X(BlitFramebuffer) X(BufferData)                 \
+  X(CheckFramebufferStatus) X(Clear) X(ColorMask) X(CompileShader) X(CreateProgram) \
+  X(CreateShader) X(DeleteBuffers) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays)              \
+  X(DepthFunc) X(DepthMask) X(Disable) X(DrawArrays) X(DrawBuffer) X(DrawElements) X(Enable)      \
+  X(EnableVertexAttribArray) X(FramebufferRenderbuffer) X(FramebufferTexture2D) X(GenBuffers) X(GenerateMipmap)     \
+  X(GenFramebuffers) X(GenRenderbuffers) X(GenTextures) X(GenVertexArrays) X(GetError)            \
+  X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv)          \
+  X(GetUniformLocation) X(LinkProgram) X(PixelStorei) X(PolygonOffset) X(ReadBuffer)              \
+  X(ReadPixels) X(RenderbufferStorageMultisample) X(Scissor) X(ShaderSource)          \
+  X(TexImage2D) X(TexParameteri) X(Uniform1f) X(Uniform1i) X(Uniform2f)         \
+  X(Uniform3f) X(Uniform4f) X(UniformMatrix3fv) X(UniformMatrix4fv) X(UseProgram)                 \
+  X(VertexAttribPointer) X(Viewport)
+// clang-format on
+
+struct GlTable {
+#define TWINARM_GL_MEMBER(name) decltype(&gl##name) name = nullptr;
+  TWINARM_GL_FUNCTIONS(TWINARM_GL_MEMBER)
+#undef TWINARM_GL_MEMBER
+
+  // `proc` gives the address of a function by its full name; the context must be current.
+  template <class Proc>
+  void load(Proc&& proc) {
+#define TWINARM_GL_LOAD(name)                                     \
+  name = reinterpret_cast<decltype(&gl##name)>(proc("gl" #name)); \
+  if (name == nullptr) throw std::runtime_error("OpenGL has no gl" #name);
+    TWINARM_GL_FUNCTIONS(TWINARM_GL_LOAD)
+#undef TWINARM_GL_LOAD
+  }
+};
 
 // Every uniform of every shader, by its name there.
 // clang-format off
@@ -34,7 +78,7 @@ enum class Uniform : std::size_t {
 // variant does not have does nothing, as OpenGL defines for location -1.
 class Program {
  public:
-  Program(const GlTable& gl, const std::string& vertex, const std::string& fragment);
+  Program(const GlTable& gl, const ShaderSource& source);
   void use() const { gl_.UseProgram(id_); }
   void set(Uniform u, int x) const { gl_.Uniform1i(at(u), x); }
   void set(Uniform u, float x) const { gl_.Uniform1f(at(u), x); }

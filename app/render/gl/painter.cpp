@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/render/gl/gl_table.h"
 #include "app/render/gl/scene_pass.h"
 #include "app/render/text/lettering.h"
 #include "app/render/text/overlay.h"
@@ -157,9 +156,7 @@ class Painter::Impl {
 
   Image paint(const DrawList& list, bool is_next) {
     check_camera(list.camera);
-    Image image{width_, height_, {}};
-    image.rgba.resize(std::size_t{4} * static_cast<std::size_t>(width_) *
-                      static_cast<std::size_t>(height_));
+    Image image = make_image(width_, height_);
     {
       const CurrentContext current(*context_);
       pass_->prepare(list);
@@ -203,8 +200,6 @@ class Painter::Impl {
 Painter::Painter(Backend backend, int width, int height, Quality quality)
     : impl_(std::make_unique<Impl>(backend, width, height, quality)) {}
 Painter::~Painter() = default;
-Painter::Painter(Painter&&) noexcept = default;
-Painter& Painter::operator=(Painter&&) noexcept = default;
 
 Image Painter::paint(const DrawList& list) {
   return impl_->paint(list, false);

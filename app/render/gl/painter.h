@@ -28,8 +28,6 @@ class Painter {
  public:
   Painter(Backend backend, int width, int height, Quality quality = Quality::normal);
   ~Painter();
-  Painter(Painter&&) noexcept;
-  Painter& operator=(Painter&&) noexcept;
 
   Image paint(const DrawList& list);
   // The same, as the next picture of a film: labels move on from where they stood.

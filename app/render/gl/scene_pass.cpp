@@ -42,11 +42,10 @@ ScenePass::ScenePass(const GlTable& gl, int width, int height, const ShaderVaria
       canvas_(gl, width, height, multisampled),
       key_map_(gl, kKeyMapSide, !variant.soft_shadow),
       variant_(variant),
-      solid_(gl, solid_vertex_shader(variant), solid_fragment_shader(variant)),
-      textured_(gl, solid_vertex_shader(with(&ShaderVariant::textured, true, variant)),
-                solid_fragment_shader(with(&ShaderVariant::textured, true, variant))),
-      ghost_(gl, solid_vertex_shader(variant), ghost_fragment_shader()),
-      depth_(gl, depth_vertex_shader(), depth_fragment_shader()) {
+      solid_(gl, solid_shader(variant)),
+      textured_(gl, solid_shader(with(&ShaderVariant::textured, true, variant))),
+      ghost_(gl, ghost_shader(variant)),
+      depth_(gl, depth_shader()) {
   if (variant.sky_sample) sky_map_.emplace(gl, kSkyMapSide, true);
   gl.GenVertexArrays(1, &no_vertices_);
 }
@@ -60,11 +59,9 @@ void ScenePass::prepare(const DrawList& list) {
   std::optional<Backdrop>& backdrop = backdrops_[has_horizon() ? 1 : 0];
   if (!backdrop) {
     const ShaderVariant variant = with(&ShaderVariant::horizon, has_horizon(), variant_);
-    const std::string vertex = floor_vertex_shader(variant);
-    backdrop.emplace(Backdrop{
-        {gl_, vertex, floor_fragment_shader(variant)},
-        {gl_, vertex, floor_fragment_shader(with(&ShaderVariant::key_shadow, false, variant))},
-        {gl_, background_vertex_shader(), background_fragment_shader(variant)}});
+    backdrop.emplace(Backdrop{{gl_, floor_shader(variant)},
+                              {gl_, floor_shader(with(&ShaderVariant::key_shadow, false, variant))},
+                              {gl_, background_shader(variant)}});
   }
   forget_unused();
   items_.clear();
@@ -76,13 +73,15 @@ void ScenePass::add_item(const DrawList& list, const Instance& instance) {
   const Vector3& scale = instance.scale;
   Item item;
   const std::shared_ptr<const DrawMesh>& mesh = list.meshes[instance.mesh];
-  const CachedMesh& cached = upload(mesh);
+  const CachedMesh& cached = cache_.try_emplace(mesh.get(), gl_, mesh).first->second;
   item.mesh = &cached.gpu;
   item.two_sided = mesh->two_sided;
   item.ghost = instance.color.a < 1;
-  item.texture = instance.texture && !mesh->uv.empty() && !item.ghost
-                     ? &upload(list.textures[*instance.texture])
-                     : nullptr;
+  item.texture = nullptr;
+  if (instance.texture && !mesh->uv.empty() && !item.ghost) {
+    const std::shared_ptr<const Image>& image = list.textures[*instance.texture];
+    item.texture = &textures_.try_emplace(image.get(), gl_, image).first->second.gpu;
+  }
   item.world_from_mesh.setIdentity();
   item.world_from_mesh.topLeftCorner<3, 3>() = (instance.X_WM.R * scale.asDiagonal()).cast<float>();
   item.world_from_mesh.topRightCorner<3, 1>() = instance.X_WM.p.cast<float>();
@@ -100,18 +99,6 @@ void ScenePass::add_item(const DrawList& list, const Instance& instance) {
            0.5 * scale.cwiseProduct(cached.box.sizes())});
     }
   }
-}
-
-const ScenePass::CachedMesh& ScenePass::upload(const std::shared_ptr<const DrawMesh>& mesh) {
-  const auto found = cache_.find(mesh.get());
-  if (found != cache_.end()) return found->second;
-  return cache_.try_emplace(mesh.get(), gl_, mesh).first->second;
-}
-
-const GpuTexture& ScenePass::upload(const std::shared_ptr<const Image>& image) {
-  const auto found = textures_.find(image.get());
-  if (found != textures_.end()) return found->second.gpu;
-  return textures_.try_emplace(image.get(), gl_, image).first->second.gpu;
 }
 
 void ScenePass::forget_unused() {

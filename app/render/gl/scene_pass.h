@@ -90,8 +90,6 @@ class ScenePass {
   const Backdrop& backdrop() const { return *backdrops_[has_horizon() ? 1 : 0]; }
   bool has_horizon() const { return list_->background.kind == Background::Kind::landscape; }
   Eigen::Matrix4d shifted_clip(const LightSample& sample) const;
-  const CachedMesh& upload(const std::shared_ptr<const DrawMesh>& mesh);
-  const GpuTexture& upload(const std::shared_ptr<const Image>& image);
   void forget_unused();
 
   const GlTable& gl_;

@@ -178,20 +178,17 @@ void main() { gl_Position = clip_from_world * (world_from_mesh * vec4(position, 
 
 }  // namespace
 
-std::string solid_vertex_shader(const ShaderVariant& variant) {
-  return shader_header(variant) + kPlaceVertex + kSolidVertex;
+ShaderSource solid_shader(const ShaderVariant& variant) {
+  const std::string header = shader_header(variant);
+  return {header + kPlaceVertex + kSolidVertex,
+          header + kFinishColor + kArrivingLight + kSolidFragment};
 }
-std::string solid_fragment_shader(const ShaderVariant& variant) {
-  return shader_header(variant) + kFinishColor + kArrivingLight + kSolidFragment;
+ShaderSource ghost_shader(const ShaderVariant& variant) {
+  return {shader_header(variant) + kPlaceVertex + kSolidVertex,
+          shader_header({}) + kFinishColor + kGhostFragment};
 }
-std::string ghost_fragment_shader() {
-  return shader_header({}) + kFinishColor + kGhostFragment;
-}
-std::string depth_vertex_shader() {
-  return kDepthVertex;
-}
-std::string depth_fragment_shader() {
-  return "#version 330 core\nvoid main() {}\n";
+ShaderSource depth_shader() {
+  return {kDepthVertex, "#version 330 core\nvoid main() {}\n"};
 }
 
 }  // namespace twinarm

@@ -17,17 +17,16 @@ struct ShaderVariant {
   bool horizon = false;    // of floor and background: there is a sky that ends, and not one room
 };
 
-std::string solid_vertex_shader(const ShaderVariant& variant);
-std::string solid_fragment_shader(const ShaderVariant& variant);
-std::string ghost_fragment_shader();  // with the solid vertex shader
-std::string depth_vertex_shader();    // bodies into a shadow map
-std::string depth_fragment_shader();
+struct ShaderSource {
+  std::string vertex, fragment;
+};
+ShaderSource solid_shader(const ShaderVariant& variant);
+ShaderSource ghost_shader(const ShaderVariant& variant);
+ShaderSource depth_shader();  // bodies into a shadow map
 
 // backdrop_shaders.cpp
-std::string floor_vertex_shader(const ShaderVariant& variant);
-std::string floor_fragment_shader(const ShaderVariant& variant);
-std::string background_vertex_shader();
-std::string background_fragment_shader(const ShaderVariant& variant);
+ShaderSource floor_shader(const ShaderVariant& variant);
+ShaderSource background_shader(const ShaderVariant& variant);
 
 // What they share: version and variant; placing a vertex with its shadow coordinates; sRGB and
 // dither; how much of key light and sky arrives.

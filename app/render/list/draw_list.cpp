@@ -30,12 +30,10 @@ Background studio_background() {
 }
 
 Background sky_background() {
-  Background sky;
-  sky.kind = Background::Kind::landscape;
-  sky.bottom = {0.86f, 0.89f, 0.92f, 1.0f};
-  sky.top = {0.33f, 0.50f, 0.75f, 1.0f};
-  sky.ground = {0.70f, 0.70f, 0.68f, 1.0f};
-  return sky;
+  return {.kind = Background::Kind::landscape,
+          .bottom = {0.86f, 0.89f, 0.92f, 1.0f},
+          .top = {0.33f, 0.50f, 0.75f, 1.0f},
+          .ground = {0.70f, 0.70f, 0.68f, 1.0f}};
 }
 
 Background white_background() {
@@ -122,12 +120,7 @@ void add_arrow(DrawList& list, const Vector3& from_W, const Vector3& to_W, doubl
 
 void add_label(DrawList& list, const Vector3& p_W, const std::string& text,
                const Eigen::Vector2d& offset_px, double size_px) {
-  Label label;
-  label.text = text;
-  label.p_W = p_W;
-  label.offset_px = offset_px;
-  label.size_px = size_px;
-  list.labels.push_back(std::move(label));
+  list.labels.push_back({.text = text, .p_W = p_W, .offset_px = offset_px, .size_px = size_px});
 }
 
 }  // namespace twinarm

@@ -42,8 +42,6 @@ struct Instance {
   int body = -1;  // that it is, or speaks of, for who points at it; -1: of none. Not painted
 };
 
-enum class Align { left, center, right };
-
 // A line of text (UTF-8), never hidden by bodies.
 struct Label {
   enum class Anchor { world, screen };
@@ -55,7 +53,6 @@ struct Label {
   Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();
   double size_px = 15;
   Color color{0.10f, 0.12f, 0.15f, 1.0f};
-  Align align = Align::left;
 };
 
 // One entry of the legend, at the bottom left of the picture.
@@ -81,13 +78,13 @@ struct Camera {
   double field_of_view = 0.55;  // vertical [rad]
 };
 
-// The floor z = height with a metric grid that fades with the distance.
+// The floor z = height with a metric grid that fades with the distance; the picture says what its
+// lines measure.
 struct Ground {
   bool visible = true;
   double height = 0;        // [m]
   double cell = 0.1;        // between thin lines [m]
   int cells_per_major = 5;  // a stronger line every so many
-  bool show_scale = true;   // says in the picture what the lines measure
 };
 
 // A room without corners, whose colour runs from the bottom to the top of the picture and whose

@@ -112,12 +112,9 @@ std::array<float, 3> to_float(const Vector3& v) {
 
 void set_bounds(DrawMesh& mesh, const std::vector<Vector3>& vertices) {
   if (vertices.empty()) return;
-  Vector3 low = vertices.front(), high = vertices.front();
-  for (const Vector3& p : vertices) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  mesh.bound_center = 0.5 * (low + high);
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : vertices) box.extend(p);
+  mesh.bound_center = box.center();
   for (const Vector3& p : vertices) {
     mesh.bound_radius = std::max(mesh.bound_radius, (p - mesh.bound_center).norm());
   }

@@ -1,13 +1,17 @@
-// PNG encoding. Compression level 3, quick: at 1280x720 level 6 takes four times as long as
-// level 1.
+// PNG is written by libpng's full interface and read by its simplified one, JPEG read by
+// libjpeg-turbo: whole files in memory. Compression level 3, quick: at 1280x720 level 6 takes four
+// times as long as level 1.
 #include "app/render/list/image.h"
 
 #include <png.h>
+#include <turbojpeg.h>
 #include <unistd.h>
 
 #include <csetjmp>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -19,9 +23,8 @@ namespace {
 
 constexpr int kCompressionLevel = 3;
 
-[[noreturn]] void fail(const std::string& file, const std::string& rule,
-                       const std::string& remedy) {
-  throw InputError({Fault{file, 0, "picture", rule, remedy}});
+[[noreturn]] void fail(const std::string& rule, const std::string& remedy) {
+  throw InputError({Fault{"", 0, "picture", rule, remedy}});
 }
 
 void check(const Image& image) {
@@ -30,8 +33,7 @@ void check(const Image& image) {
                                         static_cast<std::size_t>(image.height)
                                   : 0;
   if (!sized || image.rgba.size() != bytes) {
-    fail("",
-         "has " + std::to_string(image.rgba.size()) + " bytes for " + std::to_string(image.width) +
+    fail("has " + std::to_string(image.rgba.size()) + " bytes for " + std::to_string(image.width) +
              " x " + std::to_string(image.height) + " pixels",
          "give 4 bytes for each pixel and at least one pixel");
   }
@@ -84,19 +86,84 @@ bool encode(PngWriter& writer, const Image& image, bool opaque) {
   return true;
 }
 
+constexpr int kMostPixels = 1 << 26;   // 8192 x 8192
+constexpr int kLongestSide = 1 << 14;  // of a texture, in Mesa
+
+[[noreturn]] void refuse(const std::string& name, const std::string& rule) {
+  throw InputError({Fault{name, 0, "picture", rule, "save it again as PNG or JPEG"}});
+}
+
+Image sized(const std::string& name, std::int64_t width, std::int64_t height) {
+  if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide ||
+      width * height > kMostPixels)
+    refuse(name, "has " + std::to_string(width) + " x " + std::to_string(height) +
+                     " pixels, must have 1 to 67 million, at most 16384 along a side");
+  return make_image(static_cast<int>(width), static_cast<int>(height));
+}
+
+Image decode_png(const std::string& name, std::string_view bytes) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  const std::unique_ptr<png_image, void (*)(png_image*)> freed(&png, png_image_free);
+  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
+    refuse(name, std::string("is no PNG: ") + png.message);
+  png.format = PNG_FORMAT_RGBA;
+  Image image = sized(name, png.width, png.height);
+  if (!png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr))
+    refuse(name, std::string("is broken: ") + png.message);
+  return image;
+}
+
+Image decode_jpeg(const std::string& name, std::string_view bytes) {
+  const std::unique_ptr<void, int (*)(tjhandle)> jpeg(tjInitDecompress(), tjDestroy);
+  const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
+  int width = 0, height = 0, subsampling = 0, colors = 0;
+  if (!jpeg || tjDecompressHeader3(jpeg.get(), data, bytes.size(), &width, &height, &subsampling,
+                                   &colors) != 0)
+    refuse(name, "is no JPEG");
+  Image image = sized(name, width, height);
+  if (tjDecompress2(jpeg.get(), data, bytes.size(), image.rgba.data(), width, 0, height, TJPF_RGBA,
+                    TJFLAG_STOPONWARNING) != 0)
+    refuse(name, std::string("is broken: ") + tjGetErrorStr2(jpeg.get()));
+  return image;
+}
+
 }  // namespace
+
+Image make_image(int width, int height, std::uint8_t byte) {
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  return {width, height, std::vector<std::uint8_t>(4 * pixels, byte)};
+}
 
 std::string encode_png(const Image& image) {
   check(image);
   PngWriter writer;
   if (!encode(writer, image, is_opaque(image))) {
-    fail("", "libpng could not encode it", "use a smaller picture or free memory");
+    fail("libpng could not encode it", "use a smaller picture or free memory");
   }
   return std::move(writer.bytes);
 }
 
 void write_png(const std::string& path, const Image& image) {
   write_whole_file(path, encode_png(image));
+}
+
+Image decode_image(const std::string& name, std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG")) return decode_png(name, bytes);
+  if (bytes.starts_with("\xff\xd8")) return decode_jpeg(name, bytes);
+  refuse(name, "is neither a PNG nor a JPEG");
+}
+
+Image read_image(const std::filesystem::path& file) {
+  std::error_code error;
+  constexpr std::uintmax_t kMostPictureBytes = 64u << 20;
+  if (std::filesystem::file_size(file, error) > kMostPictureBytes && !error)
+    refuse(file.string(), "has more than 64 MiB");
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  if (!in) refuse(file.string(), "cannot be read");
+  return decode_image(file.string(), std::move(bytes).str());
 }
 
 }  // namespace twinarm

@@ -27,6 +27,9 @@ struct Image {
   }
 };
 
+// All bytes alike: 0 is clear black, 255 opaque white.
+Image make_image(int width, int height, std::uint8_t byte = 0);
+
 // The bytes of a PNG file, without alpha where the whole picture is opaque. Throws InputError on an
 // empty or inconsistent image.
 std::string encode_png(const Image& image);

@@ -18,19 +18,15 @@ double viewing_distance(const Camera& camera) {
   return distance > 0 && std::isfinite(distance) ? distance : 1.0;
 }
 
-// Grows a box by balls; its circumscribed ball is good enough for shadows.
-class BoundingBox {
- public:
-  void add(const Ball& ball) {
-    box_.extend(ball.center - Vector3::Constant(ball.radius));
-    box_.extend(ball.center + Vector3::Constant(ball.radius));
-  }
-  bool empty() const { return box_.isEmpty(); }
-  Ball ball() const { return {box_.center(), std::max(1e-6, 0.5 * box_.diagonal().norm())}; }
+void extend(Eigen::AlignedBox3d& box, const Ball& ball) {
+  box.extend(ball.center - Vector3::Constant(ball.radius));
+  box.extend(ball.center + Vector3::Constant(ball.radius));
+}
 
- private:
-  Eigen::AlignedBox3d box_;
-};
+// Good enough for shadows.
+Ball circumscribed(const Eigen::AlignedBox3d& box) {
+  return {box.center(), std::max(1e-6, 0.5 * box.diagonal().norm())};
+}
 
 Ball bound(const DrawList& list, const Instance& instance) {
   const DrawMesh& mesh = *list.meshes[instance.mesh];
@@ -70,15 +66,16 @@ Matrix4d perspective(double field_of_view, double aspect, double near, double fa
 SceneBounds bound_scene(const DrawList& list) {
   const Camera& camera = list.camera;
   const double limit = kIgnoredDistance * viewing_distance(camera);
-  BoundingBox solid, all;
+  Eigen::AlignedBox3d solid, all;
   for (const Instance& instance : list.instances) {
     const Ball ball = bound(list, instance);
     if (!((ball.center - camera.target).norm() + ball.radius < limit)) continue;
-    all.add(ball);
-    if (instance.color.a >= 1) solid.add(ball);
+    extend(all, ball);
+    if (instance.color.a >= 1) extend(solid, ball);
   }
   const Ball nothing{camera.target, 0.5 * viewing_distance(camera)};
-  return {solid.empty() ? nothing : solid.ball(), all.empty() ? nothing : all.ball()};
+  return {solid.isEmpty() ? nothing : circumscribed(solid),
+          all.isEmpty() ? nothing : circumscribed(all)};
 }
 
 double floor_radius(const DrawList& list, const SceneBounds& bounds) {

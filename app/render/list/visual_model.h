@@ -31,4 +31,14 @@ enum class KeepPlaces { where_textured, always };
 VisualModel load_visual(const std::filesystem::path& file, const Vector3& scale = Vector3::Ones(),
                         KeepPlaces keep = KeepPlaces::where_textured);
 
+struct MendedWinding {
+  std::vector<bool> turned;  // by triangle: its second and third corner were swapped
+  bool is_closed = false;    // every edge belongs to two triangles, whose sides now agree
+};
+
+// Of a welded mesh, where triangles may disagree on which side is outside. Neighbours are made to
+// agree across every edge that two triangles share, each connected surface as most of its area
+// stood before; one that is closed has its outside outside (its volume is positive). O(n log n).
+MendedWinding mend_winding(TriangleMesh& mesh);
+
 }  // namespace twinarm

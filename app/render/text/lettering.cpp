@@ -17,6 +17,8 @@
 namespace twinarm {
 namespace {
 
+using Eigen::Vector2d;
+
 constexpr std::array<const char*, 2> kFontFiles = {
     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
     "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"};
@@ -58,6 +60,18 @@ Color halo_of(const Color& c) {
   return luminance < 0.55f ? Color{0.97f, 0.98f, 0.99f, c.a} : Color{0.06f, 0.07f, 0.09f, c.a};
 }
 
+// Lays a colour over a pixel; nothing outside the picture.
+void blend(Image& image, int x, int y, const Color& color, float cover) {
+  if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
+  std::uint8_t* pixel = image.pixel(x, y);
+  const float a = std::clamp(cover * color.a, 0.0f, 1.0f);
+  const std::array<float, 3> over = {color.r, color.g, color.b};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float mixed = (1 - a) * static_cast<float>(pixel[k]) + a * 255.0f * over[k];
+    pixel[k] = static_cast<std::uint8_t>(std::clamp(mixed + 0.5f, 0.0f, 255.0f));
+  }
+}
+
 void blend_bitmap(Image& image, FT_BitmapGlyph glyph, int x, int y, const Color& color,
                   float strength) {
   const FT_Bitmap& bitmap = glyph->bitmap;
@@ -72,18 +86,30 @@ void blend_bitmap(Image& image, FT_BitmapGlyph glyph, int x, int y, const Color&
   }
 }
 
-}  // namespace
+// A shape is its signed distance: the share of a pixel that it covers follows from the distance of
+// the pixel's middle to the edge.
+// Share of the pixel under a shape of which the edge is `inside` pixels away.
+float cover_at(double inside) {
+  return static_cast<float>(std::clamp(inside + 0.5, 0.0, 1.0));
+}
 
-void blend(Image& image, int x, int y, const Color& color, float cover) {
-  if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
-  std::uint8_t* pixel = image.pixel(x, y);
-  const float a = std::clamp(cover * color.a, 0.0f, 1.0f);
-  const std::array<float, 3> over = {color.r, color.g, color.b};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const float mixed = (1 - a) * static_cast<float>(pixel[k]) + a * 255.0f * over[k];
-    pixel[k] = static_cast<std::uint8_t>(std::clamp(mixed + 0.5f, 0.0f, 255.0f));
+// Blends a shape given by its signed distance (inside positive) over the pixels of a box.
+template <class Inside>
+void fill(Image& image, const Vector2d& low, const Vector2d& high, const Color& color,
+          Inside&& inside) {
+  const int x0 = static_cast<int>(std::floor(std::max(0.0, low.x() - 1)));
+  const int y0 = static_cast<int>(std::floor(std::max(0.0, low.y() - 1)));
+  const int x1 = static_cast<int>(std::ceil(std::min<double>(image.width, high.x() + 1)));
+  const int y1 = static_cast<int>(std::ceil(std::min<double>(image.height, high.y() + 1)));
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      const float cover = cover_at(inside(Vector2d(x + 0.5, y + 0.5)));
+      if (cover > 0) blend(image, x, y, color, cover);
+    }
   }
 }
+
+}  // namespace
 
 class Lettering::Impl {
  public:
@@ -175,8 +201,6 @@ class Lettering::Impl {
 
 Lettering::Lettering() : impl_(std::make_unique<Impl>()) {}
 Lettering::~Lettering() = default;
-Lettering::Lettering(Lettering&&) noexcept = default;
-Lettering& Lettering::operator=(Lettering&&) noexcept = default;
 
 double Lettering::width(const std::string& text, double size_px, Weight weight) {
   return impl_->width(text, size_px, weight);
@@ -185,6 +209,33 @@ double Lettering::width(const std::string& text, double size_px, Weight weight) 
 void Lettering::draw(Image& image, const std::string& text, const Eigen::Vector2d& start_px,
                      double size_px, const Color& color, Weight weight) {
   if (start_px.allFinite()) impl_->draw(image, text, start_px, size_px, color, weight);
+}
+
+void draw_box(Image& image, const Vector2d& low, const Vector2d& high, double radius,
+              const Color& color) {
+  const Vector2d center = 0.5 * (low + high), half = 0.5 * (high - low);
+  fill(image, low, high, color, [&](const Vector2d& p) {
+    const Vector2d out = (p - center).cwiseAbs() - half + Vector2d::Constant(radius);
+    return radius - out.cwiseMax(0).norm() - std::min(0.0, out.maxCoeff());
+  });
+}
+
+void draw_line(Image& image, const Vector2d& a, const Vector2d& b, double width,
+               const Color& color) {
+  const Vector2d ab = b - a;
+  const double squared = ab.squaredNorm();
+  if (!(squared > 0)) return;
+  const Vector2d margin = Vector2d::Constant(width);
+  fill(image, a.cwiseMin(b) - margin, a.cwiseMax(b) + margin, color, [&](const Vector2d& p) {
+    const double t = std::clamp((p - a).dot(ab) / squared, 0.0, 1.0);
+    return 0.5 * width - (p - a - t * ab).norm();
+  });
+}
+
+void draw_dot(Image& image, const Vector2d& center, double radius, const Color& color) {
+  const Vector2d reach = Vector2d::Constant(radius);
+  fill(image, center - reach, center + reach, color,
+       [&](const Vector2d& p) { return radius - (p - center).norm(); });
 }
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// Lettering: text onto an Image (FreeType and the DejaVu fonts of Debian end here).
+// Text and flat shapes onto an Image (FreeType and the DejaVu fonts of Debian end here).
 //
 // Positions and sizes in pixels from the top left, y down. A thin halo in the opposite tone keeps
 // the letters legible on any ground.
@@ -19,8 +19,6 @@ class Lettering {
  public:
   Lettering();  // throws InputError where the fonts are missing
   ~Lettering();
-  Lettering(Lettering&&) noexcept;
-  Lettering& operator=(Lettering&&) noexcept;
 
   // `text` is UTF-8, one line; a malformed byte becomes the replacement character.
   double width(const std::string& text, double size_px, Weight weight = Weight::regular);
@@ -33,7 +31,12 @@ class Lettering {
   std::unique_ptr<Impl> impl_;
 };
 
-// Lays a colour over a pixel; nothing outside the picture.
-void blend(Image& image, int x, int y, const Color& color, float cover);
+// Flat shapes; edges are smooth by their cover. A box with corners of the given radius:
+void draw_box(Image& image, const Eigen::Vector2d& low, const Eigen::Vector2d& high, double radius,
+              const Color& color);
+// With round ends:
+void draw_line(Image& image, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double width,
+               const Color& color);
+void draw_dot(Image& image, const Eigen::Vector2d& center, double radius, const Color& color);
 
 }  // namespace twinarm

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "app/render/list/view.h"
-#include "app/render/text/drawing.h"
 
 namespace twinarm {
 namespace {
@@ -41,30 +40,36 @@ struct Placed {
 
 // Text that would leave the picture, or run into the title above `top_px`, is moved back.
 Placed place(const Image& image, Lettering& lettering, const Label& label, double top_px,
-             Vector2d at_px) {
+             const Vector2d& at_px) {
   constexpr double kMargin = 6;  // [px]
   const double width = lettering.width(label.text, label.size_px);
-  if (label.align != Align::left) at_px.x() -= label.align == Align::center ? 0.5 * width : width;
   const Vector2d low(kMargin, top_px + kMargin + label.size_px);
   const Vector2d high(image.width - kMargin - width, image.height - kMargin - 0.3 * label.size_px);
   return {at_px.cwiseMin(high).cwiseMax(low), width};
 }
 
+struct Room {
+  Vector2d low, high;
+};
+
+Room room_of(const Placed& text, double size_px) {
+  return {text.start_px - Vector2d(4, 0.9 * size_px),
+          text.start_px + Vector2d(text.width + 4, 0.25 * size_px)};
+}
+
 // What letters and panels have taken of the picture.
 class TakenRoom {
  public:
-  void take(const Vector2d& low, const Vector2d& high) { boxes_.push_back({low, high}); }
-  bool is_free(const Vector2d& low, const Vector2d& high) const {
-    return std::ranges::none_of(boxes_, [&](const Box& box) {
-      return (low.array() < box.high.array()).all() && (high.array() > box.low.array()).all();
+  void take(const Room& room) { taken_.push_back(room); }
+  bool is_free(const Room& room) const {
+    return std::ranges::none_of(taken_, [&](const Room& other) {
+      return (room.low.array() < other.high.array()).all() &&
+             (room.high.array() > other.low.array()).all();
     });
   }
 
  private:
-  struct Box {
-    Vector2d low, high;
-  };
-  std::vector<Box> boxes_;
+  std::vector<Room> taken_;
 };
 
 // The lines that are tried: the one where it stood, its own, the nearest above and below.
@@ -84,12 +89,6 @@ std::optional<Placed> place_free(const Image& image, Lettering& lettering, const
                                  LabelMemory* memory) {
   constexpr double kGlide = 0.3;  // of the way, in each picture
   const double line_px = 1.25 * label.size_px;
-  const auto low = [&](const Placed& p) {
-    return Vector2d(p.start_px - Vector2d(4, 0.9 * label.size_px));
-  };
-  const auto high = [&](const Placed& p) {
-    return Vector2d(p.start_px + Vector2d(p.width + 4, 0.25 * label.size_px));
-  };
   const auto placed_at = [&](double down_px) {
     return place(image, lettering, label, top_px,
                  anchor_px + label.offset_px + Vector2d(0, down_px));
@@ -98,8 +97,9 @@ std::optional<Placed> place_free(const Image& image, Lettering& lettering, const
   const bool is_new = !before || memory->is_new(*before);
   for (const double line : lines_to_try(is_new ? 0 : before->line)) {
     const Placed found = placed_at(line * line_px);
-    if (!taken.is_free(low(found), high(found))) continue;
-    taken.take(low(found), high(found));
+    const Room room = room_of(found, label.size_px);
+    if (!taken.is_free(room)) continue;
+    taken.take(room);
     if (!before) return found;
     before->line = line;
     before->picture = memory->picture();
@@ -125,15 +125,14 @@ void draw_bar(Image& image, const ScreenBox& bar, TakenRoom& taken) {
   if (!(bar.size_px.minCoeff() > 0)) return;
   const Vector2d low = on_screen(image, bar.corner_px);
   draw_box(image, low, low + bar.size_px, std::min(3.0, 0.5 * bar.size_px.minCoeff()), bar.color);
-  taken.take(low, low + bar.size_px);
+  taken.take({low, low + bar.size_px});
 }
 
 void draw_screen_label(Image& image, Lettering& lettering, const Label& label, double top_px,
                        TakenRoom& taken) {
   const Vector2d at_px = on_screen(image, label.offset_px);
   const Placed text = place(image, lettering, label, top_px, at_px);
-  taken.take(text.start_px - Vector2d(4, 0.9 * label.size_px),
-             text.start_px + Vector2d(text.width + 4, 0.25 * label.size_px));
+  taken.take(room_of(text, label.size_px));
   lettering.draw(image, label.text, text.start_px, label.size_px, label.color);
 }
 
@@ -175,7 +174,7 @@ void draw_legend(Image& image, const DrawList& list, Lettering& lettering, doubl
   const Vector2d low(margin, image.height - margin - height - 2 * padding);
   const Vector2d high = low + Vector2d(width + 2 * padding, height + 2 * padding);
   draw_box(image, low, high, 0.5 * size_px, kPaper);
-  taken.take(low, high);
+  taken.take({low, high});
   Vector2d at = low + Vector2d(padding, padding + 0.5 * row);  // left end, middle of the row
   for (const LegendLine& line : list.legend) {
     const Vector2d top = at - Vector2d(0, 0.5 * swatch);
@@ -236,7 +235,7 @@ void draw_overlay(Image& image, const DrawList& list, const Eigen::Matrix4d& cli
       draw_world_label(image, lettering, label, top_px, *anchor_px, taken, memory);
     }
   }
-  if (list.ground.visible && list.ground.show_scale) {
+  if (list.ground.visible) {
     draw_grid_scale(image, list.ground, lettering, 0.9 * size_px);
   }
 }

@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "app/render/text/drawing.h"
 #include "app/render/text/lettering.h"
 
 namespace twinarm {
@@ -46,9 +45,7 @@ void draw_curve(Image& image, const std::vector<Vector2d>& points, const Color& 
 }
 
 Image blank(int width, int height) {
-  Image image{width, height, {}};
-  image.rgba.resize(std::size_t{4} * static_cast<std::size_t>(width) *
-                    static_cast<std::size_t>(height));
+  Image image = make_image(width, height);
   for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
     const std::array<float, 4> c{kPlotPaper.r, kPlotPaper.g, kPlotPaper.b, 1};
     for (std::size_t k = 0; k < 4; ++k)

@@ -1,10 +1,12 @@
-// The second ways of `twinarm inspect` on mechanisms of all joints.
+// The second ways of `twinarm inspect`, and the equations of the passes term by term, on mechanisms
+// of all joints.
 #include <doctest/doctest.h>
 
 #include <map>
 
 #include "app/inspect/cross_checks.h"
 #include "app/inspect/displayed_quantities.h"
+#include "app/inspect/equations.h"
 #include "app/inspect/force_balance.h"
 #include "tests/solver/dynamics/random_tree.h"
 
@@ -12,6 +14,15 @@ using namespace twinarm;
 using namespace twinarm::testing;
 
 namespace {
+
+const std::vector<JointType> kAllTypes{all_joint_types.begin(), all_joint_types.end()};
+
+Model<double> tree_with_armatures(Random& random) {
+  std::vector<TreeBody> bodies = random_bodies(random, random.integer(1, 9), kAllTypes);
+  for (TreeBody& body : bodies)
+    if (random.integer(0, 2) == 0) body.properties.armature = random.uniform(0, 1);
+  return build(bodies);
+}
 
 // Torques, wrenches, and what implicit springs and dampers bring.
 std::vector<Actor> random_actors(Random& random, const Model<double>& model, bool implicit) {
@@ -53,13 +64,9 @@ TEST_CASE(
     "every second way agrees with the passes, on 1,000 random trees and states of all joints") {
   Random random(20);
   std::map<std::string, double> worst;
-  const std::vector<JointType> types{all_joint_types.begin(), all_joint_types.end()};
   for (int k = 0; k < 1000; ++k) {
     CAPTURE(k);
-    std::vector<TreeBody> bodies = random_bodies(random, random.integer(1, 9), types);
-    for (TreeBody& body : bodies)
-      if (random.integer(0, 2) == 0) body.properties.armature = random.uniform(0, 1);
-    const Model<double> model = build(bodies);
+    const Model<double> model = tree_with_armatures(random);
     const State<double> x = random_state(random, model);
     const Inspection in(model, x, random_actors(random, model, k % 2 == 1));
     for (const Check& check : run_checks(in)) {
@@ -107,4 +114,40 @@ TEST_CASE("a number that is off by 1e-8 is found by the check of its name") {
   fails("f", [&](W& w) { w.IA[2].I.xx += 1e-6; });
   fails("balance", [&](W& w) { w.pA[2].f.x += 1e-6; });
   fails("momentum", [&](W& w) { w.qdd[1] += 1e-5; });
+}
+
+TEST_CASE("the terms of every equation add up to what aba() has, on random trees of all joints") {
+  Random random(31);
+  std::map<std::string, int> met;
+  for (int k = 0; k < 300; ++k) {
+    CAPTURE(k);
+    const Model<double> model = tree_with_armatures(random);
+    const State<double> x = random_state(random, model);
+    const Inspection in(model, x, random_actors(random, model, k % 2 == 1));
+    for (std::size_t i = 1; i < in.body_count(); ++i)
+      for (const int pass : {1, 2, 3})
+        for (const Equation& equation : equations_of(in, pass, i)) {
+          CAPTURE(equation.text);
+          CHECK(equation.residual <= 1e-10);
+          ++met[equation.name];
+        }
+  }
+  for (const char* name :
+       {"v", "c", "p", "IA", "pA", "U", "D", "u", "Ia", "pa", "a'", "D qdd", "a"})
+    CHECK_MESSAGE(met[name] > 100, name);
+}
+
+TEST_CASE("a body's left sides are the numbers that the passes show of it") {
+  Random random(32);
+  for (int k = 0; k < 50; ++k) {
+    const Model<double> model = build(random_bodies(random, 6, kAllTypes));
+    const Inspection in(model, random_state(random, model), random_actors(random, model, true));
+    for (std::size_t i = 1; i < in.body_count(); ++i)
+      for (const int pass : {1, 2, 3}) {
+        const std::vector<Shown> shown = shown_quantities(in, pass, i);
+        for (const Equation& equation : equations_of(in, pass, i))
+          for (const Shown& quantity : shown)
+            if (equation.name == quantity.quantity.name) CHECK(equation.value == quantity.value);
+      }
+  }
 }

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "app/render/list/draw_mesh.h"
-#include "app/render/list/fix_winding.h"
+#include "app/render/list/visual_model.h"
 
 using namespace twinarm;
 
