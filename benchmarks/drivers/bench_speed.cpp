@@ -1,13 +1,15 @@
 // How long the engines take for the same mechanisms in the same situations. Prints JSON; the table
 // and the figure are scripts/measure/bench's.
 #include <algorithm>
+#include <cmath>
 #include <iostream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/drivers/agreement.h"
 #include "benchmarks/drivers/command_line.h"
 #include "benchmarks/drivers/stages.h"
 #include "benchmarks/drivers/timing.h"
+#include "benchmarks/engines/engine.h"
 #include "benchmarks/scenes/mechanisms.h"
 
 namespace twinarm::bench {
@@ -68,6 +70,60 @@ void check(const Options& o) {
               ": there are fd, id, crba, fk, step");
   check_known(o.engines, names_of(engines_of_build()), "engine", " in this build; see --list");
 }
+
+// ---- whether all engines compute the same: without it no time means anything ----
+
+struct Agreement {
+  std::string engine, model;
+  double error = 0;          // of qdd, against the first engine, relative to its largest entry
+  double error_inverse = 0;  // of the joints' tau by inverse dynamics, likewise; 0 without it
+  double tolerance = 0;
+  bool holds() const { return error <= tolerance && error_inverse <= tolerance; }
+};
+
+using Answers = std::vector<std::vector<double>>;  // by situation
+
+double relative_error(const Answers& mine, const Answers& reference) {
+  double worst = 0;
+  for (std::size_t k = 0; k < reference.size(); ++k) {
+    if (mine[k].size() != reference[k].size()) return std::numeric_limits<double>::infinity();
+    double difference = 0, size = 0;
+    for (std::size_t i = 0; i < reference[k].size(); ++i) {
+      const double d = std::abs(mine[k][i] - reference[k][i]);
+      if (!std::isfinite(d)) return std::numeric_limits<double>::infinity();
+      difference = std::max(difference, d);
+      size = std::max(size, std::abs(reference[k][i]));
+    }
+    worst = std::max(worst, size > 0 ? difference / size : difference);
+  }
+  return worst;
+}
+
+// Entries of the revolutes alone.
+std::vector<double> joints_of(const Scene& mechanism, const std::vector<double>& all) {
+  return {all.begin() + (mechanism.floats() ? 6 : 0), all.end()};
+}
+
+// Of every engine against the first, the worst of all situations. They are loaded and have them.
+std::vector<Agreement> compare(Engines& engines, const Scene& mechanism,
+                               const std::vector<Situation>& situations) {
+  std::vector<Agreement> all;
+  Answers first_qdd, first_tau;
+  for (const auto& engine : engines) {
+    Answers qdd, tau;
+    for (std::size_t k = 0; k < situations.size(); ++k) {
+      qdd.push_back(engine->qdd(k));
+      if (engine->has(Algorithm::inverse_dynamics))
+        tau.push_back(joints_of(mechanism, engine->tau(k)));
+    }
+    if (first_qdd.empty()) first_qdd = qdd, first_tau = tau;
+    all.push_back({engine->name(), mechanism.name, relative_error(qdd, first_qdd),
+                   tau.empty() ? 0 : relative_error(tau, first_tau), engine->tolerance(mechanism)});
+  }
+  return all;
+}
+
+// ---- how long they take ----
 
 void measure(const Options& options, const std::string& model, Stages& stages, Json& rows,
              std::vector<Agreement>& agreement) {

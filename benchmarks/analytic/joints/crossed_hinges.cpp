@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/support/chain_parts.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
 
 namespace twinarm {
 namespace {

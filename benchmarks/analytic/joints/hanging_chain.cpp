@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/support/chain_parts.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
 #include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/kinematics.h"

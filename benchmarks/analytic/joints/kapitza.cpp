@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/support/chain_parts.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/stepping/simulation.h"
 
 namespace twinarm {

@@ -1,6 +1,8 @@
 // All analytic cases, and how one is run and judged.
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "benchmarks/analytic/support/analytic_case.h"
@@ -9,6 +11,13 @@ namespace twinarm {
 
 // All of them, in the order of docs/cases.md. Names are unique.
 const std::vector<AnalyticCase>& analytic_cases();
+
+// What docs/cases/GROUP.md says of the cases, for people: a paragraph of what is known, below it
+// the cases that measure it, as `- NAME, NAME: what is measured`.
+struct CaseText {
+  std::string group, reference, statement;
+};
+const std::map<std::string, CaseText>& case_texts();  // by the name of the case
 
 // What is not run, and why: listed, never counted as passed.
 struct SkippedCase {

@@ -1,6 +1,6 @@
 // What a page draws of a contact case: which coordinate of which body, and what is known of it in
 // closed form. Its scenes are made and stepped by the case itself, while a recorder looks on
-// (contact_recorder.h).
+// (contact_scene.h).
 #pragma once
 
 #include <cmath>

@@ -6,14 +6,14 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "benchmarks/analytic/support/analytic_case.h"
-#include "benchmarks/analytic/support/case_constants.h"
-#include "benchmarks/analytic/support/contact_recorder.h"
 #include "collision/contact/contact_constraints.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/stepping/simulation.h"
@@ -39,6 +39,44 @@ inline ContactSurface surface(double friction, double restitution = 0) {
   s.friction = friction, s.restitution = restitution;
   return s;
 }
+
+class ContactScene;
+
+// Of one scene; evenly spaced steps, thinned to some hundreds.
+struct ContactRun {
+  std::vector<double> t, energy;          // [s], kinetic and potential [J]
+  std::vector<std::vector<double>> seen;  // by reading, then by t
+  double tried = 0;                       // in a search for a limit: the value, and its outcome
+  bool holds = false;
+};
+
+// What a page sees of the scenes of a contact case while it runs: readings and energy over time, or
+// the same runs with another step. Without a recorder nothing is noted, and a case is what it is.
+// Ends the experiment by an Enough that comes out of start(), step() or threshold(), once all that
+// was asked for is there.
+class ContactRecorder {
+ public:
+  struct Enough {};
+  std::function<std::vector<double>(const ContactScene&)> look{};  // null: nothing is noted
+  std::size_t count = 1;    // of the runs to note; in a search always two, one of each outcome
+  std::size_t every = 1;    // the scenes of a case of which one is noted
+  double until = HUGE_VAL;  // [s]
+  bool search = false;
+  double step_scale = 1;  // all steps are longer by it
+  std::vector<ContactRun> runs{};
+
+  void begin(const ContactScene& scene);
+  void note(const ContactScene& scene, double energy);
+  void outcome(double tried, bool holds);
+
+ private:
+  void add(const ContactScene& scene, double energy);
+  std::size_t begun_ = 0, steps_ = 0, stride_ = 1;
+  bool active_ = false;
+};
+
+// That of the scenes that this thread makes; null: none.
+inline thread_local ContactRecorder* contact_recorder = nullptr;
 
 // Add all bodies, then start(), then step(). Bodies are numbered from 1, their link frames stand at
 // their centres of mass.

@@ -6,7 +6,6 @@
 
 #include "benchmarks/analytic/registry/analytic_cases.h"
 #include "benchmarks/analytic/registry/case_sources.h"
-#include "benchmarks/analytic/registry/case_texts.h"
 
 using namespace twinarm;
 
