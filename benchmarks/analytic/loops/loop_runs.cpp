@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
+#include "benchmarks/analytic/support/case_constants.h"
 #include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"

@@ -8,16 +8,12 @@
 
 #include <functional>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "benchmarks/analytic/support/trajectory_case.h"
 
 namespace twinarm {
-
-inline constexpr double kGravity = 9.81;                   // [m/s^2]
-inline constexpr double kDegree = std::numbers::pi / 180;  // [rad]
 
 struct CaseResult {
   double error = 0;  // not a number fails

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "benchmarks/analytic/support/analytic_case.h"
+#include "benchmarks/analytic/support/case_constants.h"
 #include "collision/contact/contact_constraints.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/stepping/simulation.h"

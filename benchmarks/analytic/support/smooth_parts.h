@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "benchmarks/analytic/support/analytic_case.h"
+#include "benchmarks/analytic/support/case_constants.h"
 #include "benchmarks/analytic/support/equations_of_motion.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/model_builder.h"
