@@ -22,7 +22,7 @@
 
 #include "app/accounting/energy_balance.h"
 #include "app/scene/forces/add_contacts.h"
-#include "app/scene/forces/outside_force.h"
+#include "app/scene/forces/reported_forces.h"
 #include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {

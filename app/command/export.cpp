@@ -6,10 +6,9 @@
 #include "app/command/command.h"
 #include "app/command/parser/shared_options.h"
 #include "app/data/json_writer.h"
-#include "app/page/replay_page.h"
+#include "app/page/pages.h"
 #include "app/record/output/recorded_output.h"
-#include "app/support/output_file.h"
-#include "app/support/streams.h"
+#include "app/support/files.h"
 #include "solver/support/atomic_file.h"
 
 namespace twinarm {

@@ -13,11 +13,8 @@
 #include "app/device/devices.h"
 #include "app/plot/gnuplot.h"
 #include "app/scene/read/read_scene.h"
-#include "app/servo/output/rerun_log.h"
-#include "app/servo/output/servo_log.h"
 #include "app/servo/output/servo_output.h"
-#include "app/support/interrupt.h"
-#include "app/support/output_file.h"
+#include "app/support/files.h"
 #include "app/support/progress.h"
 #include "solver/support/diagnostics.h"
 

@@ -5,7 +5,7 @@
 
 #include "app/command/command.h"
 #include "app/command/parser/command_tree.h"
-#include "app/support/nearest_name.h"
+#include "app/support/text.h"
 #include "app/support/version.h"
 #include "solver/support/diagnostics.h"
 

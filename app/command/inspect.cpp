@@ -8,9 +8,9 @@
 #include "app/inspect/report/inspect_input.h"
 #include "app/inspect/report/inspect_output.h"
 #include "app/inspect/report/inspect_view.h"
-#include "app/page/inspect_page.h"
+#include "app/page/pages.h"
 #include "app/record/unpack.h"
-#include "app/support/output_file.h"
+#include "app/support/files.h"
 #include "solver/support/atomic_file.h"
 
 namespace twinarm {

@@ -13,7 +13,7 @@
 #include "app/lab/app/lab_routes.h"
 #include "app/lab/app/message_streamer.h"
 #include "app/lab/session/lab_session.h"
-#include "app/support/interrupt.h"
+#include "app/support/progress.h"
 #include "app/web/web_bundle.h"
 #include "solver/support/diagnostics.h"
 

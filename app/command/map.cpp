@@ -10,10 +10,9 @@
 #include "app/map/map_results.h"
 #include "app/plot/gnuplot.h"
 #include "app/record/recording.h"
-#include "app/support/interrupt.h"
-#include "app/support/nearest_name.h"
-#include "app/support/output_file.h"
-#include "app/support/streams.h"
+#include "app/support/files.h"
+#include "app/support/progress.h"
+#include "app/support/text.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/number_text.h"
 

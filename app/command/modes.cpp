@@ -4,7 +4,7 @@
 
 #include "app/command/command.h"
 #include "app/command/parser/shared_options.h"
-#include "app/modes/modes_input.h"
+#include "app/modes/modes.h"
 #include "app/robot/robot_input.h"
 
 namespace twinarm {

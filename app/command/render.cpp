@@ -12,11 +12,9 @@
 #include "app/film/filmed_run.h"
 #include "app/film/rendering.h"
 #include "app/robot/robot_input.h"
-#include "app/support/interrupt.h"
-#include "app/support/nearest_name.h"
-#include "app/support/output_file.h"
+#include "app/support/files.h"
 #include "app/support/progress.h"
-#include "app/support/streams.h"
+#include "app/support/text.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {

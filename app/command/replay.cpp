@@ -7,7 +7,7 @@
 #include "app/command/parser/shared_options.h"
 #include "app/data/json_writer.h"
 #include "app/record/output/branch_view.h"
-#include "app/support/streams.h"
+#include "app/support/files.h"
 
 namespace twinarm {
 namespace {

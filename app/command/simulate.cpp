@@ -7,10 +7,9 @@
 #include "app/diagnose/post_mortem.h"
 #include "app/record/record_run.h"
 #include "app/run/output/simulate_output.h"
-#include "app/run/simulate_options.h"
-#include "app/support/interrupt.h"
+#include "app/run/simulate_input.h"
+#include "app/support/files.h"
 #include "app/support/progress.h"
-#include "app/support/streams.h"
 
 namespace twinarm {
 namespace {

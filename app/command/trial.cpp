@@ -14,10 +14,8 @@
 #include "app/study/calibration/calibration.h"
 #include "app/study/findings/variants.h"
 #include "app/study/study_scene.h"
-#include "app/support/find_files.h"
-#include "app/support/interrupt.h"
-#include "app/support/output_file.h"
-#include "app/support/streams.h"
+#include "app/support/files.h"
+#include "app/support/progress.h"
 #include "app/trial/trial.h"
 #include "solver/support/atomic_file.h"
 

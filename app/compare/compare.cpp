@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "app/compare/compare.h"
-#include "app/data/text_table.h"
-#include "app/support/nearest_name.h"
-#include "app/support/seconds.h"
+#include "app/data/tables.h"
+#include "app/support/progress.h"
+#include "app/support/text.h"
 #include "benchmarks/analytic/registry/analytic_cases.h"
 
 namespace twinarm {
@@ -122,10 +122,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Errors are compared with tolerances by eye: three digits.
-std::string short_number(double value) {
+std::string error_cell(double value) {
   return fmt::format("{:.3g}", value);
 }
-std::string short_number(const std::optional<double>& value, const char* format) {
+std::string error_cell(const std::optional<double>& value, const char* format) {
   return value ? fmt::format(fmt::runtime(format), *value) : "-";
 }
 
@@ -161,18 +161,18 @@ std::string compare_table(const std::vector<CompareRow>& rows, const std::vector
     const auto& [test, result, seconds, of_lanes] = row;
     const bool pass = passes(*test, result);
     std::vector<std::string> cells{test->name,
-                                   short_number(result.error),
-                                   short_number(test->tolerance),
+                                   error_cell(result.error),
+                                   error_cell(test->tolerance),
                                    pass ? "pass" : "FAIL",
-                                   short_number(result.order, "{:.2f}"),
-                                   short_number(result.energy_drift, "{:.1e}"),
+                                   error_cell(result.order, "{:.2f}"),
+                                   error_cell(result.energy_drift, "{:.1e}"),
                                    fmt::format("{:.2f}", seconds)};
     for (std::size_t i = 0; i < lanes.size(); ++i)
-      cells.push_back(of_lanes.empty() ? "-" : short_number(of_lanes[i].result.error));
+      cells.push_back(of_lanes.empty() ? "-" : error_cell(of_lanes[i].result.error));
     table.add(cells);
     if (!pass)
-      short_of += fmt::format("{}: error {} above {}; {}\n", test->name, short_number(result.error),
-                              short_number(test->tolerance), test->reference);
+      short_of += fmt::format("{}: error {} above {}; {}\n", test->name, error_cell(result.error),
+                              error_cell(test->tolerance), test->reference);
   }
   const std::size_t failed = failures(rows);
   std::string text = rows.empty() ? "" : table.str() + "\n";

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benchmarks/analytic/registry/analytic_cases.h"
-#include "benchmarks/analytic/support/run_trajectory.h"
+#include "benchmarks/analytic/support/trajectory_case.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

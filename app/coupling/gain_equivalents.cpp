@@ -7,8 +7,7 @@
 
 #include "app/coupling/posed_couplings.h"
 #include "app/data/json_writer.h"
-#include "app/data/number_sheet.h"
-#include "app/data/text_table.h"
+#include "app/data/tables.h"
 
 namespace twinarm {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "app/coupling/posed_couplings.h"
 #include "app/robot/robot_output.h"
-#include "app/support/nearest_name.h"
+#include "app/support/text.h"
 
 namespace twinarm {
 namespace {

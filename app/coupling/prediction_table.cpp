@@ -6,8 +6,7 @@
 #include <numbers>
 
 #include "app/coupling/prediction.h"
-#include "app/data/number_sheet.h"
-#include "app/data/text_table.h"
+#include "app/data/tables.h"
 
 namespace twinarm {
 namespace {

@@ -7,7 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "app/support/output_file.h"
+#include "app/support/files.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

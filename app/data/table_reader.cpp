@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/support/nearest_name.h"
+#include "app/support/text.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {

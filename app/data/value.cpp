@@ -1,7 +1,12 @@
 #include "app/data/value.h"
 
+#include <toml++/toml.h>
+
+#include <algorithm>
 #include <utility>
 
+#include "collision/import/toml/toml_file.h"
+#include "solver/support/diagnostics.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -71,6 +76,123 @@ void name_files_from_root(const std::filesystem::path& folder, Value& scene) {
     scene.text = std::filesystem::absolute(folder / scene.text).lexically_normal().string();
   for (Value& item : scene.items) name_files_from_root(folder, item);
   for (Value& member : scene.members) name_files_from_root(folder, member);
+}
+
+namespace {
+
+Value value_of_node(const toml::node& node) {
+  Value value;
+  value.line = static_cast<int>(node.source().begin.line);
+  value.kind = Value::Kind::date;
+  if (const toml::table* table = node.as_table()) {
+    value.kind = Value::Kind::table;
+    for (const auto& [key, member] : *table) {
+      value.members.push_back(value_of_node(member));
+      value.members.back().key = std::string(key.str());
+    }
+    // toml++ sorts keys by name; faults are told in the order of the file.
+    std::stable_sort(value.members.begin(), value.members.end(),
+                     [](const Value& a, const Value& b) { return a.line < b.line; });
+  } else if (const toml::array* array = node.as_array()) {
+    value.kind = Value::Kind::list;
+    for (const toml::node& item : *array) value.items.push_back(value_of_node(item));
+  } else if (node.is_boolean()) {
+    value.kind = Value::Kind::boolean;
+    value.number = node.value_or(false) ? 1 : 0;
+  } else if (node.is_number()) {
+    value.kind = Value::Kind::number;
+    value.number = node.value_or(0.0);
+  } else if (node.is_string()) {
+    value.kind = Value::Kind::text;
+    value.text = node.value_or(std::string());
+  }
+  return value;
+}
+
+std::string quoted_toml(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    constexpr const char* kHex = "0123456789abcdef";
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\')
+      quoted += std::string("\\") + c;
+    else if (code < 0x20 || code == 0x7f)
+      quoted += std::string("\\u00") + kHex[code >> 4] + kHex[code & 15];
+    else
+      quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::string toml_key(const std::string& key) {
+  const auto is_bare = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), is_bare);
+  return bare ? key : quoted_toml(key);
+}
+
+std::string inline_toml(const Value& value) {
+  switch (value.kind) {
+    case Value::Kind::boolean:
+      return value.number != 0 ? "true" : "false";
+    case Value::Kind::number: {
+      std::string digits = number_text(value.number);  // "1e+20" is TOML too
+      const bool whole = digits.find_first_of(".einf") == std::string::npos;
+      return whole ? digits + ".0" : digits;
+    }
+    case Value::Kind::list: {
+      std::string text;
+      for (const Value& item : value.items) text += (text.empty() ? "" : ", ") + inline_toml(item);
+      return "[" + text + "]";
+    }
+    case Value::Kind::table: {
+      std::string text;
+      for (const Value& m : value.members)
+        text += (text.empty() ? "" : ", ") + toml_key(m.key) + " = " + inline_toml(m);
+      return "{ " + text + " }";
+    }
+    case Value::Kind::null:
+    case Value::Kind::text:
+    case Value::Kind::date:
+      break;
+  }
+  return quoted_toml(value.text);
+}
+
+bool is_array_of_tables(const Value& value) {
+  return value.is_list() && !value.items.empty() &&
+         std::all_of(value.items.begin(), value.items.end(),
+                     [](const Value& v) { return v.is_table(); });
+}
+
+}  // namespace
+
+std::string to_toml(const Value& root) {
+  std::string text;
+  for (const Value& member : root.members)
+    if (!is_array_of_tables(member))
+      text += toml_key(member.key) + " = " + inline_toml(member) + "\n";
+  for (const Value& member : root.members) {
+    if (!is_array_of_tables(member)) continue;
+    for (const Value& table : member.items) {
+      text += "\n[[" + toml_key(member.key) + "]]\n";
+      for (const Value& m : table.members) text += toml_key(m.key) + " = " + inline_toml(m) + "\n";
+    }
+  }
+  return text;
+}
+
+Value read_toml(const std::filesystem::path& file) {
+  const std::string text = read_toml_text(file);
+  try {
+    return value_of_node(toml::parse(text, file.string()));
+  } catch (const toml::parse_error& error) {
+    throw InputError({{file.string(), static_cast<int>(error.source().begin.line), "",
+                       "not well-formed TOML: " + std::string(error.description()),
+                       "mend this line", "file.toml"}});
+  }
 }
 
 }  // namespace twinarm

@@ -6,8 +6,8 @@
 #include <functional>
 #include <optional>
 
-#include "app/support/nearest_name.h"
-#include "app/support/streams.h"
+#include "app/support/files.h"
+#include "app/support/text.h"
 #include "coupling/device/device_log.h"
 #include "coupling/target/automatic_motion.h"
 #include "coupling/target/recorded_trace.h"

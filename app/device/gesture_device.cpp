@@ -17,8 +17,8 @@
 #include <filesystem>
 
 #include "app/device/devices.h"
-#include "app/device/raw_terminal.h"
-#include "app/support/seconds.h"
+#include "app/device/file_descriptors.h"
+#include "app/support/progress.h"
 
 namespace twinarm {
 namespace {

@@ -11,8 +11,8 @@
 #include <string>
 #include <thread>
 
+#include "app/device/file_descriptors.h"
 #include "app/device/gesture_decoder.h"
-#include "app/device/owned_fd.h"
 #include "coupling/device/virtual_omni.h"
 
 namespace twinarm {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "app/device/vrpn_link.h"
-#include "app/support/seconds.h"
+#include "app/support/progress.h"
 
 namespace twinarm {
 namespace {

@@ -12,9 +12,9 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "app/support/nearest_name.h"
-#include "app/support/seconds.h"
-#include "app/support/streams.h"
+#include "app/support/files.h"
+#include "app/support/progress.h"
+#include "app/support/text.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

@@ -8,8 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "app/device/owned_fd.h"
-#include "app/device/tcp_peer.h"
+#include "app/device/file_descriptors.h"
 #include "app/device/vrpn_client.h"
 #include "app/device/vrpn_stream.h"
 #include "coupling/device/triple_buffer.h"

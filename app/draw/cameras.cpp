@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
-#include "app/support/nearest_name.h"
-#include "app/support/text_fields.h"
+#include "app/support/text.h"
 #include "solver/support/diagnostics.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 const std::vector<std::string> kCameras{"auto", "front", "side", "top", "iso"};
 
 Vector3 towards_eye(const CameraWish& wish) {

@@ -6,8 +6,7 @@
 #include <numbers>
 
 #include "app/draw/palette.h"
-#include "app/support/nearest_name.h"
-#include "app/support/text_fields.h"
+#include "app/support/text.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

@@ -9,7 +9,7 @@
 
 #include "app/draw/palette.h"
 #include "app/draw/shape_mesh.h"
-#include "app/scene/read/scene_names.h"
+#include "app/scene/read/read_scene.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

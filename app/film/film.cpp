@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "app/support/interrupt.h"
-#include "app/support/text_fields.h"
+#include "app/support/progress.h"
+#include "app/support/text.h"
 #include "solver/support/diagnostics.h"
 
 extern char** environ;

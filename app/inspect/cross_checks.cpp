@@ -1,10 +1,13 @@
 #include "app/inspect/cross_checks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "app/inspect/force_balance.h"
+#include "solver/dynamics/dynamics.h"
+#include "solver/model/convert_model.h"
 
 namespace twinarm {
 namespace {
@@ -64,6 +67,111 @@ std::vector<Check> run_checks(const Inspection& in, const CheckTolerances& toler
     if (as_error(error) > closed.error) closed.error = as_error(error), closed.worst = name;
   checks.push_back(std::move(closed));
   return checks;
+}
+
+// Checks along the motion: rates of poses by dual numbers, rates of momentum by differences.
+namespace {
+
+// A curve with the velocity and the acceleration of the motion at s = 0.
+State<double> on_the_way(const Inspection& in, double s) {
+  State<double> x = in.x;
+  move(in.model, in.x.qd, s, x);
+  for (std::size_t k = 0; k < x.qd.size(); ++k) x.qd[k] += s * in.w.qdd[k];
+  for (std::size_t i = 1; i < in.body_count(); ++i)
+    if (in.model.joint[i] == JointType::prescribed) {
+      double* q = x.q.data() + in.model.iq[i];
+      for (std::size_t k = 0; k < 6; ++k) q[kPose + k] += s * q[kPose + 6 + k];
+    }
+  return x;
+}
+
+// Linear and angular momentum of each body, the latter about the place where its origin is at
+// s = 0, world axes.
+using Momenta = std::vector<Eigen::Matrix<double, 6, 1>>;
+Momenta momenta(const Inspection& in, double s, Workspace<double>& w) {
+  kinematics(in.model, on_the_way(in, s), w);
+  Momenta all(in.body_count(), Eigen::Matrix<double, 6, 1>::Zero());
+  for (std::size_t i = 1; i < in.body_count(); ++i) {
+    const Force<double> h = in.model.I[i] * w.v[i];  // body axes, about the moving origin
+    const Matrix3 R = to_eigen(w.X0[i].E).transpose();
+    const Vector3 p = R * to_eigen(h.f);
+    const Vector3 arm = to_eigen(w.X0[i].r) - in.k.X_WL[i].p;
+    all[i] << p, R * to_eigen(h.n) + arm.cross(p);
+  }
+  return all;
+}
+
+// How fast anything turns, at most; a step in which the mechanism moves little.
+double step_of(const Inspection& in) {
+  std::vector<double> rate(in.body_count());
+  double fastest = 0;
+  for (std::size_t i = 1; i < in.body_count(); ++i) {
+    rate[i] = rate[in.parent(i)];
+    for (std::size_t dof = in.model.iv[i]; dof < in.model.iv[i] + in.model.dofs(i); ++dof)
+      rate[i] += std::abs(in.x.qd[dof]);
+    if (in.model.joint[i] == JointType::prescribed)
+      for (std::size_t k = 0; k < 6; ++k) rate[i] += std::abs(in.x.q[in.model.iq[i] + kPose + k]);
+    fastest = std::max(fastest, rate[i]);
+  }
+  return std::min(0.1, 0.5 / fastest);
+}
+
+}  // namespace
+
+Errors velocity_errors(const Inspection& in) {
+  using D = Dual<8>;
+  const Model<D> model = convert<D>(in.model);
+  State<D> x = convert<D>(in.x);
+  D along(0);
+  along.d[0] = 1;
+  move(model, convert_all<D>(in.x.qd), along, x);
+  Workspace<D> w(model);
+  kinematics(model, x, w);
+
+  const auto value = [](const Vec3<D>& a) { return Vector3(a.x.value, a.y.value, a.z.value); };
+  const auto rate = [](const Vec3<D>& a) { return Vector3(a.x.d[0], a.y.d[0], a.z.d[0]); };
+  Errors errors(in.body_count());
+  for (std::size_t i = 1; i < in.body_count(); ++i) {
+    Matrix3 E, E_rate;
+    const Mat3<D>& of = w.X0[i].E;
+    E << value(of.r0).transpose(), value(of.r1).transpose(), value(of.r2).transpose();
+    E_rate << rate(of.r0).transpose(), rate(of.r1).transpose(), rate(of.r2).transpose();
+    const Matrix3 cross = -E_rate * E.transpose();  // [w]x in body axes
+    const Vector3 turn(cross(2, 1), cross(0, 2), cross(1, 0)), shift = E * rate(w.X0[i].r);
+    const Vector3 w_i = to_eigen(in.w.v[i].w), v_i = to_eigen(in.w.v[i].v);
+    const double size = std::max({turn.norm(), shift.norm(), 1e-300});
+    const double error = std::max((turn - w_i).norm(), (shift - v_i).norm());
+    errors[i] = error == 0 ? 0 : error / size;
+  }
+  return errors;
+}
+
+Errors momentum_errors(const Inspection& in) {
+  constexpr std::size_t kLevels = 4;
+  Workspace<double> w(in.model);
+  std::array<Momenta, kLevels> rate;
+  double s = step_of(in);
+  for (Momenta& level : rate) {
+    level = momenta(in, s, w);
+    const Momenta before = momenta(in, -s, w);
+    for (std::size_t i = 1; i < in.body_count(); ++i) level[i] = (level[i] - before[i]) / (2 * s);
+    s /= 2;
+  }
+  for (std::size_t i = 1; i < in.body_count(); ++i)
+    rate[0][i] = extrapolated<kLevels>([&](std::size_t level) { return rate[level][i]; });
+
+  Errors errors(in.body_count());
+  for (std::size_t i = 1; i < in.body_count(); ++i) {
+    const BodyBalance balance = balance_of(in, i);
+    Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+    for (std::size_t k = 0; k + 1 < balance.wrenches.size(); ++k) {  // without inertia
+      sum.head<3>() += balance.wrenches[k].force;
+      sum.tail<3>() += balance.wrenches[k].torque;
+    }
+    const double error = (sum - rate[0][i]).lpNorm<Eigen::Infinity>();
+    errors[i] = error == 0 ? 0 : error / std::max(balance.largest, turning_load(in, i));
+  }
+  return errors;
 }
 
 }  // namespace twinarm

@@ -21,11 +21,13 @@
 // Cost O(n^4) at worst, by the Schur complements of all subtrees.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "app/inspect/inspection.h"
+#include "solver/dynamics/dynamics.h"
 
 namespace twinarm {
 
@@ -61,5 +63,40 @@ struct NamedError {
   double error;
 };
 std::vector<NamedError> loop_errors(const Inspection& in);
+
+// Curves that have the velocity and the acceleration of a motion at s = 0, for rates by
+// differences.
+
+// Numbers of q of a prescribed joint: pose, then velocity and acceleration, six each.
+constexpr std::size_t kPose = 7;
+
+// q exp(shift) of every joint, also of those whose motion is given; shift = qd times a number.
+template <class S>
+void move(const Model<S>& model, const std::vector<S>& qd, const S& by, State<S>& x) {
+  std::vector<S> shift(qd.size());
+  for (std::size_t k = 0; k < qd.size(); ++k) shift[k] = by * qd[k];
+  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+    S* q = x.q.data() + model.iq[i];
+    if (model.joint[i] == JointType::prescribed) {
+      const Vec3<S> v = transpose_times(quaternion_E(q + 3), Vec3<S>{q[10], q[11], q[12]});
+      q[0] = q[0] + by * v.x, q[1] = q[1] + by * v.y, q[2] = q[2] + by * v.z;
+      const std::array<S, 3> turn{by * q[7], by * q[8], by * q[9]};
+      turn_quaternion(q + 3, turn.data(), q + 3);
+    } else {
+      visit_joint(model, i, [&](auto joint) { joint.integrate(q, shift.data() + model.iv[i], q); });
+    }
+  }
+}
+
+// Richardson: values at s, s/2, s/4 .. whose errors are a series in s^2.
+template <std::size_t levels, class Value>
+auto extrapolated(Value value) {
+  std::array<decltype(value(0)), levels> at;
+  for (std::size_t level = 0; level < levels; ++level) at[level] = value(level);
+  double factor = 4;
+  for (std::size_t last = levels; last-- > 1; factor *= 4)
+    for (std::size_t k = 0; k < last; ++k) at[k] = at[k + 1] + (at[k + 1] - at[k]) / (factor - 1);
+  return at[0];
+}
 
 }  // namespace twinarm

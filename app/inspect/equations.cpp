@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/inspect/displayed_quantities.h"
+#include "app/inspect/inspection.h"
 
 namespace twinarm {
 namespace {

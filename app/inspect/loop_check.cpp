@@ -12,7 +12,6 @@
 #include <cmath>
 
 #include "app/inspect/cross_checks.h"
-#include "app/inspect/motion_curve.h"
 
 namespace twinarm {
 namespace {

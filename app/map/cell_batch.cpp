@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "app/scene/read/scene_names.h"
+#include "app/scene/read/read_scene.h"
 #include "coupling/batch/batch_run.h"
 #include "coupling/device/device_log.h"
 #include "coupling/target/automatic_motion.h"

@@ -10,7 +10,6 @@
 
 #include "app/map/cell_batch.h"
 #include "app/map/cell_measure.h"
-#include "app/support/interrupt.h"
 #include "app/support/parallel_for.h"
 #include "app/support/progress.h"
 #include "solver/support/atomic_file.h"

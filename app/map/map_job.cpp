@@ -9,8 +9,7 @@
 #include "app/record/record_run.h"
 #include "app/scene/read/change_scene.h"
 #include "app/scene/read/scene_keys.h"
-#include "app/support/nearest_name.h"
-#include "app/support/text_fields.h"
+#include "app/support/text.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <string_view>
 
-#include "app/support/output_file.h"
-#include "app/support/text_fields.h"
+#include "app/support/files.h"
+#include "app/support/text.h"
 #include "app/support/version.h"
 #include "solver/support/number_text.h"
 

@@ -8,11 +8,70 @@
 #include <string>
 #include <vector>
 
+#include "app/data/json_writer.h"
 #include "app/draw/overlays/overlays.h"
-#include "app/page/draw_columns.h"
-#include "app/page/page_bytes.h"
+#include "app/draw/scene_view.h"
+#include "app/page/channels.h"
 
 namespace twinarm {
+
+// Entries of a draw list in columns, as every page has them: packed over a film's frames
+// (page_layers.h), or of one frame of a run that goes on (app/lab/stream).
+
+// One entry per instance, but for those that say more.
+struct InstanceColumns {
+  std::vector<std::uint16_t> mesh;
+  std::vector<std::uint8_t> flags;  // 1: seen through
+  std::vector<std::uint8_t> shininess;
+  std::vector<std::uint8_t> color;    // 4: red, green, blue, alpha
+  std::vector<std::uint8_t> texture;  // 0: none, else one more than its number
+  std::vector<float> position;        // 3 [m]
+  std::vector<std::int16_t> turn;     // 4: quaternion x, y, z, w in units of 1/32767
+  std::vector<float> scale;           // 3
+  void add(const Instance& instance);
+  // Each column with its name in pages.
+  template <class Columns, class Visit>
+  static void each(Columns& all, const Visit& visit) {
+    visit("mesh", all.mesh);
+    visit("flags", all.flags);
+    visit("shininess", all.shininess);
+    visit("color", all.color);
+    visit("texture", all.texture);
+    visit("position", all.position);
+    visit("turn", all.turn);
+    visit("scale", all.scale);
+  }
+};
+
+// Those that stand at a point of the world; texts are kept by whoever knows how.
+struct LabelColumns {
+  std::vector<float> position;       // 3 [m]
+  std::vector<std::int16_t> offset;  // 2: pixels to the right and down
+  // False, and nothing is added, for a line on the screen or at no finite place.
+  bool add(const Label& label);
+};
+
+// Behind what is there, from the next multiple of 8 bytes on, so that a browser can look at arrays
+// in place: where that is. Little-endian, as the machine (solver/support/state_archive.h asserts
+// it).
+std::size_t append_array(std::string& bytes, const void* data, std::size_t size);
+
+// Layer 0, the bodies, and one for each overlay.
+struct LayerWords {
+  std::string name, what;
+};
+std::vector<LayerWords> layer_words(const std::vector<const std::vector<Overlay>*>& overlays);
+
+// Textures beyond that number are not sent: places in columns are bytes.
+inline constexpr std::size_t kMostTextures = 255;
+// PNG; a wide one is halved until it is at most 1024 pixels.
+std::string texture_file(const Image& image);
+
+// A list of lines; three numbers of 0 to 255.
+void write_legend(JsonWriter& json, const std::vector<LegendLine>& legend);
+void write_color(JsonWriter& json, const char* key, const Color& color);
+// Key view: camera, light, floor.
+void write_view(JsonWriter& json, const Stage& stage);
 
 struct PageLayer {
   std::string name, what;

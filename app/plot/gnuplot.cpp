@@ -12,8 +12,8 @@
 #include <cstdlib>
 
 #include "app/data/html_page.h"
-#include "app/support/interrupt.h"
-#include "app/support/output_file.h"
+#include "app/support/files.h"
+#include "app/support/progress.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 

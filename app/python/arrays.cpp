@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/support/find_files.h"
+#include "app/support/files.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm::python {

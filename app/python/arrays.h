@@ -3,6 +3,7 @@
 #pragma once
 
 #include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
 
 #include <filesystem>
 #include <string>
@@ -40,5 +41,16 @@ inline void store(const Vec3<double>& v, double* to) {
 inline void store(const Vector3& v, double* to) {
   to[0] = v.x(), to[1] = v.y(), to[2] = v.z();
 }
+
+// The parts of the module. Each adds its functions and classes; add_robots comes first, whose class
+// the others name.
+void add_robots(pybind11::module_& m);
+void add_passes(pybind11::module_& m);
+void add_motion(pybind11::module_& m);
+void add_workspace(pybind11::module_& m);
+void add_simulation(pybind11::module_& m);
+void add_scenes(pybind11::module_& m);
+void add_couplings(pybind11::module_& m);
+void add_recordings(pybind11::module_& m);
 
 }  // namespace twinarm::python

@@ -7,7 +7,6 @@
 
 #include "app/coupling/prediction.h"
 #include "app/python/arrays.h"
-#include "app/python/bind.h"
 #include "app/python/scene_change.h"
 #include "coupling/analysis/stability_limits.h"
 #include "coupling/laws/coupling_spec.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/python/arrays.h"
-#include "app/python/robot.h"
+#include "app/python/robots.h"
 
 namespace twinarm::python {
 

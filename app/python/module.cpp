@@ -1,5 +1,5 @@
 // The Python module `twinarm`: docs/python.md. What it takes and gives is said in twinarm.pyi.
-#include "app/python/bind.h"
+#include "app/python/arrays.h"
 #include "app/support/version.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/support/diagnostics.h"

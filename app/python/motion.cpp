@@ -1,7 +1,6 @@
 // Where bodies are and how they move, in world axes; forward dynamics with all that joints do.
 #include "app/python/arrays.h"
-#include "app/python/bind.h"
-#include "app/python/robot.h"
+#include "app/python/robots.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/world_kinematics.h"
 #include "solver/loops/constrained_dynamics.h"

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "app/python/bind.h"
+#include "app/python/arrays.h"
 #include "app/python/fast_arguments.h"
 #include "solver/dynamics/dynamics.h"
 

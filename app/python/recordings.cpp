@@ -5,9 +5,8 @@
 #include <memory>
 
 #include "app/python/arrays.h"
-#include "app/python/bind.h"
 #include "app/record/recording_reader.h"
-#include "app/support/nearest_name.h"
+#include "app/support/text.h"
 
 namespace twinarm::python {
 namespace {

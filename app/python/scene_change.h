@@ -3,7 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "app/run/simulate_options.h"
+#include "app/run/simulate_input.h"
 
 namespace twinarm::python {
 

@@ -6,8 +6,7 @@
 #include <optional>
 
 #include "app/python/arrays.h"
-#include "app/python/bind.h"
-#include "app/python/robot.h"
+#include "app/python/robots.h"
 #include "app/python/scene_change.h"
 #include "app/run/run.h"
 #include "solver/dynamics/energy_momentum.h"

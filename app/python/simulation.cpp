@@ -4,9 +4,8 @@
 #include <memory>
 
 #include "app/python/arrays.h"
-#include "app/python/bind.h"
-#include "app/python/robot.h"
-#include "app/support/nearest_name.h"
+#include "app/python/robots.h"
+#include "app/support/text.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/stepping/simulation.h"
 #include "solver/support/number_text.h"

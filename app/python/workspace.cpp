@@ -5,11 +5,10 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/inspect/displayed_quantities.h"
+#include "app/inspect/inspection.h"
 #include "app/python/arrays.h"
-#include "app/python/bind.h"
-#include "app/python/robot.h"
-#include "app/support/nearest_name.h"
+#include "app/python/robots.h"
+#include "app/support/text.h"
 #include "solver/model/field_description.h"
 
 namespace twinarm::python {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "app/record/recording_writer.h"
-#include "app/support/output_file.h"
+#include "app/support/files.h"
 #include "solver/support/diagnostics.h"
 #include "solver/support/number_text.h"
 

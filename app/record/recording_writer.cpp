@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/support/output_file.h"
+#include "app/support/files.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

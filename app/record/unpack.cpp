@@ -11,8 +11,7 @@
 #include "app/record/recording_writer.h"
 #include "app/robot/dynamics.h"
 #include "app/run/run.h"
-#include "app/support/output_file.h"
-#include "app/support/streams.h"
+#include "app/support/files.h"
 #include "solver/support/atomic_file.h"
 
 namespace twinarm {

@@ -1,12 +1,17 @@
 #include "app/robot/robot_input.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <optional>
 
 #include "app/data/value.h"
-#include "app/support/text_fields.h"
+#include "app/robot/coordinates.h"
+#include "app/support/text.h"
 #include "collision/import/formats/robot_formats.h"
 #include "collision/import/robot/robot_model.h"
 #include "solver/dynamics/kinematics.h"
+#include "solver/model/mimic.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -91,6 +96,154 @@ RobotInput read_robot_input(const RobotOptions& options, FaultList faults) {
   for (const Fault& warning : robot->warnings) warnings.push_back(to_string(warning));
   warnings.insert(warnings.end(), state.warnings.begin(), state.warnings.end());
   return {*robot, std::move(*model), coordinates, std::move(state), std::move(warnings)};
+}
+
+namespace {
+
+class StateReader {
+ public:
+  StateReader(const std::filesystem::path& file, const RobotDescription& robot,
+              const Model<double>& model, const Coordinates& coordinates, const GivenState& start,
+              FaultList& faults)
+      : file_(file.string()),
+        robot_(robot),
+        model_(model),
+        coordinates_(coordinates),
+        faults_(faults),
+        state_(start) {}
+
+  GivenState read(const Value& json) {
+    if (!json.is_table()) {
+      faults_.add({file_, json.line, "the state", "must be an object, is " + describe(json),
+                   "write {\"name\": value}", "scene.type"});
+      return state_;
+    }
+    TableReader state(json, {"the state", "", ""}, file_, faults_);
+    // Orientations first: velocities and forces of a floating joint are turned by them.
+    each_joint(state, "q", JointRows::coordinates, [&](const NamedJoint& joint, const Numbers& q) {
+      std::copy(q.begin(), q.end(), state_.x.q.data() + joint.iq);
+    });
+    each_joint(state, "qd", JointRows::velocities, [&](const NamedJoint& joint, const Numbers& qd) {
+      to_solver(joint, state_.x, qd.data(), state_.x.qd);
+    });
+    each_joint(state, "qdd", JointRows::velocities,
+               [&](const NamedJoint& joint, const Numbers& v) { set_rows(joint, v, state_.qdd); });
+    each_joint(state, "tau", JointRows::velocities, [&](const NamedJoint& joint, const Numbers& v) {
+      set_rows(joint, v, state_.tau);
+      state_.has_tau[static_cast<std::size_t>(&joint - coordinates_.all().data())] = true;
+    });
+    read_base(state);
+    read_wrenches(state);
+    state.done();
+    apply_mimics(model_, state_.x);
+    return state_;
+  }
+
+ private:
+  using Numbers = std::vector<double>;
+
+  // Calls take(joint, numbers) for every good entry of the object under `key`.
+  template <class Take>
+  void each_joint(TableReader& state, const std::string& key, JointRows rows, Take take) {
+    const Value* object = state.table(key);
+    if (!object) return;
+    TableReader joints(*object, {key, key + " of joint '", "'"}, file_, faults_);
+    for (const auto& [name, given] : read_joint_values(joints, robot_, rows, &state_.warnings))
+      take(*coordinates_.find(name), given.values);
+  }
+  static void set_rows(const NamedJoint& joint, const Numbers& values, Eigen::VectorXd& rows) {
+    for (std::size_t k = 0; k < joint.nv; ++k)
+      rows[static_cast<Eigen::Index>(joint.row + k)] = values[k];
+  }
+
+  void read_base(TableReader& state) {
+    const Value* object = state.table("base");
+    if (!object) return;
+    if (!coordinates_.floating())
+      return state.fault("base", "the root link stands on the world",
+                         "give --floating, or leave 'base' out", "scene.key-useless");
+    TableReader base(*object, {"base", "base.", ""}, file_, faults_);
+    double* q = state_.x.q.data() + coordinates_.base().iq;
+    if (const auto p = base.vector("position")) std::copy(p->begin(), p->end(), q);
+    if (const auto turn = base.numbers("orientation", 4)) {
+      std::copy(turn->begin(), turn->end(), q + 3);
+      normalise(base, "orientation", std::span<double, 4>(q + 3, 4), &state_.warnings);
+    }
+    const auto motion = [&](const char* linear, const char* angular) {
+      const Vector3 v = base.vector(linear).value_or(Vector3::Zero());
+      const Vector3 w = base.vector(angular).value_or(Vector3::Zero());
+      return (Eigen::Matrix<double, 6, 1>() << v, w).finished();
+    };
+    const auto velocity = motion("linear_velocity", "angular_velocity");
+    to_solver(coordinates_.base(), state_.x, velocity.data(), state_.x.qd);
+    state_.qdd.head<6>() = motion("linear_acceleration", "angular_acceleration");
+    base.done();
+  }
+
+  void read_wrenches(TableReader& state) {
+    const Value* list = state.find("wrenches");
+    if (!list) return;
+    if (!list->is_list())
+      return state.fault("wrenches", "must be a list, is " + describe(*list),
+                         "write [{\"link\": .., \"force\": [..]}]", "scene.type");
+    for (std::size_t i = 0; i < list->items.size(); ++i)
+      read_wrench(list->items[i], fmt::format("wrenches[{}]", i));
+  }
+  void read_wrench(const Value& json, const std::string& where) {
+    TableReader given(json, {where, where + ".", ""}, file_, faults_);
+    if (!json.is_table())
+      return given.fault("", "must be an object, is " + describe(json), "write {\"name\": value}",
+                         "scene.type");
+    Wrench wrench;
+    const Value* link = given.find("link");
+    if (!link || !link->is_text())
+      given.fault("link", "the name of the link that it acts on is missing",
+                  "give \"link\": \"NAME\"", "scene.missing");
+    else if (const auto body = find_link(link->text))
+      wrench.body = *body;
+    else
+      given.fault("link", "there is no link '" + link->text + "'",
+                  name_remedy(link->text, link_names(), "links"), "scene.unknown-name");
+    wrench.in_link_axes = given.choice("frame", {"world", "link"}).value_or(0) == 1;
+    wrench.point = given.vector("point").value_or(Vector3::Zero());
+    wrench.force = given.vector("force").value_or(Vector3::Zero());
+    wrench.torque = given.vector("torque").value_or(Vector3::Zero());
+    given.done();
+    state_.wrenches.push_back(wrench);
+  }
+  // Not find_body: that knows the world too, under its name.
+  std::optional<std::size_t> find_link(const std::string& name) const {
+    for (std::size_t i = 1; i < model_.body_name.size(); ++i)
+      if (model_.body_name[i] == name) return i;
+    return std::nullopt;
+  }
+  std::vector<std::string> link_names() const {
+    return {model_.body_name.begin() + 1, model_.body_name.end()};
+  }
+
+  std::string file_;
+  const RobotDescription& robot_;
+  const Model<double>& model_;
+  const Coordinates& coordinates_;
+  FaultList& faults_;
+  GivenState state_;
+};
+
+}  // namespace
+
+GivenState default_state(const Model<double>& model, const Coordinates& coordinates) {
+  GivenState state;
+  state.x = State<double>(model);
+  apply_mimics(model, state.x);
+  state.tau = state.qdd = Eigen::VectorXd::Zero(coordinates.rows());
+  state.has_tau.assign(coordinates.all().size(), false);
+  return state;
+}
+
+GivenState read_state(const Value& json, const std::filesystem::path& file,
+                      const RobotDescription& robot, const Model<double>& model,
+                      const Coordinates& coordinates, const GivenState& start, FaultList& faults) {
+  return StateReader(file, robot, model, coordinates, start, faults).read(json);
 }
 
 }  // namespace twinarm

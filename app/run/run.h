@@ -1,6 +1,7 @@
 // A run of `twinarm simulate`: steps on a grid, samples at any time, the ledger.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -8,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "app/accounting/energy_alarm.h"
 #include "app/accounting/energy_balance.h"
 #include "app/accounting/momentum_balance.h"
+#include "app/robot/robot_input.h"
 #include "app/run/simulate_input.h"
-#include "app/run/simulate_options.h"
 #include "app/scene/forces/add_contacts.h"
+#include "solver/dynamics/kinematics.h"
 #include "solver/stepping/simulation.h"
 
 namespace twinarm {
@@ -107,5 +108,74 @@ Memory simulation_memory(const std::string& memory);
 // `start`: goes on from there, with the same bits. Throws InputError where it is of another scene.
 SimulateResult run_plan(const SimulateInput& input, const RunPlan& plan, const RunWatch& watch,
                         const RunStart* start = nullptr);
+
+// The numbers of a run at one time: what `simulate` prints, a recording keeps in each frame, and
+// pages plot. A new one is a column here.
+struct RunColumn {
+  std::string name, unit;  // "q/arm1" [rad], "links/hand/x" [m], "kinetic_energy" [J]
+  std::string kind, of;    // "coordinate" of "arm1"; as in app/web/src/protocol/run.ts
+
+  std::string with_unit() const { return name + "[" + unit + "]"; }
+};
+
+// Coordinates, velocities, positions of the links' origins; kinetic and potential energy last.
+std::vector<RunColumn> run_columns(const RobotInput& input);
+// In their order; k belongs to x.
+std::vector<double> run_values(const RobotInput& input, const State<double>& x,
+                               const Kinematics& k);
+
+// How a run ends that stops by itself.
+double weight_of(const Model<double>& model);  // [N]
+// RunPlan::energy_bound where none is given [J].
+double default_energy_bound(const Model<double>& model, const State<double>& start);
+
+// After a bad step from t, `last` the last good state: what is bad first, and which joint is
+// fastest.
+PostMortem examine_end(const StepReport& report, const Simulation& simulation,
+                       const State<double>& last, double t, long step);
+
+// What a run warns of besides its result; each is empty where there is nothing to warn of.
+
+// Floating-base robots under semi-implicit Euler, whose steps in joint coordinates do not conserve
+// the momentum of a tree with joints: the drift is of first order in the step. Not with events
+// located in time, nor with contacts or limits under gravity, which set the momentum themselves.
+std::string drift_warning(const Simulation& simulation, const RunPlan& plan);
+
+// Bodies that penetrate one another deeply at the start.
+std::string deep_start_warning(const SceneContacts& contacts, ContactMode mode);
+
+// Steps whose equation was not solved, and steps in which not all events were located.
+std::string unsolved_warning(long unsolved, long steps);
+std::string unlocated_warning(long unlocated, long steps);
+
+// The times of a run of fixed steps.
+
+// Two times within this part of a step are the same one.
+inline constexpr double kSameTime = 1e-9;
+
+// t = n step, the last one `duration`, which may be infinite; both [s].
+class TimeGrid {
+ public:
+  TimeGrid(double step, double duration) : step_(step), duration_(duration) {
+    if (std::isinf(duration_)) return;
+    const double whole = std::floor(duration_ / step_ + kSameTime);
+    steps_ = static_cast<long>(whole);
+    if (duration_ - whole * step_ > kSameTime * step_) ++steps_;
+  }
+  long steps() const { return steps_; }
+  double time(long n) const { return n >= steps_ ? duration_ : static_cast<double>(n) * step_; }
+  // Whether a run that stands at t after n steps stands on the grid.
+  bool holds(long n, double t) const { return std::abs(t - time(n)) <= kSameTime * step_; }
+  // Of the step from t, which need not lie on the grid: the last one is shorter where the duration
+  // is no multiple of the step.
+  double length(double t) const {
+    const double rest = duration_ - t;
+    return rest < step_ * (1 - kSameTime) ? rest : step_;
+  }
+
+ private:
+  double step_, duration_;
+  long steps_ = std::numeric_limits<long>::max();
+};
 
 }  // namespace twinarm

@@ -6,8 +6,7 @@
 #include "app/data/value.h"
 #include "app/scene/forces/add_contacts.h"
 #include "app/scene/read/read_scene.h"
-#include "app/scene/read/scene_names.h"
-#include "app/support/nearest_name.h"
+#include "app/support/text.h"
 
 namespace twinarm {
 namespace {

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "app/run/run_end.h"
-#include "app/run/run_warnings.h"
-#include "app/run/time_grid.h"
+#include "app/run/run.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/support/number_text.h"
 

@@ -13,7 +13,7 @@
 #include "app/run/run.h"
 #include "app/scene/forces/add_contacts.h"
 #include "app/scene/forces/given_forces.h"
-#include "app/scene/forces/outside_force.h"
+#include "app/scene/forces/reported_forces.h"
 
 namespace twinarm {
 

@@ -1,10 +1,13 @@
 #include "app/servo/servo_loop.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
 
-#include "app/servo/servo_clock.h"
+#include "app/servo/haptic_loop.h"
+#include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -100,6 +103,138 @@ ServoResult run_servo(LiveRun& run, const ServoPlan& plan, const std::atomic<boo
   thread.join();
   drain(servo.ring());
   return servo.take();
+}
+
+namespace {
+
+constexpr double kRemembered = 2.0;  // of the hand, for couplings that see it late [s]
+constexpr double kShortestStep = 1e-6, kLongestStep = 0.1;  // [s]
+
+double step_of(const SceneModel& scene, const LiveOptions& options) {
+  const bool is_option = options.step > 0;
+  const double h = is_option ? options.step : scene.description.step;
+  if (h >= kShortestStep && h <= kLongestStep) return h;
+  throw InputError(
+      {{is_option ? "" : scene.description.file.string(), 0, is_option ? "--step" : "step",
+        "with a hand device the step is from 1e-6 to 0.1 s, and here " + short_number_text(h) +
+            " s",
+        "give 0.001", "hand.step"}});
+}
+
+// A tick takes one semi-implicit step of known work.
+void check_steps(const SceneModel& scene, FaultList& faults) {
+  const std::string file = scene.description.file.string();
+  const Integrator integrator = scene.description.integrator.value_or(Integrator::semi_implicit);
+  if (integrator != Integrator::semi_implicit)
+    faults.add({file, 0, "integrator",
+                std::string("a hand device goes with semi-implicit, not with ") +
+                    integrator_name(integrator),
+                "leave it out of the scene", "hand.integrator"});
+  if (locates_events(scene))
+    faults.add({file, 0, "contact", "impacts that are located have no time for a hand device",
+                "give contact = \"rigid\"", "hand.contact"});
+}
+
+// The couplings that follow the device. All of them are to turn the same joints.
+std::vector<std::size_t> find_led(const SceneModel& scene, double h) {
+  const std::string file = scene.description.file.string();
+  FaultList faults;
+  check_steps(scene, faults);
+  std::vector<std::size_t> led;
+  for (std::size_t c = 0; c < scene.couplings.size(); ++c) {
+    const SceneCoupling& coupling = scene.couplings[c];
+    if (coupling.target != CouplingTarget::Kind::device) continue;
+    led.push_back(c);
+    if (!coupling.leads()) continue;
+    const std::string where = "coupling '" + coupling.coupling + "'";
+    if (coupling.driven.turned != scene.couplings[led.front()].driven.turned)
+      faults.add({file, coupling.line, where, "it follows the device with another robot",
+                  "one device moves one robot: give it another target", "hand.two-robots"});
+    if (coupling.delay > kRemembered - h)
+      faults.add({file, coupling.line, where + ", delay", "of a device it is at most 2 s",
+                  "give a shorter one", "hand.delay"});
+  }
+  if (led.empty())
+    faults.add({file, 0, "coupling", "none of them follows a hand device",
+                "give target = \"device\" to those that should", "hand.no-device"});
+  faults.check();
+  return led;
+}
+
+}  // namespace
+
+LiveRun::LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions& options)
+    : h_(step_of(scene, options)),
+      led_(find_led(scene, h_)),
+      leader_(led_.front()),
+      hand_(std::make_unique<LiveHand>(static_cast<std::size_t>(kRemembered / h_) + 2)),
+      couplings_(std::make_unique<SceneCouplings>(scene, h_, hand_.get())),
+      simulation_(scene.model, scene.start) {
+  loop_ = std::make_unique<HandLoop>(scene, *couplings_, led_, device, options);
+  for (std::size_t c = 0; c < couplings_->size(); ++c)
+    if (ForceSource* source = couplings_->source(c)) simulation_.add(*source);
+  for (const SceneMotion& motion : scene.motions) simulation_.prescribe(motion.body, motion.law);
+  contacts_.emplace(scene, simulation_);
+  loop_->begin(loop_->target().q, 0);
+}
+
+TickView LiveRun::tick() noexcept {
+  TickView view;
+  const double t = time();
+  const HandTarget& target = loop_->before_step(simulation_.state(), t, h_);
+  hand_->set(target, t, h_);
+  view.hand = hand_->newest();
+  const std::vector<double>& q_D = loop_->q_D();
+  for (std::size_t j = 0; j < std::min(view.error.size(), q_D.size()); ++j)
+    view.error[j] = target.q[j] - q_D[j];
+  view.mode = loop_->watch().mode();
+  if (!stopped_) stopped_ = !simulation_.step(h_).finite;
+  view.finite = !stopped_;
+  view.felt = loop_->after_step(simulation_, h_, view.finite).torque;
+  return view;
+}
+
+namespace {
+
+// The first state of a device that is there.
+DeviceState first_state(HandDevice& device, ServoClock& clock, bool real_time, double h) {
+  constexpr double kPatience = 5;  // [s]
+  for (double waited = 0;; waited += h) {
+    const DeviceState state = device.poll(0);
+    if (state.alive) return state;
+    if (waited > kPatience)
+      throw InputError({{"", 0, "--device", device.description() + " says nothing",
+                         "see that it is switched on and not in use elsewhere", "device.silent"}});
+    if (real_time) clock.wait();
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<LiveHand> record_hand(HandDevice& device, double duration, bool real_time,
+                                      const std::function<void(double)>& tick) {
+  const double h = 1 / device.figures().rate;
+  const auto steps = static_cast<std::size_t>(std::ceil(duration / h - 1e-9));
+  auto hand = std::make_unique<LiveHand>(steps);
+  ServoClock clock(h);
+  clock.start();
+  DeviceState last = first_state(device, clock, real_time, h);
+  for (std::size_t n = 0; n < steps; ++n) {
+    const double t = static_cast<double>(n) * h;
+    if (real_time) clock.wait();
+    DeviceState now = device.poll(t);
+    if (!now.alive) now = last;
+    HandStep step{t, h, {}};
+    step.hand.theta = now.theta;
+    for (std::size_t j = 0; j < now.theta.size(); ++j)
+      step.hand.theta_dot[j] = (now.theta[j] - last.theta[j]) / h;
+    step.hand.button = now.buttons[0];
+    hand->set(step);
+    device.render({});
+    last = now;
+    tick(t + h);
+  }
+  return hand;
 }
 
 }  // namespace twinarm

@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 
-#include "app/support/seconds.h"
-#include "app/support/streams.h"
+#include "app/support/files.h"
 
 namespace twinarm {
 
@@ -69,6 +69,31 @@ void Progress::draw() {
   say("\r\033[K[{}{}] {:3.0f} %  {}{}", std::string(full, '#'), std::string(width - full, '.'),
       100 * done, name_, left);
   std::fflush(stderr);
+}
+
+namespace {
+volatile std::sig_atomic_t interrupted = 0;
+}
+
+void catch_interrupts() {
+  const auto note = [](int) { interrupted = 1; };
+  std::signal(SIGINT, note);
+  std::signal(SIGTERM, note);
+  if (std::signal(SIGHUP, note) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // as nohup wants it
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file beyond the user's limit is told by write(), as a full disk is
+}
+
+bool is_interrupted() {
+  return interrupted != 0;
+}
+
+void forget_interrupt() {
+  interrupted = 0;
+}
+
+void check_interrupt() {
+  if (interrupted) throw Interrupted();
 }
 
 }  // namespace twinarm

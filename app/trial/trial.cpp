@@ -3,17 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "app/scene/read/read_scene.h"
-#include "app/servo/output/servo_log.h"
-#include "app/trial/top_view.h"
+#include "app/servo/output/servo_output.h"
+#include "app/trial/trial_output.h"
 #include "solver/dynamics/kinematics.h"
 
 namespace twinarm {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kMeasured = 2;  // joints, as the paper has them
 
 // The robot in the places that the ticks tell: of its kinematic and its dynamic self.
@@ -141,6 +139,37 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
   result.log = log_file.string();
   watch.finish(result);
   return result;
+}
+
+namespace {
+
+double apart_from_above(const Vector3& a, const Vector3& b) {
+  return (a - b).head<2>().norm();
+}
+
+}  // namespace
+
+void PickAndPlace::tick(double t, const Vector3& gripper, bool closed) {
+  const bool closes = closed && !closed_, opens = !closed && closed_;
+  closed_ = closed;
+  if (placed_) return;
+  if (closes && apart_from_above(gripper, object_) <= places_.reach) {
+    carried_ = true;
+    ++picks_;
+    if (picked_ < 0) picked_ = t;
+  }
+  if (carried_) object_.head<2>() = gripper.head<2>();
+  if (!carried_ || !opens) return;
+  carried_ = false;
+  placed_ = off() <= places_.reach;
+  if (placed_)
+    done_ = t;
+  else
+    ++drops_;
+}
+
+double PickAndPlace::off() const {
+  return apart_from_above(object_, places_.goal);
 }
 
 }  // namespace twinarm

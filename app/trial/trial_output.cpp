@@ -1,14 +1,16 @@
-#include "app/trial/trial.h"
+#include "app/trial/trial_output.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "app/data/json_writer.h"
-#include "app/data/text_table.h"
-#include "app/support/output_file.h"
-#include "app/support/text_fields.h"
+#include "app/data/tables.h"
+#include "app/support/files.h"
+#include "app/support/text.h"
+#include "app/trial/trial.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 
@@ -97,6 +99,42 @@ std::string next_subject(const std::filesystem::path& file) {
     const std::string code = fmt::format("S{}", n);
     if (std::find(known.begin(), known.end(), code) == known.end()) return code;
   }
+}
+
+TopView::TopView(double half, int columns)
+    : half_(half), columns_(columns), rows_(std::max(1, columns / 2)) {
+  clear();
+}
+
+void TopView::clear() {
+  lines_.assign(static_cast<std::size_t>(rows_),
+                std::string(static_cast<std::size_t>(columns_), ' '));
+}
+
+int TopView::column(double x) const {
+  return static_cast<int>(std::floor((x + half_) / (2 * half_) * columns_));
+}
+int TopView::row(double y) const {
+  return static_cast<int>(std::floor((half_ - y) / (2 * half_) * rows_));
+}
+
+void TopView::point(const Vector3& p, char mark) {
+  if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1e3) return;
+  const int c = column(p.x()), r = row(p.y());
+  if (c < 0 || c >= columns_ || r < 0 || r >= rows_) return;
+  lines_[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] = mark;
+}
+
+void TopView::line(const Vector3& a, const Vector3& b, char mark) {
+  const int steps = 2 * columns_;  // finer than the characters
+  for (int i = 0; i <= steps; ++i) point(a + (b - a) * i / steps, mark);
+}
+
+std::string TopView::text() const {
+  const std::string edge = "+" + std::string(static_cast<std::size_t>(columns_), '-') + "+\n";
+  std::string all = edge;
+  for (const std::string& line : lines_) all += "|" + line + "|\n";
+  return all + edge;
 }
 
 }  // namespace twinarm

@@ -6,7 +6,7 @@
 namespace twinarm {
 
 struct WebBundle {
-  // With marks to be filled in (page_form.h); empty: none was built.
+  // With marks to be filled in (app/page/pages.h); empty: none was built.
   std::string_view replay, inspect;
   std::string_view lab;      // whole, as it is
   std::string_view missing;  // why there is none, and what to do

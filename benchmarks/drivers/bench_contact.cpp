@@ -6,9 +6,8 @@
 
 #include "benchmarks/drivers/command_line.h"
 #include "benchmarks/drivers/contact_measure.h"
-#include "benchmarks/drivers/stages.h"
+#include "benchmarks/drivers/timing.h"
 #include "benchmarks/engines/engine.h"
-#include "benchmarks/engines/thread_seconds.h"
 
 namespace twinarm::bench {
 namespace {

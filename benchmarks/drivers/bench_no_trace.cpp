@@ -14,7 +14,6 @@
 #include "benchmarks/drivers/no_trace_passes.h"
 #include "benchmarks/drivers/timing.h"
 #include "benchmarks/scenes/mechanisms.h"
-#include "benchmarks/scenes/scene_model.h"
 
 namespace twinarm::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include <iostream>
 #include <map>
 
-#include "benchmarks/engines/thread_seconds.h"
+#include "benchmarks/engines/engine.h"
 #include "collision/import/robot/robot_model.h"
 #include "collision/import/urdf/urdf.h"
 #include "solver/dynamics/dynamics.h"

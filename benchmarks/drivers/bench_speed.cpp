@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/drivers/command_line.h"
-#include "benchmarks/drivers/stages.h"
 #include "benchmarks/drivers/timing.h"
 #include "benchmarks/engines/engine.h"
 #include "benchmarks/scenes/mechanisms.h"

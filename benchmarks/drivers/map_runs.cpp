@@ -4,7 +4,7 @@
 #include <memory>
 #include <thread>
 
-#include "benchmarks/engines/thread_seconds.h"
+#include "benchmarks/engines/engine.h"
 #include "solver/dynamics/model_builder.h"
 
 namespace twinarm::bench {

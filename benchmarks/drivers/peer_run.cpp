@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <exception>
 
-#include "benchmarks/engines/thread_seconds.h"
+#include "benchmarks/engines/engine.h"
 
 namespace twinarm::bench {
 namespace {

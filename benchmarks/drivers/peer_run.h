@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/drivers/stages.h"
+#include "benchmarks/drivers/timing.h"
 #include "benchmarks/engines/engine.h"
-#include "benchmarks/scenes/scene_cases.h"
+#include "benchmarks/scenes/scene.h"
 
 namespace twinarm::bench {
 

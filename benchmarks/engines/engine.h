@@ -9,6 +9,7 @@
 //   standard:   of C++, where it is not 20
 #pragma once
 
+#include <ctime>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -105,6 +106,12 @@ Engines one_engine() {
 std::vector<EngineKind> kinds_in_order();    // of this build
 Engines all_engines();                       // all variants of them
 std::vector<std::string> missing_engines();  // their libraries were not found
+
+inline double thread_seconds() {  // CPU time of this thread [s]
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 }  // namespace twinarm::bench
 

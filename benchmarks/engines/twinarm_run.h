@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "benchmarks/engines/engine.h"
-#include "benchmarks/engines/thread_seconds.h"
 #include "benchmarks/scenes/eigen.h"
-#include "benchmarks/scenes/scene_model.h"
+#include "benchmarks/scenes/mechanisms.h"
 #include "collision/contact/contact_constraints.h"
 #include "solver/stepping/simulation.h"
 

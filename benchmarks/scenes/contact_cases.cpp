@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/scenes/scene_cases.h"
+#include "benchmarks/scenes/scene.h"
 #include "solver/linear_algebra/nan_max.h"
 
 namespace twinarm::bench {

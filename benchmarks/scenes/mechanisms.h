@@ -9,6 +9,7 @@
 #pragma once
 
 #include "benchmarks/scenes/scene.h"
+#include "solver/model/model.h"
 
 namespace twinarm::bench {
 
@@ -27,5 +28,8 @@ struct TimedScene {
 };
 inline constexpr std::array<const char*, 3> timed_scene_names = {"wall100", "pyr55", "scara"};
 TimedScene timed_scene(const std::string& name);  // throws std::invalid_argument
+
+// A scene's mechanism as a model of ours: its coordinates and velocities are those of the scene.
+Model<double> model_of(const Scene& scene);
 
 }  // namespace twinarm::bench

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "coupling/target/csv_lines.h"
+#include "solver/spatial/scalar.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 #include "solver/support/number_text.h"
@@ -20,7 +21,6 @@ constexpr std::array<const char*, 7> kColumns{"t[s]",        "theta1[rad]", "the
                                               "theta6[rad]"};
 constexpr std::size_t kMostTraceFaults = 20;  // of one file; a wrong unit would name every line
 constexpr std::size_t kMostSamples = std::size_t{1} << 23;  // two hours at 1 kHz
-constexpr double kDegree = std::numbers::pi / 180;
 
 // The ends of the Omni's joints, theta3 told relative to theta2 or to the world [rad]. A trace may
 // come from another hand: what lies beyond them is asked, not refused.

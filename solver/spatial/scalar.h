@@ -8,9 +8,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numbers>
 #include <type_traits>
 
 namespace twinarm {
+
+inline constexpr double kDegree = std::numbers::pi / 180;  // [rad]
 
 // condition ? a : b, lane by lane where S has lanes. Both sides are evaluated.
 template <class S>

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "app/record/record_run.h"
 #include "app/record/recording_reader.h"
-#include "app/record/replay.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

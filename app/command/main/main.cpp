@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "app/command/command.h"
-#include "app/command/parser/help_formatter.h"
-#include "app/support/interrupt.h"
-#include "app/support/nearest_name.h"
-#include "app/support/streams.h"
+#include "app/command/parser/command_tree.h"
+#include "app/support/files.h"
+#include "app/support/progress.h"
+#include "app/support/text.h"
 #include "app/support/version.h"
 #include "solver/support/diagnostics.h"
 

@@ -1,12 +1,18 @@
 // The commands and options of the program as plain lists, for what is written about them.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace CLI {
 class App;
 }
+
+namespace CLI {
+class FormatterBase;
+class Option;
+}  // namespace CLI
 
 namespace twinarm {
 
@@ -34,5 +40,11 @@ std::vector<ToldCommand> command_tree(CLI::App& program);
 // can go stale.
 std::string man_page(CLI::App& program, const std::string& version);
 std::string shell_completion(CLI::App& program);
+
+// How the help, the manual and the site tell what an option takes: "--port N", and "(0 to 65535)"
+// at the end of its words.
+std::string value_word(const CLI::Option& option);    // NUMBER, N, TEXT, PATH ..; empty: a flag
+std::string value_limits(const CLI::Option& option);  // "above 0"; empty: none that are told
+std::shared_ptr<CLI::FormatterBase> help_formatter();
 
 }  // namespace twinarm

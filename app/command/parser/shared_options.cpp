@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/robot/robot_input.h"
-#include "app/support/find_files.h"
+#include "app/support/files.h"
 #include "solver/integration/integrator.h"
 
 namespace twinarm {

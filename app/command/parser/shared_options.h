@@ -28,7 +28,7 @@ CLI::Option* add_file_option(CLI::App& command, const char* name,
 CLI::Option* add_input_option(CLI::App& command, const char* name, std::filesystem::path& file,
                               const char* help);
 
-// Checks of numbers, called as the help tells them (help_formatter.h).
+// Checks of numbers, called as the help tells them (command_tree.h).
 CLI::Validator above_zero();
 CLI::Validator zero_or_more();
 CLI::Validator between(int least, int most);

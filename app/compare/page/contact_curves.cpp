@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "app/compare/page/curves.h"
-#include "app/support/interrupt.h"
-#include "benchmarks/analytic/support/contact_look.h"
+#include "app/support/progress.h"
+#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm::compare_page {
 namespace {

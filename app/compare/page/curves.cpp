@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "app/support/interrupt.h"
+#include "app/support/progress.h"
 #include "solver/integration/integrator.h"
 
 namespace twinarm::compare_page {

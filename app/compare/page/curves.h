@@ -8,7 +8,7 @@
 
 #include "app/plot/gnuplot.h"
 #include "benchmarks/analytic/support/analytic_case.h"
-#include "benchmarks/analytic/support/run_trajectory.h"
+#include "benchmarks/analytic/support/trajectory_case.h"
 
 namespace twinarm::compare_page {
 

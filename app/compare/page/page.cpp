@@ -10,7 +10,7 @@
 #include "app/compare/page/page_style.h"
 #include "app/data/html_page.h"
 #include "app/plot/gnuplot.h"
-#include "app/support/output_file.h"
+#include "app/support/files.h"
 #include "benchmarks/analytic/registry/case_sources.h"
 
 namespace twinarm::compare_page {

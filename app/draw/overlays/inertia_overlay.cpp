@@ -13,7 +13,6 @@
 
 #include "app/draw/overlays/overlays.h"
 #include "app/draw/palette.h"
-#include "app/inspect/displayed_quantities.h"
 #include "app/inspect/inspection.h"
 #include "solver/linear_algebra/dense_algebra.h"
 

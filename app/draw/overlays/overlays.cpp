@@ -7,8 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/support/nearest_name.h"
-#include "app/support/text_fields.h"
+#include "app/support/text.h"
 #include "solver/spatial/rotation_to_axis.h"
 #include "solver/support/diagnostics.h"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/data/text_table.h"
+#include "app/data/tables.h"
 #include "app/robot/robot_output.h"
 
 namespace twinarm {

@@ -6,9 +6,8 @@
 
 #include "app/accounting/energy_balance.h"
 #include "app/data/json_writer.h"
-#include "app/data/number_sheet.h"
+#include "app/data/tables.h"
 #include "app/inspect/cross_checks.h"
-#include "app/inspect/displayed_quantities.h"
 #include "app/inspect/force_balance.h"
 #include "app/inspect/inspection.h"
 

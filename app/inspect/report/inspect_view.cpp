@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/support/nearest_name.h"
+#include "app/support/text.h"
 #include "solver/model/non_finite.h"
 
 namespace twinarm {

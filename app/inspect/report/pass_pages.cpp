@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/inspect/displayed_quantities.h"
 #include "app/inspect/equations.h"
+#include "app/inspect/inspection.h"
 
 namespace twinarm {
 namespace {

@@ -1,9 +1,13 @@
 #include "app/lab/app/clients.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
+#include "app/data/json_writer.h"
+#include "app/lab/parameters/gallery.h"
 #include "app/lab/server/http_text.h"
+#include "app/support/files.h"
 
 namespace twinarm {
 
@@ -92,6 +96,116 @@ Audience::View Audience::view() const {
   View view{holder_, asked_, {}};
   for (const auto& [id, client] : clients_) view.clients.push_back(id);
   return view;
+}
+
+namespace {
+
+void write_changes(JsonWriter& json, const std::vector<Change>& changes) {
+  json.key("changes").list(
+      changes, [&](const Change& change) { json.text(change.path + "=" + change.value); });
+}
+
+void write_audience(JsonWriter& json, const Audience::View& audience) {
+  const auto holder = audience.holder != 0 ? std::optional(audience.holder) : std::nullopt;
+  json.members(
+      {{"holder", holder}, {"clients", audience.clients.size()}, {"asked", audience.asked}});
+}
+
+void write_time(JsonWriter& json, const LabStatus& status) {
+  json.members({{"playing", status.playing},
+                {"speed", status.speed},
+                {"time", status.time},
+                {"first", status.first},
+                {"last", status.last},
+                {"at", status.at}});
+  json.key("branch").or_null(status.branch, [&](const auto& branch) {
+    json.object([&] {
+      json.put("from", branch.from);
+      write_changes(json, branch.changes);
+      json.put("number", branch.number);
+    });
+  });
+  json.members({{"pace", status.pace}, {"step", status.step}, {"step_us", 1e6 * status.step_time}});
+}
+
+// A recorded hand to begin with; empty where the assets are not there.
+const std::string& recorded_hand() {
+  static const std::string file = [] {
+    try {
+      const auto trace = std::filesystem::absolute(find_assets()) / "traces/synthetic_seed1.csv";
+      return std::filesystem::is_regular_file(trace) ? trace.lexically_normal().string() : "";
+    } catch (const std::exception&) {
+      return std::string();
+    }
+  }();
+  return file;
+}
+
+void write_lanes(JsonWriter& json, const LabStatus& status) {
+  json.key("lanes");
+  if (status.lanes.empty()) return json.null();
+  std::vector<std::optional<double>> stopped(1);  // the first, of which `dead` tells
+  stopped.insert(stopped.end(), status.lane_ends.begin(), status.lane_ends.end());
+  json.object({{"path", status.lanes.path}, {"values", status.lanes.values}, {"stopped", stopped}});
+}
+
+void write_hand(JsonWriter& json, const LabHandStatus& hand) {
+  json.key("hand").begin_object();
+  json.members({{"source", hand.source},
+                {"spec", hand.spec},
+                {"mapping", hand.mapping},
+                {"q", hand.q},
+                {"felt", hand.felt},
+                {"mode", hand.mode},
+                {"gripper", hand.gripper_closed}});
+  if (!recorded_hand().empty()) json.key("trace").text(recorded_hand());
+  json.end_object();
+}
+
+void write_end(JsonWriter& json, const LabStatus& status) {
+  json.key("dead").or_null(status.dead, [&](const LabEnd& dead) {
+    json.object({{"words", dead.words},
+                 {"time", dead.time},
+                 {"from", dead.from},
+                 {"quantity", dead.quantity},
+                 {"body", dead.body},
+                 {"spring", dead.spring},
+                 {"remedies", [&] { write_remedies(dead.remedies, json); }}});
+  });
+}
+
+void write_notes(JsonWriter& json, const std::vector<LabNote>& notes) {
+  json.key("notes").list(notes, [&](const LabNote& note) {
+    json.object({{"n", note.number}, {"level", note.level}, {"text", note.text}});
+  });
+}
+
+}  // namespace
+
+std::string state_message(const LabStatus& status, const Audience::View& audience,
+                          const std::vector<Knob>& knobs,
+                          const std::vector<GalleryScene>& gallery) {
+  return json_text([&](JsonWriter& json) {
+    json.members({{"kind", "state"},
+                  {"scene", status.scene},
+                  {"name", status.scene_name},
+                  {"building", status.building}});
+    write_changes(json, status.changes);
+    write_lanes(json, status);
+    write_audience(json, audience);
+    write_time(json, status);
+    write_hand(json, status.hand);
+    write_knobs(knobs, json.key("knobs"));
+    write_presets(json.key("presets"));
+    write_gallery(gallery, json.key("gallery"));
+    write_end(json, status);
+    write_notes(json, status.notes);
+  });
+}
+
+std::string addressed(const std::string& state, ClientId you, const std::string& secret) {
+  return "{\"you\": " + std::to_string(you) + ", \"secret\": \"" + secret + "\", " +
+         state.substr(state.find_first_not_of("{ \n"));
 }
 
 }  // namespace twinarm

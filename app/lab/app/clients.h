@@ -11,7 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "app/lab/parameters/gallery.h"
+#include "app/lab/parameters/parameters.h"
 #include "app/lab/server/lab_server.h"
+#include "app/lab/session/lab_status.h"
 
 namespace twinarm {
 
@@ -51,5 +54,12 @@ class Audience {
   ClientId holder_ = 0;
   std::vector<ClientId> asked_;
 };
+
+// The message `state` of docs/lab_protocol.md.
+
+// For all clients alike, but for `you` and `secret`: addressed() puts them in.
+std::string state_message(const LabStatus& status, const Audience::View& audience,
+                          const std::vector<Knob>& knobs, const std::vector<GalleryScene>& gallery);
+std::string addressed(const std::string& state, ClientId you, const std::string& secret);
 
 }  // namespace twinarm

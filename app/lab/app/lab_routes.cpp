@@ -6,10 +6,9 @@
 #include <charconv>
 
 #include "app/lab/app/uploads.h"
-#include "app/page/replay_page.h"
+#include "app/page/pages.h"
 #include "app/render/gl/painter.h"
-#include "app/support/find_files.h"
-#include "app/support/output_file.h"
+#include "app/support/files.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/lab/app/message_streamer.h"
-#include "app/lab/app/task_queue.h"
 #include "app/lab/app/uploads.h"
 #include "app/lab/server/lab_server.h"
 #include "app/lab/session/lab_session.h"

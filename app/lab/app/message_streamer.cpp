@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/film/shown_instant.h"
-#include "app/lab/app/state_message.h"
-#include "app/support/seconds.h"
+#include "app/film/filmed_run.h"
+#include "app/lab/app/clients.h"
+#include "app/support/progress.h"
 
 namespace twinarm {
 namespace {

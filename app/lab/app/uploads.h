@@ -1,10 +1,17 @@
 // The files that pages have uploaded. Their number and bytes are limited: the oldest are removed.
 #pragma once
 
+#include <pthread.h>
+
+#include <condition_variable>
 #include <cstddef>
 #include <deque>
 #include <filesystem>
+#include <functional>
+#include <mutex>
 #include <string>
+#include <thread>
+#include <utility>
 
 namespace twinarm {
 
@@ -39,5 +46,65 @@ struct BroughtFile {
 };
 
 BroughtFile brought_file(const std::string& name, const std::string& bytes);
+
+// A thread that does one thing after the other, in the order in which they were asked for.
+class Errands {
+ public:
+  // `failed` gets what an errand throws, from the thread of the errands.
+  explicit Errands(std::function<void(const std::string& why)> failed)
+      : failed_(std::move(failed)), thread_([this] { work(); }) {}
+  ~Errands() { end(); }
+  Errands(const Errands&) = delete;
+  Errands& operator=(const Errands&) = delete;
+
+  // From any thread. False where too many wait already.
+  bool add(std::function<void()> errand) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (errands_.size() >= kMost || stop_) return false;
+      errands_.push_back(std::move(errand));
+    }
+    wake_.notify_one();
+    return true;
+  }
+  // After the one that is being done; what waits is left.
+  void end() {
+    {
+      const std::lock_guard lock(mutex_);
+      stop_ = true;
+    }
+    wake_.notify_one();
+    if (thread_.joinable()) thread_.join();
+  }
+
+ private:
+  static constexpr std::size_t kMost = 16;
+
+  void work() {
+    pthread_setname_np(pthread_self(), "lab errands");
+    for (;;) {
+      std::function<void()> errand;
+      {
+        std::unique_lock lock(mutex_);
+        wake_.wait(lock, [this] { return stop_ || !errands_.empty(); });
+        if (stop_) return;
+        errand = std::move(errands_.front());
+        errands_.pop_front();
+      }
+      try {
+        errand();
+      } catch (const std::exception& error) {
+        failed_(error.what());
+      }
+    }
+  }
+
+  std::function<void(const std::string&)> failed_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<std::function<void()>> errands_;
+  bool stop_ = false;
+  std::thread thread_;
+};
 
 }  // namespace twinarm

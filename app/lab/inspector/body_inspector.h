@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/run/lab_frame.h"
+#include "app/lab/run/history.h"
 #include "app/run/simulate_input.h"
 
 namespace twinarm {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "app/data/table_reader.h"
-#include "app/support/find_files.h"
+#include "app/support/files.h"
 
 namespace twinarm {
 namespace {

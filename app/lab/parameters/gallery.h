@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/data/json_writer.h"
-#include "app/lab/run/variant_set.h"
+#include "app/lab/run/variants.h"
 
 namespace twinarm {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "app/lab/parameters/parameter_makers.h"
-#include "app/scene/read/scene_names.h"
+#include "app/scene/read/read_scene.h"
 #include "coupling/laws/coupling_spec.h"
 #include "coupling/laws/discretization.h"
 #include "solver/support/number_text.h"

@@ -3,17 +3,87 @@
 // by any thread that holds it; the history itself belongs to one thread at a time.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "app/lab/run/lab_frame.h"
+#include "app/draw/snapshot.h"
 #include "app/lab/run/lab_scene.h"
+#include "app/record/recording.h"
+#include "coupling/device/device_motion.h"
+#include "solver/spatial/pose.h"
 
 namespace twinarm {
+
+// What the lab remembers of an instant: a frame of a recording, and what moved the robot in it.
+
+// A spring from a point of a body to where the mouse is. World axes.
+struct LabPull {
+  int body = 0;
+  Vector3 p_L = Vector3::Zero();      // on the body, link axes [m]
+  Vector3 goal_W = Vector3::Zero();   // [m]
+  Vector3 force_W = Vector3::Zero();  // on the body, of the last step [N]
+};
+
+// The hand at the end of the step; absent where no coupling can be led by one.
+struct LabHandFrame {
+  bool leads = false;              // false: the scene's own hand moves the robot
+  std::array<double, 6> theta{};   // of the (virtual) Omni [rad]
+  std::vector<double> q_K;         // the driven joints' targets, at the start of the step [rad, m]
+  std::vector<double> qd_K;        // and how fast they went on from there [rad/s, m/s]
+  std::array<double, 3> torque{};  // of its motors [N m]
+  Vector3 force_W = Vector3::Zero();  // on the stylus, world axes [N]
+  bool gripper_closed = false;
+  int mode = 0;  // HandWatch::Mode
+};
+
+// Of a run beside this one (variants.h). Stopped: where it stopped, and at that time.
+struct LabFrame;
+struct LaneFrame {
+  std::shared_ptr<const LabFrame> frame;
+  bool stopped = false;
+};
+
+struct LabFrame {
+  RecordedFrame recorded;
+  std::optional<LabHandFrame> hand;
+  std::optional<LabPull> pull;
+  // At the end of recorded.memory: the books of pulls, once there were any. What a scene's header
+  // describes goes without.
+  std::size_t outside_bytes = 0;
+  double input_stamp = 0;  // of the newest input that this frame has seen, as its sender gave it
+  // Of the thread, since the frame before: processor time per step, mean and largest [s]; run time
+  // over the wall time that was asked for (1: it keeps up).
+  double step_time = 0, longest_step = 0, pace = 1;
+  std::vector<LaneFrame> lanes;  // of the runs beside this one, from the second lane on
+};
+
+// A spring-damper from a point of a body to a goal in the world.
+struct PullInput {
+  int body = 0;
+  Vector3 p_L = Vector3::Zero();     // link axes [m]
+  Vector3 goal_W = Vector3::Zero();  // [m]
+  double k = 0, b = 0;               // [N/m], [N s/m]
+  double most = 0;                   // of the spring's force [N]
+};
+
+// What came from outside in one step of a run: with it the step can be taken again, bit for bit.
+struct LabInput {
+  long step = 0;                 // that it went into; the first of a run is 1
+  std::optional<HandStep> hand;  // where a hand led; else the scene's own did
+  std::optional<PullInput> pull;
+  double stamp = 0;  // of the newest command in it, as its sender gave it
+};
+
+// Names of ledger rows, by the numbers in frames.
+struct LabNames {
+  std::vector<std::string> rows, momentum_rows;
+};
 
 std::size_t bytes_of(const LabFrame& frame);  // with its lanes
 

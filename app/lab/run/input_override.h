@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/lab/run/lab_frame.h"
+#include "app/lab/run/history.h"
 #include "app/lab/run/lab_input_device.h"
 #include "app/servo/haptic_loop.h"
 #include "coupling/device/device_motion.h"

@@ -8,7 +8,7 @@
 #include "app/lab/run/input_override.h"
 #include "app/lab/run/mouse_spring.h"
 #include "app/record/record_run.h"
-#include "app/run/run_end.h"
+#include "app/run/run.h"
 #include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {

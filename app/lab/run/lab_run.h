@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/run/lab_frame.h"
+#include "app/lab/run/history.h"
 #include "app/lab/run/lab_input_device.h"
 #include "app/lab/run/lab_scene.h"
 #include "app/run/stepped_run.h"

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/run/lab_frame.h"
-#include "app/run/simulate_options.h"
-#include "app/scene/forces/outside_force.h"
+#include "app/lab/run/history.h"
+#include "app/run/simulate_input.h"
+#include "app/scene/forces/reported_forces.h"
 #include "solver/model/model.h"
 
 namespace twinarm {

@@ -1,4 +1,4 @@
-// The runs that stand beside a run (variant_set.h): each a LabRun of its own, that takes the steps
+// The runs that stand beside a run: each a LabRun of its own, that takes the steps
 // of the first one's clock, led by the same hand and pulled by the same mouse. What changes the
 // scene makes new ones from the last frame of the old, as it does of the run. One thread.
 //
@@ -6,14 +6,43 @@
 // itself stays where it is, in all frames that come, while the others go on.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/lab/run/lab_run.h"
-#include "app/lab/run/variant_set.h"
+#include "app/record/unpack.h"
+#include "solver/spatial/pose.h"
 
 namespace twinarm {
+
+// Runs of one scene side by side, on one clock: for each its own value of one path. The first is
+// the run itself, that hands, knobs and recordings are about; the others stand beside it
+// (variants.h).
+struct LaneSet {
+  static constexpr std::size_t kMost = 7;  // that colours tell apart
+
+  std::string path;                 // as of a Change: "integrator", "coupling.stiffness"
+  std::vector<std::string> values;  // by lane
+  std::optional<Vector3> apart;     // from one to the next [m]; none: by the width of the scene
+
+  bool empty() const { return values.empty(); }
+  Change change(std::size_t lane) const { return {path, values[lane]}; }
+};
+
+// "integrator=semi-implicit,rk4"; commas within brackets are of the value. Throws InputError.
+LaneSet parse_lanes(const std::string& text);
+
+// What is wrong with it whatever the scene is; nothing: it may be tried.
+struct LaneFault {
+  std::string rule, remedy;
+};
+std::optional<LaneFault> fault_of(const LaneSet& lanes);
+
+// Behind all others: changes are applied in their order. One to the same path goes.
+void put(std::vector<Change>& changes, const Change& change);
 
 class LabLanes {
  public:

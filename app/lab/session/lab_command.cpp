@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "app/data/value.h"
-#include "app/support/nearest_name.h"
+#include "app/support/text.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -193,6 +194,62 @@ LabCommand parse_command(const std::string& text) {
 bool needs_hand(LabCommand::Do what) {
   const auto is_it = [&](const Form& form) { return form.what == what; };
   return std::find_if(forms().begin(), forms().end(), is_it)->needs_hand;
+}
+
+namespace {
+
+constexpr std::size_t kMaxCommands = 4096;
+
+}  // namespace
+
+void Inbox::push(LabCommand command) {
+  locked([&] {
+    if (contents_.commands.size() < kMaxCommands) contents_.commands.push_back(std::move(command));
+  });
+}
+
+void Inbox::push(Built built) {
+  locked([&] { contents_.built.push_back(std::move(built)); });
+}
+
+void Inbox::push_refused(long number) {
+  locked([&] { contents_.refused = number; });
+}
+
+void Inbox::note(const std::string& level, const std::string& text) {
+  locked([&] {
+    if (notes_.size() == kMaxNotes) notes_.pop_front();
+    notes_.push_back({0, level, text});
+  });
+}
+
+bool Inbox::stop() {
+  bool was_stopped = false;
+  locked([&] { was_stopped = std::exchange(stop_, true); });
+  return !was_stopped;
+}
+
+Inbox::Contents Inbox::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(contents_, {});
+}
+
+std::deque<LabNote> Inbox::take_notes() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(notes_, {});
+}
+
+bool Inbox::is_stopped() const {
+  const std::lock_guard lock(mutex_);
+  return stop_;
+}
+
+void Inbox::sleep_until(std::chrono::steady_clock::time_point time) {
+  std::unique_lock lock(mutex_);
+  came_.wait_until(lock, time, [this] {
+    return stop_ || contents_.refused || !contents_.commands.empty() || !contents_.built.empty() ||
+           !notes_.empty();
+  });
 }
 
 }  // namespace twinarm

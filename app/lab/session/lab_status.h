@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/diagnose/remedies.h"
-#include "app/lab/run/variant_set.h"
+#include "app/lab/run/variants.h"
 #include "app/record/unpack.h"
 
 namespace twinarm {

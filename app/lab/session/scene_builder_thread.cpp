@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/lab/session/inbox.h"
+#include "app/lab/session/lab_command.h"
 #include "app/record/recording_reader.h"
-#include "app/support/find_files.h"
+#include "app/support/files.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

@@ -13,10 +13,17 @@
 
 #include "app/lab/parameters/gallery.h"
 #include "app/lab/run/lab_scene.h"
-#include "app/lab/run/variant_set.h"
-#include "app/lab/session/scene_words.h"
+#include "app/lab/run/variants.h"
 
 namespace twinarm {
+
+// Title, file and hints of a scene, for the lab's page.
+
+// What the scene's message says besides.
+struct SceneWords {
+  std::string title, file;        // title empty: the file's name in words
+  std::vector<std::string> look;  // what to look for
+};
 
 // What was asked for at once, and is refused at once or not at all.
 struct Asked {

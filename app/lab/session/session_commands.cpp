@@ -1,7 +1,7 @@
 #include "app/lab/session/session_commands.h"
 
 #include "app/lab/parameters/gallery.h"
-#include "app/support/find_files.h"
+#include "app/support/files.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

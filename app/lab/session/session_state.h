@@ -6,9 +6,8 @@
 #include <deque>
 
 #include "app/lab/run/lab_run.h"
-#include "app/lab/session/inbox.h"
+#include "app/lab/session/lab_command.h"
 #include "app/lab/session/run_loop.h"
-#include "app/lab/session/timeline.h"
 
 namespace twinarm {
 

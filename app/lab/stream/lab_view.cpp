@@ -8,7 +8,6 @@
 #include "app/lab/stream/frame_bytes.h"
 #include "app/lab/stream/lab_snapshot.h"
 #include "app/lab/stream/live_view.h"
-#include "app/lab/stream/mesh_store.h"
 #include "app/lab/stream/scene_message.h"
 
 namespace twinarm {

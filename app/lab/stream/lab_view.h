@@ -21,9 +21,9 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/run/lab_frame.h"
-#include "app/lab/session/scene_words.h"
-#include "app/lab/stream/variant_views.h"
+#include "app/lab/run/history.h"
+#include "app/lab/session/scene_builder_thread.h"
+#include "app/lab/stream/frame_bytes.h"
 #include "app/run/simulate_input.h"
 
 namespace twinarm {

@@ -1,11 +1,15 @@
 #include "app/lab/stream/scene_message.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "app/draw/overlays/overlays.h"
-#include "app/film/shown_instant.h"
-#include "app/page/draw_columns.h"
+#include "app/film/filmed_run.h"
+#include "app/page/page_layers.h"
 
 namespace twinarm {
 namespace {
@@ -104,6 +108,65 @@ std::string scene_message(const SceneFacts& facts) {
   write_view(json, facts.stage);
   json.end_object();
   return json.str();
+}
+
+std::string MeshStore::keep(Files& files, std::string bytes) {
+  std::string name = content_name(bytes);
+  files.try_emplace(name, std::make_shared<const std::string>(std::move(bytes)));
+  return name;
+}
+
+bool MeshStore::take(const DrawList& list) {
+  const std::size_t before = mesh_names_.size() + texture_names_.size();
+  while (mesh_names_.size() < list.meshes.size())
+    mesh_names_.push_back(keep(meshes_, mesh_bytes(*list.meshes[mesh_names_.size()])));
+  while (texture_names_.size() < std::min(list.textures.size(), kMostTextures))
+    texture_names_.push_back(keep(textures_, texture_file(*list.textures[texture_names_.size()])));
+  return mesh_names_.size() + texture_names_.size() > before;
+}
+
+std::shared_ptr<const std::string> MeshStore::mesh(const std::string& name) const {
+  const auto found = meshes_.find(name);
+  return found == meshes_.end() ? nullptr : found->second;
+}
+
+std::shared_ptr<const std::string> MeshStore::texture(const std::string& name) const {
+  const auto found = textures_.find(name);
+  return found == textures_.end() ? nullptr : found->second;
+}
+
+namespace {
+
+template <class T>
+void append_values(std::string& bytes, const std::vector<T>& values) {
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+// FNV-1a, 64 bits, from a start of its own.
+std::uint64_t fnv(const std::string& bytes, std::uint64_t hash) {
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+}  // namespace
+
+std::string mesh_bytes(const DrawMesh& mesh) {
+  const std::vector<std::uint32_t> head{static_cast<std::uint32_t>(mesh.positions.size()),
+                                        static_cast<std::uint32_t>(3 * mesh.triangles.size()),
+                                        (mesh.two_sided ? 1u : 0u) | (mesh.uv.empty() ? 0u : 2u),
+                                        0u};
+  std::string bytes;
+  append_values(bytes, head);
+  append_values(bytes, mesh.positions);
+  append_values(bytes, mesh.normals);
+  append_values(bytes, mesh.uv);
+  append_values(bytes, mesh.triangles);
+  return bytes;
+}
+
+std::string content_name(const std::string& bytes) {
+  return fmt::format("{:016x}{:016x}", fnv(bytes, 0xcbf29ce484222325u),
+                     fnv(bytes, 0x9ae16a3b2f90404fu));
 }
 
 }  // namespace twinarm

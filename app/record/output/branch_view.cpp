@@ -7,9 +7,9 @@
 #include <map>
 
 #include "app/accounting/energy_balance.h"
-#include "app/data/text_table.h"
+#include "app/data/tables.h"
 #include "app/plot/gnuplot.h"
-#include "app/support/output_file.h"
+#include "app/support/files.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 #include "solver/support/number_text.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/record/replay.h"
+#include "app/record/record_run.h"
 
 namespace twinarm {
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "app/data/json_writer.h"
-#include "app/support/interrupt.h"
-#include "app/support/text_fields.h"
+#include "app/support/progress.h"
+#include "app/support/text.h"
 
 namespace twinarm {
 namespace {

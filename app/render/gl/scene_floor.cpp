@@ -1,7 +1,7 @@
 // What is behind the bodies: the floor, and the background where there is none. See scene_pass.h.
 //
 // The floor is drawn once, in pieces: without looking up shadows where none can be
-// (shadow_tiles.h). The pieces are cut by the scissor and not by geometry, so that each pixel is
+// (scene_pass.h). The pieces are cut by the scissor and not by geometry, so that each pixel is
 // what it would be in the whole.
 #include <Eigen/LU>
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "app/run/run.h"
-#include "app/run/simulate_options.h"
+#include "app/run/simulate_input.h"
 
 namespace twinarm {
 

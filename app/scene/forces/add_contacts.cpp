@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "app/scene/read/scene_names.h"
+#include "app/scene/read/read_scene.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {

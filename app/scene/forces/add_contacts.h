@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/robot/robot_input.h"
-#include "app/scene/forces/energy_row.h"
+#include "app/scene/forces/reported_forces.h"
 #include "app/scene/model/scene_model.h"
 #include "collision/contact/contact_constraints.h"
 #include "solver/impulses/joint_limits.h"

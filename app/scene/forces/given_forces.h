@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "app/robot/state_file.h"
+#include "app/robot/robot_input.h"
 #include "solver/forces/force_source.h"
 #include "solver/support/checkpointable.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/scene/model/scene_model.h"
-#include "app/scene/read/scene_names.h"
+#include "app/scene/read/read_scene.h"
 
 namespace twinarm {
 

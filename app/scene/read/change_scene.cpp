@@ -6,8 +6,7 @@
 #include "app/robot/robot_input.h"
 #include "app/scene/read/scene_description.h"
 #include "app/scene/read/scene_keys.h"
-#include "app/support/nearest_name.h"
-#include "app/support/text_fields.h"
+#include "app/support/text.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {

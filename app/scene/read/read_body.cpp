@@ -1,6 +1,6 @@
 // Bodies and their shapes: those of collision/shapes/shape.h, and meshes.
 #include "app/scene/read/scene_reader.h"
-#include "app/support/nearest_name.h"
+#include "app/support/text.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/support/number_text.h"
 

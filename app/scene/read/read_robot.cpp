@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "app/scene/read/scene_reader.h"
-#include "app/support/nearest_name.h"
+#include "app/support/text.h"
 #include "collision/import/formats/robot_formats.h"
 #include "solver/support/number_text.h"
 

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "app/robot/joint_values.h"
+#include "app/robot/coordinates.h"
 #include "collision/import/robot/robot_description.h"
 #include "collision/import/robot/robot_model.h"
 #include "coupling/laws/coupling_spec.h"

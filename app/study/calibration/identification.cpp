@@ -1,8 +1,14 @@
 // The laws that are asked for, and how an answer is read.
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <nlopt.hpp>
 
+#include "app/study/calibration/calibration.h"
 #include "app/study/calibration/identify.h"
+#include "app/support/progress.h"
 
 namespace twinarm {
 namespace {
@@ -90,6 +96,99 @@ Identification::Interval Identification::interval(const Profile& profile) const 
   end(-1, found.low, found.open_low);
   end(1, found.high, found.open_high);
   return found;
+}
+
+namespace {
+
+struct Search {
+  CalibrationEntry& entry;
+  const std::function<double(const CalibrationEntry&)>& objective;
+  std::vector<double> best;  // logarithms
+  double best_value = HUGE_VAL;
+  long evaluations = 0;
+};
+
+double evaluate(const std::vector<double>& x, std::vector<double>&, void* data) {
+  auto& search = *static_cast<Search*>(data);
+  check_interrupt();
+  for (std::size_t i = 0; i < x.size(); ++i) search.entry.parameters[i].value = std::exp(x[i]);
+  ++search.evaluations;
+  const double value = search.objective(search.entry);
+  if (value < search.best_value) {
+    search.best_value = value;
+    search.best = x;
+  }
+  return value;
+}
+
+// One optimisation from x; the best point of all so far is left in search.best.
+void optimise(nlopt::opt& optimiser, const std::vector<double>& low,
+              const std::vector<double>& high, int evaluations, Search& search,
+              std::vector<double> x) {
+  optimiser.set_lower_bounds(low);
+  optimiser.set_upper_bounds(high);
+  optimiser.set_min_objective(evaluate, &search);
+  optimiser.set_maxeval(evaluations);
+  optimiser.set_xtol_rel(1e-7);
+  double value = 0;
+  try {
+    optimiser.optimize(x, value);
+  } catch (const nlopt::roundoff_limited&) {
+    // The simplex has shrunk to nothing: as good as it gets.
+  } catch (const std::exception&) {
+    check_interrupt();  // NLopt turns what evaluate() throws into errors of its own
+    throw;
+  }
+}
+
+}  // namespace
+
+std::string optimiser_name() {
+  int major = 0, minor = 0, fix = 0;
+  nlopt::version(major, minor, fix);
+  return fmt::format(
+      "NLopt {}.{}.{}: GN_CRS2_LM for the folded and the unsigned damper, G_MLSL_LDS with LN_SBPLX "
+      "for the others; all ended by LN_SBPLX",
+      major, minor, fix);
+}
+
+void minimise(CalibrationEntry& entry, Method method, unsigned seed, int evaluations,
+              const std::function<double(const CalibrationEntry&)>& objective) {
+  nlopt::srand(seed);
+  std::vector<double> low, high, middle;
+  for (const Parameter& p : entry.parameters) {
+    low.push_back(std::log(p.low));
+    high.push_back(std::log(p.high));
+    middle.push_back(0.5 * (low.back() + high.back()));
+  }
+  const auto n = static_cast<unsigned>(middle.size());
+  Search search{entry, objective, middle, HUGE_VAL, 0};
+  const int global = method == Method::local ? 0 : evaluations * 4 / 5;
+  nlopt::opt local(nlopt::LN_SBPLX, n);
+  if (method == Method::local) {
+    for (std::size_t i = 0; i < n; ++i)
+      search.best[i] = std::clamp(std::log(entry.parameters[i].value), low[i], high[i]);
+    local.set_initial_step(0.1);
+  } else if (method == Method::rugged) {
+    nlopt::opt crs(nlopt::GN_CRS2_LM, n);
+    crs.set_population(40 * n);
+    optimise(crs, low, high, global, search, middle);
+    local.set_initial_step(0.02);
+  } else {
+    nlopt::opt mlsl(nlopt::G_MLSL_LDS, n);
+    nlopt::opt inner(nlopt::LN_SBPLX, n);
+    inner.set_xtol_rel(1e-4);
+    inner.set_ftol_rel(1e-4);
+    inner.set_maxeval(150);
+    mlsl.set_local_optimizer(inner);
+    mlsl.set_population(8 * n);
+    optimise(mlsl, low, high, global, search, middle);
+    local.set_initial_step(0.05);
+  }
+  optimise(local, low, high, evaluations - global, search, search.best);
+  for (std::size_t i = 0; i < n; ++i) entry.parameters[i].value = std::exp(search.best[i]);
+  entry.objective = search.best_value;
+  entry.evaluations = search.evaluations;
 }
 
 }  // namespace twinarm

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "app/support/interrupt.h"
 #include "app/support/parallel_for.h"
-#include "app/support/text_fields.h"
+#include "app/support/progress.h"
+#include "app/support/text.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/support/diagnostics.h"
 

@@ -6,9 +6,8 @@
 #include <cmath>
 
 #include "app/data/value.h"
-#include "app/study/findings/findings_detail.h"
 #include "app/study/findings/variants.h"
-#include "app/support/interrupt.h"
+#include "app/support/progress.h"
 
 namespace twinarm {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/support/interrupt.h"
+#include "app/support/progress.h"
 #include "coupling/target/synthetic_operator.h"
 
 namespace twinarm {

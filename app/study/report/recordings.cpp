@@ -5,10 +5,10 @@
 #include <tuple>
 
 #include "app/film/rendering.h"
-#include "app/page/replay_page.h"
+#include "app/page/pages.h"
 #include "app/record/record_run.h"
 #include "app/run/run.h"
-#include "app/support/interrupt.h"
+#include "app/support/progress.h"
 #include "app/web/web_bundle.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/number_text.h"

@@ -15,7 +15,7 @@
 #include <numbers>
 #include <vector>
 
-#include "benchmarks/analytic/support/contact_look.h"
+#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {

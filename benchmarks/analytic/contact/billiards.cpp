@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/analytic/support/contact_look.h"
+#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {

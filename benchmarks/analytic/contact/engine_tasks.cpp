@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "benchmarks/analytic/support/contact_look.h"
+#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm::engine_tasks {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/support/contact_look.h"
+#include "benchmarks/analytic/support/contact_scene.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/support/contact_look.h"
+#include "benchmarks/analytic/support/contact_scene.h"
 
 namespace twinarm {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "benchmarks/analytic/support/contact_look.h"
+#include "benchmarks/analytic/support/contact_scene.h"
 #include "collision/geometry/convex_hull.h"
 
 namespace twinarm {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "benchmarks/analytic/support/contact_look.h"
+#include "benchmarks/analytic/support/contact_scene.h"
 #include "collision/shapes/shape.h"
 
 namespace twinarm {

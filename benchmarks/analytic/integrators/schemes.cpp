@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "benchmarks/analytic/joints/golden_steps.h"
-#include "benchmarks/analytic/support/run_trajectory.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
+#include "benchmarks/analytic/support/trajectory_case.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/stepping/simulation.h"
 

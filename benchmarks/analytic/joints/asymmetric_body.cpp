@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
-#include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/derivatives.h"
 #include "solver/dynamics/energy_momentum.h"
 

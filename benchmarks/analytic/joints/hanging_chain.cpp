@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
-#include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"

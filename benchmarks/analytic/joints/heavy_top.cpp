@@ -7,8 +7,8 @@
 //   phi' = a (u0 - u) / (1 - u^2),  psi' = w3 - phi' u        (precession, spin; z-x-z angles).
 #include <cmath>
 
+#include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
-#include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/derivatives.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/energy_momentum.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
-#include "benchmarks/analytic/support/special_functions.h"
 
 namespace twinarm {
 namespace {

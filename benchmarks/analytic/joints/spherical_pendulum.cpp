@@ -6,8 +6,8 @@
 // W^2 = g / cos a, small swings have w^2 = W^2 (1 + 3 cos^2 a).
 #include <cmath>
 
+#include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
-#include "benchmarks/analytic/support/special_functions.h"
 #include "solver/dynamics/kinematics.h"
 
 namespace twinarm {

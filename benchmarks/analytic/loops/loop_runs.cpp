@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
-#include "benchmarks/analytic/support/case_constants.h"
-#include "benchmarks/analytic/support/special_functions.h"
+#include "benchmarks/analytic/support/analytic_case.h"
+#include "benchmarks/analytic/support/reference_math.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/loops/loop_closure.h"

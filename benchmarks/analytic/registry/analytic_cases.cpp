@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "benchmarks/analytic/registry/case_sources.h"
-#include "benchmarks/analytic/support/run_trajectory.h"
+#include "benchmarks/analytic/support/trajectory_case.h"
 
 namespace twinarm {
 namespace {

@@ -65,4 +65,7 @@ inline bool passes(const AnalyticCase& c, const CaseResult& result) {
   return result.error <= c.tolerance;
 }
 
+// What nearly every case needs.
+inline constexpr double kGravity = 9.81;  // [m/s^2]
+
 }  // namespace twinarm

@@ -4,8 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "benchmarks/analytic/support/analytic_case.h"
-#include "benchmarks/analytic/support/case_constants.h"
-#include "benchmarks/analytic/support/equations_of_motion.h"
+#include "benchmarks/analytic/support/reference_math.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/model/workspace.h"

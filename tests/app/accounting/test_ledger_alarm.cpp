@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "app/accounting/energy_alarm.h"
+#include "app/accounting/energy_balance.h"
 
 using namespace twinarm;
 

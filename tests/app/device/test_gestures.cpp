@@ -18,8 +18,8 @@
 #include <thread>
 
 #include "app/device/devices.h"
+#include "app/device/file_descriptors.h"
 #include "app/device/gesture_device.h"
-#include "app/device/raw_terminal.h"
 #include "solver/support/diagnostics.h"
 
 using namespace twinarm;

@@ -11,7 +11,7 @@
 #include <functional>
 #include <thread>
 
-#include "app/device/owned_fd.h"
+#include "app/device/file_descriptors.h"
 #include "tests/app/device/vrpn_bytes.h"
 
 class VrpnServer;

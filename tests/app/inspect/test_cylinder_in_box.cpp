@@ -16,7 +16,7 @@
 
 #include <map>
 
-#include "app/inspect/displayed_quantities.h"
+#include "app/inspect/inspection.h"
 #include "solver/dynamics/model_builder.h"
 
 using namespace twinarm;

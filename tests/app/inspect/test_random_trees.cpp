@@ -5,9 +5,9 @@
 #include <map>
 
 #include "app/inspect/cross_checks.h"
-#include "app/inspect/displayed_quantities.h"
 #include "app/inspect/equations.h"
 #include "app/inspect/force_balance.h"
+#include "app/inspect/inspection.h"
 #include "tests/solver/dynamics/random_tree.h"
 
 using namespace twinarm;

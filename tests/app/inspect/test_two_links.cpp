@@ -22,8 +22,8 @@
 #include <map>
 #include <numbers>
 
-#include "app/inspect/displayed_quantities.h"
 #include "app/inspect/force_balance.h"
+#include "app/inspect/inspection.h"
 #include "tests/solver/dynamics/random_tree.h"
 
 using namespace twinarm;

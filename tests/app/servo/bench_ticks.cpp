@@ -23,8 +23,8 @@
 
 #include "app/device/devices.h"
 #include "app/scene/read/read_scene.h"
-#include "app/servo/servo_clock.h"
-#include "app/servo/servo_run.h"
+#include "app/servo/haptic_loop.h"
+#include "app/servo/servo_loop.h"
 
 namespace twinarm {
 namespace {

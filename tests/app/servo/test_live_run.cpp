@@ -4,9 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "app/servo/servo_clock.h"
+#include "app/servo/haptic_loop.h"
 #include "app/servo/servo_loop.h"
-#include "app/servo/servo_run.h"
 #include "tests/app/scene/model/helpers.h"
 #include "tests/support/count_allocations.h"
 

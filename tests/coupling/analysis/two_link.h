@@ -1,15 +1,11 @@
 // Two uniform slender links with vertical hinges, moved by the paper's automatic motion.
 #pragma once
 
-#include <numbers>
-
 #include "coupling/analysis/tracking_run.h"
 #include "coupling/target/automatic_motion.h"
 #include "solver/dynamics/model_builder.h"
 
 namespace twinarm::testing {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 struct TwoLink {
   double m1 = 5, m2 = 3, l1 = 0.4, l2 = 0.3;  // parameter set 0

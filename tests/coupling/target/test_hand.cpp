@@ -10,9 +10,7 @@
 
 using namespace twinarm;
 
-namespace {
-constexpr double kHandDegree = std::numbers::pi / 180;
-}
+namespace {}
 
 TEST_CASE("the automatic motion sweeps joint 1 from 90 to -90, joint 2 from -45 to 45 degrees") {
   const HandMapping mapping;
@@ -27,11 +25,11 @@ TEST_CASE("the automatic motion sweeps joint 1 from 90 to -90, joint 2 from -45 
     for (const Row& row : rows)
       for (const double toward : {-1e-3, 1e-3}) {
         const HandSample x = hand.sample(row.s * T, row.s * T + toward);
-        CHECK(mapping.robot_angle(x, 0) == doctest::Approx(row.joint1_deg * kHandDegree));
-        CHECK(mapping.robot_angle(x, 1) == doctest::Approx(row.joint2_deg * kHandDegree));
+        CHECK(mapping.robot_angle(x, 0) == doctest::Approx(row.joint1_deg * kDegree));
+        CHECK(mapping.robot_angle(x, 1) == doctest::Approx(row.joint2_deg * kDegree));
         CHECK(mapping.robot_angle(x, 2) == 0);
-        CHECK(mapping.robot_rate(x, 0) == doctest::Approx(-row.direction * 180 * kHandDegree / T));
-        CHECK(mapping.robot_rate(x, 1) == doctest::Approx(row.direction * 90 * kHandDegree / T));
+        CHECK(mapping.robot_rate(x, 0) == doctest::Approx(-row.direction * 180 * kDegree / T));
+        CHECK(mapping.robot_rate(x, 1) == doctest::Approx(row.direction * 90 * kDegree / T));
         CHECK(mapping.robot_rate(x, 2) == 0);
         CHECK_FALSE(x.button);
       }
@@ -42,7 +40,7 @@ TEST_CASE("at a corner of the automatic motion the rate is that of the side that
   const HandMapping mapping;
   const AutomaticMotion hand(mapping);
   const auto rate1 = [&](double t, double toward) {  // of joint 1, in sweeps of 180 deg/s
-    return mapping.robot_rate(hand.sample(t, toward), 0) / (180 * kHandDegree);
+    return mapping.robot_rate(hand.sample(t, toward), 0) / (180 * kDegree);
   };
   for (const double h : {1e-3, 1.0 / 60, 0.2}) {
     CHECK(rate1(0, h) == doctest::Approx(-1));
@@ -83,7 +81,7 @@ TEST_CASE("theta1, theta4, theta6 of the device turn joints 1, 2, 3, by gain and
     CHECK(mapping.robot_rate(hand, j) == doctest::Approx(-0.33));
   }
   // Joint 1 of the robot reaches 90 degrees within the Omni's +-0.98 rad.
-  CHECK(HandMapping{}.gain[0] * 0.98 > 90 * kHandDegree);
+  CHECK(HandMapping{}.gain[0] * 0.98 > 90 * kDegree);
 }
 
 TEST_CASE("synthetic operator: the same seed gives the same bits, other seeds other hands") {

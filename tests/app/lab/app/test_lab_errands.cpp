@@ -4,7 +4,6 @@
 #include <future>
 #include <stdexcept>
 
-#include "app/lab/app/task_queue.h"
 #include "app/lab/app/uploads.h"
 #include "tests/app/scene/model/helpers.h"
 

@@ -4,8 +4,8 @@
 #include <mutex>
 #include <thread>
 
+#include "app/lab/app/clients.h"
 #include "app/lab/app/message_streamer.h"
-#include "app/lab/app/state_message.h"
 #include "tests/app/lab/run/helpers.h"
 #include "tests/app/lab/session/built_scene.h"
 #include "tests/support/waiting.h"

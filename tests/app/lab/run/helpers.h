@@ -9,7 +9,6 @@
 #include "app/lab/run/lab_run.h"
 #include "app/lab/run/mouse_spring.h"
 #include "app/record/record_run.h"
-#include "app/record/replay.h"
 #include "coupling/device/virtual_omni.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "tests/app/scene/model/helpers.h"

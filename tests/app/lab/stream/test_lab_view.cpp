@@ -1,7 +1,7 @@
 // What goes with the frames of the lab: meshes, names that come up, scales of arrows, the history.
 #include <cmath>
 
-#include "app/lab/stream/mesh_store.h"
+#include "app/lab/stream/scene_message.h"
 #include "tests/app/lab/stream/watched.h"
 
 namespace twinarm {

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "app/film/shown_instant.h"
+#include "app/film/filmed_run.h"
 #include "app/lab/stream/lab_view.h"
 #include "tests/app/lab/run/helpers.h"
 #include "tests/app/lab/stream/frame_reader.h"

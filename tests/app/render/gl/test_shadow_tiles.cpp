@@ -1,5 +1,5 @@
 // Where the painter looks up shadows on the floor, against single rays of light.
-#include "app/render/gl/shadow_tiles.h"
+#include "app/render/gl/scene_pass.h"
 
 #include <doctest/doctest.h>
 

@@ -47,7 +47,7 @@ CaseFamily hanging_mass_cases() {
 #include <doctest/doctest.h>
 
 #include "benchmarks/analytic/registry/analytic_cases.h"
-#include "benchmarks/analytic/support/run_trajectory.h"
+#include "benchmarks/analytic/support/trajectory_case.h"
 
 TEST_CASE("the example of a case: it keeps its tolerance and energy, its mistake does not") {
   using namespace twinarm;

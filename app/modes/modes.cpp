@@ -1,0 +1,255 @@
+#include "app/modes/modes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "app/data/json_writer.h"
+#include "app/data/tables.h"
+#include "app/scene/forces/add_contacts.h"
+
+namespace twinarm {
+namespace {
+
+bool is_free_joint(const NamedJoint& joint) {
+  return joint.type == JointType::free;
+}
+
+// Of the constraints that hold the scene, and the velocities that they allow.
+std::vector<LoopClosure> take_loops(SimulateInput& input) {
+  if (!input.scene || input.scene->constraints.empty()) return {};
+  Simulation sim(input.robot.model, input.robot.state.x);
+  const SceneContacts contacts(*input.scene, sim);
+  input.robot.state.x = sim.state();
+  return sim.dynamics().bilateral().loops().loops();
+}
+
+// Bodies of the scene that a constraint holds; the rest of them has no joint to swing about.
+std::vector<NamedJoint> held_bodies(const SimulateInput& input,
+                                    const std::vector<LoopClosure>& loops) {
+  std::set<int> bodies;
+  for (const LoopClosure& loop : loops) bodies.insert({loop.body_a, loop.body_b});
+  std::vector<NamedJoint> held;
+  const Model<double>& model = input.robot.model;
+  for (const int body : bodies) {
+    const auto i = static_cast<std::size_t>(body);
+    if (!input.scene || body <= input.scene->robot_bodies) continue;
+    if (model.joint[i] == JointType::free)
+      held.push_back({model.body_name[i], i, model.joint[i], 7, 6, model.iq[i], model.iv[i], 0});
+  }
+  return held;
+}
+
+// Of a joint's velocities in the solver's order: a free one has (w; v), w in the child's axes.
+std::vector<std::string> names_of_velocities(const std::string& name, const NamedJoint& joint) {
+  std::vector<std::string> names(joint.nv);
+  for (const JointComponent& c : joint.components()) {
+    if (c.v < 0) continue;
+    const auto v = static_cast<std::size_t>(c.v);
+    names[is_free_joint(joint) ? (v + 3) % 6 : v] = *c.label ? name + "/" + c.label : name;
+  }
+  return names;
+}
+
+std::vector<std::string> warnings_of(const SimulateInput& input,
+                                     const std::vector<NamedJoint>& joints,
+                                     const std::vector<double>& qdd) {
+  std::vector<std::string> warnings = input.robot.warnings;
+  const Model<double>& model = input.robot.model;
+  const auto is_positive = [](double limit) { return limit > 0; };
+  if (std::ranges::any_of(model.coulomb_plus, is_positive) ||
+      std::ranges::any_of(model.coulomb_minus, is_positive))
+    warnings.emplace_back("Coulomb friction of joints has no linear part: it is left out");
+  if (input.scene && input.scene->may_touch())
+    warnings.emplace_back(
+        "contacts are left out, and free bodies that no constraint holds with them");
+  constexpr double kStill = 1e-6;  // [rad/s^2, m/s^2]
+  double fastest = 0;
+  std::string where;
+  for (const NamedJoint& joint : joints)
+    for (std::size_t v = joint.iv; v < joint.iv + joint.nv; ++v)
+      if (std::abs(qdd[v]) > fastest)
+        fastest = std::abs(qdd[v]), where = name_of_part(input, joint);
+  if (fastest > kStill)
+    warnings.push_back(fmt::format(
+        "the state is no equilibrium: '{}' accelerates by {} (rad, m)/s^2; the modes tell how a "
+        "small departure from the motion grows at first",
+        where, cell(fastest)));
+  return warnings;
+}
+
+}  // namespace
+
+SmoothPush::SmoothPush(SimulateInput& input)
+    : input_(input),
+      model_(input.robot.model),
+      torques_(model_, input.robot.coordinates, input.robot.state.tau) {
+  Kinematics k(model_);
+  forward_kinematics(model_, input.robot.state.x, k);
+  for (const Wrench& wrench : input.robot.state.wrenches) wrenches_.emplace_back(wrench, k);
+}
+
+void SmoothPush::operator()(const State<double>& x, const Kinematics& k, Forces<double>& forces) {
+  torques_.add_forces(x, k, forces);
+  for (GivenWrench& wrench : wrenches_) wrench.add_forces(x, k, forces);
+  for (std::size_t dof = 0; dof < model_.nv; ++dof)
+    forces.tau[dof] -= model_.damping[dof] * x.qd[dof];
+  if (!input_.couplings) return;
+  for (std::size_t c = 0; c < input_.couplings->size(); ++c)
+    input_.couplings->hold_still(c, x, k, forces);
+}
+
+std::string name_of_part(const SimulateInput& input, const NamedJoint& joint) {
+  const Coordinates& coordinates = input.robot.coordinates;
+  const bool is_base = coordinates.floating() && joint.body == coordinates.base().body;
+  return is_base ? "base" : joint.name;
+}
+
+std::vector<double> shape_part(const SimulateInput& input, const NamedJoint& joint,
+                               const Eigen::VectorXd& by_velocity) {
+  return from_solver(joint, input.robot.state.x,
+                     {by_velocity.data(), by_velocity.data() + by_velocity.size()});
+}
+
+ModesOf find_modes(SimulateInput& input) {
+  const std::vector<LoopClosure> loops = take_loops(input);
+  ModesOf found;
+  found.joints = input.robot.coordinates.all();
+  for (NamedJoint& body : held_bodies(input, loops)) found.joints.push_back(std::move(body));
+  const Model<double>& model = input.robot.model;
+  std::vector<std::string> name_of(model.nv);
+  for (const NamedJoint& joint : found.joints) {
+    const std::vector<std::string> names = names_of_velocities(name_of_part(input, joint), joint);
+    std::copy(names.begin(), names.end(), name_of.begin() + static_cast<std::ptrdiff_t>(joint.iv));
+  }
+  std::vector<char> is_follower(model.nv);
+  for (const Mimic& mimic : model.mimics) is_follower[mimic.follower] = 1;
+  std::vector<std::size_t> still;
+  for (std::size_t dof = 0; dof < model.nv; ++dof)
+    if (name_of[dof].empty() && !is_follower[dof]) still.push_back(dof);
+
+  SmoothPush push(input);
+  found.looped = linearise_with_loops(
+      model, input.robot.state.x,
+      [&](const State<double>& x, const Kinematics& k, Forces<double>& forces) {
+        push(x, k, forces);
+      },
+      loops, still);
+  if (!found.looped.system.A.allFinite())
+    throw InputError(
+        {{input.robot.robot.file.string(), 0, "",
+          "the linear system is not finite in this state: there are no modes",
+          "`twinarm inspect` shows what is not; give smaller numbers", "state.not-finite"}});
+  for (const Mode& mode : modes_of(found.looped.system.A))
+    found.modes.push_back(by_all_velocities(found.looped, mode));
+  for (const std::size_t dof : found.looped.system.dofs) found.rows.push_back(name_of[dof]);
+  found.warnings = warnings_of(input, found.joints, found.looped.qdd);
+  return found;
+}
+
+namespace {
+
+void write_shape(JsonWriter& json, const SimulateInput& input, const ModesOf& found,
+                 const Eigen::VectorXd& by_velocity) {
+  json.object([&] {
+    for (const NamedJoint& joint : found.joints)
+      json.key(name_of_part(input, joint)).number_or_list(shape_part(input, joint, by_velocity));
+  });
+}
+
+const char* word_for(const Mode& mode) {
+  constexpr double kNothing = 1e-9;
+  const double part = mode.damping_ratio();
+  if (mode.eigenvalue == 0.0) return "drifts";
+  if (part < -kNothing) return mode.eigenvalue.imag() > 0 ? "swings, growing" : "grows";
+  return mode.eigenvalue.imag() > 0 ? "swings" : "decays";
+}
+
+// A number; size and phase where it is out of phase with the largest.
+std::string shape_cell(double re, double im) {
+  const double size = std::hypot(re, im), degrees = 180 / std::numbers::pi * std::atan2(im, re);
+  if (size < 5e-5) return "0";
+  return std::abs(im) < 1e-6 * size ? fmt::format("{:.4f}", re)
+                                    : fmt::format("{:.3f}/{:.0f}", size, degrees);
+}
+
+constexpr std::size_t kModesInTable = 7;
+
+std::string shape_table(const SimulateInput& input, const ModesOf& found, std::size_t first) {
+  const std::size_t last = std::min(first + kModesInTable, found.modes.size());
+  std::vector<std::string> headings{"joint"};
+  for (std::size_t k = first; k < last; ++k) headings.push_back("mode " + std::to_string(k + 1));
+  TextTable table(headings);
+  for (const NamedJoint& joint : found.joints)
+    for (const JointComponent& c : joint.components()) {
+      if (c.v < 0) continue;
+      const std::string name = name_of_part(input, joint);
+      std::vector<std::string> line{*c.label ? name + "/" + c.label : name};
+      const auto v = static_cast<std::size_t>(c.v);
+      for (std::size_t k = first; k < last; ++k) {
+        const Mode& mode = found.modes[k];
+        line.push_back(shape_cell(shape_part(input, joint, mode.shape.real())[v],
+                                  shape_part(input, joint, mode.shape.imag())[v]));
+      }
+      table.add(line);
+    }
+  return table.str();
+}
+
+}  // namespace
+
+std::string modes_json(const SimulateInput& input, const ModesOf& found) {
+  JsonWriter json;
+  const auto write_mode = [&](const Mode& mode) {
+    json.object({{"frequency", mode.frequency()},
+                 {"damping_ratio", mode.damping_ratio()},
+                 {"eigenvalue", std::array{mode.eigenvalue.real(), mode.eigenvalue.imag()}},
+                 {"shape", [&] { write_shape(json, input, found, mode.shape.real()); }},
+                 {"shape_imaginary", [&] { write_shape(json, input, found, mode.shape.imag()); }}});
+  };
+  json.object({{"modes", [&] { json.list(found.modes, write_mode); }},
+               {"rows", found.rows},
+               {"A", found.looped.system.A},
+               {"B", found.looped.system.B},
+               {"warnings", found.warnings}});
+  return json.str();
+}
+
+std::string modes_table(const SimulateInput& input, const ModesOf& found) {
+  std::string text = fmt::format(
+      "{}: small motions about the state, x' = A x + B tau, "
+      "x = exp(lambda t)\n",
+      input.robot.robot.name);
+  std::string leads;
+  for (const std::string& row : found.rows) leads += (leads.empty() ? "" : ", ") + row;
+  if (input.scene && !input.scene->constraints.empty())
+    text += wrapped(fmt::format("constraints hold; degrees of freedom: {}{}", found.rows.size(),
+                                leads.empty() ? "" : ", told by " + leads)) +
+            "\n";
+  text += "\n";
+  TextTable table(
+      {"mode", "frequency [rad/s]", "[Hz]", "period [s]", "damping ratio", "lambda [1/s]", "it"});
+  const auto clean = [](double value) { return cell(std::abs(value) < 1e-12 ? 0 : value); };
+  for (std::size_t k = 0; k < found.modes.size(); ++k) {
+    const Mode& mode = found.modes[k];
+    const double w = mode.frequency(), turn = 2 * std::numbers::pi;
+    const double swing = mode.eigenvalue.imag();
+    table.add({std::to_string(k + 1), cell(w), cell(w / turn), swing > 0 ? cell(turn / swing) : "-",
+               clean(mode.damping_ratio()),
+               swing > 0 ? fmt::format("{} +- {}i", clean(mode.eigenvalue.real()), cell(swing))
+                         : clean(mode.eigenvalue.real()),
+               word_for(mode)});
+  }
+  text +=
+      table.str() + "\nshapes, the largest part 1 (where parts are out of phase: size/degrees):\n";
+  for (std::size_t first = 0; first < found.modes.size(); first += kModesInTable)
+    text += shape_table(input, found, first) + "\n";
+  for (const std::string& warning : found.warnings) text += wrapped("warning: " + warning) + "\n";
+  return text;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,175 @@
+#include "app/page/pages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "app/data/html_page.h"
+#include "app/draw/overlays/overlays.h"
+#include "app/film/filmed_run.h"
+#include "app/page/channels.h"
+#include "app/page/page_facts.h"
+#include "app/page/page_layers.h"
+#include "app/support/progress.h"
+#include "app/support/version.h"
+#include "app/web/web_bundle.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+std::string without_tags(std::string json) {  // "</script>" in a name would end the block
+  for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos; at += 6)
+    json.replace(at, 1, "\\u003c");
+  return json;
+}
+
+}  // namespace
+
+void require_form(std::string_view form, std::string_view missing, const std::string& instead) {
+  if (form.empty())
+    throw InputError({{"", 0, "page", "there is no page to fill in",
+                       std::string(missing) + "; " + instead, "page.missing"}});
+}
+
+std::string fill_form(std::string_view form, const std::string& title, const JsonWriter& json,
+                      const PageBytes& bytes) {
+  const std::vector<std::pair<std::string, std::string>> parts{{"@TITLE@", escaped(title)},
+                                                               {"@RUN@", without_tags(json.str())},
+                                                               {"@BYTES@", bytes.packed()}};
+  std::string html;
+  for (const auto& [mark, text] : parts) {  // in their order; each is there once
+    const std::size_t at = form.find(mark);
+    html += std::string(form.substr(0, at)) + text;
+    form.remove_prefix(at + mark.size());
+  }
+  return html + std::string(form);
+}
+
+std::string inspect_page(const SimulateInput& input, const State<double>& x,
+                         const std::string& inspection, const InspectedWords& words) {
+  const WebBundle bundle = web_bundle();
+  require_form(bundle.inspect, bundle.missing, "--json needs none");
+  const SceneModel* scene = input.scene.get();
+  const Model<double>& model = input.robot.model;
+  Stage stage = scene ? make_stage(*scene) : make_stage(input.robot.robot, model);
+  const Moment moment = scene ? moment_of(*scene, *input.couplings, x, {}) : moment_of(model, x);
+  look_ahead(stage, moment);
+  look_at(stage, moment);
+  settle(stage);
+  measure(stage, moment, Measured::of_picture);
+  constexpr double kAspect = 1.0;  // of the view
+  set_view(stage, {}, kAspect);
+  PageLayers layers(stage);
+  layers.add_frame(moment);
+  layers.add_apart(moment);
+  layers.show_at_first({"joints"});
+
+  JsonWriter json;
+  PageBytes bytes;
+  json.begin_object();
+  json.members({{"title", words.title},
+                {"state", words.state},
+                {"command", command_line(words.command)},
+                {"version", kProgramVersion},
+                {"inspection", inspection}});
+  layers.write(json, bytes);
+  write_view(json, stage);
+  json.end_object();
+  return fill_form(bundle.inspect, words.title, json, bytes);
+}
+
+namespace {
+
+constexpr double kMostRate = 120;     // frames per second: twice what screens show, for slow motion
+constexpr double kMostFrames = 1500;  // of a page
+constexpr std::size_t kMostEntries = 400'000;  // of all its draw lists together
+constexpr double kAspect = 1.35;               // of the view
+
+// Between two frames, so that the last is the recording's own last one. No frame comes twice.
+double interval_of(double duration, std::size_t recorded) {
+  const double own = static_cast<double>(std::max<std::size_t>(recorded, 2) - 1) / duration;
+  const double rate = std::min({kMostRate, kMostFrames / duration, own});
+  return duration / std::max(1.0, std::ceil(duration * rate - 1e-6));
+}
+
+FilmedRun open_film(const std::filesystem::path& file, Progress& progress) {
+  const Recording recording(file);
+  const double first = recording.frame(0).t, last = recording.frame(recording.size() - 1).t;
+  RobotOptions options;
+  options.model = file;
+  FilmTimes times;
+  times.is_film = last > first;
+  times.interval = interval_of(std::max(last - first, 1e-9), recording.size());
+  if (!times.is_film) times.at = last;
+  return film_run(options, times, "auto", progress);
+}
+
+Stage stage_of(const FilmedRun& run) {
+  Stage stage = run.plan.input.scene ? make_stage(*run.plan.input.scene)
+                                     : make_stage(run.plan.input.robot.robot, run.model());
+  for (const RunInstant& instant : run.around) look_ahead(stage, run.moment(instant));
+  for (const RunInstant& instant : run.shown) look_at(stage, run.moment(instant));
+  settle(stage);
+  for (const RunInstant& instant : run.around)
+    measure(stage, run.moment(instant), Measured::of_run);
+  for (const RunInstant& instant : run.shown)
+    measure(stage, run.moment(instant), Measured::of_picture);
+  set_view(stage, {}, kAspect);
+  return stage;
+}
+
+// Where draw lists are long (a pyramid with all of its contacts), fewer frames; the last one stays.
+void thin_out(FilmedRun& run, std::size_t entries_a_frame) {
+  const std::size_t count = run.shown.size();
+  const std::size_t stride = (count * entries_a_frame + kMostEntries - 1) / kMostEntries;
+  if (stride < 2) return;
+  std::vector<RunInstant> kept;
+  for (std::size_t i = 0; i < count; i += stride) kept.push_back(run.shown[i]);
+  if ((count - 1) % stride != 0) kept.push_back(run.shown.back());
+  run.shown = std::move(kept);
+}
+
+std::size_t entries_of(Stage& stage, const Moment& moment) {
+  draw(stage, moment, parse_overlays("all"));
+  return stage.list.instances.size();
+}
+
+}  // namespace
+
+ReplayPage replay_page(const std::filesystem::path& file) {
+  const WebBundle bundle = web_bundle();
+  require_form(bundle.replay, bundle.missing, "--csv and --json need none");
+  Progress progress(true);
+  FilmedRun run = open_film(file, progress);
+  Stage stage = stage_of(run);
+  thin_out(run, entries_of(stage, run.moment(run.shown.back())));
+  PageLayers layers(stage);
+  PageChannels channels(run);
+  for (const RunInstant& instant : run.shown) {
+    check_interrupt();
+    const Moment moment = run.moment(instant);
+    layers.add_frame(moment);
+    channels.add_frame(run.recording->frame(run.recording->at(instant.x.t, "export")), moment);
+  }
+  ReplayPage page;
+  page.frames = run.shown.size();
+  const double duration = run.shown.back().x.t - run.shown.front().x.t;
+  if (duration > 0) page.rate = static_cast<double>(page.frames - 1) / duration;
+
+  JsonWriter json;
+  PageBytes bytes;
+  json.begin_object();
+  write_facts(json, run, stage, page.rate);
+  channels.write(json, bytes);
+  layers.write(json, bytes);
+  write_view(json, stage);
+  json.end_object();
+  page.html = fill_form(bundle.replay, stage.name, json, bytes);
+  return page;
+}
+
+}  // namespace twinarm

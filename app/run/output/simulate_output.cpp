@@ -1,0 +1,202 @@
+#include "app/run/output/simulate_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/data/tables.h"
+#include "app/run/run.h"
+#include "app/support/files.h"
+#include "app/support/text.h"
+
+namespace twinarm {
+namespace {
+
+void sum_up(LedgerRow& sum, const LedgerRow& row) {
+  sum.work += row.work;
+}
+void sum_up(MomentumRow& sum, const MomentumRow& row) {
+  sum.linear += row.linear;
+  sum.angular += row.angular;
+}
+
+// Of the rows of a kind that are summed where there are many; others have none.
+const char* name_of_sum(LedgerKind kind) {
+  static constexpr std::pair<LedgerKind, const char*> kSums[] = {
+      {LedgerKind::contact, "contact, all"},
+      {LedgerKind::contact_normal, "contact, all/normal"},
+      {LedgerKind::contact_friction, "contact, all/friction"},
+      {LedgerKind::contact_impact, "contact, all/impact"},
+      {LedgerKind::contact_stabilisation, "contact, all/stabilisation"},
+      {LedgerKind::constraint, "constraint, all"},
+      {LedgerKind::constraint_stabilisation, "constraint, all/stabilisation"}};
+  for (const auto& [summed, name] : kSums)
+    if (summed == kind) return name;
+  return nullptr;
+}
+
+// Rows of many contacts or constraints are summed by kind: the JSON has them all.
+template <class Row>
+std::vector<Row> shortened(const std::vector<Row>& rows) {
+  constexpr std::ptrdiff_t most = 12;
+  const auto is_summed = [](const Row& row) { return name_of_sum(row.kind) != nullptr; };
+  if (std::ranges::count_if(rows, is_summed) <= most) return rows;
+  std::vector<Row> out;
+  for (const Row& row : rows) {
+    const auto same = std::ranges::find_if(
+        out, [&](const Row& other) { return is_summed(row) && other.kind == row.kind; });
+    if (same != out.end()) {
+      sum_up(*same, row);
+      continue;
+    }
+    out.push_back(row);
+    if (is_summed(row)) out.back().name = name_of_sum(row.kind);
+  }
+  return out;
+}
+
+std::string momentum_table(const SimulateResult& result) {
+  TextTable table({"momentum, 0 to " + cell(result.end) + " s", "x [N s]", "y [N s]", "z [N s]",
+                   "about x [N m s]", "about y [N m s]", "about z [N m s]"});
+  const auto line = [&](const MomentumRow& row) {
+    std::vector<std::string> cells{row.name};
+    for (const Vector3& v : {row.linear, row.angular})
+      for (const double component : v) cells.push_back(cell(component));
+    table.add(std::move(cells));
+  };
+  MomentumRow sum{LedgerKind::earlier, "change of momentum", Vector3::Zero(), Vector3::Zero()};
+  for (const MomentumRow& row : shortened(result.momentum)) {
+    if (!name_of_sum(row.kind) || !row.linear.isZero(0) || !row.angular.isZero(0)) line(row);
+    sum_up(sum, row);
+  }
+  line(sum);
+  return table.str();
+}
+
+class TableOutput : public RunOutput {
+ public:
+  TableOutput(const SimulateInput& input, const RunPlan& plan)
+      : input_(input.robot), plan_(plan), samples_(headings(input)), k_(input_.model) {}
+
+  void sample(double t, const State<double>& x) override {
+    forward_kinematics(input_.model, x, k_);
+    const std::vector<double> values = run_values(input_, x, k_);
+    std::vector<std::string> row{cell(t)};
+    for (const std::size_t column : shown_) row.push_back(cell(values[column]));
+    row.push_back(cell(values[values.size() - 2] + values.back()));
+    samples_.add(std::move(row));
+  }
+
+  void end(const SimulateResult& result) override {
+    const std::string steps = plan_.is_adaptive()
+                                  ? fmt::format("tolerance {}", cell(plan_.tolerance))
+                                  : fmt::format("step {} s", cell(plan_.step));
+    fmt::print("{}: {} step{} of {}, {}\n\n{}{}\n", input_.robot.name, result.steps,
+               result.steps == 1 ? "" : "s", integrator_name(plan_.integrator), steps,
+               samples_.str(), left_out());
+    TextTable ledger({"work on the bodies, 0 to " + cell(result.end) + " s", "[J]"});
+    double sum = 0;
+    for (const LedgerRow& row : shortened(result.ledger)) {
+      ledger.add({row.name, cell(row.work)});
+      sum += row.work;
+    }
+    ledger.add({"change of kinetic energy", cell(sum)});
+    fmt::print("{}\n{}", ledger.str(), momentum_table(result));
+    if (result.contacts > 0)
+      fmt::print("\n{} at the end\n",
+                 result.contacts == 1 ? "1 contact point presses"
+                                      : fmt::format("{} contact points press", result.contacts));
+    const char* space = "\n";
+    for (const auto* warnings : {&input_.warnings, &result.warnings})
+      for (const std::string& warning : *warnings) {
+        fmt::print("{}warning: {}\n", space, warning);
+        space = "";
+      }
+  }
+
+ private:
+  std::string left_out() const {
+    if (bodies_ <= kShownBodies) return "";
+    return fmt::format("({} of {} bodies are not shown: --csv and --json have them all)\n",
+                       bodies_ - kShownBodies, bodies_);
+  }
+
+  // Coordinates, the first few of a scene's own bodies, energies.
+  std::vector<std::string> headings(const SimulateInput& input) {
+    const int bodies = input.robot.model.body_count();
+    const int first = input.scene ? input.scene->robot_bodies + 1 : bodies;
+    bodies_ = bodies - first;
+    std::vector<std::string> names{"t [s]"};
+    const std::vector<RunColumn> columns = run_columns(input.robot);
+    int positions = 0;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const auto& [name, unit, kind, of] = columns[i];
+      if (kind == "rate") continue;
+      if (kind == "position") {
+        const int body = 1 + positions++ / 3;
+        if (body < first || body >= first + kShownBodies) continue;
+      }
+      shown_.push_back(i);
+      names.push_back((kind == "energy" ? of : name.substr(name.find('/') + 1)) + " [" + unit +
+                      "]");
+    }
+    names.push_back("sum [J]");
+    return names;
+  }
+
+  static constexpr int kShownBodies = 3;
+  const RobotInput& input_;
+  const RunPlan& plan_;
+  int bodies_ = 0;                  // of the scene's own, after its robots
+  std::vector<std::size_t> shown_;  // of run_columns()
+  TextTable samples_;
+  Kinematics k_;
+};
+
+}  // namespace
+
+std::unique_ptr<RunOutput> table_output(const SimulateInput& input, const RunPlan& plan) {
+  return std::make_unique<TableOutput>(input, plan);
+}
+
+namespace {
+
+// One line of values, in the order of the header.
+class CsvOutput : public RunOutput {
+ public:
+  explicit CsvOutput(const RobotInput& input) : input_(input), k_(input.model) {
+    std::vector<std::string> header{"t[s]"};
+    for (const RunColumn& column : run_columns(input)) header.push_back(column.with_unit());
+    fmt::print("{}\n", csv_line(header));
+  }
+
+  void sample(double t, const State<double>& x) override {
+    forward_kinematics(input_.model, x, k_);
+    std::vector<double> row = run_values(input_, x, k_);
+    row.insert(row.begin(), t);
+    fmt::print("{}\n", csv_line(row));
+  }
+
+  // The ledger has no place in a table of samples.
+  void end(const SimulateResult& result) override {
+    std::fflush(stdout);
+    for (const auto* warnings : {&input_.warnings, &result.warnings})
+      for (const std::string& warning : *warnings) say("warning: {}\n", warning);
+  }
+
+ private:
+  const RobotInput& input_;
+  Kinematics k_;
+};
+
+}  // namespace
+
+std::unique_ptr<RunOutput> csv_output(const SimulateInput& input) {
+  return std::make_unique<CsvOutput>(input.robot);
+}
+
+}  // namespace twinarm

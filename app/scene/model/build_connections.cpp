@@ -1,0 +1,229 @@
+// Constraints, from names to bodies of the model.
+
+#include "app/robot/coordinates.h"
+#include "app/scene/model/scene_builder.h"
+#include "coupling/laws/coupling_spec.h"
+#include "coupling/laws/mujoco_weld.h"
+#include "solver/dynamics/kinematics.h"
+#include "solver/spatial/rotation_to_axis.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+class ConstraintBuilder {
+ public:
+  explicit ConstraintBuilder(SceneModel& scene) : scene_(scene), k_(scene.model) {
+    forward_kinematics(scene.model, scene.start, k_);
+  }
+
+  void build() {
+    for (const ConstraintDescription& given : scene_.description.constraints) {
+      SceneConstraint made;
+      made.name = given.name;
+      made.line = given.line;
+      made.type = given.type;
+      if (given.type == ConstraintDescription::Type::gear)
+        build_gear(given, made);
+      else
+        build_joint(given, made);
+      scene_.constraints.push_back(std::move(made));
+    }
+    faults_.check();
+  }
+
+ private:
+  // Of the body that is meant, in the world; a fixed one has no body of its own in the model.
+  Vector3 origin_of(const std::string& name) const {
+    const SceneReference who = *find_reference(scene_.description, name);
+    if (who.body >= 0) {
+      const BodyDescription& body = scene_.description.bodies[static_cast<std::size_t>(who.body)];
+      if (body.fixed) return body.X_WB.p;
+    }
+    return k_.X_WL[static_cast<std::size_t>(body_of(scene_, who))].p;
+  }
+
+  // The ends of a distance in the world. One point belongs to the one of the two that is fixed,
+  // else to a; the other end is then the origin of the other body.
+  std::pair<Vector3, Vector3> ends(const ConstraintDescription& given,
+                                   const SceneConstraint& made) const {
+    const Vector3 origin_a = origin_of(given.a), origin_b = origin_of(given.b);
+    if (given.point && !given.point_b && made.b == 0) return {origin_a, *given.point};
+    return {given.point.value_or(origin_a), given.point_b.value_or(origin_b)};
+  }
+
+  void fault(const SceneConstraint& made, std::string rule, std::string remedy,
+             std::string_view code) {
+    faults_.add({scene_.description.file.string(), made.line, "constraint '" + made.name + "'",
+                 std::move(rule), std::move(remedy), code});
+  }
+
+  void build_gear(const ConstraintDescription& given, SceneConstraint& made) {
+    const auto body_and_velocity = [&](const std::string& name) {
+      const JointReference joint = *find_joint(scene_.description, name);
+      const int body = scene_.model.find_joint(
+          name_in_scene(scene_.description, joint.robot, joint.joint->name));
+      return std::pair{body, scene_.model.iv[static_cast<std::size_t>(body)]};
+    };
+    std::tie(made.a, made.iv_a) = body_and_velocity(given.a);
+    std::tie(made.b, made.iv_b) = body_and_velocity(given.b);
+    made.ratio = given.ratio;
+    const auto q = [&](int body) {
+      return scene_.start.q[scene_.model.iq[static_cast<std::size_t>(body)]];
+    };
+    made.offset = q(made.a) - made.ratio * q(made.b);
+  }
+
+  void build_joint(const ConstraintDescription& given, SceneConstraint& made) {
+    made.a = body_of(scene_, *find_reference(scene_.description, given.a));
+    made.b = body_of(scene_, *find_reference(scene_.description, given.b));
+    const Pose& X_WA = k_.X_WL[static_cast<std::size_t>(made.a)];
+    const Pose& X_WB = k_.X_WL[static_cast<std::size_t>(made.b)];
+    if (made.a == made.b)
+      fault(made, "both are the same body", "name two that can move", "scene.same-ends");
+    if (given.type == ConstraintDescription::Type::distance) {
+      const auto [p_WA, p_WB] = ends(given, made);
+      made.X_AC = X_WA.inverse() * Pose{Matrix3::Identity(), p_WA};
+      made.X_BC = X_WB.inverse() * Pose{Matrix3::Identity(), p_WB};
+      made.length = (p_WB - p_WA).norm();
+      if (!(made.length > 0))
+        fault(made, "its two ends are the same point", "give another point", "scene.same-ends");
+      return;
+    }
+    Pose X_WC;
+    X_WC.p = given.point.value_or(X_WA.p);
+    if (given.axis) X_WC.R = turn_z_to(*given.axis);
+    made.X_AC = X_WA.inverse() * X_WC;
+    made.X_BC = X_WB.inverse() * X_WC;
+  }
+
+  SceneModel& scene_;
+  Kinematics k_;
+  FaultList faults_;
+};
+
+}  // namespace
+
+void build_constraints(SceneModel& scene) {
+  ConstraintBuilder(scene).build();
+}
+
+// Couplings, from names to bodies of the model, and into their pulls.
+namespace {
+
+using Law = CouplingSpec::Type;
+using Pull = CouplingDescription::Type;
+
+std::size_t robot_named(const SceneDescription& scene, const std::string& name) {
+  std::size_t r = 0;
+  while (scene.robots[r].name != name) ++r;  // the reader has seen it
+  return r;
+}
+
+// All but the pulls.
+SceneCoupling without_pulls(const SceneModel& scene, std::size_t index) {
+  const CouplingDescription& given = scene.description.couplings[index];
+  SceneCoupling made;
+  static_cast<CouplingTraits&>(made) = given;
+  made.description = index;
+  made.coupling = given.name;
+  made.leader = scene.couplings.size();
+  made.robot = robot_named(scene.description, given.robot);
+  made.target = given.target.kind;
+  made.rest = scene.start;
+  made.rest.qd.assign(scene.model.nv, 0);
+  set_coordinates(scene, made.robot, given.target.q, made.rest);
+  if (given.target.is_hand()) made.driven.turned = turned_joints(scene, made.robot);
+  if (!given.target.gripper.empty())
+    made.driven.gripper = name_in_scene(scene.description, made.robot, given.target.gripper);
+  made.driven.gripper_open = given.target.open;
+  made.driven.gripper_closed = given.target.closed;
+  made.trace = given.target.trace;
+  made.seed = given.target.seed;
+  made.duration = given.target.duration;
+  return made;
+}
+
+void add_pull(SceneModel& scene, SceneCoupling made, const std::string& part, Pull type,
+              const Spring& spring) {
+  if (scene.couplings.size() != made.leader) made.springs.clear();
+  if (!part.empty()) made.name += "/" + part;
+  made.type = type;
+  made.spring = spring;
+  made.spring.name = made.name;
+  scene.couplings.push_back(std::move(made));
+}
+
+void add_six_dimensions(SceneModel& scene, SceneCoupling made, const Spring& spring) {
+  made.springs = {spring};
+  add_pull(scene, made, "force", Pull::linear, spring);
+  Spring turn = spring;
+  turn.k = spring.k_turn, turn.b = spring.b_turn;
+  add_pull(scene, made, "couple", Pull::torsional, turn);
+}
+
+void add_god_object(SceneModel& scene, SceneCoupling made, FaultList& faults) {
+  const auto [first, last] = scene.bodies_of_robot(made.robot);
+  made.springs = god_object_joints(scene.model, first, last);
+  made.measure = Measure::joint;
+  for (const Spring& joint : made.springs)
+    add_pull(scene, made, scene.model.joint_name[static_cast<std::size_t>(joint.body)],
+             Pull::torsional, joint);
+  if (made.springs.empty())
+    faults.add({scene.description.file.string(), made.line, "coupling '" + made.name + "'",
+                "its robot has no joint to drive", "name a robot that can move",
+                "scene.nothing-to-drive"});
+}
+
+}  // namespace
+
+std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot) {
+  std::vector<std::string> names;
+  const Coordinates coordinates(scene.model, false);
+  const std::string prefix = name_in_scene(scene.description, robot, "");
+  for (const JointDescription& joint : scene.description.robots[robot].description.joints)
+    if (joint.dofs() == 1 && !joint.mimic && names.size() < 3) names.push_back(prefix + joint.name);
+  return names;
+}
+
+void build_couplings(SceneModel& scene) {
+  FaultList faults;
+  for (std::size_t i = 0; i < scene.description.couplings.size(); ++i) {
+    const CouplingDescription& given = scene.description.couplings[i];
+    SceneCoupling made = without_pulls(scene, i);
+    if (given.law == Law::god_object) {
+      add_god_object(scene, std::move(made), faults);
+      continue;
+    }
+    const int body = body_of(scene, {-1, static_cast<int>(made.robot), given.link});
+    if (given.law == Law::weld_like) {
+      add_six_dimensions(
+          scene, std::move(made),
+          weld_spring(given.name, scene.model, scene.start, body, given.point, given.reference));
+      continue;
+    }
+    const Spring spring{given.name,        body,          given.point,
+                        given.stiffness,   given.damping, given.turn_stiffness,
+                        given.turn_damping};
+    if (given.law == Law::bushing) {
+      add_six_dimensions(scene, std::move(made), spring);
+      continue;
+    }
+    made.springs = {spring};
+    add_pull(scene, std::move(made), "", given.type, spring);
+  }
+  faults.check();
+}
+
+bool SceneCoupling::needs_semi_implicit() const {
+  return treatment != Treatment::explicit_ || law == CouplingSpec::Type::weld_like ||
+         facts_of(law, printed).treatments == CouplingFacts::Treatments::own;
+}
+
+SceneCoupling::ThirdRow SceneCoupling::third_row() const {
+  if (!facts_of(law, printed).is_spring_damper) return ThirdRow::drive;
+  if (needs_semi_implicit()) return ThirdRow::implicit;
+  return printed ? ThirdRow::as_printed : ThirdRow::none;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,300 @@
+// Constraints: what ties links and bodies together.
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/scene/read/read_scene.h"
+#include "app/scene/read/scene_keys.h"
+#include "app/scene/read/scene_reader.h"
+#include "app/support/text.h"
+#include "coupling/target/recorded_trace.h"
+
+namespace twinarm {
+
+void SceneReader::read_constraint(const Value& value, std::size_t index) {
+  using Type = ConstraintDescription::Type;
+  TableReader table = open(value, "constraint");
+  ConstraintDescription constraint;
+  constraint.line = table.line();
+  constraint.name = read_item_name(table, "constraint", index, scene.constraints);
+  table.missing("type", "give type = \"weld\", \"ball\", \"hinge\", \"distance\" or \"gear\"");
+  if (const auto type = table.choice("type", {"weld", "ball", "hinge", "distance", "gear"}))
+    constraint.type = static_cast<Type>(*type);
+  const bool gear = constraint.type == Type::gear;
+
+  const auto read_end = [&](const char* key) -> std::string {
+    table.missing(key, gear ? "name a joint: robot/joint" : "name a body, robot/link or world");
+    const auto name = table.text(key);
+    if (!name) return "";
+    if (gear) {
+      const auto joint = find_joint(scene, *name);
+      if (!joint)
+        table.fault(key, "there is no joint '" + *name + "'", "name it as robot/joint",
+                    "scene.unknown-name");
+      else if (joint->joint->dofs() != 1)
+        table.fault(key,
+                    "the joint has " + std::to_string(joint->joint->dofs()) + " degrees of freedom",
+                    "a gear goes between joints of one", "scene.degrees-of-freedom");
+      return *name;
+    }
+    const auto found = find_reference(scene, *name);
+    if (!found || (found->robot >= 0 && found->link.empty()))
+      table.fault(key, found ? "a robot has many links" : "there is no body '" + *name + "'",
+                  name_remedy(*name, reference_names(scene), "names"), "scene.unknown-name");
+    return *name;
+  };
+  constraint.a = read_end("a");
+  constraint.b = read_end("b");
+  if (!constraint.a.empty() && constraint.a == constraint.b)
+    table.fault("b", "is the same as a", "name two", "scene.same-ends");
+
+  const auto place = [&](const char* key, bool allowed) -> std::optional<Vector3> {
+    const auto found = table.vector(key);
+    if (table.has(key) && !allowed)
+      table.fault(key, "has no meaning in this type of constraint", "leave it out",
+                  "scene.key-useless");
+    return found;
+  };
+  constraint.point = place("point", !gear);
+  constraint.point_b = place("point_b", constraint.type == Type::distance);
+  constraint.axis = place("axis", constraint.type == Type::hinge);
+  if (constraint.axis && !(constraint.axis->norm() > 0))
+    table.fault("axis", "has no direction", "give an axis that is not zero", "scene.no-direction");
+  if (constraint.type == Type::ball || constraint.type == Type::hinge)
+    table.missing("point", "give the point that both share, in the world at the start");
+  if (constraint.type == Type::hinge)
+    table.missing("axis", "give the axis of the hinge, in the world at the start");
+  if (gear) table.missing("ratio", "give the speed of a as a multiple of that of b");
+  if (const auto ratio = table.number("ratio")) {
+    constraint.ratio = *ratio;
+    if (!gear) table.fault("ratio", "is of a gear", "leave it out", "scene.key-useless");
+    if (*ratio == 0) table.fault("ratio", "must not be 0", "", "scene.zero");
+  }
+  table.done();
+  scene.constraints.push_back(std::move(constraint));
+}
+
+// Couplings: spring-dampers and other pulls after a kinematic twin.
+namespace {
+
+// The robot that carries the link; nullptr, told, where it cannot be found.
+const RobotInScene* read_robot_of(TableReader& table, const SceneDescription& scene,
+                                  CouplingDescription& coupling) {
+  const std::vector<std::string> names = names_of(scene.robots);
+  if (!table.has("robot") && names.size() == 1)
+    coupling.robot = names[0];
+  else
+    table.missing("robot", name_remedy("", names, "robots"));
+  if (const auto name = table.text("robot")) coupling.robot = *name;
+  for (const RobotInScene& robot : scene.robots)
+    if (robot.name == coupling.robot) return &robot;
+  if (!coupling.robot.empty())
+    table.fault("robot", "there is no robot '" + coupling.robot + "'",
+                name_remedy(coupling.robot, names, "robots"), "scene.unknown-name");
+  return nullptr;
+}
+
+void read_link(TableReader& table, const RobotDescription& robot, CouplingDescription& coupling) {
+  table.missing("link", "name the link that is pulled");
+  coupling.link = table.text("link").value_or("");
+  if (coupling.link.empty() || robot.links.empty()) return;
+  if (!find_link(robot, coupling.link))
+    return table.fault("link", "there is no link '" + coupling.link + "'",
+                       name_remedy(coupling.link, names_of(robot.links), "links"),
+                       "scene.unknown-name");
+  const bool at_joint =
+      coupling.type == CouplingDescription::Type::torsional && coupling.measure == Measure::joint;
+  if (at_joint && !own_joint(robot, coupling.link))
+    table.fault("link", "its joint has not one degree of freedom of its own",
+                "name a link on a revolute, prismatic or screw joint, or give measure = \"world\"",
+                "scene.degrees-of-freedom");
+}
+
+// Whether the type has the key; told where it stands and is none of the type's.
+bool fits(TableReader& table, const char* key, const CouplingFacts& facts) {
+  const CouplingKey& row = coupling_key(key);
+  if (row.has(facts)) return true;
+  if (table.has(key)) table.fault(key, row.useless, "leave it out", "scene.key-useless");
+  return false;
+}
+
+void read_treatment(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
+  using Treatments = CouplingFacts::Treatments;
+  if (facts.treatments == Treatments::own) {
+    coupling.treatment = Treatment::semi_implicit;
+    fits(table, "treatment", facts);
+    return;
+  }
+  const bool is_explicit = coupling.rate > 0 || facts.treatments == Treatments::explicit_only ||
+                           facts.gains == CouplingFacts::Gains::reference;
+  if (is_explicit) coupling.treatment = Treatment::explicit_;
+  if (const auto chosen = table.choice("treatment", {"explicit", "semi-implicit", "implicit"}))
+    coupling.treatment = static_cast<Treatment>(*chosen);
+  if (coupling.treatment == Treatment::explicit_) return;
+  if (facts.treatments == Treatments::explicit_only)
+    table.fault("treatment", "this type of coupling is explicit: it sees the start of the step",
+                "leave it out, or choose another type", "scene.treatment");
+  if (coupling.rate > 0)
+    table.fault("rate", "a held force is explicit: it cannot see the end of the step",
+                "give treatment = \"explicit\", or leave 'rate' out", "scene.treatment");
+}
+
+// Those that a coupling has by its type, and not by its target.
+void read_numbers(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
+  const bool turns = coupling.type == CouplingDescription::Type::torsional;
+  for (const CouplingKey& row : coupling_keys()) {
+    if (!row.number || row.of_target || !fits(table, row.key, facts)) continue;
+    if (row.is_required()) table.missing(row.key, std::string("give it in ") + row.unit_of(turns));
+    double& number = row.number(coupling);
+    number = read_number(table, row.key, row.range).value_or(number);
+  }
+}
+
+// How it pulls, and where.
+void read_pull(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
+  coupling.type =
+      facts.at_point ? CouplingDescription::Type::linear : CouplingDescription::Type::torsional;
+  if (facts.at_joint) coupling.measure = Measure::joint;
+  if (fits(table, "measure", facts))
+    if (const auto measure = table.choice("measure", {"world", "joint"}))
+      coupling.measure = static_cast<Measure>(*measure);
+  if (fits(table, "point", facts)) coupling.point = table.vector("point").value_or(Vector3::Zero());
+  coupling.absolute_damper = facts.gains == CouplingFacts::Gains::reference;
+  if (fits(table, "damper", facts))
+    if (const auto damper = table.choice("damper", {"relative", "absolute"}))
+      coupling.absolute_damper = *damper == 1;
+}
+
+// A soft stop: the spring-damper acts outside of these two coordinates of the joint.
+void read_outside(TableReader& table, CouplingDescription& coupling) {
+  const auto ends = table.numbers("outside", 2);
+  if (!ends) return;
+  coupling.outside = {(*ends)[0], (*ends)[1]};
+  if (!((*ends)[0] <= (*ends)[1]))
+    table.fault("outside", "the first is above the second", "give [lower, upper]", "scene.order");
+  const bool at_joint =
+      coupling.type == CouplingDescription::Type::torsional && coupling.measure == Measure::joint;
+  if (!at_joint || coupling.treatment != Treatment::implicit || table.has("target"))
+    table.fault("outside", "a stop is a torsional coupling at a joint, implicit, without a target",
+                "give type = \"torsional\", measure = \"joint\", and leave the others out",
+                "scene.stop");
+}
+
+// The joint that the button of the hand moves.
+void read_gripper(SceneReader& reader, TableReader& table, const RobotDescription& robot,
+                  CouplingTarget& target) {
+  const Value* value = table.table("gripper");
+  if (!value) return;
+  if (!target.is_hand())
+    table.fault("gripper", "no hand moves this target", "give one, as target = \"paper\"",
+                "scene.key-useless");
+  TableReader gripper = reader.open(*value, table.where() + ", gripper");
+  for (const char* key : {"joint", "open", "closed"})
+    gripper.missing(key, "give { joint = \"..\", open = 0, closed = 0.06 }");
+  target.gripper = gripper.text("joint").value_or("");
+  target.open = gripper.number("open").value_or(0);
+  target.closed = gripper.number("closed").value_or(0);
+  gripper.done();
+  std::vector<std::string> names;
+  for (const JointDescription& joint : robot.joints)
+    if (joint.dofs() == 1 && !joint.mimic) names.push_back(joint.name);
+  if (!target.gripper.empty() &&
+      std::find(names.begin(), names.end(), target.gripper) == names.end())
+    gripper.fault("joint", "there is no such joint of one degree of freedom",
+                  name_remedy(target.gripper, names, "joints"), "scene.unknown-name");
+}
+
+void read_synthetic(TableReader& hand, CouplingTarget& target) {
+  target.kind = CouplingTarget::Kind::synthetic;
+  const double seed = hand.not_negative("seed").value_or(1);
+  if (!(seed <= 4294967295.0) || seed != std::floor(seed))
+    hand.fault("seed", "must be a whole number below 2^32", "give seed = 1", "scene.range");
+  else
+    target.seed = static_cast<unsigned>(seed);
+  target.duration = hand.positive("duration").value_or(20);
+  if (target.duration > 1e5)
+    hand.fault("duration", "must be at most 100000 s", "give a shorter one", "scene.range");
+}
+
+// What should be known of a trace before a run on it. Its faults are told where it is played.
+void look_at_trace(const std::filesystem::path& file, std::vector<std::string>& warnings) {
+  try {
+    const RecordedTrace trace(file);
+    for (const std::string& warning : trace.quality().warnings)
+      warnings.push_back(file.string() + ": " + warning);
+  } catch (const InputError&) {
+    return;
+  }
+}
+
+void read_target(SceneReader& reader, TableReader& table, const RobotDescription& robot,
+                 CouplingTarget& target) {
+  const Value* value = table.find("target");
+  if (!value) return;
+  if (value->kind == Value::Kind::table) {
+    TableReader state = reader.open(*value, table.where() + ", target");
+    if (state.has("seed")) {
+      read_synthetic(state, target);
+      return state.done();
+    }
+    target.kind = CouplingTarget::Kind::state;
+    target.q = reader.read_joints(state, "q", robot, JointRows::coordinates);
+    return state.done();
+  }
+  const std::string name = table.text("target").value_or("");
+  if (name == "paper") {
+    target.kind = CouplingTarget::Kind::paper;
+  } else if (name == "device") {
+    target.kind = CouplingTarget::Kind::device;
+  } else if (!name.empty()) {
+    target.kind = CouplingTarget::Kind::trace;
+    if (const auto file = reader.find_file(table, "target", name)) {
+      target.trace = *file;
+      look_at_trace(*file, reader.scene.warnings);
+    }
+  }
+}
+
+// How late and how fast the motion of the target is seen.
+void read_pace(TableReader& table, CouplingDescription& coupling) {
+  for (const CouplingKey& row : coupling_keys()) {
+    if (!row.of_target) continue;
+    const double given = read_number(table, row.key, row.range).value_or(0);
+    if (given != 0) row.number(coupling) = given;
+    if (given != 0 && !row.of_target(coupling.target.kind))
+      table.fault(row.key, row.useless, row.help, "scene.key-useless");
+  }
+}
+
+}  // namespace
+
+void SceneReader::read_coupling(const Value& value, std::size_t index) {
+  TableReader table = open(value, "coupling");
+  CouplingDescription coupling;
+  coupling.line = table.line();
+  coupling.name = read_item_name(table, "coupling", index, scene.couplings);
+  table.missing("type", "give type = \"linear\", \"torsional\" or another of docs/scenes.md");
+  const std::size_t chosen = table.choice("type", names_of(all_couplings)).value_or(0);
+  const CouplingFacts& facts = all_couplings[chosen];
+  coupling.law = facts.type;
+  coupling.printed = facts.printed;
+  read_pull(table, facts, coupling);
+  read_numbers(table, facts, coupling);
+  read_treatment(table, facts, coupling);
+  const RobotInScene* robot = read_robot_of(table, scene, coupling);
+  const RobotDescription nobody;
+  const RobotDescription& description = robot ? robot->description : nobody;
+  if (fits(table, "link", facts)) read_link(table, description, coupling);
+  read_outside(table, coupling);
+  if (robot && !description.links.empty()) {
+    read_target(*this, table, description, coupling.target);
+    read_gripper(*this, table, description, coupling.target);
+    read_pace(table, coupling);
+  } else {
+    for (const char* key : {"target", "delay", "speed", "gripper"}) table.find(key);
+  }
+  table.done();
+  scene.couplings.push_back(std::move(coupling));
+}
+
+}  // namespace twinarm

@@ -1,0 +1,157 @@
+#include "app/support/files.h"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+#include <vector>
+
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+// Of the Python module, whose program is Python's. Of the program itself: what it was called.
+std::filesystem::path library_of_this_code() {
+  Dl_info found;
+  const bool is_known = dladdr(reinterpret_cast<const void*>(&find_assets), &found) != 0;
+  return is_known && found.dli_fname ? found.dli_fname : "";
+}
+
+}  // namespace
+
+std::filesystem::path find_assets(const std::filesystem::path& given) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  std::vector<fs::path> places;
+  if (!given.empty()) {
+    places.push_back(given);
+  } else {
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    places.push_back(program.parent_path() / "../../assets");      // build/PRESET/twinarm
+    places.push_back(program.parent_path() / "../share/twinarm");  // bin/twinarm, installed
+    if (const fs::path library = library_of_this_code(); library.extension() == ".so") {
+      places.push_back(library.parent_path() / "../../../assets");  // build/PRESET/python
+      places.push_back(library.parent_path() /
+                       "../../../share/twinarm");  // lib/python3.11/dist-packages
+    }
+    places.push_back(fs::current_path(error) / "assets");
+  }
+  for (const fs::path& place : places)
+    if (fs::is_directory(place / "robots", error)) return fs::weakly_canonical(place);
+  throw InputError(
+      {{places.front().string(), 0, "assets", "the folder with the robots is not there",
+        "run from the project's folder, or give --assets", "file.no-assets"}});
+}
+
+std::filesystem::path find_input(const std::filesystem::path& name) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (name.empty() || *name.begin() != "assets" || fs::exists(name, error)) return name;
+  try {
+    const fs::path found = find_assets() / name.lexically_relative("assets");
+    return fs::exists(found, error) ? found : name;
+  } catch (const InputError&) {  // no assets: the name is told as it was typed
+    return name;
+  }
+}
+
+namespace {
+
+InputError cannot_write(const std::filesystem::path& path, const std::string& why,
+                        const char* option) {
+  return InputError(
+      {{path.string(), 0, "", "cannot be written" + why,
+        std::string("choose a folder that can be written, with ") + option, "file.unwritable"}});
+}
+
+}  // namespace
+
+void require_writable_folder(const std::filesystem::path& folder, const char* option) {
+  std::error_code error;
+  std::filesystem::path there = std::filesystem::absolute(folder, error);
+  while (!std::filesystem::exists(there, error) && there.has_relative_path())
+    there = there.parent_path();
+  if (!std::filesystem::is_directory(there, error))
+    throw cannot_write(folder, ": " + there.string() + " is not a folder", option);
+  if (access(there.c_str(), W_OK | X_OK) != 0)
+    throw cannot_write(folder, ": no permission in " + there.string(), option);
+}
+
+void make_folder(const std::filesystem::path& folder, const char* option) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw cannot_write(folder, ": " + error.message(), option);
+}
+
+std::filesystem::path make_temporary_folder(const std::string& name) {
+  std::error_code error;
+  std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (error)  // it says that it is none, not which
+    if (const char* given = std::getenv("TMPDIR")) folder = given;
+  std::string made = (folder / (name + "-XXXXXX")).string();
+  if (!error && mkdtemp(made.data())) return made;
+  throw InputError(
+      {{folder.string(), 0, "temporary files",
+        "no folder can be made there: " +
+            (error ? error.message() : std::string(std::strerror(errno))),
+        "let TMPDIR name a folder that can be written and has room", "file.unwritable"}});
+}
+
+void check_place(const std::filesystem::path& file, FaultList& faults) {
+  std::error_code error;
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (std::filesystem::is_directory(file, error))
+    faults.add({file.string(), 0, "", "is a folder", "name a file in it", "file.is-folder"});
+  else if (!std::filesystem::is_directory(folder, error))
+    faults.add({file.string(), 0, "", "there is no folder '" + folder.string() + "'",
+                "make it: mkdir -p " + folder.string(), "file.no-folder"});
+  else if (access(folder.c_str(), W_OK | X_OK) != 0)
+    faults.add({file.string(), 0, "", "the file cannot be written: no permission in its folder",
+                "choose a folder that can be written", "file.unwritable"});
+}
+
+std::ifstream open_file(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    throw InputError({{file.string(), 0, "", "the file does not exist",
+                       "check the name, and the folder that you are in", "file.missing"}});
+  if (std::filesystem::is_directory(file, ignored))
+    throw InputError(
+        {{file.string(), 0, "", "is a folder", "name a file in it", "file.is-folder"}});
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw InputError({{file.string(), 0, "", "the file cannot be read",
+                       "check its permissions: ls -l shows them", "file.unreadable"}});
+  return stream;
+}
+
+std::string read_whole_file(const std::filesystem::path& file) {
+  std::stringstream content;
+  content << open_file(file).rdbuf();
+  return std::move(content).str();
+}
+
+void fill_closed_streams() {
+  // What is opened gets the lowest number that is free. Not for writing on stdout: what is printed
+  // there would be lost without a word.
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) == -1 && errno == EBADF)
+      open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+void check_stdout() {
+  const bool was_bad = std::ferror(stdout) != 0;
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !was_bad) return;
+  const std::string why = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
+  throw InputError(
+      {{"", 0, "stdout", "what was printed did not all get out" + why,
+        "is it closed, or the disk full? Let it go to a file that has room", "file.stdout"}});
+}
+
+}  // namespace twinarm

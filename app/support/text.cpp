@@ -1,0 +1,82 @@
+#include "app/support/text.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "solver/support/number_text.h"
+
+namespace twinarm {
+namespace {
+
+// Levenshtein's distance, with neighbours that may be swapped (optimal string alignment).
+std::size_t distance(std::string_view a, std::string_view b) {
+  const auto letter = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  std::vector<std::size_t> before2, before(b.size() + 1), now(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) before[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    now[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = letter(a[i - 1]) == letter(b[j - 1]);
+      now[j] = std::min({before[j] + 1, now[j - 1] + 1, before[j - 1] + (same ? 0u : 1u)});
+      if (i > 1 && j > 1 && letter(a[i - 1]) == letter(b[j - 2]) &&
+          letter(a[i - 2]) == letter(b[j - 1]))
+        now[j] = std::min(now[j], before2[j - 2] + 1);
+    }
+    before2 = before;
+    std::swap(before, now);
+  }
+  return before[b.size()];
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view misspelt, const std::vector<std::string>& names) {
+  constexpr std::size_t kLongest = 200;  // longer ones are no slip of the finger
+  if (misspelt.size() > kLongest) return "";
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(2, (misspelt.size() + 1) / 2);
+  for (const std::string& name : names) {
+    if (name.size() > kLongest) continue;
+    const std::size_t d = distance(misspelt, name);
+    if (d > least || (d == least && !nearest.empty())) continue;
+    least = d;
+    nearest = name;
+  }
+  return nearest;
+}
+
+std::string name_remedy(std::string_view misspelt, const std::vector<std::string>& names,
+                        std::string_view kind) {
+  constexpr std::size_t kMany = 12;
+  std::string remedy;
+  if (const std::string nearest = nearest_name(misspelt, names); !nearest.empty())
+    remedy = "did you mean '" + nearest + "'?";
+  if (!remedy.empty() && names.size() > kMany) return remedy;
+  if (!remedy.empty()) remedy += " ";
+  if (names.empty()) return remedy + "there are no " + std::string(kind);
+  remedy += std::string(kind) + ":";
+  for (std::size_t i = 0; i < std::min(names.size(), kMany); ++i) remedy += " " + names[i];
+  if (names.size() > kMany) remedy += " and " + std::to_string(names.size() - kMany) + " more";
+  return remedy;
+}
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string csv_line(const std::vector<std::string>& fields) {
+  std::string line;
+  for (const std::string& field : fields) line += (line.empty() ? "" : ",") + csv_field(field);
+  return line;
+}
+
+std::string csv_line(const std::vector<double>& numbers) {
+  std::string line;
+  for (const double number : numbers) line += (line.empty() ? "" : ",") + number_text(number);
+  return line;
+}
+
+}  // namespace twinarm

@@ -1,0 +1,248 @@
+#include "benchmarks/analytic/support/trajectory_case.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "solver/dynamics/energy_momentum.h"
+#include "solver/stepping/simulation.h"
+
+namespace twinarm {
+namespace {
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+// A simulation that is looked at, at given times or as something passes through zero.
+class Run {
+ public:
+  Run(const TrajectoryCase& c, CaseScene& scene, const Lane& lane,
+      std::vector<TrajectoryPoint>* recording)
+      : case_(c),
+        scene_(scene),
+        lane_(lane),
+        recording_(recording),
+        simulation_(scene.model, scene.start) {
+    simulation_.set_integrator(lane.integrator);
+    if (adaptive()) simulation_.set_tolerance(lane.tolerance);
+    for (const auto& source : scene.sources) simulation_.add(*source);
+    if (scene.prepare) scene.prepare(simulation_);
+    energy_at_start_ = look();
+  }
+
+  // Where it stands at t, no earlier than before; nothing where the run stopped by itself.
+  std::optional<State<double>> at(double t) {
+    const double short_of_a_step = 1e-9 * lane_.step;
+    if (adaptive()) {
+      while (t - now_ > short_of_a_step)
+        if (!advance(t - now_)) return {};
+      return simulation_.state();
+    }
+    while (t - now_ > lane_.step - short_of_a_step)
+      if (!advance(lane_.step)) return {};
+    if (t - now_ <= short_of_a_step) return simulation_.state();
+    return simulation_.side_step(t - now_);
+  }
+
+  // The next place where the case's event changes its sign, and its time.
+  std::optional<State<double>> next_event(double& t) {
+    const auto sign = [&](const State<double>& x) {
+      const double value = case_.events.zero(scene_.model, x);
+      return value > 0 ? 1 : value < 0 ? -1 : 0;
+    };
+    if (sign_ == 0) sign_ = sign(simulation_.state());
+    while (now_ < case_.events.until) {
+      const State<double> before = simulation_.state();
+      const double start = now_;
+      if (!advance(lane_.step)) return {};
+      const int after = sign(simulation_.state());
+      if (after == 0 || sign_ == 0 || after == sign_) {
+        if (after != 0) sign_ = after;
+        continue;
+      }
+      sign_ = after;
+      const State<double> end = simulation_.state();
+      simulation_.set_state(before);
+      double low = 0, high = now_ - start;
+      for (double middle = high / 2; low < middle && middle < high; middle = (low + high) / 2)
+        (sign(simulation_.side_step(middle)) == after ? high : low) = middle;
+      const State<double> event = simulation_.side_step(high);
+      t = start + high;
+      simulation_.set_state(end);
+      return event;
+    }
+    return {};
+  }
+
+  std::optional<double> energy_drift() const {
+    if (!scene_.conserves || !case_.has_steps() || !(most_kinetic_ > 0)) return {};
+    return strayed_ / most_kinetic_;
+  }
+  long steps() const { return steps_; }
+
+ private:
+  bool adaptive() const { return lane_.integrator == Integrator::dopri5; }
+
+  // By one step of h, of dopri5 by at most that.
+  bool advance(double h) {
+    const StepReport report = adaptive() ? simulation_.substep(h) : simulation_.step(h);
+    if (!report.ok()) return false;
+    // Without the rounding of a sum of many steps, which would be an error of time.
+    ++steps_;
+    now_ = adaptive() ? now_ + report.h : static_cast<double>(steps_) * lane_.step;
+    const double energy = look();
+    strayed_ = std::max(strayed_, std::abs(energy - energy_at_start_));
+    return true;
+  }
+
+  double look() {
+    const State<double>& x = simulation_.state();
+    if (!scene_.conserves && !recording_) return 0;
+    const double kinetic = kinetic_energy(scene_.model, x);
+    most_kinetic_ = std::max(most_kinetic_, kinetic);
+    const double stored = scene_.stored ? scene_.stored(x) : 0;
+    const double energy = kinetic + potential_energy(scene_.model, x) + stored;
+    if (recording_) recording_->push_back({now_, case_.observe(scene_.model, x), energy});
+    return energy;
+  }
+
+  const TrajectoryCase& case_;
+  CaseScene& scene_;
+  Lane lane_;
+  std::vector<TrajectoryPoint>* recording_;
+  Simulation simulation_;
+  double now_ = 0, energy_at_start_ = 0, strayed_ = 0, most_kinetic_ = 0;
+  long steps_ = 0;
+  int sign_ = 0;  // of the event's function, the last that was not zero
+};
+
+LaneResult measure(const TrajectoryCase& c, CaseScene scene, const Lane& lane,
+                   std::vector<TrajectoryPoint>* recording) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  LaneResult result;
+  Run run(c, scene, lane, recording);
+  const auto judge = [&](const CaseReadings& seen, double argument) {
+    const double error = c.measure(seen, c.reference(argument));
+    result.error = worse(result.error, error);
+  };
+  const auto all = [&] {
+    for (const double t : c.times) {
+      const auto x = run.at(t);
+      if (!x) return false;
+      judge(c.observe(scene.model, *x), t);
+      if (std::isnan(result.error)) return false;
+    }
+    for (int n = 1; n <= c.events.count; ++n) {
+      double t = 0;
+      const auto x = run.next_event(t);
+      if (!x) return false;
+      CaseReadings seen{t};
+      for (const double reading : c.observe(scene.model, *x)) seen.push_back(reading);
+      judge(seen, n);
+      if (std::isnan(result.error)) return false;
+    }
+    return true;
+  };
+  if (!all()) result.error = kNothing;
+  result.energy_drift = run.energy_drift();
+  result.steps = run.steps();
+  result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return result;
+}
+
+double largest_reference(const TrajectoryCase& c) {
+  double largest = 0;
+  const auto look = [&](double argument) {
+    for (const double value : c.reference(argument)) largest = std::max(largest, std::abs(value));
+  };
+  for (const double t : c.times) look(t);
+  for (int n = 1; n <= c.events.count; ++n) look(n);
+  return largest;
+}
+
+}  // namespace
+
+double largest_difference(const CaseReadings& seen, const CaseReadings& exact) {
+  if (seen.size() != exact.size()) return kNothing;
+  double error = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) error = worse(error, std::abs(seen[i] - exact[i]));
+  return error;
+}
+
+double relative_to_largest(const CaseReadings& seen, const CaseReadings& exact) {
+  double largest = 0;
+  for (const double value : exact) largest = std::max(largest, std::abs(value));
+  return largest_difference(seen, exact) / largest;
+}
+
+TrajectoryCase evaluation(std::function<CaseScene()> scene, std::vector<std::string> readings,
+                          CaseObserver observe, CaseReadings exact, CaseMeasure measure) {
+  return {.scene = std::move(scene),
+          .times = {0},
+          .readings = std::move(readings),
+          .observe = std::move(observe),
+          .reference = [exact](double) { return exact; },
+          .measure = measure};
+}
+
+TrajectoryCase times_of(TrajectoryCase motion, CaseEvents events, CaseReference reference) {
+  motion.times = {}, motion.readings = {}, motion.observe = TrajectoryCase{}.observe;
+  motion.reference = std::move(reference), motion.measure = largest_difference;
+  motion.events = std::move(events);
+  return motion;
+}
+
+void more_gravity(CaseScene& scene) {
+  scene.model.gravity = 1.001 * scene.model.gravity;
+}
+
+void more_inertia(CaseScene& scene) {
+  for (Inertia<double>& inertia : scene.model.I) {
+    inertia.m *= 1.001;
+    inertia.I.xx *= 1.001;
+    inertia.I.zz *= 1.001;
+  }
+}
+
+LaneResult run_lane(const TrajectoryCase& c, const Lane& lane,
+                    std::vector<TrajectoryPoint>* recording) {
+  return measure(c, c.scene(), lane, recording);
+}
+
+double mutant_error(const TrajectoryCase& c) {
+  CaseScene scene = c.scene();
+  c.mutant(scene);
+  return measure(c, std::move(scene), c.lane, nullptr).error;
+}
+
+std::optional<double> slope_of(const std::vector<double>& errors, double rounding) {
+  for (std::size_t i = 0; i + 2 < errors.size(); ++i) {
+    if (!(errors[i] > rounding)) continue;
+    const double fine = std::log2(errors[i + 1] / errors[i]);
+    const double coarse = std::log2(errors[i + 2] / errors[i + 1]);
+    // Least squares through three points at equal distances.
+    if (fine > 0.5 && std::abs(fine - coarse) < 0.3) return (fine + coarse) / 2;
+  }
+  return {};
+}
+
+double rounding_of(const TrajectoryCase& c) {
+  return 1e-12 * largest_reference(c);
+}
+
+std::optional<double> observed_order(const TrajectoryCase& c, const Lane& lane) {
+  if (!c.takes_lanes() || lane.integrator == Integrator::dopri5) return {};
+  const double rounding = rounding_of(c);
+  std::vector<double> errors;
+  double h = lane.step;
+  for (int i = 0; i < 9; ++i, h *= 2) {
+    CaseScene scene = c.scene();
+    scene.conserves = false;  // nobody asks for its energy
+    errors.push_back(measure(c, std::move(scene), {lane.integrator, h, 0}, nullptr).error);
+    if (const auto slope = slope_of(errors, rounding)) return slope;
+  }
+  return {};
+}
+
+}  // namespace twinarm
