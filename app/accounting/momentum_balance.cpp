@@ -1,7 +1,5 @@
 #include "app/accounting/momentum_balance.h"
 
-#include <algorithm>
-
 namespace twinarm {
 
 MomentumLedger::MomentumLedger(const RobotInput& input, const std::vector<GivenWrench>& wrenches,

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cmath>
 #include <optional>
-#include <thread>
 
 #include "app/command/command.h"
 #include "app/command/parser/shared_options.h"

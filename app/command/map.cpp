@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <numeric>
 
 #include "app/command/command.h"
 #include "app/command/parser/shared_options.h"

@@ -14,7 +14,7 @@
 #include "app/study/report/report.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"
-#include "coupling/device/device_log.h"
+#include "coupling/device/device_motion.h"
 #include "coupling/target/recorded_trace.h"
 #include "coupling/target/synthetic_operator.h"
 #include "solver/support/atomic_file.h"

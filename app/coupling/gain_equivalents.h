@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/run/simulate_input.h"
-#include "coupling/analysis/gain_conversion.h"
+#include "coupling/analysis/gains.h"
 
 namespace twinarm {
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/coupling/posed_couplings.h"
 #include "app/robot/robot_output.h"

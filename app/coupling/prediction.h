@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "app/run/simulate_input.h"
-#include "coupling/analysis/gain_conversion.h"
+#include "coupling/analysis/gains.h"
 #include "coupling/analysis/prediction.h"
-#include "coupling/laws/discretization.h"
+#include "coupling/laws/coupling_spec.h"
 
 namespace twinarm {
 

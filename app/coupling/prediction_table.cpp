@@ -1,7 +1,6 @@
 // The predictions for people: tables with units, and what each number means.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -1,7 +1,5 @@
 #include "app/data/value.h"
 
-#include <cctype>
-#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <unordered_set>

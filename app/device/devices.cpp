@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <optional>
 
 #include "app/support/files.h"
 #include "app/support/text.h"
-#include "coupling/device/device_log.h"
-#include "coupling/target/automatic_motion.h"
+#include "coupling/device/device_motion.h"
+#include "coupling/target/operator_motion.h"
 #include "coupling/target/recorded_trace.h"
 #include "coupling/target/scripted_motion.h"
 #include "coupling/target/synthetic_operator.h"

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "app/run/simulate_input.h"

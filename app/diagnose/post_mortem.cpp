@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "app/record/record_run.h"
-#include "coupling/analysis/static_deflection.h"
+#include "coupling/analysis/joint_space_stiffness.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -27,7 +27,7 @@ Works works_of(const std::vector<LedgerRow>& rows) {
 }
 
 // An implicit point spring whose target lay too far out: what the treatment leaves explicit, the
-// turning of the lever arm, has a limit of its own (coupling/analysis/static_deflection.h).
+// turning of the lever arm, has a limit of its own (coupling/analysis/joint_space_stiffness.h).
 struct PassedRadius {
   long step = 0;
   double time = 0;

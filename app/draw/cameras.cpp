@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "app/support/text.h"
 #include "solver/support/diagnostics.h"

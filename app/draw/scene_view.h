@@ -2,7 +2,6 @@
 // whatever overlays are asked for.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

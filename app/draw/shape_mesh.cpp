@@ -7,7 +7,7 @@
 
 #include "app/render/list/draw_mesh.h"
 #include "collision/geometry/convex_hull.h"
-#include "collision/import/robot/mesh_geometry.h"
+#include "collision/import/robot/robot_model.h"
 
 namespace twinarm {
 namespace {

@@ -1,6 +1,5 @@
 // D, U, u and pA from the equations of motion of each subtree.
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 

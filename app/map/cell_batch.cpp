@@ -7,8 +7,8 @@
 
 #include "app/scene/read/read_scene.h"
 #include "coupling/batch/batch_run.h"
-#include "coupling/device/device_log.h"
-#include "coupling/target/automatic_motion.h"
+#include "coupling/device/device_motion.h"
+#include "coupling/target/operator_motion.h"
 
 namespace twinarm {
 namespace {

@@ -8,7 +8,7 @@
 #include "app/coupling/prediction.h"
 #include "app/python/arrays.h"
 #include "app/python/scene_change.h"
-#include "coupling/analysis/stability_limits.h"
+#include "coupling/analysis/gains.h"
 #include "coupling/laws/coupling_spec.h"
 #include "solver/support/number_text.h"
 

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "collision/import/robot/robot_description.h"
-#include "coupling/analysis/tracking_run.h"
+#include "coupling/analysis/tracking.h"
 #include "coupling/target/target_robot.h"
 #include "solver/model/model.h"
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,8 +9,8 @@
 #include "collision/import/robot/robot_description.h"
 #include "collision/import/robot/robot_model.h"
 #include "coupling/analysis/prediction.h"
-#include "coupling/analysis/tracking_run.h"
-#include "coupling/target/automatic_motion.h"
+#include "coupling/analysis/tracking.h"
+#include "coupling/target/operator_motion.h"
 #include "solver/forces/joint_stops.h"
 
 namespace twinarm {

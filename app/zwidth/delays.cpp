@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <random>
 
 #include "app/zwidth/zwidth.h"

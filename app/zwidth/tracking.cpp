@@ -6,10 +6,10 @@
 
 #include "app/robot/robot_input.h"
 #include "app/zwidth/zwidth.h"
-#include "coupling/analysis/gain_conversion.h"
+#include "coupling/analysis/gains.h"
 #include "coupling/analysis/joint_space_stiffness.h"
-#include "coupling/analysis/tracking_run.h"
-#include "coupling/target/automatic_motion.h"
+#include "coupling/analysis/tracking.h"
+#include "coupling/target/operator_motion.h"
 #include "coupling/target/synthetic_operator.h"
 
 namespace twinarm {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "app/zwidth/zwidth.h"
-#include "coupling/analysis/static_deflection.h"
+#include "coupling/analysis/joint_space_stiffness.h"
 #include "coupling/device/force_feedback.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/forces/spring.h"

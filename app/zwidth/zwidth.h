@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/device/sampled_wall.h"
+#include "coupling/device/passivity.h"
 
 namespace twinarm {
 

@@ -8,12 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <memory>
-#include <sstream>
-#include <stdexcept>
 
 #include "benchmarks/engines/mujoco_model.h"
-#include "coupling/analysis/gain_conversion.h"
+#include "coupling/analysis/gains.h"
 #include "coupling/analysis/prediction.h"
 
 namespace {

@@ -7,12 +7,11 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <string>
 
 #include "benchmarks/drivers/command_line.h"
 #include "benchmarks/drivers/map_runs.h"
 #include "benchmarks/drivers/timing.h"
-#include "coupling/batch/merge_fixed_joints.h"
+#include "coupling/batch/batch_model.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/model/convert_model.h"
 

@@ -1,6 +1,5 @@
 // The same scenes in every engine: how far each is from the truth, and what a step costs it. Prints
 // JSON (docs/peers.md says what is in it); table and figure are scripts/measure/peers'.
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>

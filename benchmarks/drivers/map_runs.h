@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "coupling/batch/batch_run.h"
-#include "coupling/target/automatic_motion.h"
+#include "coupling/target/operator_motion.h"
 
 namespace twinarm::bench {
 

@@ -2,7 +2,6 @@
 // where a contact acts on two of them.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "collision/contact/contact_point.h"

@@ -1,3 +1,39 @@
+// Which pairs of boxes along the axes overlap.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "collision/detection/mesh_contact.h"
+#include "collision/narrow_phase/gjk.h"
+#include "collision/narrow_phase/narrow_phase.h"
+#include "collision/shapes/shape.h"
+#include "solver/spatial/pose.h"
+
+namespace twinarm {
+
+class BroadPhase {
+ public:
+  BroadPhase();
+  ~BroadPhase();
+  BroadPhase(BroadPhase&&) noexcept;
+  BroadPhase& operator=(BroadPhase&&) noexcept;
+
+  // One more box; returns its index. Call overlaps() with a box for each.
+  int add();
+  // All overlapping pairs (i < j), in an order that depends on the shape of the tree: sort them.
+  void overlaps(std::span<const Aabb> boxes, std::vector<std::pair<int, int>>& pairs);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 // All collision geometries of a scene: poses in, contacts out. Nothing else needs to know FCL.
 //
 //   CollisionWorld world;
@@ -6,24 +42,6 @@
 //   world.detect(X_WG, 1e-3, contacts);      // X_WG[ground], X_WG[hand]
 //
 // One instance per thread.
-#pragma once
-
-#include <array>
-#include <cstdint>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "collision/detection/broad_phase.h"
-#include "collision/detection/mesh_contact.h"
-#include "collision/narrow_phase/narrow_phase.h"
-#include "collision/narrow_phase/posed_shape.h"
-#include "collision/shapes/shape.h"
-#include "solver/spatial/pose.h"
-
-namespace twinarm {
-
 struct Geometry {
   std::string name;  // for messages
   Shape shape;

@@ -21,7 +21,7 @@
 #include <cstddef>
 #include <tuple>
 
-#include "collision/narrow_phase/support_direction.h"
+#include "collision/narrow_phase/gjk.h"
 
 namespace twinarm {
 namespace {

@@ -3,16 +3,14 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <vector>
 
-#include "collision/narrow_phase/posed_shape.h"
+#include "collision/narrow_phase/gjk.h"
 #include "collision/shapes/aabb.h"
-#include "collision/shapes/shape.h"
 
 namespace twinarm {
 
-// Made by make_mesh_surface() (posed_shape.h), in O(n log n).
+// Made by make_mesh_surface() (gjk.h), in O(n log n).
 struct MeshSurface {
   struct Side {            // of a triangle, from corner i to i + 1
     Vector3 outward;       // unit, in the plane of the triangle

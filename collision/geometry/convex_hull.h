@@ -41,4 +41,72 @@ ConvexHull convex_hull(std::span<const Vector3> points, double flatness = 1e-7);
 // Fills `normals`, `offsets` and `triangles` from `vertices` and `faces`.
 void complete_faces(ConvexHull& hull);
 
+// Shapes as polytopes with a radius, which makes one exact narrow phase of most pairs:
+//   sphere = point + r, capsule = segment + r, box and hull = polyhedron + 0,
+// so that depth(A, B) = r_A + r_B - signed distance of the cores. Cylinders, ellipsoids:
+// Patches below.
+struct Polytope {
+  struct Edge {
+    int v0, v1;  // its ends
+    int f0, f1;  // the faces on both sides; -1 for a bare segment
+  };
+  struct Slab {  // a face, and the parallel one opposite if there is one
+    Vector3 normal;
+    double low, high;  // solid where low <= normal . x <= high [m]
+    bool is_double;    // false: no face at `low`
+  };
+  ConvexHull hull;  // of a point or a segment: vertices only
+  std::vector<Edge> edges;
+  std::vector<Slab> slabs;
+  double radius = 0;   // [m]
+  bool exists = true;  // false for curved shapes and half-spaces
+  VertexTable table;   // of the hull's vertices, where they are more than a few
+
+  // The vertex that is farthest along d, in the body's frame.
+  int farthest(const Vector3& d) const;
+};
+
+// With its edges and slabs.
+Polytope polyhedron(ConvexHull hull);
+
+// The box as a hull: 8 vertices, 6 faces.
+ConvexHull box_hull(const Vector3& size);
+
+// The surface of a convex shape in smooth pieces, each with a support function of one line:
+//   flat    faces and caps                    one normal
+//   ridge   edges, centre lines, cylinder     normals across the line:  h(n) = n . p + radius
+//           sides
+//   round   corners, rims, ellipsoids         normals all round:  h(n) = n . p + sqrt(n' Q n)
+// A spherical rounding is added on top of all of them. For every n the support of the shape is at
+// least that of each piece, and equals that of the piece that faces n.
+struct Patches {
+  struct Ridge {
+    Vector3 start, end;  // [m]
+    double radius;       // of a cylinder's side, else 0 [m]
+  };
+  struct Round {
+    Vector3 p;  // centre [m]
+    Matrix3 Q;  // square of the half axes, zero for a corner [m^2]
+  };
+  std::vector<Vector3> flats;  // outward unit normals
+  std::vector<Ridge> ridges;   // of a polytope: its edges, in their order
+  std::vector<Round> rounds;   // of a polytope: its corners, in their order
+  double roundness = 0;        // [m]
+  double sharpest = 1e300;  // of a curved body: least radius of curvature, or half a thickness [m]
+};
+
+// In the frame of the core; empty where it does not exist.
+inline Patches make_patches(const Polytope& core) {
+  Patches patches;
+  if (!core.exists) return patches;
+  const std::vector<Vector3>& vertices = core.hull.vertices;
+  patches.flats = core.hull.normals;
+  for (const Polytope::Edge& edge : core.edges) {
+    patches.ridges.push_back({vertices[edge.v0], vertices[edge.v1], 0});
+  }
+  for (const Vector3& v : vertices) patches.rounds.push_back({v, Matrix3::Zero()});
+  patches.roundness = core.radius;
+  return patches;
+}
+
 }  // namespace twinarm

@@ -1,7 +1,6 @@
 // All parts of a model in one mesh, welded by equal coordinates: O(n log n).
 #include "collision/mesh_files/mesh_file.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>

@@ -25,7 +25,6 @@
 #include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "solver/support/diagnostics.h"
 

@@ -12,6 +12,7 @@
 // point to an ellipse, an ellipsoid, or a hyperellipsoid", 2013, for the nearest).
 // Cost: 0.1-1 us.
 #include "collision/narrow_phase/closed_forms.h"
+#include "collision/narrow_phase/narrow_phase.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

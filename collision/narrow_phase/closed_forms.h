@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "collision/narrow_phase/clip.h"
-#include "collision/narrow_phase/posed_shape.h"
+#include "collision/narrow_phase/gjk.h"
 #include "collision/shapes/aabb.h"
 
 namespace twinarm {

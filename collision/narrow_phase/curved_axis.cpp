@@ -1,7 +1,7 @@
 // Least overlap of a cylinder or an ellipsoid and another convex body, by enumeration of patches.
 //
 // The plane of least overlap touches both bodies, each with a flat, a ridge or a round
-// (boundary_features.h):
+// (convex_hull.h):
 //   flat with anything     the normal is known;
 //   ridge with ridge       n across both lines;
 //   ridge with round       n across the line: one angle is free, minimise_on_circle();
@@ -23,7 +23,6 @@
 #include <numbers>
 
 #include "collision/narrow_phase/gjk.h"
-#include "collision/narrow_phase/support_direction.h"
 
 namespace twinarm {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "collision/narrow_phase/closed_forms.h"
-#include "collision/narrow_phase/posed_shape.h"
+#include "collision/narrow_phase/gjk.h"
 #include "collision/narrow_phase/sphere_minimization.h"
 
 namespace twinarm {

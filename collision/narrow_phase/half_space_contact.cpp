@@ -4,6 +4,7 @@
 // point here, which jumps from the middle of a face to a corner when the body tilts by 1e-9.
 // O(vertices).
 #include "collision/narrow_phase/closed_forms.h"
+#include "collision/narrow_phase/narrow_phase.h"
 
 #include "collision/narrow_phase/manifold.h"
 

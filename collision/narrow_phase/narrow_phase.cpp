@@ -12,14 +12,11 @@
 // us in closed form, 0.6 us for boxes face on face, 2-30 us otherwise; hulls with hundreds of
 // vertices 10-100 us.
 #include "collision/narrow_phase/narrow_phase.h"
+#include "collision/narrow_phase/closed_forms.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 
-#include "collision/narrow_phase/closed_forms.h"
 #include "collision/narrow_phase/gjk.h"
-#include "collision/narrow_phase/support_direction.h"
 
 namespace twinarm {
 namespace {

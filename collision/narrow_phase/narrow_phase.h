@@ -6,8 +6,8 @@
 #include "collision/narrow_phase/clip.h"
 #include "collision/narrow_phase/closed_forms.h"
 #include "collision/narrow_phase/curved_axis.h"
+#include "collision/narrow_phase/gjk.h"
 #include "collision/narrow_phase/manifold.h"
-#include "collision/narrow_phase/posed_shape.h"
 #include "collision/narrow_phase/separating_axis.h"
 
 namespace twinarm {

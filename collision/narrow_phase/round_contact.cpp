@@ -1,6 +1,7 @@
 // Closed forms: nearest points of two segments (C. Ericson, Real-Time Collision Detection, 2005,
 // 5.1.9), and signed distance of a point from shapes that know it (box, cylinder).  < 0.1 us.
 #include "collision/narrow_phase/closed_forms.h"
+#include "collision/narrow_phase/narrow_phase.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "collision/geometry/polytope.h"
-#include "collision/narrow_phase/posed_shape.h"
+#include "collision/geometry/convex_hull.h"
+#include "collision/narrow_phase/gjk.h"
 #include "solver/spatial/pose.h"
 
 namespace twinarm {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "collision/geometry/convex_hull.h"
 #include "collision/geometry/mass_properties.h"
-#include "collision/geometry/polytope.h"
 #include "collision/shapes/signed_point.h"
 
 namespace twinarm {

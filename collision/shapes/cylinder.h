@@ -5,7 +5,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "collision/geometry/boundary_features.h"
+#include "collision/geometry/convex_hull.h"
 #include "collision/geometry/mass_properties.h"
 #include "collision/shapes/signed_point.h"
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "collision/geometry/boundary_features.h"
+#include "collision/geometry/convex_hull.h"
 #include "collision/geometry/mass_properties.h"
 
 namespace twinarm {

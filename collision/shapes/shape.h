@@ -21,10 +21,8 @@
 #include <type_traits>
 #include <variant>
 
-#include "collision/geometry/boundary_features.h"
 #include "collision/geometry/convex_hull.h"
 #include "collision/geometry/mass_properties.h"
-#include "collision/geometry/polytope.h"
 #include "collision/shapes/box.h"
 #include "collision/shapes/capsule.h"
 #include "collision/shapes/cylinder.h"

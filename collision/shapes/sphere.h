@@ -1,7 +1,7 @@
 // A sphere: a point with a radius.
 #pragma once
 
-#include "collision/geometry/polytope.h"
+#include "collision/geometry/convex_hull.h"
 #include "collision/shapes/ellipsoid.h"
 
 namespace twinarm {

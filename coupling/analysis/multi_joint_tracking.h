@@ -1,4 +1,4 @@
-// How far each joint of a chain stays behind a target that moves: the same as tracking_error.h
+// How far each joint of a chain stays behind a target that moves: the same as tracking.h
 // for all joints together, which pull at one another.
 //
 //   M e'' + B e' + K e = M a_K(t) + A v_K(t),      e = q_K - q_D,
@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-#include "coupling/analysis/tracking_error.h"
+#include "coupling/analysis/tracking.h"
 
 namespace twinarm {
 

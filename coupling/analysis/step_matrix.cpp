@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "coupling/analysis/gains.h"
 #include "coupling/analysis/joint_space_stiffness.h"
-#include "coupling/analysis/stability_limits.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/support/diagnostics.h"
 

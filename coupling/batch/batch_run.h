@@ -15,10 +15,9 @@
 #include <array>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "coupling/analysis/tracking_run.h"
+#include "coupling/analysis/tracking.h"
 #include "coupling/laws/coupling.h"
 #include "solver/support/diagnostics.h"
 
@@ -59,7 +58,7 @@ struct BatchCell {
     Vector3 p_L = Vector3::Zero();  // link axes; linear springs only
   };
   double h = 1e-3;              // [s]
-  double speed = 1, delay = 0;  // of all hands: coupling/target/delayed_motion.h
+  double speed = 1, delay = 0;  // of all hands: coupling/target/operator_motion.h
   std::vector<Gains> springs;
   std::vector<double> mass_factor;  // on mass, first moment and inertia; empty: 1 for all
 };

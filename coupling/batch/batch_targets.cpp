@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "coupling/batch/set_spring.h"
-#include "coupling/target/delayed_motion.h"
+#include "coupling/batch/batch_model.h"
+#include "coupling/target/operator_motion.h"
 
 namespace twinarm {
 namespace {

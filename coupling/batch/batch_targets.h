@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "coupling/batch/batch_model.h"
 #include "coupling/batch/batch_run.h"
-#include "coupling/batch/merge_fixed_joints.h"
 
 namespace twinarm {
 

@@ -1,7 +1,17 @@
 #include "coupling/device/device_motion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fstream>
+#include <vector>
+
+#include "coupling/target/recorded_trace.h"
+#include "solver/support/atomic_file.h"
+#include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 
@@ -49,6 +59,105 @@ std::vector<HandStep> LiveHand::steps() const {
 
 double LiveHand::duration() const {
   return count_ == 0 ? 0 : newest().t + newest().h;
+}
+
+namespace {
+
+constexpr std::size_t kMostLogSteps = std::size_t{1} << 22;  // an hour at 1 kHz
+constexpr std::size_t kLogColumns = 15;                      // t, h, six angles, six rates, button
+
+// All numbers of the line; empty where it is torn or holds something else.
+std::vector<double> log_numbers(const std::string& line) {
+  std::vector<double> values;
+  for (const std::string_view cell : csv_cells(line)) {
+    const auto number = parse_number(cell);
+    if (!number) return {};
+    values.push_back(*number);
+  }
+  return values;
+}
+
+HandStep step_of(const std::vector<double>& values) {
+  HandStep step{values[0], values[1], {}};
+  for (std::size_t j = 0; j < 6; ++j) {
+    step.hand.theta[j] = values[2 + j];
+    step.hand.theta_dot[j] = values[8 + j];
+  }
+  step.hand.button = values[14] != 0;
+  return step;
+}
+
+}  // namespace
+
+std::string hand_log_header() {
+  std::string text = "t[s],h[s]";
+  for (int j = 1; j <= 6; ++j) text += fmt::format(",theta{}[rad]", j);
+  for (int j = 1; j <= 6; ++j) text += fmt::format(",theta{}_dot[rad/s]", j);
+  return text + ",button\n";
+}
+
+std::string hand_log_line(const HandStep& step) {
+  std::string text = fmt::format("{},{}", step.t, step.h);  // as many digits as tell it exactly
+  for (const double angle : step.hand.theta) text += fmt::format(",{}", angle);
+  for (const double rate : step.hand.theta_dot) text += fmt::format(",{}", rate);
+  return text + (step.hand.button ? ",1\n" : ",0\n");
+}
+
+void write_hand_log(const LiveHand& hand, const std::filesystem::path& file) {
+  std::string text = hand_log_header();
+  for (const HandStep& step : hand.steps()) text += hand_log_line(step);
+  write_whole_file(file, text);
+}
+
+bool is_hand_log(const std::filesystem::path& file) {
+  const std::string header = hand_log_header();
+  std::string start(header.size(), '\0');
+  std::ifstream stream(file);
+  return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == header;
+}
+
+std::unique_ptr<LiveHand> read_hand_log(const std::filesystem::path& file) {
+  if (!is_hand_log(file))
+    throw InputError({{file.string(), 1, "header", "it is not that of a hand's log",
+                       "give a file that `twinarm hand --log` wrote", "hand.header"}});
+  std::ifstream stream(file);
+  std::string line;
+  next_line(stream, line, file.string(), 1);
+  std::vector<HandStep> steps;
+  FaultList faults;
+  for (int number = 2; next_line(stream, line, file.string(), number); ++number) {
+    if (steps.size() == kMostLogSteps) {
+      faults.add({file.string(), number, "", "the log has more than 4 million steps",
+                  "remove the lines from here on", "hand.too-long"});
+      break;
+    }
+    const bool torn = stream.eof();  // without its end of line
+    const std::vector<double> values = log_numbers(line);
+    if (torn) break;
+    if (values.size() != kLogColumns || !(values[1] > 0)) {
+      faults.add({file.string(), number, "", "it has not 15 finite numbers with a step above 0",
+                  "remove the lines from here on", "hand.row"});
+      break;
+    }
+    if (!steps.empty() && !(values[0] > steps.back().t)) {
+      faults.add({file.string(), number, "t[s]", "time does not go on",
+                  "remove the lines from here on", "hand.time"});
+      break;
+    }
+    steps.push_back(step_of(values));
+  }
+  if (steps.empty() && faults.empty())
+    faults.add({file.string(), 0, "", "the log has no steps", "record a run of at least one step",
+                "hand.empty"});
+  faults.check();
+  auto hand = std::make_unique<LiveHand>(steps.size());
+  for (const HandStep& step : steps) hand->set(step);
+  return hand;
+}
+
+std::unique_ptr<HandSource> read_hand_file(const std::filesystem::path& file) {
+  if (is_hand_log(file)) return read_hand_log(file);
+  return std::make_unique<RecordedTrace>(file);
 }
 
 }  // namespace twinarm

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "coupling/device/device_mapping.h"
-#include "coupling/device/passivity_control.h"
+#include "coupling/device/passivity.h"
 #include "coupling/laws/coupling_spec.h"
 
 namespace twinarm {

@@ -20,7 +20,6 @@
 #include <stdexcept>
 
 #include "coupling/laws/coupling_spec.h"
-#include "coupling/laws/discretization.h"
 #include "solver/support/state_archive.h"
 
 namespace twinarm {

@@ -4,8 +4,11 @@
 // `toward`: motions with corners have two rates at a corner, and a step belongs to one side of it.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
+#include <utility>
 
 namespace twinarm {
 
@@ -44,6 +47,58 @@ class HandSource {
   virtual HandSample sample(double t, double toward) const = 0;
   virtual double duration() const = 0;          // [s]
   virtual std::string description() const = 0;  // one line for the report
+};
+
+// The paper's automatic motion (section Experiments): robot joint 1 from 90 to -90 degrees and
+// joint 2 from -45 to 45 degrees, at once, linearly in time; back; and the first sweep again. The
+// speed jumps at every end. Expressed as device angles, so that it takes the same way as a hand.
+class AutomaticMotion final : public HandSource {
+ public:
+  // sweep_time [s] of one sweep, 1 s in the paper.
+  AutomaticMotion(const HandMapping& mapping, double sweep_time = 1.0, int sweeps = 3);
+  HandSample sample(double t, double toward) const override;
+  double duration() const override { return sweep_time_ * sweeps_; }
+  std::string description() const override;
+
+ private:
+  HandMapping mapping_;
+  double sweep_time_;
+  int sweeps_;
+};
+
+// Another hand, seen late and played faster: sample(t) is that of s = speed (t - delay); before the
+// delay has passed it is the start of the motion, at rest. A real delay: no number of steps.
+//
+// The velocity is the other hand's own at s, times the speed (d/dt of what is seen), and zero
+// before the delay has passed. Whether a step at that instant is before or after it is said by
+// `toward`, as at any other corner.
+class PacedHand final : public HandSource {
+ public:
+  // delay >= 0 [s], speed > 0. A hand that is lent must outlive it.
+  PacedHand(std::unique_ptr<HandSource> hand, double delay, double speed)
+      : owned_(std::move(hand)), hand_(*owned_), delay_(delay), speed_(speed) {}
+  PacedHand(const HandSource& hand, double delay, double speed)
+      : hand_(hand), delay_(delay), speed_(speed) {}
+
+  HandSample sample(double t, double toward) const override {
+    constexpr double kSame = 1e-9;  // [s]; an instant that a sum of steps meets to rounding
+    const double late = t - delay_, late_toward = toward - delay_;
+    const bool waits = late < -kSame || (late < kSame && late + late_toward < 0);
+    HandSample seen = waits ? hand_.sample(0, 1)
+                            : hand_.sample(speed_ * std::max(late, 0.0), speed_ * late_toward);
+    for (double& rate : seen.theta_dot) rate *= waits ? 0 : speed_;
+    return seen;
+  }
+  double duration() const override { return delay_ + hand_.duration() / speed_; }
+  std::string description() const override {
+    return hand_.description() + "; " + std::to_string(delay_) + " s late, " +
+           std::to_string(speed_) + " times as fast";
+  }
+
+ private:
+  std::unique_ptr<HandSource> owned_;
+  const HandSource& hand_;
+  double delay_, speed_;
 };
 
 }  // namespace twinarm

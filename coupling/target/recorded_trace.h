@@ -6,7 +6,9 @@
 #pragma once
 
 #include <filesystem>
+#include <istream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "coupling/target/operator_motion.h"
@@ -49,5 +51,14 @@ class RecordedTrace final : public HandSource {
 
 // Writes samples of a source at a fixed rate [Hz], to a temporary name, then renamed.
 void write_trace(const HandSource& hand, double rate, const std::filesystem::path& file);
+
+// Lines of a file that may be hostile.
+
+// As std::getline; throws InputError, naming `file` and line `number`, where the line has more than
+// 64 KiB: a file without ends of lines is not read whole.
+bool next_line(std::istream& stream, std::string& line, const std::string& file, int number);
+
+// What stands between its commas, without the blanks about it.
+std::vector<std::string_view> csv_cells(std::string_view line);
 
 }  // namespace twinarm

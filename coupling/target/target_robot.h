@@ -2,7 +2,6 @@
 // everything; couplings pull the dynamic robot (DVR) after it.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "coupling/target/operator_motion.h"

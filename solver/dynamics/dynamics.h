@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 #include <span>
-#include <string_view>
 #include <type_traits>
 #include <vector>
 

@@ -1,8 +1,6 @@
 // Operational-space inertia, RBDA section 8.4 and Khatib (1987).
 #pragma once
 
-#include <array>
-
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/world_kinematics.h"
 #include "solver/model/joint_algebra.h"

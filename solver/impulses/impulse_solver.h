@@ -17,7 +17,6 @@
 // Islands (trees joined by constraints) are solved one by one. Deterministic.
 #pragma once
 
-#include <cmath>
 #include <vector>
 
 #include "solver/impulses/impulse_law.h"

@@ -12,7 +12,6 @@
 // impulses end in the middle of what is possible, so that the next step can begin with them. What
 // is not a contact follows its response (impulse_law.h), its multiplier renewed each time.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "solver/impulses/impulse_solver.h"

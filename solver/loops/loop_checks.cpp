@@ -1,6 +1,5 @@
 // What can be wrong with loop closures, reported before a run.
 
-#include <cmath>
 #include <sstream>
 
 #include "solver/loops/loop_types.h"

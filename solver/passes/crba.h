@@ -5,7 +5,6 @@
 // Callers include solver/dynamics/dynamics.h.
 #pragma once
 
-#include <algorithm>
 #include <span>
 
 #include "solver/model/joint_slice.h"

@@ -1,7 +1,6 @@
 // Under libFuzzer: one program for all targets. fuzz --target=NAME [options of libFuzzer] ..
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <iostream>
 #include <string>
 

@@ -1,5 +1,5 @@
 // The file of a hand, trace or log: read, and asked within its time, before it and after it.
-#include "coupling/device/device_log.h"
+#include "coupling/device/device_motion.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace twinarm::fuzz {

@@ -1,6 +1,5 @@
 #include "tests/soak/soak_scenes.h"
 
-#include <array>
 #include <filesystem>
 
 #include "app/scene/read/read_scene.h"

@@ -1,6 +1,5 @@
 // Where centres of mass came from: of free bodies and of the last links of robots, up to now.
 #include <algorithm>
-#include <vector>
 
 #include "app/draw/overlays/overlays.h"
 #include "app/draw/palette.h"

@@ -11,7 +11,6 @@
 // processor time.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>

@@ -5,7 +5,6 @@
 #include "app/lab/parameters/parameter_makers.h"
 #include "app/scene/read/read_scene.h"
 #include "coupling/laws/coupling_spec.h"
-#include "coupling/laws/discretization.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm::knob_makers {

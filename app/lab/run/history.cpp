@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "app/record/recording_writer.h"
-#include "coupling/device/device_log.h"
+#include "coupling/device/device_motion.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

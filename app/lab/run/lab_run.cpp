@@ -1,7 +1,6 @@
 #include "app/lab/run/lab_run.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "app/diagnose/post_mortem.h"

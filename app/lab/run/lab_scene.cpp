@@ -1,6 +1,5 @@
 #include "app/lab/run/lab_scene.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -33,7 +33,7 @@ class LabScene {
   std::string text(const std::vector<Change>& changes = {}) const;
   bool is_scene() const;
   // Of a recording of the run with these changes. Some of the couplings, by their places in the
-  // scene, may be led by a hand's log (coupling/device/device_log.h), which goes with it. Throws
+  // scene, may be led by a hand's log (coupling/device/device_motion.h), which goes with it. Throws
   // InputError.
   struct Hand {
     std::vector<std::size_t> couplings;

@@ -3,7 +3,6 @@
 #include <pthread.h>
 #include <sys/random.h>
 
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <thread>

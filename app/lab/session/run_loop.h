@@ -2,7 +2,6 @@
 // as long as it is known, by what the hand did then. Of the run's thread.
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <functional>

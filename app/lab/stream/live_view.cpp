@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "app/draw/cameras.h"
 #include "app/robot/coordinates.h"

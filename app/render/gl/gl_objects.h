@@ -13,7 +13,6 @@
 #include <array>
 #include <cstddef>
 #include <stdexcept>
-#include <string>
 
 #include "app/render/gl/shaders.h"
 #include "app/render/list/draw_mesh.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "app/run/run.h"
 #include "app/run/simulate_input.h"

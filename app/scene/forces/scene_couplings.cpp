@@ -1,6 +1,5 @@
 #include "app/scene/forces/scene_couplings.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -3,9 +3,8 @@
 #include <limits>
 #include <utility>
 
-#include "coupling/device/device_log.h"
-#include "coupling/target/automatic_motion.h"
-#include "coupling/target/delayed_motion.h"
+#include "coupling/device/device_motion.h"
+#include "coupling/target/operator_motion.h"
 #include "coupling/target/synthetic_operator.h"
 
 namespace twinarm {

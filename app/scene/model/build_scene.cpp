@@ -1,10 +1,8 @@
 // Robots and bodies into one model, and the state at the start.
 #include <algorithm>
-#include <cmath>
 
 #include "app/robot/coordinates.h"
 #include "app/scene/model/scene_builder.h"
-#include "collision/import/robot/mesh_geometry.h"
 #include "collision/import/robot/robot_model.h"
 #include "collision/shapes/mesh_shape.h"
 #include "solver/dynamics/model_builder.h"

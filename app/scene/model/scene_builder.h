@@ -1,8 +1,6 @@
 // The parts of build_scene. Only app/scene/build_*.cpp include it.
 #pragma once
 
-#include <vector>
-
 #include "app/scene/model/scene_model.h"
 #include "app/scene/read/read_scene.h"
 

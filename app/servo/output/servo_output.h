@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/servo/servo_loop.h"
-#include "coupling/device/device_log.h"
+#include "coupling/device/device_motion.h"
 #include "solver/model/model.h"
 #include "solver/support/diagnostics.h"
 
@@ -35,7 +35,7 @@ std::string live_json(const LiveSummary& summary);
 void draw_timing(const LiveSummary& summary, const std::filesystem::path& file);
 
 // The log of a live run as a file that grows while the run goes on: what was written stays,
-// whatever happens to the program (coupling/device/device_log.h).
+// whatever happens to the program (coupling/device/device_motion.h).
 class LiveLog {
  public:
   // Throws InputError where it cannot be written.

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/study/findings/variants.h"
 #include "collision/contact/contact_force.h"
 #include "collision/geometry/convex_hull.h"
-#include "collision/import/robot/mesh_geometry.h"
+#include "collision/import/robot/robot_model.h"
 
 namespace twinarm {
 namespace {

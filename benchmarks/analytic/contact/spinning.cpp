@@ -1,7 +1,6 @@
 // Bodies that spin on a floor: coin (E8), tippe-top (E9), rattleback (E10).
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "benchmarks/analytic/support/contact_scene.h"
 

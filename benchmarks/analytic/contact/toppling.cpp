@@ -1,7 +1,6 @@
 // A block 0.2 m wide and 0.5 m high that topples (E3). All of it is planar: depth 0.3 m.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "benchmarks/analytic/support/contact_scene.h"
 

@@ -4,7 +4,6 @@
 // which points down, can only go up.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "benchmarks/analytic/support/contact_scene.h"

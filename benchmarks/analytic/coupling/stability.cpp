@@ -16,7 +16,7 @@
 
 #include "benchmarks/analytic/support/analytic_case.h"
 #include "coupling/analysis/prediction.h"
-#include "coupling/analysis/tracking_run.h"
+#include "coupling/analysis/tracking.h"
 #include "solver/dynamics/model_builder.h"
 
 namespace twinarm {

@@ -16,8 +16,8 @@
 #include <numbers>
 
 #include "benchmarks/analytic/joints/planar_arm.h"
-#include "coupling/analysis/tracking_run.h"
-#include "coupling/target/automatic_motion.h"
+#include "coupling/analysis/tracking.h"
+#include "coupling/target/operator_motion.h"
 
 namespace twinarm {
 namespace {

@@ -4,7 +4,6 @@
 // digits that the Robotics Toolbox publishes.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <string>
 

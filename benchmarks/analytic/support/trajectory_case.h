@@ -5,7 +5,6 @@
 // is taken, and no integrator is asked. How to add one: docs/adding_a_case.md.
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <initializer_list>
 #include <memory>

@@ -3,15 +3,19 @@
 // Per part: mass, com and inertia of the solid inside its mesh
 // (collision/geometry/mass_properties.h). Per link: their sum, about the common centre of mass.
 // Cost: linear in the triangles, but n log n for the hulls.
+
 #include "collision/import/recipe/robot_recipe.h"
 
+#include <Eigen/Geometry>
+#include <bit>
+#include <cstdint>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <set>
 
 #include "collision/geometry/convex_hull.h"
 #include "collision/import/recipe/recipe_file.h"
-#include "collision/import/recipe/stl_writer.h"
 #include "collision/import/robot/robot_check.h"
 #include "collision/import/urdf/urdf.h"
 #include "collision/mesh_files/mesh_file.h"
@@ -176,6 +180,29 @@ void make_robot(const std::filesystem::path& recipe_toml) {
     write_whole_file(hull.file, stl_bytes(hull.hull, hull.scale));
   }
   write_urdf(result.robot, folder / (result.robot.name + ".urdf"), comment_for(result.robot));
+}
+
+// Binary STL.
+static_assert(std::endian::native == std::endian::little, "STL files are little-endian");
+
+std::string stl_bytes(const TriangleMesh& mesh, double scale) {
+  std::string bytes = "binary STL, written by twinarm";  // must not start with "solid"
+  bytes.resize(80, ' ');
+  const auto append = [&bytes](const void* data, std::size_t size) {
+    bytes.append(static_cast<const char*>(data), size);
+  };
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  append(&count, 4);
+  for (const auto& triangle : mesh.triangles) {
+    Eigen::Vector3f corner[3];
+    for (int k = 0; k < 3; ++k) corner[k] = (mesh.vertices[triangle[k]] / scale).cast<float>();
+    const Eigen::Vector3f normal =
+        (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+    append(normal.data(), 12);
+    for (const Eigen::Vector3f& c : corner) append(c.data(), 12);
+    bytes.append(2, '\0');
+  }
+  return bytes;
 }
 
 }  // namespace twinarm

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "collision/geometry/mesh.h"
@@ -30,5 +31,11 @@ RecipeResult read_recipe(const std::filesystem::path& recipe_toml);
 // Writes <name>.urdf and collision/*.stl next to the recipe. The same recipe and meshes give the
 // same bytes.
 void make_robot(const std::filesystem::path& recipe_toml);
+
+// Binary STL: 80 bytes of header, the number of triangles, and 50 bytes a triangle.
+
+// The bytes of the file. Its unit is `scale` metres; coordinates are single precision, as the
+// format has it. The same mesh gives the same bytes.
+std::string stl_bytes(const TriangleMesh& mesh, double scale);
 
 }  // namespace twinarm

@@ -9,7 +9,6 @@
 #include <span>
 #include <utility>
 
-#include "collision/import/robot/robot_validation.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/support/number_text.h"
 

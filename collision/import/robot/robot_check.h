@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "collision/import/robot/robot_description.h"
@@ -37,5 +38,35 @@ std::string find_root(const RobotDescription& robot);
 // Indices into robot.joints, each joint after the joint that carries its parent link; among those
 // that are ready at the same time, in the order of the file. The robot must have passed the check.
 std::vector<std::size_t> joints_from_root(const RobotDescription& robot);
+
+// What robot_check.cpp and tree_checks.cpp share, which alone include it.
+struct RuleBook {
+  const RobotDescription& robot;
+  RobotCheck found;
+
+  void fault(int line, std::string where, std::string rule, std::string remedy,
+             std::string_view code) {
+    add_fault(found.faults, {robot.file.string(), line, std::move(where), std::move(rule),
+                             std::move(remedy), code});
+  }
+  void warn(int line, std::string where, std::string rule, std::string remedy) {
+    add_fault(found.warnings,
+              {robot.file.string(), line, std::move(where), std::move(rule), std::move(remedy)});
+  }
+};
+
+inline std::string of(const LinkDescription& link) {
+  return "link '" + link.name + "'";
+}
+inline std::string of(const JointDescription& joint) {
+  return "joint '" + joint.name + "'";
+}
+// The line of the element itself where it is known, of the link or joint where it is not.
+inline int line_of(int element, int owner) {
+  return element > 0 ? element : owner;
+}
+
+void check_mimics(RuleBook& book);
+void check_tree(RuleBook& book);
 
 }  // namespace twinarm

@@ -12,7 +12,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "collision/shapes/shape.h"
@@ -44,7 +43,7 @@ struct Origin {
   }
 };
 
-struct MeshGeometry {               // collision/import/robot/mesh_geometry.h loads it
+struct MeshGeometry {               // collision/import/robot/robot_model.h loads it
   std::filesystem::path file;       // absolute; empty where it was not found
   Vector3 scale = Vector3::Ones();  // metres per unit of the file, along its axes; < 0 mirrors
   std::string name;                 // as the robot's file calls it; may be empty

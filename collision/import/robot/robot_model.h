@@ -44,4 +44,13 @@ Model<double> build_model(const RobotDescription& robot, const ModelOptions& opt
 void add_robot(ModelBuilder& builder, const RobotDescription& robot, const ModelOptions& options,
                const std::string& prefix, const Pose& X_WR);
 
+// The triangles of a MeshGeometry.
+
+// Where its file lies. Throws InputError where it was not found.
+const std::filesystem::path& file_of(const MeshGeometry& geometry);
+// In metres. A mirrored mesh (an odd number of negative scales) has its triangles turned about, so
+// that they are still counter-clockwise seen from outside. Throws InputError where the file is
+// missing or no mesh.
+TriangleMesh load_mesh(const MeshGeometry& geometry);
+
 }  // namespace twinarm

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/import/robot/robot_validation.h"
+#include "collision/import/robot/robot_check.h"
 
 namespace twinarm {
 namespace {

@@ -13,8 +13,6 @@
 // target does alone stand in the table.
 #pragma once
 
-#include <algorithm>
-
 #include "coupling/batch/kernel/batch_kinematics.h"
 #include "solver/spatial/rotation_log.h"
 

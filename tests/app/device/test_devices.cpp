@@ -1,7 +1,6 @@
 // Every device by its name, and every name that is none.
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <filesystem>
 
 #include "app/device/devices.h"

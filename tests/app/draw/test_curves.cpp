@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/draw/curves.h"
 #include "app/draw/scene_view.h"

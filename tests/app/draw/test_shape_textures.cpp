@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "app/draw/scene_meshes.h"
 #include "app/render/gl/painter.h"

@@ -14,8 +14,6 @@
 //   H = [r]x M = (0 0 1/5; 0 0 0; -1/5 0 0).
 #include <doctest/doctest.h>
 
-#include <map>
-
 #include "app/inspect/inspection.h"
 #include "solver/dynamics/model_builder.h"
 

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 #include <cmath>
 
-#include <initializer_list>
 #include <stdexcept>
 
 #include "solver/impulses/joint_limits.h"

@@ -5,9 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <set>
 #include <tuple>
 #include <vector>

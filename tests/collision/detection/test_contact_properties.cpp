@@ -3,10 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
-#include <string>
 #include <vector>
 
 #include "collision/detection/collision_world.h"

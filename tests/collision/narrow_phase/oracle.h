@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "collision/geometry/mesh.h"
-#include "collision/narrow_phase/posed_shape.h"
+#include "collision/narrow_phase/gjk.h"
 #include "collision/shapes/shape.h"
 #include "solver/spatial/pose.h"
 

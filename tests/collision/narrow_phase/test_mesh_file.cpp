@@ -4,9 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
-#include <cstring>
 #include <string>
-#include <vector>
 
 #include "collision/shapes/mesh_shape.h"
 #include "collision/shapes/shape.h"

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "collision/geometry/polytope.h"
+#include "collision/geometry/convex_hull.h"
 #include "collision/shapes/shape.h"
 #include "solver/spatial/pose.h"
 

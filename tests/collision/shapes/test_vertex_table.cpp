@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "collision/geometry/support_vertices.h"
+#include "collision/geometry/mesh.h"
 
 namespace twinarm {
 namespace {

@@ -1,11 +1,10 @@
-// The coupling and integrator that make each scheme of coupling/analysis/stability_limits.h, and
+// The coupling and integrator that make each scheme of coupling/analysis/gains.h, and
 // whether a small motion about a target at rest grows in the real stepper.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <string>
 #include <vector>
 
 #include "coupling/analysis/prediction.h"

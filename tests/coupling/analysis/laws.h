@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "coupling/analysis/prediction.h"
-#include "coupling/laws/discretization.h"
+#include "coupling/laws/coupling_spec.h"
 #include "solver/dynamics/dynamics.h"
 #include "tests/coupling/analysis/one_joint.h"
 #include "tests/solver/dynamics/random_tree.h"

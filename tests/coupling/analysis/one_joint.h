@@ -1,10 +1,9 @@
 // One joint, a hand that stands still or turns it at constant speed, and the coupling between.
 #pragma once
 
-#include <cmath>
 #include <memory>
 
-#include "coupling/analysis/tracking_run.h"
+#include "coupling/analysis/tracking.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/stepping/simulation.h"
 

@@ -1,11 +1,9 @@
 // Gains that mean the same: there and back, and against the modes that they give.
 #include <doctest/doctest.h>
 
-#include <numbers>
-
 #include "collision/import/robot/robot_model.h"
 #include "collision/import/urdf/urdf.h"
-#include "coupling/analysis/gain_conversion.h"
+#include "coupling/analysis/gains.h"
 #include "coupling/analysis/prediction.h"
 #include "coupling/laws/spring_damper.h"
 #include "tests/coupling/analysis/one_joint.h"

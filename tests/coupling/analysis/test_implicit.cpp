@@ -2,8 +2,6 @@
 // known: docs/coupling.md, solver/forces/spring.h.
 #include <doctest/doctest.h>
 
-#include <numbers>
-
 #include "coupling/analysis/prediction.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "tests/coupling/analysis/one_joint.h"

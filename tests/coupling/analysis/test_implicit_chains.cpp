@@ -2,8 +2,8 @@
 // (velocity products), and a point spring whose target lies far out (geometric stiffness).
 #include <doctest/doctest.h>
 
+#include "coupling/analysis/joint_space_stiffness.h"
 #include "coupling/analysis/prediction.h"
-#include "coupling/analysis/static_deflection.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "tests/coupling/analysis/one_joint.h"

@@ -1,4 +1,4 @@
-// The limits of coupling/analysis/stability_limits.h and step_matrix.h: against the closed forms of
+// The limits of coupling/analysis/gains.h and step_matrix.h: against the closed forms of
 // docs/coupling.md, and against where runs of the real stepper begin to grow, by bisection.
 #include <doctest/doctest.h>
 

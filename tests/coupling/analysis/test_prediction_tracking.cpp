@@ -1,4 +1,4 @@
-// The error behind a moving target: the closed form of coupling/analysis/tracking_error.h against
+// The error behind a moving target: the closed form of coupling/analysis/tracking.h against
 // runs of the real stepper, and against what is known of its peaks.
 #include <doctest/doctest.h>
 

@@ -2,8 +2,6 @@
 // time it is benchmarks/analytic/coupling/tracking.cpp, F3.
 #include <doctest/doctest.h>
 
-#include <cmath>
-
 #include "tests/coupling/analysis/two_link.h"
 
 using namespace twinarm;

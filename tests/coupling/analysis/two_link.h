@@ -1,8 +1,8 @@
 // Two uniform slender links with vertical hinges, moved by the paper's automatic motion.
 #pragma once
 
-#include "coupling/analysis/tracking_run.h"
-#include "coupling/target/automatic_motion.h"
+#include "coupling/analysis/tracking.h"
+#include "coupling/target/operator_motion.h"
 #include "solver/dynamics/model_builder.h"
 
 namespace twinarm::testing {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "coupling/analysis/tracking_run.h"
+#include "coupling/analysis/tracking.h"
 #include "coupling/batch/batch_run.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "tests/solver/dynamics/random_tree.h"

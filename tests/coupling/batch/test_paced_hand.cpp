@@ -1,12 +1,11 @@
 // A hand seen late and played faster, against the same motion written down for that delay and
 // speed.
-#include "coupling/target/delayed_motion.h"
+#include "coupling/target/operator_motion.h"
 
 #include <doctest/doctest.h>
 
 #include <memory>
 
-#include "coupling/target/automatic_motion.h"
 #include "tests/coupling/batch/one_by_one.h"
 
 using namespace twinarm;

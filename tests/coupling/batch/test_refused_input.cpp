@@ -2,7 +2,6 @@
 // step sizes that are not positive and finite.
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <limits>
 
 #include "coupling/batch/batch_run.h"

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <thread>
 
 #include "coupling/device/desktop_input.h"

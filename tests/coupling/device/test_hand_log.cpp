@@ -7,8 +7,8 @@
 #include <cstring>
 #include <random>
 
-#include "coupling/device/device_log.h"
-#include "coupling/target/delayed_motion.h"
+#include "coupling/device/device_motion.h"
+#include "coupling/target/operator_motion.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 

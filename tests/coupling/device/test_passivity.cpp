@@ -5,7 +5,7 @@
 #include <deque>
 #include <numbers>
 
-#include "coupling/device/passivity_control.h"
+#include "coupling/device/passivity.h"
 #include "tests/solver/dynamics/random_tree.h"
 #include "tests/support/count_allocations.h"
 

@@ -6,7 +6,7 @@
 #include <complex>
 #include <numbers>
 
-#include "coupling/device/sampled_wall.h"
+#include "coupling/device/passivity.h"
 #include "solver/linear_algebra/dense_algebra.h"
 
 using namespace twinarm;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -12,8 +11,7 @@
 
 #include "coupling/device/desktop_input.h"
 #include "coupling/device/virtual_omni.h"
-#include "coupling/target/automatic_motion.h"
-#include "coupling/target/delayed_motion.h"
+#include "coupling/target/operator_motion.h"
 #include "coupling/target/recorded_trace.h"
 #include "coupling/target/scripted_motion.h"
 #include "coupling/target/synthetic_operator.h"

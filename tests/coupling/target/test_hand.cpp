@@ -3,10 +3,10 @@
 
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
-#include "coupling/target/automatic_motion.h"
+#include "coupling/target/operator_motion.h"
 #include "coupling/target/synthetic_operator.h"
+#include "solver/spatial/scalar.h"
 
 using namespace twinarm;
 

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <functional>
 #include <future>
-#include <thread>
 
 #include "app/lab/app/clients.h"
 #include "app/lab/app/uploads.h"

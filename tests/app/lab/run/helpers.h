@@ -1,9 +1,6 @@
 // Scenes, and a session with what is remembered of it.
 #pragma once
 
-#include <cmath>
-#include <functional>
-
 #include "app/lab/run/history.h"
 #include "app/lab/run/input_override.h"
 #include "app/lab/run/lab_run.h"

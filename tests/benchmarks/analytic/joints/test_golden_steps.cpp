@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
-#include <numbers>
 #include <string>
 
 #include "benchmarks/analytic/joints/golden_steps.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "collision/import/recipe/robot_recipe.h"
-#include "collision/import/recipe/stl_writer.h"
 #include "collision/import/urdf/urdf.h"
 #include "tests/collision/import/robot/helpers.h"
 

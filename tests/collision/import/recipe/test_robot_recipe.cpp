@@ -1,8 +1,7 @@
 // A robot made from a recipe. The oracles are the closed forms of boxes.
 #include "collision/import/recipe/robot_recipe.h"
 
-#include "collision/import/recipe/stl_writer.h"
-#include "collision/import/robot/mesh_geometry.h"
+#include "collision/import/robot/robot_model.h"
 #include "collision/import/toml/toml_file.h"
 #include "collision/import/urdf/urdf.h"
 #include "tests/collision/import/robot/helpers.h"

@@ -4,11 +4,10 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdlib>
-#include <numbers>
 #include <optional>
 
-#include "collision/import/robot/mesh_geometry.h"
 #include "collision/import/robot/robot_check.h"
+#include "collision/import/robot/robot_model.h"
 #include "tests/collision/import/robot/helpers.h"
 
 namespace twinarm {

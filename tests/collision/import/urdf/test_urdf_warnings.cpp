@@ -2,7 +2,7 @@
 // Other warnings: urdf_errors/.
 #include <string>
 
-#include "collision/import/robot/mesh_geometry.h"
+#include "collision/import/robot/robot_model.h"
 #include "collision/import/urdf/urdf.h"
 #include "tests/collision/import/robot/helpers.h"
 

@@ -1,4 +1,4 @@
-#include "coupling/batch/merge_fixed_joints.h"
+#include "coupling/batch/batch_model.h"
 
 #include "solver/dynamics/kinematics.h"
 

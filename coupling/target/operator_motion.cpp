@@ -1,4 +1,4 @@
-#include "coupling/target/automatic_motion.h"
+#include "coupling/target/operator_motion.h"
 
 #include <algorithm>
 #include <cmath>
