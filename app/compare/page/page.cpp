@@ -11,7 +11,7 @@
 #include "app/data/html_page.h"
 #include "app/plot/gnuplot.h"
 #include "app/support/files.h"
-#include "benchmarks/analytic/registry/case_sources.h"
+#include "benchmarks/analytic/registry/analytic_cases.h"
 
 namespace twinarm::compare_page {
 namespace {
@@ -102,12 +102,12 @@ std::string code_of(const std::vector<std::string>& case_names) {
   std::set<std::string> files;
   for (const std::string& name : case_names) files.insert(place_of(name).file);
   std::string html;
-  for (const CaseSource& source : case_sources())
-    if (files.count(std::string(source.file)))
+  for (const EmbeddedFile& source : case_sources())
+    if (files.count(std::string(source.name)))
       html += fmt::format(
           "<details><summary id=\"code-{0}\">benchmarks/analytic/{0}</summary>\n<pre>{1}</pre>"
           "</details>\n",
-          source.file, escaped(std::string(source.text)));
+          source.name, escaped(std::string(source.text)));
   return html;
 }
 
@@ -117,12 +117,12 @@ std::string code_of(const std::vector<std::string>& case_names) {
 // may stand before; what registers comes last.
 CasePlace place_of(const std::string& case_name) {
   for (std::string name = case_name; name.size() >= 2; name.pop_back())
-    for (const CaseSource& source : case_sources()) {
+    for (const EmbeddedFile& source : case_sources()) {
       if (source.text.find("\nCaseFamily ") == std::string_view::npos) continue;
       const std::size_t at = source.text.rfind("\"" + name + "\"");
       if (at == std::string_view::npos) continue;
       const auto begin = source.text.begin(), end = begin + static_cast<std::ptrdiff_t>(at);
-      return {std::string(source.file), 1 + static_cast<std::size_t>(std::count(begin, end, '\n'))};
+      return {std::string(source.name), 1 + static_cast<std::size_t>(std::count(begin, end, '\n'))};
     }
   return {};
 }

@@ -1,4 +1,4 @@
-// The painter's shaders, as GLSL 3.30 text. Vectors are in the world frame, colours linear; what is
+// The painter's shaders, GLSL 3.30 (glsl/). Vectors are in the world frame, colours linear; what is
 // opaque leaves the shader as sRGB, what is blended is encoded by the canvas.
 //
 // Variants are made by #define, not by uniforms: llvmpipe runs both sides of every branch.
@@ -23,16 +23,7 @@ struct ShaderSource {
 ShaderSource solid_shader(const ShaderVariant& variant);
 ShaderSource ghost_shader(const ShaderVariant& variant);
 ShaderSource depth_shader();  // bodies into a shadow map
-
-// backdrop_shaders.cpp
 ShaderSource floor_shader(const ShaderVariant& variant);
 ShaderSource background_shader(const ShaderVariant& variant);
-
-// What they share: version and variant; placing a vertex with its shadow coordinates; sRGB and
-// dither; how much of key light and sky arrives.
-std::string shader_header(const ShaderVariant& variant);
-extern const char* const kPlaceVertex;
-extern const char* const kFinishColor;
-extern const char* const kArrivingLight;
 
 }  // namespace twinarm

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <sstream>
 
-#include "benchmarks/analytic/registry/case_sources.h"
 #include "benchmarks/analytic/support/trajectory_case.h"
 
 namespace twinarm {
+
+const std::vector<EmbeddedFile>& case_documents();  // docs/cases/
+
 namespace {
 
 std::vector<std::string> names_in(const std::string& list) {
@@ -23,8 +25,8 @@ std::string with_lines_joined(std::string text) {
   return text;
 }
 
-void read_group(const CaseSource& document, std::map<std::string, CaseText>& texts) {
-  const std::string group(document.file.substr(0, document.file.find('.')));
+void read_group(const EmbeddedFile& document, std::map<std::string, CaseText>& texts) {
+  const std::string group(document.name.substr(0, document.name.find('.')));
   std::string statement;
   bool ended = true;  // the paragraph, by an empty line
   std::istringstream in(with_lines_joined(std::string(document.text)));
@@ -44,7 +46,7 @@ void read_group(const CaseSource& document, std::map<std::string, CaseText>& tex
 const std::map<std::string, CaseText>& case_texts() {
   static const std::map<std::string, CaseText> all = [] {
     std::map<std::string, CaseText> texts;
-    for (const CaseSource& document : case_documents()) read_group(document, texts);
+    for (const EmbeddedFile& document : case_documents()) read_group(document, texts);
     return texts;
   }();
   return all;

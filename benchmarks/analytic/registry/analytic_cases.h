@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "benchmarks/analytic/support/analytic_case.h"
+#include "solver/support/embedded_file.h"
 
 namespace twinarm {
 
@@ -18,6 +19,10 @@ struct CaseText {
   std::string group, reference, statement;
 };
 const std::map<std::string, CaseText>& case_texts();  // by the name of the case
+
+// The files of benchmarks/analytic/ as they were compiled, so that a page can show how a case is
+// written.
+const std::vector<EmbeddedFile>& case_sources();
 
 // What is not run, and why: listed, never counted as passed.
 struct SkippedCase {

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "benchmarks/analytic/registry/analytic_cases.h"
-#include "benchmarks/analytic/registry/case_sources.h"
 
 using namespace twinarm;
 
@@ -34,8 +33,8 @@ TEST_CASE("cases: docs/cases/ tells of no case that is not there") {
 
 TEST_CASE("cases: the files that a page quotes are those of this folder") {
   bool found = false;
-  for (const CaseSource& source : case_sources())
-    found |= source.file == "joints/pendulum.cpp" &&
+  for (const EmbeddedFile& source : case_sources())
+    found |= source.name == "joints/pendulum.cpp" &&
              source.text.find("TrajectoryCase swing_time()") != std::string_view::npos;
   CHECK(found);
 }
