@@ -1,18 +1,164 @@
 // `twinarm export`: a recording as CSV or JSON, or as a page (app/web).
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <utility>
 
 #include "app/command/command.h"
 #include "app/command/parser/shared_options.h"
 #include "app/data/json_writer.h"
 #include "app/page/pages.h"
-#include "app/record/output/recorded_output.h"
+#include "app/record/recording_reader.h"
 #include "app/support/files.h"
+#include "app/support/progress.h"
+#include "app/support/text.h"
 #include "solver/support/atomic_file.h"
 
 namespace twinarm {
 namespace {
+
+// What `twinarm export` prints of a recording.
+
+using GeometryPair = std::pair<int, int>;
+
+// The pairs that touch in any frame, whose forces have columns.
+std::vector<GeometryPair> pairs_of(const Recording& recording) {
+  std::vector<GeometryPair> pairs;
+  for (std::size_t n = 0; n < recording.size(); ++n)
+    for (const RecordedContact& c : recording.frame(n).contacts) pairs.emplace_back(c.a, c.b);
+  std::ranges::sort(pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+std::string contact_name(const RecordingHeader& header, const GeometryPair& pair) {
+  return "contact/" + name_of_pair(header.geometries, pair.first, pair.second);
+}
+
+std::vector<std::string> csv_header(const Recording& recording,
+                                    const std::vector<GeometryPair>& pairs) {
+  const RecordingHeader& header = recording.header();
+  std::vector<std::string> names{"t[s]", "step[1]"};
+  const auto add_axes = [&](const std::string& name, const char* unit) {
+    for (const char* axis : {"/x", "/y", "/z"}) names.push_back(name + axis + unit);
+  };
+  for (const RecordedColumn& column : header.columns) names.push_back(column.with_unit());
+  for (const std::string& coupling : header.couplings)
+    add_axes("coupling/" + coupling, "[N or N m]");
+  for (const GeometryPair& pair : pairs) add_axes(contact_name(header, pair), "[N]");
+  for (const std::string& row : recording.rows()) names.push_back("ledger/" + row + "[J]");
+  for (const std::string& row : recording.momentum_rows()) {
+    add_axes("momentum/" + row, "[N s]");
+    for (const char* axis : {"/about_x", "/about_y", "/about_z"})
+      names.push_back("momentum/" + row + axis + "[N m s]");
+  }
+  names.push_back("hash[1]");
+  return names;
+}
+
+// In the order of the header, from the columns of a run to the hash.
+std::vector<double> csv_values(const Recording& recording, const RecordedFrame& frame,
+                               const std::vector<GeometryPair>& pairs) {
+  std::vector<double> values = frame.values;
+  const auto add = [&](const auto& several) {
+    values.insert(values.end(), several.begin(), several.end());
+  };
+  for (const Vector3& pull : frame.pulls) add(pull);
+  for (const GeometryPair& pair : pairs) {
+    Vector3 force = Vector3::Zero();
+    for (const RecordedContact& c : frame.contacts)
+      if (GeometryPair(c.a, c.b) == pair) force += c.force;
+    add(force);
+  }
+  add(works_by_row(frame, recording.rows().size()));
+  add(momenta_by_row(frame, recording.momentum_rows().size()));
+  return values;
+}
+
+void write_momentum(JsonWriter& json, const Recording& recording, const RecordedFrame& frame) {
+  for (std::size_t i = 0; i < frame.momentum_rows.size(); ++i)
+    json.key(recording.momentum_rows().at(frame.momentum_rows[i]))
+        .object({{"linear", frame.momenta.at(2 * i)}, {"angular", frame.momenta.at(2 * i + 1)}});
+}
+
+void write_frame(JsonWriter& json, const Recording& recording, const RecordedFrame& frame) {
+  const RecordingHeader& header = recording.header();
+  const auto write_contact = [&](const RecordedContact& c) {
+    json.object({{"pair", contact_name(header, {c.a, c.b})},
+                 {"depth", c.depth},
+                 {"point", c.point},
+                 {"normal", c.normal},
+                 {"force", c.force},
+                 {"couple", c.couple}});
+  };
+  json.object([&] {
+    json.members({{"t", frame.t},
+                  {"step", frame.step},
+                  {"hash", fmt::format("{:016x}", frame.hash)},
+                  {"values", frame.values}});
+    json.key("couplings").object([&] {
+      for (std::size_t c = 0; c < frame.pulls.size(); ++c)
+        json.put(header.couplings.at(c), frame.pulls[c]);
+    });
+    json.key("contacts").list(frame.contacts, write_contact);
+    json.key("ledger").object([&] {
+      for (std::size_t i = 0; i < frame.rows.size(); ++i)
+        json.put(recording.rows().at(frame.rows[i]), frame.works[i]);
+    });
+    json.key("momentum").object([&] { write_momentum(json, recording, frame); });
+  });
+}
+
+void write_header(JsonWriter& json, const Recording& recording) {
+  const RecordingHeader& header = recording.header();
+  json.members({{"program", header.program},
+                {"format", recording.version()},
+                {"command", header.command},
+                {"model", header.run.model.string()}});
+  json.key("files").list(header.files, [&](const RecordedFile& file) { json.text(file.path); });
+  json.members({{"integrator", header.integrator},
+                {"step", header.step},
+                {"duration", header.duration},
+                {"seed", header.seed},
+                {"end", recording.end()},
+                {"notes", recording.notes()},
+                {"alarms", recording.alarms()}});
+  json.key("units").object([&] {
+    json.members({{"t", "s"}, {"ledger", "J"}});
+    json.key("momentum").object({{"linear", "N s"}, {"angular", "N m s"}});
+    json.members({{"force", "N"}, {"couple", "N m"}, {"couplings", "N or N m"}, {"depth", "m"}});
+  });
+  json.key("columns").list(header.columns, [&](const RecordedColumn& column) {
+    json.object({{"name", column.name}, {"unit", column.unit}});
+  });
+}
+
+void print_recording_csv(const Recording& recording) {
+  const std::vector<GeometryPair> pairs = pairs_of(recording);
+  fmt::print("{}\n", csv_line(csv_header(recording, pairs)));
+  for (std::size_t n = 0; n < recording.size(); ++n) {
+    check_interrupt();
+    const RecordedFrame frame = recording.frame(n);
+    fmt::print("{},{},{},{:016x}\n", csv_line(std::vector{frame.t}), frame.step,
+               csv_line(csv_values(recording, frame, pairs)), frame.hash);
+  }
+}
+
+void print_recording_json(const Recording& recording) {
+  JsonWriter json;
+  json.object([&] {
+    write_header(json, recording);
+    json.key("frames").begin_array();
+    for (std::size_t n = 0; n < recording.size(); ++n) {
+      check_interrupt();
+      write_frame(json, recording, recording.frame(n));
+    }
+    json.end_array();
+  });
+  fmt::print("{}\n", json.str());
+}
 
 struct ExportOptions {
   std::filesystem::path recording;

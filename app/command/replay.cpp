@@ -6,7 +6,7 @@
 #include "app/command/command.h"
 #include "app/command/parser/shared_options.h"
 #include "app/data/json_writer.h"
-#include "app/record/output/branch_view.h"
+#include "app/record/branch_view.h"
 #include "app/support/files.h"
 
 namespace twinarm {

@@ -1,14 +1,156 @@
 // D, U, u and pA from the equations of motion of each subtree.
+
+#include <Eigen/Core>
 #include <algorithm>
 #include <tuple>
 #include <utility>
+#include <vector>
 
-#include "app/inspect/crba_rnea_reference.h"
 #include "app/inspect/cross_checks.h"
+#include "app/inspect/inspection.h"
+#include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 
 namespace twinarm {
 namespace {
+
+// The same mechanism by CRBA and RNEA, implicit terms included:
+//   M = M_crba + sum J^T impedance J + armature,   h = RNEA at qdd = 0 with f - impedance a_0.
+class SecondWay {
+ public:
+  explicit SecondWay(const Inspection& in);
+
+  const Eigen::MatrixXd& M() const { return M_; }
+
+  struct Answer {
+    Eigen::VectorXd tau;            // by velocity
+    std::vector<Motion<double>> a;  // by body
+    std::vector<Force<double>> f;   // through each joint
+  };
+  // What it takes to move with qdd: tau = M qdd + h.
+  Answer inverse(const Eigen::VectorXd& qdd) { return inverse(qdd, 0); }
+  // The same for the subtree of body i, as if its parent moved so that a_i is S qdd_i: what the
+  // subtree feels of a rigid acceleration is taken away.
+  Answer inverse(const Eigen::VectorXd& qdd, std::size_t subtree);
+  // At rest, without gravity or forces: tau = M qdd.
+  Answer inertial(const Eigen::VectorXd& qdd);
+
+  // i's velocities, and those of its descendants.
+  struct Rows {
+    std::vector<Eigen::Index> own, below;
+  };
+  Rows rows_of(std::size_t body) const;
+  bool is_below(std::size_t body, std::size_t ancestor) const;  // or the same
+
+ private:
+  void add_implicit();
+  Answer run(const Model<double>& model, const State<double>& x, const Eigen::VectorXd& qdd,
+             const std::vector<Force<double>>& f_ext);
+
+  const Inspection& in_;
+  Model<double> weightless_;
+  State<double> rest_;
+  Workspace<double> w_;
+  Eigen::MatrixXd M_;
+};
+
+std::vector<double> as_list(const Eigen::VectorXd& v) {
+  return {v.data(), v.data() + v.size()};
+}
+
+// Nothing moves, those of given motion neither.
+State<double> at_rest(const Model<double>& model, State<double> x) {
+  std::ranges::fill(x.qd, 0);
+  for (std::size_t i = 1; i < model.parent.size(); ++i)
+    if (model.joint[i] == JointType::prescribed)
+      std::fill_n(x.q.begin() + static_cast<std::ptrdiff_t>(model.iq[i] + 7), 12, 0);
+  return x;
+}
+
+SecondWay::SecondWay(const Inspection& in)
+    : in_(in), weightless_(in.model), rest_(at_rest(in.model, in.x)), w_(in.model) {
+  weightless_.gravity = {};
+  const auto nv = static_cast<Eigen::Index>(in.model.nv);
+  M_.resize(nv, nv);
+  crba(in.model, in.x, w_, {M_.data(), in.model.nv * in.model.nv});
+  add_implicit();
+}
+
+// J of body b in its own axes has the columns X S_j of all joints below it, X from j to b.
+void SecondWay::add_implicit() {
+  for (std::size_t dof = 0; dof < in_.model.nv; ++dof)
+    M_(static_cast<Eigen::Index>(dof), static_cast<Eigen::Index>(dof)) += in_.forces.armature[dof];
+  if (!in_.forces.has_impedance) return;
+  std::vector<std::pair<std::size_t, Motion<double>>> columns;
+  for (std::size_t b = 1; b < in_.body_count(); ++b) {
+    columns.clear();
+    Transform<double> X;
+    for (std::size_t j = b; j > 0; j = in_.parent(j)) {
+      for (std::size_t dof = in_.model.iv[j]; dof < in_.model.iv[j] + in_.model.dofs(j); ++dof)
+        columns.emplace_back(dof, X * w_.S_[dof]);
+      X = X * w_.Xup[j];
+    }
+    for (const auto& [row, J_row] : columns)
+      for (const auto& [col, J_col] : columns)
+        M_(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(col)) +=
+            dot(J_row, in_.forces.impedance[b] * J_col);
+  }
+}
+
+SecondWay::Answer SecondWay::run(const Model<double>& model, const State<double>& x,
+                                 const Eigen::VectorXd& qdd,
+                                 const std::vector<Force<double>>& f_ext) {
+  rnea(model, x, as_list(qdd), f_ext, w_);
+  Answer answer{Eigen::Map<const Eigen::VectorXd>(w_.tau.data(), qdd.size()), w_.a, w_.f};
+  for (Eigen::Index k = 0; k < qdd.size(); ++k)
+    answer.tau[k] += in_.forces.armature[static_cast<std::size_t>(k)] * qdd[k];
+  return answer;
+}
+
+SecondWay::Answer SecondWay::inverse(const Eigen::VectorXd& qdd, std::size_t subtree) {
+  Answer first = run(in_.model, in_.x, qdd, in_.forces.f_ext);
+  if (subtree == 0 && !in_.forces.has_impedance) return first;
+  std::vector<Force<double>> f_ext = in_.forces.f_ext;
+  std::vector<Motion<double>> rigid(in_.body_count());  // of the subtree, as body i
+  if (subtree > 0) {
+    rigid[subtree] = first.a[subtree];
+    for (std::size_t dof = in_.model.iv[subtree];
+         dof < in_.model.iv[subtree] + in_.model.dofs(subtree); ++dof)
+      rigid[subtree] += -qdd[static_cast<Eigen::Index>(dof)] * w_.S_[dof];
+  }
+  for (std::size_t b = 1; b < in_.body_count(); ++b) {
+    if (subtree > 0 && b > subtree && is_below(b, subtree))
+      rigid[b] = w_.Xup[b] * rigid[in_.parent(b)];
+    f_ext[b] += in_.model.I[b] * rigid[b];
+    if (in_.forces.has_impedance) f_ext[b] += -(in_.forces.impedance[b] * (first.a[b] - rigid[b]));
+  }
+  return run(in_.model, in_.x, qdd, f_ext);
+}
+
+SecondWay::Answer SecondWay::inertial(const Eigen::VectorXd& qdd) {
+  const std::vector<Force<double>> none(in_.body_count());
+  Answer answer = run(weightless_, rest_, qdd, none);
+  if (!in_.forces.has_impedance) return answer;
+  std::vector<Force<double>> implicit(in_.body_count());
+  for (std::size_t b = 1; b < in_.body_count(); ++b)
+    implicit[b] = -(in_.forces.impedance[b] * answer.a[b]);
+  return run(weightless_, rest_, qdd, implicit);
+}
+
+bool SecondWay::is_below(std::size_t body, std::size_t ancestor) const {
+  while (body > ancestor) body = in_.parent(body);
+  return body == ancestor;
+}
+
+SecondWay::Rows SecondWay::rows_of(std::size_t body) const {
+  Rows rows;
+  for (std::size_t j = body; j < in_.body_count(); ++j) {
+    if (!is_below(j, body)) continue;
+    for (std::size_t dof = in_.model.iv[j]; dof < in_.model.iv[j] + in_.model.dofs(j); ++dof)
+      (j == body ? rows.own : rows.below).push_back(static_cast<Eigen::Index>(dof));
+  }
+  return rows;
+}
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 

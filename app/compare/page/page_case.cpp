@@ -12,7 +12,7 @@ namespace twinarm::compare_page {
 namespace {
 
 // gnuplot opens a group at each change of its pen, writes hundredths of a pixel, and says again
-// what the style sheet says of all figures (page_style.h, `figure svg`): more than half of a page
+// what the style sheet says of all figures (page.cpp, `figure svg`): more than half of a page
 // of hundreds of figures. Its names of plots are not unique in the page, and would be shown where
 // the pointer is.
 std::string figure(const std::string& drawn, const std::string& caption, const char* kind = "") {

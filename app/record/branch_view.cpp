@@ -1,4 +1,4 @@
-#include "app/record/output/branch_view.h"
+#include "app/record/branch_view.h"
 
 #include <fmt/format.h>
 
