@@ -30,7 +30,7 @@ ALLOWED = {
     "app/lab/app/lab_routes.cpp": "names of files that pages send",
     "app/command/map.cpp": "keys of tile files",
     "app/command/": "types and names of options, by CLI11",
-    "app/record/output/branch_view.cpp": "names of columns of recordings",
+    "app/record/branch_view.cpp": "names of columns of recordings",
     "app/scene/": "keys, names and values of scenes",
     "app/command/trial.cpp": "values of --conditions and --mapping",
     "collision/import/": "elements and attributes of XML files",

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "app/lab/run/history.h"
-#include "app/lab/run/lab_input_device.h"
+#include "app/lab/run/lab_inputs.h"
 #include "app/servo/haptic_loop.h"
 #include "coupling/device/device_motion.h"
 

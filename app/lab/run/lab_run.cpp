@@ -5,7 +5,7 @@
 
 #include "app/diagnose/post_mortem.h"
 #include "app/lab/run/input_override.h"
-#include "app/lab/run/mouse_spring.h"
+#include "app/lab/run/lab_inputs.h"
 #include "app/record/record_run.h"
 #include "app/run/run.h"
 #include "solver/dynamics/energy_momentum.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/lab/run/history.h"
-#include "app/lab/run/lab_input_device.h"
+#include "app/lab/run/lab_inputs.h"
 #include "app/lab/run/lab_scene.h"
 #include "app/run/stepped_run.h"
 

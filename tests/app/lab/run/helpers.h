@@ -3,8 +3,8 @@
 
 #include "app/lab/run/history.h"
 #include "app/lab/run/input_override.h"
+#include "app/lab/run/lab_inputs.h"
 #include "app/lab/run/lab_run.h"
-#include "app/lab/run/mouse_spring.h"
 #include "app/record/record_run.h"
 #include "coupling/device/virtual_omni.h"
 #include "solver/dynamics/energy_momentum.h"
