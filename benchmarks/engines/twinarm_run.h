@@ -102,8 +102,7 @@ struct TwinarmRun {
         simulation.add(*watch);
       }
     } else {
-      simulation.set_integrator(find_integrator(scheme.name).value());
-      if (scheme.adaptive) simulation.set_tolerance(h);
+      simulation.set_integrator(find_integrator(scheme.name).value(), h);
     }
     if (pushes.is_needed()) simulation.add(pushes);
   }

@@ -81,6 +81,7 @@ void Mechanism::resume(State<double> from) {
 }
 
 void Mechanism::set_loops(LoopClosures loops) {
+  if (account) account.emplace(model, loops.loops().size(), loops.rows());
   projection.set_loops(loops);
   dynamics.set_loops(std::move(loops));
   prepare_projection();

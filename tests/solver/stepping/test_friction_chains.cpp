@@ -152,8 +152,7 @@ TEST_CASE("rk4 with events and dopri5 agree on a rubbing chain to 1e-9") {
     const State<double> start = random_state(random, model);
     const auto end = [&](Integrator integrator, double h, int steps) {
       Simulation simulation(model, start);
-      simulation.set_integrator(integrator);
-      simulation.set_tolerance(1e-11);
+      simulation.set_integrator(integrator, 1e-11);
       for (int n = 0; n < steps; ++n) CHECK(simulation.step(h).ok());
       return simulation.state();
     };

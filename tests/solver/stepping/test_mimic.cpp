@@ -196,8 +196,10 @@ TEST_CASE("a rack and pinion under gravity falls as m g / (m + I r^2), by closed
     }
     CHECK(simulation.state().qd[1] == doctest::Approx(a).epsilon(1e-12));
     CHECK(std::abs(simulation.state().q[1] - a / 2) < (facts.order > 1 ? 1e-12 : 0.06 * a));
-    CHECK(simulation.dynamics().mimic_force()[0] == doctest::Approx(I * r * a).epsilon(1e-12));
-    CHECK(simulation.dynamics().mimic_force()[1] == doctest::Approx(-I * r * r * a).epsilon(1e-12));
+    CHECK(simulation.mechanism().dynamics.mimic_force()[0] ==
+          doctest::Approx(I * r * a).epsilon(1e-12));
+    CHECK(simulation.mechanism().dynamics.mimic_force()[1] ==
+          doctest::Approx(-I * r * r * a).epsilon(1e-12));
   }
 }
 
@@ -215,7 +217,7 @@ TEST_CASE("mimics do no net work: the energy of a tree is kept to 1e-9 for 1 s (
     simulation.step(2e-4);
     scale = std::max(scale, kinetic_energy(model, simulation.state()));
     worst = std::max(worst, std::abs(energy() - start));
-    force = std::max(force, largest(vector_of(simulation.dynamics().mimic_force())));
+    force = std::max(force, largest(vector_of(simulation.mechanism().dynamics.mimic_force())));
   }
   CHECK(force > 1);
   CHECK(worst < 1e-9 * scale);
