@@ -24,7 +24,7 @@ std::size_t floating_base(const Model<double>& model) {
 }  // namespace
 
 std::string drift_warning(const Simulation& simulation, const RunPlan& plan) {
-  const Model<double>& model = simulation.model();
+  const Model<double>& model = simulation.mechanism().model;
   const bool has_constraints = simulation.has_constrained_steps();
   const bool is_semi_implicit = plan.integrator == Integrator::semi_implicit ||
                                 plan.integrator == Integrator::semi_implicit_xv;

@@ -85,12 +85,12 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
     look_at_start(simulation);
     simulation.add(*contacts_);
   }
-  if (limits_act(scene, simulation.integrator())) {
-    limits_.emplace(scene.model);
+  const bool flies = !scene.may_touch() && !locates_events(scene) &&
+                     steps_for_flight(scene, simulation.integrator());
+  if (flies || limits_act(scene, simulation.integrator())) {
+    limits_.emplace(scene.model);  // where it flies maybe without a limit
     add_limits();
     simulation.add(*limits_);
-  } else if (!scene.may_touch() && !locates_events(scene)) {
-    simulation.set_constrained_steps(steps_for_flight(scene, simulation.integrator()));
   }
   if (!locates_events(scene)) return;
   if (deepest_at_start_ > ContactConstraints::kSlop)
