@@ -40,8 +40,8 @@ void check_located(const StepParts& parts) {
     if (source->needs_semi_implicit())
       throw std::invalid_argument(
           "implicit spring-dampers do not go with steps that locate their events");
-  for (const ConstraintSource* source : parts.constraints)
-    if (!dynamic_cast<const EventSource*>(source))
+  for (ConstraintSource* source : parts.constraints)
+    if (!source->events())
       throw std::invalid_argument("a source of constraints cannot have its events located");
 }
 

@@ -79,9 +79,9 @@ class Episode {
     for (const SceneGeometry& g : scene_.geometries) {
       const ContactSurface surface{g.friction,         g.restitution, g.torsional_friction,
                                    g.rolling_friction, g.stiffness,   g.dissipation};
-      contacts_.add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
+      contacts_.bodies().add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
     }
-    for (const auto& [a, b] : scene_.apart) contacts_.never(a, b);
+    for (const auto& [a, b] : scene_.apart) contacts_.bodies().world().disable_pair(a, b);
     sim_.add(contacts_);
   }
   void add_limits() {
@@ -132,8 +132,8 @@ class Episode {
     result_.deep += deep ? 1 : 0;
   }
   std::string pair(const ContactPoint& point) const {
-    return contacts_.geometry(point.contact.a).name + " and " +
-           contacts_.geometry(point.contact.b).name;
+    return contacts_.bodies().geometry(point.contact.a).name + " and " +
+           contacts_.bodies().geometry(point.contact.b).name;
   }
 
   void look_at_energy() {

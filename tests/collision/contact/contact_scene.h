@@ -53,7 +53,7 @@ class ContactScene {
     }
     simulation_ = std::make_unique<Simulation>(*model_, x, options);
     contacts_ = std::make_unique<ContactConstraints>(*model_, response_);
-    for (const ContactGeometry& piece : pieces_) contacts_->add(piece);
+    for (const ContactGeometry& piece : pieces_) contacts_->bodies().add(piece);
     simulation_->add(*contacts_);
     return *simulation_;
   }

@@ -214,7 +214,7 @@ TEST_CASE("bad surfaces are all told at once") {
   ContactConstraints contacts(empty, ContactResponse::rigid);
   ContactGeometry bad{"bad", 7, {}, Sphere{0.1}, surface(-1, 2), 0};
   try {
-    contacts.add(bad);
+    contacts.bodies().add(bad);
     FAIL("accepted");
   } catch (const InputError& error) {
     CHECK(error.faults().size() == 3);
