@@ -75,8 +75,8 @@ std::vector<MomentumRow> MomentumLedger::rows(const Simulation& simulation,
   }
   if (contacts && contacts->contacts())
     for (const ContactWork& pair : contacts->contacts()->work()) {
-      const ContactGeometry &a = contacts->contacts()->geometry(pair.a),
-                            &b = contacts->contacts()->geometry(pair.b);
+      const ContactGeometry &a = contacts->contacts()->bodies().geometry(pair.a),
+                            &b = contacts->contacts()->bodies().geometry(pair.b);
       between(LedgerKind::contact, "contact/" + a.name + "-" + b.name,
               {0, pair.impulse_W, pair.moment_W}, a.body, b.body);
     }

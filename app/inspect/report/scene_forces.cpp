@@ -165,7 +165,8 @@ class SceneInspector::FirstStep {
     for (const ContactPoint& p : all->points()) {
       if (!presses(p)) continue;
       const std::pair pair(p.contact.a, p.contact.b);
-      const ContactGeometry &a = all->geometry(pair.first), &b = all->geometry(pair.second);
+      const ContactGeometry &a = all->bodies().geometry(pair.first),
+                            &b = all->bodies().geometry(pair.second);
       std::string name = "contact/" + a.name + "-" + b.name;
       if (count[pair] > 1) name += "/" + std::to_string(++number[pair]);
       Actor actor{std::move(name), {}, {}};
