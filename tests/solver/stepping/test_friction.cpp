@@ -55,7 +55,7 @@ TEST_CASE(
         simulation.step(h);
         v = (v + h * 9.81) / (1 + h * 5 / 2);
         CHECK(simulation.state().qd[0] == doctest::Approx(v).epsilon(1e-13));
-        CHECK(simulation.mechanism().dynamics.damping_torque()[0] ==
+        CHECK(simulation.mechanism().dynamics.torques().damping[0] ==
               doctest::Approx(-5 * v).epsilon(1e-12));
       }
     }
@@ -107,7 +107,7 @@ TEST_CASE("a block that friction can hold comes to rest on its incline and stays
     for (int n = 0; n < 1000; ++n) simulation.step(0.01);
     CHECK(simulation.state().q[0] == rest);
     CHECK(simulation.state().qd[0] == 0);
-    CHECK(simulation.mechanism().dynamics.coulomb_torque()[0] ==
+    CHECK(simulation.mechanism().dynamics.torques().coulomb[0] ==
           doctest::Approx(-9.81 * std::sin(tilt)).epsilon(1e-13));
   }
 }

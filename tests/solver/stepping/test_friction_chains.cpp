@@ -88,11 +88,12 @@ TEST_CASE("friction of chains, some joints at rest, is what trying all 3^n cases
 
     ForwardDynamics dynamics(model);
     Workspace<double> w(model);
-    h > 0 ? dynamics.over_step(x, h, forces, w) : dynamics(x, forces, w);
+    using Rule = ForwardDynamics::Rule;
+    dynamics(x, forces, w, h > 0 ? Rule::end_of_step : Rule::now, h);
     const double scale = 1 + a_free.lpNorm<Eigen::Infinity>();
     CHECK((vector_of(w.qdd) - qdd).lpNorm<Eigen::Infinity>() < 1e-11 * scale);
-    CHECK((vector_of(dynamics.coulomb_torque()) - f).lpNorm<Eigen::Infinity>() < 1e-10 * scale);
-    CHECK((vector_of(dynamics.damping_torque()) + VectorXd(b.cwiseProduct(v + h * qdd)))
+    CHECK((vector_of(dynamics.torques().coulomb) - f).lpNorm<Eigen::Infinity>() < 1e-10 * scale);
+    CHECK((vector_of(dynamics.torques().damping) + VectorXd(b.cwiseProduct(v + h * qdd)))
               .lpNorm<Eigen::Infinity>() < 1e-10 * scale);
     CHECK(forces.tau == tau);  // lent, and given back
 
