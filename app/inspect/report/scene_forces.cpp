@@ -80,7 +80,7 @@ class SceneInspector::FirstStep {
     const bool constrained = sim_.has_constrained_steps();
     add_by_joint(model_,
                  constrained ? sim_.constraints().coulomb_torque()
-                             : sim_.mechanism().dynamics.coulomb_torque(),
+                             : sim_.mechanism().dynamics.torques().coulomb,
                  "joint/", "/friction", actors_);
     find_rest(constrained);
     add_contacts();
@@ -129,8 +129,8 @@ class SceneInspector::FirstStep {
     rest_ = Eigen::VectorXd::Zero(index(model_.nv));
     for (std::size_t dof = 0; dof < model_.nv; ++dof)
       rest_[index(dof)] = constrained ? sim_.constraints().constraint_force()[dof]
-                                      : sim_.mechanism().dynamics.mimic_force()[dof] +
-                                            sim_.mechanism().dynamics.loop_force()[dof];
+                                      : sim_.mechanism().dynamics.torques().mimic[dof] +
+                                            sim_.mechanism().dynamics.torques().loop[dof];
   }
 
   void push(Actor& actor, int body, const Vector3& p_W, const Vector3& force,
