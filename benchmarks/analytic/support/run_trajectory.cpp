@@ -238,7 +238,7 @@ std::optional<double> observed_order(const TrajectoryCase& c, const Lane& lane) 
   for (int i = 0; i < 9; ++i, h *= 2) {
     CaseScene scene = c.scene();
     scene.conserves = false;  // nobody asks for its energy
-    errors.push_back(measure(c, std::move(scene), {lane.integrator, h, 0}, nullptr).error);
+    errors.push_back(measure(c, std::move(scene), {lane.integrator, h}, nullptr).error);
     if (const auto slope = slope_of(errors, rounding)) return slope;
   }
   return {};
