@@ -14,7 +14,7 @@ MomentumLedger::MomentumLedger(const RobotInput& input, const std::vector<GivenW
                 ? Rule::at_start
                 : Rule::integral),
       coupling_count_(couplings ? couplings->size() : 0),
-      loop_count_(simulation.dynamics().bilateral().loops().loops().size()),
+      loop_count_(simulation.mechanism().dynamics.bilateral().loops().loops().size()),
       moved_(bodies_that_forces_move(input.model)),
       stabilisation_(loop_count_),
       mimics_(input.model.mimics.size()),
@@ -70,8 +70,8 @@ void MomentumLedger::add_step(double h, std::span<const double> weights,
     at.qd = now_.qd;
     add_given(h, at);
     add_pulls(h, at, end);
-    if (!after.has_constrained_steps()) add_loops(h, after, now_.qd, h);
-    add_trees(h, after);
+    if (!after.has_constrained_steps()) add_loops(h, after.mechanism(), now_.qd, h);
+    add_trees(h, after.mechanism());
     add_impacts(after);
   } else if (rule_ == Rule::located) {
     for (const State<double>* x : {static_cast<const State<double>*>(&now_), &end}) {
@@ -83,16 +83,15 @@ void MomentumLedger::add_step(double h, std::span<const double> weights,
       add_given(weight * h, x);
       add_couplings(weight * h, x, side);
       if (trees_.empty() && loop_count_ == 0) return;
-      after.evaluate_at(x, [&](const Simulation& at) {
-        add_loops(weight * h, at, x.qd, 0);
-        add_trees(weight * h, at);
-      });
+      const Mechanism at = evaluate_at(after, x);
+      add_loops(weight * h, at, x.qd, 0);
+      add_trees(weight * h, at);
     };
     add(now_, weights.front(), Side::after);
     for (std::size_t s = 0; s < inner.size(); ++s) add(inner[s], weights[s + 1], Side::after);
     add(end, weights.back(), Side::before);
   }
-  const StepAccount& account = after.account();
+  const StepAccount& account = *after.mechanism().account;
   if (rule_ != Rule::located)
     for (const StepAccount::Push& push : account.pushes())
       for (std::size_t t = 0; t < trees_.size(); ++t)
@@ -182,9 +181,9 @@ void MomentumLedger::add_pulls(double h, const State<double>& at, const State<do
 }
 
 // `qd` at the start; over a step of h velocities change by h qdd.
-void MomentumLedger::add_loops(double part, const Simulation& at, const std::vector<double>& qd,
+void MomentumLedger::add_loops(double part, const Mechanism& at, const std::vector<double>& qd,
                                double h) {
-  const BilateralForces& bilateral = at.dynamics().bilateral();
+  const BilateralForces& bilateral = at.dynamics.bilateral();
   const LoopClosures& loops = bilateral.loops();
   if (loop_count_ == 0) return;
   std::vector<double> lambda(loops.rows(), 0);
@@ -194,7 +193,7 @@ void MomentumLedger::add_loops(double part, const Simulation& at, const std::vec
     double speed = 0;
     for (const std::size_t d : loops.dofs_of(r))
       speed += loops.J()(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(d)) *
-               (qd[d] + 0.5 * h * at.workspace().qdd[d]);
+               (qd[d] + 0.5 * h * at.w.qdd[d]);
     sums_[loop(loops.loop_of(r))].work += part * lambda[r] * speed;
   }
   for (std::size_t l = 0; l < loop_count_; ++l) {
@@ -204,9 +203,9 @@ void MomentumLedger::add_loops(double part, const Simulation& at, const std::vec
 }
 
 // k_ has the poses of what `at` evaluated last.
-void MomentumLedger::add_trees(double part, const Simulation& at) {
+void MomentumLedger::add_trees(double part, const Mechanism& at) {
   const Model<double>& model = input_.model;
-  const Workspace<double>& w = at.workspace();
+  const Workspace<double>& w = at.w;
   for (std::size_t t = 0; t < trees_.size(); ++t)
     for (std::size_t i = 1; i < model.parent.size(); ++i) {
       if (!trees_[t].bodies[i]) continue;

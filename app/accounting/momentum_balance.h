@@ -36,7 +36,7 @@ struct MomentumRow {
 
 class MomentumLedger {
  public:
-  // All must outlive it; `couplings` may be null. Simulation::keep_account comes before add_step.
+  // All must outlive it; `couplings` may be null. `simulation` keeps an account.
   MomentumLedger(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
                  SceneCouplings* couplings, Integrator integrator, bool locates_events,
                  const Simulation& simulation);
@@ -75,8 +75,8 @@ class MomentumLedger {
   void add_given(double part, const State<double>& x);
   void add_couplings(double part, const State<double>& x, SceneCouplings::Side side);
   void add_pulls(double h, const State<double>& at, const State<double>& end);
-  void add_loops(double part, const Simulation& at, const std::vector<double>& qd, double h);
-  void add_trees(double part, const Simulation& at);
+  void add_loops(double part, const Mechanism& at, const std::vector<double>& qd, double h);
+  void add_trees(double part, const Mechanism& at);
   void add_impacts(const Simulation& after);
   Exchange contents(const std::vector<char>& of, const State<double>& x) const;
   void subtract_from_trees(const Exchange& e, int body, double sign,

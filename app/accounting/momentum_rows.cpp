@@ -16,7 +16,8 @@ std::string name_of_limits(const Model<double>& model, const SceneContacts* cont
 std::vector<LedgerRow> MomentumLedger::energy_rows(const Simulation& simulation,
                                                    const SceneContacts* contacts) const {
   std::vector<LedgerRow> rows;
-  const std::vector<LoopClosure>& loops = simulation.dynamics().bilateral().loops().loops();
+  const std::vector<LoopClosure>& loops =
+      simulation.mechanism().dynamics.bilateral().loops().loops();
   for (std::size_t l = 0; l < loop_count_; ++l) {
     rows.push_back({LedgerKind::constraint, "constraint/" + loops[l].name, sums_[loop(l)].work});
     rows.push_back({LedgerKind::constraint_stabilisation,
@@ -74,8 +75,8 @@ std::vector<MomentumRow> MomentumLedger::rows(const Simulation& simulation,
   }
   if (contacts && contacts->contacts())
     for (const ContactWork& pair : contacts->contacts()->work()) {
-      const ContactGeometry &a = contacts->contacts()->geometry(pair.a),
-                            &b = contacts->contacts()->geometry(pair.b);
+      const ContactGeometry &a = contacts->contacts()->bodies().geometry(pair.a),
+                            &b = contacts->contacts()->bodies().geometry(pair.b);
       between(LedgerKind::contact, "contact/" + a.name + "-" + b.name,
               {0, pair.impulse_W, pair.moment_W}, a.body, b.body);
     }
@@ -84,7 +85,8 @@ std::vector<MomentumRow> MomentumLedger::rows(const Simulation& simulation,
       subtract_from_trees(part.exchange, part.body, 1, through);
     add(LedgerKind::outside, outside->name(), outside->total());
   }
-  const std::vector<LoopClosure>& loops = simulation.dynamics().bilateral().loops().loops();
+  const std::vector<LoopClosure>& loops =
+      simulation.mechanism().dynamics.bilateral().loops().loops();
   for (std::size_t l = 0; l < loop_count_; ++l)
     if (facts_of(loops[l].type).ends == LoopBetween::bodies)
       between(LedgerKind::constraint, "constraint/" + loops[l].name, sums_[loop(l)],

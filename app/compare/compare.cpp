@@ -90,7 +90,7 @@ std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
       continue;
     }
     for (const double step : steps.empty() ? std::vector{1e-3} : steps)
-      lanes.push_back({integrator, step, 0});
+      lanes.push_back({integrator, step});
   }
   return lanes;
 }

@@ -54,12 +54,12 @@ std::optional<PassedRadius> passed_radius(const SimulatePlan& prepared, const Ru
         spec.type != CouplingDescription::Type::linear)
       continue;
     const TargetRadius radius =
-        nearest_target_radius(simulation.model(), x, simulation.kinematics(),
+        nearest_target_radius(simulation.mechanism().model, x, simulation.kinematics(),
                               couplings->target(c, x.t).k, spec.spring, prepared.run.step);
     if (radius.ratio() > 1)
-      return PassedRadius{run.step(), x.t, spec.name,
-                          simulation.model().joint_name[static_cast<std::size_t>(radius.body)],
-                          radius};
+      return PassedRadius{
+          run.step(), x.t, spec.name,
+          simulation.mechanism().model.joint_name[static_cast<std::size_t>(radius.body)], radius};
   }
   return std::nullopt;
 }

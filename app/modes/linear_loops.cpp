@@ -148,13 +148,13 @@ Held hold_at(const Model<double>& model, const State<double>& x, const PushAt& p
   dynamics.set_friction(false);  // dampers are among what pushes
   Workspace<double> w(model);
   if (loops.any()) {
-    dynamics.set_loops(loops);
+    dynamics.bilateral().set_loops(loops);
     dynamics.bilateral().loops().evaluate(x, k);
   }
   dynamics(x, forces, w);
   const std::vector<double> mimic =
-      model.mimics.empty() ? std::vector<double>(model.nv) : dynamics.mimic_force();
-  const VectorXd lambda = loops.any() ? dynamics.loop_lambda() : VectorXd();
+      model.mimics.empty() ? std::vector<double>(model.nv) : dynamics.torques().mimic;
+  const VectorXd lambda = loops.any() ? dynamics.bilateral().lambda_of_loops() : VectorXd();
   const auto held = [&push, mimic, lambda, moving = loops](const State<double>& to,
                                                            const Kinematics& there,
                                                            Forces<double>& sum) mutable {

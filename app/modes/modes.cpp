@@ -25,7 +25,7 @@ std::vector<LoopClosure> take_loops(SimulateInput& input) {
   Simulation sim(input.robot.model, input.robot.state.x);
   const SceneContacts contacts(*input.scene, sim);
   input.robot.state.x = sim.state();
-  return sim.dynamics().bilateral().loops().loops();
+  return sim.mechanism().dynamics.bilateral().loops().loops();
 }
 
 // Bodies of the scene that a constraint holds; the rest of them has no joint to swing about.

@@ -31,8 +31,11 @@ struct RobotInMotion {
   double h;
   long steps = 0, unsolved = 0;
 
-  RobotInMotion(Robot& r, State<double> start, double step)
-      : robot(r), forces(r.model.nv), simulation(r.model, std::move(start)), h(step) {
+  RobotInMotion(Robot& r, State<double> start, double step, bool friction)
+      : robot(r),
+        forces(r.model.nv),
+        simulation(r.model, std::move(start), {.joint_friction = friction}),
+        h(step) {
     simulation.add(forces);
   }
 };
@@ -66,11 +69,9 @@ std::unique_ptr<RobotInMotion> start(Robot& robot, const py::object& q, const py
   check("h", h);
   check("tolerance", tolerance);
   const Integrator chosen = integrator_of(integrator);
-  auto made =
-      std::make_unique<RobotInMotion>(robot, state_of(robot, q, qd, 0, robot.input.state.x), h);
-  made->simulation.set_integrator(chosen);
-  if (chosen == Integrator::dopri5) made->simulation.set_tolerance(tolerance);
-  made->simulation.set_joint_friction(friction);
+  auto made = std::make_unique<RobotInMotion>(robot, state_of(robot, q, qd, 0, robot.input.state.x),
+                                              h, friction);
+  made->simulation.set_integrator(chosen, tolerance);
   return made;
 }
 

@@ -170,7 +170,7 @@ double default_energy_bound(const Model<double>& model, const State<double>& x) 
 
 PostMortem examine_end(const StepReport& report, const Simulation& simulation,
                        const State<double>& last, double t, long step) {
-  const Model<double>& model = simulation.model();
+  const Model<double>& model = simulation.mechanism().model;
   PostMortem found;
   found.kinetic_energy = kinetic_energy(model, last);
   found.time = t;
@@ -189,7 +189,8 @@ PostMortem examine_end(const StepReport& report, const Simulation& simulation,
     found.body = model.body_name[body];
     found.joint = model.joint_name[body];
     found.field = report.bad_field;
-    found.pass = first_bad_quantity(model, simulation.forces(), simulation.workspace()).pass;
+    found.pass =
+        first_bad_quantity(model, simulation.mechanism().forces, simulation.mechanism().w).pass;
   }
   found.reason = report.finite ? "no substep however short meets the tolerance"
                                : "a number is not finite: the run diverged";
@@ -214,7 +215,7 @@ std::size_t floating_base(const Model<double>& model) {
 }  // namespace
 
 std::string drift_warning(const Simulation& simulation, const RunPlan& plan) {
-  const Model<double>& model = simulation.model();
+  const Model<double>& model = simulation.mechanism().model;
   const bool has_constraints = simulation.has_constrained_steps();
   const bool is_semi_implicit = plan.integrator == Integrator::semi_implicit ||
                                 plan.integrator == Integrator::semi_implicit_xv;

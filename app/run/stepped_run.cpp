@@ -47,20 +47,17 @@ SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, cons
       plan_(plan),
       watch_(watch),
       outside_(outside),
-      sim_(input_.model, input_.state.x),
+      sim_(input_.model, input_.state.x, {.keep_account = true, .interrupted = watch.interrupted}),
       torques_(input_.model, input_.coordinates, input_.state.tau),
       limits_(input_, simulated.scene && limits_act(*simulated.scene, plan.integrator),
               result_.warnings) {
   add_forces(simulated);
-  sim_.set_integrator(plan.integrator);
-  sim_.set_interrupted(watch.interrupted);
+  sim_.set_integrator(plan.integrator, plan.tolerance);
   if (simulated.scene) {
     contacts_.emplace(*simulated.scene, sim_);
     warn(deep_start_warning(*contacts_, simulated.scene->description.contact));
   }
   warn(drift_warning(sim_, plan));
-  if (plan.is_adaptive()) sim_.set_tolerance(plan.tolerance);
-  sim_.keep_account();
   momentum_.emplace(input_, wrenches_, simulated.couplings.get(), plan.integrator,
                     plan.locates_events, sim_);
   ledger_.emplace(input_, wrenches_, simulated.couplings.get(),
@@ -194,7 +191,7 @@ bool SteppedRun::one_step(double t, double h_most) {
   const bool has_sample_within =
       next_ < plan_.times.size() && plan_.times[next_] < t + h_most * (1 - kSameTime);
   if (has_sample_within || !ledger_->inner_nodes().empty()) before_.emplace(sim_);
-  const StepReport report = plan_.is_adaptive() ? sim_.substep(h_most) : sim_.step(h_most);
+  const StepReport report = sim_.step(h_most, plan_.is_adaptive());
   if (report.interrupted) return stop_for_interrupt(t);
   ++result_.steps;
   const bool by_limits = contacts_ && contacts_->only_limits_were_passed();
@@ -265,7 +262,7 @@ void SteppedRun::sample_up_to(double t_end, double t, const Simulation& from) {
 
 State<double> SteppedRun::step_aside(const Simulation& from, double h, double t) {
   StepReport report;
-  State<double> x = from.side_step(h, &report);
+  State<double> x = side_step(from, h, &report);
   if (report.interrupted) stop_for_interrupt(t);
   return x;
 }

@@ -145,10 +145,8 @@ class Twinarm final : public TwinarmPasses<double> {
     scheme_ = scheme, h_ = h, steps_ = 0, until_ = 0;
   }
   void step() override {
-    const double longest = scheme_.adaptive ? 0.1 : h_;
-    const StepReport report = scheme_.adaptive
-                                  ? run_->simulation.substep(std::min(longest, until_ - t()))
-                                  : run_->simulation.step(longest);
+    const double h = scheme_.adaptive ? std::min(0.1, until_ - t()) : h_;
+    const StepReport report = run_->simulation.step(h, scheme_.adaptive);
     if (!report.ok()) throw std::runtime_error("the run stopped by itself");
     ++steps_;
   }

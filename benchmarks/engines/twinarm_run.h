@@ -100,8 +100,7 @@ struct TwinarmRun {
         simulation.add(*watch);
       }
     } else {
-      simulation.set_integrator(find_integrator(scheme.name).value());
-      if (scheme.adaptive) simulation.set_tolerance(h);
+      simulation.set_integrator(find_integrator(scheme.name).value(), h);
     }
     if (pushes.is_needed()) simulation.add(pushes);
   }
@@ -117,20 +116,21 @@ struct TwinarmRun {
     if (scene.floor && scene.floor_friction != scene.friction)
       fixed.friction = scene.floor_friction * scene.floor_friction / scene.friction;
     body.restitution = fixed.restitution = std::sqrt(scene.restitution);
-    if (scene.floor) contacts->add({"floor", 0, {}, HalfSpace{}, fixed});
+    if (scene.floor) contacts->bodies().add({"floor", 0, {}, HalfSpace{}, fixed});
     if (scene.obstacle)
-      contacts->add({"obstacle",
-                     0,
-                     {Matrix3::Identity(), vector3(scene.obstacle->centre)},
-                     Box{2 * vector3(scene.obstacle->half)},
-                     fixed});
+      contacts->bodies().add({"obstacle",
+                              0,
+                              {Matrix3::Identity(), vector3(scene.obstacle->centre)},
+                              Box{2 * vector3(scene.obstacle->half)},
+                              fixed});
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       const Body& b = scene.bodies[i];
       const Pose X_LG{Matrix3::Identity(), vector3(b.form_at)};
       if (b.form == Form::sphere)
-        contacts->add({"body", static_cast<int>(i) + 1, X_LG, Sphere{b.half[0]}, body});
+        contacts->bodies().add({"body", static_cast<int>(i) + 1, X_LG, Sphere{b.half[0]}, body});
       if (b.form == Form::box)
-        contacts->add({"body", static_cast<int>(i) + 1, X_LG, Box{2 * vector3(b.half)}, body});
+        contacts->bodies().add(
+            {"body", static_cast<int>(i) + 1, X_LG, Box{2 * vector3(b.half)}, body});
     }
   }
 

@@ -229,10 +229,9 @@ SceneCase falling_puma() {
     return [=](double t, const std::vector<double>& q, const std::vector<double>& v) mutable {
       if (exact->empty()) {
         Simulation fine(*model, start);
-        fine.set_integrator(Integrator::dopri5);
-        fine.set_tolerance(1e-14);
+        fine.set_integrator(Integrator::dopri5, 1e-14);
         for (const double to : times) {
-          while (to - fine.state().t > 1e-12) fine.substep(std::min(0.01, to - fine.state().t));
+          while (to - fine.state().t > 1e-12) fine.step(std::min(0.01, to - fine.state().t), true);
           exact->push_back(fine.state());
         }
       }

@@ -26,46 +26,44 @@ void ContactWorks::visit_memory(Memory& memory, std::size_t count) {
   }
 }
 
-void ContactActiveSet::hold(const ConstraintFrame& frame, bool struck,
-                            std::vector<ContactPoint>& points) noexcept {
+void ContactActiveSet::hold(const ConstraintFrame& frame, bool struck) noexcept {
   bodies_.locates = true;
   held_pairs_.clear();
-  for (ContactPoint& p : points) {
+  for (ContactPoint& p : points_) {
     const Vector3 velocity = bodies_.approach(p.contact, frame.k);
     const double u = p.contact.n_W.dot(velocity);
     const bool goes_on = p.is_held && !p.opens && !struck;
-    p.is_held = goes_on || (p.contact.depth >= -EventSource::kClosed && u <= EventSource::kRest);
+    p.is_held = goes_on || (p.contact.depth >= -kClosed && u <= kRest);
     p.opens = false;
     p.slip_W = velocity - u * p.contact.n_W;
     const std::pair pair(p.contact.a, p.contact.b);
     if (p.is_held && (held_pairs_.empty() || held_pairs_.back() != pair))
       held_pairs_.push_back(pair);
   }
-  held_ = points;
+  held_ = points_;
   flow_works_.assign(kFlowNumbers * held_pairs_.size(), 0);
 }
 
-void ContactActiveSet::hold_again(std::vector<ContactPoint>& points) noexcept {
-  points = held_;
+void ContactActiveSet::hold_again() noexcept {
+  points_ = held_;
   std::fill(flow_works_.begin(), flow_works_.end(), 0);
 }
 
-void ContactActiveSet::look(const ConstraintFrame& frame, const std::vector<ContactPoint>& points,
-                            EventSource::Nearest& nearest) const noexcept {
-  for (const ContactPoint& p : points)
+void ContactActiveSet::look(const ConstraintFrame& frame, Nearest& nearest) const noexcept {
+  for (const ContactPoint& p : points_)
     if (!p.is_held)
       nearest.see(-p.contact.depth, p.contact.n_W.dot(bodies_.approach(p.contact, frame.k)));
 }
 
 void ContactActiveSet::take_flow(ContactPoint& point, const ImpulseConstraint& c, double h,
                                  double normal, double friction) {
-  const bool moves = std::hypot(c.u[1], c.u[2]) > EventSource::kMoves;
-  const bool slid = c.law == ImpulseLaw::coulomb && point.slip_W.norm() > EventSource::kMoves;
+  const bool moves = std::hypot(c.u[1], c.u[2]) > kMoves;
+  const bool slid = c.law == ImpulseLaw::coulomb && point.slip_W.norm() > kMoves;
   const bool goes_on = moves && point.slip_W.dot(point.velocity_W) > 0;
-  char mode = moves ? EventSource::slides : EventSource::rests;
-  if (slid && !goes_on) mode = EventSource::turns;
-  point.opens = c.u[0] > EventSource::kMoves;
-  if (point.opens) mode = EventSource::opens;
+  char mode = moves ? slides : rests;
+  if (slid && !goes_on) mode = turns;
+  point.opens = c.u[0] > kMoves;
+  if (point.opens) mode = opens;
   modes_.push_back(mode);
   const auto pair = std::lower_bound(held_pairs_.begin(), held_pairs_.end(),
                                      std::pair(point.contact.a, point.contact.b));
@@ -76,9 +74,13 @@ void ContactActiveSet::take_flow(ContactPoint& point, const ImpulseConstraint& c
   for (int i = 0; i < 3; ++i) sums[2 + i] += impulse_W[i], sums[5 + i] += moment_W[i];
 }
 
-void ContactActiveSet::count_works(ContactWorks& works) const noexcept {
+void ContactActiveSet::modes(std::vector<char>& modes) const noexcept {
+  modes.insert(modes.end(), modes_.begin(), modes_.end());
+}
+
+void ContactActiveSet::count_works() noexcept {
   for (std::size_t i = 0; i < held_pairs_.size(); ++i) {
-    ContactWork& work = works.of(held_pairs_[i].first, held_pairs_[i].second);
+    ContactWork& work = works_.of(held_pairs_[i].first, held_pairs_[i].second);
     const double* sums = &flow_works_[kFlowNumbers * i];
     work.normal += sums[0], work.friction += sums[1];
     work.impulse_W += Vector3(sums[2], sums[3], sums[4]);

@@ -24,28 +24,31 @@ class ContactWorks {
   std::vector<ContactWork> all;  // ascending by (a, b)
 };
 
-class ContactActiveSet {
+class ContactActiveSet final : public EventSource {
  public:
-  explicit ContactActiveSet(ContactBodies& bodies) : bodies_(bodies) {}
+  // `points`: the contacts found last; `works` takes what count_works() counts.
+  ContactActiveSet(ContactBodies& bodies, std::vector<ContactPoint>& points, ContactWorks& works)
+      : bodies_(bodies), points_(points), works_(works) {}
 
-  void hold(const ConstraintFrame& frame, bool struck, std::vector<ContactPoint>& points) noexcept;
-  void hold_again(std::vector<ContactPoint>& points) noexcept;
-  void look(const ConstraintFrame& frame, const std::vector<ContactPoint>& points,
-            EventSource::Nearest& nearest) const noexcept;
+  void hold(const ConstraintFrame& frame, bool struck) noexcept override;
+  void hold_again() noexcept override;
+  void look(const ConstraintFrame& frame, Nearest& nearest) const noexcept override;
+  void modes(std::vector<char>& modes) const noexcept override;
+  std::span<double> works() noexcept override { return flow_works_; }
+  void count_works() noexcept override;
 
   // A solution in Phase::flow: what each held one does, and its works.
   void begin_flow() { modes_.clear(); }
   void take_flow(ContactPoint& point, const ImpulseConstraint& c, double h, double normal,
                  double friction);
-  const std::vector<char>& modes() const { return modes_; }
-  std::span<double> works() { return flow_works_; }
-  void count_works(ContactWorks& works) const noexcept;
 
  private:
   // Of each pair: works of normal force and friction, impulse, moment.
   static constexpr std::size_t kFlowNumbers = 8;
 
   ContactBodies& bodies_;
+  std::vector<ContactPoint>& points_;
+  ContactWorks& works_;
   std::vector<ContactPoint> held_;               // the points as hold() left them
   std::vector<std::pair<int, int>> held_pairs_;  // ascending
   std::vector<double> flow_works_;

@@ -15,7 +15,7 @@ ContactConstraints::ContactConstraints(const Model<double>& model, ContactRespon
       bodies_(model),
       found_(bodies_),
       rows_(model, bodies_, response),
-      active_(bodies_) {}
+      active_(bodies_, found_.points, works_) {}
 
 void ContactConstraints::begin_step(const Kinematics& k, const State<double>&, double h) noexcept {
   found_.begin_step(k, h);
@@ -33,7 +33,7 @@ bool ContactConstraints::closes(const ConstraintFrame& frame) noexcept {
     p.closes = false;
     if (p.restitution <= 0 && !located) continue;  // those are for the second phase
     const double u = p.contact.n_W.dot(bodies_.approach(p.contact, frame.k));
-    p.closes = located ? u < -kRest && p.contact.depth >= -kClosed
+    p.closes = located ? u < -EventSource::kRest && p.contact.depth >= -EventSource::kClosed
                        : u < -kSlowestBounce && frame.h * u < p.contact.depth;
     any = any || p.closes;
   }
@@ -120,18 +120,6 @@ void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulsePr
   const bool hits = c.p[0] > 0 && start[0] < -kSlowestBounce && u_n > start[0];
   (hits ? work.impact : work.normal) += normal;
   work.friction += friction;
-}
-
-void ContactConstraints::hold(const ConstraintFrame& frame, bool struck) noexcept {
-  active_.hold(frame, struck, found_.points);
-}
-
-void ContactConstraints::look(const ConstraintFrame& frame, Nearest& nearest) const noexcept {
-  active_.look(frame, found_.points, nearest);
-}
-
-void ContactConstraints::modes(std::vector<char>& modes) const noexcept {
-  modes.insert(modes.end(), active_.modes().begin(), active_.modes().end());
 }
 
 // What contacts remember from step to step (solver/support/state_archive.h).

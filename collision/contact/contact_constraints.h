@@ -11,29 +11,24 @@
 // nothing tunnels, whatever its speed. What is struck is looked for again at its new speed.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "collision/contact/contact_active_set.h"
 #include "collision/contact/contact_bodies.h"
 #include "collision/contact/contact_manifolds.h"
 #include "collision/contact/contact_rows.h"
-#include "solver/impulses/event_source.h"
 #include "solver/support/checkpointable.h"
 
 namespace twinarm {
 
-class ContactConstraints final : public EventSource, public Rewindable {
+class ContactConstraints final : public ConstraintSource, public Rewindable {
  public:
   ContactConstraints(const Model<double>& model, ContactResponse response);
   ContactConstraints(const ContactConstraints&) = delete;  // its parts know each other
   ContactConstraints& operator=(const ContactConstraints&) = delete;
 
-  int add(const ContactGeometry& geometry) { return bodies_.add(geometry); }
-  void set_pair(int a, int b, const ContactPairLaw& law) { bodies_.set_pair(a, b, law); }
-  void never(int a, int b) { world().disable_pair(a, b); }
-  CollisionWorld& world() { return bodies_.world(); }
-  const ContactGeometry& geometry(int id) const { return bodies_.geometry(id); }
+  ContactBodies& bodies() { return bodies_; }
+  const ContactBodies& bodies() const { return bodies_; }
 
   void begin_step(const Kinematics& k, const State<double>& x, double h) noexcept override;
   bool closes(const ConstraintFrame& frame) noexcept override;
@@ -42,14 +37,7 @@ class ContactConstraints final : public EventSource, public Rewindable {
   void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
   void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
             std::size_t first) noexcept override;
-
-  void hold(const ConstraintFrame& frame, bool struck) noexcept override;
-  void hold_again() noexcept override { active_.hold_again(found_.points); }
-  void look(const ConstraintFrame& frame, Nearest& nearest) const noexcept override;
-  void modes(std::vector<char>& modes) const noexcept override;
-  std::span<double> works() noexcept override { return active_.works(); }
-  void count_works() noexcept override { active_.count_works(works_); }
-
+  EventSource* events() override { return &active_; }
   void visit_memory(Memory& memory) override;
 
   const std::vector<ContactPoint>& points() const { return found_.points; }
@@ -66,8 +54,8 @@ class ContactConstraints final : public EventSource, public Rewindable {
   ContactBodies bodies_;
   ContactManifolds found_;
   ContactRows rows_;
-  ContactActiveSet active_;
   ContactWorks works_;
+  ContactActiveSet active_;
 };
 
 }  // namespace twinarm

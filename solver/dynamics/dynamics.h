@@ -4,8 +4,9 @@
 // for newer levels of the instruction set; the best that the processor has is chosen when the
 // program starts. TWINARM_ISA=generic|v3|v4 in the environment caps the choice: results of two
 // levels differ by rounding (fused multiply-add), at one level they are the same to the bit.
-// All quantities in body axes (Workspace). None of them allocates, throws or fails: where bodies
-// have no inertia about a joint, numbers become non-finite (ModelBuilder refuses such models).
+// All quantities in body axes (Workspace). None of them throws or fails: where bodies have no
+// inertia about a joint, numbers become non-finite (ModelBuilder refuses such models). Only
+// mass_matrix() allocates.
 #pragma once
 
 #include <Eigen/Core>

@@ -6,7 +6,7 @@
 //   look_farther    when velocities have jumped
 //   add, take       Phase::impact, as often as something closes; Phase::step once;
 //                   Phase::separate if one of them wants_separation
-// A step that locates its events in time asks for more: event_source.h.
+// A step that locates its events in time asks its events() for more: event_source.h.
 // None of them may throw or allocate once warm.
 #pragma once
 
@@ -45,6 +45,8 @@ struct ConstraintFrame {
   }
 };
 
+class EventSource;
+
 class ConstraintSource {
  public:
   virtual ~ConstraintSource() = default;
@@ -59,6 +61,7 @@ class ConstraintSource {
   // The solution for them: the same constraints, from index `first` on.
   virtual void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
                     std::size_t first) noexcept = 0;
+  virtual EventSource* events() { return nullptr; }  // null: they cannot be located in time
 };
 
 }  // namespace twinarm

@@ -15,8 +15,9 @@
 
 namespace twinarm {
 
-class EventSource : public ConstraintSource {
+class EventSource {
  public:
+  virtual ~EventSource() = default;
   // Gaps up to this are closed, so that rest does not chase rounding [m]; what opens or closes
   // slower than this rests [m/s]. Angles of joints likewise.
   static constexpr double kClosed = 1e-9, kRest = 1e-7;

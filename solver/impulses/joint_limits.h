@@ -9,7 +9,7 @@
 
 namespace twinarm {
 
-class JointLimits final : public EventSource, public Rewindable {
+class JointLimits final : public ConstraintSource, public EventSource, public Rewindable {
  public:
   struct Limit {
     int body;             // that the joint carries
@@ -28,8 +28,8 @@ class JointLimits final : public EventSource, public Rewindable {
   void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
   void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
             std::size_t first) noexcept override;
-  // Steps that locate their events.
   bool closes(const ConstraintFrame& frame) noexcept override;
+  EventSource* events() override { return this; }
   void hold(const ConstraintFrame& frame, bool struck) noexcept override;
   void hold_again() noexcept override;
   void look(const ConstraintFrame& frame, Nearest& nearest) const noexcept override;

@@ -1,5 +1,5 @@
 // What constraints did in the last step, for the ledgers: kept where somebody asked for it
-// (Simulation::keep_account), and else not computed at all.
+// (SimulationOptions::keep_account), and else not computed at all.
 //
 //   forces          of loops and followers in steps by impulses (constrained_step.h): an impulse p
 //                   over rows J works p . J (v + v')/2 on what moves, which is exact where the

@@ -1,8 +1,8 @@
 // Where Coulomb friction changes its kind within a step: a joint comes to rest, or breaks loose.
 //
 // Integrators other than the semi-implicit ones keep, over a step, the kind of friction that each
-// dof has at its start: it slides one way, or is held (ForwardDynamics::as_chosen). The step is
-// then smooth and has its full order. It is valid as far as
+// dof has at its start: it slides one way, or is held (ForwardDynamics::Rule::as_chosen). The step
+// is then smooth and has its full order. It is valid as far as
 //   g(s) = min over dofs of { direction * velocity      of those that slide and do so at the start,
 //                             what is left to the limit of those that are held }
 // is positive at its end. Where it is not, the first s with g = 0 is found by regula falsi

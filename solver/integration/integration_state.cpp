@@ -81,8 +81,9 @@ void Mechanism::resume(State<double> from) {
 }
 
 void Mechanism::set_loops(LoopClosures loops) {
+  if (account) account.emplace(model, loops.loops().size(), loops.rows());
   projection.set_loops(loops);
-  dynamics.set_loops(std::move(loops));
+  dynamics.bilateral().set_loops(std::move(loops));
   prepare_projection();
   refresh();
 }
@@ -100,28 +101,20 @@ void Mechanism::accelerate_stage() {
   place(stage);
   forward_kinematics(model, stage, k_stage);
   close(stage, k_stage);
-  accelerate(stage, k_stage, Friction::as_chosen, 0);
+  accelerate(stage, k_stage, Rule::as_chosen, 0);
 }
 
 void Mechanism::accelerate_end(double t) {
   x.t = t;
   refresh();
-  accelerate(x, k, Friction::as_chosen, 0);
+  accelerate(x, k, Rule::as_chosen, 0);
 }
 
-void Mechanism::accelerate(const State<double>& at, const Kinematics& k_at, Friction rule,
-                           double h) {
+void Mechanism::accelerate(const State<double>& at, const Kinematics& k_at, Rule rule, double h) {
   if (has_loops()) dynamics.bilateral().loops().evaluate(at, k_at);
   forces.clear();
   for (ForceSource* source : sources) source->add_forces(at, k_at, forces);
-  switch (rule) {
-    case Friction::now:
-      return dynamics(at, forces, w);
-    case Friction::end_of_step:
-      return dynamics.over_step(at, h, forces, w);
-    case Friction::as_chosen:
-      return dynamics.as_chosen(at, forces, w);
-  }
+  dynamics(at, forces, w, rule, h);
 }
 
 }  // namespace twinarm

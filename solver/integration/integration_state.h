@@ -58,12 +58,12 @@ struct Mechanism {
   }
   // w.qdd at x, whose k is up to date; Coulomb friction `now` (constrained_dynamics.h).
   void accelerate() {
-    accelerate(x, k, Friction::now, 0);
+    accelerate(x, k, Rule::now, 0);
     start_projection();
   }
   // The same over a step of h that changes velocities by h qdd: friction at the end of it.
   void accelerate_over(double h) {
-    accelerate(x, k, Friction::end_of_step, h);
+    accelerate(x, k, Rule::end_of_step, h);
     start_projection();
   }
   // At the stage, and at x where a trial of the step ends: friction as chosen by accelerate(). The
@@ -89,8 +89,8 @@ struct Mechanism {
   bool has_loops() const { return dynamics.bilateral().loops().any(); }
 
  private:
-  enum class Friction { now, end_of_step, as_chosen };
-  void accelerate(const State<double>& at, const Kinematics& k_at, Friction rule, double h);
+  using Rule = ForwardDynamics::Rule;
+  void accelerate(const State<double>& at, const Kinematics& k_at, Rule rule, double h);
   void place(State<double>& at) const;
   double close(State<double>& at, Kinematics& k_at);
 };

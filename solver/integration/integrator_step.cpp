@@ -25,17 +25,13 @@ void solve_sources(Mechanism& m, double h, StepReport& report) {
 IntegratorStep::IntegratorStep(const Mechanism& m)
     : shift_(m.model.nv), rk_(m.model.nv), dopri5_(m), events_(m) {}
 
-void IntegratorStep::set_integrator(Integrator integrator) {
-  integrator_ = integrator;
-  forget();
-  if (facts_of(integrator).solves && !implicit_) implicit_.emplace(shift_.size());
-}
-
-void IntegratorStep::set_tolerance(double tolerance) {
+void IntegratorStep::set_integrator(Integrator integrator, double tolerance) {
   if (!(tolerance > 0) || !std::isfinite(tolerance))
     throw std::invalid_argument("a tolerance is a positive number");
+  integrator_ = integrator;
   dopri5_.set_tolerance(tolerance);
   forget();
+  if (facts_of(integrator).solves && !implicit_) implicit_.emplace(shift_.size());
 }
 
 void IntegratorStep::step(Mechanism& m, double h, bool one_substep, StepReport& report) {

@@ -17,9 +17,8 @@ class IntegratorStep {
  public:
   explicit IntegratorStep(const Mechanism& m);
   Integrator integrator() const { return integrator_; }
-  void set_integrator(Integrator integrator);
-  void set_tolerance(double tolerance);  // of dopri5, relative and absolute
-  void forget() { dopri5_.forget(); }    // the state is not where the last step led
+  void set_integrator(Integrator integrator, double tolerance);
+  void forget() { dopri5_.forget(); }  // the state is not where the last step led
   void visit_memory(Memory& memory) { dopri5_.visit_memory(memory); }
 
   // Moves m.x by h, its time too, and begins the step for the sources of forces; m.k is left to the

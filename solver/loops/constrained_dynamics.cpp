@@ -35,12 +35,9 @@ ForwardDynamics::ForwardDynamics(const Model<double>& model)
       a_(model.nv),
       tau_(model.nv),
       armature_(model.nv),
-      damping_(model.nv),
-      coulomb_(model.nv),
-      mimic_force_(model.nv),
-      loop_force_(model.nv),
       b_(model.nv),
       no_forces_(model.parent.size()) {
+  torques_.damping = torques_.coulomb = torques_.mimic = torques_.loop = b_;
   for (const double b : model.damping) has_damping_ = has_damping_ || b != 0;
   unknown_.reserve(mode_.size());
   at_rest_.reserve(mode_.size());
@@ -48,8 +45,8 @@ ForwardDynamics::ForwardDynamics(const Model<double>& model)
 
 void ForwardDynamics::set_friction(bool on) {
   friction_on_ = on;
-  std::fill(damping_.begin(), damping_.end(), 0);
-  std::fill(coulomb_.begin(), coulomb_.end(), 0);
+  std::fill(torques_.damping.begin(), torques_.damping.end(), 0);
+  std::fill(torques_.coulomb.begin(), torques_.coulomb.end(), 0);
 }
 
 bool ForwardDynamics::holds_any() const {
@@ -83,8 +80,8 @@ const std::vector<std::size_t>& ForwardDynamics::at_rest(const State<double>& x)
   return at_rest_;
 }
 
-void ForwardDynamics::run(const State<double>& x, double h, Rule rule, Forces<double>& forces,
-                          Workspace<double>& w) noexcept {
+void ForwardDynamics::operator()(const State<double>& x, Forces<double>& forces,
+                                 Workspace<double>& w, Rule rule, double h) noexcept {
   const bool any_friction = friction_on_ && (has_damping_ || has_coulomb());
   if (!any_friction && !bilateral_.any()) return aba(*model_, x, forces, w);
 
@@ -102,7 +99,8 @@ void ForwardDynamics::run(const State<double>& x, double h, Rule rule, Forces<do
   correct(w);
   make_exact(h, w);
   if (h > 0 && has_damping_ && friction_on_)
-    for (std::size_t d = 0; d < model_->nv; ++d) damping_[d] -= h * model_->damping[d] * w.qdd[d];
+    for (std::size_t d = 0; d < model_->nv; ++d)
+      torques_.damping[d] -= h * model_->damping[d] * w.qdd[d];
 }
 
 // Friction that does not depend on qdd goes into ABA: damping (at the end of a step h b qdd of it
@@ -111,10 +109,10 @@ void ForwardDynamics::known_torques(const State<double>& x, double h, Rule rule,
                                     const Forces<double>& forces) {
   tau_ = forces.tau;
   armature_ = forces.armature;
-  std::fill(coulomb_.begin(), coulomb_.end(), 0);
+  std::fill(torques_.coulomb.begin(), torques_.coulomb.end(), 0);
   if (!friction_on_) return;
   for (std::size_t d = 0; d < model_->nv; ++d) {
-    damping_[d] = -model_->damping[d] * x.qd[d];
+    torques_.damping[d] = -model_->damping[d] * x.qd[d];
     armature_[d] += h * model_->damping[d];
   }
   for (std::size_t k = 0; k < mode_.size(); ++k) {
@@ -123,10 +121,10 @@ void ForwardDynamics::known_torques(const State<double>& x, double h, Rule rule,
     f_[k] = mode_[k] == Mode::slides_plus    ? -of.plus
             : mode_[k] == Mode::slides_minus ? of.minus
                                              : 0;
-    friction_.distribute(k, f_[k], coulomb_);
+    friction_.distribute(k, f_[k], torques_.coulomb);
   }
   f0_ = f_;
-  for (std::size_t d = 0; d < model_->nv; ++d) tau_[d] += damping_[d] + coulomb_[d];
+  for (std::size_t d = 0; d < model_->nv; ++d) tau_[d] += torques_.damping[d] + torques_.coulomb[d];
 }
 
 // Unknown is the friction of what is at rest; at the end of a step also of what would pass through
@@ -203,23 +201,22 @@ void ForwardDynamics::make_exact(double h, Workspace<double>& w) const {
 
 // Adds what the friction found and the constraints' forces do to what ABA left.
 void ForwardDynamics::correct(Workspace<double>& w) {
-  for (std::size_t d = 0; d < model_->nv; ++d) b_[d] = -coulomb_[d];
-  std::fill(coulomb_.begin(), coulomb_.end(), 0);
+  for (std::size_t d = 0; d < model_->nv; ++d) b_[d] = -torques_.coulomb[d];
+  std::fill(torques_.coulomb.begin(), torques_.coulomb.end(), 0);
   bool changed = bilateral_.any();
   if (has_coulomb())
     for (std::size_t k = 0; k < mode_.size(); ++k) {
-      friction_.distribute(k, f_[k], coulomb_);
+      friction_.distribute(k, f_[k], torques_.coulomb);
       changed = changed || f_[k] != f0_[k];
     }
   if (!changed) return;
-  for (std::size_t d = 0; d < model_->nv; ++d) b_[d] += coulomb_[d];
+  for (std::size_t d = 0; d < model_->nv; ++d) b_[d] += torques_.coulomb[d];
   if (bilateral_.any()) {
     bilateral_.solve(w.qdd, b_);
-    std::fill(mimic_force_.begin(), mimic_force_.end(), 0);
-    std::fill(loop_force_.begin(), loop_force_.end(), 0);
-    bilateral_.add_mimic_forces(mimic_force_);
-    bilateral_.add_loop_forces(loop_force_);
-    for (std::size_t d = 0; d < model_->nv; ++d) b_[d] += mimic_force_[d] + loop_force_[d];
+    std::fill(torques_.mimic.begin(), torques_.mimic.end(), 0);
+    std::fill(torques_.loop.begin(), torques_.loop.end(), 0);
+    bilateral_.add_forces(torques_.mimic, torques_.loop);
+    for (std::size_t d = 0; d < model_->nv; ++d) b_[d] += torques_.mimic[d] + torques_.loop[d];
   }
   minv_times(*model_, b_, no_forces_, w);
   for (std::size_t d = 0; d < model_->nv; ++d) w.qdd[d] += w.y[d];

@@ -6,7 +6,7 @@
 // closed (loop_forces.h). One run of ABA with all friction that is known beforehand, minv_times
 // once for every row of A and every dof whose friction is to be found, and once for the correction;
 // a model with neither friction nor constraints costs ABA alone. No allocation after the
-// constructor and set_loops.
+// constructor and BilateralForces::set_loops.
 //
 // Where velocity and time come in, there are three rules for f:
 //   now          by qd; a dof at rest sticks, or slips from rest by a qdd != 0
@@ -19,7 +19,6 @@
 //                there).
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "solver/forces/joint_friction.h"
@@ -36,33 +35,24 @@ class ForwardDynamics {
   explicit ForwardDynamics(const Model<double>& model);
   // Off: as if no joint had damping or Coulomb friction.
   void set_friction(bool on);
-  void set_loops(LoopClosures loops) { bilateral_.set_loops(std::move(loops)); }
 
+  enum class Rule { now, end_of_step, as_chosen };  // of f, see above
   // Where there are loops: bilateral().loops().evaluate() at x comes first.
-  // After each of these w.qdd and w.a are the true accelerations; w.u and w.pA are those of ABA
-  // with the friction that is known beforehand. `forces` is lent, and given back as it was.
-  void operator()(const State<double>& x, Forces<double>& forces, Workspace<double>& w) noexcept {
-    run(x, 0, Rule::now, forces, w);
-  }
-  void over_step(const State<double>& x, double h, Forces<double>& forces,
-                 Workspace<double>& w) noexcept {
-    run(x, h, Rule::end_of_step, forces, w);
-  }
-  void as_chosen(const State<double>& x, Forces<double>& forces, Workspace<double>& w) noexcept {
-    run(x, 0, Rule::as_chosen, forces, w);
-  }
+  // Afterwards w.qdd and w.a are the true accelerations; w.u and w.pA are those of ABA with the
+  // friction that is known beforehand. `forces` is lent, and given back as it was. h [s] goes
+  // with end_of_step, and is 0 otherwise.
+  void operator()(const State<double>& x, Forces<double>& forces, Workspace<double>& w,
+                  Rule rule = Rule::now, double h = 0) noexcept;
 
   // Of the last call, by velocity [N m, N]; zero where there is none.
-  const std::vector<double>& damping_torque() const { return damping_; }
-  const std::vector<double>& coulomb_torque() const { return coulomb_; }
-  const std::vector<double>& mimic_force() const { return mimic_force_; }
-  const std::vector<double>& loop_force() const { return loop_force_; }
-  // lambda of the loops' rows, which LoopClosures::wrench() takes. Allocates.
-  Eigen::VectorXd loop_lambda() const { return bilateral_.lambda_of_loops(); }
+  struct Torques {
+    std::vector<double> damping, coulomb, mimic, loop;
+  };
+  const Torques& torques() const { return torques_; }
   const BilateralForces& bilateral() const { return bilateral_; }
   BilateralForces& bilateral() { return bilateral_; }
 
-  // What the last call of the first two found, or as chosen.
+  // What the last call by another rule than as_chosen found.
   enum class Mode : signed char { slides_minus = -1, held = 0, slides_plus = 1 };
   bool has_coulomb() const { return friction_on_ && !friction_.families().empty(); }
   const std::vector<CoulombFriction::Family>& families() const { return friction_.families(); }
@@ -78,9 +68,6 @@ class ForwardDynamics {
   void visit_memory(Memory& memory) { memory.visit_fixed(mode_); }
 
  private:
-  enum class Rule { now, end_of_step, as_chosen };
-  void run(const State<double>& x, double h, Rule rule, Forces<double>& forces,
-           Workspace<double>& w) noexcept;
   void known_torques(const State<double>& x, double h, Rule rule, const Forces<double>& forces);
   void find_unknown(const State<double>& x, double h, Rule rule, Workspace<double>& w);
   void add_unknown(std::size_t family, Rule rule, Workspace<double>& w);
@@ -101,7 +88,8 @@ class ForwardDynamics {
   std::vector<double> B_;  // by family, by unknown: qdd of the one per friction of the other
   std::vector<double> a_;  // by velocity: qdd with the friction that ABA was given
   std::vector<double> tau_, armature_;  // by velocity: what ABA gets in place of forces'
-  std::vector<double> damping_, coulomb_, mimic_force_, loop_force_, b_;
+  Torques torques_;
+  std::vector<double> b_;
   std::vector<std::size_t> at_rest_;
   std::vector<Force<double>> no_forces_;
 };

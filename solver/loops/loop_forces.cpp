@@ -93,14 +93,11 @@ void BilateralForces::add_accelerations(std::vector<double>& y) const noexcept {
   }
 }
 
-void BilateralForces::add_mimic_forces(std::vector<double>& tau) const {
-  for (std::size_t j = 0; j < model_->mimics.size(); ++j)
+void BilateralForces::add_forces(std::vector<double>& mimic, std::vector<double>& loop) const {
+  for (std::size_t j = 0; j < rows_; ++j) {
+    std::vector<double>& tau = j < model_->mimics.size() ? mimic : loop;
     for_each_entry(j, [&](std::size_t d, double entry) { tau[d] += entry * lambda_[j]; });
-}
-
-void BilateralForces::add_loop_forces(std::vector<double>& tau) const {
-  for (std::size_t j = model_->mimics.size(); j < rows_; ++j)
-    for_each_entry(j, [&](std::size_t d, double entry) { tau[d] += entry * lambda_[j]; });
+  }
 }
 
 void BilateralForces::project_acceleration(std::vector<double>& a) noexcept {

@@ -38,8 +38,8 @@ class BilateralForces {
 
   // Sets lambda so that A (a + M^-1 b + M^-1 A^T lambda) = -gamma.
   void solve(const std::vector<double>& a, const std::vector<double>& b) noexcept;
-  void add_mimic_forces(std::vector<double>& tau) const;  // their part of A^T lambda
-  void add_loop_forces(std::vector<double>& tau) const;
+  // A^T lambda, the parts of either.
+  void add_forces(std::vector<double>& mimic, std::vector<double>& loop) const;
   // An acceleration a, or y = M^-1 b of some b alone, to what it is with the constraints.
   void project_acceleration(std::vector<double>& a) noexcept;
   void project(std::vector<double>& y) noexcept;

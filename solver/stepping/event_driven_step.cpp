@@ -38,7 +38,7 @@ void EventStep::step(ConstrainedStep& constrained, Mechanism& m, double h, Inter
                      StepReport& report) {
   sources_.clear();
   for (ConstraintSource* source : constrained.system().sources)
-    sources_.push_back(static_cast<EventSource*>(source));
+    sources_.push_back(source->events());
   constrained.system().set_accuracy(kGoodGuess, kAccepted, kAim);
   constrained.start_report();
   m.begin_step(h);

@@ -54,7 +54,7 @@ class EventStep {
   explicit EventStep(const Model<double>& model) : model_(&model) {}
   void visit_memory(Memory& memory) { memory.visit(length_); }
   // `interrupted` is asked before each solution; may be null. True ends the step where its last
-  // piece began. All of constrained's sources must be EventSources.
+  // piece began. All of constrained's sources must have events().
   using Interrupted = bool (*)();
   void step(ConstrainedStep& constrained, Mechanism& m, double h, Interrupted interrupted,
             StepReport& report);

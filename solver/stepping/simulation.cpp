@@ -14,14 +14,14 @@ namespace {
 // go with one another. check_parts() throws std::invalid_argument where they do not.
 struct StepParts {
   Integrator integrator;
-  bool constrained, located;  // steps under constraints; that locate their events
+  bool located;  // steps locate their events
   const std::vector<ForceSource*>& forces;
   const std::vector<ConstraintSource*>& constraints;
 };
 
 void check_integrator(const StepParts& parts) {
   const std::string name = integrator_name(parts.integrator);
-  if (parts.constrained && parts.integrator != Integrator::semi_implicit)
+  if (!parts.constraints.empty() && parts.integrator != Integrator::semi_implicit)
     throw std::invalid_argument("contacts and limits go with the integrator 'semi-implicit' only");
   if (parts.located && parts.integrator != Integrator::semi_implicit)
     throw std::invalid_argument(
@@ -40,8 +40,8 @@ void check_located(const StepParts& parts) {
     if (source->needs_semi_implicit())
       throw std::invalid_argument(
           "implicit spring-dampers do not go with steps that locate their events");
-  for (const ConstraintSource* source : parts.constraints)
-    if (!dynamic_cast<const EventSource*>(source))
+  for (ConstraintSource* source : parts.constraints)
+    if (!source->events())
       throw std::invalid_argument("a source of constraints cannot have its events located");
 }
 
@@ -50,60 +50,76 @@ void check_parts(const StepParts& parts) {
   if (parts.located) check_located(parts);
   // Its force would be that of the first round: a wrong one, and nobody would say so.
   for (const ForceSource* source : parts.forces)
-    if (parts.constrained && source->needs_rounds())
+    if (!parts.constraints.empty() && source->needs_rounds())
       throw std::invalid_argument(
           "a force that is found in rounds (ForceSource::refine) does not go with contacts, limits "
           "and locks: their step has one round; give the contact as a constraint, or leave them "
           "out");
 }
 
+// What all sources remember.
+std::vector<Rewindable*> memories(const Simulation& simulation) {
+  std::vector<Rewindable*> memories;
+  const auto add_all = [&](const auto& sources, const std::string& what) {
+    for (auto* source : sources) {
+      memories.push_back(dynamic_cast<Rewindable*>(source));
+      if (!memories.back())
+        throw std::invalid_argument("a source of " + what + " does not let a step be taken back");
+    }
+  };
+  add_all(simulation.mechanism().sources, "forces");
+  add_all(simulation.constraints().system().sources, "constraints");
+  return memories;
+}
+
 }  // namespace
 
-Simulation::Simulation(const Model<double>& model, State<double> start)
-    : m_(model, std::move(start)), integrator_step_(m_), constrained_(model) {}
+Simulation::Simulation(const Model<double>& model, State<double> start,
+                       const SimulationOptions& options)
+    : m_(model, std::move(start)),
+      integrator_step_(m_),
+      constrained_(model),
+      interrupted_(options.interrupted) {
+  m_.dynamics.set_friction(options.joint_friction);
+  constrained_.system().friction.set_on(options.joint_friction);
+  if (options.keep_account) m_.account.emplace(model, 0, 0);
+  if (options.at_instant) constrained_.constrain_accelerations();
+}
 
 void Simulation::add(ForceSource& source) {
   std::vector<ForceSource*> sources = m_.sources;
   sources.push_back(&source);
-  check_parts(
-      {integrator(), has_constrained_steps(), located_.has_value(), sources, constraint_sources()});
+  check_parts({integrator(), located_.has_value(), sources, constrained_.system().sources});
   m_.sources = std::move(sources);
 }
 
 void Simulation::add(ConstraintSource& source) {
-  std::vector<ConstraintSource*> sources = constraint_sources();
+  std::vector<ConstraintSource*> sources = constrained_.system().sources;
   sources.push_back(&source);
-  check_parts({integrator(), true, located_.has_value(), m_.sources, sources});
+  check_parts({integrator(), located_.has_value(), m_.sources, sources});
   constrained_.system().sources = std::move(sources);
 }
 
-void Simulation::set_constrained_steps(bool on) {
-  check_parts({integrator(), on || has_constrained_steps(), located_.has_value(), m_.sources,
-               constraint_sources()});
-  always_constrained_ = on;
-}
-
 void Simulation::locate_events() {
-  check_parts({integrator(), has_constrained_steps(), true, m_.sources, constraint_sources()});
-  located_.emplace(model());
+  check_parts({integrator(), true, m_.sources, constrained_.system().sources});
+  located_.emplace(m_.model);
 }
 
-void Simulation::set_integrator(Integrator integrator) {
-  check_parts({integrator, has_constrained_steps(), located_.has_value(), m_.sources,
-               constraint_sources()});
-  integrator_step_.set_integrator(integrator);
+void Simulation::set_integrator(Integrator integrator, double tolerance) {
+  check_parts({integrator, located_.has_value(), m_.sources, constrained_.system().sources});
+  integrator_step_.set_integrator(integrator, tolerance);
 }
 
 void Simulation::set_loops(std::vector<LoopClosure> loops) {
-  check_loops(model(), loops, m_.x);
-  m_.set_loops(LoopClosures(model(), std::move(loops)));
+  check_loops(m_.model, loops, m_.x);
+  m_.set_loops(LoopClosures(m_.model, std::move(loops)));
   constrained_.system().bilateral.forget_loops();
   integrator_step_.forget();
 }
 
 void Simulation::prescribe(int body, MotionLaw law) {
   const auto i = static_cast<std::size_t>(body);
-  if (body <= 0 || body >= model().body_count() || model().joint[i] != JointType::prescribed)
+  if (body <= 0 || body >= m_.model.body_count() || m_.model.joint[i] != JointType::prescribed)
     throw std::invalid_argument("only the body of a prescribed joint moves by a law");
   const std::vector<Mechanism::Drive> before = m_.drives;
   std::erase_if(m_.drives, [&](const Mechanism::Drive& drive) { return drive.body == i; });
@@ -118,64 +134,19 @@ void Simulation::prescribe(int body, MotionLaw law) {
 }
 
 void Simulation::set_state(State<double> x) {
-  if (x.q.size() != model().nq || x.qd.size() != model().nv)
+  if (x.q.size() != m_.model.nq || x.qd.size() != m_.model.nv)
     throw std::invalid_argument("the state is not one of this model");
   m_.start(std::move(x));
   integrator_step_.forget();
 }
 
-StepReport Simulation::step(double h) {
-  check_step_size(h);
-  return advance(h, false);
-}
-
-StepReport Simulation::substep(double h) {
-  check_step_size(h);
-  return advance(h, true);
-}
-
-State<double> Simulation::side_step(double h, StepReport* report) const {
-  check_step_size(h);
-  const SavedSources saved(memories());
-  Simulation aside(*this);
-  const StepReport taken = aside.step(h);
-  if (report) *report = taken;
-  return aside.state();
-}
-
-void Simulation::evaluate_at(const State<double>& x,
-                             const std::function<void(const Simulation&)>& see) const {
-  constexpr double kMoment = 1e-6;  // [s]; tells which side of a corner of a hand's motion is meant
-  const SavedSources saved(memories());
-  Simulation aside(*this);
-  aside.m_.x = x;
-  forward_kinematics(model(), aside.m_.x, aside.m_.k);
-  aside.m_.begin_step(kMoment);
-  aside.m_.accelerate();
-  see(aside);
-}
-
-std::vector<Rewindable*> Simulation::memories() const {
-  std::vector<Rewindable*> memories;
-  const auto add_all = [&](const auto& sources, const std::string& what) {
-    for (auto* source : sources) {
-      memories.push_back(dynamic_cast<Rewindable*>(source));
-      if (!memories.back())
-        throw std::invalid_argument("a source of " + what + " does not let a step be taken back");
-    }
-  };
-  add_all(m_.sources, "forces");
-  add_all(constraint_sources(), "constraints");
-  return memories;
-}
-
 void Simulation::visit_memory(Memory& memory) {
-  const std::vector<Rewindable*> all = memories();
+  const std::vector<Rewindable*> all = memories(*this);
   State<double> x = m_.x;
   memory.visit(x.q);
   memory.visit(x.qd);
   memory.visit(x.t);
-  if (x.q.size() != model().nq || x.qd.size() != model().nv)
+  if (x.q.size() != m_.model.nq || x.qd.size() != m_.model.nv)
     throw std::runtime_error("the state is not one of this model");
   if (memory.reads()) m_.resume(std::move(x));
   m_.dynamics.visit_memory(memory);
@@ -183,13 +154,10 @@ void Simulation::visit_memory(Memory& memory) {
   constrained_.visit_memory(memory, m_.dynamics.bilateral().loops().rows());
   if (located_) located_->visit_memory(memory);
   for (Rewindable* source : all) source->visit_memory(memory);
-  if (always_constrained_) {  // recordings keep their layout: here stood limits, of which none held
-    std::vector<char> none;
-    memory.visit(none);
-  }
 }
 
-StepReport Simulation::advance(double h, bool one_substep) {
+StepReport Simulation::step(double h, bool one_substep) {
+  check_step_size(h);
   StepReport report;
   const double t = m_.x.t;
   if (m_.account) m_.account->start_step();
@@ -209,6 +177,26 @@ StepReport Simulation::advance(double h, bool one_substep) {
   report.loops_open = m_.loops_open;
   report_non_finite(m_, report);
   return report;
+}
+
+State<double> side_step(const Simulation& from, double h, StepReport* report) {
+  check_step_size(h);
+  const SavedSources saved(memories(from));
+  Simulation aside(from);
+  const StepReport taken = aside.step(h);
+  if (report) *report = taken;
+  return aside.state();
+}
+
+Mechanism evaluate_at(const Simulation& simulation, const State<double>& x) {
+  constexpr double kMoment = 1e-6;  // [s]; tells which side of a corner of a hand's motion is meant
+  const SavedSources saved(memories(simulation));
+  Mechanism aside(simulation.mechanism());
+  aside.x = x;
+  forward_kinematics(aside.model, aside.x, aside.k);
+  aside.begin_step(kMoment);
+  aside.accelerate();
+  return aside;
 }
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// Sources and the steps that are thrown away (Simulation::side_step).
+// Sources and the steps that are thrown away (side_step of solver/stepping/simulation.h).
 #pragma once
 
 #include <string>

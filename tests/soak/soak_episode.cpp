@@ -38,7 +38,7 @@ class Episode {
         made_(make_scene(name, chance_)),
         scene_(build_scene(made_.description)),
         couplings_(scene_, made_.description.step),
-        sim_(scene_.model, scene_.start),
+        sim_(scene_.model, scene_.start, {.keep_account = true}),
         contacts_(scene_.model, ContactResponse::rigid),
         limits_(scene_.model),
         shoves_(masses_of(scene_), made_.push, chance_),
@@ -48,7 +48,6 @@ class Episode {
       if (ForceSource* source = couplings_.source(c)) sim_.add(*source);
     add_contacts();
     add_limits();
-    sim_.keep_account();
     books_.begin(sim_.state());
   }
 
@@ -64,7 +63,7 @@ class Episode {
         break;
       }
       books_.add_step(sim_.state(), sim_.constraints().velocities_after_impacts(),
-                      sim_.account().separation().work, h);
+                      sim_.mechanism().account->separation().work, h);
       look_at_solver(report);
       look_at_contacts();
       look_at_energy();
@@ -80,9 +79,9 @@ class Episode {
     for (const SceneGeometry& g : scene_.geometries) {
       const ContactSurface surface{g.friction,         g.restitution, g.torsional_friction,
                                    g.rolling_friction, g.stiffness,   g.dissipation};
-      contacts_.add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
+      contacts_.bodies().add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
     }
-    for (const auto& [a, b] : scene_.apart) contacts_.never(a, b);
+    for (const auto& [a, b] : scene_.apart) contacts_.bodies().world().disable_pair(a, b);
     sim_.add(contacts_);
   }
   void add_limits() {
@@ -133,8 +132,8 @@ class Episode {
     result_.deep += deep ? 1 : 0;
   }
   std::string pair(const ContactPoint& point) const {
-    return contacts_.geometry(point.contact.a).name + " and " +
-           contacts_.geometry(point.contact.b).name;
+    return contacts_.bodies().geometry(point.contact.a).name + " and " +
+           contacts_.bodies().geometry(point.contact.b).name;
   }
 
   void look_at_energy() {

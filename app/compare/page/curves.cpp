@@ -128,7 +128,7 @@ ErrorCurve error_curve(const TrajectoryCase& c, Integrator integrator, double en
   double h = finest * (1 << first);
   for (int i = first; i < kSteps; ++i, h *= 2) {
     check_interrupt();
-    all.push_back(run_lane(c, {integrator, h, 0}).error);
+    all.push_back(run_lane(c, {integrator, h}).error);
     if (!std::isfinite(all.back())) continue;
     curve.step.push_back(h);
     curve.error.push_back(all.back());

@@ -162,9 +162,9 @@ Inspected inspect_robot(const RobotInput& input) {
   ForwardDynamics dynamics(model);
   Workspace<double> w(model);
   dynamics(inspected.x, forces, w);
-  add_by_joint(model, dynamics.damping_torque(), "joint/", "/damping", inspected.actors);
-  add_by_joint(model, dynamics.coulomb_torque(), "joint/", "/friction", inspected.actors);
-  add_by_joint(model, dynamics.mimic_force(), "joint/", "/mimic", inspected.actors);
+  add_by_joint(model, dynamics.torques().damping, "joint/", "/damping", inspected.actors);
+  add_by_joint(model, dynamics.torques().coulomb, "joint/", "/friction", inspected.actors);
+  add_by_joint(model, dynamics.torques().mimic, "joint/", "/mimic", inspected.actors);
   return inspected;
 }
 

@@ -30,7 +30,7 @@ class SceneInspector::FirstStep {
         h_(h),
         others_(others),
         given_(input.robot.state),
-        sim_(model_, input.robot.state.x),
+        sim_(model_, input.robot.state.x, {.at_instant = true}),
         torques_(model_, input.robot.coordinates, input.robot.state.tau),
         k_(model_) {
     forward_kinematics(model_, input.robot.state.x, k_);
@@ -42,7 +42,6 @@ class SceneInspector::FirstStep {
     for (const NamedSource& other : others_) sim_.add(*other.source);
     for (const SceneMotion& motion : input.scene->motions) sim_.prescribe(motion.body, motion.law);
     sim_.set_integrator(of_run);
-    sim_.constrain_accelerations();
     contacts_.emplace(*input.scene, sim_);
     sim_.set_integrator(Integrator::semi_implicit);
   }
@@ -63,7 +62,7 @@ class SceneInspector::FirstStep {
     inspected.warnings = input_.robot.warnings;
     x_ = sim_.state();
     const StepReport report = sim_.step(h_);
-    inspected.qdd_of_step = sim_.workspace().qdd;
+    inspected.qdd_of_step = sim_.mechanism().w.qdd;
     if (sim_.has_constrained_steps() && sim_.constraints().report().impacts > 0) {
       for (std::size_t dof = 0; dof < model_.nv; ++dof)
         x_.qd[dof] = sim_.state().qd[dof] - h_ * inspected.qdd_of_step[dof];
@@ -79,16 +78,16 @@ class SceneInspector::FirstStep {
     add_others();
     add_damping();
     const bool constrained = sim_.has_constrained_steps();
-    add_by_joint(
-        model_,
-        constrained ? sim_.constraints().coulomb_torque() : sim_.dynamics().coulomb_torque(),
-        "joint/", "/friction", actors_);
+    add_by_joint(model_,
+                 constrained ? sim_.constraints().coulomb_torque()
+                             : sim_.mechanism().dynamics.torques().coulomb,
+                 "joint/", "/friction", actors_);
     find_rest(constrained);
     add_contacts();
     add_limits();
     add_bilateral();
     inspected.actors = std::move(actors_);
-    inspected.loops = sim_.dynamics().bilateral().loops().loops();
+    inspected.loops = sim_.mechanism().dynamics.bilateral().loops().loops();
     return inspected;
   }
 
@@ -129,9 +128,9 @@ class SceneInspector::FirstStep {
   void find_rest(bool constrained) {
     rest_ = Eigen::VectorXd::Zero(index(model_.nv));
     for (std::size_t dof = 0; dof < model_.nv; ++dof)
-      rest_[index(dof)] =
-          constrained ? sim_.constraints().constraint_force()[dof]
-                      : sim_.dynamics().mimic_force()[dof] + sim_.dynamics().loop_force()[dof];
+      rest_[index(dof)] = constrained ? sim_.constraints().constraint_force()[dof]
+                                      : sim_.mechanism().dynamics.torques().mimic[dof] +
+                                            sim_.mechanism().dynamics.torques().loop[dof];
   }
 
   void push(Actor& actor, int body, const Vector3& p_W, const Vector3& force,
@@ -166,7 +165,8 @@ class SceneInspector::FirstStep {
     for (const ContactPoint& p : all->points()) {
       if (!presses(p)) continue;
       const std::pair pair(p.contact.a, p.contact.b);
-      const ContactGeometry &a = all->geometry(pair.first), &b = all->geometry(pair.second);
+      const ContactGeometry &a = all->bodies().geometry(pair.first),
+                            &b = all->bodies().geometry(pair.second);
       std::string name = "contact/" + a.name + "-" + b.name;
       if (count[pair] > 1) name += "/" + std::to_string(++number[pair]);
       Actor actor{std::move(name), {}, {}};
@@ -195,7 +195,7 @@ class SceneInspector::FirstStep {
 
   // What is left are loops and mimics: A^T lambda = rest, the shortest lambda.
   void add_bilateral() {
-    LoopClosures loops(model_, sim_.dynamics().bilateral().loops().loops());
+    LoopClosures loops(model_, sim_.mechanism().dynamics.bilateral().loops().loops());
     const std::size_t mimics = model_.mimics.size();
     if (!loops.any() && mimics == 0) return;
     if (loops.any()) loops.evaluate(x_, k_);

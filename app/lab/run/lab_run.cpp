@@ -120,7 +120,7 @@ bool LabRun::take() {
   lead_->after_step(run_->simulation(), step_length(), goes_on);
   const Simulation& simulation = run_->simulation();
   stopped_ = !goes_on || run_->result().alarm ||
-             kinetic_energy(simulation.model(), simulation.state()) > most_energy_;
+             kinetic_energy(simulation.mechanism().model, simulation.state()) > most_energy_;
   return !stopped_;
 }
 

@@ -85,12 +85,12 @@ SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : 
     look_at_start(simulation);
     simulation.add(*contacts_);
   }
-  if (limits_act(scene, simulation.integrator())) {
-    limits_.emplace(scene.model);
+  const bool flies = !scene.may_touch() && !locates_events(scene) &&
+                     steps_for_flight(scene, simulation.integrator());
+  if (flies || limits_act(scene, simulation.integrator())) {
+    limits_.emplace(scene.model);  // where it flies maybe without a limit
     add_limits();
     simulation.add(*limits_);
-  } else if (!scene.may_touch() && !locates_events(scene)) {
-    simulation.set_constrained_steps(steps_for_flight(scene, simulation.integrator()));
   }
   if (!locates_events(scene)) return;
   if (deepest_at_start_ > ContactConstraints::kSlop)
@@ -111,9 +111,9 @@ void SceneContacts::add_geometries() {
     surface.rolling = g.rolling_friction;
     surface.stiffness = g.stiffness;
     surface.dissipation = g.dissipation;
-    contacts_->add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
+    contacts_->bodies().add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
   }
-  for (const auto& [a, b] : scene_.apart) contacts_->never(a, b);
+  for (const auto& [a, b] : scene_.apart) contacts_->bodies().world().disable_pair(a, b);
 }
 
 void SceneContacts::add_rules() {
@@ -121,8 +121,8 @@ void SceneContacts::add_rules() {
     for (const int a : rule.a)
       for (const int b : rule.b) {
         const Surface pair = scene_.surface_of_pair(a, b);
-        contacts_->set_pair(a, b,
-                            {pair.friction, pair.restitution, {pair.stiffness, pair.dissipation}});
+        contacts_->bodies().set_pair(
+            a, b, {pair.friction, pair.restitution, {pair.stiffness, pair.dissipation}});
       }
 }
 
@@ -140,8 +140,8 @@ void SceneContacts::look_at_start(const Simulation& simulation) {
     const Contact& contact = point.contact;
     if (contact.depth <= deepest_at_start_) continue;
     deepest_at_start_ = contact.depth;
-    deepest_pair_ = "'" + contacts_->geometry(contact.a).name + "' and '" +
-                    contacts_->geometry(contact.b).name + "'";
+    deepest_pair_ = "'" + contacts_->bodies().geometry(contact.a).name + "' and '" +
+                    contacts_->bodies().geometry(contact.b).name + "'";
   }
 }
 
@@ -157,8 +157,8 @@ std::vector<LedgerRow> SceneContacts::rows() const {
     }
   if (!contacts_) return rows;
   for (const ContactWork& pair : contacts_->work()) {
-    const std::string name =
-        "contact/" + contacts_->geometry(pair.a).name + "-" + contacts_->geometry(pair.b).name;
+    const std::string name = "contact/" + contacts_->bodies().geometry(pair.a).name + "-" +
+                             contacts_->bodies().geometry(pair.b).name;
     add(LedgerKind::contact_normal, name + "/normal", pair.normal);
     add(LedgerKind::contact_friction, name + "/friction", pair.friction);
     add(LedgerKind::contact_impact, name + "/impact", pair.impact);

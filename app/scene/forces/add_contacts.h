@@ -38,7 +38,7 @@ class SceneContacts {
   int contact_count() const;  // points that press, at the last step
   double deepest_at_start() const { return deepest_at_start_; }  // [m]
   const std::string& deepest_pair() const { return deepest_pair_; }
-  // Of the last step; null where nothing may touch, and where no joint is limited.
+  // Of the last step; null where nothing may touch; limits() may have no limit, or be null.
   const ContactConstraints* contacts() const { return contacts_ ? &*contacts_ : nullptr; }
   const JointLimits* limits() const { return limits_ ? &*limits_ : nullptr; }
   // In the step that was taken last, a side step included: whether joints beyond their limits were

@@ -45,8 +45,8 @@ Standing stand(const Stack& stack) {
     scene.step(kStep);
     std::vector<double> below(masses.size(), 0);
     for (const ContactPoint& point : scene.contacts().points()) {
-      const int a = scene.contacts().geometry(point.contact.a).body;
-      const int b = scene.contacts().geometry(point.contact.b).body;
+      const int a = scene.contacts().bodies().geometry(point.contact.a).body;
+      const int b = scene.contacts().bodies().geometry(point.contact.b).body;
       below[static_cast<std::size_t>(std::max(a, b) - 1)] += std::abs(point.force_W.z());
     }
     for (int i = 0; i < count; ++i) {
@@ -90,8 +90,8 @@ Values seen_loads(Scene s) {
   const auto under = [&](int box) {
     double sum = s.t() == 0 ? NAN : 0;
     for (const ContactPoint& point : s.contacts().points())
-      if (std::max(s.contacts().geometry(point.contact.a).body,
-                   s.contacts().geometry(point.contact.b).body) == box)
+      if (std::max(s.contacts().bodies().geometry(point.contact.a).body,
+                   s.contacts().bodies().geometry(point.contact.b).body) == box)
         sum += std::abs(point.force_W.z());
     return sum;
   };

@@ -51,7 +51,7 @@ TrajectoryCase invariant(Integrator integrator) {
                 return CaseReadings{kept_by(integrator, x.q[0], x.qd[0])};
               },
           .reference = [integrator](double) { return CaseReadings{kept_by(integrator, 0.1, 0.5)}; },
-          .lane = {integrator, kGoldenStep, 0},
+          .lane = {integrator, kGoldenStep},
           .measure = relative_each,
           .mutant = more_inertia,
           .of_its_lane = true};
@@ -100,7 +100,7 @@ TrajectoryCase steady_turning() {
                     Eigen::Quaterniond(Eigen::AngleAxisd(kSteady.norm() * t, kSteady.normalized())),
                     kSteady);
               },
-          .lane = {Integrator::semi_implicit, kGoldenStep, 0},
+          .lane = {Integrator::semi_implicit, kGoldenStep},
           .measure = attitude_and_rate_error,
           .mutant = [](CaseScene& scene) { scene.start.qd[0] *= 1.001; }};
 }
@@ -161,7 +161,7 @@ CaseResult halving(Integrator integrator, bool mistaken) {
 CaseResult slope(Integrator integrator, bool mistaken) {
   const int order = facts_of(integrator).order;
   const double h = 1e-3 * order;
-  const double coarse = double_pendulum_error({integrator, h, 0}, mistaken);
+  const double coarse = double_pendulum_error({integrator, h}, mistaken);
   const double fine = double_pendulum_error({integrator, h / 16, 0}, mistaken);
   const double found = std::log2(coarse / fine) / 4;
   return {std::abs(found - order), {}, found};

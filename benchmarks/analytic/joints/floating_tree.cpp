@@ -130,7 +130,7 @@ TrajectoryCase ballistic() {
       .readings = {"energy [J]"},
       .observe = observe_energy,
       .reference = [](double t) { return CaseReadings{-2 * kGravity * kGravity * 1e-3 * t / 2}; },
-      .lane = {Integrator::semi_implicit, 1e-3, 0},
+      .lane = {Integrator::semi_implicit, 1e-3},
       .of_its_lane = true};
 }
 

@@ -78,7 +78,7 @@ TrajectoryCase golden_motion(const GoldenSteps& row) {
               [row](double) {
                 return CaseReadings{row.angle, row.rate};
               },
-          .lane = {row.integrator, 0.01, 0},
+          .lane = {row.integrator, 0.01},
           .of_its_lane = true};
 }
 TrajectoryCase golden_energy(const GoldenSteps& row) {

@@ -164,7 +164,7 @@ TrajectoryCase by(Lane lane, TrajectoryCase c) {
 }  // namespace
 
 CaseFamily sliding_joints_cases() {
-  const Lane verlet{Integrator::verlet, 1e-2, 0};
+  const Lane verlet{Integrator::verlet, 1e-2};
   return {70,
           {{"B4", 1e-12, screw_at_rest()},
            {"B4-terminal", 1e-12, screw_terminal()},

@@ -59,7 +59,8 @@ void ContactScene::start() {
   model_ = builder_.build();
   State<double> x(model_);
   contacts_ = std::make_unique<ContactConstraints>(model_, ContactResponse::rigid);
-  for (const Fixed& f : fixed_) contacts_->add({"fixed", f.body, f.X_WG, f.shape, f.surface});
+  for (const Fixed& f : fixed_)
+    contacts_->bodies().add({"fixed", f.body, f.X_WG, f.shape, f.surface});
   for (const auto& [number, body] : bodies_) {
     double* q = x.q.data() + model_.iq[index(number)];
     double* qd = x.qd.data() + model_.iv[index(number)];
@@ -67,7 +68,7 @@ void ContactScene::start() {
     const Vector3 w_L = body.R.transpose() * body.w;
     for (int k = 0; k < 3; ++k) q[k] = body.p[k], qd[k] = w_L[k], qd[3 + k] = body.v[k];
     q[3] = turn.w(), q[4] = turn.x(), q[5] = turn.y(), q[6] = turn.z();
-    contacts_->add(
+    contacts_->bodies().add(
         {"body", number, {Matrix3::Identity(), body.shape_at}, body.shape, body.surface});
   }
   simulation_ = std::make_unique<Simulation>(model_, x);
@@ -120,8 +121,8 @@ void ContactScene::run(double duration, double h) {
 Vector3 ContactScene::force(int body) const {
   Vector3 sum = Vector3::Zero();
   for (const ContactPoint& point : contacts_->points()) {
-    if (contacts_->geometry(point.contact.b).body == body) sum += point.force_W;
-    if (contacts_->geometry(point.contact.a).body == body) sum -= point.force_W;
+    if (contacts_->bodies().geometry(point.contact.b).body == body) sum += point.force_W;
+    if (contacts_->bodies().geometry(point.contact.a).body == body) sum -= point.force_W;
   }
   return sum;
 }

@@ -23,8 +23,7 @@ class Run {
         lane_(lane),
         recording_(recording),
         simulation_(scene.model, scene.start) {
-    simulation_.set_integrator(lane.integrator);
-    if (adaptive()) simulation_.set_tolerance(lane.tolerance);
+    simulation_.set_integrator(lane.integrator, lane.tolerance);
     for (const auto& source : scene.sources) simulation_.add(*source);
     if (scene.prepare) scene.prepare(simulation_);
     energy_at_start_ = look();
@@ -41,7 +40,7 @@ class Run {
     while (t - now_ > lane_.step - short_of_a_step)
       if (!advance(lane_.step)) return {};
     if (t - now_ <= short_of_a_step) return simulation_.state();
-    return simulation_.side_step(t - now_);
+    return side_step(simulation_, t - now_);
   }
 
   // The next place where the case's event changes its sign, and its time.
@@ -65,8 +64,8 @@ class Run {
       simulation_.set_state(before);
       double low = 0, high = now_ - start;
       for (double middle = high / 2; low < middle && middle < high; middle = (low + high) / 2)
-        (sign(simulation_.side_step(middle)) == after ? high : low) = middle;
-      const State<double> event = simulation_.side_step(high);
+        (sign(side_step(simulation_, middle)) == after ? high : low) = middle;
+      const State<double> event = side_step(simulation_, high);
       t = start + high;
       simulation_.set_state(end);
       return event;
@@ -85,7 +84,7 @@ class Run {
 
   // By one step of h, of dopri5 by at most that.
   bool advance(double h) {
-    const StepReport report = adaptive() ? simulation_.substep(h) : simulation_.step(h);
+    const StepReport report = simulation_.step(h, adaptive());
     if (!report.ok()) return false;
     // Without the rounding of a sum of many steps, which would be an error of time.
     ++steps_;
@@ -239,7 +238,7 @@ std::optional<double> observed_order(const TrajectoryCase& c, const Lane& lane) 
   for (int i = 0; i < 9; ++i, h *= 2) {
     CaseScene scene = c.scene();
     scene.conserves = false;  // nobody asks for its energy
-    errors.push_back(measure(c, std::move(scene), {lane.integrator, h, 0}, nullptr).error);
+    errors.push_back(measure(c, std::move(scene), {lane.integrator, h}, nullptr).error);
     if (const auto slope = slope_of(errors, rounding)) return slope;
   }
   return {};

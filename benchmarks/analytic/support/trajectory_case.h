@@ -36,11 +36,11 @@ struct CaseScene {
 // By what it is run.
 struct Lane {
   Integrator integrator = Integrator::rk4;
-  double step = 1e-3;    // [s]; of dopri5 the longest
-  double tolerance = 0;  // of dopri5, relative and absolute
+  double step = 1e-3;       // [s]; of dopri5 the longest
+  double tolerance = 1e-9;  // of dopri5, relative and absolute
 };
 inline Lane rk4_lane(double step = 1e-3) {
-  return {Integrator::rk4, step, 0};
+  return {Integrator::rk4, step};
 }
 inline Lane dopri5_lane(double tolerance = 1e-10) {
   return {Integrator::dopri5, 0.1, tolerance};

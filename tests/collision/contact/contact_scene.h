@@ -39,7 +39,7 @@ class ContactScene {
   void floor(const ContactSurface& surface) { obstacle(HalfSpace{}, surface); }
 
   // After the last of the above.
-  Simulation& begin() {
+  Simulation& begin(const SimulationOptions& options = {}) {
     model_ = std::make_unique<Model<double>>(builder_.build());
     State<double> x(*model_);
     for (std::size_t i = 0; i < starts_.size(); ++i) {
@@ -51,9 +51,9 @@ class ContactScene {
         q[k] = s.p[k], q[4 + k] = turn.vec()[k], qd[k] = w[k], qd[3 + k] = s.v[k];
       q[3] = turn.w();
     }
-    simulation_ = std::make_unique<Simulation>(*model_, x);
+    simulation_ = std::make_unique<Simulation>(*model_, x, options);
     contacts_ = std::make_unique<ContactConstraints>(*model_, response_);
-    for (const ContactGeometry& piece : pieces_) contacts_->add(piece);
+    for (const ContactGeometry& piece : pieces_) contacts_->bodies().add(piece);
     simulation_->add(*contacts_);
     return *simulation_;
   }

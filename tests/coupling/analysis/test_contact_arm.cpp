@@ -78,8 +78,9 @@ TEST_CASE("an arm pushed against a box stays outside, and rests on it with the c
     ContactSurface surface;
     surface.friction = 0.3;
     const Pose fore{Matrix3::Identity(), {kFore / 2, 0, 0}};
-    contacts.add({"fore", 2, fore, Box{{kFore, 0.04, 0.05}}, surface, 0});
-    contacts.add({"post", 0, {Matrix3::Identity(), {0.5, 0, 0}}, Box{{0.1, 0.1, 0.5}}, surface, 0});
+    contacts.bodies().add({"fore", 2, fore, Box{{kFore, 0.04, 0.05}}, surface, 0});
+    contacts.bodies().add(
+        {"post", 0, {Matrix3::Identity(), {0.5, 0, 0}}, Box{{0.1, 0.1, 0.5}}, surface, 0});
     simulation.add(contacts);
 
     double deepest = 0, least = 1e300, most = 0;

@@ -104,8 +104,8 @@ TEST_CASE("god object: against a ball it stays on the surface, as min |a - a_u| 
   ContactConstraints contacts(model, ContactResponse::rigid);
   ContactSurface smooth;
   smooth.friction = 0;
-  contacts.add({"tip", 2, {Matrix3::Identity(), p_tip}, Sphere{tip}, smooth, 0});
-  contacts.add({"ball", 0, {Matrix3::Identity(), p_ball}, Sphere{ball}, smooth, 0});
+  contacts.bodies().add({"tip", 2, {Matrix3::Identity(), p_tip}, Sphere{tip}, smooth, 0});
+  contacts.bodies().add({"ball", 0, {Matrix3::Identity(), p_ball}, Sphere{ball}, smooth, 0});
   system.simulation.add(contacts);
   int pressed = 0, inside = 0;
   for (int n = 0; n < 900; ++n) {
@@ -124,7 +124,7 @@ TEST_CASE("god object: against a ball it stays on the surface, as min |a - a_u| 
     const Eigen::VectorXd v = vector_of(system.simulation.state().qd);
     Eigen::VectorXd nearest = (vector_of(system.kvr.end().x.q) - q) / h;
     // > 0: it would pass the surface. Depths up to 1e-6 are let be.
-    const double closing = -std::max(0.0, gap - ContactConstraints::kClosed) / h - (J * nearest)(0);
+    const double closing = -std::max(0.0, gap - EventSource::kClosed) / h - (J * nearest)(0);
     if (closing > 0) {
       const Eigen::VectorXd per_force = M.ldlt().solve(J.transpose());
       nearest += per_force * (closing / (J * per_force)(0));

@@ -21,7 +21,8 @@ BodyInertia block_of(double mass) {
 
 // A block on an upright rail, g down along it, between two limits.
 struct Slider {
-  Slider(double lower, double upper, double g, const JointProperties& properties = {})
+  Slider(double lower, double upper, double g, const JointProperties& properties = {},
+         const SimulationOptions& options = {})
       : model([&] {
           ModelBuilder builder;
           builder.set_gravity({0, 0, -g});
@@ -30,7 +31,7 @@ struct Slider {
           return builder.build();
         }()),
         limits(model),
-        simulation(model, State<double>(model)) {
+        simulation(model, State<double>(model), options) {
     limits.add(1, lower, upper);
     simulation.add(limits);
   }
@@ -107,8 +108,7 @@ TEST_CASE(
 TEST_CASE(
     "limits: what starts beyond one is pushed back without speed, a fifth of the rest a step") {
   constexpr double g = 9.81, beyond = 1e-3;
-  Slider s(0, kFar, g);
-  s.simulation.keep_account();
+  Slider s(0, kFar, g, {}, {.keep_account = true});
   s.start(-beyond, 0);
   double work = 0, wanted = -beyond;
   for (int n = 0; n < 100; ++n) {
@@ -116,7 +116,7 @@ TEST_CASE(
     wanted *= 0.8;
     CHECK(std::abs(s.q() - wanted) < 1e-7);
     CHECK(std::abs(s.qd()) < 1e-9);
-    work += s.simulation.account().separation().work;
+    work += s.simulation.mechanism().account->separation().work;
   }
   CHECK(work == doctest::Approx(kMassOfBlock * g * (s.q() + beyond)).epsilon(1e-9));
 }
@@ -129,7 +129,7 @@ TEST_CASE("limits: side steps across an impact leave a run with located events b
     s->start(drop, 0);
   }
   for (int n = 0; n < 30; ++n) {
-    const State<double> aside = with.simulation.side_step(0.3);
+    const State<double> aside = side_step(with.simulation, 0.3);
     CHECK(std::abs(aside.q[0]) < 1e-8);  // there the block rests on its limit
     REQUIRE(with.simulation.step(1e-2).ok());
     REQUIRE(without.simulation.step(1e-2).ok());
@@ -189,10 +189,9 @@ TEST_CASE("under constraints a joint's friction brakes at F / m, stops, and hold
       CHECK(s.simulation.constraints().coulomb_torque()[0] ==
             doctest::Approx(std::min(F, kMassOfBlock * g)).epsilon(1e-6));
     }
-    s.simulation.set_joint_friction(false);
-    s.start(0, 0);
-    s.simulation.step(h);
-    CHECK(s.qd() == doctest::Approx(-g * h).epsilon(1e-12));
+    Slider without(-kFar, kFar, g, rubbing, {.joint_friction = false});
+    without.simulation.step(h);
+    CHECK(without.qd() == doctest::Approx(-g * h).epsilon(1e-12));
   }
 }
 
@@ -213,10 +212,9 @@ TEST_CASE(
       const Model<double> model = builder.build();
       JointLimits limits(model);
       limits.add(1, -kFar, end);
-      Simulation simulation(model, State<double>(model));
+      Simulation simulation(model, State<double>(model), {.keep_account = true});
       simulation.add(limits);
       if (located) simulation.locate_events();
-      simulation.keep_account();
       const double s_f = carried ? -1 : -2;
       const double a = -g * (m_l + m_f * s_f) / (m_l + m_f * s_f * s_f);
       REQUIRE(a > 0);
@@ -232,12 +230,12 @@ TEST_CASE(
         }
         CHECK(std::abs(x.q[1] + 2 * x.q[0]) < 1e-9);
         CHECK(std::abs(x.qd[1] + 2 * x.qd[0]) < 1e-9);
-        CHECK(std::abs(simulation.account().mimics()[0]) < 1e-9);
+        CHECK(std::abs(simulation.mechanism().account->mimics()[0]) < 1e-9);
       }
     }
 }
 
-TEST_CASE("constrained steps without a source: the bits of limits of which there are none") {
+TEST_CASE("a source without any constraint makes the steps constrained ones") {
   ModelBuilder builder;
   builder.add_body("body", 0, "free", JointType::free, {}, Vector3::UnitZ(),
                    {1, Vector3(0.1, 0, 0), Vector3(1, 2, 3).asDiagonal()});
@@ -245,19 +243,10 @@ TEST_CASE("constrained steps without a source: the bits of limits of which there
   State<double> x(model);
   x.qd = {3, 20, 1, 1, 2, 3};
   JointLimits none(model);
-  Simulation by_flag(model, x), by_limits(model, x), plain(model, x);
-  by_flag.set_constrained_steps(true);
-  by_limits.add(none);
-  CHECK_THROWS_AS(by_flag.set_integrator(Integrator::rk4), std::invalid_argument);
+  Simulation constrained(model, x), plain(model, x);
+  constrained.add(none);
+  CHECK_THROWS_AS(constrained.set_integrator(Integrator::rk4), std::invalid_argument);
   for (int n = 0; n < 100; ++n)
-    for (Simulation* simulation : {&by_flag, &by_limits, &plain})
-      REQUIRE(simulation->step(1e-3).ok());
-  CHECK(by_flag.state().q == by_limits.state().q);
-  CHECK(by_flag.state().q != plain.state().q);
-  Memory flag, limits;  // recordings of either are read by the other
-  by_flag.visit_memory(flag);
-  by_limits.visit_memory(limits);
-  CHECK(flag.bytes() == limits.bytes());
-  by_flag.set_constrained_steps(false);
-  CHECK_NOTHROW(by_flag.set_integrator(Integrator::rk4));
+    for (Simulation* simulation : {&constrained, &plain}) REQUIRE(simulation->step(1e-3).ok());
+  CHECK(constrained.state().q != plain.state().q);
 }

@@ -55,7 +55,8 @@ TEST_CASE(
         simulation.step(h);
         v = (v + h * 9.81) / (1 + h * 5 / 2);
         CHECK(simulation.state().qd[0] == doctest::Approx(v).epsilon(1e-13));
-        CHECK(simulation.dynamics().damping_torque()[0] == doctest::Approx(-5 * v).epsilon(1e-12));
+        CHECK(simulation.mechanism().dynamics.torques().damping[0] ==
+              doctest::Approx(-5 * v).epsilon(1e-12));
       }
     }
 }
@@ -73,8 +74,7 @@ TEST_CASE(
     const double h = std::numbers::pi / 10 / static_cast<double>(steps);  // 1 ms
     Simulation simulation(model, state_at(model, 0.097, 0));
     simulation.add(spring);
-    simulation.set_integrator(facts.integrator);
-    simulation.set_tolerance(1e-12);
+    simulation.set_integrator(facts.integrator, 1e-12);
     int failed = 0;
     for (int n = 1; n <= 10; ++n) {
       for (long s = 0; s < steps; ++s) failed += !simulation.step(h).ok();
@@ -107,7 +107,7 @@ TEST_CASE("a block that friction can hold comes to rest on its incline and stays
     for (int n = 0; n < 1000; ++n) simulation.step(0.01);
     CHECK(simulation.state().q[0] == rest);
     CHECK(simulation.state().qd[0] == 0);
-    CHECK(simulation.dynamics().coulomb_torque()[0] ==
+    CHECK(simulation.mechanism().dynamics.torques().coulomb[0] ==
           doctest::Approx(-9.81 * std::sin(tilt)).epsilon(1e-13));
   }
 }

@@ -88,11 +88,12 @@ TEST_CASE("friction of chains, some joints at rest, is what trying all 3^n cases
 
     ForwardDynamics dynamics(model);
     Workspace<double> w(model);
-    h > 0 ? dynamics.over_step(x, h, forces, w) : dynamics(x, forces, w);
+    using Rule = ForwardDynamics::Rule;
+    dynamics(x, forces, w, h > 0 ? Rule::end_of_step : Rule::now, h);
     const double scale = 1 + a_free.lpNorm<Eigen::Infinity>();
     CHECK((vector_of(w.qdd) - qdd).lpNorm<Eigen::Infinity>() < 1e-11 * scale);
-    CHECK((vector_of(dynamics.coulomb_torque()) - f).lpNorm<Eigen::Infinity>() < 1e-10 * scale);
-    CHECK((vector_of(dynamics.damping_torque()) + VectorXd(b.cwiseProduct(v + h * qdd)))
+    CHECK((vector_of(dynamics.torques().coulomb) - f).lpNorm<Eigen::Infinity>() < 1e-10 * scale);
+    CHECK((vector_of(dynamics.torques().damping) + VectorXd(b.cwiseProduct(v + h * qdd)))
               .lpNorm<Eigen::Infinity>() < 1e-10 * scale);
     CHECK(forces.tau == tau);  // lent, and given back
 
@@ -152,8 +153,7 @@ TEST_CASE("rk4 with events and dopri5 agree on a rubbing chain to 1e-9") {
     const State<double> start = random_state(random, model);
     const auto end = [&](Integrator integrator, double h, int steps) {
       Simulation simulation(model, start);
-      simulation.set_integrator(integrator);
-      simulation.set_tolerance(1e-11);
+      simulation.set_integrator(integrator, 1e-11);
       for (int n = 0; n < steps; ++n) CHECK(simulation.step(h).ok());
       return simulation.state();
     };

@@ -207,15 +207,14 @@ TEST_CASE("dopri5 by substeps gives the same bits as in one step, and each withi
   const Model<double> model = pendulum();
   const auto start = [&] {
     Simulation simulation(model, state_at(model, kRight, 0));
-    simulation.set_integrator(Integrator::dopri5);
-    simulation.set_tolerance(1e-8);
+    simulation.set_integrator(Integrator::dopri5, 1e-8);
     return simulation;
   };
   Simulation whole = start(), parts = start();
   const StepReport report = whole.step(3);
   int substeps = 0;
   while (parts.state().t < 3) {
-    const StepReport part = parts.substep(3 - parts.state().t);
+    const StepReport part = parts.step(3 - parts.state().t, true);
     CHECK(part.substeps == 1);
     CHECK(part.h > 0);
     ++substeps;
@@ -224,5 +223,5 @@ TEST_CASE("dopri5 by substeps gives the same bits as in one step, and each withi
   CHECK(whole.state().q[0] == parts.state().q[0]);
   CHECK(whole.state().qd[0] == parts.state().qd[0]);
   Simulation limited = start();
-  CHECK(limited.substep(1e-3).h == 1e-3);
+  CHECK(limited.step(1e-3, true).h == 1e-3);
 }

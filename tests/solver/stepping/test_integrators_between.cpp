@@ -76,7 +76,7 @@ TEST_CASE("a side step leads where a step would, and leaves the run as it was, t
     left_alone.set_integrator(facts.integrator);
     for (int n = 0; n < 20; ++n) {
       const State<double> from = looked_at.state();
-      const State<double> aside = looked_at.side_step(3e-4);
+      const State<double> aside = side_step(looked_at, 3e-4);
       CHECK(aside.t == from.t + 3e-4);
       CHECK(looked_at.state().q == from.q);
       CHECK(looked_at.state().qd == from.qd);
@@ -102,9 +102,9 @@ TEST_CASE("a side step is refused where a source cannot take a step back") {
   const Model<double> model = random_tree(random, 2, kJoints);
   Implicit source;
   Simulation simulation(model, State<double>(model));
-  CHECK_NOTHROW(simulation.side_step(1e-3));
+  CHECK_NOTHROW(side_step(simulation, 1e-3));
   simulation.add(source);
-  CHECK_THROWS_AS(simulation.side_step(1e-3), std::invalid_argument);
+  CHECK_THROWS_AS(side_step(simulation, 1e-3), std::invalid_argument);
 }
 
 TEST_CASE(

@@ -53,8 +53,7 @@ TEST_CASE("a body that is free on a tumbling carrier goes straight on, under eve
     const auto error_of = [&](long steps) {
       Simulation simulation(model, x);
       simulation.prescribe(1, tumbling);
-      simulation.set_integrator(facts.integrator);
-      simulation.set_tolerance(1e-11);
+      simulation.set_integrator(facts.integrator, 1e-11);
       const Kinematics start = simulation.kinematics();
       const Matrix3 I = 0.1 * Matrix3::Identity();
       for (long n = 0; n < steps; ++n) CHECK(simulation.step(1.0 / double(steps)).ok());

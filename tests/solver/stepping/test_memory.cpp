@@ -40,14 +40,13 @@ Model<double> rubbing_chain() {
 struct Run {
   Run(const Model<double>& model, Integrator integrator, bool limited, bool located)
       : limits(model), simulation(model, State<double>(model)) {
-    simulation.set_integrator(integrator);
+    simulation.set_integrator(integrator, 1e-13);
     simulation.add(source);
     if (limited) {
       for (int body = 1; body < model.body_count(); ++body) limits.add(body, -0.3, 0.3);
       simulation.add(limits);
     }
     if (located) simulation.locate_events();
-    simulation.set_tolerance(1e-13);
   }
   Run(const Run&) = delete;
   void steps(int count) {

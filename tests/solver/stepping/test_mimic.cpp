@@ -84,7 +84,7 @@ TEST_CASE("mimics: accelerations and forces solve the saddle-point system of M a
     dynamics(x, forces, w);
     const double scale = 1 + largest(solution);
     CHECK(largest(vector_of(w.qdd) - solution.head(n)) < 1e-11 * scale);
-    CHECK(largest(vector_of(dynamics.mimic_force()) - dense.A.transpose() * solution.tail(m)) <
+    CHECK(largest(vector_of(dynamics.torques().mimic) - dense.A.transpose() * solution.tail(m)) <
           1e-11 * scale);
     rnea(model, x, w.qdd, forces.f_ext, plain);
     for (std::size_t i = 1; i < model.parent.size(); ++i) {
@@ -156,18 +156,19 @@ TEST_CASE("friction of followers is felt by their leaders through the ratio, at 
 
     ForwardDynamics dynamics(model);
     Workspace<double> w(model);
-    h > 0 ? dynamics.over_step(x, h, forces, w) : dynamics(x, forces, w);
+    using Rule = ForwardDynamics::Rule;
+    dynamics(x, forces, w, h > 0 ? Rule::end_of_step : Rule::now, h);
     const double scale = 1 + largest(a);
     CHECK(largest(vector_of(w.qdd) - G * ydd) < 1e-10 * scale);
-    const VectorXd rubbing = vector_of(dynamics.coulomb_torque());
+    const VectorXd rubbing = vector_of(dynamics.torques().coulomb);
     CHECK(largest(G.transpose() * rubbing - f) < 1e-9 * scale);
     for (std::size_t d = 0; d < model.nv; ++d) {
       CHECK(rubbing[index(d)] <= model.coulomb_minus[d] + 1e-12);
       CHECK(rubbing[index(d)] >= -model.coulomb_plus[d] - 1e-12);
     }
     // And everything together is Newton's law.
-    const VectorXd sum = vector_of(forces.tau) + rubbing + vector_of(dynamics.damping_torque()) +
-                         vector_of(dynamics.mimic_force()) - dense.h;
+    const VectorXd sum = vector_of(forces.tau) + rubbing + vector_of(dynamics.torques().damping) +
+                         vector_of(dynamics.torques().mimic) - dense.h;
     CHECK(largest(dense.M * vector_of(w.qdd) - sum) < 1e-9 * (1 + largest(sum)));
   }
   CHECK(stuck > 100);
@@ -196,8 +197,10 @@ TEST_CASE("a rack and pinion under gravity falls as m g / (m + I r^2), by closed
     }
     CHECK(simulation.state().qd[1] == doctest::Approx(a).epsilon(1e-12));
     CHECK(std::abs(simulation.state().q[1] - a / 2) < (facts.order > 1 ? 1e-12 : 0.06 * a));
-    CHECK(simulation.dynamics().mimic_force()[0] == doctest::Approx(I * r * a).epsilon(1e-12));
-    CHECK(simulation.dynamics().mimic_force()[1] == doctest::Approx(-I * r * r * a).epsilon(1e-12));
+    CHECK(simulation.mechanism().dynamics.torques().mimic[0] ==
+          doctest::Approx(I * r * a).epsilon(1e-12));
+    CHECK(simulation.mechanism().dynamics.torques().mimic[1] ==
+          doctest::Approx(-I * r * r * a).epsilon(1e-12));
   }
 }
 
@@ -215,7 +218,7 @@ TEST_CASE("mimics do no net work: the energy of a tree is kept to 1e-9 for 1 s (
     simulation.step(2e-4);
     scale = std::max(scale, kinetic_energy(model, simulation.state()));
     worst = std::max(worst, std::abs(energy() - start));
-    force = std::max(force, largest(vector_of(simulation.dynamics().mimic_force())));
+    force = std::max(force, largest(vector_of(simulation.mechanism().dynamics.torques().mimic)));
   }
   CHECK(force > 1);
   CHECK(worst < 1e-9 * scale);

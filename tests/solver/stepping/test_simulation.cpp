@@ -95,7 +95,7 @@ TEST_CASE("nor does a step with joint friction, its events, and joints that foll
           }) == 0);
     if (!facts.implicit_force) CHECK(events > 0);
     // A side step gives the bits of the step that follows, and disturbs nothing.
-    const State<double> aside = simulation.side_step(0.01);
+    const State<double> aside = side_step(simulation, 0.01);
     simulation.step(0.01);
     CHECK(aside.q == simulation.state().q);
     CHECK(aside.qd == simulation.state().qd);

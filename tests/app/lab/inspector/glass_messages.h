@@ -47,7 +47,7 @@ inline Told told_of(SimulatePlan plan, long steps) {
       }
     }
     if (view.step() != steps + 1) return;
-    told.qdd = view.simulation().workspace().qdd;
+    told.qdd = view.simulation().mechanism().w.qdd;
     if (view.contacts() && view.contacts()->contacts())
       for (const ContactPoint& p : view.contacts()->contacts()->points())
         if (!p.force_W.isZero(0)) told.force.push_back(p.force_W);

@@ -138,7 +138,7 @@ TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
   const Model<double>& model = run.prepared().input.robot.model;
   const auto body = static_cast<std::size_t>(model.find_joint("joint1"));
   REQUIRE(run.step());
-  const double wanted = run.view().simulation().workspace().qdd[model.iv[body]];
+  const double wanted = run.view().simulation().mechanism().w.qdd[model.iv[body]];
   CHECK(std::abs(wanted) > 0.1);
   const auto told_by = [&](const LabFrame& of) {
     const Value message = parsed(glass.message(of, {body, true, 1, &names.rows}));

@@ -183,7 +183,8 @@ TEST_CASE("lab run: a body on the mouse is a damped oscillator, and both ledgers
   CHECK(closed_form < 0.02 * 0.23);  // of the way; an error of order w h = 0.015
   CHECK(closed_form > 1e-5);
   const SteppedRun& view = s.run->view();
-  const double energy = kinetic_energy(view.simulation().model(), view.simulation().state());
+  const double energy =
+      kinetic_energy(view.simulation().mechanism().model, view.simulation().state());
   const auto rows = s.run->view().ledger();
   CHECK(work_of(rows, "mouse") == doctest::Approx(energy).epsilon(1e-9));
   CHECK(std::abs(work_of(rows, "numerical")) < 1e-9 * energy);

@@ -78,7 +78,7 @@ TEST_CASE("scene: a run with any coupling goes on from what it remembers with th
              : "");
     Running first(text), second(text);
     for (int n = 0; n < 101; ++n) first.simulation.step(1e-3);
-    const State<double> aside = first.simulation.side_step(5e-4);  // leaves no trace
+    const State<double> aside = side_step(first.simulation, 5e-4);  // leaves no trace
     CHECK(aside.t > 0.101);
     Memory written;
     first.simulation.visit_memory(written);

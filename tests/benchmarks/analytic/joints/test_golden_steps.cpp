@@ -145,8 +145,7 @@ TEST_CASE("dopri5: the error is proportional to the tolerance over four decades"
     double least = 1e300, most = 0;
     for (const double tolerance : {1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
       Simulation simulation(c.model, c.start);
-      simulation.set_integrator(Integrator::dopri5);
-      simulation.set_tolerance(tolerance);
+      simulation.set_integrator(Integrator::dopri5, tolerance);
       CHECK(simulation.step(c.time).ok());
       const double error = c.error(simulation.state());
       least = std::min(least, error / tolerance);

@@ -30,7 +30,7 @@ struct Both {
   VectorXd h, gamma;
   Both(const Model<double>& model, const std::vector<LoopClosure>& closures, const State<double>& x)
       : dynamics(model), w(model), k(model) {
-    dynamics.set_loops(LoopClosures(model, closures));
+    dynamics.bilateral().set_loops(LoopClosures(model, closures));
     forward_kinematics(model, x, k);
     LoopClosures& loops = dynamics.bilateral().loops();
     loops.evaluate(x, k);
@@ -113,9 +113,9 @@ TEST_CASE(
     CHECK(largest(vector_of(both.w.qdd) - dense.head(n)) < 1e-9 * scale);
     CHECK(largest(both.A * vector_of(both.w.qdd) + both.gamma) < 1e-9 * scale);
     if (geared_again) continue;  // who of the two bears how much is anyone's choice
-    CHECK(largest(vector_of(both.dynamics.loop_force()) -
+    CHECK(largest(vector_of(both.dynamics.torques().loop) -
                   both.A.bottomRows(m).transpose() * dense.tail(m)) < 1e-8 * scale);
-    CHECK(largest(both.dynamics.loop_lambda() - dense.tail(m)) < 1e-7 * scale);
+    CHECK(largest(both.dynamics.bilateral().lambda_of_loops() - dense.tail(m)) < 1e-7 * scale);
     // The bodies' accelerations go with qdd.
     Workspace<double> plain(model);
     rnea(model, x, both.w.qdd, forces.f_ext, plain);
@@ -138,7 +138,7 @@ TEST_CASE("loops: reactions of a hinged rod, m g / 4 when released, 5/2 m g at t
   const auto wrench = [&] {
     Both both(model, loops, x);
     both.dynamics(x, none, both.w);
-    return both.dynamics.bilateral().loops().wrench(0, both.dynamics.loop_lambda());
+    return both.dynamics.bilateral().loops().wrench(0, both.dynamics.bilateral().lambda_of_loops());
   };
   LoopWrench on_rod = wrench();
   CHECK((on_rod.force - Vector3(0, 0, 2 * 9.81 / 4)).norm() < 1e-12);
@@ -163,7 +163,8 @@ TEST_CASE("loops: Andrews' mechanism starts with the published acceleration and 
   CHECK(std::abs(both.w.qdd[0] / 14222.4439199541139 - 1) < 1e-11);
   CHECK(std::abs(both.w.qdd[1] / -10666.8329399655854 - 1) < 1e-11);
   for (std::size_t d = 2; d < 7; ++d) CHECK(std::abs(both.w.qdd[d]) < 1e-7);
-  const LoopWrench on_K2 = both.dynamics.bilateral().loops().wrench(0, both.dynamics.loop_lambda());
+  const LoopWrench on_K2 =
+      both.dynamics.bilateral().loops().wrench(0, both.dynamics.bilateral().lambda_of_loops());
   CHECK(on_K2.force.norm() == doctest::Approx(98.5668703962410896).epsilon(0.01));
   CHECK(both.dynamics.bilateral().rank() == 6);
 }
@@ -186,7 +187,7 @@ TEST_CASE("loops: friction of joints that a loop couples is felt through the loo
     const VectorXd friction{{-0.3 * direction, 0, 0.8 * direction}};  // the piston goes back
     both.dynamics(x, forces, both.w);
     CHECK(largest(vector_of(both.w.qdd) - both.solve(friction).head(3)) < 1e-10);
-    CHECK(largest(vector_of(both.dynamics.coulomb_torque()) - friction) < 1e-15);
+    CHECK(largest(vector_of(both.dynamics.torques().coulomb) - friction) < 1e-15);
   }
 }
 

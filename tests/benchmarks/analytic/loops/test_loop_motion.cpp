@@ -31,7 +31,8 @@ Simulation simulation_of(const LoopCase& c, Integrator integrator) {
   return simulation;
 }
 double energy_of(const Simulation& s) {
-  return kinetic_energy(s.model(), s.state()) + potential_energy(s.model(), s.state());
+  return kinetic_energy(s.mechanism().model, s.state()) +
+         potential_energy(s.mechanism().model, s.state());
 }
 double error_of(const LoopCase& c, const Simulation& s, const LoopCase::Sample& sample) {
   const std::vector<double> values = c.read(s.state(), s.kinematics());
@@ -244,7 +245,7 @@ TEST_CASE(
               for (int n = 0; n < 40; ++n) one.step(3e-3);
             }) == 0);
       for (int n = 0; n < 40; ++n) two.step(3e-3);
-      const State<double> aside = two.side_step(3e-3);
+      const State<double> aside = side_step(two, 3e-3);
       one.step(3e-3), two.step(3e-3);
       CHECK(one.state().q == two.state().q);
       CHECK(one.state().qd == two.state().qd);

@@ -66,10 +66,10 @@ TEST_CASE("known motions: times between two steps are met to the order of the sc
   for (const auto& [integrator, factor] :
        {std::pair{Integrator::rk4, 16.0}, {Integrator::verlet, 4.0}}) {
     const TrajectoryCase& swing = *case_named("B2").trajectory;  // times of whole seconds
-    const double coarse = run_lane(swing, {integrator, 0.0124, 0}).error;
-    const double fine = run_lane(swing, {integrator, 0.0062, 0}).error;
+    const double coarse = run_lane(swing, {integrator, 0.0124}).error;
+    const double fine = run_lane(swing, {integrator, 0.0062}).error;
     CHECK(std::abs(coarse / fine / factor - 1) < 0.1);
-    const double order = observed_order(swing, {integrator, 0.0031, 0}).value_or(0);
+    const double order = observed_order(swing, {integrator, 0.0031}).value_or(0);
     CHECK(std::abs(order - std::log2(factor)) < 0.1);
   }
 }
@@ -90,7 +90,7 @@ TEST_CASE("known motions: no event, a reading too few or not a number are no suc
 TEST_CASE("known motions: a recording has the start and every step, with the energy") {
   const TrajectoryCase& swing = *case_named("B2").trajectory;
   std::vector<TrajectoryPoint> points;
-  const LaneResult result = run_lane(swing, {Integrator::euler, 0.01, 0}, &points);
+  const LaneResult result = run_lane(swing, {Integrator::euler, 0.01}, &points);
   REQUIRE(points.size() == 1001);
   CHECK(points.back().t == 10);
   double strayed = 0;
