@@ -39,13 +39,13 @@ export function axisOf(frame: Frame, { body, axis, slides }: SceneJoint): Axis |
 }
 
 export class Handles {
-  readonly tip = element('button', { type: 'button', class: 'grip', hidden: '' });
+  readonly tip = element('button.grip', { type: 'button', hidden: '' });
   private readonly svg = svg('svg', { 'aria-hidden': 'true' });
   private readonly track = path('arc');
   private readonly turned = path('arc turned');
   private readonly leader = path('leader');
   private readonly spring = path('spring');
-  private readonly words = element('output', { class: 'pulled', hidden: '' });
+  private readonly words = element('output.pulled', { hidden: '' });
 
   constructor(host: HTMLElement) {
     this.tip.setAttribute('aria-label', 'the hand: arrow keys move it, page up and down too');

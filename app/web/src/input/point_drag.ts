@@ -13,11 +13,7 @@ export class PointDrag {
   private x: number;
   private y: number;
 
-  constructor(
-    private readonly stage: Stage,
-    readonly goal: THREE.Vector3,
-    at: { x: number; y: number },
-  ) {
+  constructor(private readonly stage: Stage, readonly goal: THREE.Vector3, at: { x: number; y: number }) {
     this.x = at.x;
     this.y = at.y;
     this.hold();

@@ -12,8 +12,8 @@ export function wrenchColor(i: number): string {
 
 // With its number: colours alone do not tell eight apart.
 export function swatch(i: number): HTMLElement {
-  const number = element('b', {}, String(i + 1));
-  const made = element('i', { class: 'swatch' }, number);
+  const number = element('b', String(i + 1));
+  const made = element('i.swatch', number);
   made.style.color = `var(--c${i % COLORS})`;
   return made;
 }
@@ -27,13 +27,12 @@ export function balanceTable(
     row([swatch(i), source], ...[...force, ...torque].map((value) => numberCell(value, largest))),
   );
   const heads = ['', 'Fx', 'Fy', 'Fz [N]', 'Tx', 'Ty', 'Tz [N m]'];
-  const title = element('span', {}, ` ${axes} axes, about ${about}`);
+  const title = element('span', ` ${axes} axes, about ${about}`);
   const sum = `They add up to ${short(residual)} of the largest (${short(largest)}).`;
   return element(
     'div',
-    {},
-    element('h3', {}, `Every wrench on ${body}`, title),
+    element('h3', `Every wrench on ${body}`, title),
     table(heads, rows),
-    element('p', { class: 'hint' }, sum),
+    element('p.hint', sum),
   );
 }

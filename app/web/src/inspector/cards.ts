@@ -64,10 +64,7 @@ function block(equation: Equation, quantity: Quantity, numbers: BodyInspection, 
       ),
     ];
   const [u, felt] = equation.terms.map(({ value }) => value as number);
-  const over = signedSum([
-    { sign: '', value: u },
-    { sign: felt > 0 ? '+' : '-', value: Math.abs(felt) },
-  ]);
+  const over = signedSum([{ sign: '', value: u }, { sign: felt > 0 ? '+' : '-', value: Math.abs(felt) }]);
   const parts = [fraction(over, mathNumber(D)), operator('='), bold(mathNumber(quantity.value))];
   return [equationLine("qdd = D^-1 ( u - U^T a' )"), line(parts, quantity.value, unit)];
 }

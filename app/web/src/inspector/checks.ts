@@ -13,14 +13,14 @@ export function checkTable(checks: Check[], warnings: string[]): HTMLElement {
   const rows = checks.map(({ pass, name, meaning, error, tolerance, body }) => {
     const made = row(
       `${pass ? '✓' : '✗'} ${name}`,
-      element('td', {}, meaning),
+      element('td', meaning),
       numberCell(error),
       numberCell(tolerance),
-      element('td', {}, body),
+      element('td', body),
     );
     made.classList.toggle('short', !pass);
     return made;
   });
-  const notes = warnings.map((text) => element('p', { class: 'note' }, text));
-  return element('section', { class: 'checks' }, ...notes, table(heads, rows));
+  const notes = warnings.map((text) => element('p.note', text));
+  return element('section.checks', ...notes, table(heads, rows));
 }

@@ -52,11 +52,7 @@ function arrow({ from, to, number }: Segment): SVGElement[] {
   const head = Math.min(8, 0.6 * length);
   const neck = [to[0] - head * ux, to[1] - head * uy];
   const side = 0.42 * head;
-  const points = [
-    to,
-    [neck[0] - side * uy, neck[1] + side * ux],
-    [neck[0] + side * uy, neck[1] - side * ux],
-  ];
+  const points = [to, [neck[0] - side * uy, neck[1] + side * ux], [neck[0] + side * uy, neck[1] - side * ux]];
   const middle = [(from[0] + to[0]) / 2 - 8 * uy, (from[1] + to[1]) / 2 + 8 * ux];
   const shapes = [
     svg('line', { x1: from[0], y1: from[1], x2: neck[0], y2: neck[1], stroke: color }),
@@ -80,9 +76,9 @@ function polygon(vectors: number[][], plane: Plane, unit: string, what: string):
     role: 'img',
     'aria-label': `${what} on the body, tip to tail, seen in ${plane}`,
   });
-  const figure = element('figure', {}, host);
+  const figure = element('figure', host);
   if (!(most > 0) || !Number.isFinite(most)) {
-    figure.append(element('figcaption', {}, most === 0 ? `no ${what} in this plane` : what));
+    figure.append(element('figcaption', most === 0 ? `no ${what} in this plane` : what));
     return figure;
   }
   const room = HEIGHT - 2 * MARGIN - 8;
@@ -102,7 +98,7 @@ function polygon(vectors: number[][], plane: Plane, unit: string, what: string):
   const words = svg('text', { x: 13 + scale * bar, y, class: 'length' });
   words.textContent = `${+bar.toPrecision(1)} ${unit}`;
   host.append(words);
-  figure.append(element('figcaption', {}, what));
+  figure.append(element('figcaption', what));
   return figure;
 }
 
@@ -123,9 +119,8 @@ export function diagram(balance: Balance, chosen: Plane | null): HTMLElement {
   const forces = balance.wrenches.map(({ force }) => force);
   const torques = balance.wrenches.map(({ torque }) => torque);
   return element(
-    'div',
-    { class: 'diagram' },
-    element('div', { class: 'planes', role: 'group', 'aria-label': 'plane' }, ...choice),
+    'div.diagram',
+    element('div.planes', { role: 'group', 'aria-label': 'plane' }, ...choice),
     polygon(forces, plane, 'N', 'forces'),
     polygon(torques, plane, 'N m', 'torques'),
   );

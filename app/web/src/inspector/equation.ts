@@ -49,7 +49,7 @@ function columns(equation: Equation, body: string, unit: string): HTMLElement {
   const half = (from: number) => largestOf(parts.flatMap(({ numbers }) => numbers.slice(from, from + 3)));
   const sizes = isSix ? [half(0), half(3)] : [largestOf(parts.flatMap(({ numbers }) => numbers))];
   const heads = parts.flatMap(({ sign, symbol, words }) => [
-    element('td', { class: 'sign' }, sign),
+    element('td.sign', sign),
     element('th', { scope: 'col', title: words }, math(symbol)),
   ]);
   const units = unit.split(';').map((text) => text.trim());
@@ -57,36 +57,31 @@ function columns(equation: Equation, body: string, unit: string): HTMLElement {
     row(
       isSix ? ROWS[k] : String(k + 1),
       ...parts.flatMap(({ numbers }, i) => [
-        element('td', { class: 'sign' }),
-        numberCell(
-          numbers[k],
-          sizes[isSix ? Math.floor(k / 3) : 0],
-          i === parts.length - 1 ? 'total' : '',
-        ),
+        element('td.sign'),
+        numberCell(numbers[k], sizes[isSix ? Math.floor(k / 3) : 0], i === parts.length - 1 ? 'total' : ''),
       ]),
-      element('td', { class: 'unit' }, k % 3 === 0 ? unitText(units[Math.floor(k / 3)] ?? units[0]) : ''),
+      element('td.unit', k % 3 === 0 ? unitText(units[Math.floor(k / 3)] ?? units[0]) : ''),
     ),
   );
   const made = table([element('td'), ...heads, element('td')], rows, {
     class: isSix ? 'columns six-rows' : 'columns',
   });
-  return element('div', { class: 'wide' }, made);
+  return element('div.wide', made);
 }
 
 // What it adds up to stands open, the terms can be opened.
 function matrices(equation: Equation, body: string, unit: string): Node[] {
   const terms = equation.terms.map((term) =>
     element(
-      'div',
-      { class: 'term' },
-      element('p', {}, math(term.symbol), ` ${whose(term, body)}`),
+      'div.term',
+      element('p', math(term.symbol), ` ${whose(term, body)}`),
       valueOf({ value: term.value, unit }),
     ),
   );
   const sum = valueOf({ value: equation.value, unit });
   if (terms.length < 2) return [sum];
   const words = `its ${terms.length} terms`;
-  return [sum, element('details', { class: 'terms' }, element('summary', {}, words), ...terms)];
+  return [sum, element('details.terms', element('summary', words), ...terms)];
 }
 
 function inLine({ terms, value }: Equation, unit: string): HTMLElement {
@@ -101,16 +96,16 @@ function inLine({ terms, value }: Equation, unit: string): HTMLElement {
 // All digits stand at the pointer.
 export function line(parts: Node[], value: number, unit: string): HTMLElement {
   return element(
-    'p',
-    { class: 'line', title: String(value) },
+    'p.line',
+    { title: String(value) },
     set(...parts),
-    element('span', { class: 'unit' }, ` ${unitText(unit)}`),
+    element('span.unit', ` ${unitText(unit)}`),
   );
 }
 
 // A browser lets the focus stop at an equation that is too wide for the panel: it needs a name.
 export function equationLine(text: string): HTMLElement {
-  return element('p', { class: 'set', role: 'math', 'aria-label': text }, math(text));
+  return element('p.set', { role: 'math', 'aria-label': text }, math(text));
 }
 
 // `unit` of the left side: of six "angular; linear", of a joint "turning; shifting".
@@ -124,9 +119,5 @@ export function equationBlock(equation: Equation, body: string, unit: string): N
   const rest = residual === null || residual > NOTHING;
   const words =
     residual === null ? 'not all numbers are finite' : `but for ${short(residual)} of the largest`;
-  return [
-    equationLine(text),
-    ...numbers,
-    ...(rest ? [element('p', { class: 'note' }, words)] : []),
-  ];
+  return [equationLine(text), ...numbers, ...(rest ? [element('p.note', words)] : [])];
 }

@@ -27,14 +27,14 @@ function stepsOf(bodies: string[]): Step[] {
 export type InspectorPage = Pick<LabPage, 'scene' | 'selected' | 'send' | 'select' | 'arrows'>;
 
 export class Inspector implements Panel {
-  readonly root = element('section', { class: 'glass', 'aria-label': 'inspector' });
-  private readonly who = element('div', { class: 'heading' });
+  readonly root = element('section.glass', { 'aria-label': 'inspector' });
+  private readonly who = element('div.heading');
   private readonly stepper = new Stepper(
     (step) => this.go(step),
     (pass) => this.goPass(pass),
   );
-  private readonly place = element('output', { class: 'place' });
-  private readonly content = element('div', { class: 'content' });
+  private readonly place = element('output.place');
+  private readonly content = element('div.content');
   private steps: Step[] = [];
   private bodies: string[] = []; // from number 1 on
   private body = 1;
@@ -45,8 +45,8 @@ export class Inspector implements Panel {
 
   constructor(private readonly page: InspectorPage) {
     const walk = element(
-      'div',
-      { class: 'walk', role: 'group', 'aria-label': 'one call, step by step' },
+      'div.walk',
+      { role: 'group', 'aria-label': 'one call, step by step' },
       button(icon('back'), 'one step of the call back (,)', () => this.move(-1)),
       button(icon('on'), 'one step of the call on (.)', () => this.move(1)),
       this.place,
@@ -151,7 +151,7 @@ export class Inspector implements Panel {
   }
 
   private render(numbers: BodyInspection): void {
-    const made = element('div', { class: 'content' }, ...this.sections(numbers));
+    const made = element('div.content', ...this.sections(numbers));
     morph(this.content, made);
     const { name, t, stands, passes } = numbers;
     const joint = passes?.[0]?.joint;
@@ -159,10 +159,10 @@ export class Inspector implements Panel {
     const parent = neighbours?.find(({ is }) => is === 'parent')?.body ?? 'the world';
     const on = neighbours ? ` on ${parent}` : '';
     const when = stands ? 'time stands still' : 'stop the time to walk through the call';
-    const time = t === undefined ? [] : [element('p', {}, `${short(t)} s: ${when}`)];
+    const time = t === undefined ? [] : [element('p', `${short(t)} s: ${when}`)];
     this.who.replaceChildren(
-      element('h2', {}, name ?? ''),
-      element('p', {}, `${joint ? `carried by ${joint}` : 'stands'}${on}`),
+      element('h2', name ?? ''),
+      element('p', `${joint ? `carried by ${joint}` : 'stands'}${on}`),
       ...time,
     );
     this.root.classList.toggle('stands', stands);
@@ -171,11 +171,11 @@ export class Inspector implements Panel {
 
   private sections(numbers: BodyInspection): Node[] {
     const { name = '', passes, balance, forces = [], ledger, checks, stands, warnings = [] } = numbers;
-    const notes = warnings.map((text) => element('p', { class: 'note' }, text));
+    const notes = warnings.map((text) => element('p.note', text));
     if (!passes || !balance) return notes;
     const { axes = 'world', about = 'origin', joint_balance = [], neighbours = [] } = numbers;
     const fold = (title: string, open: boolean, ...inside: Node[]) => {
-      const made = element('details', {}, element('summary', {}, title), ...inside);
+      const made = element('details', element('summary', title), ...inside);
       made.open = open;
       return made;
     };
@@ -185,10 +185,10 @@ export class Inspector implements Panel {
     const checked = checks?.length ? checkWords(checks) : 'while time stands still';
     // Always the same parts in the same places: morph() goes by them.
     return [
-      element('div', {}, ...notes),
-      element('div', { class: 'so-far' }, ...(rows.length > 0 ? [soFar(rows, name)] : [])),
-      element('h3', {}, PASSES[this.pass][0], element('span', {}, ` ${PASSES[this.pass][1]}`)),
-      element('div', { class: 'cards' }, ...passCards(numbers, this.pass)),
+      element('div', ...notes),
+      element('div.so-far', ...(rows.length > 0 ? [soFar(rows, name)] : [])),
+      element('h3', PASSES[this.pass][0], element('span', ` ${PASSES[this.pass][1]}`)),
+      element('div.cards', ...passCards(numbers, this.pass)),
       ...(numbers.neighbours ? [fold('From its neighbours', false, ...(taken.length ? taken : [words('nothing in this pass')]))] : []),
       fold(
         'Free body',
@@ -196,7 +196,7 @@ export class Inspector implements Panel {
         ...balance.flatMap((forces) => [
           diagram(forces, this.plane),
           words(closing(forces)),
-          element('div', { class: 'wide wrenches' }, balanceTable(forces, axes, about)),
+          element('div.wide.wrenches', balanceTable(forces, axes, about)),
         ]),
         ...jointTables(joint_balance, unitOf(numbers, 'N m; N')),
       ),
@@ -230,5 +230,5 @@ export class Inspector implements Panel {
 }
 
 function words(text: string): HTMLElement {
-  return element('p', { class: 'hint' }, text);
+  return element('p.hint', text);
 }

@@ -15,9 +15,8 @@ function six(values: number[], unit: string): HTMLElement {
   const rows = [values.slice(0, 3), values.slice(3)].map((half, i) =>
     element(
       'tr',
-      {},
       ...half.map((value) => numberCell(value)),
-      element('td', { class: 'unit' }, unitText(units[i] ?? units[0])),
+      element('td.unit', unitText(units[i] ?? units[0])),
     ),
   );
   return table([...AXES, ''], rows, { class: 'six' });
@@ -35,7 +34,6 @@ export function heat(rows: number[][]): HTMLElement {
   const lines = rows.map((row, i) =>
     element(
       'tr',
-      {},
       ...row.map((value, k) => {
         const most = largest.get(block(i, k)) ?? 0;
         const share = most > 0 ? Math.abs(value) / most : 0;
@@ -46,7 +44,7 @@ export function heat(rows: number[][]): HTMLElement {
       }),
     ),
   );
-  return element('table', { class: 'heat' }, element('tbody', {}, ...lines));
+  return element('table.heat', element('tbody', ...lines));
 }
 
 // Units of both halves of six numbers. Those of a joint (it floats) shift first and turn then; told
@@ -60,17 +58,17 @@ export function valueOf(quantity: Numbers): HTMLElement {
   const { value } = quantity;
   const unit = unitOfSix(quantity);
   if (typeof value === 'number')
-    return element('p', { class: 'one', title: String(value) }, short(value), ` ${unitText(unit)}`);
+    return element('p.one', { title: String(value) }, short(value), ` ${unitText(unit)}`);
   if (Array.isArray(value[0])) {
     const rows = value as number[][];
     if (rows.length === 6 && rows[0].length === 6) return heat(rows);
-    if (rows[0].length === 6) return element('div', {}, ...rows.map((row) => six(row, unit)));
+    if (rows[0].length === 6) return element('div', ...rows.map((row) => six(row, unit)));
     return heat(rows);
   }
   const numbers = value as number[];
   if (numbers.length === 6) return six(numbers, unit);
   const parts = numbers.map((n) => element('span', { title: String(n) }, `${short(n)}, `));
-  return element('p', { class: 'one' }, ...parts, unitText(unit));
+  return element('p.one', ...parts, unitText(unit));
 }
 
 // What a page has to say of it in its own way: nothing is left out where it says nothing.
@@ -81,27 +79,19 @@ export interface Telling {
 }
 
 export function quantityCard(quantity: Quantity, telling: Telling = {}): HTMLElement {
-  const fact = (name: string, said: Node | string) => [
-    element('dt', {}, name),
-    element('dd', {}, said),
-  ];
+  const fact = (name: string, said: Node | string) => [element('dt', name), element('dd', said)];
   const tip = element(
-    'dl',
-    { class: 'tip', role: 'tooltip' },
+    'dl.tip',
+    { role: 'tooltip' },
     ...fact('is', quantity.meaning),
     ...fact('unit', quantity.unit.replaceAll('^2', '²')),
     ...fact('frame', quantity.frame),
     ...fact('from', telling.equation ?? quantity.equation),
   );
   return element(
-    'article',
-    {
-      class: 'quantity',
-      tabindex: '0',
-      'data-quantity': quantity.name,
-      'aria-label': `${quantity.name}: ${quantity.meaning}`,
-    },
-    element('h4', {}, telling.symbol ?? quantity.name, element('span', {}, quantity.meaning)),
+    'article.quantity',
+    { tabindex: '0', 'data-quantity': quantity.name, 'aria-label': `${quantity.name}: ${quantity.meaning}` },
+    element('h4', telling.symbol ?? quantity.name, element('span', quantity.meaning)),
     ...(telling.content ?? [valueOf(quantity)]),
     tip,
   );

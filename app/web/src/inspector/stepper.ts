@@ -13,7 +13,7 @@ export interface Step {
 }
 
 export class Stepper {
-  readonly root = element('nav', { class: 'stepper', 'aria-label': 'steps of the passes' });
+  readonly root = element('nav.stepper', { 'aria-label': 'steps of the passes' });
   private chips: HTMLButtonElement[] = [];
   private steps: readonly Step[] = [];
   private rows: HTMLElement[] = [];
@@ -30,8 +30,7 @@ export class Stepper {
     this.steps = steps;
     this.rows = [1, 2, 3].map((pass) =>
       element(
-        'div',
-        { class: 'row' },
+        'div.row',
         button(PASSES[pass][0], PASSES[pass].join(': '), () => this.goPass(pass), 'pass'),
         ...this.chips.filter((_, i) => steps[i].pass === pass),
       ),

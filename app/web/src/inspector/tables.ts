@@ -19,9 +19,8 @@ export function jointTables(balances: JointBalance[], unit: string): HTMLElement
     const rows = torques.map(({ source: who, value }) => row(who, numberCell(value, most)));
     return element(
       'div',
-      {},
       table([`along ${name || 'its joint'}`, `[${unitText(unit)}]`], rows),
-      element('p', { class: 'hint' }, `They add up to ${short(residual)} of the largest.`),
+      element('p.hint', `They add up to ${short(residual)} of the largest.`),
     );
   });
 }
@@ -37,10 +36,10 @@ export function contactTables(forces: NamedForce[], body: string): HTMLElement[]
       const line = (what: string, values: number[]) => row(what, ...numbers(values, largestOf(values)));
       const share = normal ? `, ${short((friction ?? 0) / normal)} of it` : '';
       return element(
-        'div',
-        { class: 'contact', 'data-contact': name },
-        element('h4', {}, name.replace('contact/', '')),
-        element('p', {}, `presses with ${short(normal)} N, rubs with ${short(friction)} N${share}`),
+        'div.contact',
+        { 'data-contact': name },
+        element('h4', name.replace('contact/', '')),
+        element('p', `presses with ${short(normal)} N, rubs with ${short(friction)} N${share}`),
         table(
           ['world axes', 'x', 'y', 'z'],
           [line('point [m]', point ?? []), line('normal', outward), line('force [N]', force)],
@@ -58,7 +57,7 @@ export function energyTable(ledger: Record<string, number>): HTMLElement {
   made.show(works, largestOf(works));
   const idle = all.length - rows.length;
   const words = idle > 0 ? `${idle} more did no work.` : '';
-  return element('div', {}, made.root, element('p', { class: 'hint' }, words));
+  return element('div', made.root, element('p.hint', words));
 }
 
 const length = (values: number[]) => Math.hypot(...values);
@@ -91,7 +90,7 @@ export function soFar(rows: Omit<PassStep, 'joint'>[], body: string): HTMLElemen
   const lines = rows.map((step, i) => {
     const cells = told.flatMap(({ of, heads, read }) => {
       const found = step.quantities.find(({ name }) => name === of);
-      if (i > at) return heads.map(() => element('td', { class: 'number later' }, '·'));
+      if (i > at) return heads.map(() => element('td.number.later', '·'));
       return numbers(found ? read(found.value as never) : heads.map(() => NaN));
     });
     const name = element('button', { type: 'button', 'data-body': step.body }, step.body);
@@ -113,14 +112,10 @@ export function neighbourCards(neighbours: Neighbour[], pass: number): HTMLEleme
     .filter(([, quantities]) => quantities.length > 0)
     .map(([title, quantities]) =>
       element(
-        'div',
-        { class: 'neighbour' },
-        element('h4', {}, title, element('span', {}, ' in its own axes')),
+        'div.neighbour',
+        element('h4', title, element('span', ' in its own axes')),
         ...quantities.map((quantity) =>
-          quantityCard(quantity, {
-            symbol: math(quantity.name),
-            equation: source(quantity.equation),
-          }),
+          quantityCard(quantity, { symbol: math(quantity.name), equation: source(quantity.equation) }),
         ),
       ),
     );

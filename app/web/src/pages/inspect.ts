@@ -44,15 +44,11 @@ class Page extends RecordedPage {
     this.tabs.add('Passes', this.inspector.root);
     this.tabs.add(`Checks: ${checkWords(checks)}`, checkTable(checks, warnings));
     this.tabs.root.parentElement!.classList.add('inspect');
-    const title = [
-      element('h1', {}, robot.title),
-      element('p', {}, robot.state.replaceAll('\n', ' · ')),
-    ];
+    const title = [element('h1', robot.title), element('p', robot.state.replaceAll('\n', ' · '))];
     const foot = element(
-      'footer',
-      { class: 'made-by' },
+      'footer.made-by',
       element('code', { id: 'command' }, robot.command),
-      element('span', {}, `twinarm ${robot.version}`),
+      element('span', `twinarm ${robot.version}`),
     );
     this.begin(title, foot, this.keys(), MOUSE);
     this.inspector.go(Number(this.asked('step') ?? 1) - 1);

@@ -45,7 +45,7 @@ class Page implements LabPage {
   readonly pace = new Pace();
   private readonly run = new LiveRun(this);
   private readonly words = new Hints();
-  private readonly host = element('div', { class: 'stage' });
+  private readonly host = element('div.stage');
   private readonly handles: Handles;
   readonly drag: Drag;
   private readonly keys: KeyInput;
@@ -56,14 +56,14 @@ class Page implements LabPage {
   private readonly set: PanelSet;
   private readonly panels: Panel[];
   private readonly listeners: Listener[]; // the run first: panels read it
-  private readonly title = element('h1', {}, 'twinarm lab');
-  private readonly file = element('p', {});
+  private readonly title = element('h1', 'twinarm lab');
+  private readonly file = element('p');
   private readonly arrowsOf = new Map<string, Arrow[]>();
   private stale = true;
 
   constructor() {
-    const over = element('div', { class: 'handles' });
-    const labels = element('div', { class: 'labels', 'aria-hidden': 'true' });
+    const over = element('div.handles');
+    const labels = element('div.labels', { 'aria-hidden': 'true' });
     this.host.append(labels, over);
     this.theme = new Theme(() => this.recolor());
     this.live = new LiveStage(this.host, { labels, handles: over }, () => this.touch());
@@ -146,10 +146,10 @@ class Page implements LabPage {
     header.append(button(icon('panel'), 'the panel (\\)', () => this.fold(!this.folded)));
     this.host.append(
       ...(this.picture ? [this.picture.root] : []),
-      element('div', { class: 'corner' }, this.overlays.root, this.overlays.legend),
+      element('div.corner', this.overlays.root, this.overlays.legend),
       this.views.root,
-      element('div', { class: 'foot' }, this.words.look, this.words.again, this.words.hint, this.words.spoken),
-      element('div', { class: 'hand-corner' }, set.hand.root),
+      element('div.foot', this.words.look, this.words.again, this.words.hint, this.words.spoken),
+      element('div.hand-corner', set.hand.root),
       this.words.banner,
       set.dead.root,
     );
@@ -157,12 +157,7 @@ class Page implements LabPage {
       if (target instanceof HTMLCanvasElement || target === this.handles.tip) this.words.fold(true);
     });
     document.body.classList.add('lab');
-    document.body.append(
-      header,
-      element('main', {}, this.host, set.time.root, this.tabs.root),
-      gallery,
-      dialog,
-    );
+    document.body.append(header, element('main', this.host, set.time.root, this.tabs.root), gallery, dialog);
     listen(keys, isKept);
     this.fold(remembered('folded', false));
   }

@@ -45,11 +45,11 @@ export abstract class RecordedPage {
   private stale = true; // the picture
 
   constructor(private readonly carried: Carried, layers = carried.layers) {
-    const host = element('div', { class: 'stage' });
-    const labels = element('div', { class: 'labels', 'aria-hidden': 'true' });
+    const host = element('div.stage');
+    const labels = element('div.labels', { 'aria-hidden': 'true' });
     this.layers = new LayerChoice(layers, () => this.touch());
     host.append(labels, this.layers.switches, this.layers.legend, this.views.root);
-    document.body.append(element('main', {}, host, this.tabs.root));
+    document.body.append(element('main', host, this.tabs.root));
     this.stage = new Stage(host, carried.view, carried, () => this.touch());
     this.labels = new Labels(labels);
     onPaper(host, (isPaper) => {

@@ -44,8 +44,8 @@ class Page extends RecordedPage {
     this.tabs.add('Ledger', ...balances.map((panel) => panel.root));
     this.tabs.add('Setup', setup(run));
     this.views.show(run.bodies.map((name) => ({ name, moves: true })));
-    this.views.root.after(element('div', { class: 'scale' }, gridWords(run)));
-    const title = [element('h1', {}, run.title), element('p', {}, headline(run))];
+    this.views.root.after(element('div.scale', gridWords(run)));
+    const title = [element('h1', run.title), element('p', headline(run))];
     this.takeHash();
     this.begin(title, this.bar.root, this.keys(), `${MOUSE} ${PLOTS}`);
   }

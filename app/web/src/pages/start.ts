@@ -14,7 +14,7 @@ export function start<T extends { meshes: MeshData[]; textures: ImageBitmap[] }>
   begin().catch((error: unknown) => {
     const words = error instanceof Error ? error.message : String(error);
     const text = `This page cannot be shown: ${words}`;
-    document.body.replaceChildren(element('p', { class: 'failed', role: 'alert' }, text));
+    document.body.replaceChildren(element('p.failed', { role: 'alert' }, text));
     console.error(error);
   });
 }

@@ -13,13 +13,10 @@ interface Line {
 }
 
 export class BranchDialog {
-  readonly root = element('dialog', {
-    class: 'card-dialog branch',
-    'aria-labelledby': 'branch-title',
-  });
+  readonly root = element('dialog.card-dialog.branch', { 'aria-labelledby': 'branch-title' });
   private readonly title = element('h2', { id: 'branch-title' });
-  private readonly list = element('div', { class: 'lines' });
-  private readonly none = element('p', { class: 'hint' }, 'All knobs are left as they are now.');
+  private readonly list = element('div.lines');
+  private readonly none = element('p.hint', 'All knobs are left as they are now.');
   private readonly more = element('select', { 'aria-label': 'turn one more knob' });
   private lines: Line[] = [];
   private at = 0;
@@ -30,25 +27,19 @@ export class BranchDialog {
     private readonly changes: () => string[],
   ) {
     const form = element('form', { method: 'dialog' });
-    const go = element('button', { type: 'submit', class: 'main' }, 'Branch');
+    const go = element('button.main', { type: 'submit' }, 'Branch');
     form.append(
       this.title,
       element(
         'p',
-        {},
         'The run goes back to this instant and on from there; what the hand did is done again. ' +
           'The run that is left stays beside it: pale in the view, dotted in the plots.',
       ),
-      element('h3', {}, 'Knobs that are turned'),
+      element('h3', 'Knobs that are turned'),
       this.list,
       this.none,
       this.more,
-      element(
-        'div',
-        { class: 'ends' },
-        button('Cancel', 'nothing happens (Escape)', () => this.root.close()),
-        go,
-      ),
+      element('div.ends', button('Cancel', 'nothing happens (Escape)', () => this.root.close()), go),
     );
     form.addEventListener('submit', (event) => {
       event.preventDefault();
@@ -83,13 +74,7 @@ export class BranchDialog {
     if (!knob) return;
     const control = controlOf(knob);
     const { label, unit } = knob;
-    const root = element(
-      'div',
-      { class: 'line' },
-      element('span', {}, label),
-      control,
-      element('span', { class: 'unit' }, unitText(unit)),
-    );
+    const root = element('div.line', element('span', label), control, element('span.unit', unitText(unit)));
     const line = { knob, root, control };
     root.append(button('×', `leave ${label} as it is now`, () => this.remove(line)));
     this.lines.push(line);

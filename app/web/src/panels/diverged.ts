@@ -10,8 +10,7 @@ const BEFORE = 1; // a remedy goes back so far [s]
 const SLOW = 0.1; // of the last second, when it is looked at
 
 export class Diverged implements Panel {
-  readonly root = element('section', {
-    class: 'post-mortem',
+  readonly root = element('section.post-mortem', {
     role: 'alertdialog',
     'aria-label': 'the run has stopped',
   });
@@ -19,10 +18,7 @@ export class Diverged implements Panel {
   private away = false; // put aside
   private before: Element | null = null; // had the focus
 
-  constructor(
-    private readonly page: LabPage,
-    private readonly rewind: Rewind,
-  ) {
+  constructor(private readonly page: LabPage, private readonly rewind: Rewind) {
     this.root.hidden = true;
     this.root.tabIndex = -1;
     this.root.addEventListener('keydown', (event) => {
@@ -69,7 +65,7 @@ export class Diverged implements Panel {
     const [headline, ...rest] = dead.words;
     const facts = element('dl');
     const fact = (name: string, value: string | undefined) => {
-      if (value) facts.append(element('div', {}, element('dt', {}, name), element('dd', {}, value)));
+      if (value) facts.append(element('div', element('dt', name), element('dd', value)));
     };
     fact('when', `${dead.time.toFixed(3)} s`);
     fact('quantity', dead.quantity);
@@ -91,18 +87,18 @@ export class Diverged implements Panel {
     );
     again.disabled = isWatching;
     const close = button('×', 'put aside (Escape)', () => this.hide(), 'close');
-    const title = element('h2', {}, headline ?? 'The run has stopped');
+    const title = element('h2', headline ?? 'The run has stopped');
     const parts: Node[] = [
-      element('header', {}, sign('beyond'), title, close),
-      ...rest.map((line) => element('p', {}, line)),
+      element('header', sign('beyond'), title, close),
+      ...rest.map((line) => element('p', line)),
       facts,
     ];
     if (remedies.length > 0)
       parts.push(
-        element('h3', {}, `What holds, from ${(dead.time - back).toFixed(1)} s before`),
-        element('div', { class: 'remedies' }, ...remedies),
+        element('h3', `What holds, from ${(dead.time - back).toFixed(1)} s before`),
+        element('div.remedies', ...remedies),
       );
-    return [...parts, element('div', { class: 'ends' }, look, again)];
+    return [...parts, element('div.ends', look, again)];
   }
 
   private mend(at: number, changes: string[]): void {

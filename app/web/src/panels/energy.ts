@@ -11,9 +11,7 @@ const rank = (name: string) => (name === NUMERICAL ? 1 : 0);
 
 // In the order in which they stand in a table: the remainder is last.
 export function inOrder(works: [string, number][]): [string, number][] {
-  return [...works].sort(
-    ([a, x], [b, y]) => rank(a) - rank(b) || (Math.abs(y) || 0) - (Math.abs(x) || 0),
-  );
+  return [...works].sort(([a, x], [b, y]) => rank(a) - rank(b) || (Math.abs(y) || 0) - (Math.abs(x) || 0));
 }
 
 export class EnergyTable {
@@ -26,7 +24,7 @@ export class EnergyTable {
     this.cells = names.map(() => ({ now: numberCell(0), bar: element('i') }));
     const rows = this.cells.map(({ now, bar }, i) => {
       const below = digits ? [element('small', { 'data-row': names[i], title: 'at the end' }, digits[i])] : [];
-      return row([names[i], ...below], now, element('td', { class: 'bar' }, bar));
+      return row([names[i], ...below], now, element('td.bar', bar));
     });
     const foot = row('their sum: rise of kinetic energy', this.sum, element('td'));
     this.root = table([head, 'now [J]', ''], rows, { class: 'energy' }, foot);
@@ -44,7 +42,7 @@ export class EnergyTable {
 }
 
 export class EnergyPanel implements Panel {
-  readonly root = element('section', { class: 'ledger' });
+  readonly root = element('section.ledger');
   private readonly host = element('div');
   private table: EnergyTable | null = null;
   private record: RunRecord | null = null;
@@ -57,7 +55,7 @@ export class EnergyPanel implements Panel {
       'Each row is the work that something has done. The rows add up to the rise of kinetic ' +
       'energy; “numerical” is what is left over, the integrator’s error. All digits stand at ' +
       'the pointer.';
-    this.root.append(element('h3', {}, 'Energy'), element('p', { class: 'hint' }, hint), this.host);
+    this.root.append(element('h3', 'Energy'), element('p.hint', hint), this.host);
     if (source.record) this.take(source.record);
   }
 

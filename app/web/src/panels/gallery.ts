@@ -9,10 +9,10 @@ const MESHES = /\.(stl|obj|dae|ply|gltf|glb|bin|png|jpe?g|mtl)$/i; // go first: 
 const ROBOTS = '.urdf,.xml,.xacro,.toml,.twinrec,.stl,.obj,.dae,.ply,.gltf,.glb,.mtl,.png,.jpg,.jpeg';
 
 export class Gallery implements Panel {
-  readonly root = element('dialog', { class: 'card-dialog gallery', 'aria-label': 'scenes' });
-  private readonly cards = element('div', { class: 'cards' });
-  private readonly zone = element('div', { class: 'zone' });
-  private readonly said = element('div', { class: 'said', role: 'status' });
+  readonly root = element('dialog.card-dialog.gallery', { 'aria-label': 'scenes' });
+  private readonly cards = element('div.cards');
+  private readonly zone = element('div.zone');
+  private readonly said = element('div.said', { role: 'status' });
   private readonly input = element('input', { type: 'file', multiple: '', accept: ROBOTS });
   private shown = '';
 
@@ -23,21 +23,12 @@ export class Gallery implements Panel {
       this.input.value = '';
     });
     this.zone.append(
-      element(
-        'p',
-        {},
-        'Drop a robot (URDF, with its meshes), a scene or a recording anywhere on this page, or',
-      ),
+      element('p', 'Drop a robot (URDF, with its meshes), a scene or a recording anywhere on this page, or'),
       button('open files …', 'from this computer', () => this.input.click()),
       this.input,
     );
     const close = button('×', 'close (Escape)', () => this.root.close(), 'close');
-    this.root.append(
-      element('header', {}, element('h2', {}, 'Scenes'), close),
-      this.said,
-      this.cards,
-      this.zone,
-    );
+    this.root.append(element('header', element('h2', 'Scenes'), close), this.said, this.cards, this.zone);
     this.root.addEventListener('click', (event) => {
       if (event.target === this.root) this.root.close();
     });
@@ -60,11 +51,11 @@ export class Gallery implements Panel {
     });
     image.addEventListener('error', () => image.remove());
     const card = element(
-      'button',
-      { type: 'button', class: 'card', 'data-scene': name },
+      'button.card',
+      { type: 'button', 'data-scene': name },
       image,
-      element('b', {}, title),
-      element('ul', {}, ...look.map((line) => element('li', {}, line))),
+      element('b', title),
+      element('ul', ...look.map((line) => element('li', line))),
     );
     card.addEventListener('click', () => {
       if (this.page.send({ do: 'scene', name })) this.root.close();
@@ -139,9 +130,9 @@ export class Gallery implements Panel {
 
   private tell(level: string, words: string, faults: string[]): void {
     this.said.className = `said ${level}`;
-    const list = faults.map((fault) => element('li', {}, fault));
-    this.said.replaceChildren(element('b', {}, words));
-    if (list.length > 0) this.said.append(element('ul', {}, ...list));
+    const list = faults.map((fault) => element('li', fault));
+    this.said.replaceChildren(element('b', words));
+    if (list.length > 0) this.said.append(element('ul', ...list));
   }
 }
 
@@ -154,10 +145,7 @@ export async function post(
 ): Promise<{ state: 'opened' | 'kept' | 'failed'; words: string }> {
   try {
     const query = new URLSearchParams({ name: file.name, secret });
-    const answer = await fetch(`/open?${query}`, {
-      method: 'POST',
-      body: file,
-    });
+    const answer = await fetch(`/open?${query}`, { method: 'POST', body: file });
     const words = await answer.text();
     const state = answer.status === KEPT ? 'kept' : answer.ok ? 'opened' : 'failed';
     return { state, words: words || `the lab answers ${answer.status}` };

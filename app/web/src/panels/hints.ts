@@ -8,12 +8,12 @@ const STAYS = 4000; // [ms]
 const PATIENCE = 500; // before a lost connection is spoken of
 
 export class Hints {
-  readonly look = element('section', { class: 'look', hidden: '', 'aria-label': 'what to look for' });
+  readonly look = element('section.look', { hidden: '', 'aria-label': 'what to look for' });
   // Brings it back.
   readonly again = button('What to look for', 'what this scene shows', () => this.fold(false));
-  readonly hint = element('p', { class: 'hint-line' });
-  readonly spoken = element('p', { class: 'unseen', role: 'status' }); // what is said, for ears
-  readonly banner = element('div', { class: 'banner', role: 'status', hidden: '' });
+  readonly hint = element('p.hint-line');
+  readonly spoken = element('p.unseen', { role: 'status' }); // what is said, for ears
+  readonly banner = element('div.banner', { role: 'status', hidden: '' });
   private said = '';
   private until = 0;
   private shown = '';
@@ -33,9 +33,9 @@ export class Hints {
     this.look.hidden = this.count === 0;
     this.again.hidden = true;
     this.look.replaceChildren(
-      element('h2', {}, 'What to look for'),
+      element('h2', 'What to look for'),
       button('×', 'away', () => this.fold(true), 'close'),
-      element('ul', {}, ...scene.look.map((line) => element('li', {}, line))),
+      element('ul', ...scene.look.map((line) => element('li', line))),
     );
   }
 

@@ -24,7 +24,7 @@ const MODES: Record<string, string> = {
 const NEAR = 0.8; // of the limit
 
 export class InputBar implements Panel {
-  readonly root = element('section', { class: 'hand-bar', 'aria-label': 'hand' });
+  readonly root = element('section.hand-bar', { 'aria-label': 'hand' });
   private readonly source = element('select', { 'aria-label': 'who moves the robot' });
   private readonly spec = element('input', {
     type: 'text',
@@ -32,18 +32,17 @@ export class InputBar implements Panel {
     spellcheck: 'false',
     title: 'as after --device; Enter connects it',
   });
-  private readonly facts = element('p', { class: 'facts' });
-  private readonly holder = element('div', { class: 'holder' });
-  private readonly force = element('div', {
-    class: 'force',
+  private readonly facts = element('p.facts');
+  private readonly holder = element('div.holder');
+  private readonly force = element('div.force', {
     role: 'meter',
     'aria-valuemin': '0',
     'aria-valuemax': String(DEVICE_LIMIT),
     'aria-label': 'force of the hand device in newtons',
   });
   private readonly fill = element('i');
-  private readonly number = element('output', { class: 'newtons', 'aria-live': 'off' });
-  private readonly warning = element('div', { class: 'warning' });
+  private readonly number = element('output.newtons', { 'aria-live': 'off' });
+  private readonly warning = element('div.warning');
   private readonly grip = button('', 'gripper (g)', () =>
     this.page.hand.button(0, !this.page.hand.grip),
   );
@@ -63,11 +62,11 @@ export class InputBar implements Panel {
       else if (event.key === 'Escape') this.choosing = this.spec.hidden = false;
       event.stopPropagation();
     });
-    this.force.append(this.fill, element('i', { class: 'mark' }));
+    this.force.append(this.fill, element('i.mark'));
     this.root.append(
-      element('div', { class: 'line' }, element('b', {}, 'Hand'), this.source, this.grip),
+      element('div.line', element('b', 'Hand'), this.source, this.grip),
       this.spec,
-      element('div', { class: 'line' }, this.force, this.number),
+      element('div.line', this.force, this.number),
       this.warning,
       this.facts,
       this.holder,
@@ -152,7 +151,7 @@ export class InputBar implements Panel {
     if (wanted === this.shownHolder) return;
     this.shownHolder = wanted;
     const parts: Node[] = [];
-    const say = (words: string) => parts.push(element('span', {}, words));
+    const say = (words: string) => parts.push(element('span', words));
     const isAlone = clients < 2;
     if (!holder && !isAlone) {
       say('Nobody holds the hand.');

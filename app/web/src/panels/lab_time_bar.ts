@@ -22,17 +22,14 @@ export class LabTimeBar implements Panel, Clock {
     this.askBranch(),
   );
   private readonly present = button('to now', 'to the newest instant', () => this.rewind.seek(null));
-  private readonly fork = element('i', { class: 'fork', 'aria-hidden': 'true' });
-  private readonly end = element('i', { class: 'end', 'aria-hidden': 'true' });
+  private readonly fork = element('i.fork', { 'aria-hidden': 'true' });
+  private readonly end = element('i.end', { 'aria-hidden': 'true' });
   private readonly dialog: BranchDialog;
   private readonly added: Panel[] = [];
   private time: number | null = null; // of the newest frame
   private shown = '';
 
-  constructor(
-    private readonly page: LabPage,
-    changes: () => string[],
-  ) {
+  constructor(private readonly page: LabPage, changes: () => string[]) {
     this.rewind = new Rewind(page);
     this.dialog = new BranchDialog(page, this.rewind, changes);
     const label = 'instant of the run, back over what is remembered';
@@ -142,7 +139,7 @@ export class LabTimeBar implements Panel, Clock {
   }
 
   private words(state: StateMessage, at: number | null, pace: number): (Node | string)[] {
-    if (state.building) return [element('b', {}, `${state.building} …`)];
+    if (state.building) return [element('b', `${state.building} …`)];
     if (at !== null) return [`${(state.last - at).toFixed(2)} s ago`];
     if (state.dead) return ['stopped'];
     if (!state.playing) return ['stands'];
@@ -151,7 +148,7 @@ export class LabTimeBar implements Panel, Clock {
     const words = state.speed > 1 ? `${state.speed}× fast` : speed;
     if (!lags) return [words];
     const title = 'run time over the time that it should take: the machine does not keep up';
-    const badge = element('b', { class: 'pace', title }, `pace ${pace.toFixed(2)}`);
+    const badge = element('b.pace', { title }, `pace ${pace.toFixed(2)}`);
     return state.speed === 1 ? [badge] : [`${words}, `, badge];
   }
 }

@@ -6,14 +6,11 @@ import { numberCell, putNumber, row, table } from '../ui/table';
 import type { Panel } from './panel';
 
 export class MomentumPanel implements Panel {
-  readonly root = element('section', { class: 'momentum' });
+  readonly root = element('section.momentum');
   private readonly cells: HTMLElement[][]; // the last: their sum
   private shown = -1;
 
-  constructor(
-    private readonly run: Run,
-    private readonly player: Player,
-  ) {
+  constructor(private readonly run: Run, private readonly player: Player) {
     const { rows } = run.momentum;
     this.cells = [...rows, ''].map(() => Array.from({ length: 6 }, () => numberCell(0)));
     const lines = rows.map((name, i) => row(name, ...this.cells[i]));
@@ -24,9 +21,9 @@ export class MomentumPanel implements Panel {
       'about the world’s origin. All digits stand at the pointer.';
     this.root.hidden = rows.length === 0;
     this.root.append(
-      element('h3', {}, 'Momentum'),
-      element('p', { class: 'hint' }, hint),
-      element('div', { class: 'wide' }, table(heads, lines, {}, foot)),
+      element('h3', 'Momentum'),
+      element('p.hint', hint),
+      element('div.wide', table(heads, lines, {}, foot)),
     );
   }
 

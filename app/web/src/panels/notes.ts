@@ -12,9 +12,9 @@ const MOST = 3; // at a time
 const SIGNS: Record<Note['level'], SignState> = { note: 'ok', warning: 'near', error: 'beyond' };
 
 export class Notes implements Panel {
-  readonly root = element('details', { class: 'menu notes' });
-  private readonly toasts = element('div', { class: 'toasts', role: 'log', 'aria-live': 'polite' });
-  private readonly list = element('ol', { class: 'sheet' });
+  readonly root = element('details.menu.notes');
+  private readonly toasts = element('div.toasts', { role: 'log', 'aria-live': 'polite' });
+  private readonly list = element('ol.sheet');
   private readonly count = element('summary', { title: 'what the lab has said' }, 'Notes');
   private seen = -1; // newest that was shown; before the first state: none
   private shown = '';
@@ -36,7 +36,7 @@ export class Notes implements Panel {
     if (wanted === this.shown) return;
     this.shown = wanted;
     const lines = [...notes].reverse().map((note) => line('li', note));
-    this.list.replaceChildren(...(lines.length > 0 ? lines : [element('li', {}, 'Nothing yet.')]));
+    this.list.replaceChildren(...(lines.length > 0 ? lines : [element('li', 'Nothing yet.')]));
     this.count.textContent = notes.length > 0 ? `Notes (${notes.length})` : 'Notes';
   }
 
@@ -52,5 +52,5 @@ export class Notes implements Panel {
 
 function line(tag: 'li' | 'div', { level, text }: Note): HTMLElement {
   const mark = sign(SIGNS[level] ?? 'ok');
-  return element(tag, { class: `said ${level}` }, mark, element('span', {}, text));
+  return element(tag, { class: `said ${level}` }, mark, element('span', text));
 }

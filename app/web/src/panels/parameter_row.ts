@@ -16,15 +16,12 @@ const FINE = 10_000; // places of the slider
 export type Turn = (path: string, value: string) => void;
 
 export abstract class ParameterRow {
-  readonly root = element('div', { class: 'knob' });
-  protected readonly side = element('div', { class: 'predicted', 'aria-live': 'polite' });
+  readonly root = element('div.knob');
+  protected readonly side = element('div.predicted', { 'aria-live': 'polite' });
   private told = '';
   private setAt = -Infinity;
 
-  constructor(
-    protected knob: Knob,
-    private readonly turn: Turn,
-  ) {
+  constructor(protected knob: Knob, private readonly turn: Turn) {
     this.root.dataset.path = knob.path;
   }
 
@@ -66,7 +63,7 @@ export abstract class ParameterRow {
     const name = element(id ? 'label' : 'span', { class: 'name', title: meaning }, label);
     if (id) name.setAttribute('for', id);
     if (restarts) {
-      const again = element('span', { class: 'restarts', role: 'img', title: RESTARTS });
+      const again = element('span.restarts', { role: 'img', title: RESTARTS });
       again.setAttribute('aria-label', RESTARTS);
       again.append(icon('again'));
       name.append(again);
@@ -82,9 +79,9 @@ export abstract class ParameterRow {
     this.told = wanted;
     const lines: HTMLElement[] = [];
     if (limit) lines.push(signed(limit.state, limit.words));
-    if (lag) lines.push(element('span', { class: 'lag' }, `lag ${lag}`));
+    if (lag) lines.push(element('span.lag', `lag ${lag}`));
     const from = start ? `${start} ${unitText(unit)}` : 'left out';
-    if (turned) lines.push(element('span', { class: 'from' }, `the scene: ${from.trim()}`));
+    if (turned) lines.push(element('span.from', `the scene: ${from.trim()}`));
     this.root.classList.toggle('turned', turned);
     this.side.replaceChildren(...lines);
     this.root.dataset.limit = limit?.state ?? '';
@@ -96,7 +93,7 @@ export abstract class ParameterRow {
 class NumberRow extends ParameterRow {
   private readonly scale: Scale | null;
   private readonly slider: HTMLInputElement | null = null;
-  private readonly mark = element('i', { class: 'mark', 'aria-hidden': 'true' });
+  private readonly mark = element('i.mark', { 'aria-hidden': 'true' });
   private readonly field: HTMLInputElement;
   private value = NaN;
   private sliding = false;
@@ -126,10 +123,10 @@ class NumberRow extends ParameterRow {
         max: String(FINE),
         'aria-label': this.fullName,
       });
-      controls.push(element('div', { class: 'track' }, this.slider, this.mark));
+      controls.push(element('div.track', this.slider, this.mark));
     }
-    const words = element('span', { class: 'unit' }, unitText(unit));
-    controls.push(element('div', { class: 'number' }, this.field, words));
+    const words = element('span.unit', unitText(unit));
+    controls.push(element('div.number', this.field, words));
     this.head(controls, id);
     this.listen();
     this.show(knob.value);

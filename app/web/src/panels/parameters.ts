@@ -10,9 +10,9 @@ import type { LabPage, Panel } from './panel';
 const PAUSE = 100; // between two messages [ms]
 
 export class Parameters implements Panel {
-  readonly root = element('div', { class: 'knobs' });
-  private readonly presets = element('div', { class: 'presets' });
-  private readonly watching = element('p', { class: 'note' });
+  readonly root = element('div.knobs');
+  private readonly presets = element('div.presets');
+  private readonly watching = element('p.note');
   private readonly groups = element('div');
   private readonly again: HTMLButtonElement;
   private readonly rows = new Map<string, ParameterRow>();
@@ -73,7 +73,7 @@ export class Parameters implements Panel {
 
   // Stays folded when the knobs are built anew.
   private group(name: string): HTMLElement {
-    const made = element('details', { class: 'group' }, element('summary', {}, name));
+    const made = element('details.group', element('summary', name));
     made.open = !this.folded.has(name);
     made.addEventListener('toggle', () => {
       if (made.open) this.folded.delete(name);
@@ -90,8 +90,8 @@ export class Parameters implements Panel {
       const made = element(
         'button',
         { type: 'button', title: what },
-        element('b', {}, name),
-        element('span', {}, what),
+        element('b', name),
+        element('span', what),
       );
       made.addEventListener('click', () => this.page.send({ do: 'preset', name }));
       return made;

@@ -8,12 +8,12 @@ const FILES: [string, string, string][] = [
 ];
 
 export class SaveMenu {
-  readonly root = element('details', { class: 'menu' });
+  readonly root = element('details.menu');
 
   constructor() {
-    const list = element('div', { class: 'sheet' });
+    const list = element('div.sheet');
     for (const [address, name, what] of FILES) {
-      const words = [element('b', {}, name), element('span', {}, what)];
+      const words = [element('b', name), element('span', what)];
       const link = element('a', { href: address, download: '' }, ...words);
       link.addEventListener('click', () => (this.root.open = false));
       list.append(link);

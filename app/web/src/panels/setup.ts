@@ -4,32 +4,27 @@ import { button, element } from '../ui/dom';
 import { row, table } from '../ui/table';
 
 function section(title: string, head: string[], rows: string[][]): HTMLElement {
-  const lines = rows.map(([first, ...rest]) => row(first, ...rest.map((text) => element('td', {}, text))));
-  return element(
-    'section',
-    {},
-    element('h3', {}, title),
-    element('div', { class: 'wide' }, table(head, lines)),
-  );
+  const lines = rows.map(([first, ...rest]) => row(first, ...rest.map((text) => element('td', text))));
+  return element('section', element('h3', title), element('div.wide', table(head, lines)));
 }
 
 function fold(title: string, text: string): HTMLElement {
-  return element('details', {}, element('summary', {}, title), element('pre', {}, text));
+  return element('details', element('summary', title), element('pre', text));
 }
 
 export function setup(run: Run): HTMLElement {
-  const root = element('section', { class: 'setup' });
+  const root = element('section.setup');
   const copy = button('copy', 'copy the command', () => {
     void navigator.clipboard?.writeText(run.command);
   });
   root.append(
-    element('h3', {}, 'Made by'),
-    element('div', { class: 'command' }, element('code', { id: 'command' }, run.command), copy),
+    element('h3', 'Made by'),
+    element('div.command', element('code', { id: 'command' }, run.command), copy),
   );
-  for (const note of run.notes) root.append(element('p', { class: 'note' }, note));
+  for (const note of run.notes) root.append(element('p.note', note));
   const facts = element('dl');
   for (const [name, value] of run.facts)
-    facts.append(element('dt', {}, name), element('dd', { 'data-fact': name }, value));
+    facts.append(element('dt', name), element('dd', { 'data-fact': name }, value));
   root.append(facts);
   for (const { title, head, rows } of run.tables) root.append(section(title, head, rows));
   for (const { name, text } of run.files) root.append(fold(name, text));

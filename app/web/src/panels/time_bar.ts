@@ -36,14 +36,14 @@ export interface Shown {
 }
 
 export class TimeBar {
-  readonly root = element('footer', { class: 'transport', 'aria-label': 'time' });
+  readonly root = element('footer.transport', { 'aria-label': 'time' });
   readonly play: HTMLButtonElement;
   readonly slider: HTMLInputElement;
   readonly speed = element('select', { title: 'speed: [ slower, ] faster', 'aria-label': 'speed' });
   readonly track: HTMLElement;
-  readonly where = element('output', { class: 'where' });
-  readonly ends = element('div', { class: 'buttons' });
-  private readonly clock = element('output', { class: 'clock', 'aria-live': 'off' });
+  readonly where = element('output.where');
+  readonly ends = element('div.buttons');
+  private readonly clock = element('output.clock', { 'aria-live': 'off' });
   private scrubbing = false;
 
   constructor(clock: Clock, sliderLabel: string, before: Node[], after: Node[]) {
@@ -64,14 +64,13 @@ export class TimeBar {
       this.speed.append(element('option', { value: String(speed) }, `${SPEED_WORDS[i]}×`)),
     );
     this.speed.addEventListener('change', () => clock.setSpeed(Number(this.speed.value)));
-    this.track = element('div', { class: 'track' }, slider);
+    this.track = element('div.track', slider);
     this.root.append(
       this.track,
       element(
-        'div',
-        { class: 'row' },
-        element('div', { class: 'buttons' }, ...before, this.play, ...after, this.speed),
-        element('div', { class: 'reading' }, this.clock, this.where),
+        'div.row',
+        element('div.buttons', ...before, this.play, ...after, this.speed),
+        element('div.reading', this.clock, this.where),
         this.ends,
       ),
     );
@@ -98,7 +97,7 @@ export class TimeBar {
     this.speed.querySelector('.other')?.remove();
     const known = SPEEDS.find((one) => Math.abs(one - speed) < 1e-9);
     if (known === undefined)
-      this.speed.append(element('option', { class: 'other', value: String(speed) }, `${speed}×`));
+      this.speed.append(element('option.other', { value: String(speed) }, `${speed}×`));
     this.speed.value = String(known ?? speed);
   }
 }

@@ -40,7 +40,7 @@ export interface ChartUser {
 export class Chart {
   readonly root: HTMLElement;
   isSeen = true; // within what is scrolled to
-  private readonly canvas = element('div', { class: 'canvas', role: 'img' });
+  private readonly canvas = element('div.canvas', { role: 'img' });
   private readonly title = element('span');
   private readonly chips: { curve: Curve | null; chip: HTMLElement; value: HTMLElement }[] = [];
   private readonly hidden = new Set<Curve>();
@@ -53,29 +53,24 @@ export class Chart {
   private factor = 1;
   private unit = '';
   private at: number | null = null; // the instant that is shown, if not the newest
-  private readonly marker = element('div', { class: 'marker' });
+  private readonly marker = element('div.marker');
   private readonly gestures: Gestures;
 
-  constructor(
-    readonly spec: PlotSpec,
-    readonly record: RunRecord,
-    private readonly user: ChartUser,
-  ) {
+  constructor(readonly spec: PlotSpec, readonly record: RunRecord, private readonly user: ChartUser) {
     const head = element(
       'h3',
-      {},
-      element('span', { class: 'name' }, spec.title),
+      element('span.name', spec.title),
       this.title,
-      element('span', { class: 'space' }),
+      element('span.space'),
       button('CSV', `${spec.title}: numbers as a file`, () => this.saveCsv(), 'small'),
       button('PNG', `${spec.title}: picture as a file`, () => this.savePicture(), 'small'),
     );
-    const legend = element('div', { class: 'chips' });
+    const legend = element('div.chips');
     for (const curve of spec.curves) legend.append(this.chip(curve, curve.name));
     if (spec.sum !== undefined) legend.append(this.chip(null, 'sum: rise of kinetic energy'));
     if (spec.omitted > 0)
-      legend.append(element('span', { class: 'omitted' }, `${spec.omitted} smaller not shown`));
-    this.root = element('section', { class: 'plot', id: `plot-${spec.id}` }, head);
+      legend.append(element('span.omitted', `${spec.omitted} smaller not shown`));
+    this.root = element('section.plot', { id: `plot-${spec.id}` }, head);
     for (const [i, file] of ['CSV', 'PNG'].entries())
       head.querySelectorAll('button')[i].setAttribute('aria-label', `${file}: ${spec.title}`);
     const names = spec.curves.map(({ name }) => name).join(', ');
@@ -153,7 +148,7 @@ export class Chart {
       'button',
       { type: 'button', 'aria-pressed': 'true', class: curve?.style ?? 'line' },
       element('i'),
-      element('span', {}, name),
+      element('span', name),
       value,
     );
     if (curve)
@@ -170,10 +165,7 @@ export class Chart {
 
   private scaleUnits(): void {
     const { low, high } = this.record;
-    const size = this.spec.curves.reduce(
-      (most, { column }) => Math.max(most, high[column], -low[column]),
-      0,
-    );
+    const size = this.spec.curves.reduce((most, { column }) => Math.max(most, high[column], -low[column]), 0);
     const { unit, factor } = screenUnit(this.spec.unit, this.user.degrees, size);
     this.factor = factor;
     if (unit === this.unit) return;
@@ -211,10 +203,7 @@ export class Chart {
       width,
       height,
       legend: { show: false },
-      scales: {
-        x: { time: false },
-        y: { range: (_, low, high) => rangeOf(low, high, this.beside) },
-      },
+      scales: { x: { time: false }, y: { range: (_, low, high) => rangeOf(low, high, this.beside) } },
       padding: [8, 16, 0, 0],
       cursor: {
         y: false,
@@ -243,10 +232,7 @@ export class Chart {
   private select(chart: uPlot): void {
     const { left, width } = chart.select;
     if (width < 4) return;
-    this.user.zoom({
-      from: chart.posToVal(left, 'x'),
-      to: chart.posToVal(left + width, 'x'),
-    });
+    this.user.zoom({ from: chart.posToVal(left, 'x'), to: chart.posToVal(left + width, 'x') });
     chart.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
   }
 
@@ -266,7 +252,7 @@ export class Chart {
   // Drawn once more, larger than on the page.
   private savePicture(): void {
     if (!this.chart) return;
-    const host = element('div', { class: 'unseen', 'aria-hidden': 'true' });
+    const host = element('div.unseen', { 'aria-hidden': 'true' });
     document.body.append(host);
     const options = this.options(PICTURE.width, PICTURE.height);
     const { from, to } = this.window;

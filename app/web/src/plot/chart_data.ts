@@ -33,23 +33,13 @@ function scaled(values: Points, factor: number): Points {
   return values.map((value) => (value === null ? null : value * factor));
 }
 
-export function lines(
-  store: Store,
-  buckets: Buckets,
-  curves: Curve[],
-  factor: number,
-): uPlot.AlignedData {
+export function lines(store: Store, buckets: Buckets, curves: Curve[], factor: number): uPlot.AlignedData {
   const values = curves.map(({ column }) => scaled(outline(store.column(column), buckets), factor));
   return [timesOf(store.times, buckets, true), ...values];
 }
 
 // What is positive piles up above zero, what is negative below; their sum is the line.
-export function stack(
-  store: Store,
-  buckets: Buckets,
-  curves: Curve[],
-  sum: number,
-): uPlot.AlignedData {
+export function stack(store: Store, buckets: Buckets, curves: Curve[], sum: number): uPlot.AlignedData {
   const times = timesOf(store.times, buckets, false);
   const data: uPlot.AlignedData = [times];
   const parts = curves.map(({ column, rest = [] }) => {

@@ -12,7 +12,7 @@ export interface PlotBarUser {
 const LENGTHS: Record<string, number> = { '10 s': 10, '30 s': 30, all: Infinity };
 
 export class PlotBar {
-  readonly root = element('div', { class: 'plot-bar', role: 'toolbar', 'aria-label': 'plots' });
+  readonly root = element('div.plot-bar', { role: 'toolbar', 'aria-label': 'plots' });
   length: number; // of the time shown [s]
   private readonly pause: HTMLButtonElement;
   private paused = false;
@@ -38,7 +38,7 @@ export class PlotBar {
     this.root.append(
       ...(isLive ? [this.pause, lengths.root] : [button('whole run', 'all of the time (double click)', () => user.all())]),
       angles.root,
-      element('span', { class: 'space' }),
+      element('span.space'),
       button('all CSV', 'every quantity that is remembered, as a file', () => user.saveCsv()),
     );
   }

@@ -17,7 +17,7 @@ const SHARE = 5; // where drawing is slow, it takes one in so many milliseconds
 const REVIEW = 1000; // how often it is asked which curves there are [ms]
 
 export class Plots implements Panel, ChartUser {
-  readonly root = element('div', { class: 'plots' });
+  readonly root = element('div.plots');
   degrees = true;
   private record: RunRecord | null = null;
   private readonly bar: PlotBar;
@@ -47,7 +47,7 @@ export class Plots implements Panel, ChartUser {
       saveCsv: () => this.saveAll(),
     });
     this.pick.addEventListener('change', () => this.choose(this.pick.value));
-    const pick = element('section', { class: 'pick' }, this.pick, this.picked);
+    const pick = element('section.pick', this.pick, this.picked);
     this.root.append(this.bar.root, this.list, pick);
     this.watch = new IntersectionObserver((entries) => {
       for (const { target, isIntersecting } of entries)

@@ -27,9 +27,7 @@ function resolve(value: unknown, buffer: ArrayBuffer): unknown {
   if (isPlace(value)) return new KINDS[value.type](buffer, value.at, value.count);
   if (Array.isArray(value)) return value.map((item) => resolve(item, buffer));
   if (typeof value !== 'object' || value === null) return value;
-  return Object.fromEntries(
-    Object.entries(value).map(([key, item]) => [key, resolve(item, buffer)]),
-  );
+  return Object.fromEntries(Object.entries(value).map(([key, item]) => [key, resolve(item, buffer)]));
 }
 
 async function inflate(base64: string): Promise<ArrayBuffer> {

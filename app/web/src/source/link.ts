@@ -28,10 +28,7 @@ export class Link {
   private pause = FIRST_PAUSE;
   private timer = 0;
 
-  constructor(
-    private readonly url: string,
-    private readonly changed: (open: boolean) => void,
-  ) {
+  constructor(private readonly url: string, private readonly changed: (open: boolean) => void) {
     addEventListener('online', () => this.connect());
     document.addEventListener('visibilitychange', () => {
       if (!document.hidden) this.connect();

@@ -12,10 +12,7 @@ export class Player extends Playhead implements RunSource, Clock {
   readonly times: Float64Array;
   declare at: number;
 
-  constructor(
-    run: Run,
-    private readonly changed: () => void,
-  ) {
+  constructor(run: Run, private readonly changed: () => void) {
     super(run.times[0]);
     this.record = recordOf(run);
     this.times = run.times;

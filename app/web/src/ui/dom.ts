@@ -1,13 +1,21 @@
-// Elements in one call. Texts are set as texts: names of a file cannot become tags.
-export function element<K extends keyof HTMLElementTagNameMap>(
-  tag: K,
-  attributes: Record<string, string> = {},
-  ...children: (Node | string)[]
-): HTMLElementTagNameMap[K] {
-  const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  made.append(...children);
-  return made;
+type TagOf<T extends string> = T extends `${infer Tag}.${string}` ? Tag : T;
+type Made<T extends string> =
+  TagOf<T> extends keyof HTMLElementTagNameMap ? HTMLElementTagNameMap[TagOf<T>] : never;
+
+// An element in one call: element('p.hint.small', { title: 'attributes' }, 'text', child). Texts are
+// set as texts: names of a file cannot become tags.
+export function element<T extends string>(
+  tag: T,
+  ...parts: (Record<string, string> | Node | string)[]
+): Made<T> {
+  const [name, ...classes] = tag.split('.');
+  const made = document.createElement(name);
+  if (classes.length > 0) made.className = classes.join(' ');
+  for (const part of parts) {
+    if (typeof part === 'string' || part instanceof Node) made.append(part);
+    else for (const [key, value] of Object.entries(part)) made.setAttribute(key, value);
+  }
+  return made as Made<T>;
 }
 
 export function button(

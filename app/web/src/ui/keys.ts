@@ -89,13 +89,13 @@ export function listen(keys: Key[], isKept: (event: KeyboardEvent) => boolean = 
 // A dialog of all keys, which `?` opens and closes.
 export function help(keys: Key[], mouse: string): HTMLDialogElement {
   const list = element('dl');
-  const dialog = element('dialog', { class: 'help', 'aria-label': 'keys' });
+  const dialog = element('dialog.help', { 'aria-label': 'keys' });
   const close = button('close', 'Escape', () => dialog.close());
   const toggle = () => (dialog.open ? dialog.close() : dialog.showModal());
   keys.push(key(['?'], '?', 'this help', toggle));
   for (const { shown, what } of keys)
-    if (shown) list.append(element('dt', {}, element('kbd', {}, shown)), element('dd', {}, what));
-  dialog.append(element('h2', {}, 'Keys'), list, element('p', {}, mouse), close);
+    if (shown) list.append(element('dt', element('kbd', shown)), element('dd', what));
+  dialog.append(element('h2', 'Keys'), list, element('p', mouse), close);
   return dialog;
 }
 
@@ -108,7 +108,6 @@ export const MOUSE = 'Mouse: drag turns, right button moves, wheel zooms.';
 export function pageHeader(parts: Node[], dialog: HTMLDialogElement, toggleTheme: () => void): HTMLElement {
   return element(
     'header',
-    {},
     ...parts,
     button('?', 'keys (?)', () => dialog.showModal()),
     button(icon('theme'), 'light or dark (t)', toggleTheme),

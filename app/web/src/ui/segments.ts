@@ -12,7 +12,7 @@ export class Segments {
     this.choices = names.map((value) =>
       element('input', { type: 'radio', name, value, 'aria-label': value }),
     );
-    this.root = element('div', { class: 'segments', role: 'radiogroup', 'aria-label': label });
+    this.root = element('div.segments', { role: 'radiogroup', 'aria-label': label });
     this.root.append(...this.choices);
     this.root.addEventListener('change', ({ target }) => choose((target as HTMLInputElement).value));
   }

@@ -20,5 +20,5 @@ export function sign(state: SignState): SVGSVGElement {
 
 // Icon and words: one line below a knob, a heading of a card.
 export function signed(state: SignState, words: string): HTMLElement {
-  return element('span', { class: `signed ${state}` }, sign(state), element('span', {}, words));
+  return element('span', { class: `signed ${state}` }, sign(state), element('span', words));
 }

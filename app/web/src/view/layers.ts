@@ -5,14 +5,11 @@ import { element } from '../ui/dom';
 type LayerHead = Pick<Layer, 'name' | 'what' | 'shown' | 'legend'>;
 
 export class LayerChoice<L extends LayerHead = Layer> {
-  readonly switches = element('fieldset', { class: 'switches' }, element('legend', {}, 'Show'));
-  readonly legend = element('ul', { class: 'legend', 'aria-label': 'what the colours mean' });
+  readonly switches = element('fieldset.switches', element('legend', 'Show'));
+  readonly legend = element('ul.legend', { 'aria-label': 'what the colours mean' });
   private readonly boxes = new Map<string, HTMLInputElement>();
 
-  constructor(
-    private readonly layers: L[],
-    private readonly changed: () => void,
-  ) {
+  constructor(private readonly layers: L[], private readonly changed: () => void) {
     // The bodies themselves are always there; what never has an entry needs no switch.
     const choice = layers.filter((layer) => layer.name !== 'bodies' && mayHaveEntries(layer));
     choice.forEach((layer, i) => this.addSwitch(layer, i < 9 ? String(i + 1) : ''));
@@ -42,9 +39,9 @@ export class LayerChoice<L extends LayerHead = Layer> {
     box.checked = layer.shown;
     box.addEventListener('change', () => this.set(layer.name, box.checked));
     this.boxes.set(layer.name, box);
-    const words = element('span', {}, layer.name);
+    const words = element('span', layer.name);
     const label = element('label', { title: layer.what }, box, words);
-    if (key) label.append(element('kbd', {}, key));
+    if (key) label.append(element('kbd', key));
     this.switches.append(label);
   }
 
@@ -55,7 +52,7 @@ export class LayerChoice<L extends LayerHead = Layer> {
       for (const line of layer.legend) {
         const swatch = element('i');
         swatch.style.background = `rgb(${line.color.join(' ')})`;
-        this.legend.append(element('li', {}, swatch, line.text));
+        this.legend.append(element('li', swatch, line.text));
       }
     this.legend.hidden = this.legend.childElementCount === 0;
   }

@@ -20,7 +20,7 @@ export class LiveStage {
   readonly canDraw = this.gl !== null;
   private readonly store = new MeshStore();
   private readonly labels: Labels;
-  private readonly tag = element('div', { class: 'tag', hidden: '' });
+  private readonly tag = element('div.tag', { hidden: '' });
   private scene: SceneMessage | null = null;
   private meshes = 0; // that the stage has
   private textures = 0;

@@ -9,12 +9,12 @@ const AT_FIRST = ['ghost', 'device', 'couplings', 'contacts', 'felt', 'before'];
 type Head = SceneMessage['layers'][number] & { shown: boolean };
 
 export class Overlays {
-  readonly root = element('div', { class: 'overlays' });
+  readonly root = element('div.overlays');
   readonly legend = element('div');
   private choice: LayerChoice<Head> | null = null;
   private chosen = new Set(remembered<string[]>('layers', AT_FIRST));
   private readonly toggle: HTMLButtonElement;
-  private readonly list = element('div', { class: 'list', hidden: '' });
+  private readonly list = element('div.list', { hidden: '' });
   private known = ''; // names of layers
   private heads: Head[] = [];
 

@@ -14,7 +14,7 @@ export class Picture {
     const words =
       'This browser cannot draw in three dimensions (WebGL): the program draws, five pictures a ' +
       'second, from one side. Keys move the hand all the same.';
-    this.root = element('figure', { class: 'picture' }, this.image, element('figcaption', {}, words));
+    this.root = element('figure.picture', this.image, element('figcaption', words));
     for (const end of ['load', 'error']) this.image.addEventListener(end, () => (this.loading = false));
   }
 

@@ -36,11 +36,7 @@ function shares(bytes: [number, number, number]): [number, number, number] {
 }
 
 // What a slow machine saves: pixels, and those of the shadows. From fine to coarse.
-const DETAILS = [
-  { pixels: 2, shadow: 2048 },
-  { pixels: 1, shadow: 1024 },
-  { pixels: 0.75, shadow: 512 },
-];
+const DETAILS = [{ pixels: 2, shadow: 2048 }, { pixels: 1, shadow: 1024 }, { pixels: 0.75, shadow: 512 }];
 
 export class Stage {
   readonly camera: THREE.PerspectiveCamera;

@@ -12,7 +12,7 @@ const NAMES: [ViewName, string][] = [
 ];
 
 export class Views {
-  readonly root = element('div', { class: 'views' });
+  readonly root = element('div.views');
   private readonly follows = element('select', { title: 'what the camera follows (f)', 'aria-label': 'camera' });
   private known = '';
 
