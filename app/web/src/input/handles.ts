@@ -5,7 +5,7 @@ import './handles.css';
 import * as THREE from 'three';
 import { element, svg } from '../ui/dom';
 import type { Stage } from '../view/stage';
-import type { Axis } from './joint_drag';
+import type { Axis } from './drag_goal';
 import type { Frame, SceneJoint, SceneMessage, Vector } from '../source/link';
 
 const POINTS = 48; // of an arc

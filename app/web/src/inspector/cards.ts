@@ -1,10 +1,10 @@
 // The quantities of a pass at a body, each in its equation where it has one.
-import type { Equation } from '../protocol/inspection';
+import type { Equation, Quantity, Term, Value } from '../protocol/inspection';
 import type { BodyInspection } from '../protocol/messages';
-import type { Quantity } from '../protocol/inspection';
-import { bold, fraction, math, mathNumber, operator, signedSum, source } from './math';
-import { quantityCard, unitOfSix } from './quantity';
-import { equationBlock, equationLine, line } from './equation';
+import { bold, fraction, math, mathNumber, operator, set, signedSum, source } from './math';
+import { quantityCard, unitOfSix, valueOf } from './quantity';
+import { element, largestOf, short, unitText } from '../ui/dom';
+import { numberCell, row, table } from '../ui/table';
 
 // Of a joint: the first where it turns, the second where it shifts.
 export function unitOf({ passes }: BodyInspection, unit: string): string {
@@ -67,4 +67,122 @@ function block(equation: Equation, quantity: Quantity, numbers: BodyInspection, 
   const over = signedSum([{ sign: '', value: u }, { sign: felt > 0 ? '+' : '-', value: Math.abs(felt) }]);
   const parts = [fraction(over, mathNumber(D)), operator('='), bold(mathNumber(quantity.value))];
   return [equationLine("qdd = D^-1 ( u - U^T a' )"), line(parts, quantity.value, unit)];
+}
+
+// An equation of the passes with its numbers in: columns as on paper, one for each term, with the
+// signs between; matrices below one another; of one number all in a line.
+const ROWS = ['x', 'y', 'z', 'x', 'y', 'z'];
+const NOTHING = 1e-9; // larger rests are told
+
+function isMinus({ symbol }: Term): boolean {
+  return symbol.startsWith('- ');
+}
+function bare({ symbol }: Term): string {
+  return symbol.replace(/^- /, '');
+}
+// With the sign that stands before it taken off.
+function signed(term: Term): number[] {
+  const numbers = term.value as number[];
+  // What is not finite comes as null.
+  return isMinus(term) ? numbers.map((number) => (number === null ? number : -number + 0)) : numbers;
+}
+function whose(term: Term, body: string): string {
+  return term.of === body ? term.words : `${term.words} (${term.of})`;
+}
+
+export function isMatrix(value: Value): value is number[][] {
+  return Array.isArray(value) && Array.isArray(value[0]);
+}
+
+// Two parts of three, as the book has them; of a joint as many rows as it has velocities. One term
+// alone is not told twice.
+function columns(equation: Equation, body: string, unit: string): HTMLElement {
+  const { name } = equation;
+  const terms = equation.terms.length > 1 ? equation.terms : [];
+  const value = equation.value as number[];
+  const isSix = value.length === 6;
+  const parts: { sign: string; symbol: string; words: string; numbers: number[] }[] = terms.map(
+    (term, i) => ({
+      sign: isMinus(term) ? '−' : i > 0 ? '+' : '',
+      symbol: bare(term),
+      words: whose(term, body),
+      numbers: signed(term),
+    }),
+  );
+  parts.push({ sign: terms.length > 0 ? '=' : '', symbol: name, words: '', numbers: value });
+  // Each half has a unit of its own, and so a size.
+  const half = (from: number) => largestOf(parts.flatMap(({ numbers }) => numbers.slice(from, from + 3)));
+  const sizes = isSix ? [half(0), half(3)] : [largestOf(parts.flatMap(({ numbers }) => numbers))];
+  const heads = parts.flatMap(({ sign, symbol, words }) => [
+    element('td.sign', sign),
+    element('th', { scope: 'col', title: words }, math(symbol)),
+  ]);
+  const units = unit.split(';').map((text) => text.trim());
+  const rows = value.map((_, k) =>
+    row(
+      isSix ? ROWS[k] : String(k + 1),
+      ...parts.flatMap(({ numbers }, i) => [
+        element('td.sign'),
+        numberCell(numbers[k], sizes[isSix ? Math.floor(k / 3) : 0], i === parts.length - 1 ? 'total' : ''),
+      ]),
+      element('td.unit', k % 3 === 0 ? unitText(units[Math.floor(k / 3)] ?? units[0]) : ''),
+    ),
+  );
+  const made = table([element('td'), ...heads, element('td')], rows, {
+    class: isSix ? 'columns six-rows' : 'columns',
+  });
+  return element('div.wide', made);
+}
+
+// What it adds up to stands open, the terms can be opened.
+function matrices(equation: Equation, body: string, unit: string): Node[] {
+  const terms = equation.terms.map((term) =>
+    element(
+      'div.term',
+      element('p', math(term.symbol), ` ${whose(term, body)}`),
+      valueOf({ value: term.value, unit }),
+    ),
+  );
+  const sum = valueOf({ value: equation.value, unit });
+  if (terms.length < 2) return [sum];
+  const words = `its ${terms.length} terms`;
+  return [sum, element('details.terms', element('summary', words), ...terms)];
+}
+
+function inLine({ terms, value }: Equation, unit: string): HTMLElement {
+  const parts = terms.map((term, i) => ({
+    sign: isMinus(term) ? '-' : i > 0 ? '+' : '',
+    value: (isMinus(term) ? -1 : 1) * (term.value as number),
+  }));
+  const left = terms.length > 1 ? [...signedSum(parts), operator('=')] : [];
+  return line([...left, bold(mathNumber(value as number))], value as number, unit);
+}
+
+// All digits stand at the pointer.
+export function line(parts: Node[], value: number, unit: string): HTMLElement {
+  return element(
+    'p.line',
+    { title: String(value) },
+    set(...parts),
+    element('span.unit', ` ${unitText(unit)}`),
+  );
+}
+
+// A browser lets the focus stop at an equation that is too wide for the panel: it needs a name.
+export function equationLine(text: string): HTMLElement {
+  return element('p.set', { role: 'math', 'aria-label': text }, math(text));
+}
+
+// `unit` of the left side: of six "angular; linear", of a joint "turning; shifting".
+export function equationBlock(equation: Equation, body: string, unit: string): Node[] {
+  const { value, residual, text } = equation;
+  const numbers: Node[] = isMatrix(value)
+    ? matrices(equation, body, unit)
+    : Array.isArray(value)
+      ? [columns(equation, body, unit)]
+      : [inLine(equation, unit)];
+  const rest = residual === null || residual > NOTHING;
+  const words =
+    residual === null ? 'not all numbers are finite' : `but for ${short(residual)} of the largest`;
+  return [equationLine(text), ...numbers, ...(rest ? [element('p.note', words)] : [])];
 }

@@ -3,16 +3,15 @@
 // through one call of the algorithm.
 import './inspector.css';
 import type { BodyInspection } from '../protocol/messages';
-import { balanceTable, wrenchColor } from './balance';
-import { checkTable, checkWords } from './checks';
-import { button, element, icon, short } from '../ui/dom';
+import {
+  balanceTable, checkTable, checkWords, contactTables, energyTable, jointTables, neighbourCards, soFar,
+  wrenchColor,
+} from './tables';
+import { button, element, icon, morph, short } from '../ui/dom';
 import { listen } from '../ui/keys';
-import { morph } from '../ui/morph';
-import { PASSES, Stepper, type Step } from './stepper';
 import type { SceneMessage } from '../source/link';
 import { passCards, unitOf } from './cards';
 import { closing, diagram, type Plane } from './diagram';
-import { contactTables, energyTable, jointTables, neighbourCards, soFar } from './tables';
 import type { LabPage, Panel } from '../panels/panel';
 
 const LENGTH = 0.38; // of the longest arrow, of what is seen
@@ -231,4 +230,52 @@ export class Inspector implements Panel {
 
 function words(text: string): HTMLElement {
   return element('p.hint', text);
+}
+
+// The way of the passes: one button for each step, a row a pass.
+export const PASSES: Record<number, [string, string]> = {
+  1: ['Pass 1, outward', 'velocities, and the force that each body alone takes'],
+  2: ['Pass 2, inward', 'articulated inertias: each body with all that hangs on it'],
+  3: ['Pass 3, outward', 'accelerations'],
+};
+
+export interface Step {
+  pass: number;
+  body: string;
+}
+
+export class Stepper {
+  readonly root = element('nav.stepper', { 'aria-label': 'steps of the passes' });
+  private chips: HTMLButtonElement[] = [];
+  private steps: readonly Step[] = [];
+  private rows: HTMLElement[] = [];
+
+  constructor(
+    private readonly go: (step: number) => void,
+    private readonly goPass: (pass: number) => void,
+  ) {}
+
+  set(steps: readonly Step[]): void {
+    this.chips = steps.map(({ pass, body }, i) =>
+      button(body, `pass ${pass} at ${body}`, () => this.go(i)),
+    );
+    this.steps = steps;
+    this.rows = [1, 2, 3].map((pass) =>
+      element(
+        'div.row',
+        button(PASSES[pass][0], PASSES[pass].join(': '), () => this.goPass(pass), 'pass'),
+        ...this.chips.filter((_, i) => steps[i].pass === pass),
+      ),
+    );
+    this.root.replaceChildren(...this.rows);
+  }
+
+  show(at: number): void {
+    this.chips.forEach((chip, i) => {
+      chip.setAttribute('aria-current', i === at ? 'step' : 'false');
+      chip.classList.toggle('done', i < at);
+    });
+    const pass = this.steps[at]?.pass;
+    this.rows.forEach((row, i) => row.classList.toggle('current', i + 1 === pass));
+  }
 }

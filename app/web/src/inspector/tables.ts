@@ -1,12 +1,15 @@
 // What else acts on the body: along its joint, in contacts, in joules; and what a pass has found so
 // far.
-import type { JointBalance, NamedForce, Neighbour, PassStep, Quantity } from '../protocol/inspection';
+import type {
+  Balance, Check, JointBalance, NamedForce, Neighbour, PassStep, Quantity,
+} from '../protocol/inspection';
 import { NUMERICAL } from '../protocol/run';
-import { EnergyTable, inOrder } from '../panels/energy';
+import { EnergyTable, inOrder } from '../panels/balances';
 import { element, largestOf, short, unitText } from '../ui/dom';
 import { numberCell, row, table } from '../ui/table';
 import { math, source } from './math';
 import { quantityCard } from './quantity';
+import { token } from '../ui/preferences';
 
 function numbers(values: number[], scale = 0): HTMLElement[] {
   return values.map((value) => numberCell(value, scale));
@@ -119,4 +122,61 @@ export function neighbourCards(neighbours: Neighbour[], pass: number): HTMLEleme
         ),
       ),
     );
+}
+
+// Every wrench on a body, as a table; its colours are those of the arrows in the picture.
+const COLORS = 8;
+
+export function wrenchColor(i: number): string {
+  return token(`--c${i % COLORS}`);
+}
+
+// With its number: colours alone do not tell eight apart.
+export function swatch(i: number): HTMLElement {
+  const number = element('b', String(i + 1));
+  const made = element('i.swatch', number);
+  made.style.color = `var(--c${i % COLORS})`;
+  return made;
+}
+
+export function balanceTable(
+  { body, wrenches, residual, largest }: Balance,
+  axes: string,
+  about: string,
+): HTMLElement {
+  const rows = wrenches.map(({ source, force, torque }, i) =>
+    row([swatch(i), source], ...[...force, ...torque].map((value) => numberCell(value, largest))),
+  );
+  const heads = ['', 'Fx', 'Fy', 'Fz [N]', 'Tx', 'Ty', 'Tz [N m]'];
+  const title = element('span', ` ${axes} axes, about ${about}`);
+  const sum = `They add up to ${short(residual)} of the largest (${short(largest)}).`;
+  return element(
+    'div',
+    element('h3', `Every wrench on ${body}`, title),
+    table(heads, rows),
+    element('p.hint', sum),
+  );
+}
+
+// Checks by second ways, and warnings.
+export function checkWords(checks: Check[]): string {
+  const failed = checks.filter((check) => !check.pass).length;
+  return failed > 0 ? `${failed} of ${checks.length} fall short` : `${checks.length} pass`;
+}
+
+export function checkTable(checks: Check[], warnings: string[]): HTMLElement {
+  const heads = ['', 'found by a second way', 'error', 'tolerance', 'worst at'];
+  const rows = checks.map(({ pass, name, meaning, error, tolerance, body }) => {
+    const made = row(
+      `${pass ? '✓' : '✗'} ${name}`,
+      element('td', meaning),
+      numberCell(error),
+      numberCell(tolerance),
+      element('td', body),
+    );
+    made.classList.toggle('short', !pass);
+    return made;
+  });
+  const notes = warnings.map((text) => element('p.note', text));
+  return element('section.checks', ...notes, table(heads, rows));
 }

@@ -1,15 +1,15 @@
 // The page of one inspected state: the inspector over the numbers that the page carries, with the
 // robot beside it.
-import { checkTable, checkWords } from '../inspector/checks';
+import { checkTable, checkWords } from '../inspector/tables';
 import { Inspector, type InspectorPage } from '../inspector/inspector';
 import type { InspectedRobot, Inspection } from '../protocol/inspection';
 import type { BodyInspection, SceneMessage } from '../protocol/messages';
 import type { Layer } from '../protocol/run';
 import { element } from '../ui/dom';
-import { key, MOUSE, viewKeys, type Key } from '../ui/keys';
+import { key, type Key, MOUSE, viewKeys } from '../ui/keys';
 import './inspect.css';
-import { RecordedPage, type Instant } from './recorded_page';
-import { start } from './start';
+import { type Instant, RecordedPage } from './recorded_page';
+import { start } from '../source/embedded';
 
 const FAINT = 60; // of 255: bodies that are not looked at
 

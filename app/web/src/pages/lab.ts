@@ -10,22 +10,19 @@ import { Handles } from '../input/handles';
 import { KeyInput } from '../input/key_input';
 import { isKept, labKeys, MOUSE } from './lab_keys';
 import * as wire from '../source/link';
-import { LiveStage } from '../view/live_stage';
-import { remember, remembered } from '../ui/memory';
-import { Overlays } from '../view/overlays';
-import type { LabPage, Listener, Panel, PanelSet } from '../panels/panel';
-import { panelsOf } from '../panels/panels';
-import { Picture } from '../view/picture';
+import { LiveStage, Picture } from '../view/live_stage';
+import { remember, remembered, Theme } from '../ui/preferences';
+import { Overlays, Views } from '../view/view_options';
+import { type LabPage, type Listener, type Panel, type PanelSet, panelsOf } from '../panels/panel';
 import { Pace } from '../view/pace';
-import { Views } from '../view/views';
 import { Hints } from '../panels/hints';
 import { button, element, icon } from '../ui/dom';
-import { LiveRun } from '../source/live_run';
+import { LiveRun } from '../source/run_source';
 import { help, listen, pageHeader, PLOTS } from '../ui/keys';
-import { Tabs } from '../ui/tabs';
-import { Theme } from '../ui/theme';
+import { Tabs } from '../ui/choices';
 import type { Arrow } from '../view/arrows';
 import type { ViewName } from '../view/stage';
+
 import './lab.css'; // last: it changes what parts look like under fingers
 
 const TABS = ['Knobs', 'Plots', 'Glass', 'Ledger'];

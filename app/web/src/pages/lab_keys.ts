@@ -1,10 +1,10 @@
 // The keyboard of the lab: everything that a mouse can do.
-import { clockKeys, key, viewKeys, type Key } from '../ui/keys';
+import { clockKeys, key, type Key, viewKeys } from '../ui/keys';
 import type { ViewName } from '../view/stage';
 import type { Operator } from '../input/operator';
 import type { KeyInput } from '../input/key_input';
 import type { LabPage, PanelSet } from '../panels/panel';
-import type { Overlays } from '../view/overlays';
+import type { Overlays } from '../view/view_options';
 import type { LiveStage } from '../view/live_stage';
 
 export interface KeyTargets {

@@ -3,15 +3,13 @@
 import '../ui/style.css';
 import type { Layer, MeshData, View } from '../protocol/run';
 import { element } from '../ui/dom';
-import { help, listen, pageHeader, type Key } from '../ui/keys';
-import { Tabs } from '../ui/tabs';
-import { Theme } from '../ui/theme';
+import { help, type Key, listen, pageHeader } from '../ui/keys';
+import { Tabs } from '../ui/choices';
+import { Theme } from '../ui/preferences';
 import { Labels } from '../view/labels';
-import { LayerChoice } from '../view/layers';
+import { LayerChoice, Views } from '../view/view_options';
 import type { Part } from '../view/painter';
 import { Stage, type ViewName } from '../view/stage';
-import { Views } from '../view/views';
-import { onPaper } from './paper';
 import './print.css';
 
 export interface Carried {
@@ -110,4 +108,28 @@ export abstract class RecordedPage {
     this.stage.setTheme(this.theme.dark);
     this.touch();
   }
+}
+
+// Printing: picture and plots take the size of a page before the browser looks at them. What WebGL
+// has drawn is gone by then, so a copy lies on it.
+export const PAPER = 680; // pixels of a page's width, as style.css has it
+
+export function onPaper(host: HTMLElement, paint: (isPaper: boolean) => void): void {
+  const copy = element('canvas');
+  addEventListener('beforeprint', () => {
+    host.classList.add('paper');
+    paint(true);
+    const canvas = host.querySelector('canvas')!;
+    copy.width = canvas.width;
+    copy.height = canvas.height;
+    copy.style.width = canvas.style.width;
+    copy.style.height = canvas.style.height;
+    copy.getContext('2d')!.drawImage(canvas, 0, 0);
+    canvas.after(copy);
+  });
+  addEventListener('afterprint', () => {
+    copy.remove();
+    host.classList.remove('paper');
+    paint(false);
+  });
 }

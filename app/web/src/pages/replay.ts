@@ -1,17 +1,15 @@
 // The page of a recorded run: one clock, and all that follows it.
-import { EnergyPanel } from '../panels/energy';
-import { MomentumPanel } from '../panels/momentum';
+import { EnergyPanel, MomentumPanel } from '../panels/balances';
 import type { Panel } from '../panels/panel';
-import { setup } from '../panels/setup';
 import { TimeBar } from '../panels/time_bar';
 import { Plots } from '../plot/plots';
 import { channelOf, type Run } from '../protocol/run';
-import { Player } from '../source/player';
+import { Player } from '../source/playhead';
 import { button, element, icon } from '../ui/dom';
-import { clockKeys, key, MOUSE, PLOTS, viewKeys, type Key } from '../ui/keys';
-import { PAPER } from './paper';
-import { RecordedPage, type Instant } from './recorded_page';
-import { start } from './start';
+import { clockKeys, key, type Key, MOUSE, PLOTS, viewKeys } from '../ui/keys';
+import { type Instant, PAPER, RecordedPage } from './recorded_page';
+import { start } from '../source/embedded';
+import { row, table } from '../ui/table';
 
 const TABS = ['plots', 'ledger', 'setup'];
 
@@ -151,3 +149,34 @@ function headline(run: Run): string {
 }
 
 start<Run>((run) => ({ run, page: new Page(run) }));
+
+// What the run was made of.
+function section(title: string, head: string[], rows: string[][]): HTMLElement {
+  const lines = rows.map(([first, ...rest]) => row(first, ...rest.map((text) => element('td', text))));
+  return element('section', element('h3', title), element('div.wide', table(head, lines)));
+}
+
+function fold(title: string, text: string): HTMLElement {
+  return element('details', element('summary', title), element('pre', text));
+}
+
+export function setup(run: Run): HTMLElement {
+  const root = element('section.setup');
+  const copy = button('copy', 'copy the command', () => {
+    void navigator.clipboard?.writeText(run.command);
+  });
+  root.append(
+    element('h3', 'Made by'),
+    element('div.command', element('code', { id: 'command' }, run.command), copy),
+  );
+  for (const note of run.notes) root.append(element('p.note', note));
+  const facts = element('dl');
+  for (const [name, value] of run.facts)
+    facts.append(element('dt', name), element('dd', { 'data-fact': name }, value));
+  root.append(facts);
+  for (const { title, head, rows } of run.tables) root.append(section(title, head, rows));
+  for (const { name, text } of run.files) root.append(fold(name, text));
+  const licences = document.getElementById('licences');
+  if (licences) root.append(fold('Licences of what draws this page', licences.textContent ?? ''));
+  return root;
+}

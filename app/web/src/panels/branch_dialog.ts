@@ -3,7 +3,7 @@ import './branch_dialog.css';
 import { button, element, unitText } from '../ui/dom';
 import type { Knob } from '../source/link';
 import type { LabPage } from './panel';
-import type { Rewind } from '../source/rewind';
+import type { Rewind } from '../source/playhead';
 import { numberText, parseNumber } from '../ui/scale';
 
 interface Line {

@@ -1,10 +1,9 @@
 // When the run has stopped by itself: what, where, why, and what would have held.
 import './diverged.css';
-import { button, element } from '../ui/dom';
-import { watches, type Death, type StateMessage } from '../source/link';
+import { button, element, sign } from '../ui/dom';
+import { type Death, type StateMessage, watches } from '../source/link';
 import type { LabPage, Panel } from './panel';
-import { sign } from '../ui/sign';
-import type { Rewind } from '../source/rewind';
+import type { Rewind } from '../source/playhead';
 
 const BEFORE = 1; // a remedy goes back so far [s]
 const SLOW = 0.1; // of the last second, when it is looked at

@@ -1,10 +1,9 @@
 // The hand: who moves the robot, what the device would push back, who may turn things.
 import './input_bar.css';
-import { button, element } from '../ui/dom';
-import { watches, type Frame, type HandState, type SceneMessage, type StateMessage } from '../source/link';
+import { button, element, signed } from '../ui/dom';
+import { type Frame, type HandState, type SceneMessage, type StateMessage, watches } from '../source/link';
 import { DEVICE_LIMIT } from '../plot/specs';
 import type { LabPage, Panel } from './panel';
-import { signed } from '../ui/sign';
 
 type Source = { name: string; words: string; spec?: string };
 

@@ -1,11 +1,11 @@
 // The time bar of a run that goes on: single steps, going back, branches, files.
 import { button, element, icon } from '../ui/dom';
 import { BranchDialog } from './branch_dialog';
-import { watches, type Frame, type StateMessage } from '../source/link';
+import { type Frame, type StateMessage, watches } from '../source/link';
 import type { LabPage, Panel } from './panel';
-import { Rewind } from '../source/rewind';
-import { SaveMenu } from './save_menu';
-import { speedText, TimeBar, type Clock } from './time_bar';
+import { Rewind } from '../source/playhead';
+import { SaveMenu } from './menus';
+import { type Clock, speedText, TimeBar } from './time_bar';
 
 const REAL_TIME = 0.015; // nearer to 1 is real time
 const STEP = 1 / 60; // of arrows [s]

@@ -7,6 +7,15 @@ import type { BodyInspection } from '../protocol/messages';
 import type { Arrow } from '../view/arrows';
 import type { Clock } from './time_bar';
 import type { Command, Frame, SceneMessage, StateMessage } from '../source/link';
+import { Gallery } from './gallery';
+import { InputBar } from './input_bar';
+import { Parameters } from './parameters';
+import { EnergyPanel } from './balances';
+import { Plots } from '../plot/plots';
+import type { RunSource } from '../source/run_source';
+import { Notes } from './menus';
+import { Diverged } from './diverged';
+import { LabTimeBar } from './lab_time_bar';
 
 export interface Listener {
   onScene?(scene: SceneMessage): void;
@@ -48,4 +57,21 @@ export interface PanelSet {
   hand: Panel; // in the view's lower corner: force with its limit
   gallery: Panel; // root: a <dialog> that the header's button opens
   dead: Panel; // over the view; hides itself
+}
+
+// All panels of the lab but the glass, and how they hang together.
+export function panelsOf(page: LabPage, run: RunSource): PanelSet {
+  const knobs = new Parameters(page);
+  const time = new LabTimeBar(page, () => knobs.changes);
+  const notes = new Notes();
+  time.add(notes);
+  return {
+    knobs,
+    plots: new Plots(run),
+    ledger: new EnergyPanel(run),
+    time,
+    hand: new InputBar(page),
+    gallery: new Gallery(page),
+    dead: new Diverged(page, time.rewind),
+  };
 }

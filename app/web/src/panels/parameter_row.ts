@@ -1,9 +1,8 @@
 // One knob: its name, its control, and beside it what is predicted for its value.
-import { element, icon, unitText } from '../ui/dom';
+import { element, icon, signed, unitText } from '../ui/dom';
 import { isTurned, type Knob } from '../source/link';
-import { numberText, parseNumber, placeOf, stepped, valueAt, type Scale } from '../ui/scale';
-import { Segments } from '../ui/segments';
-import { signed } from '../ui/sign';
+import { numberText, parseNumber, placeOf, type Scale, stepped, valueAt } from '../ui/scale';
+import { Segments } from '../ui/choices';
 
 const SETTLE = 800; // for so long the lab may take to say the value that was set [ms]
 const FEW = 3; // choices that stand side by side, if they have room: letters and gaps [pixels]

@@ -3,8 +3,8 @@
 import '../ui/slider.css';
 import './parameters.css';
 import { button, element } from '../ui/dom';
-import { parameterRow, shapeOf, type ParameterRow } from './parameter_row';
-import { isTurned, watches, type Knob, type StateMessage } from '../source/link';
+import { parameterRow, type ParameterRow, shapeOf } from './parameter_row';
+import { isTurned, type Knob, type StateMessage, watches } from '../source/link';
 import type { LabPage, Panel } from './panel';
 
 const PAUSE = 100; // between two messages [ms]

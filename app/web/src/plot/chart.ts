@@ -1,28 +1,15 @@
 // One plot of a run: uPlot over the rows that are in its window, a legend with the
 // numbers of one instant, a marker there, the branch that was left as dots, and a limit as a line.
 import uPlot from 'uplot';
-import { axesOfTime } from './axes';
+import { axesOfTime, drawOver, Gestures } from './chart_parts';
 import { button, element, short } from '../ui/dom';
-import { token } from '../ui/theme';
+import { token } from '../ui/preferences';
 import {
-  colorOf,
-  DASH,
-  ghostsOf,
-  lines,
-  lineSeries,
-  rangeOf,
-  stack,
-  stackSeries,
-  usualSize,
-  type Beside,
-  type Ghost,
-  type Window,
+  type Beside, colorOf, DASH, type Ghost, ghostsOf, lines, lineSeries, rangeOf, stack, stackSeries,
+  usualSize, type Window,
 } from './chart_data';
-
-import { savePicture, type CsvColumn } from './export';
-import { Gestures } from './gestures';
-import { drawOver } from './overlay';
-import { screenUnit, type Curve, type PlotSpec } from './specs';
+import { type CsvColumn, savePicture } from './export';
+import { type Curve, type PlotSpec, screenUnit } from './specs';
 import type { RunRecord } from '../source/run_record';
 import { bucketsOf } from '../source/store';
 

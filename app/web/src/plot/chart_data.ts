@@ -1,10 +1,10 @@
 // What uPlot gets of a record: rows of a window thinned to what can be seen, as lines or as areas
 // upon each other; and the same of the branch that was left.
 import uPlot from 'uplot';
-import { token } from '../ui/theme';
+import { token } from '../ui/preferences';
 import type { Curve, PlotSpec } from './specs';
 import type { RunRecord } from '../source/run_record';
-import { bucketsOf, outline, samples, timesOf, type Buckets, type Points, type Store } from '../source/store';
+import { type Buckets, bucketsOf, outline, type Points, samples, type Store, timesOf } from '../source/store';
 
 const MOST_LEFT = 400; // buckets of what was left
 export const DASH: Record<Curve['style'], number[] | undefined> = {

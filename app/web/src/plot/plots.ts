@@ -5,12 +5,12 @@ import './plot.css';
 import type { Panel } from '../panels/panel';
 import type { RunRecord } from '../source/run_record';
 import type { RunSource } from '../source/run_source';
-import { element } from '../ui/dom';
+import { button, element, icon } from '../ui/dom';
 import { Chart, type ChartUser } from './chart';
 import type { Window } from './chart_data';
-import { fileName, saveCsv, type CsvColumn } from './export';
-import { PlotBar } from './plot_bar';
-import { PlotSpecs, type PlotSpec } from './specs';
+import { type CsvColumn, fileName, saveCsv } from './export';
+import { type PlotSpec, PlotSpecs } from './specs';
+import { Segments } from '../ui/choices';
 
 const DRAW = 33; // [ms]
 const SHARE = 5; // where drawing is slow, it takes one in so many milliseconds
@@ -203,5 +203,56 @@ export class Plots implements Panel, ChartUser {
     this.single = spec && this.record ? this.chart(spec, this.record) : null;
     this.picked.replaceChildren(...(this.single ? [this.single.root] : []));
     this.refresh();
+  }
+}
+
+// Above the plots: of a run that goes on how much time they show and whether they stand; their file.
+export interface PlotBarUser {
+  paused(on: boolean): void;
+  all(): void;
+  degrees(on: boolean): void;
+  saveCsv(): void;
+}
+
+const LENGTHS: Record<string, number> = { '10 s': 10, '30 s': 30, all: Infinity };
+
+export class PlotBar {
+  readonly root = element('div.plot-bar', { role: 'toolbar', 'aria-label': 'plots' });
+  length: number; // of the time shown [s]
+  private readonly pause: HTMLButtonElement;
+  private paused = false;
+
+  constructor(isLive: boolean, user: PlotBarUser) {
+    this.length = LENGTHS[isLive ? '10 s' : 'all'];
+    const lengths = new Segments('time shown', Object.keys(LENGTHS), (name) => {
+      this.length = LENGTHS[name];
+      user.all();
+    });
+    lengths.show('10 s');
+    const angles = new Segments('angles in', ['°', 'rad'], (name) => user.degrees(name === '°'));
+    angles.show('°');
+    this.pause = button(
+      icon('pause'),
+      'let the plots stand, while the run goes on',
+      () => {
+        this.showPaused(!this.paused);
+        user.paused(this.paused);
+      },
+      'pause',
+    );
+    this.root.append(
+      ...(isLive ? [this.pause, lengths.root] : [button('whole run', 'all of the time (double click)', () => user.all())]),
+      angles.root,
+      element('span.space'),
+      button('all CSV', 'every quantity that is remembered, as a file', () => user.saveCsv()),
+    );
+  }
+
+  showPaused(on: boolean): void {
+    this.paused = on;
+    this.pause.setAttribute('aria-pressed', String(on));
+    this.pause.replaceChildren(icon(on ? 'play' : 'pause'));
+    this.pause.title = on ? 'on with the newest' : 'let the plots stand, while the run goes on';
+    this.pause.setAttribute('aria-label', this.pause.title);
   }
 }

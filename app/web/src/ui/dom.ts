@@ -1,3 +1,5 @@
+
+
 type TagOf<T extends string> = T extends `${infer Tag}.${string}` ? Tag : T;
 type Made<T extends string> =
   TagOf<T> extends keyof HTMLElementTagNameMap ? HTMLElementTagNameMap[TagOf<T>] : never;
@@ -83,4 +85,49 @@ export function unitText(unit: string): string {
 
 export function largestOf(values: (number | null)[]): number {
   return values.reduce<number>((most, value) => Math.max(most, Math.abs(value ?? 0)), 0);
+}
+
+// Signs of how near a limit is: a form, a colour and a word each, for eyes that miss one of them.
+const FORMS = {
+  ok: 'M2.5 8.5l3.5 3.5 7.5-8', // a tick
+  near: 'M8 2L15 14H1zM8 6.5v3.5M8 12v.6', // a triangle
+  beyond: 'M5 1.5h6L15 5.5v5l-4 4H5l-4-4v-5zM5.2 5.2l5.6 5.6M10.8 5.2l-5.6 5.6', // an octagon
+};
+export type SignState = keyof typeof FORMS;
+export const SIGN_WORDS: Record<SignState, string> = {
+  ok: 'holds',
+  near: 'near the limit',
+  beyond: 'beyond the limit',
+};
+
+export function sign(state: SignState): SVGSVGElement {
+  const words = SIGN_WORDS[state];
+  return drawing(FORMS[state], { class: `sign ${state}`, role: 'img', 'aria-label': words });
+}
+
+// Icon and words: one line below a knob, a heading of a card.
+export function signed(state: SignState, words: string): HTMLElement {
+  return element('span', { class: `signed ${state}` }, sign(state), element('span', words));
+}
+
+// Makes what stands like what was made anew, in place: focus, pointer, scrolling and what has been
+// opened stay where they are.
+function same(a: Node, b: Node): boolean {
+  return a.nodeType === b.nodeType && a.nodeName === b.nodeName;
+}
+
+export function morph(now: Element, wanted: Element): void {
+  for (const { name } of [...now.attributes])
+    if (!wanted.hasAttribute(name) && name !== 'open') now.removeAttribute(name);
+  for (const { name, value } of wanted.attributes)
+    if (now.getAttribute(name) !== value && name !== 'open') now.setAttribute(name, value);
+  const to = [...wanted.childNodes];
+  to.forEach((node, i) => {
+    const old = now.childNodes[i];
+    if (!old) now.append(node);
+    else if (!same(old, node)) old.replaceWith(node);
+    else if (old instanceof Element) morph(old, node as Element);
+    else if (old.nodeValue !== node.nodeValue) old.nodeValue = node.nodeValue;
+  });
+  while (now.childNodes.length > to.length) now.lastChild!.remove();
 }

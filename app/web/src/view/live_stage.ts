@@ -5,7 +5,7 @@ import { element } from '../ui/dom';
 import { Labels } from './labels';
 import type { Part } from './painter';
 import { Stage } from './stage';
-import { labelText, placeOf, type Frame, type SceneMessage } from '../source/link';
+import { type Frame, labelText, placeOf, type SceneMessage } from '../source/link';
 import { MeshStore } from '../source/meshes';
 
 const [RIM, DARK_RIM] = ['#0067a5', '#6cb8ee']; // around what is selected: the accent
@@ -145,4 +145,34 @@ function isSoftware(gl: WebGL2RenderingContext): boolean {
   const names = gl.getExtension('WEBGL_debug_renderer_info');
   const name = names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
   return /swiftshader|llvmpipe|softpipe|basic render/i.test(name);
+}
+
+// Where a browser cannot draw: the program's own picture, five times a second. Never more than one
+// on its way.
+const EVERY = 200; // [ms]
+
+export class Picture {
+  readonly root: HTMLElement;
+  private readonly image = element('img', { alt: 'the robot, drawn by the program' });
+  private asked = 0;
+  private loading = false;
+
+  constructor() {
+    const words =
+      'This browser cannot draw in three dimensions (WebGL): the program draws, five pictures a ' +
+      'second, from one side. Keys move the hand all the same.';
+    this.root = element('figure.picture', this.image, element('figcaption', words));
+    for (const end of ['load', 'error']) this.image.addEventListener(end, () => (this.loading = false));
+  }
+
+  tick(now: number): void {
+    if (this.loading || now - this.asked < EVERY) return;
+    const { clientWidth, clientHeight } = this.root;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.asked = now;
+    this.loading = true;
+    const scale = Math.min(1, 1280 / clientWidth);
+    const size = [clientWidth, clientHeight].map((pixels) => Math.round(scale * pixels));
+    this.image.src = `/frame.png?width=${size[0]}&height=${size[1]}&n=${Math.round(now)}`;
+  }
 }
