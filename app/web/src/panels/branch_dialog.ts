@@ -1,6 +1,6 @@
 // Going on from an instant with other knobs: which ones is chosen here.
 import './branch_dialog.css';
-import { button, element, unitText } from '../ui/dom';
+import { button, element, option, unitText } from '../ui/dom';
 import type { Knob } from '../source/link';
 import type { LabPage } from './panel';
 import type { Rewind } from '../source/playhead';
@@ -63,9 +63,8 @@ export class BranchDialog {
   private offer(): void {
     const knobs = this.page.state?.knobs ?? [];
     const left = knobs.filter((knob) => !this.lines.some((line) => line.knob.path === knob.path));
-    this.more.replaceChildren(element('option', { value: '' }, 'turn one more knob …'));
-    for (const { path, label, group } of left)
-      this.more.append(element('option', { value: path }, `${group}: ${label}`));
+    const offers = left.map(({ path, label, group }) => option(path, `${group}: ${label}`));
+    this.more.replaceChildren(option('', 'turn one more knob …'), ...offers);
     this.none.hidden = this.lines.length > 0;
   }
 
@@ -110,8 +109,7 @@ function controlOf(knob: Knob): HTMLInputElement | HTMLSelectElement {
   const value = knob.value === null ? '' : numberText(Number(knob.value));
   if (knob.form !== 'choice')
     return element('input', { type: 'text', ...label, value });
-  const control = element('select', label);
-  for (const name of knob.choices ?? []) control.append(element('option', { value: name }, name));
+  const control = element('select', label, ...(knob.choices ?? []).map((name) => option(name)));
   control.value = String(knob.value);
   return control;
 }

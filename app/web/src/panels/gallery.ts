@@ -1,7 +1,7 @@
 // Scenes to choose from, each with what to look for; and files of one's own: a URDF, a scene, a
 // recording. The lab imports them; what it says of faults is shown as it says it.
 import './gallery.css';
-import { button, element } from '../ui/dom';
+import { button, changeDetector, element } from '../ui/dom';
 import type { StateMessage } from '../source/link';
 import type { LabPage, Panel } from './panel';
 
@@ -14,7 +14,7 @@ export class Gallery implements Panel {
   private readonly zone = element('div.zone');
   private readonly said = element('div.said', { role: 'status' });
   private readonly input = element('input', { type: 'file', multiple: '', accept: ROBOTS });
-  private shown = '';
+  private readonly isNew = changeDetector();
 
   constructor(private readonly page: LabPage) {
     this.input.hidden = true;
@@ -37,10 +37,7 @@ export class Gallery implements Panel {
   }
 
   onState({ gallery }: StateMessage): void {
-    const wanted = JSON.stringify(gallery);
-    if (wanted === this.shown) return;
-    this.shown = wanted;
-    this.cards.replaceChildren(...gallery.map((entry) => this.card(entry)));
+    if (this.isNew(gallery)) this.cards.replaceChildren(...gallery.map((entry) => this.card(entry)));
   }
 
   private card({ name, title, look }: StateMessage['gallery'][number]): HTMLElement {

@@ -1,6 +1,6 @@
 // The hand: who moves the robot, what the device would push back, who may turn things.
 import './input_bar.css';
-import { button, element, signed } from '../ui/dom';
+import { button, changeDetector, element, option, signed } from '../ui/dom';
 import { type Frame, type HandState, type SceneMessage, type StateMessage, watches } from '../source/link';
 import { DEVICE_LIMIT } from '../plot/specs';
 import type { LabPage, Panel } from './panel';
@@ -48,12 +48,11 @@ export class InputBar implements Panel {
   private column = -1;
   private newest: Frame | null = null;
   private drawn = '';
-  private shownHolder = '';
+  private readonly isNewHolder = changeDetector();
   private choosing = false; // a device whose name is being typed
 
   constructor(private readonly page: LabPage) {
-    for (const { name, words } of SOURCES)
-      this.source.append(element('option', { value: name }, words));
+    this.source.append(...SOURCES.map(({ name, words }) => option(name, words)));
     this.source.addEventListener('change', () => this.choose(this.source.value));
     this.spec.hidden = true;
     this.spec.addEventListener('keydown', (event) => {
@@ -146,9 +145,7 @@ export class InputBar implements Panel {
 
   // With one page open there is nothing to say.
   private showHolder({ you, holder, clients, asked }: StateMessage): void {
-    const wanted = JSON.stringify([you, holder, clients, asked]);
-    if (wanted === this.shownHolder) return;
-    this.shownHolder = wanted;
+    if (!this.isNewHolder(you, holder, clients, asked)) return;
     const parts: Node[] = [];
     const say = (words: string) => parts.push(element('span', words));
     const isAlone = clients < 2;

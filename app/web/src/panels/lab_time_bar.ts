@@ -1,10 +1,11 @@
 // The time bar of a run that goes on: single steps, going back, branches, files.
-import { button, element, icon } from '../ui/dom';
+import { button, changeDetector, element, icon } from '../ui/dom';
 import { BranchDialog } from './branch_dialog';
 import { type Frame, type StateMessage, watches } from '../source/link';
 import type { LabPage, Panel } from './panel';
 import { Rewind } from '../source/playhead';
 import { SaveMenu } from './menus';
+import { putMark } from '../ui/slider';
 import { type Clock, speedText, TimeBar } from './time_bar';
 
 const REAL_TIME = 0.015; // nearer to 1 is real time
@@ -27,7 +28,7 @@ export class LabTimeBar implements Panel, Clock {
   private readonly dialog: BranchDialog;
   private readonly added: Panel[] = [];
   private time: number | null = null; // of the newest frame
-  private shown = '';
+  private readonly isNew = changeDetector();
 
   constructor(private readonly page: LabPage, changes: () => string[]) {
     this.rewind = new Rewind(page);
@@ -36,9 +37,9 @@ export class LabTimeBar implements Panel, Clock {
     this.bar = new TimeBar(this, label, [], [this.step, this.again]);
     this.root = this.bar.root;
     this.root.append(this.dialog.root);
-    this.bar.track.append(this.fork, this.end);
+    this.bar.slider.root.append(this.fork, this.end);
     this.bar.ends.append(this.branch, this.present, new SaveMenu().root);
-    this.bar.slider.addEventListener('keydown', (event) => {
+    this.bar.slider.input.addEventListener('keydown', (event) => {
       const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
       const { state } = page;
       if (!way || !state) return;
@@ -122,15 +123,13 @@ export class LabTimeBar implements Panel, Clock {
     this.bar.show({ time: this.time, share, goes, speed, words });
     const isWatching = watches(state);
     const pace = state.pace > 0 ? state.pace : 1;
-    const wanted = [goes, first, last, branch, dead?.time, at, speed, isWatching, pace.toFixed(2)];
-    const text = JSON.stringify([...wanted, state.building]);
-    if (text === this.shown) return;
-    this.shown = text;
+    const shown = [goes, first, last, branch, dead?.time, at, speed, isWatching, pace.toFixed(2)];
+    if (!this.isNew(shown, state.building)) return;
     this.root.dataset.past = String(at !== null);
-    mark(this.fork, branch ? (branch.from - first) / span : -1);
+    putMark(this.fork, branch && (branch.from - first) / span);
     if (branch)
       this.fork.title = `branch at ${branch.from.toFixed(3)} s: ${branch.changes.join(', ')}`;
-    mark(this.end, dead ? (dead.time - first) / span : -1);
+    putMark(this.end, dead && (dead.time - first) / span);
     this.present.disabled = at === null;
     this.bar.play.disabled = at === null && (isWatching || dead !== null);
     this.step.disabled = isWatching || (at === null && dead !== null);
@@ -151,9 +150,4 @@ export class LabTimeBar implements Panel, Clock {
     const badge = element('b.pace', { title }, `pace ${pace.toFixed(2)}`);
     return state.speed === 1 ? [badge] : [`${words}, `, badge];
   }
-}
-
-function mark(mark: HTMLElement, share: number): void {
-  mark.hidden = share < 0 || share > 1;
-  mark.style.setProperty('--place', String(share));
 }

@@ -1,5 +1,5 @@
 // What can be taken out of the lab: the run, a page of it, the scene.
-import { button, element, sign, type SignState } from '../ui/dom';
+import { button, changeDetector, element, sign, type SignState } from '../ui/dom';
 import './notes.css';
 import type { Note, StateMessage } from '../source/link';
 import type { Panel } from './panel';
@@ -51,7 +51,7 @@ export class Notes implements Panel {
   private readonly list = element('ol.sheet');
   private readonly count = element('summary', { title: 'what the lab has said' }, 'Notes');
   private seen = -1; // newest that was shown; before the first state: none
-  private shown = '';
+  private readonly isNew = changeDetector();
 
   constructor() {
     this.root.append(this.count, this.list);
@@ -66,9 +66,7 @@ export class Notes implements Panel {
     const fresh = isFirst || newest < this.seen ? [] : notes.filter(({ n }) => n > this.seen);
     this.seen = newest;
     for (const note of fresh) this.toast(note);
-    const wanted = `${newest} ${notes.length}`;
-    if (wanted === this.shown) return;
-    this.shown = wanted;
+    if (!this.isNew(newest, notes.length)) return;
     const lines = [...notes].reverse().map((note) => line('li', note));
     this.list.replaceChildren(...(lines.length > 0 ? lines : [element('li', 'Nothing yet.')]));
     this.count.textContent = notes.length > 0 ? `Notes (${notes.length})` : 'Notes';

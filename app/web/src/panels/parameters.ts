@@ -1,8 +1,7 @@
 // What can be turned while the run goes on: presets, then knobs by their groups. Many changes of
 // one moment (a slider that moves) are sent as one, ten times a second.
-import '../ui/slider.css';
 import './parameters.css';
-import { button, element } from '../ui/dom';
+import { button, changeDetector, element } from '../ui/dom';
 import { parameterRow, type ParameterRow, shapeOf } from './parameter_row';
 import { isTurned, type Knob, type StateMessage, watches } from '../source/link';
 import type { LabPage, Panel } from './panel';
@@ -20,8 +19,8 @@ export class Parameters implements Panel {
   private readonly folded = new Set<string>(); // groups
   private timer = 0;
   private sentAt = -Infinity;
-  private shape = '';
-  private shownPresets = '';
+  private readonly areKnobsNew = changeDetector();
+  private readonly arePresetsNew = changeDetector();
 
   constructor(private readonly page: LabPage) {
     this.again = button('Reset knobs', 'all knobs as the scene came; the run goes on', () => this.reset());
@@ -36,11 +35,8 @@ export class Parameters implements Panel {
 
   onState(state: StateMessage): void {
     const { knobs, presets } = state;
-    const shape = knobs.map(shapeOf).join();
-    if (shape !== this.shape) {
-      this.shape = shape;
-      this.build(knobs);
-    } else for (const knob of knobs) this.rows.get(knob.path)!.update(knob);
+    if (this.areKnobsNew(knobs.map(shapeOf))) this.build(knobs);
+    else for (const knob of knobs) this.rows.get(knob.path)!.update(knob);
     this.showPresets(presets);
     const isWatching = watches(state);
     this.watching.hidden = !isWatching;
@@ -83,9 +79,7 @@ export class Parameters implements Panel {
   }
 
   private showPresets(presets: StateMessage['presets']): void {
-    const wanted = JSON.stringify(presets);
-    if (wanted === this.shownPresets) return;
-    this.shownPresets = wanted;
+    if (!this.arePresetsNew(presets)) return;
     const buttons = presets.map(({ name, what }) => {
       const made = element(
         'button',

@@ -5,7 +5,7 @@ import './plot.css';
 import type { Panel } from '../panels/panel';
 import type { RunRecord } from '../source/run_record';
 import type { RunSource } from '../source/run_source';
-import { button, element, icon } from '../ui/dom';
+import { button, element, icon, option } from '../ui/dom';
 import { Chart, type ChartUser } from './chart';
 import type { Window } from './chart_data';
 import { type CsvColumn, fileName, saveCsv } from './export';
@@ -190,10 +190,8 @@ export class Plots implements Panel, ChartUser {
   }
 
   private fillPick({ scene }: RunRecord): void {
-    this.pick.replaceChildren(element('option', { value: '' }, 'any other quantity …'));
-    scene.channels.forEach(({ name, unit }, i) =>
-      this.pick.append(element('option', { value: String(i) }, `${name} [${unit}]`)),
-    );
+    const others = scene.channels.map(({ name, unit }, i) => option(i, `${name} [${unit}]`));
+    this.pick.replaceChildren(option('', 'any other quantity …'), ...others);
     this.choose('');
   }
 

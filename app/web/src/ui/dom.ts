@@ -32,6 +32,10 @@ export function button(
   return made;
 }
 
+export function option(value: string | number, words = String(value)): HTMLOptionElement {
+  return element('option', { value: String(value) }, words);
+}
+
 // Drawn, as not every system has letters for them. Paths in a square of 16.
 const ICONS = {
   first: 'M3 3h2v10H3zM13 3v10L6 8z',
@@ -81,6 +85,12 @@ export function short(value: number | null | undefined, scale = 0): string {
 // "kg m^2" as print has it.
 export function unitText(unit: string): string {
   return unit === '1' ? '' : unit.replaceAll('^2', '²').replaceAll('^3', '³');
+}
+
+// Asked with what is to be shown: whether it differs from the last time.
+export function changeDetector(): (...now: unknown[]) => boolean {
+  let last = '';
+  return (...now) => last !== (last = JSON.stringify(now));
 }
 
 export function largestOf(values: (number | null)[]): number {

@@ -1,6 +1,6 @@
 // Which layers are shown, and what their colours mean.
 import type { Layer } from '../protocol/run';
-import { button, element, icon } from '../ui/dom';
+import { button, changeDetector, element, icon, option } from '../ui/dom';
 import type { SceneBody, SceneMessage } from '../source/link';
 import { remember, remembered } from '../ui/preferences';
 import type { ViewName } from './stage';
@@ -76,11 +76,11 @@ type Head = SceneMessage['layers'][number] & { shown: boolean };
 export class Overlays {
   readonly root = element('div.overlays');
   readonly legend = element('div');
+  readonly shown = new Set(remembered<string[]>('layers', AT_FIRST)); // of other scenes too
   private choice: LayerChoice<Head> | null = null;
-  private chosen = new Set(remembered<string[]>('layers', AT_FIRST));
   private readonly toggle: HTMLButtonElement;
   private readonly list = element('div.list', { hidden: '' });
-  private known = ''; // names of layers
+  private readonly areNew = changeDetector(); // names of layers
   private heads: Head[] = [];
 
   constructor(private readonly changed: () => void) {
@@ -91,10 +91,7 @@ export class Overlays {
   }
 
   get names(): string[] {
-    return ['bodies', ...this.chosen];
-  }
-  get shown(): Set<string> {
-    return this.chosen;
+    return ['bodies', ...this.shown];
   }
 
   fold(folded: boolean): void {
@@ -107,17 +104,14 @@ export class Overlays {
   }
 
   show(scene: SceneMessage): void {
-    const known = JSON.stringify(scene.layers.map(({ name }) => name));
-    if (known === this.known) {
+    if (!this.areNew(scene.layers.map(({ name }) => name))) {
       // What the colours mean changes on the way: scales of arrows grow.
       scene.layers.forEach(({ legend }, l) => (this.heads[l].legend = legend));
       this.choice?.fillLegend();
       return;
     }
-    this.known = known;
-    const heads = scene.layers.map((layer) => ({ ...layer, shown: this.chosen.has(layer.name) }));
-    this.heads = heads;
-    this.choice = new LayerChoice<Head>(heads, () => this.take(heads));
+    this.heads = scene.layers.map((layer) => ({ ...layer, shown: this.shown.has(layer.name) }));
+    this.choice = new LayerChoice<Head>(this.heads, () => this.take());
     this.list.replaceChildren(this.choice.switches);
     this.legend.replaceChildren(this.choice.legend);
   }
@@ -126,38 +120,30 @@ export class Overlays {
     this.choice?.toggleNumber(number);
   }
 
-  // Those of other scenes stay chosen.
-  private take(heads: Head[]): void {
-    for (const { name, shown } of heads)
-      if (shown) this.chosen.add(name);
-      else this.chosen.delete(name);
-    this.chosen.delete('bodies');
-    remember('layers', [...this.chosen]);
+  private take(): void {
+    for (const { name, shown } of this.heads)
+      if (shown) this.shown.add(name);
+      else this.shown.delete(name);
+    this.shown.delete('bodies');
+    remember('layers', [...this.shown]);
     this.changed();
   }
 }
 
 // From where the robot is seen, and what the camera goes along with.
-const NAMES: [ViewName, string][] = [
-  ['start', 'fit'],
-  ['front', 'front'],
-  ['side', 'side'],
-  ['top', 'top'],
-  ['iso', 'iso'],
-];
+const NAMES: ViewName[] = ['start', 'front', 'side', 'top', 'iso'];
 
 export class Views {
   readonly root = element('div.views');
   private readonly follows = element('select', { title: 'what the camera follows (f)', 'aria-label': 'camera' });
-  private known = '';
+  private readonly areNew = changeDetector(); // bodies
 
-  constructor(
-    look: (name: ViewName) => void,
-    private readonly changed: () => void,
-  ) {
-    for (const [name, words] of NAMES)
-      this.root.append(button(words, name === 'start' ? 'all in view (r)' : `from: ${name} (v)`, () => look(name)));
-    this.root.append(this.follows);
+  constructor(look: (name: ViewName) => void, private readonly changed: () => void) {
+    const views = NAMES.map((name) => {
+      const [words, title] = name === 'start' ? ['fit', 'all in view (r)'] : [name, `from: ${name} (v)`];
+      return button(words, title, () => look(name));
+    });
+    this.root.append(...views, this.follows);
     this.follows.hidden = true; // until it is known what it may follow
     this.follows.addEventListener('change', changed);
   }
@@ -172,14 +158,10 @@ export class Views {
 
   show(bodies: Pick<SceneBody, 'name' | 'moves'>[]): void {
     const moving = bodies.flatMap(({ name, moves }, i) => (moves ? [{ name, i }] : []));
-    const known = JSON.stringify(moving);
-    if (known === this.known) return;
-    this.known = known;
+    if (!this.areNew(moving)) return;
     this.follows.hidden = false;
-    this.follows.replaceChildren(
-      element('option', { value: '' }, 'camera: free'),
-      ...moving.map(({ name, i }) => element('option', { value: String(i) }, `on ${name}`)),
-    );
+    const others = moving.map(({ name, i }) => option(i, `on ${name}`));
+    this.follows.replaceChildren(option('', 'camera: free'), ...others);
   }
 
   // The selected one, else the next; then free again.
