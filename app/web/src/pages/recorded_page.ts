@@ -6,7 +6,6 @@ import { element } from '../ui/dom';
 import { help, type Key, listen, pageHeader } from '../ui/keys';
 import { Tabs } from '../ui/choices';
 import { Theme } from '../ui/preferences';
-import { Labels } from '../view/labels';
 import { LayerChoice, Views } from '../view/view_options';
 import type { Part } from '../view/painter';
 import { Stage, type ViewName } from '../view/stage';
@@ -39,17 +38,14 @@ export abstract class RecordedPage {
       this.touch();
     },
   );
-  private readonly labels: Labels;
   private stale = true; // the picture
 
   constructor(private readonly carried: Carried, layers = carried.layers) {
     const host = element('div.stage');
-    const labels = element('div.labels', { 'aria-hidden': 'true' });
     this.layers = new LayerChoice(layers, () => this.touch());
-    host.append(labels, this.layers.switches, this.layers.legend, this.views.root);
+    host.append(this.layers.switches, this.layers.legend, this.views.root);
     document.body.append(element('main', host, this.tabs.root));
     this.stage = new Stage(host, carried.view, carried, () => this.touch());
-    this.labels = new Labels(labels);
     onPaper(host, (isPaper) => {
       this.stage.resize();
       this.paint();
@@ -94,7 +90,7 @@ export abstract class RecordedPage {
     this.stage.paint(this.parts(shown, instant));
     this.stage.draw();
     const labels = shown.map((layer) => ({ columns: layer.labels, frame: instant.a }));
-    this.labels.paint(this.stage, this.carried.texts, labels);
+    this.stage.labels.paint(this.stage, this.carried.texts, labels);
   }
 
   // Which instant is to be painted; the camera goes along with what it follows.

@@ -2,7 +2,6 @@
 // would show each of them one frame later, and a hand feels that.
 import type { LabelColumns } from '../protocol/run';
 import { element } from '../ui/dom';
-import { Labels } from './labels';
 import type { Part } from './painter';
 import { Stage } from './stage';
 import { type Frame, labelText, placeOf, type SceneMessage } from '../source/link';
@@ -19,7 +18,6 @@ export class LiveStage {
   private readonly isSlow = this.gl !== null && isSoftware(this.gl) && !FINE;
   readonly canDraw = this.gl !== null;
   private readonly store = new MeshStore();
-  private readonly labels: Labels;
   private readonly tag = element('div.tag', { hidden: '' });
   private scene: SceneMessage | null = null;
   private meshes = 0; // that the stage has
@@ -30,11 +28,10 @@ export class LiveStage {
 
   constructor(
     private readonly host: HTMLElement,
-    parts: { labels: HTMLElement; handles: HTMLElement },
+    handles: HTMLElement,
     private readonly changed: () => void,
   ) {
-    this.labels = new Labels(parts.labels);
-    parts.handles.append(this.tag);
+    handles.append(this.tag);
   }
 
   // A scene of the same number has more of everything, and nothing else.
@@ -120,7 +117,7 @@ export class LiveStage {
     };
     const texts = Array.from({ length: count }, (_, i) => labelText(frame, i));
     const layers = count > 0 ? parts.map(({ a }) => ({ columns, frame: a })) : [];
-    this.labels.paint(stage, texts, layers);
+    stage.labels.paint(stage, texts, layers);
   }
 
   // The name of what is selected, beside it.
