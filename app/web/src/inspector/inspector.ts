@@ -8,7 +8,7 @@ import {
   wrenchColor,
 } from './tables';
 import { button, element, icon, morph, short } from '../ui/dom';
-import { listen } from '../ui/keys';
+import { key, listen } from '../ui/keys';
 import type { SceneMessage } from '../source/link';
 import { passCards, unitOf } from './cards';
 import { closing, diagram, type Plane } from './diagram';
@@ -52,13 +52,8 @@ export class Inspector implements Panel {
     );
     this.root.append(this.who, this.stepper.root, walk, this.content);
     this.content.addEventListener('click', (event) => this.click(event));
-    const key = (keys: string, what: string, by: number) => ({
-      keys: [keys],
-      shown: keys,
-      what,
-      act: () => this.seen && this.move(by),
-    });
-    listen([key(',', 'one step of the call back', -1), key('.', 'one step of the call on', 1)]);
+    const move = (by: number) => () => this.seen && this.move(by);
+    listen([key(', .', 'one step of the call back, on', { ',': move(-1), '.': move(1) })]);
     // Nobody looks: nothing is asked for.
     new IntersectionObserver((entries) => {
       const seen = entries.some((entry) => entry.isIntersecting);

@@ -85,13 +85,12 @@ class Page extends RecordedPage {
   }
 
   private keys(): Key[] {
+    const next = () => this.inspector.move(1);
     const pass = (number: number) => () => this.inspector.goPass(number);
     return [
-      key(['ArrowRight', ' '], '→', 'the next body', () => this.inspector.move(1)),
-      key(['ArrowLeft'], '←', 'the body before', () => this.inspector.move(-1)),
-      key(['1'], '1, 2, 3', 'to that pass', pass(1)),
-      key(['2'], '', '', pass(2)),
-      key(['3'], '', '', pass(3)),
+      key('→', 'the next body', { ArrowRight: next, ' ': next }),
+      key('←', 'the body before', { ArrowLeft: () => this.inspector.move(-1) }),
+      key('1, 2, 3', 'to that pass', { 1: pass(1), 2: pass(2), 3: pass(3) }),
       ...viewKeys({
         orbit: (...by) => this.stage.orbit(...by),
         look: (name) => this.look(name),

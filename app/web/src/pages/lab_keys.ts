@@ -34,9 +34,9 @@ function runKeys(page: LabKeys): Key[] {
   };
   return [
     ...clockKeys(time),
-    key(['.'], '.', 'one step of the run (beside the Glass: of the call; , back)', step),
-    key(['End'], 'End', 'back to now', () => time.seek(Infinity)),
-    key(['b'], 'b', 'branch from this instant', () => time.askBranch()),
+    key('.', 'one step of the run (beside the Glass: of the call; , back)', step),
+    key('End', 'back to now', () => time.seek(Infinity)),
+    key('b', 'branch from this instant', () => time.askBranch()),
   ];
 }
 
@@ -50,24 +50,22 @@ function handKeys(page: LabKeys): Key[] {
     time.seek((state.at ?? state.last) + right * (event.shiftKey ? 0.5 : FRAME));
   };
   return [
-    key(['h'], 'h', 'the hand: arrows move the tip, page up and down away and toward', () =>
-      keys.focusTip(),
-    ),
-    key(['j'], 'j', 'the next joint: arrows turn it', () => keys.nextJoint()),
-    key(['x'], 'x', 'a spring at the selected body: arrows pull; x lets go', () =>
-      keys.togglePull(page.selected),
-    ),
-    key(['ArrowLeft'], '← →', 'else: back and on in time; with shift half a second', move(-1, 0, 0)),
-    key(['ArrowRight'], '', '', move(1, 0, 0)),
-    key(['ArrowUp'], '', '', move(0, 1, 0)),
-    key(['ArrowDown'], '', '', move(0, -1, 0)),
-    key(['PageUp'], '', '', move(0, 0, 1)),
-    key(['PageDown'], '', '', move(0, 0, -1)),
-    key(['g'], 'g', 'gripper', () => {
+    key('h', 'the hand: arrows move the tip, page up and down away and toward', () => keys.focusTip()),
+    key('j', 'the next joint: arrows turn it', () => keys.nextJoint()),
+    key('x', 'a spring at the selected body: arrows pull; x lets go', () => keys.togglePull(page.selected)),
+    key('← →', 'else: back and on in time; with shift half a second', {
+      ArrowLeft: move(-1, 0, 0),
+      ArrowRight: move(1, 0, 0),
+      ArrowUp: move(0, 1, 0),
+      ArrowDown: move(0, -1, 0),
+      PageUp: move(0, 0, 1),
+      PageDown: move(0, 0, -1),
+    }),
+    key('g', 'gripper', () => {
       const closed = !hand.grip;
       if (hand.button(0, closed)) page.say(`The gripper is ${closed ? 'closed' : 'open'}.`);
     }),
-    key(['c'], 'c', 'clutch', () => {
+    key('c', 'clutch', () => {
       if (hand.button(1, !hand.clutch)) page.say(`The clutch is ${hand.clutch ? 'pressed' : 'released'}.`);
     }),
   ];
@@ -83,8 +81,7 @@ function pictureKeys(page: LabKeys): Key[] {
     page.select(moving[(at + by + moving.length) % moving.length] ?? null);
   };
   return [
-    key(['m'], 'm', 'select the next body; with shift the one before', selectNext(1)),
-    key(['M'], '', '', selectNext(-1)),
+    key('m', 'select the next body; with shift the one before', { m: selectNext(1), M: selectNext(-1) }),
     ...viewKeys({
       orbit: (...by) => live.stage?.orbit(...by),
       look: (name) => page.look(name),
@@ -92,25 +89,24 @@ function pictureKeys(page: LabKeys): Key[] {
       toggleLayer: (number) => overlays.toggleNumber(number),
       toggleTheme: () => page.toggleTheme(),
     }),
-    key(['o'], 'o', 'what is shown', () => overlays.fold(!overlays.folded)),
+    key('o', 'what is shown', () => overlays.fold(!overlays.folded)),
   ];
 }
 
 function pageKeys(page: LabKeys): Key[] {
   const { keys, overlays, set: { gallery } } = page;
-  const tabs: [string, string][] = [['n', 'Knobs'], ['p', 'Plots'], ['i', 'Glass'], ['l', 'Ledger']];
+  const tab = (title: string) => () => page.showTab(title);
+  const tabs = { n: tab('Knobs'), p: tab('Plots'), i: tab('Glass'), l: tab('Ledger') };
   const leave = () => {
     if (!overlays.folded) overlays.fold(true);
     else if (keys.isOn) keys.leave();
     else page.select(null);
   };
   return [
-    ...tabs.map(([letter, title], i) =>
-      key([letter], i === 0 ? 'n p i l' : '', 'knobs, plots, glass, ledger', () => page.showTab(title)),
-    ),
-    key(['\\'], '\\', 'fold the panel away', () => page.togglePanel()),
-    key(['e'], 'e', 'scenes', () => gallery.root.showModal()),
-    key(['Escape'], 'Esc', 'lets go of the hand, of the selection', leave),
+    key('n p i l', 'knobs, plots, glass, ledger', tabs),
+    key('\\', 'fold the panel away', () => page.togglePanel()),
+    key('e', 'scenes', () => gallery.root.showModal()),
+    key('Esc', 'lets go of the hand, of the selection', { Escape: leave }),
   ];
 }
 

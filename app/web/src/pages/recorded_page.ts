@@ -1,7 +1,7 @@
 // What the pages that carry their data have in common: the picture with its layers, views and
 // labels, theme, keys, printing; painted when something has changed.
 import '../ui/style.css';
-import type { Layer, MeshData, View } from '../protocol/run';
+import type { Carried, Layer } from '../protocol/run';
 import { element } from '../ui/dom';
 import { help, type Key, listen, pageHeader } from '../ui/keys';
 import { Tabs } from '../ui/choices';
@@ -11,33 +11,14 @@ import type { Part } from '../view/painter';
 import { Stage, type ViewName } from '../view/stage';
 import './print.css';
 
-export interface Carried {
-  meshes: MeshData[];
-  textures: ImageBitmap[];
-  layers: Layer[];
-  texts: string[];
-  view: View;
-}
-
-// Of all layers: frame a, and how far to frame b.
-export interface Instant {
-  a: number;
-  b: number;
-  share: number;
-}
+export type Instant = Pick<Part, 'a' | 'b' | 'share'>; // of all layers
 
 export abstract class RecordedPage {
   readonly layers: LayerChoice;
   readonly stage: Stage;
   readonly theme = new Theme(() => this.recolor());
   protected readonly tabs = new Tabs();
-  protected readonly views = new Views(
-    (name) => this.look(name),
-    () => {
-      this.stage.follow(null);
-      this.touch();
-    },
-  );
+  protected readonly views = new Views((name) => this.look(name), () => this.release());
   private stale = true; // the picture
 
   constructor(private readonly carried: Carried, layers = carried.layers) {
@@ -79,6 +60,10 @@ export abstract class RecordedPage {
     this.views.body = null;
     this.stage.look(name);
   }
+  private release(): void {
+    this.stage.follow(null);
+    this.touch();
+  }
   protected touch(): void {
     this.stale = true;
   }
@@ -116,10 +101,8 @@ export function onPaper(host: HTMLElement, paint: (isPaper: boolean) => void): v
     host.classList.add('paper');
     paint(true);
     const canvas = host.querySelector('canvas')!;
-    copy.width = canvas.width;
-    copy.height = canvas.height;
-    copy.style.width = canvas.style.width;
-    copy.style.height = canvas.style.height;
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    copy.style.cssText = canvas.style.cssText;
     copy.getContext('2d')!.drawImage(canvas, 0, 0);
     canvas.after(copy);
   });

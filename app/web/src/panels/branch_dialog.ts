@@ -99,7 +99,7 @@ export class BranchDialog {
       changes.push(`${knob.path}=${isNumber ? number : control.value}`);
     }
     this.root.close();
-    this.rewind.seek(null);
+    this.rewind.look(null);
     this.page.send({ do: 'branch', at: this.at, changes });
   }
 }

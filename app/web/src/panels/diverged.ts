@@ -101,7 +101,7 @@ export class Diverged implements Panel {
   }
 
   private mend(at: number, changes: string[]): void {
-    this.rewind.seek(null);
+    this.rewind.look(null);
     this.page.send({ do: 'branch', at, changes }); // which goes on by itself
   }
 }

@@ -22,7 +22,7 @@ export class LabTimeBar implements Panel, Clock {
   private readonly branch = button('branch …', 'go on from this instant, with other knobs', () =>
     this.askBranch(),
   );
-  private readonly present = button('to now', 'to the newest instant', () => this.rewind.seek(null));
+  private readonly present = button('to now', 'to the newest instant', () => this.rewind.look(null));
   private readonly fork = element('i.fork', { 'aria-hidden': 'true' });
   private readonly end = element('i.end', { 'aria-hidden': 'true' });
   private readonly dialog: BranchDialog;
@@ -103,14 +103,14 @@ export class LabTimeBar implements Panel, Clock {
     if (!state) return;
     const isNow = time >= state.last - 0.0005 * (state.last - state.first);
     if (!isNow && state.playing && holds) this.page.send({ do: 'play', on: false });
-    this.rewind.seek(isNow ? null : Math.max(state.first, time));
+    this.rewind.look(isNow ? null : Math.max(state.first, time));
   }
 
   private single(): void {
     const { state } = this.page;
     if (!state) return;
     if (this.rewind.at === null) this.page.send({ do: 'step', steps: 1 });
-    else this.rewind.seek(Math.min(state.last, this.rewind.at + STEP));
+    else this.rewind.look(Math.min(state.last, this.rewind.at + STEP));
   }
 
   private show(state: StateMessage): void {

@@ -1,29 +1,30 @@
-// The instant that is shown, and whether it moves on by itself: of a recorded run (player.ts), and of
-// what a lab remembers (rewind.ts).
+// The instant that is shown, and whether it moves on by itself: of a recorded run (Player), and of what
+// a lab remembers (Rewind).
 import type { Clock } from '../panels/time_bar';
 import { frameAt, type Run } from '../protocol/run';
-import { recordOf, type RunRecord } from './run_record';
+import { recordOf } from './run_record';
 import type { RunSource } from './run_source';
 import type { LabPage } from '../panels/panel';
 
 export class Playhead {
   playing = false;
-  protected rate = 1; // seconds of the run a second
+  speed = 1; // seconds of the run a second
   private until: number | null = null;
   private last = 0; // of the wall clock [ms]
 
   // `at`: null is the newest.
   constructor(public at: number | null) {}
 
-  seek(at: number | null): void {
+  // Stands there.
+  look(at: number | null): void {
     this.playing = false;
     this.put(at);
   }
 
   // From an instant on; at the end of what there is it stands at `until`.
-  play(from: number, rate: number, until: number | null): void {
+  play(from: number, speed: number, until: number | null): void {
     this.playing = true;
-    this.rate = rate;
+    this.speed = speed;
     this.until = until;
     this.last = performance.now();
     this.put(from);
@@ -38,7 +39,7 @@ export class Playhead {
     if (!this.playing || this.at === null) return;
     const passed = Math.min(0.1, Math.max(0, now - this.last) / 1000); // a tab that slept does not jump
     this.last = now;
-    const at = this.at + passed * this.rate;
+    const at = this.at + passed * this.speed;
     this.playing = at < (this.until ?? end);
     this.put(this.playing ? at : this.until);
   }
@@ -52,14 +53,12 @@ export class Playhead {
 export class Player extends Playhead implements RunSource, Clock {
   readonly isLive = false;
   readonly hasDiverged = false;
-  readonly record: RunRecord;
-  readonly times: Float64Array;
+  readonly record = recordOf(this.run);
+  readonly times = this.run.times;
   declare at: number;
 
-  constructor(run: Run, private readonly changed: () => void) {
+  constructor(private readonly run: Run, private readonly changed: () => void) {
     super(run.times[0]);
-    this.record = recordOf(run);
-    this.times = run.times;
   }
 
   get stepSize(): number {
@@ -70,9 +69,6 @@ export class Player extends Playhead implements RunSource, Clock {
   }
   get end(): number {
     return this.times[this.times.length - 1];
-  }
-  get speed(): number {
-    return this.rate;
   }
   get frame(): number {
     return frameAt(this.times, this.at);
@@ -93,23 +89,19 @@ export class Player extends Playhead implements RunSource, Clock {
   }
 
   toggle(): void {
-    if (!this.playing) return this.play(this.at >= this.end ? this.start : this.at, this.rate, this.end);
+    if (!this.playing) return this.play(this.at >= this.end ? this.start : this.at, this.speed, this.end);
     this.pause();
     this.changed();
   }
 
   setSpeed(speed: number): void {
-    this.rate = speed;
+    this.speed = speed;
     this.changed();
   }
 
   // Goes on from there, if it was going.
   seek(time: number): void {
     this.put(time);
-  }
-  // And stays there.
-  look(time: number): void {
-    super.seek(time);
   }
   seekShare(share: number): void {
     this.look(this.start + share * (this.end - this.start));
@@ -147,9 +139,9 @@ export class Rewind extends Playhead {
     if (!this.playing && now - this.sentAt > SETTLE) this.at = this.sent = at;
   }
 
-  play(from: number, rate: number, until: number | null = null): void {
+  play(from: number, speed: number, until: number | null = null): void {
     this.startedAt = performance.now();
-    super.play(from, rate, until);
+    super.play(from, speed, until);
   }
 
   tick(): void {
