@@ -210,7 +210,7 @@ class ChoiceRow extends ParameterRow {
     const choices = knob.choices ?? [];
     const letters = choices.join('').length;
     if (choices.length <= FEW && LETTER * letters + GAP * choices.length < ROOM) {
-      this.control = new Segments(this.fullName, choices, (name) => this.set(name));
+      this.control = new Segments(this.fullName, choices, '', (name) => this.set(name));
       this.head([this.control.root]);
     } else {
       this.control = element('select', { 'aria-label': this.fullName, title: knob.meaning });

@@ -116,10 +116,10 @@ export function usualSize(values: (number | null | undefined)[]): number {
 }
 
 export interface Beside {
-  usual: number; // of the curves; infinite: all of them have room
+  usual: number; // size of the curves, if the largest ones have no room; infinite: all have
   ghosts: Ghost[];
   limit: PlotSpec['limit'];
-  sums: number[];
+  sums: number[]; // of the curves in ink: the largest so far, at the window's end
   isForce: boolean;
 }
 

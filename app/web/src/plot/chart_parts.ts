@@ -1,7 +1,7 @@
 // The two axes of every plot: time in seconds below, the quantity at the left; in the theme's colours.
 import type uPlot from 'uplot';
 import { token } from '../ui/preferences';
-import type { Ghost } from './chart_data';
+import type { Beside, Ghost } from './chart_data';
 import type { PlotSpec } from './specs';
 
 export function axesOfTime(): uPlot.Axis[] {
@@ -32,7 +32,7 @@ const PALE = '90'; // opacity of what was left
 
 type Point = [number, number];
 
-export function drawOver(chart: uPlot, ghosts: Ghost[], limit: PlotSpec['limit']): void {
+export function drawOver(chart: uPlot, { ghosts, limit }: Beside): void {
   const { ctx, bbox } = chart;
   const px = devicePixelRatio;
   ctx.save();

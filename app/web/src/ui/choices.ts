@@ -58,13 +58,14 @@ export class Segments {
   readonly root: HTMLElement;
   private readonly choices: HTMLInputElement[];
 
-  constructor(label: string, names: string[], choose: (name: string) => void) {
+  constructor(label: string, names: string[], chosen: string, choose: (name: string) => void) {
     const name = `segments-${groups++}`;
     this.choices = names.map((value) =>
       element('input', { type: 'radio', name, value, 'aria-label': value }),
     );
     this.root = element('div.segments', { role: 'radiogroup', 'aria-label': label });
     this.root.append(...this.choices);
+    this.show(chosen);
     this.root.addEventListener('change', ({ target }) => choose((target as HTMLInputElement).value));
   }
 
