@@ -26,15 +26,15 @@ export class BranchDialog {
     private readonly rewind: Rewind,
     private readonly changes: () => string[],
   ) {
-    const form = element('form', { method: 'dialog' });
+    const words =
+      'The run goes back to this instant and on from there; what the hand did is done again. ' +
+      'The run that is left stays beside it: pale in the view, dotted in the plots.';
     const go = element('button.main', { type: 'submit' }, 'Branch');
-    form.append(
+    const form = element(
+      'form',
+      { method: 'dialog' },
       this.title,
-      element(
-        'p',
-        'The run goes back to this instant and on from there; what the hand did is done again. ' +
-          'The run that is left stays beside it: pale in the view, dotted in the plots.',
-      ),
+      element('p', words),
       element('h3', 'Knobs that are turned'),
       this.list,
       this.none,
@@ -107,8 +107,7 @@ export class BranchDialog {
 function controlOf(knob: Knob): HTMLInputElement | HTMLSelectElement {
   const label = { 'aria-label': knob.label };
   const value = knob.value === null ? '' : numberText(Number(knob.value));
-  if (knob.form !== 'choice')
-    return element('input', { type: 'text', ...label, value });
+  if (knob.form !== 'choice') return element('input', { type: 'text', ...label, value });
   const control = element('select', label, ...(knob.choices ?? []).map((name) => option(name)));
   control.value = String(knob.value);
   return control;

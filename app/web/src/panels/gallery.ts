@@ -41,19 +41,11 @@ export class Gallery implements Panel {
   }
 
   private card({ name, title, look }: StateMessage['gallery'][number]): HTMLElement {
-    const image = element('img', {
-      src: `/gallery/${encodeURIComponent(name)}.png`,
-      alt: '',
-      loading: 'lazy',
-    });
+    const src = `/gallery/${encodeURIComponent(name)}.png`;
+    const image = element('img', { src, alt: '', loading: 'lazy' });
     image.addEventListener('error', () => image.remove());
-    const card = element(
-      'button.card',
-      { type: 'button', 'data-scene': name },
-      image,
-      element('b', title),
-      element('ul', ...look.map((line) => element('li', line))),
-    );
+    const list = element('ul', ...look.map((line) => element('li', line)));
+    const card = element('button.card', { type: 'button', 'data-scene': name }, image, element('b', title), list);
     card.addEventListener('click', () => {
       if (this.page.send({ do: 'scene', name })) this.root.close();
     });
@@ -76,24 +68,18 @@ export class Gallery implements Panel {
   }
 
   private takeDrops(): void {
-    const hidden = { class: 'curtain', 'aria-hidden': 'true' };
-    const curtain = element('div', hidden, 'Let go to open it here');
-    curtain.hidden = true;
+    const curtain = element('div.curtain', { 'aria-hidden': 'true', hidden: '' }, 'Let go to open it here');
     document.body.append(curtain);
     const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
-    document.addEventListener('dragover', (event) => {
-      if (!hasFiles(event)) return;
-      event.preventDefault();
-      curtain.hidden = false;
-    });
+    for (const kind of ['dragover', 'drop'] as const)
+      document.addEventListener(kind, (event) => {
+        if (!hasFiles(event)) return;
+        event.preventDefault();
+        curtain.hidden = kind === 'drop';
+        if (kind === 'drop') void this.open([...event.dataTransfer!.files]);
+      });
     document.addEventListener('dragleave', (event) => {
       if (!event.relatedTarget) curtain.hidden = true;
-    });
-    document.addEventListener('drop', (event) => {
-      if (!hasFiles(event)) return;
-      event.preventDefault();
-      curtain.hidden = true;
-      void this.open([...event.dataTransfer!.files]);
     });
   }
 
@@ -104,28 +90,27 @@ export class Gallery implements Panel {
     const sorted = [...files].sort((a, b) => rank(a) - rank(b));
     let opened = false;
     for (const file of sorted) {
-      this.tell('note', `Opening ${file.name} …`, []);
+      this.tell('note', `Opening ${file.name} …`);
       const { state, words } = await post(file, this.page.state?.secret ?? '');
       if (state === 'failed') {
         const faults = words.split('\n').filter((line) => line.trim());
-        this.tell('error', `${file.name} was not opened`, faults);
-        if (!this.root.open) this.root.showModal();
-        return;
+        return this.stop('error', `${file.name} was not opened`, faults);
       }
       opened = state === 'opened';
     }
     const { name } = sorted[sorted.length - 1];
-    if (!opened) {
-      this.tell('note', `${name} is kept: now open the robot that names it`, []);
-      if (!this.root.open) this.root.showModal();
-      return;
-    }
+    if (!opened) return this.stop('note', `${name} is kept: now open the robot that names it`);
     this.said.replaceChildren();
     this.root.close();
     this.page.say(`${name} is open`);
   }
 
-  private tell(level: string, words: string, faults: string[]): void {
+  private stop(level: string, words: string, faults: string[] = []): void {
+    this.tell(level, words, faults);
+    if (!this.root.open) this.root.showModal();
+  }
+
+  private tell(level: string, words: string, faults: string[] = []): void {
     this.said.className = `said ${level}`;
     const list = faults.map((fault) => element('li', fault));
     this.said.replaceChildren(element('b', words));
@@ -136,10 +121,11 @@ export class Gallery implements Panel {
 const KEPT = 202; // HTTP: Accepted
 
 // What the lab says of it: that it is open or kept, or all its faults.
-export async function post(
-  file: File,
-  secret: string,
-): Promise<{ state: 'opened' | 'kept' | 'failed'; words: string }> {
+interface Answer {
+  state: 'opened' | 'kept' | 'failed';
+  words: string;
+}
+export async function post(file: File, secret: string): Promise<Answer> {
   try {
     const query = new URLSearchParams({ name: file.name, secret });
     const answer = await fetch(`/open?${query}`, { method: 'POST', body: file });

@@ -10,32 +10,25 @@ import { type Clock, speedText, TimeBar } from './time_bar';
 
 const REAL_TIME = 0.015; // nearer to 1 is real time
 const STEP = 1 / 60; // of arrows [s]
+const LABEL = 'instant of the run, back over what is remembered';
 
 export class LabTimeBar implements Panel, Clock {
-  readonly root: HTMLElement;
-  readonly rewind: Rewind;
-  private readonly bar: TimeBar;
+  readonly rewind = new Rewind(this.page);
   private readonly step = button(icon('step'), 'one step', () => this.single());
-  private readonly again = button(icon('again'), 'to the start: the run begins anew', () =>
-    this.page.send({ do: 'reset' }),
-  );
-  private readonly branch = button('branch …', 'go on from this instant, with other knobs', () =>
-    this.askBranch(),
-  );
+  private readonly reset = () => this.page.send({ do: 'reset' });
+  private readonly again = button(icon('again'), 'to the start: the run begins anew', this.reset);
+  private readonly branch = button('branch …', 'go on from this instant, with other knobs', () => this.askBranch());
   private readonly present = button('to now', 'to the newest instant', () => this.rewind.look(null));
   private readonly fork = element('i.fork', { 'aria-hidden': 'true' });
   private readonly end = element('i.end', { 'aria-hidden': 'true' });
-  private readonly dialog: BranchDialog;
+  private readonly bar = new TimeBar(this, LABEL, [], [this.step, this.again]);
+  private readonly dialog = new BranchDialog(this.page, this.rewind, this.changes);
+  readonly root = this.bar.root;
   private readonly added: Panel[] = [];
   private time: number | null = null; // of the newest frame
   private readonly isNew = changeDetector();
 
-  constructor(private readonly page: LabPage, changes: () => string[]) {
-    this.rewind = new Rewind(page);
-    this.dialog = new BranchDialog(page, this.rewind, changes);
-    const label = 'instant of the run, back over what is remembered';
-    this.bar = new TimeBar(this, label, [], [this.step, this.again]);
-    this.root = this.bar.root;
+  constructor(private readonly page: LabPage, private readonly changes: () => string[]) {
     this.root.append(this.dialog.root);
     this.bar.slider.root.append(this.fork, this.end);
     this.bar.ends.append(this.branch, this.present, new SaveMenu().root);
@@ -127,8 +120,7 @@ export class LabTimeBar implements Panel, Clock {
     if (!this.isNew(shown, state.building)) return;
     this.root.dataset.past = String(at !== null);
     putMark(this.fork, branch && (branch.from - first) / span);
-    if (branch)
-      this.fork.title = `branch at ${branch.from.toFixed(3)} s: ${branch.changes.join(', ')}`;
+    if (branch) this.fork.title = `branch at ${branch.from.toFixed(3)} s: ${branch.changes.join(', ')}`;
     putMark(this.end, dead && (dead.time - first) / span);
     this.present.disabled = at === null;
     this.bar.play.disabled = at === null && (isWatching || dead !== null);

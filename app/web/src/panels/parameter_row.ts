@@ -12,7 +12,7 @@ const LETTER = 7.4;
 const GAP = 20;
 const RESTARTS = 'restarts: the run goes on from where all is, what laws remember begins anew';
 
-export type Turn = (path: string, value: string) => void;
+type Turn = (path: string, value: string) => void;
 
 export abstract class ParameterRow {
   readonly root = element('div.knob');
@@ -30,6 +30,11 @@ export abstract class ParameterRow {
     if (!this.isHeld() && performance.now() - this.setAt > SETTLE) this.show(knob.value);
     else if (String(knob.value) === this.sent) this.setAt = -Infinity;
     this.tell(knob);
+  }
+
+  protected begin(): void {
+    this.show(this.knob.value);
+    this.update(this.knob);
   }
 
   focus(): void {
@@ -62,10 +67,8 @@ export abstract class ParameterRow {
     const name = element(id ? 'label' : 'span', { class: 'name', title: meaning }, label);
     if (id) name.setAttribute('for', id);
     if (restarts) {
-      const again = element('span.restarts', { role: 'img', title: RESTARTS });
-      again.setAttribute('aria-label', RESTARTS);
-      again.append(icon('again'));
-      name.append(again);
+      const attributes = { role: 'img', title: RESTARTS, 'aria-label': RESTARTS };
+      name.append(element('span.restarts', attributes, icon('again')));
     }
     this.root.append(name, ...control, this.side);
   }
@@ -117,8 +120,7 @@ class NumberRow extends ParameterRow {
     const number = element('div.number', this.field, words);
     this.head(this.slider ? [this.slider.root, number] : [number], id);
     this.listen();
-    this.show(knob.value);
-    this.update(knob);
+    this.begin();
   }
 
   protected isHeld(): boolean {
@@ -189,12 +191,8 @@ class NumberRow extends ParameterRow {
     const { unit } = this.knob;
     const value = parseNumber(this.field.value, unit);
     const words = unit && unit !== '1' ? `a number in ${unitText(unit)}` : 'a number';
-    const fault = Number.isNaN(value) ? words : '';
-    this.field.setCustomValidity(fault);
-    if (fault) {
-      this.field.reportValidity();
-      return;
-    }
+    this.field.setCustomValidity(Number.isNaN(value) ? words : '');
+    if (!this.field.reportValidity()) return;
     this.put(value);
     this.field.select();
   }
@@ -213,15 +211,14 @@ class ChoiceRow extends ParameterRow {
       this.control = new Segments(this.fullName, choices, '', (name) => this.set(name));
       this.head([this.control.root]);
     } else {
-      this.control = element('select', { 'aria-label': this.fullName, title: knob.meaning });
-      this.control.append(this.left, ...choices.map((name) => option(name)));
-      const { control } = this;
-      control.addEventListener('change', () => this.set(control.value));
-      this.head([control]);
+      const attributes = { 'aria-label': this.fullName, title: knob.meaning };
+      const list = element('select', attributes, this.left, ...choices.map((name) => option(name)));
+      list.addEventListener('change', () => this.set(list.value));
+      this.control = list;
+      this.head([list]);
     }
     this.root.classList.add('choice');
-    this.show(knob.value);
-    this.update(knob);
+    this.begin();
   }
 
   protected isHeld(): boolean {

@@ -21,13 +21,14 @@ export function element<T extends string>(
 }
 
 export function button(
-  label: string | SVGSVGElement,
+  label: string | SVGSVGElement | (string | HTMLElement)[],
   title: string,
   act: () => void,
   className = '',
 ): HTMLButtonElement {
-  const made = element('button', { type: 'button', title, class: className }, label);
-  if (typeof label !== 'string' || label.length < 3) made.setAttribute('aria-label', title);
+  const made = element('button', { type: 'button', title, class: className }, ...[label].flat());
+  const isSaid = Array.isArray(label) || (typeof label === 'string' && label.length >= 3);
+  if (!isSaid) made.setAttribute('aria-label', title);
   made.addEventListener('click', act);
   return made;
 }
