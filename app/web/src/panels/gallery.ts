@@ -1,7 +1,7 @@
 // Scenes to choose from, each with what to look for; and files of one's own: a URDF, a scene, a
 // recording. The lab imports them; what it says of faults is shown as it says it.
 import './gallery.css';
-import { button, changeDetector, element } from '../ui/dom';
+import { bullets, button, changeDetector, element } from '../ui/dom';
 import type { StateMessage } from '../source/link';
 import type { LabPage, Panel } from './panel';
 
@@ -44,8 +44,8 @@ export class Gallery implements Panel {
     const src = `/gallery/${encodeURIComponent(name)}.png`;
     const image = element('img', { src, alt: '', loading: 'lazy' });
     image.addEventListener('error', () => image.remove());
-    const list = element('ul', ...look.map((line) => element('li', line)));
-    const card = element('button.card', { type: 'button', 'data-scene': name }, image, element('b', title), list);
+    const words = [element('b', title), bullets(look)];
+    const card = element('button.card', { type: 'button', 'data-scene': name }, image, ...words);
     card.addEventListener('click', () => {
       if (this.page.send({ do: 'scene', name })) this.root.close();
     });
@@ -112,9 +112,7 @@ export class Gallery implements Panel {
 
   private tell(level: string, words: string, faults: string[] = []): void {
     this.said.className = `said ${level}`;
-    const list = faults.map((fault) => element('li', fault));
-    this.said.replaceChildren(element('b', words));
-    if (list.length > 0) this.said.append(element('ul', ...list));
+    this.said.replaceChildren(element('b', words), ...(faults.length > 0 ? [bullets(faults)] : []));
   }
 }
 

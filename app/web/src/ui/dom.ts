@@ -33,6 +33,10 @@ export function button(
   return made;
 }
 
+export function bullets(lines: string[]): HTMLUListElement {
+  return element('ul', ...lines.map((line) => element('li', line)));
+}
+
 export function option(value: string | number, words = String(value)): HTMLOptionElement {
   return element('option', { value: String(value) }, words);
 }
@@ -60,17 +64,17 @@ export function icon(name: keyof typeof ICONS): SVGSVGElement {
 
 // One path in a square of 16.
 export function drawing(path: string, attributes: Record<string, string>): SVGSVGElement {
-  const made = svg('svg', { viewBox: '0 0 16 16', ...attributes });
-  made.append(svg('path', { d: path }));
-  return made;
+  return svg('svg', { viewBox: '0 0 16 16', ...attributes }, svg('path', { d: path }));
 }
 
 export function svg<K extends keyof SVGElementTagNameMap>(
   tag: K,
   attributes: Record<string, string | number> = {},
+  ...children: (Node | string)[]
 ): SVGElementTagNameMap[K] {
   const made = document.createElementNS('http://www.w3.org/2000/svg', tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
+  made.append(...children);
   return made;
 }
 
