@@ -1,13 +1,10 @@
 // What else acts on the body: along its joint, in contacts, in joules; and what a pass has found so
 // far.
-import type {
-  Balance, Check, JointBalance, NamedForce, Neighbour, PassStep, Quantity,
-} from '../protocol/inspection';
+import type { Balance, Check, JointBalance, NamedForce, Neighbour, PassStep } from '../protocol/inspection';
 import { NUMERICAL } from '../protocol/run';
 import { EnergyTable, inOrder } from '../panels/balances';
 import { element, largestOf, short, unitText } from '../ui/dom';
 import { numberCell, row, table } from '../ui/table';
-import { math, source } from './math';
 import { quantityCard } from './quantity';
 import { token } from '../ui/preferences';
 
@@ -63,18 +60,13 @@ export function energyTable(ledger: Record<string, number>): HTMLElement {
   return element('div', made.root, element('p.hint', words));
 }
 
+const halves = (v: number[]) => [v.slice(0, 3), v.slice(3)];
 const length = (values: number[]) => Math.hypot(...values);
 // Of several velocities the units differ.
 const one = (value: unknown) => (typeof value === 'number' ? value : NaN);
 // Of each pass, what a glance at a body tells.
 const TOLD: Record<number, { of: string; heads: string[]; read: (value: never) => number[] }[]> = {
-  1: [
-    {
-      of: 'v',
-      heads: ['|w| [rad/s]', '|v| [m/s]'],
-      read: (v: number[]) => [length(v.slice(0, 3)), length(v.slice(3))],
-    },
-  ],
+  1: [{ of: 'v', heads: ['|w| [rad/s]', '|v| [m/s]'], read: (v: number[]) => halves(v).map(length) }],
   2: [
     { of: 'D', heads: ['D'], read: (D: unknown) => [one(D)] },
     { of: 'u', heads: ['u'], read: (u: unknown) => [one(u)] },
@@ -107,21 +99,12 @@ export function soFar(rows: Omit<PassStep, 'joint'>[], body: string): HTMLElemen
 // What the pass takes from the bodies beside this one, in their own axes.
 const TAKEN: Record<number, string[]> = { 1: ['v'], 2: ['Xup', 'Ia', 'pa'], 3: ['a'] };
 export function neighbourCards(neighbours: Neighbour[], pass: number): HTMLElement[] {
-  return neighbours
-    .map(({ body, is, quantities }): [string, Quantity[]] => [
-      `${is} ${body}`,
-      quantities.filter(({ name }) => TAKEN[pass].includes(name)),
-    ])
-    .filter(([, quantities]) => quantities.length > 0)
-    .map(([title, quantities]) =>
-      element(
-        'div.neighbour',
-        element('h4', title, element('span', ' in its own axes')),
-        ...quantities.map((quantity) =>
-          quantityCard(quantity, { symbol: math(quantity.name), equation: source(quantity.equation) }),
-        ),
-      ),
-    );
+  return neighbours.flatMap(({ body, is, quantities }) => {
+    const taken = quantities.filter(({ name }) => TAKEN[pass].includes(name));
+    const title = element('h4', `${is} ${body}`, element('span', ' in its own axes'));
+    const cards = taken.map((quantity) => quantityCard(quantity));
+    return taken.length > 0 ? [element('div.neighbour', title, ...cards)] : [];
+  });
 }
 
 // Every wrench on a body, as a table; its colours are those of the arrows in the picture.
@@ -132,30 +115,21 @@ export function wrenchColor(i: number): string {
 }
 
 // With its number: colours alone do not tell eight apart.
-export function swatch(i: number): HTMLElement {
-  const number = element('b', String(i + 1));
-  const made = element('i.swatch', number);
+function swatch(i: number): HTMLElement {
+  const made = element('i.swatch', element('b', String(i + 1)));
   made.style.color = `var(--c${i % COLORS})`;
   return made;
 }
 
-export function balanceTable(
-  { body, wrenches, residual, largest }: Balance,
-  axes: string,
-  about: string,
-): HTMLElement {
+export function balanceTable(balance: Balance, axes: string, about: string): HTMLElement {
+  const { body, wrenches, residual, largest } = balance;
   const rows = wrenches.map(({ source, force, torque }, i) =>
     row([swatch(i), source], ...[...force, ...torque].map((value) => numberCell(value, largest))),
   );
   const heads = ['', 'Fx', 'Fy', 'Fz [N]', 'Tx', 'Ty', 'Tz [N m]'];
   const title = element('span', ` ${axes} axes, about ${about}`);
-  const sum = `They add up to ${short(residual)} of the largest (${short(largest)}).`;
-  return element(
-    'div',
-    element('h3', `Every wrench on ${body}`, title),
-    table(heads, rows),
-    element('p.hint', sum),
-  );
+  const sum = element('p.hint', `They add up to ${short(residual)} of the largest (${short(largest)}).`);
+  return element('div', element('h3', `Every wrench on ${body}`, title), table(heads, rows), sum);
 }
 
 // Checks by second ways, and warnings.
@@ -167,13 +141,8 @@ export function checkWords(checks: Check[]): string {
 export function checkTable(checks: Check[], warnings: string[]): HTMLElement {
   const heads = ['', 'found by a second way', 'error', 'tolerance', 'worst at'];
   const rows = checks.map(({ pass, name, meaning, error, tolerance, body }) => {
-    const made = row(
-      `${pass ? '✓' : '✗'} ${name}`,
-      element('td', meaning),
-      numberCell(error),
-      numberCell(tolerance),
-      element('td', body),
-    );
+    const [what, where] = [element('td', meaning), element('td', body)];
+    const made = row(`${pass ? '✓' : '✗'} ${name}`, what, numberCell(error), numberCell(tolerance), where);
     made.classList.toggle('short', !pass);
     return made;
   });
