@@ -1,7 +1,7 @@
 // The inspector without the lab around it: messages are given by hand, commands kept.
 import '../../app/web/src/ui/style.css';
 import { Inspector } from '../../app/web/src/inspector/inspector';
-import type { BodyInspection } from '../../app/web/src/protocol/body_inspection';
+import type { BodyInspection } from '../../app/web/src/protocol/messages';
 import type { Command, SceneMessage } from '../../app/web/src/source/link';
 import type { LabPage } from '../../app/web/src/panels/panel';
 

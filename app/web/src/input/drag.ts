@@ -3,12 +3,11 @@
 import type * as THREE from 'three';
 import type { Stage } from '../view/stage';
 import type { Operator } from './operator';
-import { axisOf, inLink, inWorld, type Handles } from './handles';
-import { JointDrag } from './joint_drag';
+import { axisOf, type Handles, inLink, inWorld } from './handles';
+import { JointDrag, PointDrag } from './drag_goal';
 import type { Pulling } from './key_input';
-import { PointDrag } from './point_drag';
-import { type Frame, type SceneJoint, type SceneMessage, type Vector } from '../source/link';
-import { pick, type Hit } from '../view/pick';
+import type { Frame, SceneJoint, SceneMessage, Vector } from '../source/link';
+import { type Hit, pick } from '../view/pick';
 import { Pinch } from './pinch';
 
 export interface Seen {

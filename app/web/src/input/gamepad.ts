@@ -13,10 +13,7 @@ export class Controller {
   private resting = true;
   private readonly down = [false, false];
 
-  constructor(
-    private readonly hand: Operator,
-    say: (words: string) => void,
-  ) {
+  constructor(private readonly hand: Operator, say: (words: string) => void) {
     addEventListener('gamepadconnected', ({ gamepad }) =>
       say(`${gamepad.id.split('(')[0].trim()}: sticks move the hand, the first button grips.`),
     );

@@ -5,7 +5,7 @@ import './handles.css';
 import * as THREE from 'three';
 import { element, svg } from '../ui/dom';
 import type { Stage } from '../view/stage';
-import type { Axis } from './joint_drag';
+import type { Axis } from './drag_goal';
 import type { Frame, SceneJoint, SceneMessage, Vector } from '../source/link';
 
 const POINTS = 48; // of an arc
@@ -39,13 +39,13 @@ export function axisOf(frame: Frame, { body, axis, slides }: SceneJoint): Axis |
 }
 
 export class Handles {
-  readonly tip = element('button', { type: 'button', class: 'grip', hidden: '' });
+  readonly tip = element('button.grip', { type: 'button', hidden: '' });
   private readonly svg = svg('svg', { 'aria-hidden': 'true' });
   private readonly track = path('arc');
   private readonly turned = path('arc turned');
   private readonly leader = path('leader');
   private readonly spring = path('spring');
-  private readonly words = element('output', { class: 'pulled', hidden: '' });
+  private readonly words = element('output.pulled', { hidden: '' });
 
   constructor(host: HTMLElement) {
     this.tip.setAttribute('aria-label', 'the hand: arrow keys move it, page up and down too');

@@ -4,8 +4,8 @@ import * as THREE from 'three';
 import type { Stage } from '../view/stage';
 import type { Drag } from './drag';
 import type { Operator } from './operator';
-import { inWorld, type Handles } from './handles';
-import { within } from './joint_drag';
+import { type Handles, inWorld } from './handles';
+import { within } from './drag_goal';
 import type { Frame, SceneJoint, SceneMessage, Vector } from '../source/link';
 
 const STEP = 0.02; // of the size of what is seen

@@ -7,29 +7,25 @@ const WIDTH = 200;
 const HEIGHT = 150;
 const MARGIN = 16;
 
+type Point = [number, number];
 export type Plane = 'xz' | 'yz' | 'xy';
-export const PLANES: Plane[] = ['xz', 'yz', 'xy'];
+const PLANES: Plane[] = ['xz', 'yz', 'xy'];
 const AXIS = { x: 0, y: 1, z: 2 } as const;
 
 // Which of the three shows most of what there is.
-export function bestPlane(balance: Balance): Plane {
+function bestPlane(balance: Balance): Plane {
   const spread = [0, 0, 0];
   for (const { force, torque } of balance.wrenches)
-    for (let k = 0; k < 3; ++k)
-      spread[k] += (force[k] || 0) ** 2 + (torque[k] || 0) ** 2;
+    for (let k = 0; k < 3; ++k) spread[k] += (force[k] || 0) ** 2 + (torque[k] || 0) ** 2;
   const hidden = spread.indexOf(Math.min(...spread));
   return PLANES[hidden === 1 ? 0 : hidden === 0 ? 1 : 2];
 }
 
-interface Segment {
-  from: [number, number];
-  to: [number, number];
-  number: number;
-}
+type Segment = { from: Point; to: Point; number: number };
 
 function tipToTail(vectors: number[][], plane: Plane): Segment[] {
   const [a, b] = [AXIS[plane[0] as 'x'], AXIS[plane[1] as 'x']];
-  let at: [number, number] = [0, 0];
+  let at: Point = [0, 0];
   return vectors.map((vector, number) => {
     const from = at;
     at = [at[0] + (vector[a] || 0), at[1] + (vector[b] || 0)];
@@ -52,20 +48,14 @@ function arrow({ from, to, number }: Segment): SVGElement[] {
   const head = Math.min(8, 0.6 * length);
   const neck = [to[0] - head * ux, to[1] - head * uy];
   const side = 0.42 * head;
-  const points = [
-    to,
-    [neck[0] - side * uy, neck[1] + side * ux],
-    [neck[0] + side * uy, neck[1] - side * ux],
-  ];
+  const points = [to, [neck[0] - side * uy, neck[1] + side * ux], [neck[0] + side * uy, neck[1] - side * ux]];
   const middle = [(from[0] + to[0]) / 2 - 8 * uy, (from[1] + to[1]) / 2 + 8 * ux];
   const shapes = [
     svg('line', { x1: from[0], y1: from[1], x2: neck[0], y2: neck[1], stroke: color }),
     svg('polygon', { points: points.map((p) => p.join(',')).join(' '), fill: color }),
   ];
   if (length < 18) return shapes;
-  const label = svg('text', { x: middle[0], y: middle[1] + 3.5 });
-  label.textContent = String(number + 1);
-  return [...shapes, label];
+  return [...shapes, svg('text', { x: middle[0], y: middle[1] + 3.5 }, String(number + 1))];
 }
 
 function polygon(vectors: number[][], plane: Plane, unit: string, what: string): HTMLElement {
@@ -75,57 +65,40 @@ function polygon(vectors: number[][], plane: Plane, unit: string, what: string):
   const [left, bottom] = [Math.min(...xs), Math.min(...ys)];
   const [wide, high] = [Math.max(...xs) - left, Math.max(...ys) - bottom];
   const most = Math.max(wide, high);
-  const host = svg('svg', {
-    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
-    role: 'img',
-    'aria-label': `${what} on the body, tip to tail, seen in ${plane}`,
-  });
-  const figure = element('figure', {}, host);
-  if (!(most > 0) || !Number.isFinite(most)) {
-    figure.append(element('figcaption', {}, most === 0 ? `no ${what} in this plane` : what));
-    return figure;
-  }
+  const label = `${what} on the body, tip to tail, seen in ${plane}`;
+  const host = svg('svg', { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: 'img', 'aria-label': label });
+  const figure = (words: string) => element('figure', host, element('figcaption', words));
+  if (!(most > 0) || !Number.isFinite(most)) return figure(most === 0 ? `no ${what} in this plane` : what);
   const room = HEIGHT - 2 * MARGIN - 8;
   const scale = Math.min((WIDTH - 2 * MARGIN) / Math.max(wide, 1e-9 * most), room / Math.max(high, 1e-9 * most));
-  const place = ([x, y]: [number, number]): [number, number] => [
+  const place = ([x, y]: Point): Point => [
     WIDTH / 2 + scale * (x - left - wide / 2),
     MARGIN + room / 2 - scale * (y - bottom - high / 2),
   ];
-  for (const { from, to, number } of segments)
-    host.append(...arrow({ from: place(from), to: place(to), number }));
   const bar = scaleBar((0.45 * (WIDTH - 2 * MARGIN)) / scale);
   const y = HEIGHT - 5;
+  const [cx, cy] = place([0, 0]);
   host.append(
-    svg('circle', { cx: place([0, 0])[0], cy: place([0, 0])[1], r: 2.4, class: 'start' }),
+    ...segments.flatMap(({ from, to, number }) => arrow({ from: place(from), to: place(to), number })),
+    svg('circle', { cx, cy, r: 2.4, class: 'start' }),
     svg('path', { d: `M8 ${y - 4}V${y}H${8 + scale * bar}V${y - 4}`, class: 'bar' }),
+    svg('text', { x: 13 + scale * bar, y, class: 'length' }, `${+bar.toPrecision(1)} ${unit}`),
   );
-  const words = svg('text', { x: 13 + scale * bar, y, class: 'length' });
-  words.textContent = `${+bar.toPrecision(1)} ${unit}`;
-  host.append(words);
-  figure.append(element('figcaption', {}, what));
-  return figure;
+  return figure(what);
 }
 
 export function diagram(balance: Balance, chosen: Plane | null): HTMLElement {
   const plane = chosen ?? bestPlane(balance);
-  const choice = PLANES.map((name) =>
-    element(
-      'button',
-      {
-        type: 'button',
-        'data-plane': name,
-        'aria-pressed': String(name === plane),
-        title: `look at the plane of ${name[0]} and ${name[1]}`,
-      },
-      `${name[0]}–${name[1]}`,
-    ),
-  );
+  const choice = PLANES.map((name) => {
+    const state = { 'data-plane': name, 'aria-pressed': String(name === plane) };
+    const title = `look at the plane of ${name[0]} and ${name[1]}`;
+    return element('button', { type: 'button', ...state, title }, `${name[0]}–${name[1]}`);
+  });
   const forces = balance.wrenches.map(({ force }) => force);
   const torques = balance.wrenches.map(({ torque }) => torque);
   return element(
-    'div',
-    { class: 'diagram' },
-    element('div', { class: 'planes', role: 'group', 'aria-label': 'plane' }, ...choice),
+    'div.diagram',
+    element('div.planes', { role: 'group', 'aria-label': 'plane' }, ...choice),
     polygon(forces, plane, 'N', 'forces'),
     polygon(torques, plane, 'N m', 'torques'),
   );

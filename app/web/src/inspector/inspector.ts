@@ -3,16 +3,15 @@
 // through one call of the algorithm.
 import './inspector.css';
 import type { BodyInspection } from '../protocol/messages';
-import { balanceTable, wrenchColor } from './balance';
-import { checkTable, checkWords } from './checks';
-import { button, element, icon, short } from '../ui/dom';
-import { listen } from '../ui/keys';
-import { morph } from '../ui/morph';
-import { PASSES, Stepper, type Step } from './stepper';
+import {
+  balanceTable, checkTable, checkWords, contactTables, energyTable, jointTables, neighbourCards, soFar,
+  wrenchColor,
+} from './tables';
+import { button, element, icon, morph, short } from '../ui/dom';
+import { key, listen } from '../ui/keys';
 import type { SceneMessage } from '../source/link';
 import { passCards, unitOf } from './cards';
 import { closing, diagram, type Plane } from './diagram';
-import { contactTables, energyTable, jointTables, neighbourCards, soFar } from './tables';
 import type { LabPage, Panel } from '../panels/panel';
 
 const LENGTH = 0.38; // of the longest arrow, of what is seen
@@ -27,14 +26,14 @@ function stepsOf(bodies: string[]): Step[] {
 export type InspectorPage = Pick<LabPage, 'scene' | 'selected' | 'send' | 'select' | 'arrows'>;
 
 export class Inspector implements Panel {
-  readonly root = element('section', { class: 'glass', 'aria-label': 'inspector' });
-  private readonly who = element('div', { class: 'heading' });
+  readonly root = element('section.glass', { 'aria-label': 'inspector' });
+  private readonly who = element('div.heading');
   private readonly stepper = new Stepper(
     (step) => this.go(step),
     (pass) => this.goPass(pass),
   );
-  private readonly place = element('output', { class: 'place' });
-  private readonly content = element('div', { class: 'content' });
+  private readonly place = element('output.place');
+  private readonly content = element('div.content');
   private steps: Step[] = [];
   private bodies: string[] = []; // from number 1 on
   private body = 1;
@@ -45,21 +44,16 @@ export class Inspector implements Panel {
 
   constructor(private readonly page: InspectorPage) {
     const walk = element(
-      'div',
-      { class: 'walk', role: 'group', 'aria-label': 'one call, step by step' },
+      'div.walk',
+      { role: 'group', 'aria-label': 'one call, step by step' },
       button(icon('back'), 'one step of the call back (,)', () => this.move(-1)),
       button(icon('on'), 'one step of the call on (.)', () => this.move(1)),
       this.place,
     );
     this.root.append(this.who, this.stepper.root, walk, this.content);
     this.content.addEventListener('click', (event) => this.click(event));
-    const key = (keys: string, what: string, by: number) => ({
-      keys: [keys],
-      shown: keys,
-      what,
-      act: () => this.seen && this.move(by),
-    });
-    listen([key(',', 'one step of the call back', -1), key('.', 'one step of the call on', 1)]);
+    const move = (by: number) => () => this.seen && this.move(by);
+    listen([key(', .', 'one step of the call back, on', { ',': move(-1), '.': move(1) })]);
     // Nobody looks: nothing is asked for.
     new IntersectionObserver((entries) => {
       const seen = entries.some((entry) => entry.isIntersecting);
@@ -151,7 +145,7 @@ export class Inspector implements Panel {
   }
 
   private render(numbers: BodyInspection): void {
-    const made = element('div', { class: 'content' }, ...this.sections(numbers));
+    const made = element('div.content', ...this.sections(numbers));
     morph(this.content, made);
     const { name, t, stands, passes } = numbers;
     const joint = passes?.[0]?.joint;
@@ -159,10 +153,10 @@ export class Inspector implements Panel {
     const parent = neighbours?.find(({ is }) => is === 'parent')?.body ?? 'the world';
     const on = neighbours ? ` on ${parent}` : '';
     const when = stands ? 'time stands still' : 'stop the time to walk through the call';
-    const time = t === undefined ? [] : [element('p', {}, `${short(t)} s: ${when}`)];
+    const time = t === undefined ? [] : [element('p', `${short(t)} s: ${when}`)];
     this.who.replaceChildren(
-      element('h2', {}, name ?? ''),
-      element('p', {}, `${joint ? `carried by ${joint}` : 'stands'}${on}`),
+      element('h2', name ?? ''),
+      element('p', `${joint ? `carried by ${joint}` : 'stands'}${on}`),
       ...time,
     );
     this.root.classList.toggle('stands', stands);
@@ -171,11 +165,11 @@ export class Inspector implements Panel {
 
   private sections(numbers: BodyInspection): Node[] {
     const { name = '', passes, balance, forces = [], ledger, checks, stands, warnings = [] } = numbers;
-    const notes = warnings.map((text) => element('p', { class: 'note' }, text));
+    const notes = warnings.map((text) => element('p.note', text));
     if (!passes || !balance) return notes;
     const { axes = 'world', about = 'origin', joint_balance = [], neighbours = [] } = numbers;
     const fold = (title: string, open: boolean, ...inside: Node[]) => {
-      const made = element('details', {}, element('summary', {}, title), ...inside);
+      const made = element('details', element('summary', title), ...inside);
       made.open = open;
       return made;
     };
@@ -185,10 +179,10 @@ export class Inspector implements Panel {
     const checked = checks?.length ? checkWords(checks) : 'while time stands still';
     // Always the same parts in the same places: morph() goes by them.
     return [
-      element('div', {}, ...notes),
-      element('div', { class: 'so-far' }, ...(rows.length > 0 ? [soFar(rows, name)] : [])),
-      element('h3', {}, PASSES[this.pass][0], element('span', {}, ` ${PASSES[this.pass][1]}`)),
-      element('div', { class: 'cards' }, ...passCards(numbers, this.pass)),
+      element('div', ...notes),
+      element('div.so-far', ...(rows.length > 0 ? [soFar(rows, name)] : [])),
+      element('h3', PASSES[this.pass][0], element('span', ` ${PASSES[this.pass][1]}`)),
+      element('div.cards', ...passCards(numbers, this.pass)),
       ...(numbers.neighbours ? [fold('From its neighbours', false, ...(taken.length ? taken : [words('nothing in this pass')]))] : []),
       fold(
         'Free body',
@@ -196,7 +190,7 @@ export class Inspector implements Panel {
         ...balance.flatMap((forces) => [
           diagram(forces, this.plane),
           words(closing(forces)),
-          element('div', { class: 'wide wrenches' }, balanceTable(forces, axes, about)),
+          element('div.wide.wrenches', balanceTable(forces, axes, about)),
         ]),
         ...jointTables(joint_balance, unitOf(numbers, 'N m; N')),
       ),
@@ -230,5 +224,53 @@ export class Inspector implements Panel {
 }
 
 function words(text: string): HTMLElement {
-  return element('p', { class: 'hint' }, text);
+  return element('p.hint', text);
+}
+
+// The way of the passes: one button for each step, a row a pass.
+export const PASSES: Record<number, [string, string]> = {
+  1: ['Pass 1, outward', 'velocities, and the force that each body alone takes'],
+  2: ['Pass 2, inward', 'articulated inertias: each body with all that hangs on it'],
+  3: ['Pass 3, outward', 'accelerations'],
+};
+
+export interface Step {
+  pass: number;
+  body: string;
+}
+
+export class Stepper {
+  readonly root = element('nav.stepper', { 'aria-label': 'steps of the passes' });
+  private chips: HTMLButtonElement[] = [];
+  private steps: readonly Step[] = [];
+  private rows: HTMLElement[] = [];
+
+  constructor(
+    private readonly go: (step: number) => void,
+    private readonly goPass: (pass: number) => void,
+  ) {}
+
+  set(steps: readonly Step[]): void {
+    this.chips = steps.map(({ pass, body }, i) =>
+      button(body, `pass ${pass} at ${body}`, () => this.go(i)),
+    );
+    this.steps = steps;
+    this.rows = [1, 2, 3].map((pass) =>
+      element(
+        'div.row',
+        button(PASSES[pass][0], PASSES[pass].join(': '), () => this.goPass(pass), 'pass'),
+        ...this.chips.filter((_, i) => steps[i].pass === pass),
+      ),
+    );
+    this.root.replaceChildren(...this.rows);
+  }
+
+  show(at: number): void {
+    this.chips.forEach((chip, i) => {
+      chip.setAttribute('aria-current', i === at ? 'step' : 'false');
+      chip.classList.toggle('done', i < at);
+    });
+    const pass = this.steps[at]?.pass;
+    this.rows.forEach((row, i) => row.classList.toggle('current', i + 1 === pass));
+  }
 }

@@ -59,7 +59,7 @@ function nodeOf(word: string): Node {
 }
 
 export function set(...parts: Node[]): HTMLElement {
-  return element('span', { class: 'math' }, node('math', node('mrow', ...parts)));
+  return element('span.math', node('math', node('mrow', ...parts)));
 }
 
 export function math(text: string): HTMLElement {
@@ -107,8 +107,8 @@ export function fraction(over: Node[], under: Node): Node {
 // "v = Xup v_p + S qd, table 7.1": the equation, and where it stands.
 export function source(text: string): HTMLElement {
   const at = text.search(/, table|, section|; \(/);
-  if (!text.includes(' = ')) return element('span', {}, text.replace('table', 'RBDA table'));
+  if (!text.includes(' = ')) return element('span', text.replace('table', 'RBDA table'));
   const equation = at < 0 ? text : text.slice(0, at);
   const where = at < 0 ? '' : text.slice(at + 2);
-  return element('span', {}, math(equation), ` RBDA ${where}`);
+  return element('span', math(equation), ` RBDA ${where}`);
 }

@@ -1,15 +1,15 @@
 // The page of one inspected state: the inspector over the numbers that the page carries, with the
 // robot beside it.
-import { checkTable, checkWords } from '../inspector/checks';
+import { checkTable, checkWords } from '../inspector/tables';
 import { Inspector, type InspectorPage } from '../inspector/inspector';
 import type { InspectedRobot, Inspection } from '../protocol/inspection';
 import type { BodyInspection, SceneMessage } from '../protocol/messages';
 import type { Layer } from '../protocol/run';
 import { element } from '../ui/dom';
-import { key, MOUSE, viewKeys, type Key } from '../ui/keys';
+import { key, type Key, MOUSE, viewKeys } from '../ui/keys';
 import './inspect.css';
-import { RecordedPage, type Instant } from './recorded_page';
-import { start } from './start';
+import { type Instant, RecordedPage } from './recorded_page';
+import { start } from '../source/embedded';
 
 const FAINT = 60; // of 255: bodies that are not looked at
 
@@ -44,15 +44,11 @@ class Page extends RecordedPage {
     this.tabs.add('Passes', this.inspector.root);
     this.tabs.add(`Checks: ${checkWords(checks)}`, checkTable(checks, warnings));
     this.tabs.root.parentElement!.classList.add('inspect');
-    const title = [
-      element('h1', {}, robot.title),
-      element('p', {}, robot.state.replaceAll('\n', ' · ')),
-    ];
+    const title = [element('h1', robot.title), element('p', robot.state.replaceAll('\n', ' · '))];
     const foot = element(
-      'footer',
-      { class: 'made-by' },
+      'footer.made-by',
       element('code', { id: 'command' }, robot.command),
-      element('span', {}, `twinarm ${robot.version}`),
+      element('span', `twinarm ${robot.version}`),
     );
     this.begin(title, foot, this.keys(), MOUSE);
     this.inspector.go(Number(this.asked('step') ?? 1) - 1);
@@ -89,13 +85,12 @@ class Page extends RecordedPage {
   }
 
   private keys(): Key[] {
+    const next = () => this.inspector.move(1);
     const pass = (number: number) => () => this.inspector.goPass(number);
     return [
-      key(['ArrowRight', ' '], '→', 'the next body', () => this.inspector.move(1)),
-      key(['ArrowLeft'], '←', 'the body before', () => this.inspector.move(-1)),
-      key(['1'], '1, 2, 3', 'to that pass', pass(1)),
-      key(['2'], '', '', pass(2)),
-      key(['3'], '', '', pass(3)),
+      key('→', 'the next body', { ArrowRight: next, ' ': next }),
+      key('←', 'the body before', { ArrowLeft: () => this.inspector.move(-1) }),
+      key('1, 2, 3', 'to that pass', { 1: pass(1), 2: pass(2), 3: pass(3) }),
       ...viewKeys({
         orbit: (...by) => this.stage.orbit(...by),
         look: (name) => this.look(name),

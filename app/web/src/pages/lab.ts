@@ -8,76 +8,61 @@ import { Drag, type Seen } from '../input/drag';
 import { Operator } from '../input/operator';
 import { Handles } from '../input/handles';
 import { KeyInput } from '../input/key_input';
-import { isKept, labKeys, MOUSE } from './lab_keys';
+import { isKept, labKeys, type LabKeys, MOUSE } from './lab_keys';
 import * as wire from '../source/link';
-import { LiveStage } from '../view/live_stage';
-import { remember, remembered } from '../ui/memory';
-import { Overlays } from '../view/overlays';
-import type { LabPage, Listener, Panel, PanelSet } from '../panels/panel';
-import { panelsOf } from '../panels/panels';
-import { Picture } from '../view/picture';
+import { LiveStage, Picture } from '../view/live_stage';
+import { remember, remembered, Theme } from '../ui/preferences';
+import { Overlays, Views } from '../view/view_options';
+import { type LabPage, type Listener, type Panel, panelsOf } from '../panels/panel';
 import { Pace } from '../view/pace';
-import { Views } from '../view/views';
 import { Hints } from '../panels/hints';
 import { button, element, icon } from '../ui/dom';
-import { LiveRun } from '../source/live_run';
+import { LiveRun } from '../source/run_source';
 import { help, listen, pageHeader, PLOTS } from '../ui/keys';
-import { Tabs } from '../ui/tabs';
-import { Theme } from '../ui/theme';
+import { Tabs } from '../ui/choices';
 import type { Arrow } from '../view/arrows';
 import type { ViewName } from '../view/stage';
+
 import './lab.css'; // last: it changes what parts look like under fingers
 
 const TABS = ['Knobs', 'Plots', 'Glass', 'Ledger'];
 // Commands that need no hand.
 const FREE = new Set(['layers', 'glass', 'look', 'take']);
 
-class Page implements LabPage {
+class Page implements LabPage, LabKeys {
   scene: wire.SceneMessage | null = null;
   state: wire.StateMessage | null = null;
   frame: wire.Frame | null = null;
   selected: number | null = null;
-  readonly link: wire.Link;
-  readonly hand: Operator;
-  readonly live: LiveStage;
+  readonly pace = new Pace();
+  private readonly words = new Hints();
+  private readonly title = element('h1', 'twinarm lab');
+  private readonly file = element('p');
+  private readonly host = element('div.stage');
+  private readonly over = element('div.handles');
+  private readonly tabs = new Tabs();
+  private readonly theme = new Theme(() => this.recolor());
   readonly overlays = new Overlays(() => this.sendLayers());
   readonly views = new Views((name) => this.look(name), () => this.touch());
-  readonly pace = new Pace();
+  readonly live = new LiveStage(this.host, this.over, () => this.touch());
+  private readonly picture = this.live.canDraw ? null : new Picture();
+  readonly link = new wire.Link(socketAddress(), (open) => this.connected(open));
+  readonly hand = new Operator(this.link, () => this.state, (words) => this.say(words));
+  private readonly controller = new Controller(this.hand, (words) => this.say(words));
+  private readonly handles = new Handles(this.over);
+  readonly drag: Drag = new Drag(this.host, () => this.seen(), this.hand, this.handles, {
+    select: (body) => this.select(body),
+    changed: () => this.touch(),
+  });
+  readonly keys = new KeyInput(() => this.known(), this.hand, this.handles, this.drag, () => this.touch());
   private readonly run = new LiveRun(this);
-  private readonly words = new Hints();
-  private readonly host = element('div', { class: 'stage' });
-  private readonly handles: Handles;
-  readonly drag: Drag;
-  private readonly keys: KeyInput;
-  private readonly controller: Controller;
-  private readonly picture: Picture | null;
-  private readonly tabs = new Tabs();
-  private readonly theme: Theme;
-  private readonly set: PanelSet;
+  readonly set = panelsOf(this, this.run);
   private readonly panels: Panel[];
   private readonly listeners: Listener[]; // the run first: panels read it
-  private readonly title = element('h1', {}, 'twinarm lab');
-  private readonly file = element('p', {});
   private readonly arrowsOf = new Map<string, Arrow[]>();
   private stale = true;
 
   constructor() {
-    const over = element('div', { class: 'handles' });
-    const labels = element('div', { class: 'labels', 'aria-hidden': 'true' });
-    this.host.append(labels, over);
-    this.theme = new Theme(() => this.recolor());
-    this.live = new LiveStage(this.host, { labels, handles: over }, () => this.touch());
-    this.handles = new Handles(over);
-    this.link = new wire.Link(socketAddress(), (open) => this.connected(open));
-    this.hand = new Operator(this.link, () => this.state, (words) => this.say(words));
-    this.drag = new Drag(this.host, () => this.seen(), this.hand, this.handles, {
-      select: (body) => this.select(body),
-      changed: () => this.touch(),
-    });
-    this.keys = new KeyInput(() => this.known(), this.hand, this.handles, this.drag, () => this.touch());
-    this.controller = new Controller(this.hand, (words) => this.say(words));
-    this.picture = this.live.canDraw ? null : new Picture();
-    this.set = panelsOf(this, this.run);
     const inspector = new Inspector(this);
     const { knobs, plots, ledger, time, hand, gallery, dead } = this.set;
     this.panels = [knobs, plots, inspector, ledger, time, hand, gallery, dead];
@@ -124,45 +109,27 @@ class Page implements LabPage {
   }
 
   private build(): void {
-    const { knobs: _, ...set } = this.set;
-    const gallery = set.gallery.root as HTMLDialogElement;
-    const keys = labKeys({
-      page: this,
-      panels: this.set,
-      live: this.live,
-      overlays: this.overlays,
-      hand: this.hand,
-      keys: this.keys,
-      look: (name) => this.look(name),
-      followNext: () => this.views.next(this.selected),
-      isTab: (title) => !this.folded && this.tabs.current === TABS.indexOf(title),
-      togglePanel: () => this.fold(!this.folded),
-      toggleTheme: () => this.toggleTheme(),
-    });
+    const { time, hand, gallery, dead } = this.set;
+    const keys = labKeys(this);
     const dialog = help(keys, `${MOUSE} ${PLOTS}`);
-    const scenes = button(icon('gallery'), 'scenes (e)', () => gallery.showModal(), 'words');
+    const scenes = button(icon('gallery'), 'scenes (e)', () => gallery.root.showModal(), 'words');
     scenes.append('Scenes');
     const header = pageHeader([this.title, this.file, scenes], dialog, () => this.toggleTheme());
-    header.append(button(icon('panel'), 'the panel (\\)', () => this.fold(!this.folded)));
+    header.append(button(icon('panel'), 'the panel (\\)', () => this.togglePanel()));
     this.host.append(
       ...(this.picture ? [this.picture.root] : []),
-      element('div', { class: 'corner' }, this.overlays.root, this.overlays.legend),
+      element('div.corner', this.overlays.root, this.overlays.legend),
       this.views.root,
-      element('div', { class: 'foot' }, this.words.look, this.words.again, this.words.hint, this.words.spoken),
-      element('div', { class: 'hand-corner' }, set.hand.root),
+      element('div.foot', this.words.look, this.words.again, this.words.hint, this.words.spoken),
+      element('div.hand-corner', hand.root),
       this.words.banner,
-      set.dead.root,
+      dead.root,
     );
     this.host.addEventListener('pointerdown', ({ target }) => {
       if (target instanceof HTMLCanvasElement || target === this.handles.tip) this.words.fold(true);
     });
     document.body.classList.add('lab');
-    document.body.append(
-      header,
-      element('main', {}, this.host, set.time.root, this.tabs.root),
-      gallery,
-      dialog,
-    );
+    document.body.append(header, element('main', this.host, time.root, this.tabs.root), gallery.root, dialog);
     listen(keys, isKept);
     this.fold(remembered('folded', false));
   }
@@ -175,18 +142,25 @@ class Page implements LabPage {
     remember('folded', folded);
   }
 
-  private toggleTheme(): void {
+  togglePanel(): void {
+    this.fold(!this.folded);
+  }
+  isTab(title: string): boolean {
+    return !this.folded && this.tabs.current === TABS.indexOf(title);
+  }
+
+  toggleTheme(): void {
     this.theme.toggle();
     remember('dark', this.theme.dark);
   }
 
   private recolor(): void {
-    this.live?.setTheme(this.theme.dark);
-    for (const panel of this.panels ?? []) panel.onTheme?.();
+    this.live.setTheme(this.theme.dark);
+    for (const panel of this.panels) panel.onTheme?.();
     this.touch();
   }
 
-  private look(name: ViewName): void {
+  look(name: ViewName): void {
     this.views.body = null;
     this.live.stage?.look(name);
   }
@@ -206,8 +180,7 @@ class Page implements LabPage {
 
   private connected(open: boolean): void {
     this.words.connection(open);
-    if (!open) return;
-    this.sendLayers();
+    if (open) this.sendLayers();
   }
 
   private sendLayers(): void {

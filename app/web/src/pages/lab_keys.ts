@@ -1,21 +1,21 @@
 // The keyboard of the lab: everything that a mouse can do.
-import { clockKeys, key, viewKeys, type Key } from '../ui/keys';
+import { clockKeys, key, type Key, viewKeys } from '../ui/keys';
 import type { ViewName } from '../view/stage';
 import type { Operator } from '../input/operator';
 import type { KeyInput } from '../input/key_input';
 import type { LabPage, PanelSet } from '../panels/panel';
-import type { Overlays } from '../view/overlays';
+import type { Overlays, Views } from '../view/view_options';
 import type { LiveStage } from '../view/live_stage';
 
-export interface KeyTargets {
-  page: LabPage;
-  panels: PanelSet;
-  live: LiveStage;
-  overlays: Overlays;
-  hand: Operator;
-  keys: KeyInput;
+// What its keys need of the page.
+export interface LabKeys extends LabPage {
+  readonly set: PanelSet;
+  readonly live: LiveStage;
+  readonly overlays: Overlays;
+  readonly views: Views;
+  readonly hand: Operator;
+  readonly keys: KeyInput;
   look(name: ViewName): void;
-  followNext(): void;
   isTab(title: string): boolean;
   togglePanel(): void;
   toggleTheme(): void;
@@ -23,55 +23,56 @@ export interface KeyTargets {
 
 const FRAME = 1 / 60; // [s]
 
-export function labKeys(at: KeyTargets): Key[] {
-  return [...runKeys(at), ...handKeys(at), ...pictureKeys(at), ...pageKeys(at)];
+export function labKeys(page: LabKeys): Key[] {
+  return [...runKeys(page), ...handKeys(page), ...pictureKeys(page), ...pageKeys(page)];
 }
 
-function runKeys({ page, panels, isTab }: KeyTargets): Key[] {
+function runKeys(page: LabKeys): Key[] {
+  const { time } = page.set;
   const step = () => {
-    if (!isTab('Glass')) page.send({ do: 'step', steps: 1 }); // else a step of the call
+    if (!page.isTab('Glass')) page.send({ do: 'step', steps: 1 }); // else a step of the call
   };
   return [
-    ...clockKeys(panels.time),
-    key(['.'], '.', 'one step of the run (beside the Glass: of the call; , back)', step),
-    key(['End'], 'End', 'back to now', () => panels.time.seek(Infinity)),
-    key(['b'], 'b', 'branch from this instant', () => panels.time.askBranch()),
+    ...clockKeys(time),
+    key('.', 'one step of the run (beside the Glass: of the call; , back)', step),
+    key('End', 'back to now', () => time.seek(Infinity)),
+    key('b', 'branch from this instant', () => time.askBranch()),
   ];
 }
 
 // Arrows move what the hand has; without it they look back in time.
-function handKeys({ page, panels, hand, keys }: KeyTargets): Key[] {
+function handKeys(page: LabKeys): Key[] {
+  const { hand, keys, set: { time } } = page;
   const move = (right: number, up: number, away: number) => (event: KeyboardEvent) => {
     if (keys.isOn) return keys.move(right, up, away, event.shiftKey);
     const { state } = page;
     if (!state || right === 0) return;
-    panels.time.seek((state.at ?? state.last) + right * (event.shiftKey ? 0.5 : FRAME));
+    time.seek((state.at ?? state.last) + right * (event.shiftKey ? 0.5 : FRAME));
   };
   return [
-    key(['h'], 'h', 'the hand: arrows move the tip, page up and down away and toward', () =>
-      keys.focusTip(),
-    ),
-    key(['j'], 'j', 'the next joint: arrows turn it', () => keys.nextJoint()),
-    key(['x'], 'x', 'a spring at the selected body: arrows pull; x lets go', () =>
-      keys.togglePull(page.selected),
-    ),
-    key(['ArrowLeft'], '← →', 'else: back and on in time; with shift half a second', move(-1, 0, 0)),
-    key(['ArrowRight'], '', '', move(1, 0, 0)),
-    key(['ArrowUp'], '', '', move(0, 1, 0)),
-    key(['ArrowDown'], '', '', move(0, -1, 0)),
-    key(['PageUp'], '', '', move(0, 0, 1)),
-    key(['PageDown'], '', '', move(0, 0, -1)),
-    key(['g'], 'g', 'gripper', () => {
+    key('h', 'the hand: arrows move the tip, page up and down away and toward', () => keys.focusTip()),
+    key('j', 'the next joint: arrows turn it', () => keys.nextJoint()),
+    key('x', 'a spring at the selected body: arrows pull; x lets go', () => keys.togglePull(page.selected)),
+    key('← →', 'else: back and on in time; with shift half a second', {
+      ArrowLeft: move(-1, 0, 0),
+      ArrowRight: move(1, 0, 0),
+      ArrowUp: move(0, 1, 0),
+      ArrowDown: move(0, -1, 0),
+      PageUp: move(0, 0, 1),
+      PageDown: move(0, 0, -1),
+    }),
+    key('g', 'gripper', () => {
       const closed = !hand.grip;
       if (hand.button(0, closed)) page.say(`The gripper is ${closed ? 'closed' : 'open'}.`);
     }),
-    key(['c'], 'c', 'clutch', () => {
+    key('c', 'clutch', () => {
       if (hand.button(1, !hand.clutch)) page.say(`The clutch is ${hand.clutch ? 'pressed' : 'released'}.`);
     }),
   ];
 }
 
-function pictureKeys({ page, live, overlays, look, followNext, toggleTheme }: KeyTargets): Key[] {
+function pictureKeys(page: LabKeys): Key[] {
+  const { live, overlays, views } = page;
   const selectNext = (by: number) => () => {
     const { scene } = page;
     if (!scene) return;
@@ -80,33 +81,32 @@ function pictureKeys({ page, live, overlays, look, followNext, toggleTheme }: Ke
     page.select(moving[(at + by + moving.length) % moving.length] ?? null);
   };
   return [
-    key(['m'], 'm', 'select the next body; with shift the one before', selectNext(1)),
-    key(['M'], '', '', selectNext(-1)),
+    key('m', 'select the next body; with shift the one before', { m: selectNext(1), M: selectNext(-1) }),
     ...viewKeys({
       orbit: (...by) => live.stage?.orbit(...by),
-      look,
-      followNext,
+      look: (name) => page.look(name),
+      followNext: () => views.next(page.selected),
       toggleLayer: (number) => overlays.toggleNumber(number),
-      toggleTheme,
+      toggleTheme: () => page.toggleTheme(),
     }),
-    key(['o'], 'o', 'what is shown', () => overlays.fold(!overlays.folded)),
+    key('o', 'what is shown', () => overlays.fold(!overlays.folded)),
   ];
 }
 
-function pageKeys({ page, panels, keys, overlays, togglePanel }: KeyTargets): Key[] {
-  const tabs: [string, string][] = [['n', 'Knobs'], ['p', 'Plots'], ['i', 'Glass'], ['l', 'Ledger']];
+function pageKeys(page: LabKeys): Key[] {
+  const { keys, overlays, set: { gallery } } = page;
+  const tab = (title: string) => () => page.showTab(title);
+  const tabs = { n: tab('Knobs'), p: tab('Plots'), i: tab('Glass'), l: tab('Ledger') };
   const leave = () => {
     if (!overlays.folded) overlays.fold(true);
     else if (keys.isOn) keys.leave();
     else page.select(null);
   };
   return [
-    ...tabs.map(([letter, title], i) =>
-      key([letter], i === 0 ? 'n p i l' : '', 'knobs, plots, glass, ledger', () => page.showTab(title)),
-    ),
-    key(['\\'], '\\', 'fold the panel away', togglePanel),
-    key(['e'], 'e', 'scenes', () => (panels.gallery.root as HTMLDialogElement).showModal()),
-    key(['Escape'], 'Esc', 'lets go of the hand, of the selection', leave),
+    key('n p i l', 'knobs, plots, glass, ledger', tabs),
+    key('\\', 'fold the panel away', () => page.togglePanel()),
+    key('e', 'scenes', () => gallery.root.showModal()),
+    key('Esc', 'lets go of the hand, of the selection', { Escape: leave }),
   ];
 }
 

@@ -1,57 +1,32 @@
 // What the pages that carry their data have in common: the picture with its layers, views and
 // labels, theme, keys, printing; painted when something has changed.
 import '../ui/style.css';
-import type { Layer, MeshData, View } from '../protocol/run';
+import type { Carried, Layer } from '../protocol/run';
 import { element } from '../ui/dom';
-import { help, listen, pageHeader, type Key } from '../ui/keys';
-import { Tabs } from '../ui/tabs';
-import { Theme } from '../ui/theme';
-import { Labels } from '../view/labels';
-import { LayerChoice } from '../view/layers';
+import { help, type Key, listen, pageHeader } from '../ui/keys';
+import { Tabs } from '../ui/choices';
+import { Theme } from '../ui/preferences';
+import { LayerChoice, Views } from '../view/view_options';
 import type { Part } from '../view/painter';
 import { Stage, type ViewName } from '../view/stage';
-import { Views } from '../view/views';
-import { onPaper } from './paper';
 import './print.css';
 
-export interface Carried {
-  meshes: MeshData[];
-  textures: ImageBitmap[];
-  layers: Layer[];
-  texts: string[];
-  view: View;
-}
-
-// Of all layers: frame a, and how far to frame b.
-export interface Instant {
-  a: number;
-  b: number;
-  share: number;
-}
+export type Instant = Pick<Part, 'a' | 'b' | 'share'>; // of all layers
 
 export abstract class RecordedPage {
   readonly layers: LayerChoice;
   readonly stage: Stage;
   readonly theme = new Theme(() => this.recolor());
   protected readonly tabs = new Tabs();
-  protected readonly views = new Views(
-    (name) => this.look(name),
-    () => {
-      this.stage.follow(null);
-      this.touch();
-    },
-  );
-  private readonly labels: Labels;
+  protected readonly views = new Views((name) => this.look(name), () => this.release());
   private stale = true; // the picture
 
   constructor(private readonly carried: Carried, layers = carried.layers) {
-    const host = element('div', { class: 'stage' });
-    const labels = element('div', { class: 'labels', 'aria-hidden': 'true' });
+    const host = element('div.stage');
     this.layers = new LayerChoice(layers, () => this.touch());
-    host.append(labels, this.layers.switches, this.layers.legend, this.views.root);
-    document.body.append(element('main', {}, host, this.tabs.root));
+    host.append(this.layers.switches, this.layers.legend, this.views.root);
+    document.body.append(element('main', host, this.tabs.root));
     this.stage = new Stage(host, carried.view, carried, () => this.touch());
-    this.labels = new Labels(labels);
     onPaper(host, (isPaper) => {
       this.stage.resize();
       this.paint();
@@ -85,6 +60,10 @@ export abstract class RecordedPage {
     this.views.body = null;
     this.stage.look(name);
   }
+  private release(): void {
+    this.stage.follow(null);
+    this.touch();
+  }
   protected touch(): void {
     this.stale = true;
   }
@@ -96,7 +75,7 @@ export abstract class RecordedPage {
     this.stage.paint(this.parts(shown, instant));
     this.stage.draw();
     const labels = shown.map((layer) => ({ columns: layer.labels, frame: instant.a }));
-    this.labels.paint(this.stage, this.carried.texts, labels);
+    this.stage.labels.paint(this.stage, this.carried.texts, labels);
   }
 
   // Which instant is to be painted; the camera goes along with what it follows.
@@ -110,4 +89,26 @@ export abstract class RecordedPage {
     this.stage.setTheme(this.theme.dark);
     this.touch();
   }
+}
+
+// Printing: picture and plots take the size of a page before the browser looks at them. What WebGL
+// has drawn is gone by then, so a copy lies on it.
+export const PAPER = 680; // pixels of a page's width, as style.css has it
+
+export function onPaper(host: HTMLElement, paint: (isPaper: boolean) => void): void {
+  const copy = element('canvas');
+  addEventListener('beforeprint', () => {
+    host.classList.add('paper');
+    paint(true);
+    const canvas = host.querySelector('canvas')!;
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    copy.style.cssText = canvas.style.cssText;
+    copy.getContext('2d')!.drawImage(canvas, 0, 0);
+    canvas.after(copy);
+  });
+  addEventListener('afterprint', () => {
+    copy.remove();
+    host.classList.remove('paper');
+    paint(false);
+  });
 }

@@ -1,51 +1,44 @@
 // The page of a recorded run: one clock, and all that follows it.
-import { EnergyPanel } from '../panels/energy';
-import { MomentumPanel } from '../panels/momentum';
+import { EnergyPanel, MomentumPanel } from '../panels/balances';
 import type { Panel } from '../panels/panel';
-import { setup } from '../panels/setup';
 import { TimeBar } from '../panels/time_bar';
 import { Plots } from '../plot/plots';
-import { channelOf, type Run } from '../protocol/run';
-import { Player } from '../source/player';
+import { type Run } from '../protocol/run';
+import { Player } from '../source/playhead';
 import { button, element, icon } from '../ui/dom';
-import { clockKeys, key, MOUSE, PLOTS, viewKeys, type Key } from '../ui/keys';
-import { PAPER } from './paper';
-import { RecordedPage, type Instant } from './recorded_page';
-import { start } from './start';
+import { clockKeys, key, type Key, MOUSE, PLOTS, viewKeys } from '../ui/keys';
+import { type Instant, PAPER, RecordedPage } from './recorded_page';
+import { start } from '../source/embedded';
+import { row, table } from '../ui/table';
 
 const TABS = ['plots', 'ledger', 'setup'];
 
 class Page extends RecordedPage {
-  private readonly player: Player;
-  private readonly plots: Plots;
-  private readonly panels: Panel[];
-  private readonly bar: TimeBar;
+  private readonly player = new Player(this.run, () => this.touch());
+  private readonly bar = new TimeBar(
+    this.player,
+    'time in seconds',
+    [
+      button(icon('first'), 'to the start (Home)', () => this.player.seek(this.player.start)),
+      button(icon('back'), 'one frame back (←)', () => this.player.step(-1)),
+    ],
+    [
+      button(icon('on'), 'one frame on (→)', () => this.player.step(1)),
+      button(icon('last'), 'to the end (End)', () => this.player.seek(this.player.end)),
+    ],
+  );
+  private readonly plots = new Plots(this.player);
+  private readonly balances = [new EnergyPanel(this.player), new MomentumPanel(this.run, this.player)];
+  private readonly panels: Panel[] = [this.plots, ...this.balances];
 
   constructor(private readonly run: Run) {
     super(run);
-    const player = new Player(run, () => this.touch());
-    this.player = player;
-    this.bar = new TimeBar(
-      player,
-      'time in seconds',
-      [
-        button(icon('first'), 'to the start (Home)', () => player.seek(player.start)),
-        button(icon('back'), 'one frame back (←)', () => player.step(-1)),
-      ],
-      [
-        button(icon('on'), 'one frame on (→)', () => player.step(1)),
-        button(icon('last'), 'to the end (End)', () => player.seek(player.end)),
-      ],
-    );
-    this.plots = new Plots(player);
-    const balances = [new EnergyPanel(player), new MomentumPanel(run, player)];
-    this.panels = [this.plots, ...balances];
     this.tabs.add('Plots', this.plots.root);
-    this.tabs.add('Ledger', ...balances.map((panel) => panel.root));
+    this.tabs.add('Ledger', ...this.balances.map((panel) => panel.root));
     this.tabs.add('Setup', setup(run));
     this.views.show(run.bodies.map((name) => ({ name, moves: true })));
-    this.views.root.after(element('div', { class: 'scale' }, gridWords(run)));
-    const title = [element('h1', {}, run.title), element('p', {}, headline(run))];
+    this.views.root.after(element('div.scale', gridWords(run)));
+    const title = [element('h1', run.title), element('p', headline(run))];
     this.takeHash();
     this.begin(title, this.bar.root, this.keys(), `${MOUSE} ${PLOTS}`);
   }
@@ -63,14 +56,13 @@ class Page extends RecordedPage {
 
   private keys(): Key[] {
     const { player } = this;
-    const step = (count: number) => (event: KeyboardEvent) =>
-      player.step(event.shiftKey ? 10 * count : count);
+    const step = (count: number) => ({ shiftKey }: KeyboardEvent) => player.step(shiftKey ? 10 * count : count);
+    const tab = (number: number) => () => this.tabs.show(number);
     return [
       ...clockKeys(player),
-      key(['ArrowLeft'], '← →', 'one frame back or on; with shift ten', step(-1)),
-      key(['ArrowRight'], '', '', step(1)),
-      key(['Home'], 'Home', 'to the start', () => player.seek(player.start)),
-      key(['End'], 'End', 'to the end', () => player.seek(player.end)),
+      key('← →', 'one frame back or on; with shift ten', { ArrowLeft: step(-1), ArrowRight: step(1) }),
+      key('Home', 'to the start', () => player.seek(player.start)),
+      key('End', 'to the end', () => player.seek(player.end)),
       ...viewKeys({
         orbit: (...by) => this.stage.orbit(...by),
         look: (name) => this.look(name),
@@ -78,9 +70,7 @@ class Page extends RecordedPage {
         toggleLayer: (number) => this.layers.toggleNumber(number),
         toggleTheme: () => this.theme.toggle(),
       }),
-      key(['p', 'l', 'u'], 'p, l, u', 'plots, ledger, setup', (event) =>
-        this.tabs.show('plu'.indexOf(event.key)),
-      ),
+      key('p, l, u', 'plots, ledger, setup', { p: tab(0), l: tab(1), u: tab(2) }),
     ];
   }
 
@@ -129,7 +119,7 @@ class Page extends RecordedPage {
 
   private placeOf(body: string, a: number, b: number): [number, number, number] {
     const at = (axis: string) => {
-      const { values } = channelOf(this.run, `links/${body}/${axis}`)!;
+      const { values } = this.run.channels.find(({ name }) => name === `links/${body}/${axis}`)!;
       return values[a] + this.player.share * (values[b] - values[a]);
     };
     return [at('x'), at('y'), at('z')];
@@ -148,6 +138,37 @@ function headline(run: Run): string {
   const fact = (name: string) => run.facts.find(([key]) => key === name)?.[1];
   const words = ['integrator', 'step', 'duration'].map(fact).filter((word) => word !== undefined);
   return words.map(rounded).join(' · ');
+}
+
+function section(title: string, head: string[], rows: string[][]): HTMLElement {
+  const lines = rows.map(([first, ...rest]) => row(first, ...rest.map((text) => element('td', text))));
+  return element('section', element('h3', title), element('div.wide', table(head, lines)));
+}
+
+function fold(title: string, text: string): HTMLElement {
+  return element('details', element('summary', title), element('pre', text));
+}
+
+// What the run was made of.
+function setup(run: Run): HTMLElement {
+  const root = element('section.setup');
+  const copy = button('copy', 'copy the command', () => {
+    void navigator.clipboard?.writeText(run.command);
+  });
+  root.append(
+    element('h3', 'Made by'),
+    element('div.command', element('code', { id: 'command' }, run.command), copy),
+  );
+  for (const note of run.notes) root.append(element('p.note', note));
+  const facts = element('dl');
+  for (const [name, value] of run.facts)
+    facts.append(element('dt', name), element('dd', { 'data-fact': name }, value));
+  root.append(facts);
+  for (const { title, head, rows } of run.tables) root.append(section(title, head, rows));
+  for (const { name, text } of run.files) root.append(fold(name, text));
+  const licences = document.getElementById('licences');
+  if (licences) root.append(fold('Licences of what draws this page', licences.textContent ?? ''));
+  return root;
 }
 
 start<Run>((run) => ({ run, page: new Page(run) }));

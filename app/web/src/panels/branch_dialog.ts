@@ -1,9 +1,9 @@
 // Going on from an instant with other knobs: which ones is chosen here.
 import './branch_dialog.css';
-import { button, element, unitText } from '../ui/dom';
+import { button, element, option, unitText } from '../ui/dom';
 import type { Knob } from '../source/link';
 import type { LabPage } from './panel';
-import type { Rewind } from '../source/rewind';
+import type { Rewind } from '../source/playhead';
 import { numberText, parseNumber } from '../ui/scale';
 
 interface Line {
@@ -13,13 +13,10 @@ interface Line {
 }
 
 export class BranchDialog {
-  readonly root = element('dialog', {
-    class: 'card-dialog branch',
-    'aria-labelledby': 'branch-title',
-  });
+  readonly root = element('dialog.card-dialog.branch', { 'aria-labelledby': 'branch-title' });
   private readonly title = element('h2', { id: 'branch-title' });
-  private readonly list = element('div', { class: 'lines' });
-  private readonly none = element('p', { class: 'hint' }, 'All knobs are left as they are now.');
+  private readonly list = element('div.lines');
+  private readonly none = element('p.hint', 'All knobs are left as they are now.');
   private readonly more = element('select', { 'aria-label': 'turn one more knob' });
   private lines: Line[] = [];
   private at = 0;
@@ -29,26 +26,20 @@ export class BranchDialog {
     private readonly rewind: Rewind,
     private readonly changes: () => string[],
   ) {
-    const form = element('form', { method: 'dialog' });
-    const go = element('button', { type: 'submit', class: 'main' }, 'Branch');
-    form.append(
+    const words =
+      'The run goes back to this instant and on from there; what the hand did is done again. ' +
+      'The run that is left stays beside it: pale in the view, dotted in the plots.';
+    const go = element('button.main', { type: 'submit' }, 'Branch');
+    const form = element(
+      'form',
+      { method: 'dialog' },
       this.title,
-      element(
-        'p',
-        {},
-        'The run goes back to this instant and on from there; what the hand did is done again. ' +
-          'The run that is left stays beside it: pale in the view, dotted in the plots.',
-      ),
-      element('h3', {}, 'Knobs that are turned'),
+      element('p', words),
+      element('h3', 'Knobs that are turned'),
       this.list,
       this.none,
       this.more,
-      element(
-        'div',
-        { class: 'ends' },
-        button('Cancel', 'nothing happens (Escape)', () => this.root.close()),
-        go,
-      ),
+      element('div.ends', button('Cancel', 'nothing happens (Escape)', () => this.root.close()), go),
     );
     form.addEventListener('submit', (event) => {
       event.preventDefault();
@@ -72,9 +63,8 @@ export class BranchDialog {
   private offer(): void {
     const knobs = this.page.state?.knobs ?? [];
     const left = knobs.filter((knob) => !this.lines.some((line) => line.knob.path === knob.path));
-    this.more.replaceChildren(element('option', { value: '' }, 'turn one more knob …'));
-    for (const { path, label, group } of left)
-      this.more.append(element('option', { value: path }, `${group}: ${label}`));
+    const offers = left.map(({ path, label, group }) => option(path, `${group}: ${label}`));
+    this.more.replaceChildren(option('', 'turn one more knob …'), ...offers);
     this.none.hidden = this.lines.length > 0;
   }
 
@@ -83,13 +73,7 @@ export class BranchDialog {
     if (!knob) return;
     const control = controlOf(knob);
     const { label, unit } = knob;
-    const root = element(
-      'div',
-      { class: 'line' },
-      element('span', {}, label),
-      control,
-      element('span', { class: 'unit' }, unitText(unit)),
-    );
+    const root = element('div.line', element('span', label), control, element('span.unit', unitText(unit)));
     const line = { knob, root, control };
     root.append(button('×', `leave ${label} as it is now`, () => this.remove(line)));
     this.lines.push(line);
@@ -115,7 +99,7 @@ export class BranchDialog {
       changes.push(`${knob.path}=${isNumber ? number : control.value}`);
     }
     this.root.close();
-    this.rewind.seek(null);
+    this.rewind.look(null);
     this.page.send({ do: 'branch', at: this.at, changes });
   }
 }
@@ -123,10 +107,8 @@ export class BranchDialog {
 function controlOf(knob: Knob): HTMLInputElement | HTMLSelectElement {
   const label = { 'aria-label': knob.label };
   const value = knob.value === null ? '' : numberText(Number(knob.value));
-  if (knob.form !== 'choice')
-    return element('input', { type: 'text', ...label, value });
-  const control = element('select', label);
-  for (const name of knob.choices ?? []) control.append(element('option', { value: name }, name));
+  if (knob.form !== 'choice') return element('input', { type: 'text', ...label, value });
+  const control = element('select', label, ...(knob.choices ?? []).map((name) => option(name)));
   control.value = String(knob.value);
   return control;
 }

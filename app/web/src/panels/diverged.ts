@@ -1,28 +1,20 @@
 // When the run has stopped by itself: what, where, why, and what would have held.
 import './diverged.css';
-import { button, element } from '../ui/dom';
-import { watches, type Death, type StateMessage } from '../source/link';
+import { button, element, sign } from '../ui/dom';
+import { type Death, type StateMessage, watches } from '../source/link';
 import type { LabPage, Panel } from './panel';
-import { sign } from '../ui/sign';
-import type { Rewind } from '../source/rewind';
+import type { Rewind } from '../source/playhead';
 
 const BEFORE = 1; // a remedy goes back so far [s]
 const SLOW = 0.1; // of the last second, when it is looked at
 
 export class Diverged implements Panel {
-  readonly root = element('section', {
-    class: 'post-mortem',
-    role: 'alertdialog',
-    'aria-label': 'the run has stopped',
-  });
+  readonly root = element('section.post-mortem', { role: 'alertdialog', 'aria-label': 'the run has stopped' });
   private shown = '';
   private away = false; // put aside
   private before: Element | null = null; // had the focus
 
-  constructor(
-    private readonly page: LabPage,
-    private readonly rewind: Rewind,
-  ) {
+  constructor(private readonly page: LabPage, private readonly rewind: Rewind) {
     this.root.hidden = true;
     this.root.tabIndex = -1;
     this.root.addEventListener('keydown', (event) => {
@@ -67,46 +59,39 @@ export class Diverged implements Panel {
 
   private content(dead: Death, first: number, isWatching: boolean): Node[] {
     const [headline, ...rest] = dead.words;
-    const facts = element('dl');
-    const fact = (name: string, value: string | undefined) => {
-      if (value) facts.append(element('div', {}, element('dt', {}, name), element('dd', {}, value)));
-    };
-    fact('when', `${dead.time.toFixed(3)} s`);
-    fact('quantity', dead.quantity);
-    fact('body', dead.body);
-    fact('spring', dead.spring);
+    const { quantity, body, spring } = dead;
+    const facts = Object.entries({ when: `${dead.time.toFixed(3)} s`, quantity, body, spring })
+      .filter(([, value]) => value)
+      .map(([name, value]) => element('div', element('dt', name), element('dd', value)));
     const back = Math.max(first, Math.min(dead.from, dead.time - BEFORE));
     const remedies = dead.remedies.map(({ words, changes }, i) => {
-      const made = element('button', { type: 'button', class: i === 0 ? 'main' : '' }, words);
-      made.title = `goes back ${(dead.time - back).toFixed(1)} s with ${changes.join(', ')}`;
+      const title = `goes back ${(dead.time - back).toFixed(1)} s with ${changes.join(', ')}`;
+      const made = button(words, title, () => this.mend(back, changes), i === 0 ? 'main' : '');
       made.disabled = isWatching;
-      made.addEventListener('click', () => this.mend(back, changes));
       return made;
     });
     const look = button('Look at the last second, slowly', 'at a tenth of the speed', () =>
       this.rewind.play(back, SLOW, dead.time),
     );
-    const again = button('Begin anew', 'from the start, as it is', () =>
-      this.page.send({ do: 'reset' }),
-    );
+    const again = button('Begin anew', 'from the start, as it is', () => this.page.send({ do: 'reset' }));
     again.disabled = isWatching;
     const close = button('×', 'put aside (Escape)', () => this.hide(), 'close');
-    const title = element('h2', {}, headline ?? 'The run has stopped');
+    const title = element('h2', headline ?? 'The run has stopped');
     const parts: Node[] = [
-      element('header', {}, sign('beyond'), title, close),
-      ...rest.map((line) => element('p', {}, line)),
-      facts,
+      element('header', sign('beyond'), title, close),
+      ...rest.map((line) => element('p', line)),
+      element('dl', ...facts),
     ];
     if (remedies.length > 0)
       parts.push(
-        element('h3', {}, `What holds, from ${(dead.time - back).toFixed(1)} s before`),
-        element('div', { class: 'remedies' }, ...remedies),
+        element('h3', `What holds, from ${(dead.time - back).toFixed(1)} s before`),
+        element('div.remedies', ...remedies),
       );
-    return [...parts, element('div', { class: 'ends' }, look, again)];
+    return [...parts, element('div.ends', look, again)];
   }
 
   private mend(at: number, changes: string[]): void {
-    this.rewind.seek(null);
+    this.rewind.look(null);
     this.page.send({ do: 'branch', at, changes }); // which goes on by itself
   }
 }

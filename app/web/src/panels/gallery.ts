@@ -1,7 +1,7 @@
 // Scenes to choose from, each with what to look for; and files of one's own: a URDF, a scene, a
 // recording. The lab imports them; what it says of faults is shown as it says it.
 import './gallery.css';
-import { button, element } from '../ui/dom';
+import { bullets, button, changeDetector, element } from '../ui/dom';
 import type { StateMessage } from '../source/link';
 import type { LabPage, Panel } from './panel';
 
@@ -9,12 +9,12 @@ const MESHES = /\.(stl|obj|dae|ply|gltf|glb|bin|png|jpe?g|mtl)$/i; // go first: 
 const ROBOTS = '.urdf,.xml,.xacro,.toml,.twinrec,.stl,.obj,.dae,.ply,.gltf,.glb,.mtl,.png,.jpg,.jpeg';
 
 export class Gallery implements Panel {
-  readonly root = element('dialog', { class: 'card-dialog gallery', 'aria-label': 'scenes' });
-  private readonly cards = element('div', { class: 'cards' });
-  private readonly zone = element('div', { class: 'zone' });
-  private readonly said = element('div', { class: 'said', role: 'status' });
+  readonly root = element('dialog.card-dialog.gallery', { 'aria-label': 'scenes' });
+  private readonly cards = element('div.cards');
+  private readonly zone = element('div.zone');
+  private readonly said = element('div.said', { role: 'status' });
   private readonly input = element('input', { type: 'file', multiple: '', accept: ROBOTS });
-  private shown = '';
+  private readonly isNew = changeDetector();
 
   constructor(private readonly page: LabPage) {
     this.input.hidden = true;
@@ -23,21 +23,12 @@ export class Gallery implements Panel {
       this.input.value = '';
     });
     this.zone.append(
-      element(
-        'p',
-        {},
-        'Drop a robot (URDF, with its meshes), a scene or a recording anywhere on this page, or',
-      ),
+      element('p', 'Drop a robot (URDF, with its meshes), a scene or a recording anywhere on this page, or'),
       button('open files …', 'from this computer', () => this.input.click()),
       this.input,
     );
     const close = button('×', 'close (Escape)', () => this.root.close(), 'close');
-    this.root.append(
-      element('header', {}, element('h2', {}, 'Scenes'), close),
-      this.said,
-      this.cards,
-      this.zone,
-    );
+    this.root.append(element('header', element('h2', 'Scenes'), close), this.said, this.cards, this.zone);
     this.root.addEventListener('click', (event) => {
       if (event.target === this.root) this.root.close();
     });
@@ -46,26 +37,15 @@ export class Gallery implements Panel {
   }
 
   onState({ gallery }: StateMessage): void {
-    const wanted = JSON.stringify(gallery);
-    if (wanted === this.shown) return;
-    this.shown = wanted;
-    this.cards.replaceChildren(...gallery.map((entry) => this.card(entry)));
+    if (this.isNew(gallery)) this.cards.replaceChildren(...gallery.map((entry) => this.card(entry)));
   }
 
   private card({ name, title, look }: StateMessage['gallery'][number]): HTMLElement {
-    const image = element('img', {
-      src: `/gallery/${encodeURIComponent(name)}.png`,
-      alt: '',
-      loading: 'lazy',
-    });
+    const src = `/gallery/${encodeURIComponent(name)}.png`;
+    const image = element('img', { src, alt: '', loading: 'lazy' });
     image.addEventListener('error', () => image.remove());
-    const card = element(
-      'button',
-      { type: 'button', class: 'card', 'data-scene': name },
-      image,
-      element('b', {}, title),
-      element('ul', {}, ...look.map((line) => element('li', {}, line))),
-    );
+    const words = [element('b', title), bullets(look)];
+    const card = element('button.card', { type: 'button', 'data-scene': name }, image, ...words);
     card.addEventListener('click', () => {
       if (this.page.send({ do: 'scene', name })) this.root.close();
     });
@@ -88,24 +68,18 @@ export class Gallery implements Panel {
   }
 
   private takeDrops(): void {
-    const hidden = { class: 'curtain', 'aria-hidden': 'true' };
-    const curtain = element('div', hidden, 'Let go to open it here');
-    curtain.hidden = true;
+    const curtain = element('div.curtain', { 'aria-hidden': 'true', hidden: '' }, 'Let go to open it here');
     document.body.append(curtain);
     const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
-    document.addEventListener('dragover', (event) => {
-      if (!hasFiles(event)) return;
-      event.preventDefault();
-      curtain.hidden = false;
-    });
+    for (const kind of ['dragover', 'drop'] as const)
+      document.addEventListener(kind, (event) => {
+        if (!hasFiles(event)) return;
+        event.preventDefault();
+        curtain.hidden = kind === 'drop';
+        if (kind === 'drop') void this.open([...event.dataTransfer!.files]);
+      });
     document.addEventListener('dragleave', (event) => {
       if (!event.relatedTarget) curtain.hidden = true;
-    });
-    document.addEventListener('drop', (event) => {
-      if (!hasFiles(event)) return;
-      event.preventDefault();
-      curtain.hidden = true;
-      void this.open([...event.dataTransfer!.files]);
     });
   }
 
@@ -116,48 +90,43 @@ export class Gallery implements Panel {
     const sorted = [...files].sort((a, b) => rank(a) - rank(b));
     let opened = false;
     for (const file of sorted) {
-      this.tell('note', `Opening ${file.name} …`, []);
+      this.tell('note', `Opening ${file.name} …`);
       const { state, words } = await post(file, this.page.state?.secret ?? '');
       if (state === 'failed') {
         const faults = words.split('\n').filter((line) => line.trim());
-        this.tell('error', `${file.name} was not opened`, faults);
-        if (!this.root.open) this.root.showModal();
-        return;
+        return this.stop('error', `${file.name} was not opened`, faults);
       }
       opened = state === 'opened';
     }
     const { name } = sorted[sorted.length - 1];
-    if (!opened) {
-      this.tell('note', `${name} is kept: now open the robot that names it`, []);
-      if (!this.root.open) this.root.showModal();
-      return;
-    }
+    if (!opened) return this.stop('note', `${name} is kept: now open the robot that names it`);
     this.said.replaceChildren();
     this.root.close();
     this.page.say(`${name} is open`);
   }
 
-  private tell(level: string, words: string, faults: string[]): void {
+  private stop(level: string, words: string, faults: string[] = []): void {
+    this.tell(level, words, faults);
+    if (!this.root.open) this.root.showModal();
+  }
+
+  private tell(level: string, words: string, faults: string[] = []): void {
     this.said.className = `said ${level}`;
-    const list = faults.map((fault) => element('li', {}, fault));
-    this.said.replaceChildren(element('b', {}, words));
-    if (list.length > 0) this.said.append(element('ul', {}, ...list));
+    this.said.replaceChildren(element('b', words), ...(faults.length > 0 ? [bullets(faults)] : []));
   }
 }
 
 const KEPT = 202; // HTTP: Accepted
 
 // What the lab says of it: that it is open or kept, or all its faults.
-export async function post(
-  file: File,
-  secret: string,
-): Promise<{ state: 'opened' | 'kept' | 'failed'; words: string }> {
+interface Answer {
+  state: 'opened' | 'kept' | 'failed';
+  words: string;
+}
+export async function post(file: File, secret: string): Promise<Answer> {
   try {
     const query = new URLSearchParams({ name: file.name, secret });
-    const answer = await fetch(`/open?${query}`, {
-      method: 'POST',
-      body: file,
-    });
+    const answer = await fetch(`/open?${query}`, { method: 'POST', body: file });
     const words = await answer.text();
     const state = answer.status === KEPT ? 'kept' : answer.ok ? 'opened' : 'failed';
     return { state, words: words || `the lab answers ${answer.status}` };

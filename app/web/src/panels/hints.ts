@@ -1,19 +1,21 @@
 // What stands in words over the view: what to look for, what the pointer would do, and whether the
 // lab is there.
 import './hints.css';
-import { button, element } from '../ui/dom';
+import { bullets, button, element } from '../ui/dom';
 import type { SceneMessage } from '../source/link';
 
 const STAYS = 4000; // [ms]
+const LOST = 'The connection is lost. It is tried again; what the lab remembers stays.';
 const PATIENCE = 500; // before a lost connection is spoken of
 
 export class Hints {
-  readonly look = element('section', { class: 'look', hidden: '', 'aria-label': 'what to look for' });
+  readonly look = element('section.look', { hidden: '', 'aria-label': 'what to look for' });
   // Brings it back.
   readonly again = button('What to look for', 'what this scene shows', () => this.fold(false));
-  readonly hint = element('p', { class: 'hint-line' });
-  readonly spoken = element('p', { class: 'unseen', role: 'status' }); // what is said, for ears
-  readonly banner = element('div', { class: 'banner', role: 'status', hidden: '' });
+  readonly hint = element('p.hint-line');
+  readonly spoken = element('p.unseen', { role: 'status' }); // what is said, for ears
+  private readonly lost = element('span');
+  readonly banner = element('div.banner', { role: 'status', hidden: '' }, element('i'), this.lost);
   private said = '';
   private until = 0;
   private shown = '';
@@ -23,7 +25,6 @@ export class Hints {
 
   constructor() {
     this.again.hidden = true;
-    this.banner.append(element('i'), element('span'));
   }
 
   show(scene: SceneMessage): void {
@@ -33,9 +34,9 @@ export class Hints {
     this.look.hidden = this.count === 0;
     this.again.hidden = true;
     this.look.replaceChildren(
-      element('h2', {}, 'What to look for'),
+      element('h2', 'What to look for'),
       button('×', 'away', () => this.fold(true), 'close'),
-      element('ul', {}, ...scene.look.map((line) => element('li', {}, line))),
+      bullets(scene.look),
     );
   }
 
@@ -65,7 +66,6 @@ export class Hints {
     const isLost = this.lostAt !== null && now - this.lostAt > PATIENCE;
     if (this.banner.hidden !== isLost) return;
     this.banner.hidden = !isLost;
-    const words_ = this.lostAt === 0 ? 'Waiting for the lab ..' : 'The connection is lost. It is tried again; what the lab remembers stays.';
-    this.banner.lastElementChild!.textContent = words_;
+    this.lost.textContent = this.lostAt === 0 ? 'Waiting for the lab ..' : LOST;
   }
 }

@@ -1,14 +1,11 @@
 // The hand: who moves the robot, what the device would push back, who may turn things.
 import './input_bar.css';
-import { button, element } from '../ui/dom';
-import { watches, type Frame, type HandState, type SceneMessage, type StateMessage } from '../source/link';
+import { button, changeDetector, element, option, signed } from '../ui/dom';
+import { type Command, type Frame, type HandState, type SceneMessage, type StateMessage, watches } from '../source/link';
 import { DEVICE_LIMIT } from '../plot/specs';
 import type { LabPage, Panel } from './panel';
-import { signed } from '../ui/sign';
 
-type Source = { name: string; words: string; spec?: string };
-
-const SOURCES: Source[] = [
+const SOURCES: { name: string; words: string; spec?: string }[] = [
   { name: 'scene', words: 'as the scene says' },
   { name: 'drag', words: 'I drag the tip' },
   { name: 'joints', words: 'I drag the joints' },
@@ -24,7 +21,7 @@ const MODES: Record<string, string> = {
 const NEAR = 0.8; // of the limit
 
 export class InputBar implements Panel {
-  readonly root = element('section', { class: 'hand-bar', 'aria-label': 'hand' });
+  readonly root = element('section.hand-bar', { 'aria-label': 'hand' });
   private readonly source = element('select', { 'aria-label': 'who moves the robot' });
   private readonly spec = element('input', {
     type: 'text',
@@ -32,30 +29,27 @@ export class InputBar implements Panel {
     spellcheck: 'false',
     title: 'as after --device; Enter connects it',
   });
-  private readonly facts = element('p', { class: 'facts' });
-  private readonly holder = element('div', { class: 'holder' });
-  private readonly force = element('div', {
-    class: 'force',
-    role: 'meter',
-    'aria-valuemin': '0',
-    'aria-valuemax': String(DEVICE_LIMIT),
-    'aria-label': 'force of the hand device in newtons',
-  });
+  private readonly facts = element('p.facts');
+  private readonly holder = element('div.holder');
   private readonly fill = element('i');
-  private readonly number = element('output', { class: 'newtons', 'aria-live': 'off' });
-  private readonly warning = element('div', { class: 'warning' });
-  private readonly grip = button('', 'gripper (g)', () =>
-    this.page.hand.button(0, !this.page.hand.grip),
+  private readonly force = element(
+    'div.force',
+    { role: 'meter', 'aria-valuemin': '0', 'aria-valuemax': String(DEVICE_LIMIT) },
+    { 'aria-label': 'force of the hand device in newtons' },
+    this.fill,
+    element('i.mark'),
   );
+  private readonly number = element('output.newtons', { 'aria-live': 'off' });
+  private readonly warning = element('div.warning');
+  private readonly grip = button('', 'gripper (g)', () => this.page.hand.button(0, !this.page.hand.grip));
   private column = -1;
   private newest: Frame | null = null;
   private drawn = '';
-  private shownHolder = '';
+  private readonly isNewHolder = changeDetector();
   private choosing = false; // a device whose name is being typed
 
   constructor(private readonly page: LabPage) {
-    for (const { name, words } of SOURCES)
-      this.source.append(element('option', { value: name }, words));
+    this.source.append(...SOURCES.map(({ name, words }) => option(name, words)));
     this.source.addEventListener('change', () => this.choose(this.source.value));
     this.spec.hidden = true;
     this.spec.addEventListener('keydown', (event) => {
@@ -63,11 +57,10 @@ export class InputBar implements Panel {
       else if (event.key === 'Escape') this.choosing = this.spec.hidden = false;
       event.stopPropagation();
     });
-    this.force.append(this.fill, element('i', { class: 'mark' }));
     this.root.append(
-      element('div', { class: 'line' }, element('b', {}, 'Hand'), this.source, this.grip),
+      element('div.line', element('b', 'Hand'), this.source, this.grip),
       this.spec,
-      element('div', { class: 'line' }, this.force, this.number),
+      element('div.line', this.force, this.number),
       this.warning,
       this.facts,
       this.holder,
@@ -76,9 +69,7 @@ export class InputBar implements Panel {
 
   // The size of the device's force, where the scene has it.
   onScene({ channels }: SceneMessage): void {
-    const hand = channels.map((channel, i) => ({ ...channel, i }));
-    const forces = hand.filter(({ kind, unit }) => kind === 'hand' && unit === 'N');
-    this.column = forces.length > 0 ? forces[0].i : -1;
+    this.column = channels.findIndex(({ kind, unit }) => kind === 'hand' && unit === 'N');
   }
 
   onState(state: StateMessage): void {
@@ -91,13 +82,9 @@ export class InputBar implements Panel {
     this.grip.hidden = !leads;
     this.grip.setAttribute('aria-pressed', String(hand.gripper));
     this.grip.textContent = hand.gripper ? 'grips' : 'grip';
-    const words: string[] = [];
-    if (leads) {
-      words.push(`${hand.mapping} mapping`);
-      if (hand.source === 'device') words.push(hand.felt);
-      if (hand.mode) words.push(MODES[hand.mode] ?? hand.mode);
-    } else words.push('No hand leads this scene. Pull at a body.');
-    const text = words.join(' · ');
+    const felt = hand.source === 'device' && hand.felt;
+    const words = [`${hand.mapping} mapping`, felt, MODES[hand.mode] ?? hand.mode].filter((word) => word);
+    const text = leads ? words.join(' · ') : 'No hand leads this scene. Pull at a body.';
     if (this.facts.textContent !== text) this.facts.textContent = text;
     this.showHolder(state);
   }
@@ -148,28 +135,22 @@ export class InputBar implements Panel {
 
   // With one page open there is nothing to say.
   private showHolder({ you, holder, clients, asked }: StateMessage): void {
-    const wanted = JSON.stringify([you, holder, clients, asked]);
-    if (wanted === this.shownHolder) return;
-    this.shownHolder = wanted;
+    if (!this.isNewHolder(you, holder, clients, asked)) return;
     const parts: Node[] = [];
-    const say = (words: string) => parts.push(element('span', {}, words));
+    const say = (words: string) => parts.push(element('span', words));
+    const offer = (words: string, title: string, command: Command) =>
+      parts.push(button(words, title, () => this.page.send(command)));
     const isAlone = clients < 2;
     if (!holder && !isAlone) {
       say('Nobody holds the hand.');
-      parts.push(button('Take it', 'to move the robot', () => this.page.send({ do: 'take' })));
+      offer('Take it', 'to move the robot', { do: 'take' });
     } else if (holder && holder !== you) {
       const isAsking = asked.includes(you);
       say(isAsking ? 'You have asked for the hand.' : 'Somebody else holds the hand.');
-      const ask = button('Ask for it', 'the holder is asked', () => this.page.send({ do: 'take' }));
-      if (!isAsking) parts.push(ask);
+      if (!isAsking) offer('Ask for it', 'the holder is asked', { do: 'take' });
     } else if (!isAlone) say(`You hold the hand; ${clients - 1} watch${clients === 2 ? 'es' : ''}.`);
-    if (holder === you)
-      for (const client of asked.filter((one) => one !== you))
-        parts.push(
-          button(`Give to ${client}`, `page ${client} asks for the hand`, () =>
-            this.page.send({ do: 'give', to: client }),
-          ),
-        );
+    for (const to of holder === you ? asked.filter((client) => client !== you) : [])
+      offer(`Give to ${to}`, `page ${to} asks for the hand`, { do: 'give', to });
     this.holder.replaceChildren(...parts);
   }
 }

@@ -1,47 +1,38 @@
 // The time bar of a run that goes on: single steps, going back, branches, files.
-import { button, element, icon } from '../ui/dom';
+import { button, changeDetector, element, icon } from '../ui/dom';
 import { BranchDialog } from './branch_dialog';
-import { watches, type Frame, type StateMessage } from '../source/link';
+import { type Frame, type StateMessage, watches } from '../source/link';
 import type { LabPage, Panel } from './panel';
-import { Rewind } from '../source/rewind';
-import { SaveMenu } from './save_menu';
-import { speedText, TimeBar, type Clock } from './time_bar';
+import { Rewind } from '../source/playhead';
+import { SaveMenu } from './menus';
+import { putMark } from '../ui/slider';
+import { type Clock, speedText, TimeBar } from './time_bar';
 
 const REAL_TIME = 0.015; // nearer to 1 is real time
 const STEP = 1 / 60; // of arrows [s]
+const LABEL = 'instant of the run, back over what is remembered';
 
 export class LabTimeBar implements Panel, Clock {
-  readonly root: HTMLElement;
-  readonly rewind: Rewind;
-  private readonly bar: TimeBar;
+  readonly rewind = new Rewind(this.page);
   private readonly step = button(icon('step'), 'one step', () => this.single());
-  private readonly again = button(icon('again'), 'to the start: the run begins anew', () =>
-    this.page.send({ do: 'reset' }),
-  );
-  private readonly branch = button('branch …', 'go on from this instant, with other knobs', () =>
-    this.askBranch(),
-  );
-  private readonly present = button('to now', 'to the newest instant', () => this.rewind.seek(null));
-  private readonly fork = element('i', { class: 'fork', 'aria-hidden': 'true' });
-  private readonly end = element('i', { class: 'end', 'aria-hidden': 'true' });
-  private readonly dialog: BranchDialog;
+  private readonly reset = () => this.page.send({ do: 'reset' });
+  private readonly again = button(icon('again'), 'to the start: the run begins anew', this.reset);
+  private readonly branch = button('branch …', 'go on from this instant, with other knobs', () => this.askBranch());
+  private readonly present = button('to now', 'to the newest instant', () => this.rewind.look(null));
+  private readonly fork = element('i.fork', { 'aria-hidden': 'true' });
+  private readonly end = element('i.end', { 'aria-hidden': 'true' });
+  private readonly bar = new TimeBar(this, LABEL, [], [this.step, this.again]);
+  private readonly dialog = new BranchDialog(this.page, this.rewind, this.changes);
+  readonly root = this.bar.root;
   private readonly added: Panel[] = [];
   private time: number | null = null; // of the newest frame
-  private shown = '';
+  private readonly isNew = changeDetector();
 
-  constructor(
-    private readonly page: LabPage,
-    changes: () => string[],
-  ) {
-    this.rewind = new Rewind(page);
-    this.dialog = new BranchDialog(page, this.rewind, changes);
-    const label = 'instant of the run, back over what is remembered';
-    this.bar = new TimeBar(this, label, [], [this.step, this.again]);
-    this.root = this.bar.root;
+  constructor(private readonly page: LabPage, private readonly changes: () => string[]) {
     this.root.append(this.dialog.root);
-    this.bar.track.append(this.fork, this.end);
+    this.bar.slider.root.append(this.fork, this.end);
     this.bar.ends.append(this.branch, this.present, new SaveMenu().root);
-    this.bar.slider.addEventListener('keydown', (event) => {
+    this.bar.slider.input.addEventListener('keydown', (event) => {
       const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
       const { state } = page;
       if (!way || !state) return;
@@ -105,14 +96,14 @@ export class LabTimeBar implements Panel, Clock {
     if (!state) return;
     const isNow = time >= state.last - 0.0005 * (state.last - state.first);
     if (!isNow && state.playing && holds) this.page.send({ do: 'play', on: false });
-    this.rewind.seek(isNow ? null : Math.max(state.first, time));
+    this.rewind.look(isNow ? null : Math.max(state.first, time));
   }
 
   private single(): void {
     const { state } = this.page;
     if (!state) return;
     if (this.rewind.at === null) this.page.send({ do: 'step', steps: 1 });
-    else this.rewind.seek(Math.min(state.last, this.rewind.at + STEP));
+    else this.rewind.look(Math.min(state.last, this.rewind.at + STEP));
   }
 
   private show(state: StateMessage): void {
@@ -125,15 +116,12 @@ export class LabTimeBar implements Panel, Clock {
     this.bar.show({ time: this.time, share, goes, speed, words });
     const isWatching = watches(state);
     const pace = state.pace > 0 ? state.pace : 1;
-    const wanted = [goes, first, last, branch, dead?.time, at, speed, isWatching, pace.toFixed(2)];
-    const text = JSON.stringify([...wanted, state.building]);
-    if (text === this.shown) return;
-    this.shown = text;
+    const shown = [goes, first, last, branch, dead?.time, at, speed, isWatching, pace.toFixed(2)];
+    if (!this.isNew(shown, state.building)) return;
     this.root.dataset.past = String(at !== null);
-    mark(this.fork, branch ? (branch.from - first) / span : -1);
-    if (branch)
-      this.fork.title = `branch at ${branch.from.toFixed(3)} s: ${branch.changes.join(', ')}`;
-    mark(this.end, dead ? (dead.time - first) / span : -1);
+    putMark(this.fork, branch && (branch.from - first) / span);
+    if (branch) this.fork.title = `branch at ${branch.from.toFixed(3)} s: ${branch.changes.join(', ')}`;
+    putMark(this.end, dead && (dead.time - first) / span);
     this.present.disabled = at === null;
     this.bar.play.disabled = at === null && (isWatching || dead !== null);
     this.step.disabled = isWatching || (at === null && dead !== null);
@@ -142,7 +130,7 @@ export class LabTimeBar implements Panel, Clock {
   }
 
   private words(state: StateMessage, at: number | null, pace: number): (Node | string)[] {
-    if (state.building) return [element('b', {}, `${state.building} …`)];
+    if (state.building) return [element('b', `${state.building} …`)];
     if (at !== null) return [`${(state.last - at).toFixed(2)} s ago`];
     if (state.dead) return ['stopped'];
     if (!state.playing) return ['stands'];
@@ -151,12 +139,7 @@ export class LabTimeBar implements Panel, Clock {
     const words = state.speed > 1 ? `${state.speed}× fast` : speed;
     if (!lags) return [words];
     const title = 'run time over the time that it should take: the machine does not keep up';
-    const badge = element('b', { class: 'pace', title }, `pace ${pace.toFixed(2)}`);
+    const badge = element('b.pace', { title }, `pace ${pace.toFixed(2)}`);
     return state.speed === 1 ? [badge] : [`${words}, `, badge];
   }
-}
-
-function mark(mark: HTMLElement, share: number): void {
-  mark.hidden = share < 0 || share > 1;
-  mark.style.setProperty('--place', String(share));
 }

@@ -5,8 +5,16 @@
 // A panel that is not seen (its tab is closed) gets everything but draw.
 import type { BodyInspection } from '../protocol/messages';
 import type { Arrow } from '../view/arrows';
-import type { Clock } from './time_bar';
 import type { Command, Frame, SceneMessage, StateMessage } from '../source/link';
+import { Gallery } from './gallery';
+import { InputBar } from './input_bar';
+import { Parameters } from './parameters';
+import { EnergyPanel } from './balances';
+import { Plots } from '../plot/plots';
+import type { RunSource } from '../source/run_source';
+import { Notes } from './menus';
+import { Diverged } from './diverged';
+import { LabTimeBar } from './lab_time_bar';
 
 export interface Listener {
   onScene?(scene: SceneMessage): void;
@@ -39,13 +47,22 @@ export interface LabPage {
   showTab(title: string): void;
 }
 
-// All panels of the lab but the inspector.
-export interface PanelSet {
-  knobs: Panel;
-  plots: Panel;
-  ledger: Panel;
-  time: Panel & Clock & { askBranch(): void; seek(time: number): void }; // the bar below the view
-  hand: Panel; // in the view's lower corner: force with its limit
-  gallery: Panel; // root: a <dialog> that the header's button opens
-  dead: Panel; // over the view; hides itself
+// All panels of the lab but the inspector: `time` is the bar below the view, `hand` lies in the
+// view's lower corner, `gallery` is a dialog, `dead` lies over the view and hides itself.
+export function panelsOf(page: LabPage, run: RunSource) {
+  const knobs = new Parameters(page);
+  const time = new LabTimeBar(page, () => knobs.changes);
+  const notes = new Notes();
+  time.add(notes);
+  return {
+    knobs,
+    plots: new Plots(run),
+    ledger: new EnergyPanel(run),
+    time,
+    hand: new InputBar(page),
+    gallery: new Gallery(page),
+    dead: new Diverged(page, time.rewind),
+  };
 }
+
+export type PanelSet = ReturnType<typeof panelsOf>;

@@ -1,9 +1,9 @@
 // One knob: its name, its control, and beside it what is predicted for its value.
-import { element, icon, unitText } from '../ui/dom';
+import { changeDetector, element, icon, option, signed, unitText } from '../ui/dom';
 import { isTurned, type Knob } from '../source/link';
-import { numberText, parseNumber, placeOf, stepped, valueAt, type Scale } from '../ui/scale';
-import { Segments } from '../ui/segments';
-import { signed } from '../ui/sign';
+import { numberText, parseNumber, placeOf, type Scale, stepped, valueAt } from '../ui/scale';
+import { putMark, Slider } from '../ui/slider';
+import { Segments } from '../ui/choices';
 
 const SETTLE = 800; // for so long the lab may take to say the value that was set [ms]
 const FEW = 3; // choices that stand side by side, if they have room: letters and gaps [pixels]
@@ -11,20 +11,16 @@ const ROOM = 250;
 const LETTER = 7.4;
 const GAP = 20;
 const RESTARTS = 'restarts: the run goes on from where all is, what laws remember begins anew';
-const FINE = 10_000; // places of the slider
 
-export type Turn = (path: string, value: string) => void;
+type Turn = (path: string, value: string) => void;
 
 export abstract class ParameterRow {
-  readonly root = element('div', { class: 'knob' });
-  protected readonly side = element('div', { class: 'predicted', 'aria-live': 'polite' });
-  private told = '';
+  readonly root = element('div.knob');
+  protected readonly side = element('div.predicted', { 'aria-live': 'polite' });
+  private readonly isNew = changeDetector();
   private setAt = -Infinity;
 
-  constructor(
-    protected knob: Knob,
-    private readonly turn: Turn,
-  ) {
+  constructor(protected knob: Knob, private readonly turn: Turn) {
     this.root.dataset.path = knob.path;
   }
 
@@ -34,6 +30,11 @@ export abstract class ParameterRow {
     if (!this.isHeld() && performance.now() - this.setAt > SETTLE) this.show(knob.value);
     else if (String(knob.value) === this.sent) this.setAt = -Infinity;
     this.tell(knob);
+  }
+
+  protected begin(): void {
+    this.show(this.knob.value);
+    this.update(this.knob);
   }
 
   focus(): void {
@@ -66,10 +67,8 @@ export abstract class ParameterRow {
     const name = element(id ? 'label' : 'span', { class: 'name', title: meaning }, label);
     if (id) name.setAttribute('for', id);
     if (restarts) {
-      const again = element('span', { class: 'restarts', role: 'img', title: RESTARTS });
-      again.setAttribute('aria-label', RESTARTS);
-      again.append(icon('again'));
-      name.append(again);
+      const attributes = { role: 'img', title: RESTARTS, 'aria-label': RESTARTS };
+      name.append(element('span.restarts', attributes, icon('again')));
     }
     this.root.append(name, ...control, this.side);
   }
@@ -77,14 +76,12 @@ export abstract class ParameterRow {
   private tell(knob: Knob): void {
     const { limit, lag, start, unit } = knob;
     const turned = isTurned(knob);
-    const wanted = JSON.stringify([limit, lag, turned]);
-    if (wanted === this.told) return;
-    this.told = wanted;
+    if (!this.isNew(limit, lag, turned)) return;
     const lines: HTMLElement[] = [];
     if (limit) lines.push(signed(limit.state, limit.words));
-    if (lag) lines.push(element('span', { class: 'lag' }, `lag ${lag}`));
+    if (lag) lines.push(element('span.lag', `lag ${lag}`));
     const from = start ? `${start} ${unitText(unit)}` : 'left out';
-    if (turned) lines.push(element('span', { class: 'from' }, `the scene: ${from.trim()}`));
+    if (turned) lines.push(element('span.from', `the scene: ${from.trim()}`));
     this.root.classList.toggle('turned', turned);
     this.side.replaceChildren(...lines);
     this.root.dataset.limit = limit?.state ?? '';
@@ -95,18 +92,16 @@ export abstract class ParameterRow {
 // A slider, where there is a range, and a field for digits.
 class NumberRow extends ParameterRow {
   private readonly scale: Scale | null;
-  private readonly slider: HTMLInputElement | null = null;
-  private readonly mark = element('i', { class: 'mark', 'aria-hidden': 'true' });
+  private readonly slider: Slider | null;
+  private readonly mark = element('i.mark', { 'aria-hidden': 'true' });
   private readonly field: HTMLInputElement;
   private value = NaN;
-  private sliding = false;
 
   constructor(knob: Knob, turn: Turn) {
     super(knob, turn);
     const { form, low, high, path, unit } = knob;
     const hasRange = low !== undefined && high !== undefined && high > low;
-    this.scale =
-      hasRange && (form === 'log' || form === 'linear') ? { form, low, high } : null;
+    this.scale = hasRange && (form === 'log' || form === 'linear') ? { form, low, high } : null;
     const id = `knob-${path.replaceAll(/[^\w]/g, '-')}`;
     this.field = element('input', {
       type: 'text',
@@ -118,26 +113,18 @@ class NumberRow extends ParameterRow {
       'aria-label': `${this.fullName}${unit && unit !== '1' ? ` in ${unit}` : ''}`,
       title: `${knob.meaning}. Enter sets it, Escape leaves it; arrows change it`,
     });
-    const controls: HTMLElement[] = [];
-    if (this.scale) {
-      this.slider = element('input', {
-        type: 'range',
-        min: '0',
-        max: String(FINE),
-        'aria-label': this.fullName,
-      });
-      controls.push(element('div', { class: 'track' }, this.slider, this.mark));
-    }
-    const words = element('span', { class: 'unit' }, unitText(unit));
-    controls.push(element('div', { class: 'number' }, this.field, words));
-    this.head(controls, id);
+    const { scale } = this;
+    const slide = (place: number) => this.put(valueAt(scale!, place));
+    this.slider = scale && new Slider(this.fullName, slide, this.mark);
+    const words = element('span.unit', unitText(unit));
+    const number = element('div.number', this.field, words);
+    this.head(this.slider ? [this.slider.root, number] : [number], id);
     this.listen();
-    this.show(knob.value);
-    this.update(knob);
+    this.begin();
   }
 
   protected isHeld(): boolean {
-    return this.sliding || document.activeElement === this.field;
+    return this.slider?.isHeld || document.activeElement === this.field;
   }
 
   protected show(value: Knob['value']): void {
@@ -146,16 +133,14 @@ class NumberRow extends ParameterRow {
     this.field.setCustomValidity('');
     if (!this.scale || !this.slider) return;
     const place = placeOf(this.scale, this.value);
-    this.slider.value = String(FINE * place);
-    this.slider.style.setProperty('--share', `${100 * place}%`);
-    this.slider.setAttribute('aria-valuetext', `${this.field.value} ${this.knob.unit}`);
+    this.slider.put(place);
+    this.slider.fill(place, `${this.field.value} ${this.knob.unit}`);
   }
 
   protected limited(limit: number | null): void {
     const { scale } = this;
-    this.mark.hidden = !scale || limit === null || limit < scale.low || limit > scale.high;
-    if (scale && limit !== null)
-      this.mark.style.setProperty('--place', String(placeOf(scale, limit)));
+    const isShown = scale && limit !== null && limit >= scale.low && limit <= scale.high;
+    putMark(this.mark, isShown ? placeOf(scale, limit) : null);
     this.mark.title = limit === null ? '' : `limit ${numberText(limit)} ${this.knob.unit}`;
   }
 
@@ -165,15 +150,7 @@ class NumberRow extends ParameterRow {
   }
 
   private listen(): void {
-    const { slider, field, scale } = this;
-    if (slider && scale) {
-      slider.addEventListener('pointerdown', () => (this.sliding = true));
-      for (const end of ['pointerup', 'pointercancel', 'change', 'blur'])
-        slider.addEventListener(end, () => (this.sliding = false));
-      slider.addEventListener('input', () =>
-        this.put(valueAt(scale, Number(slider.value) / FINE)),
-      );
-    }
+    const { slider, field } = this;
     field.addEventListener('focus', () => {
       if (!Number.isNaN(this.value)) field.value = String(this.value); // all digits
       field.select();
@@ -181,7 +158,7 @@ class NumberRow extends ParameterRow {
     field.addEventListener('input', () => field.setCustomValidity(''));
     field.addEventListener('blur', () => this.show(this.knob.value));
     // Before the page's own keys.
-    for (const at of [slider, field])
+    for (const at of [slider?.input, field])
       at?.addEventListener('keydown', (event) => this.press(event));
   }
 
@@ -214,12 +191,8 @@ class NumberRow extends ParameterRow {
     const { unit } = this.knob;
     const value = parseNumber(this.field.value, unit);
     const words = unit && unit !== '1' ? `a number in ${unitText(unit)}` : 'a number';
-    const fault = Number.isNaN(value) ? words : '';
-    this.field.setCustomValidity(fault);
-    if (fault) {
-      this.field.reportValidity();
-      return;
-    }
+    this.field.setCustomValidity(Number.isNaN(value) ? words : '');
+    if (!this.field.reportValidity()) return;
     this.put(value);
     this.field.select();
   }
@@ -235,19 +208,17 @@ class ChoiceRow extends ParameterRow {
     const choices = knob.choices ?? [];
     const letters = choices.join('').length;
     if (choices.length <= FEW && LETTER * letters + GAP * choices.length < ROOM) {
-      this.control = new Segments(this.fullName, choices, (name) => this.set(name));
+      this.control = new Segments(this.fullName, choices, '', (name) => this.set(name));
       this.head([this.control.root]);
     } else {
-      this.control = element('select', { 'aria-label': this.fullName, title: knob.meaning });
-      this.control.append(this.left);
-      for (const name of choices) this.control.append(element('option', { value: name }, name));
-      const { control } = this;
-      control.addEventListener('change', () => this.set(control.value));
-      this.head([control]);
+      const attributes = { 'aria-label': this.fullName, title: knob.meaning };
+      const list = element('select', attributes, this.left, ...choices.map((name) => option(name)));
+      list.addEventListener('change', () => this.set(list.value));
+      this.control = list;
+      this.head([list]);
     }
     this.root.classList.add('choice');
-    this.show(knob.value);
-    this.update(knob);
+    this.begin();
   }
 
   protected isHeld(): boolean {
@@ -269,7 +240,6 @@ export function parameterRow(knob: Knob, turn: Turn): ParameterRow {
 }
 
 // Two that differ only by their numbers can be shown by the same row.
-export function shapeOf(knob: Knob): string {
-  const { path, form, choices, unit, low, high, label, group, restarts } = knob;
-  return JSON.stringify([path, form, choices, unit, low, high, label, group, restarts]);
+export function shapeOf({ path, form, choices, unit, low, high, label, group, restarts }: Knob) {
+  return [path, form, choices, unit, low, high, label, group, restarts];
 }

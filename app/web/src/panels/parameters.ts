@@ -1,30 +1,32 @@
 // What can be turned while the run goes on: presets, then knobs by their groups. Many changes of
 // one moment (a slider that moves) are sent as one, ten times a second.
-import '../ui/slider.css';
 import './parameters.css';
-import { button, element } from '../ui/dom';
-import { parameterRow, shapeOf, type ParameterRow } from './parameter_row';
-import { isTurned, watches, type Knob, type StateMessage } from '../source/link';
+import { button, changeDetector, element } from '../ui/dom';
+import { parameterRow, type ParameterRow, shapeOf } from './parameter_row';
+import { isTurned, type Knob, type StateMessage, watches } from '../source/link';
 import type { LabPage, Panel } from './panel';
 
 const PAUSE = 100; // between two messages [ms]
+const WATCHING =
+  'Somebody else holds the hand: you see what they turn. Ask for the hand to turn yourself.';
 
 export class Parameters implements Panel {
-  readonly root = element('div', { class: 'knobs' });
-  private readonly presets = element('div', { class: 'presets' });
-  private readonly watching = element('p', { class: 'note' });
+  readonly root = element('div.knobs');
+  private readonly presets = element('div.presets');
+  private readonly watching = element('p.note', WATCHING);
   private readonly groups = element('div');
-  private readonly again: HTMLButtonElement;
+  private readonly again = button('Reset knobs', 'all knobs as the scene came; the run goes on', () =>
+    this.reset(),
+  );
   private readonly rows = new Map<string, ParameterRow>();
   private readonly waiting = new Map<string, string>(); // changes not sent yet
   private readonly folded = new Set<string>(); // groups
   private timer = 0;
   private sentAt = -Infinity;
-  private shape = '';
-  private shownPresets = '';
+  private readonly areKnobsNew = changeDetector();
+  private readonly arePresetsNew = changeDetector();
 
   constructor(private readonly page: LabPage) {
-    this.again = button('Reset knobs', 'all knobs as the scene came; the run goes on', () => this.reset());
     this.root.append(this.watching, this.presets, this.groups, this.again);
   }
 
@@ -36,17 +38,11 @@ export class Parameters implements Panel {
 
   onState(state: StateMessage): void {
     const { knobs, presets } = state;
-    const shape = knobs.map(shapeOf).join();
-    if (shape !== this.shape) {
-      this.shape = shape;
-      this.build(knobs);
-    } else for (const knob of knobs) this.rows.get(knob.path)!.update(knob);
+    if (this.areKnobsNew(knobs.map(shapeOf))) this.build(knobs);
+    else for (const knob of knobs) this.rows.get(knob.path)!.update(knob);
     this.showPresets(presets);
     const isWatching = watches(state);
     this.watching.hidden = !isWatching;
-    this.watching.textContent = isWatching
-      ? 'Somebody else holds the hand: you see what they turn. Ask for the hand to turn yourself.'
-      : '';
     for (const row of this.rows.values()) row.enable(!isWatching);
     for (const preset of this.presets.querySelectorAll('button')) preset.disabled = isWatching;
     this.again.disabled = isWatching || !state.changes?.length;
@@ -60,12 +56,8 @@ export class Parameters implements Panel {
     for (const knob of knobs) {
       const row = parameterRow(knob, (path, value) => this.turn(path, value));
       this.rows.set(knob.path, row);
-      let group = groups.get(knob.group);
-      if (!group) {
-        group = this.group(knob.group);
-        groups.set(knob.group, group);
-      }
-      group.append(row.root);
+      if (!groups.has(knob.group)) groups.set(knob.group, this.group(knob.group));
+      groups.get(knob.group)!.append(row.root);
     }
     this.groups.replaceChildren(...groups.values());
     if (at !== undefined) this.rows.get(at)?.focus();
@@ -73,7 +65,7 @@ export class Parameters implements Panel {
 
   // Stays folded when the knobs are built anew.
   private group(name: string): HTMLElement {
-    const made = element('details', { class: 'group' }, element('summary', {}, name));
+    const made = element('details.group', element('summary', name));
     made.open = !this.folded.has(name);
     made.addEventListener('toggle', () => {
       if (made.open) this.folded.delete(name);
@@ -83,18 +75,10 @@ export class Parameters implements Panel {
   }
 
   private showPresets(presets: StateMessage['presets']): void {
-    const wanted = JSON.stringify(presets);
-    if (wanted === this.shownPresets) return;
-    this.shownPresets = wanted;
+    if (!this.arePresetsNew(presets)) return;
     const buttons = presets.map(({ name, what }) => {
-      const made = element(
-        'button',
-        { type: 'button', title: what },
-        element('b', {}, name),
-        element('span', {}, what),
-      );
-      made.addEventListener('click', () => this.page.send({ do: 'preset', name }));
-      return made;
+      const words = [element('b', name), element('span', what)];
+      return button(words, what, () => this.page.send({ do: 'preset', name }));
     });
     this.presets.replaceChildren(...buttons);
     this.presets.hidden = presets.length === 0;
@@ -109,18 +93,20 @@ export class Parameters implements Panel {
   }
 
   private flush(): void {
-    clearTimeout(this.timer);
-    this.timer = 0;
     this.sentAt = performance.now();
-    const changes = [...this.waiting].map(([path, value]) => `${path}=${value}`);
-    this.waiting.clear();
-    this.page.send({ do: 'set', changes });
+    this.page.send({ do: 'set', changes: this.takeWaiting() });
   }
 
   private reset(): void {
+    this.takeWaiting();
+    this.page.send({ do: 'restore' });
+  }
+
+  private takeWaiting(): string[] {
     clearTimeout(this.timer);
     this.timer = 0;
+    const changes = [...this.waiting].map(([path, value]) => `${path}=${value}`);
     this.waiting.clear();
-    this.page.send({ do: 'restore' });
+    return changes;
   }
 }

@@ -1,11 +1,10 @@
 // The bar below the view: whether the run goes on, how fast, and which of its instants is shown.
-import '../ui/slider.css';
-import { button, element, icon } from '../ui/dom';
+import { button, element, icon, option } from '../ui/dom';
+import { Slider } from '../ui/slider';
 import './time_bar.css';
 
-export const SPEEDS = [0.01, 0.1, 0.25, 0.5, 1, 2, 5, 10];
+const SPEEDS = [0.01, 0.1, 0.25, 0.5, 1, 2, 5, 10];
 const SPEED_WORDS = ['1/100', '1/10', '1/4', '1/2', '1', '2', '5', '10'];
-const PLACES = 10_000; // of the slider
 
 // What a bar moves, and what its keys move.
 export interface Clock {
@@ -27,7 +26,7 @@ export function speedText(speed: number): string {
   return SPEED_WORDS[SPEEDS.indexOf(speed)] ?? String(speed);
 }
 
-export interface Shown {
+interface Shown {
   time: number | null; // of the clock; null: as it is
   share: number;
   goes: boolean;
@@ -36,42 +35,25 @@ export interface Shown {
 }
 
 export class TimeBar {
-  readonly root = element('footer', { class: 'transport', 'aria-label': 'time' });
+  readonly root = element('footer.transport', { 'aria-label': 'time' });
   readonly play: HTMLButtonElement;
-  readonly slider: HTMLInputElement;
+  readonly slider: Slider;
   readonly speed = element('select', { title: 'speed: [ slower, ] faster', 'aria-label': 'speed' });
-  readonly track: HTMLElement;
-  readonly where = element('output', { class: 'where' });
-  readonly ends = element('div', { class: 'buttons' });
-  private readonly clock = element('output', { class: 'clock', 'aria-live': 'off' });
-  private scrubbing = false;
+  readonly where = element('output.where');
+  readonly ends = element('div.buttons');
+  private readonly clock = element('output.clock', { 'aria-live': 'off' });
 
   constructor(clock: Clock, sliderLabel: string, before: Node[], after: Node[]) {
     this.play = button(icon('play'), '', () => clock.toggle(), 'play');
-    this.slider = element('input', {
-      type: 'range',
-      min: '0',
-      max: String(PLACES),
-      step: '1',
-      'aria-label': sliderLabel,
-    });
-    const { slider } = this;
-    slider.addEventListener('pointerdown', () => (this.scrubbing = true));
-    for (const end of ['pointerup', 'pointercancel', 'change', 'blur'])
-      slider.addEventListener(end, () => (this.scrubbing = false));
-    slider.addEventListener('input', () => clock.seekShare(Number(slider.value) / PLACES));
-    SPEEDS.forEach((speed, i) =>
-      this.speed.append(element('option', { value: String(speed) }, `${SPEED_WORDS[i]}×`)),
-    );
+    this.slider = new Slider(sliderLabel, (place) => clock.seekShare(place));
+    this.speed.append(...SPEEDS.map((speed, i) => option(speed, `${SPEED_WORDS[i]}×`)));
     this.speed.addEventListener('change', () => clock.setSpeed(Number(this.speed.value)));
-    this.track = element('div', { class: 'track' }, slider);
     this.root.append(
-      this.track,
+      this.slider.root,
       element(
-        'div',
-        { class: 'row' },
-        element('div', { class: 'buttons' }, ...before, this.play, ...after, this.speed),
-        element('div', { class: 'reading' }, this.clock, this.where),
+        'div.row',
+        element('div.buttons', ...before, this.play, ...after, this.speed),
+        element('div.reading', this.clock, this.where),
         this.ends,
       ),
     );
@@ -88,9 +70,8 @@ export class TimeBar {
       this.play.title = goes ? 'pause (space)' : 'play (space)';
       this.play.setAttribute('aria-label', this.play.title);
     }
-    if (!this.scrubbing) this.slider.value = String(PLACES * share);
-    this.slider.style.setProperty('--share', `${100 * share}%`);
-    this.slider.setAttribute('aria-valuetext', words);
+    if (!this.slider.isHeld) this.slider.put(share);
+    this.slider.fill(share, words);
     if (this.speed.value !== String(speed)) this.showSpeed(speed);
   }
 
@@ -98,7 +79,7 @@ export class TimeBar {
     this.speed.querySelector('.other')?.remove();
     const known = SPEEDS.find((one) => Math.abs(one - speed) < 1e-9);
     if (known === undefined)
-      this.speed.append(element('option', { class: 'other', value: String(speed) }, `${speed}×`));
+      this.speed.append(element('option.other', { value: String(speed) }, `${speed}×`));
     this.speed.value = String(known ?? speed);
   }
 }

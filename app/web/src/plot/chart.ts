@@ -1,87 +1,58 @@
 // One plot of a run: uPlot over the rows that are in its window, a legend with the
 // numbers of one instant, a marker there, the branch that was left as dots, and a limit as a line.
 import uPlot from 'uplot';
-import { axesOfTime } from './axes';
+import { axesOfTime, drawOver, Gestures } from './chart_parts';
 import { button, element, short } from '../ui/dom';
-import { token } from '../ui/theme';
+import { token } from '../ui/preferences';
 import {
-  colorOf,
-  DASH,
-  ghostsOf,
-  lines,
-  lineSeries,
-  rangeOf,
-  stack,
-  stackSeries,
-  usualSize,
-  type Beside,
-  type Ghost,
-  type Window,
+  type Beside, colorOf, DASH, ghostsOf, lines, lineSeries, rangeOf, stack, stackSeries,
+  usualSize, type Window,
 } from './chart_data';
-
-import { savePicture, type CsvColumn } from './export';
-import { Gestures } from './gestures';
-import { drawOver } from './overlay';
-import { screenUnit, type Curve, type PlotSpec } from './specs';
+import { savePicture } from './export';
+import type { Plots } from './plots';
+import { type Curve, type PlotSpec, screenUnit } from './specs';
 import type { RunRecord } from '../source/run_record';
 import { bucketsOf } from '../source/store';
 
 const HEIGHT = 128;
 const PICTURE = { width: 960, height: 420 };
 
-export interface ChartUser {
-  degrees: boolean;
-  zoom(window: Window | null): void; // null: as it was
-  seek(time: number): void;
-  saveCsv(what: string, columns: CsvColumn[]): void;
-  pictureName(what: string): string;
-}
-
 export class Chart {
   readonly root: HTMLElement;
   isSeen = true; // within what is scrolled to
-  private readonly canvas = element('div', { class: 'canvas', role: 'img' });
+  private readonly canvas = element('div.canvas', { role: 'img' });
   private readonly title = element('span');
   private readonly chips: { curve: Curve | null; chip: HTMLElement; value: HTMLElement }[] = [];
   private readonly hidden = new Set<Curve>();
   private chart: uPlot | null = null;
   private made = ''; // what the chart was made for
-  private ghosts: Ghost[] = [];
-  private usual = Infinity; // size of the curves, if the largest ones have no room
-  private sums: number[] = []; // of the curves in ink: the largest so far, at the window's end
+  private beside: Beside | null = null; // what the range makes room for, besides the curves
   private window: Window = { from: 0, to: 1 };
   private factor = 1;
   private unit = '';
   private at: number | null = null; // the instant that is shown, if not the newest
-  private readonly marker = element('div', { class: 'marker' });
+  private readonly marker = element('div.marker');
   private readonly gestures: Gestures;
 
-  constructor(
-    readonly spec: PlotSpec,
-    readonly record: RunRecord,
-    private readonly user: ChartUser,
-  ) {
-    const head = element(
-      'h3',
-      {},
-      element('span', { class: 'name' }, spec.title),
-      this.title,
-      element('span', { class: 'space' }),
-      button('CSV', `${spec.title}: numbers as a file`, () => this.saveCsv(), 'small'),
-      button('PNG', `${spec.title}: picture as a file`, () => this.savePicture(), 'small'),
-    );
-    const legend = element('div', { class: 'chips' });
+  constructor(readonly spec: PlotSpec, readonly record: RunRecord, private readonly plots: Plots) {
+    const file = (kind: string, what: string, save: () => void) => {
+      const made = button(kind, `${spec.title}: ${what} as a file`, save, 'small');
+      made.setAttribute('aria-label', `${kind}: ${spec.title}`);
+      return made;
+    };
+    const files = [
+      file('CSV', 'numbers', () => this.saveCsv()),
+      file('PNG', 'picture', () => this.savePicture()),
+    ];
+    const head = element('h3', element('span.name', spec.title), this.title, element('span.space'), ...files);
+    const legend = element('div.chips');
     for (const curve of spec.curves) legend.append(this.chip(curve, curve.name));
     if (spec.sum !== undefined) legend.append(this.chip(null, 'sum: rise of kinetic energy'));
-    if (spec.omitted > 0)
-      legend.append(element('span', { class: 'omitted' }, `${spec.omitted} smaller not shown`));
-    this.root = element('section', { class: 'plot', id: `plot-${spec.id}` }, head);
-    for (const [i, file] of ['CSV', 'PNG'].entries())
-      head.querySelectorAll('button')[i].setAttribute('aria-label', `${file}: ${spec.title}`);
+    if (spec.omitted > 0) legend.append(element('span.omitted', `${spec.omitted} smaller not shown`));
     const names = spec.curves.map(({ name }) => name).join(', ');
     this.canvas.setAttribute('aria-label', `${spec.title} over time: ${names}`);
-    this.root.append(this.canvas, legend);
-    this.gestures = new Gestures(this.canvas, () => this.chart, () => this.at, (time) => user.seek(time));
+    this.root = element('section.plot', { id: `plot-${spec.id}` }, head, this.canvas, legend);
+    this.gestures = new Gestures(this.canvas, () => this.chart, () => this.at, (time) => plots.seek(time));
   }
 
   remake(): void {
@@ -104,15 +75,16 @@ export class Chart {
     const buckets = bucketsOf(begin, end, store.dropped, width / 1.5);
     this.scaleUnits();
     const { spec, shown, factor } = this;
-    const isStack = spec.sum !== undefined;
-    const data = isStack
-      ? stack(store, buckets, shown, spec.sum!)
-      : lines(store, buckets, shown, factor);
-    this.usual = isBlown ? usualSize(data.slice(1).flatMap((column) => [...column])) : Infinity;
-    this.sums = shown
-      .filter((curve) => curve.color < 0 && end > 0)
-      .map((curve) => factor * store.value(curve.column, end - 1));
-    this.ghosts = ghostsOf(this.record, window, spec, shown, factor);
+    const { sum, limit, unit } = spec;
+    const data = sum !== undefined ? stack(store, buckets, shown, sum) : lines(store, buckets, shown, factor);
+    const sums = shown.filter((curve) => curve.color < 0 && end > 0);
+    this.beside = {
+      usual: isBlown ? usualSize(data.slice(1).flatMap((column) => [...column])) : Infinity,
+      ghosts: ghostsOf(this.record, window, spec, shown, factor),
+      limit: limit && { ...limit, value: limit.value * factor },
+      sums: sums.map(({ column }) => factor * store.value(column, end - 1)),
+      isForce: unit === 'N',
+    };
     const wanted = `${width} ${this.unit}`;
     if (this.made !== wanted || !this.chart) {
       this.make(width);
@@ -140,22 +112,20 @@ export class Chart {
     const left = this.chart?.cursor.left ?? -1;
     const time = left >= 0 ? this.chart!.posToVal(left, 'x') : this.at;
     const row = time === null ? store.length - 1 : store.after(time) - 1;
-    for (const { curve, value } of this.chips) {
-      const columns = curve ? [curve.column, ...(curve.rest ?? [])] : [this.spec.sum!];
-      const sum = columns.reduce((all, column) => all + store.value(column, row), 0);
-      value.textContent = row < 0 ? '–' : short(this.factor * sum);
-    }
+    for (const { curve, value } of this.chips)
+      value.textContent = row < 0 ? '–' : short(this.factor * this.value(curve, row));
+  }
+
+  // Of a curve, or of their sum.
+  private value(curve: Curve | null, row: number): number {
+    const columns = curve ? [curve.column, ...(curve.rest ?? [])] : [this.spec.sum!];
+    return columns.reduce((all, column) => all + this.record.store.value(column, row), 0);
   }
 
   private chip(curve: Curve | null, name: string): HTMLElement {
     const value = element('b');
-    const chip = element(
-      'button',
-      { type: 'button', 'aria-pressed': 'true', class: curve?.style ?? 'line' },
-      element('i'),
-      element('span', {}, name),
-      value,
-    );
+    const attributes = { type: 'button', 'aria-pressed': 'true', class: curve?.style ?? 'line' };
+    const chip = element('button', attributes, element('i'), element('span', name), value);
     if (curve)
       chip.addEventListener('click', () => {
         const hide = !this.hidden.has(curve);
@@ -170,26 +140,14 @@ export class Chart {
 
   private scaleUnits(): void {
     const { low, high } = this.record;
-    const size = this.spec.curves.reduce(
-      (most, { column }) => Math.max(most, high[column], -low[column]),
-      0,
-    );
-    const { unit, factor } = screenUnit(this.spec.unit, this.user.degrees, size);
+    const size = this.spec.curves.reduce((most, { column }) => Math.max(most, high[column], -low[column]), 0);
+    const { unit, factor } = screenUnit(this.spec.unit, this.plots.degrees, size);
     this.factor = factor;
     if (unit === this.unit) return;
     this.unit = unit;
     this.title.textContent = ` [${unit}]`;
   }
 
-  private get limit(): PlotSpec['limit'] {
-    const { limit } = this.spec;
-    return limit && { ...limit, value: limit.value * this.factor };
-  }
-  // What the range makes room for, besides the curves.
-  private get beside(): Beside {
-    const { usual, ghosts, limit, sums, spec } = this;
-    return { usual, ghosts, limit, sums, isForce: spec.unit === 'N' };
-  }
   private get shown(): Curve[] {
     return this.spec.curves.filter((curve) => !this.hidden.has(curve));
   }
@@ -211,10 +169,7 @@ export class Chart {
       width,
       height,
       legend: { show: false },
-      scales: {
-        x: { time: false },
-        y: { range: (_, low, high) => rangeOf(low, high, this.beside) },
-      },
+      scales: { x: { time: false }, y: { range: (_, low, high) => rangeOf(low, high, this.beside!) } },
       padding: [8, 16, 0, 0],
       cursor: {
         y: false,
@@ -224,7 +179,7 @@ export class Chart {
         bind: {
           mousedown: (_, __, handler) => (e) => (this.gestures.isHeld ? null : handler(e)),
           dblclick: () => () => {
-            this.user.zoom(null);
+            this.plots.zoom(null);
             return null;
           },
         },
@@ -235,7 +190,7 @@ export class Chart {
       hooks: {
         setCursor: [() => this.tell()],
         setSelect: [(chart) => this.select(chart)],
-        draw: [(chart) => drawOver(chart, this.ghosts, this.limit)],
+        draw: [(chart) => drawOver(chart, this.beside!)],
       },
     };
   }
@@ -243,43 +198,33 @@ export class Chart {
   private select(chart: uPlot): void {
     const { left, width } = chart.select;
     if (width < 4) return;
-    this.user.zoom({
-      from: chart.posToVal(left, 'x'),
-      to: chart.posToVal(left + width, 'x'),
-    });
+    this.plots.zoom({ from: chart.posToVal(left, 'x'), to: chart.posToVal(left + width, 'x') });
     chart.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
   }
 
   private saveCsv(): void {
-    const { store } = this.record;
-    const columns = this.spec.curves.map(({ column, rest = [], name }) => ({
-      name,
-      unit: this.spec.unit,
-      value: (row: number) => [column, ...rest].reduce((sum, one) => sum + store.value(one, row), 0),
-    }));
-    const { sum } = this.spec;
-    if (sum !== undefined)
-      columns.push({ name: 'sum', unit: 'J', value: (row) => store.value(sum, row) });
-    this.user.saveCsv(this.spec.id, columns);
+    const { id, unit } = this.spec;
+    const columns = this.chips.map(({ curve }) => {
+      const value = (row: number) => this.value(curve, row);
+      return { name: curve?.name ?? 'sum', unit, value };
+    });
+    this.plots.saveCsv(id, columns);
   }
 
   // Drawn once more, larger than on the page.
   private savePicture(): void {
     if (!this.chart) return;
-    const host = element('div', { class: 'unseen', 'aria-hidden': 'true' });
+    const host = element('div.unseen', { 'aria-hidden': 'true' });
     document.body.append(host);
     const options = this.options(PICTURE.width, PICTURE.height);
-    const { from, to } = this.window;
     const chart = new uPlot({ ...options, cursor: { show: false } }, [[]], host);
     chart.setData(this.chart.data, false);
-    chart.setScale('x', { min: from, max: to });
-    const lines = this.shown.map((curve) => ({
-      name: curve.name,
-      color: colorOf(curve),
-      dash: DASH[curve.style] ?? [],
-    }));
+    chart.setScale('x', { min: this.window.from, max: this.window.to });
+    const lines = this.shown.map((curve) => {
+      return { name: curve.name, color: colorOf(curve), dash: DASH[curve.style] ?? [] };
+    });
     const title = `${this.spec.title} [${this.unit}]`;
-    const name = this.user.pictureName(this.spec.id);
+    const name = this.plots.pictureName(this.spec.id);
     // uPlot draws when this is done.
     setTimeout(() => {
       savePicture(name, title, chart.ctx.canvas, lines, token('--surface'), token('--ink'));

@@ -1,10 +1,10 @@
 // What uPlot gets of a record: rows of a window thinned to what can be seen, as lines or as areas
 // upon each other; and the same of the branch that was left.
 import uPlot from 'uplot';
-import { token } from '../ui/theme';
+import { token } from '../ui/preferences';
 import type { Curve, PlotSpec } from './specs';
 import type { RunRecord } from '../source/run_record';
-import { bucketsOf, outline, samples, timesOf, type Buckets, type Points, type Store } from '../source/store';
+import { type Buckets, bucketsOf, outline, type Points, samples, type Store, timesOf } from '../source/store';
 
 const MOST_LEFT = 400; // buckets of what was left
 export const DASH: Record<Curve['style'], number[] | undefined> = {
@@ -33,23 +33,13 @@ function scaled(values: Points, factor: number): Points {
   return values.map((value) => (value === null ? null : value * factor));
 }
 
-export function lines(
-  store: Store,
-  buckets: Buckets,
-  curves: Curve[],
-  factor: number,
-): uPlot.AlignedData {
+export function lines(store: Store, buckets: Buckets, curves: Curve[], factor: number): uPlot.AlignedData {
   const values = curves.map(({ column }) => scaled(outline(store.column(column), buckets), factor));
   return [timesOf(store.times, buckets, true), ...values];
 }
 
 // What is positive piles up above zero, what is negative below; their sum is the line.
-export function stack(
-  store: Store,
-  buckets: Buckets,
-  curves: Curve[],
-  sum: number,
-): uPlot.AlignedData {
+export function stack(store: Store, buckets: Buckets, curves: Curve[], sum: number): uPlot.AlignedData {
   const times = timesOf(store.times, buckets, false);
   const data: uPlot.AlignedData = [times];
   const parts = curves.map(({ column, rest = [] }) => {
@@ -126,10 +116,10 @@ export function usualSize(values: (number | null | undefined)[]): number {
 }
 
 export interface Beside {
-  usual: number; // of the curves; infinite: all of them have room
+  usual: number; // size of the curves, if the largest ones have no room; infinite: all have
   ghosts: Ghost[];
   limit: PlotSpec['limit'];
-  sums: number[];
+  sums: number[]; // of the curves in ink: the largest so far, at the window's end
   isForce: boolean;
 }
 

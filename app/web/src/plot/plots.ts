@@ -5,26 +5,30 @@ import './plot.css';
 import type { Panel } from '../panels/panel';
 import type { RunRecord } from '../source/run_record';
 import type { RunSource } from '../source/run_source';
-import { element } from '../ui/dom';
-import { Chart, type ChartUser } from './chart';
+import { button, element, icon, option } from '../ui/dom';
+import { Chart } from './chart';
 import type { Window } from './chart_data';
-import { fileName, saveCsv, type CsvColumn } from './export';
-import { PlotBar } from './plot_bar';
-import { PlotSpecs, type PlotSpec } from './specs';
+import { type CsvColumn, fileName, saveCsv } from './export';
+import { type PlotSpec, PlotSpecs } from './specs';
+import { Segments } from '../ui/choices';
 
 const DRAW = 33; // [ms]
 const SHARE = 5; // where drawing is slow, it takes one in so many milliseconds
 const REVIEW = 1000; // how often it is asked which curves there are [ms]
 
-export class Plots implements Panel, ChartUser {
-  readonly root = element('div', { class: 'plots' });
-  degrees = true;
+export class Plots implements Panel {
+  readonly root = element('div.plots');
+  degrees = true; // else radians
   private record: RunRecord | null = null;
-  private readonly bar: PlotBar;
+  private readonly bar = new PlotBar(this.source.isLive, this);
   private readonly list = element('div');
   private readonly pick = element('select', { 'aria-label': 'any other quantity' });
   private readonly picked = element('div');
-  private readonly watch: IntersectionObserver;
+  private readonly watch = new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries)
+      for (const chart of this.every) if (chart.root === target) chart.isSeen = isIntersecting;
+    this.refresh();
+  });
   private specs: PlotSpecs | null = null;
   private charts: Chart[] = [];
   private signature = '';
@@ -37,23 +41,13 @@ export class Plots implements Panel, ChartUser {
   private reviewedAt = 0;
 
   constructor(private readonly source: RunSource) {
-    this.bar = new PlotBar(source.isLive, {
-      paused: (on) => this.pause(on),
-      all: () => this.zoom(null),
-      degrees: (on) => {
-        this.degrees = on;
-        this.refresh();
-      },
-      saveCsv: () => this.saveAll(),
-    });
     this.pick.addEventListener('change', () => this.choose(this.pick.value));
-    const pick = element('section', { class: 'pick' }, this.pick, this.picked);
-    this.root.append(this.bar.root, this.list, pick);
-    this.watch = new IntersectionObserver((entries) => {
-      for (const { target, isIntersecting } of entries)
-        for (const chart of this.every) if (chart.root === target) chart.isSeen = isIntersecting;
-      this.refresh();
-    });
+    this.root.append(this.bar.root, this.list, element('section.pick', this.pick, this.picked));
+  }
+
+  setDegrees(on: boolean): void {
+    this.degrees = on;
+    this.refresh();
   }
 
   onTheme(): void {
@@ -139,17 +133,16 @@ export class Plots implements Panel, ChartUser {
     this.drawn = '';
   }
 
-  private pause(on: boolean): void {
+  pause(on: boolean): void {
     this.window = on && this.record ? this.shownWindow(this.record) : null;
     this.refresh();
   }
 
   private shownWindow(record: RunRecord): Window {
     if (this.window) return this.window;
-    const { store } = record;
-    const first = store.length > 0 ? store.first : 0;
-    const last = store.length > 0 ? store.last : 0;
-    const newest = Math.max(last, record.before ? record.before.last : last);
+    const { store, before } = record;
+    const [first, last] = store.length > 0 ? [store.first, store.last] : [0, 0];
+    const newest = Math.max(last, before ? before.last : last);
     const { length } = this.bar;
     if (length === Infinity) return { from: first, to: Math.max(newest, first + 1e-3) };
     const { at } = this.source;
@@ -190,10 +183,8 @@ export class Plots implements Panel, ChartUser {
   }
 
   private fillPick({ scene }: RunRecord): void {
-    this.pick.replaceChildren(element('option', { value: '' }, 'any other quantity …'));
-    scene.channels.forEach(({ name, unit }, i) =>
-      this.pick.append(element('option', { value: String(i) }, `${name} [${unit}]`)),
-    );
+    const others = scene.channels.map(({ name, unit }, i) => option(i, `${name} [${unit}]`));
+    this.pick.replaceChildren(option('', 'any other quantity …'), ...others);
     this.choose('');
   }
 
@@ -203,5 +194,44 @@ export class Plots implements Panel, ChartUser {
     this.single = spec && this.record ? this.chart(spec, this.record) : null;
     this.picked.replaceChildren(...(this.single ? [this.single.root] : []));
     this.refresh();
+  }
+}
+
+const LENGTHS: Record<string, number> = { '10 s': 10, '30 s': 30, all: Infinity };
+
+// Above the plots: of a run that goes on how much time they show and whether they stand; their file.
+class PlotBar {
+  readonly root = element('div.plot-bar', { role: 'toolbar', 'aria-label': 'plots' });
+  length: number; // of the time shown [s]
+  private isPaused = false;
+  private readonly pause: HTMLButtonElement;
+
+  constructor(isLive: boolean, plots: Plots) {
+    this.length = LENGTHS[isLive ? '10 s' : 'all'];
+    const lengths = new Segments('time shown', Object.keys(LENGTHS), '10 s', (name) => {
+      this.length = LENGTHS[name];
+      plots.zoom(null);
+    });
+    const angles = new Segments('angles in', ['°', 'rad'], '°', (name) => plots.setDegrees(name === '°'));
+    const toggle = () => {
+      this.showPaused(!this.isPaused);
+      plots.pause(this.isPaused);
+    };
+    this.pause = button(icon('pause'), 'let the plots stand, while the run goes on', toggle, 'pause');
+    const whole = button('whole run', 'all of the time (double click)', () => plots.zoom(null));
+    this.root.append(
+      ...(isLive ? [this.pause, lengths.root] : [whole]),
+      angles.root,
+      element('span.space'),
+      button('all CSV', 'every quantity that is remembered, as a file', () => plots.saveAll()),
+    );
+  }
+
+  showPaused(on: boolean): void {
+    this.isPaused = on;
+    this.pause.setAttribute('aria-pressed', String(on));
+    this.pause.replaceChildren(icon(on ? 'play' : 'pause'));
+    this.pause.title = on ? 'on with the newest' : 'let the plots stand, while the run goes on';
+    this.pause.setAttribute('aria-label', this.pause.title);
   }
 }

@@ -154,10 +154,7 @@ export class PlotSpecs {
     const curves = shown.flatMap(({ column, of }, i) => {
       const target = targets.get(of);
       if (target === undefined) return [curve(column, of, colors[i])];
-      return [
-        curve(column, `${of} DVR`, colors[i]),
-        curve(target, `${of} KVR`, colors[i], 'dashed'),
-      ];
+      return [curve(column, `${of} DVR`, colors[i]), curve(target, `${of} KVR`, colors[i], 'dashed')];
     });
     const [id, title] = unit === 'rad' ? ['angles', 'Angles'] : ['positions', 'Positions'];
     return [{ id, title, unit, curves, omitted: all.length - shown.length }];
@@ -210,12 +207,7 @@ export class PlotSpecs {
   }
 }
 
-function curve(
-  column: number,
-  name: string,
-  color: number,
-  style: Curve['style'] = 'line',
-): Curve {
+function curve(column: number, name: string, color: number, style: Curve['style'] = 'line'): Curve {
   return { column, name, color, style };
 }
 
@@ -231,11 +223,7 @@ function isShown(channel: SceneChannel): boolean {
 }
 
 // Stored is SI. On screen: degrees if asked for, microseconds, millimetres where all is small.
-export function screenUnit(
-  unit: string,
-  degrees: boolean,
-  size: number,
-): { unit: string; factor: number } {
+export function screenUnit(unit: string, degrees: boolean, size: number): { unit: string; factor: number } {
   if (unit === 's') return { unit: 'µs', factor: 1e6 };
   if (unit === 'us') return { unit: 'µs', factor: 1 };
   if (unit === 'm' && size < 0.1) return { unit: 'mm', factor: 1000 };

@@ -1,5 +1,5 @@
 // What `twinarm inspect --json` tells, and the picture beside it.
-import type { Layer, MeshData, View } from './run';
+import type { Carried } from './run';
 
 export type Value = number | number[] | number[][];
 
@@ -96,16 +96,11 @@ export interface Inspection {
   warnings: string[];
 }
 
-export interface InspectedRobot {
+// Layers: "body/NAME" for each body, "body/world", and the overlays; of one frame.
+export interface InspectedRobot extends Carried {
   title: string;
   state: string;
   command: string;
   version: string;
   inspection: Inspection;
-  meshes: MeshData[];
-  textures: ImageBitmap[];
-  // "body/NAME" for each body, "body/world", and the overlays; of one frame.
-  layers: Layer[];
-  texts: string[];
-  view: View;
 }

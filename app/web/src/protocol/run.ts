@@ -79,7 +79,16 @@ export interface View {
   ground: { visible: boolean; height: number; cell: number; cellsPerMajor: number };
 }
 
-export interface Run {
+// What every page carries for its picture.
+export interface Carried {
+  meshes: MeshData[];
+  textures: ImageBitmap[];
+  layers: Layer[];
+  texts: string[]; // of labels
+  view: View;
+}
+
+export interface Run extends Carried {
   title: string;
   facts: [string, string][]; // name and value
   tables: { title: string; head: string[]; rows: string[][] }[];
@@ -91,11 +100,6 @@ export interface Run {
   ledger: LedgerData;
   momentum: MomentumData;
   bodies: string[]; // that have position channels
-  meshes: MeshData[];
-  textures: ImageBitmap[];
-  layers: Layer[];
-  texts: string[]; // of labels
-  view: View;
 }
 
 // The last frame at or before t.
@@ -108,8 +112,4 @@ export function frameAt(times: Float64Array, t: number): number {
     else high = middle - 1;
   }
   return low;
-}
-
-export function channelOf(run: Run, name: string): Channel | undefined {
-  return run.channels.find((channel) => channel.name === name);
 }

@@ -1,6 +1,7 @@
 // What a page carries: a text of JSON, and one block of bytes to which it points, deflated
 // and in base64. `{"at": byte, "count": n, "type": "f64"}` stands for an array.
 import type { MeshData } from '../protocol/run';
+import { element } from '../ui/dom';
 
 const KINDS = {
   u8: Uint8Array,
@@ -27,9 +28,7 @@ function resolve(value: unknown, buffer: ArrayBuffer): unknown {
   if (isPlace(value)) return new KINDS[value.type](buffer, value.at, value.count);
   if (Array.isArray(value)) return value.map((item) => resolve(item, buffer));
   if (typeof value !== 'object' || value === null) return value;
-  return Object.fromEntries(
-    Object.entries(value).map(([key, item]) => [key, resolve(item, buffer)]),
-  );
+  return Object.fromEntries(Object.entries(value).map(([key, item]) => [key, resolve(item, buffer)]));
 }
 
 async function inflate(base64: string): Promise<ArrayBuffer> {
@@ -86,4 +85,21 @@ export async function embedded<
   };
   const textures = await Promise.all(data.textures.map(picture));
   return { ...data, meshes: data.meshes.map(unpackMesh), textures } as unknown as T;
+}
+
+// How a page begins: what it carries is read and shown, or the page says why it cannot be.
+// `show` gives what tests and the curious find as window.twinarm.
+export function start<T extends { meshes: MeshData[]; textures: ImageBitmap[] }>(
+  show: (data: T) => object,
+): void {
+  const begin = async (): Promise<void> => {
+    Object.assign(window, { twinarm: show(await embedded<T>()) });
+    document.documentElement.dataset.ready = 'true';
+  };
+  begin().catch((error: unknown) => {
+    const words = error instanceof Error ? error.message : String(error);
+    const text = `This page cannot be shown: ${words}`;
+    document.body.replaceChildren(element('p.failed', { role: 'alert' }, text));
+    console.error(error);
+  });
 }

@@ -2,8 +2,7 @@
 // it before the next picture is drawn: a page that draws slowly sees less, never later. A lost
 // connection is tried again until it holds.
 import { decodeFrame, type Frame } from '../protocol/frame';
-import type { BodyInspection } from '../protocol/messages';
-import type { Command, SceneMessage, StateMessage } from '../protocol/messages';
+import type { BodyInspection, Command, SceneMessage, StateMessage } from '../protocol/messages';
 
 export * from '../protocol/frame';
 export * from '../protocol/messages';
@@ -28,10 +27,7 @@ export class Link {
   private pause = FIRST_PAUSE;
   private timer = 0;
 
-  constructor(
-    private readonly url: string,
-    private readonly changed: (open: boolean) => void,
-  ) {
+  constructor(private readonly url: string, private readonly changed: (open: boolean) => void) {
     addEventListener('online', () => this.connect());
     document.addEventListener('visibilitychange', () => {
       if (!document.hidden) this.connect();

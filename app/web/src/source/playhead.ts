@@ -1,23 +1,30 @@
-// The instant that is shown, and whether it moves on by itself: of a recorded run (player.ts), and of
-// what a lab remembers (rewind.ts).
+// The instant that is shown, and whether it moves on by itself: of a recorded run (Player), and of what
+// a lab remembers (Rewind).
+import type { Clock } from '../panels/time_bar';
+import { frameAt, type Run } from '../protocol/run';
+import { recordOf } from './run_record';
+import type { RunSource } from './run_source';
+import type { LabPage } from '../panels/panel';
+
 export class Playhead {
   playing = false;
-  protected rate = 1; // seconds of the run a second
+  speed = 1; // seconds of the run a second
   private until: number | null = null;
   private last = 0; // of the wall clock [ms]
 
   // `at`: null is the newest.
   constructor(public at: number | null) {}
 
-  seek(at: number | null): void {
+  // Stands there.
+  look(at: number | null): void {
     this.playing = false;
     this.put(at);
   }
 
   // From an instant on; at the end of what there is it stands at `until`.
-  play(from: number, rate: number, until: number | null): void {
+  play(from: number, speed: number, until: number | null): void {
     this.playing = true;
-    this.rate = rate;
+    this.speed = speed;
     this.until = until;
     this.last = performance.now();
     this.put(from);
@@ -32,12 +39,122 @@ export class Playhead {
     if (!this.playing || this.at === null) return;
     const passed = Math.min(0.1, Math.max(0, now - this.last) / 1000); // a tab that slept does not jump
     this.last = now;
-    const at = this.at + passed * this.rate;
+    const at = this.at + passed * this.speed;
     this.playing = at < (this.until ?? end);
     this.put(this.playing ? at : this.until);
   }
 
   protected put(at: number | null): void {
     this.at = at;
+  }
+}
+
+// The clock of a replay: what time is shown, and whether it runs.
+export class Player extends Playhead implements RunSource, Clock {
+  readonly isLive = false;
+  readonly hasDiverged = false;
+  readonly record = recordOf(this.run);
+  readonly times = this.run.times;
+  declare at: number;
+
+  constructor(private readonly run: Run, private readonly changed: () => void) {
+    super(run.times[0]);
+  }
+
+  get stepSize(): number {
+    return this.times.length > 1 ? this.times[1] - this.times[0] : 1e-3;
+  }
+  get start(): number {
+    return this.times[0];
+  }
+  get end(): number {
+    return this.times[this.times.length - 1];
+  }
+  get frame(): number {
+    return frameAt(this.times, this.at);
+  }
+  // Of the way from this frame to the next.
+  get share(): number {
+    const { frame, times, at } = this;
+    if (frame + 1 >= times.length) return 0;
+    return Math.min(1, Math.max(0, (at - times[frame]) / (times[frame + 1] - times[frame])));
+  }
+
+  // By frames; stops on one.
+  step(frames: number): void {
+    const here = this.frame;
+    const between = this.at > this.times[here] + 1e-9;
+    const to = here + frames + (between && frames < 0 ? 1 : 0);
+    this.look(this.times[Math.min(this.times.length - 1, Math.max(0, to))]);
+  }
+
+  toggle(): void {
+    if (!this.playing) return this.play(this.at >= this.end ? this.start : this.at, this.speed, this.end);
+    this.pause();
+    this.changed();
+  }
+
+  setSpeed(speed: number): void {
+    this.speed = speed;
+    this.changed();
+  }
+
+  // Goes on from there, if it was going.
+  seek(time: number): void {
+    this.put(time);
+  }
+  seekShare(share: number): void {
+    this.look(this.start + share * (this.end - this.start));
+  }
+
+  tick(now: number): void {
+    this.advance(now, this.end);
+  }
+
+  protected put(time: number): void {
+    this.at = Math.min(this.end, Math.max(this.start, time));
+    this.changed();
+  }
+}
+
+// Looking back: which instant is asked for. What is remembered can also be played again, in slow
+// motion too; the lab only knows instants, the clock is here.
+const PAUSE = 33; // between two instants that are asked for [ms]
+const SETTLE = 400; // until the lab says what was asked for [ms]
+
+// `at` is as asked for, which is newer than what the lab says.
+export class Rewind extends Playhead {
+  private startedAt = -Infinity;
+  private sentAt = -Infinity;
+  private sent: number | null = null;
+
+  constructor(private readonly page: LabPage) {
+    super(null);
+  }
+
+  // Of the lab's state, unless this page is just choosing.
+  follow(at: number | null): void {
+    const now = performance.now();
+    if (at === null && now - this.startedAt > SETTLE) this.playing = false; // somebody went on
+    if (!this.playing && now - this.sentAt > SETTLE) this.at = this.sent = at;
+  }
+
+  play(from: number, speed: number, until: number | null = null): void {
+    this.startedAt = performance.now();
+    super.play(from, speed, until);
+  }
+
+  tick(): void {
+    this.advance(performance.now(), this.page.state?.last ?? Infinity);
+    if (this.at !== this.sent) this.put(this.at);
+  }
+
+  protected put(at: number | null): void {
+    this.at = at;
+    const now = performance.now();
+    if (now - this.sentAt < PAUSE && at !== null) return; // with a later tick
+    this.sent = at;
+    this.sentAt = now;
+    this.page.send({ do: 'look', at });
   }
 }

@@ -66,10 +66,7 @@ export class RunRecord {
   private began = NaN;
   private number = NaN; // of the newest frame
 
-  constructor(
-    readonly scene: RunHead,
-    most = MOST,
-  ) {
+  constructor(readonly scene: RunHead, most = MOST) {
     const { channels, ledger } = scene;
     this.works = channels.length;
     this.sum = this.works + ledger.length;

@@ -1,25 +1,44 @@
-// Elements in one call. Texts are set as texts: names of a file cannot become tags.
-export function element<K extends keyof HTMLElementTagNameMap>(
-  tag: K,
-  attributes: Record<string, string> = {},
-  ...children: (Node | string)[]
-): HTMLElementTagNameMap[K] {
-  const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  made.append(...children);
-  return made;
+
+
+type TagOf<T extends string> = T extends `${infer Tag}.${string}` ? Tag : T;
+type Made<T extends string> =
+  TagOf<T> extends keyof HTMLElementTagNameMap ? HTMLElementTagNameMap[TagOf<T>] : never;
+
+// An element in one call: element('p.hint.small', { title: 'attributes' }, 'text', child). Texts are
+// set as texts: names of a file cannot become tags.
+export function element<T extends string>(
+  tag: T,
+  ...parts: (Record<string, string> | Node | string)[]
+): Made<T> {
+  const [name, ...classes] = tag.split('.');
+  const made = document.createElement(name);
+  if (classes.length > 0) made.className = classes.join(' ');
+  for (const part of parts) {
+    if (typeof part === 'string' || part instanceof Node) made.append(part);
+    else for (const [key, value] of Object.entries(part)) made.setAttribute(key, value);
+  }
+  return made as Made<T>;
 }
 
 export function button(
-  label: string | SVGSVGElement,
+  label: string | SVGSVGElement | (string | HTMLElement)[],
   title: string,
   act: () => void,
   className = '',
 ): HTMLButtonElement {
-  const made = element('button', { type: 'button', title, class: className }, label);
-  if (typeof label !== 'string' || label.length < 3) made.setAttribute('aria-label', title);
+  const made = element('button', { type: 'button', title, class: className }, ...[label].flat());
+  const isSaid = Array.isArray(label) || (typeof label === 'string' && label.length >= 3);
+  if (!isSaid) made.setAttribute('aria-label', title);
   made.addEventListener('click', act);
   return made;
+}
+
+export function bullets(lines: string[]): HTMLUListElement {
+  return element('ul', ...lines.map((line) => element('li', line)));
+}
+
+export function option(value: string | number, words = String(value)): HTMLOptionElement {
+  return element('option', { value: String(value) }, words);
 }
 
 // Drawn, as not every system has letters for them. Paths in a square of 16.
@@ -45,17 +64,17 @@ export function icon(name: keyof typeof ICONS): SVGSVGElement {
 
 // One path in a square of 16.
 export function drawing(path: string, attributes: Record<string, string>): SVGSVGElement {
-  const made = svg('svg', { viewBox: '0 0 16 16', ...attributes });
-  made.append(svg('path', { d: path }));
-  return made;
+  return svg('svg', { viewBox: '0 0 16 16', ...attributes }, svg('path', { d: path }));
 }
 
 export function svg<K extends keyof SVGElementTagNameMap>(
   tag: K,
   attributes: Record<string, string | number> = {},
+  ...children: (Node | string)[]
 ): SVGElementTagNameMap[K] {
   const made = document.createElementNS('http://www.w3.org/2000/svg', tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
+  made.append(...children);
   return made;
 }
 
@@ -73,6 +92,57 @@ export function unitText(unit: string): string {
   return unit === '1' ? '' : unit.replaceAll('^2', '²').replaceAll('^3', '³');
 }
 
+// Asked with what is to be shown: whether it differs from the last time.
+export function changeDetector(): (...now: unknown[]) => boolean {
+  let last = '';
+  return (...now) => last !== (last = JSON.stringify(now));
+}
+
 export function largestOf(values: (number | null)[]): number {
   return values.reduce<number>((most, value) => Math.max(most, Math.abs(value ?? 0)), 0);
+}
+
+// Signs of how near a limit is: a form, a colour and a word each, for eyes that miss one of them.
+const FORMS = {
+  ok: 'M2.5 8.5l3.5 3.5 7.5-8', // a tick
+  near: 'M8 2L15 14H1zM8 6.5v3.5M8 12v.6', // a triangle
+  beyond: 'M5 1.5h6L15 5.5v5l-4 4H5l-4-4v-5zM5.2 5.2l5.6 5.6M10.8 5.2l-5.6 5.6', // an octagon
+};
+export type SignState = keyof typeof FORMS;
+export const SIGN_WORDS: Record<SignState, string> = {
+  ok: 'holds',
+  near: 'near the limit',
+  beyond: 'beyond the limit',
+};
+
+export function sign(state: SignState): SVGSVGElement {
+  const words = SIGN_WORDS[state];
+  return drawing(FORMS[state], { class: `sign ${state}`, role: 'img', 'aria-label': words });
+}
+
+// Icon and words: one line below a knob, a heading of a card.
+export function signed(state: SignState, words: string): HTMLElement {
+  return element('span', { class: `signed ${state}` }, sign(state), element('span', words));
+}
+
+// Makes what stands like what was made anew, in place: focus, pointer, scrolling and what has been
+// opened stay where they are.
+function same(a: Node, b: Node): boolean {
+  return a.nodeType === b.nodeType && a.nodeName === b.nodeName;
+}
+
+export function morph(now: Element, wanted: Element): void {
+  for (const { name } of [...now.attributes])
+    if (!wanted.hasAttribute(name) && name !== 'open') now.removeAttribute(name);
+  for (const { name, value } of wanted.attributes)
+    if (now.getAttribute(name) !== value && name !== 'open') now.setAttribute(name, value);
+  const to = [...wanted.childNodes];
+  to.forEach((node, i) => {
+    const old = now.childNodes[i];
+    if (!old) now.append(node);
+    else if (!same(old, node)) old.replaceWith(node);
+    else if (old instanceof Element) morph(old, node as Element);
+    else if (old.nodeValue !== node.nodeValue) old.nodeValue = node.nodeValue;
+  });
+  while (now.childNodes.length > to.length) now.lastChild!.remove();
 }

@@ -3,19 +3,18 @@ import { changeSpeed, type Clock } from '../panels/time_bar';
 import type { ViewName } from '../view/stage';
 import { button, element, icon } from './dom';
 
+type Act = (event: KeyboardEvent) => void;
+
 export interface Key {
-  keys: string[]; // of KeyboardEvent.key
   shown: string;
   what: string;
-  act: (event: KeyboardEvent) => void;
+  acts: Record<string, Act>; // by KeyboardEvent.key
 }
 
-export const key = (keys: string[], shown: string, what: string, act: Key['act']): Key => ({
-  keys,
-  shown,
-  what,
-  act,
-});
+// One key, or several that belong together.
+export function key(shown: string, what: string, acts: Act | Record<string, Act>): Key {
+  return { shown, what, acts: typeof acts === 'function' ? { [shown]: acts } : acts };
+}
 
 export interface ViewTargets {
   orbit(around: number, up: number, closer: number): void;
@@ -30,30 +29,30 @@ const VIEWS: ViewName[] = ['front', 'side', 'top', 'iso'];
 // Of the picture, on every page.
 export function viewKeys({ orbit, look, followNext, toggleLayer, toggleTheme }: ViewTargets): Key[] {
   let view = 0;
-  const digits = toggleLayer ? [1, 2, 3, 4, 5, 6, 7, 8, 9] : [];
+  const digits = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((n) => [n, () => toggleLayer!(n)]);
+  const nearer = () => orbit(0, 0, 0.88);
   return [
-    ...(followNext ? [key(['f'], 'f', 'follow the selected body, or the next one', followNext)] : []),
-    key(['a'], 'a d w s', 'turn the view', () => orbit(-0.1, 0, 1)),
-    key(['d'], '', '', () => orbit(0.1, 0, 1)),
-    key(['w'], '', '', () => orbit(0, 0.08, 1)),
-    key(['s'], '', '', () => orbit(0, -0.08, 1)),
-    key(['+', '='], '+ −', 'nearer, farther', () => orbit(0, 0, 0.88)),
-    key(['-'], '', '', () => orbit(0, 0, 1 / 0.88)),
-    key(['r'], 'r', 'the view of the start', () => look('start')),
-    key(['v'], 'v', 'front, side, top, from a corner', () => look(VIEWS[view++ % VIEWS.length])),
-    ...digits.map((n) =>
-      key([String(n)], n === 1 ? '1 – 9' : '', 'show or hide an overlay', () => toggleLayer!(n)),
-    ),
-    key(['t'], 't', 'light or dark', toggleTheme),
+    ...(followNext ? [key('f', 'follow the selected body, or the next one', followNext)] : []),
+    key('a d w s', 'turn the view', {
+      a: () => orbit(-0.1, 0, 1),
+      d: () => orbit(0.1, 0, 1),
+      w: () => orbit(0, 0.08, 1),
+      s: () => orbit(0, -0.08, 1),
+    }),
+    key('+ −', 'nearer, farther', { '+': nearer, '=': nearer, '-': () => orbit(0, 0, 1 / 0.88) }),
+    key('r', 'the view of the start', () => look('start')),
+    key('v', 'front, side, top, from a corner', () => look(VIEWS[view++ % VIEWS.length])),
+    ...(toggleLayer ? [key('1 – 9', 'show or hide an overlay', Object.fromEntries(digits))] : []),
+    key('t', 'light or dark', toggleTheme),
   ];
 }
 
 // Of the clock.
 export function clockKeys(clock: Clock): Key[] {
+  const toggle = () => clock.toggle();
   return [
-    key([' ', 'k'], 'space', 'play, pause', () => clock.toggle()),
-    key(['['], '[ ]', 'slower, faster', () => changeSpeed(clock, -1)),
-    key([']'], '', '', () => changeSpeed(clock, 1)),
+    key('space', 'play, pause', { ' ': toggle, k: toggle }),
+    key('[ ]', 'slower, faster', { '[': () => changeSpeed(clock, -1), ']': () => changeSpeed(clock, 1) }),
   ];
 }
 
@@ -71,16 +70,15 @@ function isTaken(event: KeyboardEvent): boolean {
 
 // `isKept`: besides, keys that somebody else is to have.
 export function listen(keys: Key[], isKept: (event: KeyboardEvent) => boolean = () => false): void {
-  const acts = new Map<string, Key>();
-  for (const key of keys) for (const name of key.keys) acts.set(name, key);
+  const all = new Map(keys.flatMap(({ acts }) => Object.entries(acts)));
   // Before others: a focused slider would move by itself too.
   document.addEventListener(
     'keydown',
     (event) => {
-      const key = acts.get(event.key);
-      if (!key || isTaken(event) || isKept(event)) return;
+      const act = all.get(event.key);
+      if (!act || isTaken(event) || isKept(event)) return;
       event.preventDefault();
-      key.act(event);
+      act(event);
     },
     { capture: true },
   );
@@ -89,13 +87,13 @@ export function listen(keys: Key[], isKept: (event: KeyboardEvent) => boolean = 
 // A dialog of all keys, which `?` opens and closes.
 export function help(keys: Key[], mouse: string): HTMLDialogElement {
   const list = element('dl');
-  const dialog = element('dialog', { class: 'help', 'aria-label': 'keys' });
+  const dialog = element('dialog.help', { 'aria-label': 'keys' });
   const close = button('close', 'Escape', () => dialog.close());
   const toggle = () => (dialog.open ? dialog.close() : dialog.showModal());
-  keys.push(key(['?'], '?', 'this help', toggle));
+  keys.push(key('?', 'this help', toggle));
   for (const { shown, what } of keys)
-    if (shown) list.append(element('dt', {}, element('kbd', {}, shown)), element('dd', {}, what));
-  dialog.append(element('h2', {}, 'Keys'), list, element('p', {}, mouse), close);
+    list.append(element('dt', element('kbd', shown)), element('dd', what));
+  dialog.append(element('h2', 'Keys'), list, element('p', mouse), close);
   return dialog;
 }
 
@@ -108,7 +106,6 @@ export const MOUSE = 'Mouse: drag turns, right button moves, wheel zooms.';
 export function pageHeader(parts: Node[], dialog: HTMLDialogElement, toggleTheme: () => void): HTMLElement {
   return element(
     'header',
-    {},
     ...parts,
     button('?', 'keys (?)', () => dialog.showModal()),
     button(icon('theme'), 'light or dark (t)', toggleTheme),

@@ -14,7 +14,7 @@ export function putNumber(cell: HTMLElement, value: number | null, scale = 0): v
 }
 
 export function row(head: string | (Node | string)[], ...cells: Node[]): HTMLTableRowElement {
-  return element('tr', {}, element('th', { scope: 'row' }, ...[head].flat()), ...cells);
+  return element('tr', element('th', { scope: 'row' }, ...[head].flat()), ...cells);
 }
 
 export function table(
@@ -29,8 +29,8 @@ export function table(
   return element(
     'table',
     attributes,
-    element('thead', {}, element('tr', {}, ...cells)),
-    element('tbody', {}, ...rows),
-    ...(foot ? [element('tfoot', {}, foot)] : []),
+    element('thead', element('tr', ...cells)),
+    element('tbody', ...rows),
+    ...(foot ? [element('tfoot', foot)] : []),
   );
 }

@@ -14,10 +14,7 @@ export class Arrows {
   private readonly shaft = new THREE.CylinderGeometry(1, 1, 1, 16).translate(0, 0.5, 0);
   private readonly head = new THREE.ConeGeometry(1, 1, 20).translate(0, 0.5, 0);
 
-  constructor(
-    scene: THREE.Scene,
-    private readonly thickness: number,
-  ) {
+  constructor(scene: THREE.Scene, private readonly thickness: number) {
     scene.add(this.group);
   }
 

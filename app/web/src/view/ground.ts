@@ -38,10 +38,7 @@ export class Ground {
   private readonly grid: THREE.Mesh<THREE.PlaneGeometry, THREE.ShaderMaterial>;
   private readonly shadow: THREE.Mesh<THREE.PlaneGeometry, THREE.ShadowMaterial>;
 
-  constructor(
-    private readonly scene: THREE.Scene,
-    view: View,
-  ) {
+  constructor(private readonly scene: THREE.Scene, view: View) {
     const reach = 9 * view.radius;
     const plane = new THREE.PlaneGeometry(2 * reach, 2 * reach);
     const material = new THREE.ShaderMaterial({

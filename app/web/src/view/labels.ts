@@ -21,14 +21,11 @@ interface Item {
 }
 
 export class Labels {
-  private readonly items: Item[] = [];
   private readonly leaders = svg('svg');
+  readonly root = element('div.labels', { 'aria-hidden': 'true' }, this.leaders);
+  private readonly items: Item[] = [];
   private others: Box[] = []; // as they were a moment ago
   private lookedAt = -Infinity;
-
-  constructor(private readonly host: HTMLElement) {
-    host.append(this.leaders);
-  }
 
   paint(stage: Stage, texts: string[], parts: { columns: LabelColumns; frame: number }[]): void {
     if (parts.length > 0 && performance.now() - this.lookedAt > LOOK_AGAIN) {
@@ -45,7 +42,7 @@ export class Labels {
         const [right, down] = columns.offset.subarray(2 * i, 2 * i + 2);
         const text = texts[columns.text[i]];
         const box = place(point, right, down, 7 * text.length + 6, taken);
-        if (!box || box.right > this.host.clientWidth || box.left < 0) continue;
+        if (!box || box.right > this.root.clientWidth || box.left < 0) continue;
         taken.push(box);
         this.put(this.item(used++), text, box, point);
       }
@@ -57,10 +54,10 @@ export class Labels {
 
   // Switches, legend and the like: whatever else the view holds besides its picture.
   private covered(): Box[] {
-    const { left, top } = this.host.getBoundingClientRect();
+    const { left, top } = this.root.getBoundingClientRect();
     const boxes: Box[] = [];
-    for (const other of this.host.parentElement?.children ?? []) {
-      if (other === this.host || other.matches('canvas, .handles')) continue;
+    for (const other of this.root.parentElement?.children ?? []) {
+      if (other === this.root || other.matches('canvas, .handles')) continue;
       const box = other.getBoundingClientRect();
       if (box.width === 0) continue;
       boxes.push({
@@ -89,7 +86,7 @@ export class Labels {
     if (!this.items[i]) {
       const text = element('span');
       const leader = svg('line');
-      this.host.append(text);
+      this.root.append(text);
       this.leaders.append(leader);
       this.items[i] = { text, leader };
     }

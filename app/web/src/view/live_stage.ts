@@ -2,10 +2,9 @@
 // would show each of them one frame later, and a hand feels that.
 import type { LabelColumns } from '../protocol/run';
 import { element } from '../ui/dom';
-import { Labels } from './labels';
 import type { Part } from './painter';
 import { Stage } from './stage';
-import { labelText, placeOf, type Frame, type SceneMessage } from '../source/link';
+import { type Frame, labelText, placeOf, type SceneMessage } from '../source/link';
 import { MeshStore } from '../source/meshes';
 
 const [RIM, DARK_RIM] = ['#0067a5', '#6cb8ee']; // around what is selected: the accent
@@ -19,8 +18,7 @@ export class LiveStage {
   private readonly isSlow = this.gl !== null && isSoftware(this.gl) && !FINE;
   readonly canDraw = this.gl !== null;
   private readonly store = new MeshStore();
-  private readonly labels: Labels;
-  private readonly tag = element('div', { class: 'tag', hidden: '' });
+  private readonly tag = element('div.tag', { hidden: '' });
   private scene: SceneMessage | null = null;
   private meshes = 0; // that the stage has
   private textures = 0;
@@ -30,11 +28,10 @@ export class LiveStage {
 
   constructor(
     private readonly host: HTMLElement,
-    parts: { labels: HTMLElement; handles: HTMLElement },
+    handles: HTMLElement,
     private readonly changed: () => void,
   ) {
-    this.labels = new Labels(parts.labels);
-    parts.handles.append(this.tag);
+    handles.append(this.tag);
   }
 
   // A scene of the same number has more of everything, and nothing else.
@@ -120,7 +117,7 @@ export class LiveStage {
     };
     const texts = Array.from({ length: count }, (_, i) => labelText(frame, i));
     const layers = count > 0 ? parts.map(({ a }) => ({ columns, frame: a })) : [];
-    this.labels.paint(stage, texts, layers);
+    stage.labels.paint(stage, texts, layers);
   }
 
   // The name of what is selected, beside it.
@@ -145,4 +142,34 @@ function isSoftware(gl: WebGL2RenderingContext): boolean {
   const names = gl.getExtension('WEBGL_debug_renderer_info');
   const name = names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
   return /swiftshader|llvmpipe|softpipe|basic render/i.test(name);
+}
+
+// Where a browser cannot draw: the program's own picture, five times a second. Never more than one
+// on its way.
+const EVERY = 200; // [ms]
+
+export class Picture {
+  readonly root: HTMLElement;
+  private readonly image = element('img', { alt: 'the robot, drawn by the program' });
+  private asked = 0;
+  private loading = false;
+
+  constructor() {
+    const words =
+      'This browser cannot draw in three dimensions (WebGL): the program draws, five pictures a ' +
+      'second, from one side. Keys move the hand all the same.';
+    this.root = element('figure.picture', this.image, element('figcaption', words));
+    for (const end of ['load', 'error']) this.image.addEventListener(end, () => (this.loading = false));
+  }
+
+  tick(now: number): void {
+    if (this.loading || now - this.asked < EVERY) return;
+    const { clientWidth, clientHeight } = this.root;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.asked = now;
+    this.loading = true;
+    const scale = Math.min(1, 1280 / clientWidth);
+    const size = [clientWidth, clientHeight].map((pixels) => Math.round(scale * pixels));
+    this.image.src = `/frame.png?width=${size[0]}&height=${size[1]}&n=${Math.round(now)}`;
+  }
 }

@@ -2,17 +2,10 @@
 // A live frame is a part too: its columns, with layers in the place of frames.
 import * as THREE from 'three';
 import type { InstanceColumns, MeshData } from '../protocol/run';
-import { Batch } from './batch';
 import {
-  ORDER,
-  ghostMaterials,
-  glossy,
-  hiddenMaterials,
-  outlineMaterials,
-  plainly,
-  solidMaterial,
+  Batch, ghostMaterials, glossy, hiddenMaterials, ORDER, outlineMaterials, plainly, solidMaterial,
   type SurfaceOf,
-} from './materials';
+} from './surfaces';
 
 // Frames a and b of one layer, and how far between the two.
 export interface Part {

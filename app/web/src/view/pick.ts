@@ -1,7 +1,7 @@
 // What lies under a point of the view: the nearest entry of a layer that belongs to a body.
 import * as THREE from 'three';
 import type { Stage } from './stage';
-import { NO_BODY, type Frame } from '../source/link';
+import { type Frame, NO_BODY } from '../source/link';
 
 export interface Hit {
   body: number;

@@ -5,6 +5,7 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { MeshData, View } from '../protocol/run';
 import { Arrows } from './arrows';
 import { Ground } from './ground';
+import { Labels } from './labels';
 import { Painter, type Part } from './painter';
 
 export type ViewName = 'start' | 'front' | 'side' | 'top' | 'iso';
@@ -36,16 +37,13 @@ function shares(bytes: [number, number, number]): [number, number, number] {
 }
 
 // What a slow machine saves: pixels, and those of the shadows. From fine to coarse.
-const DETAILS = [
-  { pixels: 2, shadow: 2048 },
-  { pixels: 1, shadow: 1024 },
-  { pixels: 0.75, shadow: 512 },
-];
+const DETAILS = [{ pixels: 2, shadow: 2048 }, { pixels: 1, shadow: 1024 }, { pixels: 0.75, shadow: 512 }];
 
 export class Stage {
   readonly camera: THREE.PerspectiveCamera;
   readonly controls: OrbitControls;
   private readonly renderer: THREE.WebGLRenderer;
+  readonly labels = new Labels();
   private readonly scene = new THREE.Scene();
   private painter!: Painter;
   private ground!: Ground;
@@ -79,7 +77,7 @@ export class Stage {
     const { domElement } = this.renderer;
     domElement.setAttribute('role', 'img');
     domElement.setAttribute('aria-label', 'the robot, to be turned, moved and zoomed');
-    host.prepend(domElement);
+    host.prepend(domElement, this.labels.root);
 
     this.camera = new THREE.PerspectiveCamera();
     this.camera.up.set(0, 0, 1);

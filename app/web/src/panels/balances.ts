@@ -1,19 +1,18 @@
 // The energy balance: the work of each row since the start, at the instant that is shown.
-import { NUMERICAL } from '../protocol/run';
+import { NUMERICAL, type Run } from '../protocol/run';
 import type { RunRecord } from '../source/run_record';
 import type { RunSource } from '../source/run_source';
 import { element } from '../ui/dom';
 import { numberCell, putNumber, row, table } from '../ui/table';
 import type { Panel } from './panel';
+import type { Player } from '../source/playhead';
 
 const DRAW = 60; // numbers that run faster cannot be read [ms]
 const rank = (name: string) => (name === NUMERICAL ? 1 : 0);
 
 // In the order in which they stand in a table: the remainder is last.
 export function inOrder(works: [string, number][]): [string, number][] {
-  return [...works].sort(
-    ([a, x], [b, y]) => rank(a) - rank(b) || (Math.abs(y) || 0) - (Math.abs(x) || 0),
-  );
+  return [...works].sort(([a, x], [b, y]) => rank(a) - rank(b) || (Math.abs(y) || 0) - (Math.abs(x) || 0));
 }
 
 export class EnergyTable {
@@ -26,7 +25,7 @@ export class EnergyTable {
     this.cells = names.map(() => ({ now: numberCell(0), bar: element('i') }));
     const rows = this.cells.map(({ now, bar }, i) => {
       const below = digits ? [element('small', { 'data-row': names[i], title: 'at the end' }, digits[i])] : [];
-      return row([names[i], ...below], now, element('td', { class: 'bar' }, bar));
+      return row([names[i], ...below], now, element('td.bar', bar));
     });
     const foot = row('their sum: rise of kinetic energy', this.sum, element('td'));
     this.root = table([head, 'now [J]', ''], rows, { class: 'energy' }, foot);
@@ -44,7 +43,7 @@ export class EnergyTable {
 }
 
 export class EnergyPanel implements Panel {
-  readonly root = element('section', { class: 'ledger' });
+  readonly root = element('section.ledger');
   private readonly host = element('div');
   private table: EnergyTable | null = null;
   private record: RunRecord | null = null;
@@ -57,7 +56,7 @@ export class EnergyPanel implements Panel {
       'Each row is the work that something has done. The rows add up to the rise of kinetic ' +
       'energy; “numerical” is what is left over, the integrator’s error. All digits stand at ' +
       'the pointer.';
-    this.root.append(element('h3', {}, 'Energy'), element('p', { class: 'hint' }, hint), this.host);
+    this.root.append(element('h3', 'Energy'), element('p.hint', hint), this.host);
     if (source.record) this.take(source.record);
   }
 
@@ -88,5 +87,44 @@ export class EnergyPanel implements Panel {
     const digits = isLive ? undefined : rows.map(([, work]) => String(work));
     this.table = new EnergyTable(rows.map(([name]) => name), head, digits);
     this.host.replaceChildren(this.table.root);
+  }
+}
+
+// The momentum balance: what acted from outside, and its moment about the origin.
+export class MomentumPanel implements Panel {
+  readonly root = element('section.momentum');
+  private readonly cells: HTMLElement[][]; // the last: their sum
+  private shown = -1;
+
+  constructor(private readonly run: Run, private readonly player: Player) {
+    const { rows } = run.momentum;
+    this.cells = [...rows, ''].map(() => Array.from({ length: 6 }, () => numberCell(0)));
+    const lines = rows.map((name, i) => row(name, ...this.cells[i]));
+    const foot = row('their sum: change of momentum', ...this.cells[rows.length]);
+    const heads = ['', 'x', 'y', 'z [N s]', 'about x', 'y', 'z [N m s]'];
+    const hint =
+      'What acted from outside on all that forces move, up to the time shown; the moments are ' +
+      'about the world’s origin. All digits stand at the pointer.';
+    this.root.hidden = rows.length === 0;
+    this.root.append(
+      element('h3', 'Momentum'),
+      element('p.hint', hint),
+      element('div.wide', table(heads, lines, {}, foot)),
+    );
+  }
+
+  draw(): void {
+    const { frame } = this.player;
+    if (frame === this.shown) return;
+    this.shown = frame;
+    const { rows, values } = this.run.momentum;
+    const sums = [0, 0, 0, 0, 0, 0];
+    this.cells.forEach((cells, i) =>
+      cells.forEach((cell, c) => {
+        const value = i < rows.length ? values[6 * (frame * rows.length + i) + c] : sums[c];
+        sums[c] += value;
+        putNumber(cell, value);
+      }),
+    );
   }
 }

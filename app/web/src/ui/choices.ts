@@ -50,3 +50,26 @@ export class Tabs {
     this.panels.forEach((panel, i) => (panel.hidden = i !== chosen));
   }
 }
+
+// A choice among few, side by side: one stop of the tab key, arrows change it.
+let groups = 0;
+
+export class Segments {
+  readonly root: HTMLElement;
+  private readonly choices: HTMLInputElement[];
+
+  constructor(label: string, names: string[], chosen: string, choose: (name: string) => void) {
+    const name = `segments-${groups++}`;
+    this.choices = names.map((value) =>
+      element('input', { type: 'radio', name, value, 'aria-label': value }),
+    );
+    this.root = element('div.segments', { role: 'radiogroup', 'aria-label': label });
+    this.root.append(...this.choices);
+    this.show(chosen);
+    this.root.addEventListener('change', ({ target }) => choose((target as HTMLInputElement).value));
+  }
+
+  show(name: string): void {
+    for (const choice of this.choices) choice.checked = choice.value === name;
+  }
+}

@@ -1,0 +1,110 @@
+// A point of the world that a pointer leads: in the plane through it that faces the eye; with
+// shift up and down alone; the wheel moves the plane nearer or farther. The point does not jump
+// when it is taken: it keeps its distance from the pointer.
+import * as THREE from 'three';
+import type { Stage } from '../view/stage';
+import { rayAt } from '../view/pick';
+
+const UP = new THREE.Vector3(0, 0, 1);
+
+export class PointDrag {
+  private readonly offset = new THREE.Vector3(); // of the point from where the ray meets the plane
+  private vertical = false;
+  private x: number;
+  private y: number;
+
+  constructor(private readonly stage: Stage, readonly goal: THREE.Vector3, at: { x: number; y: number }) {
+    this.x = at.x;
+    this.y = at.y;
+    this.hold();
+  }
+
+  move(at: { x: number; y: number }, vertical: boolean): void {
+    if (vertical !== this.vertical) {
+      this.vertical = vertical;
+      this.hold();
+    }
+    this.x = at.x;
+    this.y = at.y;
+    const met = this.meet();
+    if (!met) return;
+    met.add(this.offset);
+    if (this.vertical) this.goal.z = met.z;
+    else this.goal.copy(met);
+  }
+
+  // Along the line of sight, by a share of the distance.
+  deepen(share: number): void {
+    const sight = this.goal.clone().sub(this.stage.camera.position);
+    this.goal.addScaledVector(sight, share);
+    this.hold();
+  }
+
+  private hold(): void {
+    this.offset.set(0, 0, 0);
+    const met = this.meet();
+    if (met) this.offset.copy(this.goal).sub(met);
+  }
+
+  private meet(): THREE.Vector3 | null {
+    const facing = this.stage.camera.getWorldDirection(new THREE.Vector3());
+    if (this.vertical) facing.addScaledVector(UP, -facing.dot(UP));
+    if (facing.lengthSq() < 1e-3) return null; // from straight above, nothing is up or down
+    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(facing.normalize(), this.goal);
+    return rayAt(this.stage, this.x, this.y).intersectPlane(plane, new THREE.Vector3());
+  }
+}
+
+// A joint that a pointer turns: the point that was grabbed stays under the pointer as well as one
+// joint can hold it there. On the picture that is a least-squares fit of one number: with J, the
+// point's pixels per radian (or metre), each step adds e J / |J|^2. It holds from any side.
+export interface Axis {
+  origin: THREE.Vector3;
+  direction: THREE.Vector3; // of unit length
+  slides: boolean;
+}
+
+const STEPS = 8;
+const LEAST = 30; // pixels: from where the axis hides the motion, a small one is not made a large one
+
+export function within({ low, high }: { low?: number; high?: number }, value: number): number {
+  return Math.min(high ?? Infinity, Math.max(low ?? -Infinity, value));
+}
+
+export class JointDrag {
+  private readonly start: number;
+
+  constructor(
+    private readonly stage: Stage,
+    private readonly axis: Axis,
+    private readonly grabbed: THREE.Vector3,
+    public value: number,
+    private readonly range: { low?: number; high?: number },
+  ) {
+    this.start = value;
+  }
+
+  move(at: { x: number; y: number }): number {
+    const unit = this.axis.slides ? 0.001 : 0.005; // small: J is that of here
+    for (let i = 0; i < STEPS; ++i) {
+      const here = this.pixel(this.value);
+      const there = this.pixel(this.value + unit);
+      if (!here || !there) break;
+      const [jx, jy] = [(there.x - here.x) / unit, (there.y - here.y) / unit];
+      const along = (at.x - here.x) * jx + (at.y - here.y) * jy;
+      const step = along / Math.max(LEAST * LEAST, jx * jx + jy * jy);
+      const most = this.axis.slides ? Infinity : 0.5;
+      this.value += Math.min(most, Math.max(-most, step));
+    }
+    this.value = within(this.range, this.value);
+    return this.value;
+  }
+
+  private pixel(value: number) {
+    const { origin, direction, slides } = this.axis;
+    const p = this.grabbed.clone();
+    if (slides) p.addScaledVector(direction, value - this.start);
+    else p.sub(origin).applyAxisAngle(direction, value - this.start).add(origin);
+    return this.stage.project(...p.toArray());
+  }
+}

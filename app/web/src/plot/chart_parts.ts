@@ -1,0 +1,127 @@
+// The two axes of every plot: time in seconds below, the quantity at the left; in the theme's colours.
+import type uPlot from 'uplot';
+import { token } from '../ui/preferences';
+import type { Beside, Ghost } from './chart_data';
+import type { PlotSpec } from './specs';
+
+export function axesOfTime(): uPlot.Axis[] {
+  const grid = { stroke: token('--grid'), width: 1 };
+  const font = '11px system-ui, sans-serif';
+  const axis = { stroke: token('--muted'), grid, ticks: { show: false }, font };
+  return [
+    { ...axis, size: 24, gap: 2, values: (_, ticks) => ticks.map(timeText) },
+    { ...axis, size: 52, gap: 4, values: (_, ticks) => ticks.map(tickText) },
+  ];
+}
+
+function timeText(time: number): string {
+  return `${+time.toPrecision(6)} s`;
+}
+
+function tickText(value: number): string {
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  const isFar = size >= 1e5 || size < 1e-3;
+  const far = value.toExponential(1).replace('.0e', 'e');
+  const text = isFar ? far : String(+value.toPrecision(4));
+  return text.replaceAll('-', '−');
+}
+
+// What stands over the curves of a plot: the branch that was left, the limit. Pixels of the canvas.
+const PALE = '90'; // opacity of what was left
+
+type Point = [number, number];
+
+export function drawOver(chart: uPlot, { ghosts, limit }: Beside): void {
+  const { ctx, bbox } = chart;
+  const px = devicePixelRatio;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  ctx.lineWidth = 1.75 * px;
+  ctx.setLineDash([1.5 * px, 3.5 * px]);
+  for (const ghost of ghosts) {
+    ctx.strokeStyle = ghost.color + PALE;
+    strokeGhost(chart, ghost);
+  }
+  if (limit) drawLimit(chart, limit, px);
+  ctx.restore();
+}
+
+function drawLimit(chart: uPlot, limit: NonNullable<PlotSpec['limit']>, px: number): void {
+  const { ctx, bbox } = chart;
+  const y = chart.valToPos(limit.value, 'y', true);
+  ctx.strokeStyle = ctx.fillStyle = token('--beyond');
+  ctx.lineWidth = px;
+  ctx.setLineDash([8 * px, 3 * px]);
+  stroke(ctx, [bbox.left, y], [bbox.left + bbox.width, y]);
+  ctx.font = `${11 * px}px system-ui, sans-serif`;
+  ctx.textAlign = 'left';
+  ctx.textBaseline = 'top';
+  ctx.fillText(limit.words, bbox.left + 6 * px, y + 3 * px);
+}
+
+function stroke(ctx: CanvasRenderingContext2D, a: Point, b: Point): void {
+  ctx.beginPath();
+  ctx.moveTo(...a);
+  ctx.lineTo(...b);
+  ctx.stroke();
+}
+
+function strokeGhost(chart: uPlot, { times, values }: Ghost): void {
+  const { ctx } = chart;
+  ctx.beginPath();
+  let isDown = false;
+  values.forEach((value, i) => {
+    if (value !== null) {
+      const x = chart.valToPos(times[i], 'x', true);
+      const y = chart.valToPos(value, 'y', true);
+      if (isDown) ctx.lineTo(x, y);
+      else ctx.moveTo(x, y);
+    }
+    isDown = value !== null;
+  });
+  ctx.stroke();
+}
+
+// The pointer on a plot: a click seeks, as does the marker when it is dragged. uPlot has the others:
+// a drag zooms, a double click shows all.
+const NEAR = 7; // pixels from the marker: it is held
+const MOVED = 5; // pixels: no click
+const DOUBLE = 250; // until a click is none of two [ms]
+
+export class Gestures {
+  isHeld = false; // the marker
+
+  constructor(
+    canvas: HTMLElement,
+    chart: () => uPlot | null,
+    marker: () => number | null, // its time
+    seek: (time: number) => void,
+  ) {
+    let from = 0; // where the pointer went down
+    let click = 0;
+    const seekAt = ({ clientX }: MouseEvent) => {
+      const plot = chart();
+      if (plot) seek(plot.posToVal(clientX - plot.over.getBoundingClientRect().left, 'x'));
+    };
+    canvas.addEventListener('pointerdown', (event) => {
+      const plot = chart();
+      const at = marker();
+      from = event.clientX;
+      if (!plot || event.button !== 0 || at === null) return;
+      const place = plot.over.getBoundingClientRect().left + plot.valToPos(at, 'x');
+      this.isHeld = Math.abs(from - place) < NEAR;
+      if (this.isHeld) canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener('pointermove', (event) => this.isHeld && seekAt(event));
+    for (const end of ['pointerup', 'pointercancel'] as const)
+      canvas.addEventListener(end, () => (this.isHeld = false));
+    canvas.addEventListener('click', (event) => {
+      clearTimeout(click);
+      if (event.detail > 1 || Math.abs(event.clientX - from) > MOVED) return;
+      click = setTimeout(() => seekAt(event), DOUBLE);
+    });
+  }
+}
