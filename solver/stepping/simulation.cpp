@@ -118,7 +118,7 @@ void Simulation::prescribe(int body, MotionLaw law) {
 }
 
 void Simulation::set_state(State<double> x) {
-  if (x.q.size() != model().nq || x.qd.size() != model().nv)
+  if (x.q.size() != model().nq || x.qd.size() != model().nv || x.prescribed.size() != model().np)
     throw std::invalid_argument("the state is not one of this model");
   m_.start(std::move(x));
   integrator_step_.forget();
@@ -172,11 +172,7 @@ std::vector<Rewindable*> Simulation::memories() const {
 void Simulation::visit_memory(Memory& memory) {
   const std::vector<Rewindable*> all = memories();
   State<double> x = m_.x;
-  memory.visit(x.q);
-  memory.visit(x.qd);
-  memory.visit(x.t);
-  if (x.q.size() != model().nq || x.qd.size() != model().nv)
-    throw std::runtime_error("the state is not one of this model");
+  visit_state(memory, model(), x);
   if (memory.reads()) m_.resume(std::move(x));
   m_.dynamics.visit_memory(memory);
   integrator_step_.visit_memory(memory);
