@@ -13,6 +13,7 @@ namespace twinarm::python {
 Robot::Robot(RobotInput read)
     : input(std::move(read)),
       x(input.state.x),
+      q_python(nq()),
       forces(input.model),
       of_aba(input.model),
       w(input.model),
@@ -20,7 +21,7 @@ Robot::Robot(RobotInput read)
       f_ext(input.model.parent.size()) {
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     const int at = facts_of(model.joint[i]).quaternion;
-    if (at >= 0) quaternions.push_back(model.iq[i] + static_cast<std::size_t>(at));
+    if (at >= 0) quaternions.push_back(iq(i) + static_cast<std::size_t>(at));
   }
 }
 
