@@ -149,11 +149,7 @@ void Ledger::add_implicit(double h, const State<double>& end) {
 }
 
 void Ledger::visit_memory(Memory& memory) {
-  for (State<double>* x : {&start_, &now_}) {
-    memory.visit_fixed(x->q);
-    memory.visit_fixed(x->qd);
-    memory.visit(x->t);
-  }
+  for (State<double>* x : {&start_, &now_}) visit_state(memory, input_.model, *x);
   for (LedgerRow& row : integrals_) memory.visit(row.work);
   memory.visit_fixed(implicit_);
   // Found again: a fork's springs pull with another power.

@@ -53,11 +53,7 @@ void MomentumLedger::visit_memory(Memory& memory) {
   separation_.visit_memory(memory);
   limit_separation_.visit_memory(memory);
   memory.visit_fixed(mimics_);
-  for (State<double>* x : {&start_, &now_}) {
-    memory.visit_fixed(x->q);
-    memory.visit_fixed(x->qd);
-    memory.visit(x->t);
-  }
+  for (State<double>* x : {&start_, &now_}) visit_state(memory, input_.model, *x);
 }
 
 void MomentumLedger::add_step(double h, std::span<const double> weights,

@@ -259,9 +259,7 @@ RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model) {
   RunInstant instant;
   instant.x = State<double>(model);
   Memory memory = simulation_memory(frame.memory);
-  memory.visit(instant.x.q);
-  memory.visit(instant.x.qd);
-  memory.visit(instant.x.t);
+  visit_state(memory, model, instant.x);
   instant.pulls = frame.pulls;
   instant.contacts = frame.contacts;
   return instant;

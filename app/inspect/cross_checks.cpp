@@ -79,8 +79,8 @@ State<double> on_the_way(const Inspection& in, double s) {
   for (std::size_t k = 0; k < x.qd.size(); ++k) x.qd[k] += s * in.w.qdd[k];
   for (std::size_t i = 1; i < in.body_count(); ++i)
     if (in.model.joint[i] == JointType::prescribed) {
-      double* q = x.q.data() + in.model.iq[i];
-      for (std::size_t k = 0; k < 6; ++k) q[kPose + k] += s * q[kPose + 6 + k];
+      double* vJ = x.prescribed.data() + in.model.ip[i];
+      for (std::size_t k = 0; k < 6; ++k) vJ[k] += s * vJ[6 + k];
     }
   return x;
 }
@@ -110,7 +110,7 @@ double step_of(const Inspection& in) {
     for (std::size_t dof = in.model.iv[i]; dof < in.model.iv[i] + in.model.dofs(i); ++dof)
       rate[i] += std::abs(in.x.qd[dof]);
     if (in.model.joint[i] == JointType::prescribed)
-      for (std::size_t k = 0; k < 6; ++k) rate[i] += std::abs(in.x.q[in.model.iq[i] + kPose + k]);
+      for (std::size_t k = 0; k < 6; ++k) rate[i] += std::abs(in.x.prescribed[in.model.ip[i] + k]);
     fastest = std::max(fastest, rate[i]);
   }
   return std::min(0.1, 0.5 / fastest);

@@ -66,9 +66,6 @@ std::vector<NamedError> loop_errors(const Inspection& in);
 // Curves that have the velocity and the acceleration of a motion at s = 0, for rates by
 // differences.
 
-// Numbers of q of a prescribed joint: pose, then velocity and acceleration, six each.
-constexpr std::size_t kPose = 7;
-
 // q exp(shift) of every joint, also of those whose motion is given; shift = qd times a number.
 template <class S>
 void move(const Model<S>& model, const std::vector<S>& qd, const S& by, State<S>& x) {
@@ -77,9 +74,10 @@ void move(const Model<S>& model, const std::vector<S>& qd, const S& by, State<S>
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     S* q = x.q.data() + model.iq[i];
     if (model.joint[i] == JointType::prescribed) {
-      const Vec3<S> v = transpose_times(quaternion_E(q + 3), Vec3<S>{q[10], q[11], q[12]});
+      const S* vJ = x.prescribed.data() + model.ip[i];
+      const Vec3<S> v = transpose_times(quaternion_E(q + 3), Vec3<S>{vJ[3], vJ[4], vJ[5]});
       q[0] = q[0] + by * v.x, q[1] = q[1] + by * v.y, q[2] = q[2] + by * v.z;
-      const std::array<S, 3> turn{by * q[7], by * q[8], by * q[9]};
+      const std::array<S, 3> turn{by * vJ[0], by * vJ[1], by * vJ[2]};
       turn_quaternion(q + 3, turn.data(), q + 3);
     } else {
       visit_joint(model, i, [&](auto joint) { joint.integrate(q, shift.data() + model.iv[i], q); });

@@ -31,11 +31,11 @@ State<double> poses_on_the_way(const Inspection& in, double s) {
   for (std::size_t i = 1; i < in.body_count(); ++i)
     if (in.model.joint[i] == JointType::prescribed) {
       // (w; v) and its rate in body axes, which turn: p'' = R (v' + w x v).
-      double* q = x.q.data() + in.model.iq[i];
+      double* vJ = x.prescribed.data() + in.model.ip[i];
       const Vec3<double> turned =
-          cross(Vec3<double>{q[7], q[8], q[9]}, Vec3<double>{q[10], q[11], q[12]});
-      for (std::size_t k = 0; k < 6; ++k) q[kPose + k] += 0.5 * s * q[kPose + 6 + k];
-      q[10] += 0.5 * s * turned.x, q[11] += 0.5 * s * turned.y, q[12] += 0.5 * s * turned.z;
+          cross(Vec3<double>{vJ[0], vJ[1], vJ[2]}, Vec3<double>{vJ[3], vJ[4], vJ[5]});
+      for (std::size_t k = 0; k < 6; ++k) vJ[k] += 0.5 * s * vJ[6 + k];
+      vJ[3] += 0.5 * s * turned.x, vJ[4] += 0.5 * s * turned.y, vJ[5] += 0.5 * s * turned.z;
     }
   move(in.model, mean, s, x);
   return x;
@@ -96,9 +96,9 @@ double step_of_loop(const Inspection& in, const LoopClosure& loop) {
       for (std::size_t dof = in.model.iv[i]; dof < in.model.iv[i] + in.model.dofs(i); ++dof)
         rate += std::abs(in.x.qd[dof]), acceleration += std::abs(in.w.qdd[dof]);
       if (in.model.joint[i] != JointType::prescribed) continue;
-      const double* q = in.x.q.data() + in.model.iq[i];
-      for (std::size_t k = kPose; k < kPose + 6; ++k)
-        rate += std::abs(q[k]), acceleration += std::abs(q[k + 6]);
+      const double* vJ = in.x.prescribed.data() + in.model.ip[i];
+      for (std::size_t k = 0; k < 6; ++k)
+        rate += std::abs(vJ[k]), acceleration += std::abs(vJ[k + 6]);
     }
     fastest = std::max({fastest, rate, std::sqrt(acceleration)});
   }

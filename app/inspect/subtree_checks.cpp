@@ -59,16 +59,14 @@ std::vector<double> as_list(const Eigen::VectorXd& v) {
 }
 
 // Nothing moves, those of given motion neither.
-State<double> at_rest(const Model<double>& model, State<double> x) {
+State<double> at_rest(State<double> x) {
   std::ranges::fill(x.qd, 0);
-  for (std::size_t i = 1; i < model.parent.size(); ++i)
-    if (model.joint[i] == JointType::prescribed)
-      std::fill_n(x.q.begin() + static_cast<std::ptrdiff_t>(model.iq[i] + 7), 12, 0);
+  std::ranges::fill(x.prescribed, 0);
   return x;
 }
 
 SecondWay::SecondWay(const Inspection& in)
-    : in_(in), weightless_(in.model), rest_(at_rest(in.model, in.x)), w_(in.model) {
+    : in_(in), weightless_(in.model), rest_(at_rest(in.x)), w_(in.model) {
   weightless_.gravity = {};
   const auto nv = static_cast<Eigen::Index>(in.model.nv);
   M_.resize(nv, nv);

@@ -12,8 +12,9 @@ namespace {
 // The robot in that state, its kinematics in robot.w.
 void stand(Robot& robot, const py::object& q, const py::object& qd, const char* function) {
   const std::string name = std::string(function) + "(): ";
-  robot.x.q = vector_of(q, robot.model.nq, name + "q", robot.size_of_q());
-  robot.check_quaternions(robot.x.q, function);
+  robot.q_python = vector_of(q, robot.nq(), name + "q", robot.size_of_q());
+  robot.check_quaternions(robot.q_python, function);
+  set_q_with_prescribed(robot.model, robot.q_python, robot.x);
   if (qd.is_none())
     robot.x.qd.assign(robot.model.nv, 0);
   else

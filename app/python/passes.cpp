@@ -16,8 +16,9 @@ void look_for_signals(std::size_t call) {
 }
 
 void take_q(const char* function, const Rows& q, std::size_t call, Robot& robot) {
-  q.copy(call, robot.x.q);
-  if (!robot.quaternions.empty()) robot.check_quaternions(robot.x.q, function);
+  q.copy(call, robot.q_python);
+  if (!robot.quaternions.empty()) robot.check_quaternions(robot.q_python, function);
+  set_q_with_prescribed(robot.model, robot.q_python, robot.x);
 }
 
 // Wrenches in link axes into the passes' body axes; zero where none are given.
@@ -46,7 +47,7 @@ PyObject* call_aba(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject
     const Arguments<kAba.size()> a("aba", kAba, 4, given, count, keywords);
     Robot& robot = robot_of("aba", a.at[0]);
     const std::size_t nv = robot.model.nv;
-    const Rows q("aba", "q", a.at[1], robot.model.nq, robot), qd("aba", "qd", a.at[2], nv, robot),
+    const Rows q("aba", "q", a.at[1], robot.nq(), robot), qd("aba", "qd", a.at[2], nv, robot),
         tau("aba", "tau", a.at[3], nv, robot);
     const Calls calls("aba", {&q, &qd, &tau});
     Output out("aba", a.at[5], calls, {nv});
@@ -70,7 +71,7 @@ PyObject* call_rnea(PyObject*, PyObject* const* given, Py_ssize_t count, PyObjec
     const Arguments<kRnea.size()> a("rnea", kRnea, 4, given, count, keywords);
     Robot& robot = robot_of("rnea", a.at[0]);
     const std::size_t nv = robot.model.nv;
-    const Rows q("rnea", "q", a.at[1], robot.model.nq, robot), qd("rnea", "qd", a.at[2], nv, robot),
+    const Rows q("rnea", "q", a.at[1], robot.nq(), robot), qd("rnea", "qd", a.at[2], nv, robot),
         qdd("rnea", "qdd", a.at[3], nv, robot);
     const Calls calls("rnea", {&q, &qd, &qdd});
     Output out("rnea", a.at[5], calls, {nv});
@@ -95,7 +96,7 @@ PyObject* call_by_q(const char* function, PyObject* const* given, Py_ssize_t cou
   return guarded([&] {
     const Arguments<kByQ.size()> a(function, kByQ, 2, given, count, keywords);
     Robot& robot = robot_of(function, a.at[0]);
-    const Rows q(function, "q", a.at[1], robot.model.nq, robot);
+    const Rows q(function, "q", a.at[1], robot.nq(), robot);
     const Calls calls(function, {&q});
     Output out(function, a.at[2], calls, {robot.model.nv, robot.model.nv});
     for (std::size_t i = 0; i < calls.count; ++i) {

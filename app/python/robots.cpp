@@ -31,11 +31,11 @@ std::shared_ptr<Robot> load(const py::object& file, bool floating, bool friction
 
 // By coordinate; of joints without limits -inf and inf.
 Array limits(const Robot& robot, double JointDescription::*limit, double none) {
-  std::vector<double> all(robot.model.nq, none);
+  std::vector<double> all(robot.nq(), none);
   for (const JointDescription& joint : robot.input.robot.joints) {
     const int body = robot.model.find_joint(joint.name);
     if (body > 0 && joint.is_limited())
-      all[robot.model.iq[static_cast<std::size_t>(body)]] = joint.*limit;
+      all[robot.iq(static_cast<std::size_t>(body))] = joint.*limit;
   }
   return frozen(all);
 }
@@ -62,8 +62,7 @@ py::slice slice_of(std::size_t begin, std::size_t count) {
   return py::slice(static_cast<py::ssize_t>(begin), static_cast<py::ssize_t>(begin + count), 1);
 }
 std::size_t count_of_q(const Robot& robot, std::size_t i) {
-  return (i + 1 < robot.model.iq.size() ? robot.model.iq[i + 1] : robot.model.nq) -
-         robot.model.iq[i];
+  return (i + 1 < robot.model.iq.size() ? robot.iq(i + 1) : robot.nq()) - robot.iq(i);
 }
 // {joint: slice of q, or of qd}
 py::dict places(const Robot& robot, bool of_q) {
@@ -72,7 +71,7 @@ py::dict places(const Robot& robot, bool of_q) {
     const std::size_t count = of_q ? count_of_q(robot, i) : robot.model.dofs(i);
     if (count == 0) continue;
     all[py::str(robot.model.joint_name[i])] =
-        slice_of(of_q ? robot.model.iq[i] : robot.model.iv[i], count);
+        slice_of(of_q ? robot.iq(i) : robot.model.iv[i], count);
   }
   return all;
 }
@@ -103,7 +102,7 @@ void add_robots(py::module_& m) {
       "parent", [](const Robot& r) { return r.model.parent; },
       "by body: the number of its parent; of the base -1");
   model.def_property_readonly(
-      "nq", [](const Robot& r) { return r.model.nq; }, "how many coordinates q has");
+      "nq", [](const Robot& r) { return r.nq(); }, "how many coordinates q has");
   model.def_property_readonly(
       "nv", [](const Robot& r) { return r.model.nv; }, "how many velocities qd has");
   model.def_property_readonly(
@@ -113,7 +112,7 @@ void add_robots(py::module_& m) {
       "qd_of", [](const Robot& r) { return places(r, false); },
       "{joint: slice}: where in qd its velocities stand; of joints that move");
   model.def_property_readonly(
-      "q", [](const Robot& r) { return frozen(r.input.state.x.q); },
+      "q", [](const Robot& r) { return frozen(q_with_prescribed(r.model, r.input.state.x)); },
       "(nq,) where the file starts: joints at zero, or as the scene says [rad, m]");
   model.def_property_readonly(
       "qd", [](const Robot& r) { return frozen(r.input.state.x.qd); },
@@ -165,6 +164,7 @@ void add_robots(py::module_& m) {
 Robot::Robot(RobotInput read)
     : input(std::move(read)),
       x(input.state.x),
+      q_python(nq()),
       forces(input.model),
       of_aba(input.model),
       w(input.model),
@@ -172,7 +172,7 @@ Robot::Robot(RobotInput read)
       f_ext(input.model.parent.size()) {
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     const int at = facts_of(model.joint[i]).quaternion;
-    if (at >= 0) quaternions.push_back(model.iq[i] + static_cast<std::size_t>(at));
+    if (at >= 0) quaternions.push_back(iq(i) + static_cast<std::size_t>(at));
   }
 }
 

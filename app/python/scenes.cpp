@@ -61,15 +61,16 @@ Run simulate(const py::object& file, const std::optional<double>& duration,
   RunWatch watch;
   watch.sample = [&](double t, const State<double>& x) {
     run.t.push_back(t);
-    run.q.insert(run.q.end(), x.q.begin(), x.q.end());
+    const std::vector<double> q = q_with_prescribed(model, x);
+    run.q.insert(run.q.end(), q.begin(), q.end());
     run.qd.insert(run.qd.end(), x.qd.begin(), x.qd.end());
     run.kinetic.push_back(kinetic_energy(model, x));
     run.potential.push_back(potential_energy(model, x));
     SceneCouplings* couplings = prepared.input.couplings.get();
     for (std::size_t c = 0; couplings && c < couplings->size(); ++c) {
-      const std::vector<double>& q = couplings->target(c, t).x.q;
+      const std::vector<double> q_K = q_with_prescribed(model, couplings->target(c, t).x);
       std::vector<double>& rows = run.targets[couplings->spec(c).name];
-      rows.insert(rows.end(), q.begin(), q.end());
+      rows.insert(rows.end(), q_K.begin(), q_K.end());
     }
   };
   watch.tick = check_signals;
@@ -119,7 +120,7 @@ void add_scenes(py::module_& m) {
   };
   array("t", &Run::t, "(N,) times of the samples [s]");
   run.def_property_readonly(
-      "q", [](const Run& r) { return by_rows(r.q, r.t.size(), r.robot->model.nq); },
+      "q", [](const Run& r) { return by_rows(r.q, r.t.size(), r.robot->nq()); },
       "(N, nq) coordinates [rad, m]; model.q_of says which is which");
   run.def_property_readonly(
       "qd", [](const Run& r) { return by_rows(r.qd, r.t.size(), r.robot->model.nv); },
@@ -129,7 +130,7 @@ void add_scenes(py::module_& m) {
       [](const Run& r) {
         py::dict all;
         for (const auto& [name, q] : r.targets)
-          all[py::str(name)] = by_rows(q, r.t.size(), r.robot->model.nq);
+          all[py::str(name)] = by_rows(q, r.t.size(), r.robot->nq());
         return all;
       },
       "{coupling: (N, nq)}: coordinates of its kinematic robot, laid out as q [rad, m]; joints of\n"

@@ -43,11 +43,12 @@ struct RobotInMotion {
 State<double> state_of(const Robot& robot, const py::object& q, const py::object& qd, double t,
                        const State<double>& where_left_out) {
   State<double> x = where_left_out;
-  if (!q.is_none()) x.q = vector_of(q, robot.model.nq, "q", robot.size_of_q());
+  if (!q.is_none())
+    set_q_with_prescribed(robot.model, vector_of(q, robot.nq(), "q", robot.size_of_q()), x);
   if (!qd.is_none()) x.qd = vector_of(qd, robot.model.nv, "qd", robot.size_of_qd());
   if (!std::isfinite(t)) throw py::value_error("t must be a finite number of seconds");
   x.t = t;
-  robot.check_quaternions(x.q, "Simulation");
+  robot.check_quaternions(q_with_prescribed(robot.model, x), "Simulation");
   return x;
 }
 
@@ -110,14 +111,15 @@ py::tuple run(RobotInMotion& moving, long count, long every) {
   if (count < 0 || count % every != 0)
     throw py::value_error("count must be a multiple of every, and not negative");
   const auto rows = static_cast<py::ssize_t>(count / every + 1);
-  const auto nq = static_cast<py::ssize_t>(moving.robot.model.nq),
+  const auto nq = static_cast<py::ssize_t>(moving.robot.nq()),
              nv = static_cast<py::ssize_t>(moving.robot.model.nv);
   Array t = zeros({rows}), q = zeros({rows, nq}), qd = zeros({rows, nv});
   for (py::ssize_t r = 0; r < rows; ++r) {
     if (r > 0) step(moving, every);
     const State<double>& x = moving.simulation.state();
     *t.mutable_data(r) = x.t;
-    std::copy(x.q.begin(), x.q.end(), q.mutable_data() + r * nq);
+    const std::vector<double> row = q_with_prescribed(moving.robot.model, x);
+    std::copy(row.begin(), row.end(), q.mutable_data() + r * nq);
     std::copy(x.qd.begin(), x.qd.end(), qd.mutable_data() + r * nv);
   }
   return py::make_tuple(t, q, qd);
@@ -171,7 +173,10 @@ void add_simulation(py::module_& m) {
   simulation.def_property_readonly(
       "t", [](const RobotInMotion& moving) { return moving.simulation.state().t; }, "time [s]");
   simulation.def_property_readonly(
-      "q", [](const RobotInMotion& moving) { return frozen(moving.simulation.state().q); },
+      "q",
+      [](const RobotInMotion& moving) {
+        return frozen(q_with_prescribed(moving.robot.model, moving.simulation.state()));
+      },
       "(nq,) coordinates [rad, m]; a copy, set by set_state()");
   simulation.def_property_readonly(
       "qd", [](const RobotInMotion& moving) { return frozen(moving.simulation.state().qd); },

@@ -197,9 +197,7 @@ RecordedInstant open_instant(const std::filesystem::path& file, std::optional<do
         {LedgerKind::earlier, recording.rows()[frame.rows[i]], frame.works[i]});
   Memory memory = instant.memory;
   State<double> x(instant.prepared.input.robot.model);
-  memory.visit(x.q);
-  memory.visit(x.qd);
-  memory.visit(x.t);
+  visit_state(memory, instant.prepared.input.robot.model, x);
   stand_at(instant.prepared.input.robot, x);
   return instant;
 }

@@ -51,6 +51,7 @@ KinematicRobot::KinematicRobot(const Model<double>& model, const HandSource& han
 void KinematicRobot::stand_at(const State<double>& x) {
   for (KvrSample* sample : {&start_, &middle_, &end_}) {
     sample->x.q = x.q;
+    sample->x.prescribed = x.prescribed;
     sample->x.t = std::numeric_limits<double>::quiet_NaN();
   }
   set(start_, 0, 1);

@@ -170,12 +170,14 @@ void ModelBuilder::append(const Body& body, Model<double>& model, std::vector<Ma
   model.pitch.push_back(body.type == JointType::screw ? body.properties.pitch : 0);
   model.iq.push_back(model.nq);
   model.iv.push_back(model.nv);
+  model.ip.push_back(model.np);
   model.Xtree.push_back(to_transform(X_PbPl * body.X_PJ * X_LB));
   model.I.push_back(about_origin(body.inertia, R_LB.back().transpose()));
   model.turn.push_back(to_mat3(R_LB.back().transpose()));
   visit_joint<double>(body.type, 0, [&](auto joint) {
     model.nq += joint.nq;
     model.nv += joint.nv;
+    if constexpr (requires { joint.np; }) model.np += joint.np;
   });
   model.armature.resize(model.nv, body.properties.armature);
   model.damping.resize(model.nv, body.properties.damping);
@@ -192,7 +194,7 @@ Model<double> ModelBuilder::build() const {
   model.parent = {-1};
   model.joint = {JointType::fixed};
   model.pitch = {0};
-  model.iq = model.iv = {0};
+  model.iq = model.iv = model.ip = {0};
   model.Xtree.resize(1);
   model.I.resize(1);
   model.turn = {Mat3<double>::identity()};

@@ -5,6 +5,13 @@
 #include "solver/model/configuration.h"
 
 namespace twinarm {
+namespace {
+
+bool is_same(const State<double>& a, const State<double>& b) {
+  return a.q == b.q && a.qd == b.qd && a.prescribed == b.prescribed;
+}
+
+}  // namespace
 
 StepAccount::StepAccount(const Model<double>& model, std::size_t loops, std::size_t rows)
     : model_(&model),
@@ -19,10 +26,8 @@ StepAccount::StepAccount(const Model<double>& model, std::size_t loops, std::siz
       push_(loops),
       lambda_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows))) {
   for (State<double>* x : {&seen_, &before_, &after_, &trial_, &pushes_[0].from, &pushes_[0].to,
-                           &pushes_[1].from, &pushes_[1].to}) {
-    x->q.resize(model.nq);
-    x->qd.resize(model.nv);
-  }
+                           &pushes_[1].from, &pushes_[1].to})
+    *x = State<double>(model);
 }
 
 void StepAccount::start_step() {
@@ -35,20 +40,17 @@ void StepAccount::start_step() {
 }
 
 void StepAccount::before_projection(const State<double>& x) {
-  seen_.q = x.q;
-  seen_.qd = x.qd;
+  seen_ = x;
 }
 
 void StepAccount::after_projection(const State<double>& x, const LoopProjection& projection,
                                    const LoopClosures& at_start) {
-  if (x.q == seen_.q && x.qd == seen_.qd) {
-    pending_ = pending_ && x.q == after_.q && x.qd == after_.qd;
+  if (is_same(x, seen_)) {
+    pending_ = pending_ && is_same(x, after_);
     return;
   }
-  std::swap(before_.q, seen_.q);
-  std::swap(before_.qd, seen_.qd);
-  after_.q = x.q;
-  after_.qd = x.qd;
+  std::swap(before_, seen_);
+  after_ = x;
   const std::vector<double>& lambda = projection.pushed_qd();
   for (std::size_t r = 0; r < lambda.size(); ++r) lambda_[static_cast<Eigen::Index>(r)] = lambda[r];
   for (std::size_t l = 0; l < stabilisation_.size(); ++l) {
@@ -66,14 +68,14 @@ void StepAccount::count_projection() {
   pending_ = false;
   if (push_count_ < pushes_.size()) {
     Push& push = pushes_[push_count_++];
-    push.from.q = push.to.q = after_.q;
+    push.from = push.to = after_;
     push.from.qd = before_.qd;
-    push.to.qd = after_.qd;
   }
   const Exchange from = contents(before_);
   for (std::size_t l = 0; l < stabilisation_.size(); ++l) {
     integrate_coordinates(*model_, before_.q, share_q_[l], trial_.q);
     trial_.qd = before_.qd;
+    trial_.prescribed = before_.prescribed;
     stabilisation_[l] += contents(trial_) - from;
     trial_.q = after_.q;
     for (const double side : {1.0, -1.0}) {

@@ -51,8 +51,8 @@ void Dopri5::step(Mechanism& m, double h, bool one, StepReport& report) {
     if (shortest || report.substeps + report.rejected >= kMaxAttempts) {
       report.reached = false;
       if (!std::isfinite(err_)) {  // what is not finite in every substep is shown, not kept out
-        std::swap(m.x.q, m.stage.q);
-        std::swap(m.x.qd, m.stage.qd);
+        std::swap(m.x, m.stage);
+        std::swap(m.x.t, m.stage.t);
       }
       return;
     }
@@ -85,8 +85,7 @@ double Dopri5::up_to_event(Mechanism& m, double h, StepReport& report) {
 
 // After it m.w holds the acceleration at the new m.x, the first stage of the next substep.
 void Dopri5::accept(Mechanism& m, double t) {
-  std::swap(m.x.q, m.stage.q);
-  std::swap(m.x.qd, m.stage.qd);
+  std::swap(m.x, m.stage);
   m.x.t = t;
   if (m.dynamics.has_coulomb()) {
     m.dynamics.settle(m.x);

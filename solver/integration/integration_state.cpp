@@ -1,9 +1,11 @@
 #include "solver/integration/integration_state.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "solver/dynamics/dynamics.h"
 #include "solver/loops/loop_closure.h"
+#include "solver/model/configuration.h"
 #include "solver/model/mimic.h"
 
 namespace twinarm {
@@ -11,7 +13,9 @@ namespace twinarm {
 // In the child's own axes, R = R_JL: w = R^T w_J and v = R^T dp/dt, whose rates of change there are
 //   dw/dt = R^T alpha_J              (w x w = 0)
 //   dv/dt = R^T d^2p/dt^2 - w x v.
-void store_motion(const PrescribedMotion& motion, double* q) {
+void store_motion(const Model<double>& model, std::size_t body, const PrescribedMotion& motion,
+                  State<double>& x) {
+  double *q = x.q.data() + model.iq[body], *given = x.prescribed.data() + model.ip[body];
   const Matrix3 R_LJ = motion.X_JL.R.transpose();
   const Eigen::Quaterniond turn(motion.X_JL.R);
   const Vector3 w = R_LJ * motion.angular_velocity, v = R_LJ * motion.velocity;
@@ -20,12 +24,22 @@ void store_motion(const PrescribedMotion& motion, double* q) {
   for (int c = 0; c < 3; ++c) {
     q[c] = motion.X_JL.p[c];
     q[4 + c] = turn.vec()[c];
-    q[7 + c] = w[c];
-    q[10 + c] = v[c];
-    q[13 + c] = w_rate[c];
-    q[16 + c] = v_rate[c];
+    given[c] = w[c];
+    given[3 + c] = v[c];
+    given[6 + c] = w_rate[c];
+    given[9 + c] = v_rate[c];
   }
   q[3] = turn.w();
+}
+
+void visit_state(Memory& memory, const Model<double>& model, State<double>& x) {
+  std::vector<double> q = q_with_prescribed(model, x);
+  memory.visit(q);
+  memory.visit(x.qd);
+  memory.visit(x.t);
+  if (q.size() != model.nq + model.np || x.qd.size() != model.nv)
+    throw std::runtime_error("the state is not one of this model");
+  set_q_with_prescribed(model, q, x);
 }
 
 Mechanism::Mechanism(const Model<double>& model_of, State<double> start)
@@ -42,8 +56,7 @@ Mechanism::Mechanism(const Model<double>& model_of, State<double> start)
 }
 
 void Mechanism::place(State<double>& at) const {
-  for (const Drive& drive : drives)
-    store_motion(drive.law(at.t), at.q.data() + model.iq[drive.body]);
+  for (const Drive& drive : drives) store_motion(model, drive.body, drive.law(at.t), at);
 }
 
 void Mechanism::place_and_look() {
@@ -98,6 +111,7 @@ void Mechanism::prepare_projection() {
 }
 
 void Mechanism::accelerate_stage() {
+  stage.prescribed = x.prescribed;  // of joints without a law
   place(stage);
   forward_kinematics(model, stage, k_stage);
   close(stage, k_stage);

@@ -14,6 +14,7 @@
 #include "solver/model/model.h"
 #include "solver/model/workspace.h"
 #include "solver/spatial/pose.h"
+#include "solver/support/state_archive.h"
 
 namespace twinarm {
 
@@ -29,8 +30,13 @@ struct PrescribedMotion {
 // The motion at a time. Must not throw; whether a step allocates is then the law's affair.
 using MotionLaw = std::function<PrescribedMotion(double t)>;
 
-// The 19 numbers of a prescribed joint's q (solver/model/joints.h).
-void store_motion(const PrescribedMotion& motion, double* q);
+// Writes pose, velocity and acceleration of the prescribed joint of this body.
+void store_motion(const Model<double>& model, std::size_t body, const PrescribedMotion& motion,
+                  State<double>& x);
+
+// q with the motion of prescribed joints (q_with_prescribed), qd and t, as recordings have them.
+// Throws std::runtime_error where what is read is not a state of this model.
+void visit_state(Memory& memory, const Model<double>& model, State<double>& x);
 
 struct Mechanism {
   Mechanism(const Model<double>& model, State<double> start);

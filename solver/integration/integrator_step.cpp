@@ -1,8 +1,10 @@
 #include "solver/integration/integrator_step.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "solver/model/configuration.h"
 #include "solver/model/mimic.h"
 #include "solver/model/non_finite.h"
 
@@ -70,8 +72,8 @@ void IntegratorStep::move(Mechanism& m, double h, StepReport& report) {
 
 void report_non_finite(const Mechanism& m, StepReport& report) {
   double sum = 0;  // one non-finite number makes the sum non-finite
-  for (double q : m.x.q) sum += q * 0;
-  for (double qd : m.x.qd) sum += qd * 0;
+  for (const auto* numbers : {&m.x.q, &m.x.qd, &m.x.prescribed})
+    for (double number : *numbers) sum += number * 0;
   if (sum == 0) return;
 
   report.finite = false;
@@ -81,14 +83,13 @@ void report_non_finite(const Mechanism& m, StepReport& report) {
     report.bad_body = static_cast<int>(bad.body);
     return;
   }
-  for (std::size_t i = 1; i < m.model.parent.size() && !report.bad_field; ++i) {
-    const std::size_t iq = m.model.iq[i];
-    for (std::size_t c = iq; c < iq + facts_of(m.model.joint[i]).nq; ++c)
-      if (!std::isfinite(m.x.q[c])) {
-        report.bad_field = "q";
-        report.bad_body = static_cast<int>(i);
-      }
-  }
+  const std::vector<double> q = q_with_prescribed(m.model, m.x);
+  const auto bad_q = std::ranges::find_if_not(q, [](double c) { return std::isfinite(c); });
+  if (bad_q == q.end()) return;
+  report.bad_field = "q";
+  for (std::size_t i = 1; i < m.model.parent.size(); ++i)
+    if (m.model.iq[i] + m.model.ip[i] <= static_cast<std::size_t>(bad_q - q.begin()))
+      report.bad_body = static_cast<int>(i);
 }
 
 }  // namespace twinarm

@@ -21,4 +21,10 @@ void shift_rate(const Model<double>& model, const std::vector<double>& theta,
 void coordinate_sizes(const Model<double>& model, const std::vector<double>& q,
                       std::vector<double>& size);
 
+// q as files and users have it, with State::prescribed: joint i begins at iq[i] + ip[i], and of a
+// prescribed joint velocity and acceleration follow the pose.
+std::vector<double> q_with_prescribed(const Model<double>& model, const State<double>& x);
+void set_q_with_prescribed(const Model<double>& model, const std::vector<double>& q,
+                           State<double>& x);
+
 }  // namespace twinarm

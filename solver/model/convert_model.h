@@ -29,12 +29,14 @@ Model<T> convert(const Model<double>& m) {
   out.pitch = convert_all<T>(m.pitch);
   out.iq = m.iq;
   out.iv = m.iv;
+  out.ip = m.ip;
   out.Xtree = convert_all<Constant<T>>(m.Xtree);
   out.I = convert_all<Constant<T>>(m.I);
   out.turn = convert_all<T>(m.turn);
   out.gravity = convert<T>(m.gravity);
   out.nq = m.nq;
   out.nv = m.nv;
+  out.np = m.np;
   out.armature = convert_all<T>(m.armature);
   out.damping = convert_all<T>(m.damping);
   out.coulomb_plus = convert_all<T>(m.coulomb_plus);
@@ -47,6 +49,7 @@ State<T> convert(const State<double>& x) {
   State<T> out;
   out.q = convert_all<T>(x.q);
   out.qd = convert_all<T>(x.qd);
+  out.prescribed = convert_all<T>(x.prescribed);
   out.t = T(x.t);
   return out;
 }

@@ -66,9 +66,9 @@ void visit_joint(JointType type, const S& pitch, F&& f) {
 
 // vJ = S qd, RBDA (3.34), but for the joint whose motion is given.
 template <class Joint, class Subspace, class S>
-auto joint_velocity(const Joint& joint, const Subspace& subspace, const S* q, const S* qd) {
-  if constexpr (requires { joint.vJ(q); }) {
-    return joint.vJ(q);
+auto joint_velocity(const Joint& joint, const Subspace& subspace, const S* qd) {
+  if constexpr (requires { joint.np; }) {
+    return joint.vJ(qd);
   } else {
     VecN<S, Joint::nv> rate;
     for (std::size_t k = 0; k < Joint::nv; ++k) rate[k] = qd[k];

@@ -5,6 +5,7 @@
 // the axes of the child body, unless a joint says otherwise. A joint of a new type is one struct
 // here and its line in the list at the bottom. Each struct states
 //   nq, nv            numbers in q and in qd
+//   np                numbers in State::prescribed (only if its motion is given)
 //   axis              what the axis given to the builder is for
 //   quaternion        where in q a unit quaternion begins, whose rates come first in qd; -1: none
 //   coordinates       label of each number of q, and whether it is an angle
@@ -205,21 +206,22 @@ struct FreeJoint {
   }
 };
 
-// Moved from outside: no degree of freedom. q = (x, y, z; w, x, y, z; vJ; aJ): pose of the child in
-// the parent, its velocity (w; v) relative to the parent and the apparent derivative of that, both
-// in the child's axes. Simulation::prescribe writes them at every stage; integrate keeps them.
+// Moved from outside: no degree of freedom. q = (x, y, z; w, x, y, z): pose of the child in the
+// parent. In the place of qd it takes its numbers of State::prescribed, (vJ; aJ): velocity (w; v)
+// relative to the parent and the apparent derivative of that, both in the child's axes.
+// Simulation::prescribe writes pose and motion at every stage; integrate keeps the pose.
 template <class S>
 struct PrescribedJoint {
-  static constexpr std::size_t nq = 19, nv = 0;
+  static constexpr std::size_t nq = 7, nv = 0, np = 12;
   static constexpr AxisUse axis = AxisUse::none;
   static constexpr int quaternion = 3;
   static constexpr std::array<Coordinate, 0> coordinates{};
   static constexpr bool S_is_constant = true;
   static NoAxes subspace(const S*) { return {}; }
-  static Motion<S> vJ(const S* q) { return {{q[7], q[8], q[9]}, {q[10], q[11], q[12]}}; }
-  static Motion<S> cJ(const S* q, const S*) {
-    return {{q[13], q[14], q[15]}, {q[16], q[17], q[18]}};
+  static Motion<S> vJ(const S* given) {
+    return {{given[0], given[1], given[2]}, {given[3], given[4], given[5]}};
   }
+  static Motion<S> cJ(const S*, const S* given) { return vJ(given + 6); }
   static Transform<S> XJ(const S* q) { return {quaternion_E(q + 3), {q[0], q[1], q[2]}}; }
   static void identity(S* q) {
     std::fill_n(q, nq, S(0));

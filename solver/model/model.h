@@ -50,13 +50,13 @@ struct Model {
   std::vector<int> parent;
   std::vector<int> last_child;  // of a body's children that with the highest number; 0: a tip
   std::vector<JointType> joint;
-  std::vector<S> pitch;             // of screws [m/rad]; 0 for all others
-  std::vector<std::size_t> iq, iv;  // first coordinate and first velocity of joint i
-  Constants<Transform, S> Xtree;    // from the parent's body frame to joint i at q_i = identity
-  Constants<Inertia, S> I;          // about the body's origin, body axes [kg, kg m, kg m^2]
-  std::vector<Mat3<S>> turn;        // R_BL
+  std::vector<S> pitch;                 // of screws [m/rad]; 0 for all others
+  std::vector<std::size_t> iq, iv, ip;  // where joint i begins in q, qd and State::prescribed
+  Constants<Transform, S> Xtree;        // from the parent's body frame to joint i at q_i = identity
+  Constants<Inertia, S> I;              // about the body's origin, body axes [kg, kg m, kg m^2]
+  std::vector<Mat3<S>> turn;            // R_BL
   Vec3<S> gravity{S(0), S(0), S(-9.81)};  // world axes [m/s^2]
-  std::size_t nq = 0, nv = 0;
+  std::size_t nq = 0, nv = 0, np = 0;
 
   // By velocity.
   std::vector<S> armature;                     // rotor inertia felt at the joint [kg m^2, kg]
@@ -104,13 +104,25 @@ int Model<S>::find_joint(const std::string& name) const {
 template <class S>
 struct State {
   std::vector<S> q, qd;
+  // An input, as tau is: vJ and aJ of each prescribed joint [rad/s, m/s; rad/s^2, m/s^2].
+  std::vector<S> prescribed;
   S t{};  // [s]
 
   State() = default;
   // Every joint at its identity, at rest.
-  explicit State(const Model<S>& model) : q(model.nq, S(0)), qd(model.nv, S(0)) {
+  explicit State(const Model<S>& model)
+      : q(model.nq, S(0)), qd(model.nv, S(0)), prescribed(model.np, S(0)) {
     for (std::size_t i = 1; i < model.parent.size(); ++i)
       visit_joint(model, i, [&](auto joint) { joint.identity(q.data() + model.iq[i]); });
+  }
+
+  // What joint i takes as its qd: of a prescribed joint the motion that is given.
+  template <class Joint, class M>
+  const S* rates([[maybe_unused]] const Joint& joint, const M& model, std::size_t i) const {
+    if constexpr (requires { joint.np; })
+      return prescribed.data() + model.ip[i];
+    else
+      return qd.data() + model.iv[i];
   }
 };
 

@@ -30,9 +30,9 @@ template <class S, class M, class Trace = NoTrace>
     visit_joint(model, i, [&](auto joint) {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const std::size_t iq = model.iq[i];
-      const S *q = x.q.data() + iq, *qd = x.qd.data() + model.iv[i];
+      const S *q = x.q.data() + iq, *qd = x.rates(joint, model, i);
       const auto S_i = joint.subspace(q);
-      const auto vJ = joint_velocity(joint, S_i, q, qd);
+      const auto vJ = joint_velocity(joint, S_i, qd);
 
       w.Xup[i] = joint_transform(joint, q, w.sin.data() + iq, w.cos.data() + iq) * model.Xtree[i];
       w.v[i] = w.Xup[i] * w.v[p] + vJ;

@@ -23,9 +23,9 @@ template <class S, class W>
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     visit_joint(model, i, [&](auto joint) TWINARM_KERNEL {
       const auto p = static_cast<std::size_t>(model.parent[i]);
-      const S *q = x.q.data() + model.iq[i], *qd = x.qd.data() + model.iv[i];
+      const S *q = x.q.data() + model.iq[i], *qd = x.rates(joint, model, i);
       const auto S_i = joint.subspace(q);
-      const auto vJ = joint_velocity(joint, S_i, q, qd);
+      const auto vJ = joint_velocity(joint, S_i, qd);
       w.Xup[i] = joint.XJ(q) * model.Xtree[i];
       if constexpr (has_X0) w.X0[i] = w.Xup[i] * w.X0[p];
       w.v[i] = w.Xup[i] * w.v[p] + vJ;

@@ -134,7 +134,7 @@ void Simulation::prescribe(int body, MotionLaw law) {
 }
 
 void Simulation::set_state(State<double> x) {
-  if (x.q.size() != m_.model.nq || x.qd.size() != m_.model.nv)
+  if (x.q.size() != m_.model.nq || x.qd.size() != m_.model.nv || x.prescribed.size() != m_.model.np)
     throw std::invalid_argument("the state is not one of this model");
   m_.start(std::move(x));
   integrator_step_.forget();
@@ -143,11 +143,7 @@ void Simulation::set_state(State<double> x) {
 void Simulation::visit_memory(Memory& memory) {
   const std::vector<Rewindable*> all = memories(*this);
   State<double> x = m_.x;
-  memory.visit(x.q);
-  memory.visit(x.qd);
-  memory.visit(x.t);
-  if (x.q.size() != m_.model.nq || x.qd.size() != m_.model.nv)
-    throw std::runtime_error("the state is not one of this model");
+  visit_state(memory, m_.model, x);
   if (memory.reads()) m_.resume(std::move(x));
   m_.dynamics.visit_memory(memory);
   integrator_step_.visit_memory(memory);

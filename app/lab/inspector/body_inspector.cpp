@@ -188,11 +188,7 @@ struct Glass::Impl {
     }
     RobotInput& robot = plan.input.robot;
     State<double> x(robot.model);
-    memory.visit(x.q);
-    memory.visit(x.qd);
-    memory.visit(x.t);
-    if (x.q.size() != robot.model.nq || x.qd.size() != robot.model.nv)
-      throw std::runtime_error("the state is not one of this robot");
+    visit_state(memory, robot.model, x);
     robot.state = given;
     stand_at(robot, x);
     return inspect_robot(robot);

@@ -18,16 +18,6 @@ namespace {
 // speeds contacts and limits take a second a step, and somebody waits.
 constexpr double kMostGrowth = 1e3;
 
-// The state in the bytes of a run's memory: they begin with its head, then q, qd, t.
-State<double> state_in(const std::string& bytes) {
-  Memory memory = simulation_memory(bytes);
-  State<double> x;
-  memory.visit(x.q);
-  memory.visit(x.qd);
-  memory.visit(x.t);
-  return x;
-}
-
 }  // namespace
 
 LabRun::LabRun(const LabScene& scene, const std::vector<Change>& changes, LabHand& hand)
@@ -87,14 +77,13 @@ void LabRun::start(const LabFrame* from) {
 // Where the frame stands. What was taken over in part is made again.
 void LabRun::begin_anew(const LabFrame& from) {
   SimulatePlan& prepared = plan_->prepared;
-  State<double>& x = prepared.input.robot.state.x;
-  const State<double> was = state_in(from.recorded.memory);
-  if (was.q.size() != x.q.size() || was.qd.size() != x.qd.size())
+  try {
+    Memory memory = simulation_memory(from.recorded.memory);
+    visit_state(memory, prepared.input.robot.model, prepared.input.robot.state.x);
+  } catch (const std::runtime_error&) {
     throw InputError({{"", 0, "change", "the scene would have other joints",
                        "begin from the start: reset", "change.joints"}});
-  x.q = was.q;
-  x.qd = was.qd;
-  x.t = was.t;
+  }
   make_couplings();
   pull_ = std::make_unique<MousePull>(prepared.input.robot.model, prepared.run);
   RunStart start;

@@ -199,8 +199,8 @@ class SceneBuilder {
         continue;
       }
       scene_.motions.push_back({index, steady(body.X_WB, *body.motion)});
-      double* q = scene_.start.q.data() + scene_.model.iq[static_cast<std::size_t>(index)];
-      store_motion(scene_.motions.back().law(0), q);
+      store_motion(scene_.model, static_cast<std::size_t>(index), scene_.motions.back().law(0),
+                   scene_.start);
     }
   }
 

@@ -130,6 +130,7 @@ struct Packed {
       const auto k = static_cast<std::size_t>(lane);
       set(x_S.q, lane, x[k].q);
       set(x_S.qd, lane, x[k].qd);
+      set(x_S.prescribed, lane, x[k].prescribed);
       set(forces_S, lane, forces[k]);
     }
   }

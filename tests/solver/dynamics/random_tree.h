@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/dynamics/model_builder.h"
+#include "solver/model/configuration.h"
 
 namespace twinarm::testing {
 
@@ -101,7 +102,9 @@ inline std::vector<TreeBody> uneven_bodies(Random& random, int n,
 
 inline State<double> random_state(Random& random, const Model<double>& model) {
   State<double> x(model);
-  for (double& q : x.q) q = random.uniform(-3, 3);
+  std::vector<double> all = q_with_prescribed(model, x);
+  for (double& q : all) q = random.uniform(-3, 3);
+  set_q_with_prescribed(model, all, x);
   for (double& qd : x.qd) qd = random.uniform(-2, 2);
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     const int at = facts_of(model.joint[i]).quaternion;

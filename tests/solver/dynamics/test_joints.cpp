@@ -53,7 +53,7 @@ TEST_CASE("columns of S are the velocities of the link per unit of each velocity
     for (int n = 0; n < 20; ++n) {
       MovingTree t(random, random.integer(1, 3), types);
       kinematics(t.model, t.x, t.w);
-      const auto unit = unit_motions(t.bodies, t.model, t.x.q);
+      const auto unit = unit_motions(t.bodies, t.model, q_with_prescribed(t.model, t.x));
       for (std::size_t i = 1; i < t.model.parent.size(); ++i)
         for (std::size_t k = t.model.iv[i]; k < t.model.iv[i] + t.model.dofs(i); ++k) {
           const RealMatrix3 R = real(t.w.X0[i].E).transpose();
@@ -77,7 +77,7 @@ TEST_CASE("rnea and crba: Newton's and Euler's equations of each body in the wor
       t.model = build(t.bodies, to_eigen(t.model.gravity));
       const Forces<double> forces = random_forces(random, t.model);
       rnea(t.model, t.x, t.qdd, forces.f_ext, t.w);
-      const auto unit = unit_motions(t.bodies, t.model, t.x.q);
+      const auto unit = unit_motions(t.bodies, t.model, q_with_prescribed(t.model, t.x));
       const RealVector3 g = real(t.model.gravity);
       const std::size_t nv = t.model.nv;
       double scale = 1, largest = 0, difference = 0;
@@ -167,9 +167,10 @@ TEST_CASE("integrate moves along the velocities: q exp(shift) as the joint is de
       });
       CHECK(in_place.q == moved.q);
       // Prescribed joints stay: at time 0.
-      const RealPose expected = link_poses(t.bodies, t.model, t.x.q, shift, zero,
-                                           type == JointType::prescribed ? 0 : 1)[1];
-      const RealPose got = link_poses(t.bodies, t.model, moved.q, zero, zero, 0)[1];
+      const RealPose expected = link_poses(t.bodies, t.model, q_with_prescribed(t.model, t.x),
+                                           shift, zero, type == JointType::prescribed ? 0 : 1)[1];
+      const RealPose got =
+          link_poses(t.bodies, t.model, q_with_prescribed(t.model, moved), zero, zero, 0)[1];
       CHECK(static_cast<double>((expected.R - got.R).norm()) < 2e-15);
       CHECK(length_of(expected.p - got.p) < 4e-15);
       if (const int at = facts_of(type).quaternion; at >= 0 && t.model.nv > 0)

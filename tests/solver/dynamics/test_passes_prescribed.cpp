@@ -25,16 +25,17 @@ struct DrivenAndFree {
     free = build(bodies);
     x_driven = random_state(random, driven);
     x_free = State<double>(free);
-    std::copy(x_driven.q.begin() + 19, x_driven.q.end(), x_free.q.begin() + 7);
+    std::copy(x_driven.q.begin() + 7, x_driven.q.end(), x_free.q.begin() + 7);
     std::copy(x_driven.qd.begin(), x_driven.qd.end(), x_free.qd.begin() + 6);
     std::copy_n(x_driven.q.begin(), 7, x_free.q.begin());
+    x_free.prescribed.assign(x_driven.prescribed.begin() + 12, x_driven.prescribed.end());
 
     // Prescribed: velocity and its derivative in the child's axes. Free: the linear part in the
     // parent's, v_P = R v, v_P' = R (v' + w x v).
-    const double* q = x_driven.q.data();
+    const double *q = x_driven.q.data(), *g = x_driven.prescribed.data();
     const Matrix3 R = Eigen::Quaterniond(q[3], q[4], q[5], q[6]).toRotationMatrix();
-    const Vector3 w(q[7], q[8], q[9]), v(q[10], q[11], q[12]), dw(q[13], q[14], q[15]),
-        dv(q[16], q[17], q[18]);
+    const Vector3 w(g[0], g[1], g[2]), v(g[3], g[4], g[5]), dw(g[6], g[7], g[8]),
+        dv(g[9], g[10], g[11]);
     const Vector3 v_P = R * v, dv_P = R * (dv + w.cross(v));
     for (int k = 0; k < 3; ++k) {
       const auto at = static_cast<std::size_t>(k);

@@ -81,7 +81,7 @@ TEST_CASE("points, their velocities, classical accelerations and Jacobians are w
 
       std::vector<Motion<double>> J(t.model.nv);
       jacobian(t.model, t.w, p.body, p.r_B, J);
-      const auto unit = unit_motions(t.bodies, t.model, t.x.q);
+      const auto unit = unit_motions(t.bodies, t.model, q_with_prescribed(t.model, t.x));
       for (std::size_t k = 0; k < t.model.nv; ++k) {
         column = std::max(column, length_of(real(J[k].w) - unit[k][p.body].w));
         column = std::max(column, length_of(real(J[k].v) - unit[k][p.body].velocity_of(p.r_W)));
@@ -193,8 +193,7 @@ TEST_CASE("the gradient of the potential is the gravity term of inverse dynamics
       const Model<double> model = random_tree(random, random.integer(1, 6), types);
       State<double> x = random_state(random, model);
       x.qd.assign(model.nv, 0);
-      for (std::size_t i = 1; i < model.parent.size(); ++i)  // at rest
-        if (model.joint[i] == JointType::prescribed) std::fill_n(&x.q[model.iq[i] + 7], 12, 0.0);
+      x.prescribed.assign(model.np, 0);
       Workspace<double> w(model);
       rnea(model, x, std::vector<double>(model.nv), std::vector<Force<double>>(model.parent.size()),
            w);

@@ -78,7 +78,7 @@ inline RealPose joint_pose(const TreeBody& body, const double* q, const RealVect
 }
 
 // The links' poses at time t of the motion q exp(t qd + t^2/2 qdd), which has the velocities qd and
-// accelerations qdd at t = 0. By body, base included.
+// accelerations qdd at t = 0. By body, base included. q as q_with_prescribed() gives it.
 inline std::vector<RealPose> link_poses(const std::vector<TreeBody>& bodies,
                                         const Model<double>& model, const std::vector<double>& q,
                                         const std::vector<double>& qd,
@@ -92,7 +92,7 @@ inline std::vector<RealPose> link_poses(const std::vector<TreeBody>& bodies,
           t * qd[model.iv[i] + k] + t * t / 2 * qdd[model.iv[i] + k];
     const RealPose X_PJ{b.X_PJ.R.cast<Real>(), b.X_PJ.p.cast<Real>()};
     X.push_back(X[static_cast<std::size_t>(b.parent)] * X_PJ *
-                joint_pose(b, q.data() + model.iq[i], shift, t));
+                joint_pose(b, q.data() + model.iq[i] + model.ip[i], shift, t));
   }
   return X;
 }
@@ -160,7 +160,7 @@ inline std::vector<std::vector<LinkMotion>> unit_motions(std::vector<TreeBody> b
                                                          std::vector<double> q) {
   for (std::size_t i = 1; i <= bodies.size(); ++i)  // given motions stand still
     if (bodies[i - 1].type == JointType::prescribed)
-      std::fill_n(q.begin() + static_cast<std::ptrdiff_t>(model.iq[i]) + 7, 12, 0.0);
+      std::fill_n(&q[model.iq[i] + model.ip[i] + 7], 12, 0.0);
   std::vector<std::vector<LinkMotion>> by_dof;
   for (std::size_t k = 0; k < model.nv; ++k) {
     std::vector<double> e(model.nv);
@@ -198,7 +198,7 @@ struct MovingTree {
         model(build(bodies, random.vector(10))),
         x(random_state(random, model)),
         qdd(random_numbers(random, model.nv, 2)),
-        links(link_motions(bodies, model, x.q, x.qd, qdd)),
+        links(link_motions(bodies, model, q_with_prescribed(model, x), x.qd, qdd)),
         w(model) {}
 };
 
