@@ -1,6 +1,6 @@
 // What theory says of a coupling before it is run (docs/coupling.md). One door to
-//   joint_space_stiffness.h  K_q and B_q of what pushes, with its geometric part; modes; sag, series
-//                            stiffness against a wall
+//   joint_space_stiffness.h  K_q and B_q of what pushes, its geometric part; modes; sag and
+//                            series stiffness against a wall
 //   gains.h                  the largest stable step and stiffness of each scheme; conversions
 //   step_matrix.h            the same of several couplings as an integrator really steps them
 //   tracking.h               the error behind a target that moves
