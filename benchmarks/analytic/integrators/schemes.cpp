@@ -151,7 +151,7 @@ CaseResult halving(Integrator integrator, bool mistaken) {
   };
   double error[3];
   for (int i = 0; i < 3; ++i)
-    error[i] = error_after_a_second("B2", of_angle, {integrator, kGoldenStep / (1 << i), 0},
+    error[i] = error_after_a_second("B2", of_angle, {integrator, kGoldenStep / (1 << i)},
                                     mistaken ? 5 : 0);
   const double coarse = std::log2(error[0] / error[1]), fine = std::log2(error[1] / error[2]);
   return {std::max(std::abs(coarse - 1), std::abs(fine - 1)), {}, fine};
@@ -162,7 +162,7 @@ CaseResult slope(Integrator integrator, bool mistaken) {
   const int order = facts_of(integrator).order;
   const double h = 1e-3 * order;
   const double coarse = double_pendulum_error({integrator, h}, mistaken);
-  const double fine = double_pendulum_error({integrator, h / 16, 0}, mistaken);
+  const double fine = double_pendulum_error({integrator, h / 16}, mistaken);
   const double found = std::log2(coarse / fine) / 4;
   return {std::abs(found - order), {}, found};
 }
