@@ -5,8 +5,8 @@ import { axesOfTime, drawOver, Gestures } from './chart_parts';
 import { button, element, short } from '../ui/dom';
 import { token } from '../ui/preferences';
 import {
-  type Beside, colorOf, DASH, ghostsOf, lines, lineSeries, rangeOf, stack, stackSeries,
-  usualSize, type Window,
+  type Beside, colorOf, DASH, ghostsOf, lines, lineSeries, rangeOf, stack, stackSeries, usualSize,
+  type Window,
 } from './chart_data';
 import { savePicture } from './export';
 import type { Plots } from './plots';
