@@ -1,7 +1,7 @@
 // What lies under a point of the view: the nearest entry of a layer that belongs to a body.
 import * as THREE from 'three';
 import { Pose } from './painter';
-import type { Stage } from './stage';
+import type { Pixel, Stage } from './stage';
 import { type Frame, NO_BODY } from '../source/link';
 
 export interface Hit {
@@ -18,7 +18,7 @@ const probe = new THREE.Mesh<THREE.BufferGeometry, THREE.MeshBasicMaterial>(
 const pose = new Pose();
 
 // The ray through a point of the view, in pixels from its upper left.
-export function rayAt(stage: Stage, x: number, y: number): THREE.Ray {
+export function rayAt(stage: Stage, { x, y }: Pixel): THREE.Ray {
   const { clientWidth, clientHeight } = stage.host;
   const at = new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight);
   ray.setFromCamera(at, stage.camera);
@@ -26,9 +26,9 @@ export function rayAt(stage: Stage, x: number, y: number): THREE.Ray {
 }
 
 // Cost: one test of a ball for each entry, and of triangles for those that the ray comes near.
-export function pick(stage: Stage, frame: Frame, layer: number, x: number, y: number): Hit | null {
+export function pick(stage: Stage, frame: Frame, layer: number, at: Pixel): Hit | null {
   if (layer >= frame.layers) return null;
-  rayAt(stage, x, y);
+  rayAt(stage, at);
   let nearest: Hit | null = null;
   for (let i = frame.first[layer]; i < frame.first[layer + 1]; ++i) {
     const geometry = stage.geometries[frame.mesh[i]];

@@ -9,6 +9,7 @@ import { Labels } from './labels';
 import { glossy, plainly } from './surfaces';
 import { Painter, type Part } from './painter';
 
+export type Pixel = { x: number; y: number };
 export type ViewName = 'start' | 'front' | 'side' | 'top' | 'iso';
 
 // From the target to the eye. Top: x to the right, y up.
@@ -193,7 +194,7 @@ export class Stage {
   }
 
   // Pixels from the upper left of the view; null: behind the camera.
-  project(x: number, y: number, z: number): { x: number; y: number } | null {
+  project(x: number, y: number, z: number): Pixel | null {
     const p = new THREE.Vector3(x, y, z).project(this.camera);
     if (p.z > 1 || p.z < -1) return null;
     const { clientWidth, clientHeight } = this.host;
