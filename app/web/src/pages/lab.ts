@@ -38,8 +38,8 @@ class Page implements LabPage, LabKeys {
   private readonly words = new Hints();
   private readonly title = element('h1', 'twinarm lab');
   private readonly file = element('p');
-  private readonly host = element('div.stage');
   private readonly over = element('div.handles');
+  private readonly host = element('div.stage', this.over);
   private readonly tabs = new Tabs();
   private readonly theme = new Theme(() => this.recolor());
   readonly overlays = new Overlays(() => this.sendLayers());
