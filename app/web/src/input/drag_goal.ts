@@ -3,6 +3,7 @@
 // when it is taken: it keeps its distance from the pointer.
 import * as THREE from 'three';
 import type { Pixel, Stage } from '../view/stage';
+import { within } from '../ui/scale';
 import { rayAt } from '../view/pick';
 
 const UP = new THREE.Vector3(0, 0, 1);
@@ -61,10 +62,6 @@ export interface Axis {
 
 const STEPS = 8;
 const LEAST = 30; // pixels: from where the axis hides the motion, a small one is not made a large one
-
-export function within({ low, high }: { low?: number; high?: number }, value: number): number {
-  return Math.min(high ?? Infinity, Math.max(low ?? -Infinity, value));
-}
 
 export class JointDrag {
   private readonly start = this.value;

@@ -5,7 +5,7 @@ import type { Stage } from '../view/stage';
 import type { Drag } from './drag';
 import type { Operator } from './operator';
 import { type Handles, inWorld } from './handles';
-import { within } from './drag_goal';
+import { within } from '../ui/scale';
 import type { Frame, SceneJoint, SceneMessage, Vector } from '../source/link';
 
 const STEP = 0.02; // of the size of what is seen

@@ -240,8 +240,7 @@ class Page implements LabPage, LabKeys {
 
   private paint(frame: wire.Frame, now: number): void {
     this.stale = false;
-    const { selected } = this;
-    this.live.paint(frame, this.overlays.shown, { selected, followed: this.views.body });
+    this.live.paint(frame, this.overlays.shown, this.selected, this.views.body);
     if (this.views.body !== null) this.stale = false; // that moved the camera, and is drawn now
     const seen = this.seen();
     if (seen) this.drag.draw(seen, this.keys);

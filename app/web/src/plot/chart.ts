@@ -227,7 +227,7 @@ export class Chart {
     const name = this.plots.pictureName(this.spec.id);
     // uPlot draws when this is done.
     setTimeout(() => {
-      savePicture(name, title, chart.ctx.canvas, lines, token('--surface'), token('--ink'));
+      savePicture(name, title, chart.ctx.canvas, lines);
       chart.destroy();
       host.remove();
     });

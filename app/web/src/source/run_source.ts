@@ -1,5 +1,5 @@
-// A run that plots and tables show: one that a page carries (player.ts), or one that goes on in a
-// lab (live_run.ts).
+// A run that plots and tables show: one that a page carries (Player), or one that goes on in a lab
+// (LiveRun).
 import { decodeHistory, RunRecord } from './run_record';
 import type { LabPage, Listener } from '../panels/panel';
 import type { Frame, SceneMessage, StateMessage } from './link';
