@@ -1,6 +1,5 @@
 // The pointer in the view: what is grabbed decides what it does. The ring or the ghost: the hand
 // leads the robot. A solid body: a spring pulls it. Anything else: the view turns.
-import type * as THREE from 'three';
 import type { Pixel, Stage } from '../view/stage';
 import type { Operator } from './operator';
 import { axisOf, type Handles, inLink, inWorld } from './handles';
@@ -98,8 +97,12 @@ export class Drag {
     const found = this.find(seen, at);
     if (found.kind === 'joint') {
       if (!this.hand.lead('joints')) return;
-      const drag = this.jointDragOf(seen, found.joint, found.point);
-      if (drag) this.take(event, { kind: 'joint', joint: found.joint, drag });
+      const { stage, scene, frame } = seen;
+      const { joint, point } = found;
+      const axis = axisOf(frame, joint);
+      if (!axis) return;
+      const drag = new JointDrag(stage, axis, point, this.valueOf(frame, scene, joint), joint);
+      this.take(event, { kind: 'joint', joint, drag });
     } else {
       const moves = found.hit && seen.scene.bodies[found.hit.body]?.moves;
       const click = { kind: 'click', hit: found.hit, ...at } as const;
@@ -151,11 +154,6 @@ export class Drag {
     this.sendGoal(this.held);
   }
 
-  private jointDragOf({ stage, scene, frame }: Seen, joint: SceneJoint, point: THREE.Vector3) {
-    const axis = axisOf(frame, joint);
-    return axis && new JointDrag(stage, axis, point, this.valueOf(frame, scene, joint), joint);
-  }
-
   private wheel(event: WheelEvent): void {
     const { held } = this;
     if (held?.kind !== 'tip' && held?.kind !== 'pull') return;
@@ -205,14 +203,11 @@ export class Drag {
     const hit = pick(stage, frame, 0, at);
     const ghosts = scene.layers.findIndex(({ name }) => name === 'ghost');
     const ghost = ghosts > 0 ? pick(stage, frame, ghosts, at) : null;
-    const joint = ghost && this.jointOf(scene, ghost.body);
+    const isLed = ({ body, driven, axis }: SceneJoint) => body === ghost?.body && driven !== undefined && axis;
+    const joint = ghost && scene.joints.find(isLed);
     if (joint && (!hit || ghost.distance < hit.distance - 0.03 * scene.view.radius))
       return { kind: 'joint', joint, point: ghost.point } as const;
     return { kind: 'body', hit } as const;
-  }
-
-  private jointOf(scene: SceneMessage, body: number): SceneJoint | undefined {
-    return scene.joints.find((j) => j.body === body && j.driven !== undefined && j.axis);
   }
 
   private look(event: PointerEvent): void {

@@ -19,11 +19,7 @@ export interface Pulling {
 }
 
 // Without a stage (the browser cannot draw) the hand moves along the world's axes.
-export interface Known {
-  scene: SceneMessage;
-  frame: Frame;
-  stage: Stage | null;
-}
+export type Known = { scene: SceneMessage; frame: Frame; stage: Stage | null };
 
 type Mode = { kind: 'tip' } | { kind: 'joint'; joint: SceneJoint; value: number } | { kind: 'pull'; at: Pulling };
 

@@ -60,10 +60,7 @@ function picture({ png }: { png: Uint8Array<ArrayBuffer> }): Promise<ImageBitmap
   return createImageBitmap(new Blob([png], { type: 'image/png' }));
 }
 
-interface Packed {
-  meshes: PackedMesh[];
-  textures: { png: Uint8Array<ArrayBuffer> }[];
-}
+type Packed = { meshes: PackedMesh[]; textures: { png: Uint8Array<ArrayBuffer> }[] };
 // The program that wrote the page vouches for its shape.
 async function embedded<T extends Carried>(): Promise<T> {
   const data = resolve(JSON.parse(textOf('run')), await inflate(textOf('run-bytes'))) as Packed;

@@ -1,10 +1,6 @@
 // A knob's slider: where a value stands on it, what stands at a place, what an arrow key makes of
 // it; and its number as text. Places go from 0 to 1.
-export interface Scale {
-  form: 'log' | 'linear';
-  low: number;
-  high: number;
-}
+export type Scale = { form: 'log' | 'linear'; low: number; high: number };
 
 const DECADES = 6; // of a logarithmic slider that begins at zero
 const DIGITS = 3; // that a slider sets
