@@ -1,6 +1,4 @@
-// A point of the world that a pointer leads: in the plane through it that faces the eye; with
-// shift up and down alone; the wheel moves the plane nearer or farther. The point does not jump
-// when it is taken: it keeps its distance from the pointer.
+// Goal of a drag: a point in a plane, or the angle of a joint.
 import * as THREE from 'three';
 import type { Pixel, Stage } from '../view/stage';
 import { within } from '../ui/scale';
@@ -8,6 +6,9 @@ import { rayAt } from '../view/pick';
 
 const UP = new THREE.Vector3(0, 0, 1);
 
+// A point of the world that a pointer leads: in the plane through it that faces the eye; with
+// shift up and down alone; the wheel moves the plane nearer or farther. The point does not jump
+// when it is taken: it keeps its distance from the pointer.
 export class PointDrag {
   private readonly offset = new THREE.Vector3(); // of the point from where the ray meets the plane
   private vertical = false;
@@ -51,9 +52,6 @@ export class PointDrag {
   }
 }
 
-// A joint that a pointer turns: the point that was grabbed stays under the pointer as well as one
-// joint can hold it there. On the picture that is a least-squares fit of one number: with J, the
-// point's pixels per radian (or metre), each step adds e J / |J|^2. It holds from any side.
 export interface Axis {
   origin: THREE.Vector3;
   direction: THREE.Vector3; // of unit length
@@ -63,6 +61,9 @@ export interface Axis {
 const STEPS = 8;
 const LEAST = 30; // pixels: from where the axis hides the motion, a small one is not made a large one
 
+// A joint that a pointer turns: the point that was grabbed stays under the pointer as well as one
+// joint can hold it there. On the picture that is a least-squares fit of one number: with J, the
+// point's pixels per radian (or metre), each step adds e J / |J|^2. It holds from any side.
 export class JointDrag {
   private readonly start = this.value;
 

@@ -57,17 +57,15 @@ class Page implements LabPage, LabKeys {
   readonly keys = new KeyInput(() => this.known(), this.hand, this.handles, this.drag, () => this.touch());
   private readonly run = new LiveRun(this);
   readonly set = panelsOf(this, this.run);
-  private readonly panels: Panel[];
-  private readonly listeners: Listener[]; // the run first: panels read it
+  private readonly inspector = new Inspector(this);
+  private readonly panels: Panel[] = [...Object.values(this.set), this.inspector];
+  private readonly listeners: Listener[] = [this.run, ...this.panels]; // the run first: panels read it
   private readonly arrowsOf = new Map<string, Arrow[]>();
   private stale = true;
 
   constructor() {
-    const inspector = new Inspector(this);
-    const { knobs, plots, ledger, time, hand, gallery, dead } = this.set;
-    this.panels = [knobs, plots, inspector, ledger, time, hand, gallery, dead];
-    this.listeners = [this.run, ...this.panels];
-    [knobs, plots, inspector, ledger].forEach((panel, i) => this.tabs.add(TABS[i], panel.root));
+    const { knobs, plots, ledger } = this.set;
+    [knobs, plots, this.inspector, ledger].forEach((panel, i) => this.tabs.add(TABS[i], panel.root));
     this.build();
     const theme = remembered<boolean | null>('dark', null);
     if (theme !== null) this.theme.set(theme);

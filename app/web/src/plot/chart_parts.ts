@@ -1,4 +1,4 @@
-// The two axes of every plot: time in seconds below, the quantity at the left; in the theme's colours.
+// Parts of a chart besides its curves: axes, the previous branch and the limit, pointer gestures.
 import type uPlot from 'uplot';
 import { token } from '../ui/preferences';
 import type { Beside, Ghost } from './chart_data';

@@ -131,13 +131,13 @@ function isSoftware(gl: WebGL2RenderingContext): boolean {
   return /swiftshader|llvmpipe|softpipe|basic render/i.test(name);
 }
 
-// Where a browser cannot draw: the program's own picture, five times a second. Never more than one
-// on its way.
 const EVERY = 200; // [ms]
 const NO_WEBGL =
   'This browser cannot draw in three dimensions (WebGL): the program draws, five pictures a ' +
   'second, from one side. Keys move the hand all the same.';
 
+// Where a browser cannot draw: the program's own picture, five times a second. Never more than one
+// on its way.
 export class Picture {
   private readonly image = element('img', { alt: 'the robot, drawn by the program' });
   readonly root = element('figure.picture', this.image, element('figcaption', NO_WEBGL));

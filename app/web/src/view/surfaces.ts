@@ -1,4 +1,4 @@
-// How surfaces are drawn, and what is drawn before what.
+// Materials of surfaces, their drawing order, and batches of instances.
 import * as THREE from 'three';
 
 export const ORDER = { solid: 0, outline: 1, hidden: 5, ghostDepth: 6, ghost: 7 };
