@@ -1,20 +1,15 @@
 // The pointer in the view: what is grabbed decides what it does. The ring or the ghost: the hand
 // leads the robot. A solid body: a spring pulls it. Anything else: the view turns.
-import type * as THREE from 'three';
-import type { Stage } from '../view/stage';
+import type { Pixel, Stage } from '../view/stage';
 import type { Operator } from './operator';
 import { axisOf, type Handles, inLink, inWorld } from './handles';
 import { JointDrag, PointDrag } from './drag_goal';
-import type { Pulling } from './key_input';
+import type { Known, Pulling } from './key_input';
 import type { Frame, SceneJoint, SceneMessage, Vector } from '../source/link';
 import { type Hit, pick } from '../view/pick';
 import { Pinch } from './pinch';
 
-export interface Seen {
-  stage: Stage;
-  scene: SceneMessage;
-  frame: Frame;
-}
+export type Seen = Known & { stage: Stage };
 
 type Held =
   | { kind: 'tip'; drag: PointDrag }
@@ -90,7 +85,8 @@ export class Drag {
 
   private down(event: PointerEvent): void {
     const seen = this.seen();
-    if (this.pinch.isPassing() || !seen || event.button !== 0 || !event.isPrimary || event.altKey || !this.isOurs(event)) return;
+    if (this.pinch.isPassing() || !seen || !this.isOurs(event)) return;
+    if (event.button !== 0 || !event.isPrimary || event.altKey) return;
     const at = this.place(event);
     if (event.target === this.handles.tip) {
       const tip = this.handles.tipPlace(seen.frame, seen.scene);
@@ -101,8 +97,12 @@ export class Drag {
     const found = this.find(seen, at);
     if (found.kind === 'joint') {
       if (!this.hand.lead('joints')) return;
-      const drag = this.jointDragOf(seen, found.joint, found.point);
-      if (drag) this.take(event, { kind: 'joint', joint: found.joint, drag });
+      const { stage, scene, frame } = seen;
+      const { joint, point } = found;
+      const axis = axisOf(frame, joint);
+      if (!axis) return;
+      const drag = new JointDrag(stage, axis, point, this.valueOf(frame, scene, joint), joint);
+      this.take(event, { kind: 'joint', joint, drag });
     } else {
       const moves = found.hit && seen.scene.bodies[found.hit.body]?.moves;
       const click = { kind: 'click', hit: found.hit, ...at } as const;
@@ -132,14 +132,14 @@ export class Drag {
     const at = this.place(event);
     if (held.kind === 'click') return this.moveClick(seen, held, at);
     if (held.kind === 'joint') {
-      this.hand.joint(held.joint.driven!, held.drag.move(at));
+      this.hand.move({ do: 'joint', index: held.joint.driven!, value: held.drag.move(at) });
       return this.on.changed();
     }
     held.drag.move(at, event.shiftKey);
     this.sendGoal(held);
   }
 
-  private moveClick(seen: Seen, held: Held & { kind: 'click' }, at: { x: number; y: number }): void {
+  private moveClick(seen: Seen, held: Held & { kind: 'click' }, at: Pixel): void {
     if (Math.hypot(at.x - held.x, at.y - held.y) < START) return;
     this.held = null;
     const { hit } = held;
@@ -154,11 +154,6 @@ export class Drag {
     this.sendGoal(this.held);
   }
 
-  private jointDragOf({ stage, scene, frame }: Seen, joint: SceneJoint, point: THREE.Vector3) {
-    const axis = axisOf(frame, joint);
-    return axis && new JointDrag(stage, axis, point, this.valueOf(frame, scene, joint), joint);
-  }
-
   private wheel(event: WheelEvent): void {
     const { held } = this;
     if (held?.kind !== 'tip' && held?.kind !== 'pull') return;
@@ -170,8 +165,8 @@ export class Drag {
 
   private sendGoal(held: Held & { kind: 'tip' | 'pull' }): void {
     const goal = held.drag.goal.toArray();
-    if (held.kind === 'tip') this.hand.tip(goal);
-    else this.hand.pull(held.body, held.point, goal);
+    if (held.kind === 'tip') this.hand.move({ do: 'tip', goal });
+    else this.hand.move({ do: 'pull', body: held.body, point: held.point, goal });
     this.on.changed();
   }
 
@@ -204,18 +199,15 @@ export class Drag {
   }
 
   // A ghost counts where it stands apart from the solid link that follows it.
-  private find({ stage, scene, frame }: Seen, at: { x: number; y: number }) {
-    const hit = pick(stage, frame, 0, at.x, at.y);
+  private find({ stage, scene, frame }: Seen, at: Pixel) {
+    const hit = pick(stage, frame, 0, at);
     const ghosts = scene.layers.findIndex(({ name }) => name === 'ghost');
-    const ghost = ghosts > 0 ? pick(stage, frame, ghosts, at.x, at.y) : null;
-    const joint = ghost && this.jointOf(scene, ghost.body);
+    const ghost = ghosts > 0 ? pick(stage, frame, ghosts, at) : null;
+    const isLed = ({ body, driven, axis }: SceneJoint) => body === ghost?.body && driven !== undefined && axis;
+    const joint = ghost && scene.joints.find(isLed);
     if (joint && (!hit || ghost.distance < hit.distance - 0.03 * scene.view.radius))
       return { kind: 'joint', joint, point: ghost.point } as const;
     return { kind: 'body', hit } as const;
-  }
-
-  private jointOf(scene: SceneMessage, body: number): SceneJoint | undefined {
-    return scene.joints.find((j) => j.body === body && j.driven !== undefined && j.axis);
   }
 
   private look(event: PointerEvent): void {

@@ -1,31 +1,28 @@
-// A point of the world that a pointer leads: in the plane through it that faces the eye; with
-// shift up and down alone; the wheel moves the plane nearer or farther. The point does not jump
-// when it is taken: it keeps its distance from the pointer.
+// Goal of a drag: a point in a plane, or the angle of a joint.
 import * as THREE from 'three';
-import type { Stage } from '../view/stage';
+import type { Pixel, Stage } from '../view/stage';
+import { within } from '../ui/scale';
 import { rayAt } from '../view/pick';
 
 const UP = new THREE.Vector3(0, 0, 1);
 
+// A point of the world that a pointer leads: in the plane through it that faces the eye; with
+// shift up and down alone; the wheel moves the plane nearer or farther. The point does not jump
+// when it is taken: it keeps its distance from the pointer.
 export class PointDrag {
   private readonly offset = new THREE.Vector3(); // of the point from where the ray meets the plane
   private vertical = false;
-  private x: number;
-  private y: number;
 
-  constructor(private readonly stage: Stage, readonly goal: THREE.Vector3, at: { x: number; y: number }) {
-    this.x = at.x;
-    this.y = at.y;
+  constructor(private readonly stage: Stage, readonly goal: THREE.Vector3, private at: Pixel) {
     this.hold();
   }
 
-  move(at: { x: number; y: number }, vertical: boolean): void {
+  move(at: Pixel, vertical: boolean): void {
     if (vertical !== this.vertical) {
       this.vertical = vertical;
       this.hold();
     }
-    this.x = at.x;
-    this.y = at.y;
+    this.at = at;
     const met = this.meet();
     if (!met) return;
     met.add(this.offset);
@@ -51,13 +48,10 @@ export class PointDrag {
     if (this.vertical) facing.addScaledVector(UP, -facing.dot(UP));
     if (facing.lengthSq() < 1e-3) return null; // from straight above, nothing is up or down
     const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(facing.normalize(), this.goal);
-    return rayAt(this.stage, this.x, this.y).intersectPlane(plane, new THREE.Vector3());
+    return rayAt(this.stage, this.at).intersectPlane(plane, new THREE.Vector3());
   }
 }
 
-// A joint that a pointer turns: the point that was grabbed stays under the pointer as well as one
-// joint can hold it there. On the picture that is a least-squares fit of one number: with J, the
-// point's pixels per radian (or metre), each step adds e J / |J|^2. It holds from any side.
 export interface Axis {
   origin: THREE.Vector3;
   direction: THREE.Vector3; // of unit length
@@ -67,12 +61,11 @@ export interface Axis {
 const STEPS = 8;
 const LEAST = 30; // pixels: from where the axis hides the motion, a small one is not made a large one
 
-export function within({ low, high }: { low?: number; high?: number }, value: number): number {
-  return Math.min(high ?? Infinity, Math.max(low ?? -Infinity, value));
-}
-
+// A joint that a pointer turns: the point that was grabbed stays under the pointer as well as one
+// joint can hold it there. On the picture that is a least-squares fit of one number: with J, the
+// point's pixels per radian (or metre), each step adds e J / |J|^2. It holds from any side.
 export class JointDrag {
-  private readonly start: number;
+  private readonly start = this.value;
 
   constructor(
     private readonly stage: Stage,
@@ -80,11 +73,9 @@ export class JointDrag {
     private readonly grabbed: THREE.Vector3,
     public value: number,
     private readonly range: { low?: number; high?: number },
-  ) {
-    this.start = value;
-  }
+  ) {}
 
-  move(at: { x: number; y: number }): number {
+  move(at: Pixel): number {
     const unit = this.axis.slides ? 0.001 : 0.005; // small: J is that of here
     for (let i = 0; i < STEPS; ++i) {
       const here = this.pixel(this.value);

@@ -27,8 +27,7 @@ export class Controller {
     const held = (i: number) => pad.buttons[i]?.value ?? 0;
     const rates = [x, -up, y, -yaw, held(12) - held(13), held(15) - held(14)];
     const rests = rates.every((rate) => rate === 0);
-    if (!rests && (!this.resting || this.hand.lead('drag'))) this.hand.axes(rates);
-    else if (rests && !this.resting) this.hand.axes(rates);
+    if (!this.resting || (!rests && this.hand.lead('drag'))) this.hand.move({ do: 'axes', rates });
     this.resting = rests;
     for (const index of [0, 1] as const) {
       const down = held(index) > 0.5;

@@ -4,30 +4,29 @@
 import './handles.css';
 import * as THREE from 'three';
 import { element, svg } from '../ui/dom';
-import type { Stage } from '../view/stage';
+import type { Pixel, Stage } from '../view/stage';
 import type { Axis } from './drag_goal';
-import type { Frame, SceneJoint, SceneMessage, Vector } from '../source/link';
+import { type Frame, placeOf, type SceneJoint, type SceneMessage, type Vector } from '../source/link';
 
 const POINTS = 48; // of an arc
 const COILS = 9;
 
-type Pixel = { x: number; y: number };
-
 const path = (className: string) => svg('path', { class: className });
+
+function poseOf(places: Float32Array, body: number) {
+  const place = placeOf(places, body);
+  const turn = new THREE.Quaternion().fromArray(places, 7 * body + 3).normalize();
+  return place && { origin: new THREE.Vector3(...place), turn };
+}
 
 // A point of link axes in the world; null: the link's place is not known.
 export function inWorld(places: Float32Array, body: number, p: Vector): THREE.Vector3 | null {
-  const [x, y, z, qx, qy, qz, qw] = places.subarray(7 * body, 7 * body + 7);
-  if (!Number.isFinite(x + y + z)) return null;
-  const turn = new THREE.Quaternion(qx, qy, qz, qw).normalize();
-  return new THREE.Vector3(...p).applyQuaternion(turn).add(new THREE.Vector3(x, y, z));
+  const pose = poseOf(places, body);
+  return pose && new THREE.Vector3(...p).applyQuaternion(pose.turn).add(pose.origin);
 }
-
 export function inLink(places: Float32Array, body: number, p: THREE.Vector3): Vector | null {
-  const [x, y, z, qx, qy, qz, qw] = places.subarray(7 * body, 7 * body + 7);
-  if (!Number.isFinite(x + y + z)) return null;
-  const back = new THREE.Quaternion(qx, qy, qz, qw).normalize().conjugate();
-  return p.clone().sub(new THREE.Vector3(x, y, z)).applyQuaternion(back).toArray();
+  const pose = poseOf(places, body);
+  return pose && p.clone().sub(pose.origin).applyQuaternion(pose.turn.conjugate()).toArray();
 }
 
 // Of a joint of the kinematic robot.

@@ -5,7 +5,7 @@ import type { Stage } from '../view/stage';
 import type { Drag } from './drag';
 import type { Operator } from './operator';
 import { type Handles, inWorld } from './handles';
-import { within } from './drag_goal';
+import { within } from '../ui/scale';
 import type { Frame, SceneJoint, SceneMessage, Vector } from '../source/link';
 
 const STEP = 0.02; // of the size of what is seen
@@ -19,11 +19,7 @@ export interface Pulling {
 }
 
 // Without a stage (the browser cannot draw) the hand moves along the world's axes.
-interface Known {
-  scene: SceneMessage;
-  frame: Frame;
-  stage: Stage | null;
-}
+export type Known = { scene: SceneMessage; frame: Frame; stage: Stage | null };
 
 type Mode = { kind: 'tip' } | { kind: 'joint'; joint: SceneJoint; value: number } | { kind: 'pull'; at: Pulling };
 
@@ -110,7 +106,8 @@ export class KeyInput {
     if (mode.kind === 'joint') this.moveJoint(mode, right + up);
     else if (mode.kind === 'pull') {
       mode.at.goal.add(this.along(seen, right, up, away));
-      this.hand.pull(mode.at.body, mode.at.point, mode.at.goal.toArray());
+      const { body, point, goal } = mode.at;
+      this.hand.move({ do: 'pull', body, point, goal: goal.toArray() });
     } else if (turn) this.turnStylus(right, up, away);
     else this.moveTip(seen, this.along(seen, right, up, away));
     this.changed();
@@ -121,20 +118,21 @@ export class KeyInput {
     if (!tip || !this.hand.lead('drag')) return;
     if (!this.goal || this.goal.distanceTo(tip) > FAR * seen.scene.view.radius) this.goal = tip;
     this.goal.add(by);
-    this.hand.tip(this.goal.toArray());
+    this.hand.move({ do: 'tip', goal: this.goal.toArray() });
   }
 
   private moveJoint(mode: Mode & { kind: 'joint' }, by: number): void {
     if (!this.hand.lead('joints')) return;
     const { slides, driven } = mode.joint;
     mode.value = within(mode.joint, mode.value + by * (slides ? 0.01 : TURN));
-    this.hand.joint(driven!, mode.value);
+    this.hand.move({ do: 'joint', index: driven!, value: mode.value });
   }
 
   private turnStylus(right: number, up: number, away: number): void {
     if (!this.hand.lead('drag')) return;
     [-right, up, away].forEach((by, i) => (this.stylus[i] += 2.5 * TURN * by));
-    this.hand.turn(this.stylus[0], this.stylus[1], this.stylus[2]);
+    const [yaw, pitch, roll] = this.stylus;
+    this.hand.move({ do: 'turn', yaw, pitch, roll });
   }
 
   private along({ stage, scene }: Known, right: number, up: number, away: number): THREE.Vector3 {
@@ -142,8 +140,8 @@ export class KeyInput {
     if (stage) x.applyQuaternion(stage.camera.quaternion).setZ(0).normalize();
     const z = new THREE.Vector3(0, 0, 1);
     const y = z.clone().cross(x);
-    return x.multiplyScalar(right).addScaledVector(z, up).addScaledVector(y, away)
-      .multiplyScalar(STEP * scene.view.radius);
+    const by = x.multiplyScalar(right).addScaledVector(z, up).addScaledVector(y, away);
+    return by.multiplyScalar(STEP * scene.view.radius);
   }
 
   private set(mode: Mode): void {

@@ -1,7 +1,7 @@
 // What moves the robot from the page: commands of the hand. Of each kind only the newest waits, and
 // they go out once a picture, with the time at which they were made; so the page also knows how
 // long it takes until it sees what it did.
-import type { Command, Frame, Link, StateMessage, Vector } from '../source/link';
+import type { Command, Frame, Link, StateMessage } from '../source/link';
 
 type Moves = Extract<Command, { stamp: number }>;
 // Of a union, member by member.
@@ -43,25 +43,13 @@ export class Operator {
   // The robot is led by this from now on.
   lead(source: 'drag' | 'joints'): boolean {
     if (!this.claim()) return false;
-    if (this.state()?.hand.source !== source)
-      this.link.send({ do: 'hand', source });
+    if (this.state()?.hand.source !== source) this.link.send({ do: 'hand', source });
     return true;
   }
 
-  tip(goal: Vector): void {
-    this.waiting.set('tip', { do: 'tip', goal });
-  }
-  joint(index: number, value: number): void {
-    this.waiting.set(`joint${index}`, { do: 'joint', index, value });
-  }
-  turn(yaw: number, pitch: number, roll: number): void {
-    this.waiting.set('turn', { do: 'turn', yaw, pitch, roll });
-  }
-  axes(rates: number[]): void {
-    this.waiting.set('axes', { do: 'axes', rates });
-  }
-  pull(body: number, point: Vector, goal: Vector): void {
-    this.waiting.set('pull', { do: 'pull', body, point, goal });
+  // Goes out with the next picture, unless a newer one of its kind has come.
+  move(command: Unstamped): void {
+    this.waiting.set(command.do === 'joint' ? `joint${command.index}` : command.do, command);
   }
   button(index: 0 | 1, down: boolean): boolean {
     if (!this.claim()) return false;

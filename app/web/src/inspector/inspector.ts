@@ -2,7 +2,7 @@
 // the equations, the free-body diagram, contacts, ledger; and, while time stands still, a walk
 // through one call of the algorithm.
 import './inspector.css';
-import type { BodyInspection } from '../protocol/messages';
+import type { BodyInspection, Vector } from '../protocol/messages';
 import {
   balanceTable, checkTable, checkWords, contactTables, energyTable, jointTables, neighbourCards, soFar,
   wrenchColor,
@@ -28,10 +28,7 @@ export type InspectorPage = Pick<LabPage, 'scene' | 'selected' | 'send' | 'selec
 export class Inspector implements Panel {
   readonly root = element('section.glass', { 'aria-label': 'inspector' });
   private readonly who = element('div.heading');
-  private readonly stepper = new Stepper(
-    (step) => this.go(step),
-    (pass) => this.goPass(pass),
-  );
+  private readonly stepper = new Stepper((step) => this.go(step), (pass) => this.goPass(pass));
   private readonly place = element('output.place');
   private readonly content = element('div.content');
   private steps: Step[] = [];
@@ -147,9 +144,8 @@ export class Inspector implements Panel {
   private render(numbers: BodyInspection): void {
     const made = element('div.content', ...this.sections(numbers));
     morph(this.content, made);
-    const { name, t, stands, passes } = numbers;
+    const { name, t, stands, passes, neighbours } = numbers;
     const joint = passes?.[0]?.joint;
-    const { neighbours } = numbers;
     const parent = neighbours?.find(({ is }) => is === 'parent')?.body ?? 'the world';
     const on = neighbours ? ` on ${parent}` : '';
     const when = stands ? 'time stands still' : 'stop the time to walk through the call';
@@ -183,7 +179,7 @@ export class Inspector implements Panel {
       element('div.so-far', ...(rows.length > 0 ? [soFar(rows, name)] : [])),
       element('h3', PASSES[this.pass][0], element('span', ` ${PASSES[this.pass][1]}`)),
       element('div.cards', ...passCards(numbers, this.pass)),
-      ...(numbers.neighbours ? [fold('From its neighbours', false, ...(taken.length ? taken : [words('nothing in this pass')]))] : []),
+      ...(numbers.neighbours ? [fold('From its neighbours', false, ...orWords(taken, 'nothing in this pass'))] : []),
       fold(
         'Free body',
         true,
@@ -194,11 +190,7 @@ export class Inspector implements Panel {
         ]),
         ...jointTables(joint_balance, unitOf(numbers, 'N m; N')),
       ),
-      fold(
-        `Contacts: ${contacts.length || 'none'}`,
-        true,
-        ...(contacts.length ? contacts : [words('nothing touches it')]),
-      ),
+      fold(`Contacts: ${contacts.length || 'none'}`, true, ...orWords(contacts, 'nothing touches it')),
       ...(ledger ? [fold('Ledger of energy, of all bodies', false, energyTable(ledger))] : []),
       ...(checks || !stands ? [fold(`Checks: ${checked}`, false, checkTable(checks ?? [], []))] : []),
     ];
@@ -212,17 +204,18 @@ export class Inspector implements Panel {
     const lengths = found.wrenches.map(({ force }) => Math.hypot(...force));
     const most = Math.max(...lengths.filter(Number.isFinite), 1e-300);
     const scale = (LENGTH * this.page.scene.view.radius) / most;
-    this.page.arrows(
-      'glass',
-      found.wrenches.map(({ force }, i) => ({
-        from: found.about as [number, number, number],
-        along: force.map((part) => scale * part) as [number, number, number],
-        color: wrenchColor(i),
-      })),
-    );
+    const arrows = found.wrenches.map(({ force }, i) => ({
+      from: found.about as Vector,
+      along: force.map((part) => scale * part) as Vector,
+      color: wrenchColor(i),
+    }));
+    this.page.arrows('glass', arrows);
   }
 }
 
+function orWords(parts: Node[], text: string): Node[] {
+  return parts.length > 0 ? parts : [words(text)];
+}
 function words(text: string): HTMLElement {
   return element('p.hint', text);
 }
@@ -234,10 +227,7 @@ export const PASSES: Record<number, [string, string]> = {
   3: ['Pass 3, outward', 'accelerations'],
 };
 
-export interface Step {
-  pass: number;
-  body: string;
-}
+export type Step = { pass: number; body: string };
 
 export class Stepper {
   readonly root = element('nav.stepper', { 'aria-label': 'steps of the passes' });
@@ -245,10 +235,7 @@ export class Stepper {
   private steps: readonly Step[] = [];
   private rows: HTMLElement[] = [];
 
-  constructor(
-    private readonly go: (step: number) => void,
-    private readonly goPass: (pass: number) => void,
-  ) {}
+  constructor(private readonly go: (step: number) => void, private readonly goPass: (pass: number) => void) {}
 
   set(steps: readonly Step[]): void {
     this.chips = steps.map(({ pass, body }, i) =>

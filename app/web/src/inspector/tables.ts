@@ -1,5 +1,4 @@
-// What else acts on the body: along its joint, in contacts, in joules; and what a pass has found so
-// far.
+// Tables of the inspector: joint torques, contacts, energy, results of a pass so far, wrenches, checks.
 import type { Balance, Check, JointBalance, NamedForce, Neighbour, PassStep } from '../protocol/inspection';
 import { NUMERICAL } from '../protocol/run';
 import { EnergyTable, inOrder } from '../panels/balances';

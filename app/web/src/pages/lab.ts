@@ -38,8 +38,8 @@ class Page implements LabPage, LabKeys {
   private readonly words = new Hints();
   private readonly title = element('h1', 'twinarm lab');
   private readonly file = element('p');
-  private readonly host = element('div.stage');
   private readonly over = element('div.handles');
+  private readonly host = element('div.stage', this.over);
   private readonly tabs = new Tabs();
   private readonly theme = new Theme(() => this.recolor());
   readonly overlays = new Overlays(() => this.sendLayers());
@@ -57,17 +57,15 @@ class Page implements LabPage, LabKeys {
   readonly keys = new KeyInput(() => this.known(), this.hand, this.handles, this.drag, () => this.touch());
   private readonly run = new LiveRun(this);
   readonly set = panelsOf(this, this.run);
-  private readonly panels: Panel[];
-  private readonly listeners: Listener[]; // the run first: panels read it
+  private readonly inspector = new Inspector(this);
+  private readonly panels: Panel[] = [...Object.values(this.set), this.inspector];
+  private readonly listeners: Listener[] = [this.run, ...this.panels]; // the run first: panels read it
   private readonly arrowsOf = new Map<string, Arrow[]>();
   private stale = true;
 
   constructor() {
-    const inspector = new Inspector(this);
-    const { knobs, plots, ledger, time, hand, gallery, dead } = this.set;
-    this.panels = [knobs, plots, inspector, ledger, time, hand, gallery, dead];
-    this.listeners = [this.run, ...this.panels];
-    [knobs, plots, inspector, ledger].forEach((panel, i) => this.tabs.add(TABS[i], panel.root));
+    const { knobs, plots, ledger } = this.set;
+    [knobs, plots, this.inspector, ledger].forEach((panel, i) => this.tabs.add(TABS[i], panel.root));
     this.build();
     const theme = remembered<boolean | null>('dark', null);
     if (theme !== null) this.theme.set(theme);
@@ -240,8 +238,7 @@ class Page implements LabPage, LabKeys {
 
   private paint(frame: wire.Frame, now: number): void {
     this.stale = false;
-    const { selected } = this;
-    this.live.paint(frame, this.overlays.shown, { selected, followed: this.views.body });
+    this.live.paint(frame, this.overlays.shown, this.selected, this.views.body);
     if (this.views.body !== null) this.stale = false; // that moved the camera, and is drawn now
     const seen = this.seen();
     if (seen) this.drag.draw(seen, this.keys);

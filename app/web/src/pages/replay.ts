@@ -3,7 +3,7 @@ import { EnergyPanel, MomentumPanel } from '../panels/balances';
 import type { Panel } from '../panels/panel';
 import { TimeBar } from '../panels/time_bar';
 import { Plots } from '../plot/plots';
-import { type Run } from '../protocol/run';
+import type { Run } from '../protocol/run';
 import { Player } from '../source/playhead';
 import { button, element, icon } from '../ui/dom';
 import { clockKeys, key, type Key, MOUSE, PLOTS, viewKeys } from '../ui/keys';

@@ -1,4 +1,4 @@
-// The energy balance: the work of each row since the start, at the instant that is shown.
+// Energy balance (work of each row since the start) and momentum balance at the instant shown.
 import { NUMERICAL, type Run } from '../protocol/run';
 import type { RunRecord } from '../source/run_record';
 import type { RunSource } from '../source/run_source';

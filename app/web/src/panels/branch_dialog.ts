@@ -6,11 +6,7 @@ import type { LabPage } from './panel';
 import type { Rewind } from '../source/playhead';
 import { numberText, parseNumber } from '../ui/scale';
 
-interface Line {
-  knob: Knob;
-  root: HTMLElement;
-  control: HTMLInputElement | HTMLSelectElement;
-}
+type Line = { knob: Knob; root: HTMLElement; control: HTMLInputElement | HTMLSelectElement };
 
 export class BranchDialog {
   readonly root = element('dialog.card-dialog.branch', { 'aria-labelledby': 'branch-title' });

@@ -119,10 +119,7 @@ export class Gallery implements Panel {
 const KEPT = 202; // HTTP: Accepted
 
 // What the lab says of it: that it is open or kept, or all its faults.
-interface Answer {
-  state: 'opened' | 'kept' | 'failed';
-  words: string;
-}
+type Answer = { state: 'opened' | 'kept' | 'failed'; words: string };
 export async function post(file: File, secret: string): Promise<Answer> {
   try {
     const query = new URLSearchParams({ name: file.name, secret });

@@ -1,7 +1,9 @@
 // The hand: who moves the robot, what the device would push back, who may turn things.
 import './input_bar.css';
 import { button, changeDetector, element, option, signed } from '../ui/dom';
-import { type Command, type Frame, type HandState, type SceneMessage, type StateMessage, watches } from '../source/link';
+import {
+  type Command, type Frame, type HandState, type SceneMessage, type StateMessage, watches,
+} from '../source/link';
 import { DEVICE_LIMIT } from '../plot/specs';
 import type { LabPage, Panel } from './panel';
 

@@ -1,6 +1,6 @@
-// What can be taken out of the lab: the run, a page of it, the scene.
+// Menus at the end of the lab's time bar: files to save, and notes.
 import { button, changeDetector, element, sign, type SignState } from '../ui/dom';
-import './notes.css';
+import './menus.css';
 import type { Note, StateMessage } from '../source/link';
 import type { Panel } from './panel';
 
@@ -39,12 +39,12 @@ export function closesByItself(menu: HTMLDetailsElement): void {
   });
 }
 
-// What the lab says: each note once, for a while, and all of the last ones behind a button.
 const STAYS = 6000; // [ms]
 const LONGER = 15_000; // errors
 const MOST = 3; // at a time
 const SIGNS: Record<Note['level'], SignState> = { note: 'ok', warning: 'near', error: 'beyond' };
 
+// What the lab says: each note once, for a while, and all of the last ones behind a button.
 export class Notes implements Panel {
   readonly root = element('details.menu.notes');
   private readonly toasts = element('div.toasts', { role: 'log', 'aria-live': 'polite' });

@@ -5,8 +5,8 @@ import { axesOfTime, drawOver, Gestures } from './chart_parts';
 import { button, element, short } from '../ui/dom';
 import { token } from '../ui/preferences';
 import {
-  type Beside, colorOf, DASH, ghostsOf, lines, lineSeries, rangeOf, stack, stackSeries,
-  usualSize, type Window,
+  type Beside, colorOf, DASH, ghostsOf, lines, lineSeries, rangeOf, stack, stackSeries, usualSize,
+  type Window,
 } from './chart_data';
 import { savePicture } from './export';
 import type { Plots } from './plots';
@@ -227,7 +227,7 @@ export class Chart {
     const name = this.plots.pictureName(this.spec.id);
     // uPlot draws when this is done.
     setTimeout(() => {
-      savePicture(name, title, chart.ctx.canvas, lines, token('--surface'), token('--ink'));
+      savePicture(name, title, chart.ctx.canvas, lines);
       chart.destroy();
       host.remove();
     });

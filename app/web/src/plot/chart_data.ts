@@ -13,16 +13,9 @@ export const DASH: Record<Curve['style'], number[] | undefined> = {
   dotted: [2, 4],
 };
 
-export interface Window {
-  from: number;
-  to: number;
-}
+export type Window = { from: number; to: number };
 
-export interface Ghost {
-  times: number[];
-  values: Points;
-  color: string;
-}
+export type Ghost = { times: number[]; values: Points; color: string };
 
 export function colorOf(curve: Curve): string {
   return token(curve.color < 0 ? '--ink' : `--c${curve.color % 8}`);
@@ -58,10 +51,7 @@ export function stack(store: Store, buckets: Buckets, curves: Curve[], sum: numb
   return data;
 }
 
-interface Series {
-  series: uPlot.Series[];
-  bands: uPlot.Band[];
-}
+type Series = { series: uPlot.Series[]; bands: uPlot.Band[] };
 
 export function lineSeries(curves: Curve[]): Series {
   const series = curves.map((curve) => ({
@@ -90,13 +80,7 @@ export function stackSeries(curves: Curve[]): Series {
   return { series, bands };
 }
 
-export function ghostsOf(
-  { before }: RunRecord,
-  window: Window,
-  spec: PlotSpec,
-  curves: Curve[],
-  factor: number,
-): Ghost[] {
+export function ghostsOf({ before }: RunRecord, window: Window, spec: PlotSpec, curves: Curve[], factor: number) {
   if (!before || before.length === 0) return [];
   const begin = Math.max(0, before.after(window.from) - 1);
   const end = Math.min(before.length, before.after(window.to) + 1);
@@ -126,11 +110,8 @@ export interface Beside {
 const FAR = 3; // what is so many times larger than the curves would press them flat
 
 // So that all of it can be seen: the branch that was left, the limit, what was summed up.
-export function rangeOf(
-  low: number | null,
-  high: number | null,
-  { usual, ghosts, limit, sums, isForce }: Beside,
-): [number, number] {
+export function rangeOf(low: number | null, high: number | null, beside: Beside): [number, number] {
+  const { usual, ghosts, limit, sums, isForce } = beside;
   const inner = usual > 0 ? FAR * usual : Infinity;
   let a = Math.max(-inner, low ?? 0);
   let b = Math.min(inner, high ?? 0);

@@ -1,4 +1,4 @@
-// The two axes of every plot: time in seconds below, the quantity at the left; in the theme's colours.
+// Parts of a chart besides its curves: axes, the previous branch and the limit, pointer gestures.
 import type uPlot from 'uplot';
 import { token } from '../ui/preferences';
 import type { Beside, Ghost } from './chart_data';
@@ -30,8 +30,6 @@ function tickText(value: number): string {
 // What stands over the curves of a plot: the branch that was left, the limit. Pixels of the canvas.
 const PALE = '90'; // opacity of what was left
 
-type Point = [number, number];
-
 export function drawOver(chart: uPlot, { ghosts, limit }: Beside): void {
   const { ctx, bbox } = chart;
   const px = devicePixelRatio;
@@ -55,34 +53,22 @@ function drawLimit(chart: uPlot, limit: NonNullable<PlotSpec['limit']>, px: numb
   ctx.strokeStyle = ctx.fillStyle = token('--beyond');
   ctx.lineWidth = px;
   ctx.setLineDash([8 * px, 3 * px]);
-  stroke(ctx, [bbox.left, y], [bbox.left + bbox.width, y]);
+  ctx.stroke(new Path2D(`M${bbox.left} ${y}h${bbox.width}`));
   ctx.font = `${11 * px}px system-ui, sans-serif`;
   ctx.textAlign = 'left';
   ctx.textBaseline = 'top';
   ctx.fillText(limit.words, bbox.left + 6 * px, y + 3 * px);
 }
 
-function stroke(ctx: CanvasRenderingContext2D, a: Point, b: Point): void {
-  ctx.beginPath();
-  ctx.moveTo(...a);
-  ctx.lineTo(...b);
-  ctx.stroke();
-}
-
 function strokeGhost(chart: uPlot, { times, values }: Ghost): void {
-  const { ctx } = chart;
-  ctx.beginPath();
-  let isDown = false;
+  const path = new Path2D();
   values.forEach((value, i) => {
-    if (value !== null) {
-      const x = chart.valToPos(times[i], 'x', true);
-      const y = chart.valToPos(value, 'y', true);
-      if (isDown) ctx.lineTo(x, y);
-      else ctx.moveTo(x, y);
-    }
-    isDown = value !== null;
+    if (value === null) return;
+    const [x, y] = [chart.valToPos(times[i], 'x', true), chart.valToPos(value, 'y', true)];
+    if (i > 0 && values[i - 1] !== null) path.lineTo(x, y);
+    else path.moveTo(x, y);
   });
-  ctx.stroke();
+  chart.ctx.stroke(path);
 }
 
 // The pointer on a plot: a click seeks, as does the marker when it is dragged. uPlot has the others:

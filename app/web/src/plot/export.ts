@@ -1,5 +1,6 @@
 // Numbers and pictures out of the page, as files.
 import { element } from '../ui/dom';
+import { token } from '../ui/preferences';
 
 export interface CsvColumn {
   name: string;
@@ -12,15 +13,8 @@ export function csvText(columns: CsvColumn[], rows: number): string {
   const quoted = (text: string) =>
     /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
   const lines = [columns.map(({ name, unit }) => quoted(unit ? `${name} [${unit}]` : name)).join()];
-  for (let row = 0; row < rows; ++row)
-    lines.push(
-      columns
-        .map((column) => {
-          const value = column.value(row);
-          return Number.isNaN(value) ? '' : String(value);
-        })
-        .join(),
-    );
+  const text = (value: number) => (Number.isNaN(value) ? '' : String(value));
+  for (let row = 0; row < rows; ++row) lines.push(columns.map(({ value }) => text(value(row))).join());
   return lines.join('\r\n') + '\r\n';
 }
 
@@ -42,21 +36,10 @@ export function fileName(title: string, what: string, ending: string): string {
   return `${plain.replaceAll(/^-+|-+$/g, '')}.${ending}`;
 }
 
-export interface PictureLine {
-  name: string;
-  color: string;
-  dash: number[];
-}
+type PictureLine = { name: string; color: string; dash: number[] };
 
 // A plot's canvas with its title above and its names below, on the page's paper.
-export function savePicture(
-  name: string,
-  title: string,
-  plot: HTMLCanvasElement,
-  lines: PictureLine[],
-  paper: string,
-  ink: string,
-): void {
+export function savePicture(name: string, title: string, plot: HTMLCanvasElement, lines: PictureLine[]): void {
   const scale = plot.width / plot.clientWidth || 1;
   const row = 18 * scale;
   const canvas = element('canvas');
@@ -77,10 +60,10 @@ export function savePicture(
   }
   canvas.width = plot.width;
   canvas.height = plot.height + y + 2.5 * row;
-  context.fillStyle = paper;
+  context.fillStyle = token('--surface');
   context.fillRect(0, 0, canvas.width, canvas.height);
   context.drawImage(plot, 0, row);
-  context.fillStyle = ink;
+  context.fillStyle = token('--ink');
   context.font = `600 ${13 * scale}px system-ui, sans-serif`;
   context.fillText(title, 8 * scale, 14 * scale);
   context.font = font;

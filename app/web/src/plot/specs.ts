@@ -28,24 +28,17 @@ const LANE_TITLES = new Map([
 ]);
 const MOST = 7; // curves that the eye can tell apart
 
-interface Numbered extends SceneChannel {
-  column: number;
-}
+type Numbered = SceneChannel & { column: number };
 
 export class PlotSpecs {
-  private readonly channels: Numbered[];
+  private readonly channels = this.record.scene.channels.map((channel, column) => ({ ...channel, column }));
 
-  constructor(
-    private readonly record: RunRecord,
-    readonly colors = new Map<string, number>(), // by name
-  ) {
-    this.channels = record.scene.channels.map((channel, column) => ({ ...channel, column }));
-  }
+  // `colors`: by name.
+  constructor(private readonly record: RunRecord, readonly colors = new Map<string, number>()) {}
 
   // `step`: of the run [s], the time that a step may take.
   all(step: number): PlotSpec[] {
-    const acting = (kind: string) =>
-      this.of(kind).filter(({ column }) => this.size(column) > 0);
+    const acting = (kind: string) => this.of(kind).filter(({ column }) => this.size(column) > 0);
     return [
       ...this.lanes(),
       ...this.bodies(),

@@ -1,6 +1,6 @@
 // What a page carries: a text of JSON, and one block of bytes to which it points, deflated
 // and in base64. `{"at": byte, "count": n, "type": "f64"}` stands for an array.
-import type { MeshData } from '../protocol/run';
+import type { Carried, MeshData } from '../protocol/run';
 import { element } from '../ui/dom';
 
 const KINDS = {
@@ -13,11 +13,7 @@ const KINDS = {
   f64: Float64Array,
 };
 
-interface ArrayPlace {
-  at: number;
-  count: number;
-  type: keyof typeof KINDS;
-}
+type ArrayPlace = { at: number; count: number; type: keyof typeof KINDS };
 
 function isPlace(value: unknown): value is ArrayPlace {
   return typeof value === 'object' && value !== null && 'at' in value && 'count' in value;
@@ -38,31 +34,21 @@ async function inflate(base64: string): Promise<ArrayBuffer> {
 }
 
 // Positions come as 16-bit shares of the mesh's box, normals as bytes, indices as differences.
-interface PackedMesh {
+interface PackedMesh extends Pick<MeshData, 'uv' | 'twoSided'> {
   low: [number, number, number];
   high: [number, number, number];
   position: Uint16Array;
   normal: Int8Array;
   index: Int16Array | Uint32Array;
-  uv: Float32Array;
-  twoSided: boolean;
 }
 
-function unpackMesh(packed: PackedMesh): MeshData {
-  const position = new Float32Array(packed.position.length);
-  for (let i = 0; i < position.length; ++i) {
-    const c = i % 3;
-    position[i] =
-      packed.low[c] + (packed.position[i] / 65535) * (packed.high[c] - packed.low[c]);
-  }
+function unpackMesh({ low, high, uv, twoSided, ...packed }: PackedMesh): MeshData {
+  const place = (share: number, c: number) => low[c] + (share / 65535) * (high[c] - low[c]);
+  const position = Float32Array.from(packed.position, (share, i) => place(share, i % 3));
   const normal = Float32Array.from(packed.normal, (n) => n / 127);
-  const index = new Uint32Array(packed.index.length);
-  let last = 0;
-  for (let i = 0; i < index.length; ++i) {
-    last = (last + packed.index[i]) >>> 0; // of unsigned differences, modulo 2^32
-    index[i] = last;
-  }
-  return { position, normal, index, uv: packed.uv, twoSided: packed.twoSided };
+  let last = 0; // of unsigned differences, modulo 2^32
+  const index = Uint32Array.from(packed.index, (difference) => (last = (last + difference) >>> 0));
+  return { position, normal, index, uv, twoSided };
 }
 
 function textOf(id: string): string {
@@ -74,32 +60,25 @@ function picture({ png }: { png: Uint8Array<ArrayBuffer> }): Promise<ImageBitmap
   return createImageBitmap(new Blob([png], { type: 'image/png' }));
 }
 
-// A Run, or whatever else has meshes. The program that wrote the page vouches for its shape.
-export async function embedded<
-  T extends { meshes: MeshData[]; textures: ImageBitmap[] },
->(): Promise<T> {
-  const plain: unknown = JSON.parse(textOf('run'));
-  const data = resolve(plain, await inflate(textOf('run-bytes'))) as object & {
-    meshes: PackedMesh[];
-    textures: { png: Uint8Array<ArrayBuffer> }[];
-  };
+type Packed = { meshes: PackedMesh[]; textures: { png: Uint8Array<ArrayBuffer> }[] };
+// The program that wrote the page vouches for its shape.
+async function embedded<T extends Carried>(): Promise<T> {
+  const data = resolve(JSON.parse(textOf('run')), await inflate(textOf('run-bytes'))) as Packed;
   const textures = await Promise.all(data.textures.map(picture));
   return { ...data, meshes: data.meshes.map(unpackMesh), textures } as unknown as T;
 }
 
 // How a page begins: what it carries is read and shown, or the page says why it cannot be.
 // `show` gives what tests and the curious find as window.twinarm.
-export function start<T extends { meshes: MeshData[]; textures: ImageBitmap[] }>(
-  show: (data: T) => object,
-): void {
+export function start<T extends Carried>(show: (data: T) => object): void {
   const begin = async (): Promise<void> => {
     Object.assign(window, { twinarm: show(await embedded<T>()) });
     document.documentElement.dataset.ready = 'true';
   };
   begin().catch((error: unknown) => {
     const words = error instanceof Error ? error.message : String(error);
-    const text = `This page cannot be shown: ${words}`;
-    document.body.replaceChildren(element('p.failed', { role: 'alert' }, text));
+    const said = element('p.failed', { role: 'alert' }, `This page cannot be shown: ${words}`);
+    document.body.replaceChildren(said);
     console.error(error);
   });
 }

@@ -33,34 +33,26 @@ async function fetched(address: string): Promise<Response> {
 }
 
 export class MeshStore {
-  private readonly meshes = new Map<string, Promise<MeshData>>();
-  private readonly textures = new Map<string, Promise<ImageBitmap>>();
+  private readonly kept = new Map<string, Promise<unknown>>(); // by address
 
   // One that cannot be had is empty, and asked for again by the next scene.
   async get(hashes: string[]): Promise<MeshData[]> {
-    const parts = hashes.map((hash) =>
-      kept(this.meshes, hash, async () =>
-        decodeMesh(await (await fetched(`/mesh/${hash}`)).arrayBuffer()),
-      ).catch(() => NOTHING),
-    );
-    return Promise.all(parts);
+    const read = async (answer: Response) => decodeMesh(await answer.arrayBuffer());
+    return Promise.all(hashes.map((hash) => this.one(`/mesh/${hash}`, read).catch(() => NOTHING)));
   }
 
   async images(hashes: string[]): Promise<ImageBitmap[]> {
-    const parts = hashes.map((hash) =>
-      kept(this.textures, hash, async () =>
-        createImageBitmap(await (await fetched(`/texture/${hash}`)).blob()),
-      ).catch(() => createImageBitmap(new ImageData(1, 1))),
-    );
-    return Promise.all(parts);
+    const read = async (answer: Response) => createImageBitmap(await answer.blob());
+    const nothing = () => createImageBitmap(new ImageData(1, 1));
+    return Promise.all(hashes.map((hash) => this.one(`/texture/${hash}`, read).catch(nothing)));
   }
-}
 
-function kept<T>(store: Map<string, Promise<T>>, hash: string, get: () => Promise<T>): Promise<T> {
-  const known = store.get(hash);
-  if (known) return known;
-  const asked = get();
-  store.set(hash, asked);
-  asked.catch(() => store.delete(hash));
-  return asked;
+  private one<T>(address: string, read: (answer: Response) => Promise<T>): Promise<T> {
+    const known = this.kept.get(address);
+    if (known) return known as Promise<T>;
+    const asked = fetched(address).then(read);
+    this.kept.set(address, asked);
+    asked.catch(() => this.kept.delete(address));
+    return asked;
+  }
 }

@@ -117,11 +117,11 @@ export class Player extends Playhead implements RunSource, Clock {
   }
 }
 
-// Looking back: which instant is asked for. What is remembered can also be played again, in slow
-// motion too; the lab only knows instants, the clock is here.
 const PAUSE = 33; // between two instants that are asked for [ms]
 const SETTLE = 400; // until the lab says what was asked for [ms]
 
+// Looking back: which instant is asked for. What is remembered can also be played again, in slow
+// motion too; the lab only knows instants, the clock is here.
 // `at` is as asked for, which is newer than what the lab says.
 export class Rewind extends Playhead {
   private startedAt = -Infinity;

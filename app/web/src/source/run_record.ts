@@ -22,19 +22,11 @@ export interface ErrorGroup {
   mean: number;
 }
 
-export interface History {
-  scene: number;
-  times: Float64Array;
-  width: number; // channels of a frame
-  rows: number; // of the ledger
-  channels: Float64Array; // frame by frame
-  works: Float64Array;
-}
+type History = NonNullable<ReturnType<typeof decodeHistory>>;
 
-export function decodeHistory(buffer: ArrayBuffer): History | null {
+export function decodeHistory(buffer: ArrayBuffer) {
   if (buffer.byteLength < HISTORY_HEADER) return null;
-  const head = new Uint32Array(buffer, 0, 5);
-  const [magic, scene, frames, channels, rows] = head;
+  const [magic, scene, frames, channels, rows] = new Uint32Array(buffer, 0, 5);
   const numbers = frames * (1 + channels + rows);
   if (magic !== HISTORY_MAGIC || buffer.byteLength < HISTORY_HEADER + 8 * numbers) return null;
   const part = (first: number, count: number) =>
@@ -42,9 +34,9 @@ export function decodeHistory(buffer: ArrayBuffer): History | null {
   return {
     scene,
     times: part(0, frames),
-    width: channels,
-    rows,
-    channels: part(frames, frames * channels),
+    width: channels, // of a frame
+    rows, // of the ledger
+    channels: part(frames, frames * channels), // frame by frame
     works: part(frames * (1 + channels), frames * rows),
   };
 }
@@ -71,10 +63,9 @@ export class RunRecord {
     this.works = channels.length;
     this.sum = this.works + ledger.length;
     let next = this.sum + 1;
-    const errors = channels.map(({ kind, unit }, i) => ({ kind, unit, i }));
-    const isError = ({ kind }: { kind: string }) => kind === 'error';
-    for (const unit of new Set(errors.filter(isError).map((channel) => channel.unit))) {
-      const own = errors.filter((one) => isError(one) && one.unit === unit).map(({ i }) => i);
+    const errors = channels.flatMap(({ kind, unit }, i) => (kind === 'error' ? [{ unit, i }] : []));
+    for (const unit of new Set(errors.map((error) => error.unit))) {
+      const own = errors.filter((error) => error.unit === unit).map(({ i }) => i);
       this.errors.push({ unit, channels: own, most: next, mean: next + 1 });
       next += 2;
     }
@@ -172,31 +163,23 @@ export class RunRecord {
       sum += work;
     }
     keep(this.sum, sum);
-    const previous = this.store.length - 2;
-    for (const group of this.errors) this.follow(group, channels, time, previous, keep);
+    for (const group of this.errors) {
+      const now = group.channels.reduce((most, i) => Math.max(most, Math.abs(channels[i]) || 0), 0);
+      const [most, mean] = this.errorSoFar(group, now, time);
+      keep(group.most, most);
+      keep(group.mean, mean);
+    }
     this.version += 1;
   }
 
   // The largest so far, and the mean over time by the rectangle rule, from the row before.
-  private follow(
-    { channels, most, mean }: ErrorGroup,
-    values: ArrayLike<number>,
-    time: number,
-    previous: number,
-    keep: (index: number, value: number) => void,
-  ): void {
-    let now = 0;
-    for (const i of channels) now = Math.max(now, Math.abs(values[i]) || 0);
-    if (previous < 0) {
-      keep(most, now);
-      keep(mean, now);
-      return;
-    }
-    const then = this.store.times[previous];
-    const passed = then - this.began;
-    const all = time - this.began;
-    keep(most, Math.max(this.store.value(most, previous), now));
-    keep(mean, (this.store.value(mean, previous) * passed + now * (time - then)) / all);
+  private errorSoFar({ most, mean }: ErrorGroup, now: number, time: number): [number, number] {
+    const { store, began } = this;
+    const row = store.length - 2;
+    if (row < 0) return [now, now];
+    const then = store.times[row];
+    const sum = store.value(mean, row) * (then - began) + now * (time - then);
+    return [Math.max(store.value(most, row), now), sum / (time - began)];
   }
 }
 

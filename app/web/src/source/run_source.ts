@@ -13,9 +13,9 @@ export interface RunSource {
   look(time: number): void;
 }
 
-// What the page remembers of the lab's run. Frames that it missed come from the lab's memory.
 const REFILL = 3000; // how often missed frames are asked for [ms]
 
+// What the page remembers of the lab's run. Frames that it missed come from the lab's memory.
 export class LiveRun implements RunSource, Listener {
   readonly isLive = true;
   record: RunRecord | null = null;

@@ -1,6 +1,7 @@
-// Pages of the side panel. One stop of the tab key; arrows go from one to the next.
+// Choices of one among several: tabs of the side panel, segments side by side.
 import { element } from './dom';
 
+// Pages of the side panel. One stop of the tab key; arrows go from one to the next.
 export class Tabs {
   readonly root: HTMLElement;
   private readonly list = element('div', { role: 'tablist' });
@@ -51,9 +52,9 @@ export class Tabs {
   }
 }
 
-// A choice among few, side by side: one stop of the tab key, arrows change it.
 let groups = 0;
 
+// A choice among few, side by side: one stop of the tab key, arrows change it.
 export class Segments {
   readonly root: HTMLElement;
   private readonly choices: HTMLInputElement[];

@@ -1,5 +1,4 @@
-
-
+// Elements of the page: made in one call, drawn as SVG, updated in place.
 type TagOf<T extends string> = T extends `${infer Tag}.${string}` ? Tag : T;
 type Made<T extends string> =
   TagOf<T> extends keyof HTMLElementTagNameMap ? HTMLElementTagNameMap[TagOf<T>] : never;

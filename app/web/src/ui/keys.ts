@@ -60,12 +60,10 @@ export function clockKeys(clock: Clock): Key[] {
 function isTaken(event: KeyboardEvent): boolean {
   if (event.ctrlKey || event.metaKey || event.altKey) return true;
   const at = event.target;
-  if (at instanceof HTMLSelectElement || at instanceof HTMLTextAreaElement) return true;
-  if (at instanceof HTMLInputElement && ['text', 'number', 'search'].includes(at.type)) return true;
-  if (at instanceof HTMLInputElement && at.type === 'radio' && /^(Arrow| )/.test(event.key)) return true;
-  const checks = at instanceof HTMLInputElement && at.type === 'checkbox';
-  const presses = at instanceof HTMLButtonElement || checks;
-  return presses && (event.key === ' ' || event.key === 'Enter');
+  if (!(at instanceof Element)) return false;
+  if (at.matches('select, textarea, input:is([type=text], [type=number], [type=search])')) return true;
+  if (at.matches('input[type=radio]') && /^(Arrow| )/.test(event.key)) return true;
+  return at.matches('button, input[type=checkbox]') && (event.key === ' ' || event.key === 'Enter');
 }
 
 // `isKept`: besides, keys that somebody else is to have.

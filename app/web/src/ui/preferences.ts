@@ -1,5 +1,4 @@
-// Light or dark: as the system is, until somebody chooses.
-
+// Light or dark, as the system is until somebody chooses; and choices that the browser keeps.
 
 export class Theme {
   dark = matchMedia('(prefers-color-scheme: dark)').matches;

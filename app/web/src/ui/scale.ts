@@ -1,10 +1,6 @@
 // A knob's slider: where a value stands on it, what stands at a place, what an arrow key makes of
 // it; and its number as text. Places go from 0 to 1.
-export interface Scale {
-  form: 'log' | 'linear';
-  low: number;
-  high: number;
-}
+export type Scale = { form: 'log' | 'linear'; low: number; high: number };
 
 const DECADES = 6; // of a logarithmic slider that begins at zero
 const DIGITS = 3; // that a slider sets
@@ -15,12 +11,9 @@ function foot(scale: Scale): number {
 
 export function placeOf(scale: Scale, value: number): number {
   const { form, low, high } = scale;
-  const share =
-    form === 'linear'
-      ? (value - low) / (high - low)
-      : value <= 0
-        ? 0
-        : Math.log(value / foot(scale)) / Math.log(high / foot(scale));
+  const decades = (upTo: number) => Math.log(upTo / foot(scale));
+  const logShare = value <= 0 ? 0 : decades(value) / decades(high);
+  const share = form === 'linear' ? (value - low) / (high - low) : logShare;
   return Number.isFinite(share) ? Math.min(1, Math.max(0, share)) : 0;
 }
 
@@ -28,9 +21,9 @@ export function valueAt(scale: Scale, place: number): number {
   const { form, low, high } = scale;
   if (place <= 0) return low;
   if (place >= 1) return high;
-  if (form === 'log') return clamp(scale, round(foot(scale) * (high / foot(scale)) ** place));
+  if (form === 'log') return within(scale, round(foot(scale) * (high / foot(scale)) ** place));
   const step = niceStep((high - low) / 1000);
-  return clamp(scale, tidy(Math.round((low + place * (high - low)) / step) * step));
+  return within(scale, tidy(Math.round((low + place * (high - low)) / step) * step));
 }
 
 // Up (1) or down (-1): a tenth of the value, or of the decade's worth of a linear scale; a coarse
@@ -38,16 +31,16 @@ export function valueAt(scale: Scale, place: number): number {
 export function stepped(scale: Scale, value: number, way: 1 | -1, coarse: boolean): number {
   if (scale.form === 'linear') {
     const step = niceStep((scale.high - scale.low) / 100) * (coarse ? 10 : 1);
-    return clamp(scale, tidy((Math.round(value / step) + way) * step));
+    return within(scale, tidy((Math.round(value / step) + way) * step));
   }
   const factor = coarse ? 2 : 1.1;
   if (value <= 0) return way > 0 ? foot(scale) : scale.low;
   const next = round(way > 0 ? value * factor : value / factor);
-  return next < foot(scale) ? scale.low : clamp(scale, next);
+  return next < foot(scale) ? scale.low : within(scale, next);
 }
 
-function clamp({ low, high }: Scale, value: number): number {
-  return Math.min(high, Math.max(low, value));
+export function within({ low, high }: { low?: number; high?: number }, value: number): number {
+  return Math.min(high ?? Infinity, Math.max(low ?? -Infinity, value));
 }
 
 function round(value: number): number {

@@ -31,5 +31,5 @@ export class Slider {
 // Puts a mark to its place; null: nowhere on the slider.
 export function putMark(mark: HTMLElement, place: number | null): void {
   mark.hidden = place === null || place < 0 || place > 1;
-  mark.style.setProperty('--place', String(place));
+  mark.style.setProperty('--place', String(place ?? 0));
 }

@@ -1,9 +1,10 @@
 // Arrows that a page adds to the picture by itself: forces on the body that is looked at.
 import * as THREE from 'three';
+import type { Vector } from '../protocol/messages';
 
 export interface Arrow {
-  from: [number, number, number];
-  along: [number, number, number]; // world axes, metres
+  from: Vector;
+  along: Vector; // world axes, metres
   color: string;
 }
 
@@ -41,24 +42,16 @@ export class Arrows {
     const head = Math.min(6.5 * this.thickness, 0.6 * length);
     const start = new THREE.Vector3(...from);
     const neck = start.clone().addScaledVector(direction, length - head);
-    this.put(this.shaft, start, direction, this.thickness, length - head, color);
-    this.put(this.head, neck, direction, 2.4 * this.thickness, head, color);
-  }
-
-  private put(
-    geometry: THREE.BufferGeometry,
-    at: THREE.Vector3,
-    direction: THREE.Vector3,
-    radius: number,
-    length: number,
-    color: string,
-  ): void {
-    const material = new THREE.MeshBasicMaterial({ color, depthTest: false, transparent: true });
-    const mesh = new THREE.Mesh(geometry, material);
-    mesh.position.copy(at);
-    mesh.quaternion.setFromUnitVectors(UP, direction);
-    mesh.scale.set(radius, length, radius);
-    mesh.renderOrder = 20;
-    this.group.add(mesh);
+    const put = (geometry: THREE.BufferGeometry, at: THREE.Vector3, radius: number, size: number) => {
+      const material = new THREE.MeshBasicMaterial({ color, depthTest: false, transparent: true });
+      const mesh = new THREE.Mesh(geometry, material);
+      mesh.position.copy(at);
+      mesh.quaternion.setFromUnitVectors(UP, direction);
+      mesh.scale.set(radius, size, radius);
+      mesh.renderOrder = 20;
+      this.group.add(mesh);
+    };
+    put(this.shaft, start, this.thickness, length - head);
+    put(this.head, neck, 2.4 * this.thickness, head);
   }
 }

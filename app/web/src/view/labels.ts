@@ -3,22 +3,13 @@
 // the other side of their point; a thin line leads to it. What finds no room is left out.
 import type { LabelColumns } from '../protocol/run';
 import { element, svg } from '../ui/dom';
-import type { Stage } from './stage';
+import type { Pixel, Stage } from './stage';
 
 const LINE = 17; // pixels from one line to the next
 const LOOK_AGAIN = 300; // [ms]: asking for places makes the browser lay out the page
 
-interface Box {
-  left: number;
-  top: number;
-  right: number;
-  bottom: number;
-}
-
-interface Item {
-  text: HTMLSpanElement;
-  leader: SVGLineElement;
-}
+type Box = Record<'left' | 'top' | 'right' | 'bottom', number>;
+type Item = { text: HTMLSpanElement; leader: SVGLineElement };
 
 export class Labels {
   private readonly leaders = svg('svg');
@@ -58,19 +49,13 @@ export class Labels {
     const boxes: Box[] = [];
     for (const other of this.root.parentElement?.children ?? []) {
       if (other === this.root || other.matches('canvas, .handles')) continue;
-      const box = other.getBoundingClientRect();
-      if (box.width === 0) continue;
-      boxes.push({
-        left: box.left - left,
-        top: box.top - top,
-        right: box.right - left,
-        bottom: box.bottom - top,
-      });
+      const { x, y, width, height } = other.getBoundingClientRect();
+      if (width > 0) boxes.push(new DOMRect(x - left, y - top, width, height));
     }
     return boxes;
   }
 
-  private put(item: Item, text: string, box: Box, point: { x: number; y: number }): void {
+  private put(item: Item, text: string, box: Box, point: Pixel): void {
     item.text.hidden = false;
     if (item.text.textContent !== text) item.text.textContent = text;
     item.text.style.transform = `translate(${box.left}px, ${box.top}px)`;
@@ -95,17 +80,9 @@ export class Labels {
 }
 
 // The nearest free place; at the right before the left.
-function place(
-  point: { x: number; y: number },
-  right: number,
-  down: number,
-  width: number,
-  taken: Box[],
-): Box | null {
-  const free = (box: Box) =>
-    taken.every(
-      (t) => t.right < box.left || t.left > box.right || t.bottom <= box.top || t.top >= box.bottom,
-    );
+function place(point: Pixel, right: number, down: number, width: number, taken: Box[]): Box | null {
+  const free = ({ left, top, right, bottom }: Box) =>
+    taken.every((t) => t.right < left || t.left > right || t.bottom <= top || t.top >= bottom);
   for (const lines of [0, -1, 1, -2, 2, -3, 3, -4, 4])
     for (const left of [point.x + right, point.x - right - width]) {
       const top = point.y + down - 0.5 * LINE + lines * LINE;

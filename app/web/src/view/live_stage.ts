@@ -1,6 +1,5 @@
 // The view of the run: the newest frame, as it came. Nothing is interpolated between frames: that
 // would show each of them one frame later, and a hand feels that.
-import type { LabelColumns } from '../protocol/run';
 import { element } from '../ui/dom';
 import type { Part } from './painter';
 import { Stage } from './stage';
@@ -26,11 +25,7 @@ export class LiveStage {
   private dark = false;
   private numbers = new Uint32Array(); // 0, 1, 2, ..
 
-  constructor(
-    private readonly host: HTMLElement,
-    handles: HTMLElement,
-    private readonly changed: () => void,
-  ) {
+  constructor(private readonly host: HTMLElement, handles: HTMLElement, private readonly changed: () => void) {
     handles.append(this.tag);
   }
 
@@ -73,11 +68,7 @@ export class LiveStage {
   }
 
   // `shown`: names of layers. `selected`, `followed`: bodies.
-  paint(
-    frame: Frame,
-    shown: Set<string>,
-    { selected, followed }: { selected: number | null; followed: number | null },
-  ): void {
+  paint(frame: Frame, shown: Set<string>, selected: number | null, followed: number | null): void {
     const { stage, scene } = this;
     if (!stage || !scene) return;
     if (followed !== null) stage.follow(placeOf(frame.link, followed));
@@ -109,12 +100,8 @@ export class LiveStage {
   private paintLabels(stage: Stage, frame: Frame, parts: Part[]): void {
     const count = frame.textEnd.length;
     if (this.numbers.length < count) this.numbers = Uint32Array.from({ length: 2 * count }, (_, i) => i);
-    const columns: LabelColumns = {
-      first: frame.firstLabel,
-      text: this.numbers,
-      position: frame.labelPosition,
-      offset: frame.labelOffset,
-    };
+    const { firstLabel: first, labelPosition: position, labelOffset: offset } = frame;
+    const columns = { first, text: this.numbers, position, offset };
     const texts = Array.from({ length: count }, (_, i) => labelText(frame, i));
     const layers = count > 0 ? parts.map(({ a }) => ({ columns, frame: a })) : [];
     stage.labels.paint(stage, texts, layers);
@@ -144,21 +131,20 @@ function isSoftware(gl: WebGL2RenderingContext): boolean {
   return /swiftshader|llvmpipe|softpipe|basic render/i.test(name);
 }
 
+const EVERY = 200; // [ms]
+const NO_WEBGL =
+  'This browser cannot draw in three dimensions (WebGL): the program draws, five pictures a ' +
+  'second, from one side. Keys move the hand all the same.';
+
 // Where a browser cannot draw: the program's own picture, five times a second. Never more than one
 // on its way.
-const EVERY = 200; // [ms]
-
 export class Picture {
-  readonly root: HTMLElement;
   private readonly image = element('img', { alt: 'the robot, drawn by the program' });
+  readonly root = element('figure.picture', this.image, element('figcaption', NO_WEBGL));
   private asked = 0;
   private loading = false;
 
   constructor() {
-    const words =
-      'This browser cannot draw in three dimensions (WebGL): the program draws, five pictures a ' +
-      'second, from one side. Keys move the hand all the same.';
-    this.root = element('figure.picture', this.image, element('figcaption', words));
     for (const end of ['load', 'error']) this.image.addEventListener(end, () => (this.loading = false));
   }
 

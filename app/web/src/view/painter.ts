@@ -3,8 +3,7 @@
 import * as THREE from 'three';
 import type { InstanceColumns, MeshData } from '../protocol/run';
 import {
-  Batch, ghostMaterials, glossy, hiddenMaterials, ORDER, outlineMaterials, plainly, solidMaterial,
-  type SurfaceOf,
+  Batch, ghostMaterials, hiddenMaterials, ORDER, outlineMaterials, solidMaterial, type SurfaceOf,
 } from './surfaces';
 
 // Frames a and b of one layer, and how far between the two.
@@ -63,6 +62,28 @@ interface Look {
   texture: number; // as in the columns
 }
 
+// Where an entry stands.
+export class Pose {
+  readonly position = new THREE.Vector3();
+  readonly turn = new THREE.Quaternion();
+  readonly scale = new THREE.Vector3();
+
+  read({ position, turn, scale }: Pick<InstanceColumns, 'position' | 'turn' | 'scale'>, i: number): this {
+    this.position.fromArray(position, 3 * i);
+    this.turn.fromArray(turn, 4 * i).normalize();
+    this.scale.fromArray(scale, 3 * i);
+    return this;
+  }
+  goTowards(other: Pose, share: number): void {
+    this.position.lerp(other.position, share);
+    this.turn.slerp(other.turn, share);
+    this.scale.lerp(other.scale, share);
+  }
+  compose(matrix: THREE.Matrix4): void {
+    matrix.compose(this.position, this.turn, this.scale);
+  }
+}
+
 export class Painter {
   readonly geometries: THREE.BufferGeometry[] = []; // by mesh
   private readonly coarse: THREE.BufferGeometry[] = [];
@@ -70,22 +91,15 @@ export class Painter {
   private readonly textures: THREE.Texture[] = [];
   private readonly batches = new Map<number, Batch>();
   private readonly matrix = new THREE.Matrix4();
-  private readonly position = new THREE.Vector3();
-  private readonly turn = new THREE.Quaternion();
-  private readonly otherPosition = new THREE.Vector3();
-  private readonly otherTurn = new THREE.Quaternion();
-  private readonly scale = new THREE.Vector3();
-  private readonly otherScale = new THREE.Vector3();
+  private readonly pose = new Pose();
+  private readonly otherPose = new Pose();
   private readonly color = new THREE.Color();
-  private readonly surface: SurfaceOf;
 
   constructor(
     private readonly scene: THREE.Scene,
     private readonly small: number, // size of what is drawn coarsely
-    isPlain = false,
-  ) {
-    this.surface = isPlain ? plainly : glossy;
-  }
+    private readonly surface: SurfaceOf,
+  ) {}
 
   // Behind those that it has.
   add(meshes: MeshData[], textures: ImageBitmap[]): void {
@@ -121,14 +135,9 @@ export class Painter {
       between = columns.mesh[from + i] === columns.mesh[other + i];
     for (let i = from; i < to; ++i) {
       if (outline && !outline.of(i)) continue;
-      this.place(columns, i, this.position, this.turn, this.scale);
-      if (between) {
-        this.place(columns, other + i - from, this.otherPosition, this.otherTurn, this.otherScale);
-        this.position.lerp(this.otherPosition, share);
-        this.turn.slerp(this.otherTurn, share);
-        this.scale.lerp(this.otherScale, share);
-      }
-      this.matrix.compose(this.position, this.turn, this.scale);
+      this.pose.read(columns, i);
+      if (between) this.pose.goTowards(this.otherPose.read(columns, other + i - from), share);
+      this.pose.compose(this.matrix);
       if (outline) {
         this.putOutline(columns.mesh[i], outline.color);
         continue;
@@ -140,7 +149,8 @@ export class Painter {
   }
 
   private put(columns: InstanceColumns, i: number, alpha: number, shadow: boolean): void {
-    const isSmall = Math.max(this.scale.x, this.scale.y, this.scale.z) < this.small;
+    const { x, y, z } = this.pose.scale;
+    const isSmall = Math.max(x, y, z) < this.small;
     const mesh = columns.mesh[i];
     if (mesh >= this.meshes.length) return; // it has not come yet
     const shininess = columns.shininess[i];
@@ -183,17 +193,5 @@ export class Painter {
     const map = texture > 0 && uv.length > 0 ? (this.textures[texture - 1] ?? null) : null;
     const material = solidMaterial(surface, map, twoSided);
     return [{ material, order: ORDER.solid, shadow: kind === BODY }];
-  }
-
-  private place(
-    columns: InstanceColumns,
-    i: number,
-    position: THREE.Vector3,
-    turn: THREE.Quaternion,
-    scale: THREE.Vector3,
-  ): void {
-    position.fromArray(columns.position, 3 * i);
-    turn.fromArray(columns.turn, 4 * i).normalize();
-    scale.fromArray(columns.scale, 3 * i);
   }
 }

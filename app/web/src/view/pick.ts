@@ -1,6 +1,7 @@
 // What lies under a point of the view: the nearest entry of a layer that belongs to a body.
 import * as THREE from 'three';
-import type { Stage } from './stage';
+import { Pose } from './painter';
+import type { Pixel, Stage } from './stage';
 import { type Frame, NO_BODY } from '../source/link';
 
 export interface Hit {
@@ -14,10 +15,10 @@ const probe = new THREE.Mesh<THREE.BufferGeometry, THREE.MeshBasicMaterial>(
   undefined,
   new THREE.MeshBasicMaterial({ side: THREE.DoubleSide }),
 );
-const [position, turn, scale] = [new THREE.Vector3(), new THREE.Quaternion(), new THREE.Vector3()];
+const pose = new Pose();
 
 // The ray through a point of the view, in pixels from its upper left.
-export function rayAt(stage: Stage, x: number, y: number): THREE.Ray {
+export function rayAt(stage: Stage, { x, y }: Pixel): THREE.Ray {
   const { clientWidth, clientHeight } = stage.host;
   const at = new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight);
   ray.setFromCamera(at, stage.camera);
@@ -25,18 +26,15 @@ export function rayAt(stage: Stage, x: number, y: number): THREE.Ray {
 }
 
 // Cost: one test of a ball for each entry, and of triangles for those that the ray comes near.
-export function pick(stage: Stage, frame: Frame, layer: number, x: number, y: number): Hit | null {
+export function pick(stage: Stage, frame: Frame, layer: number, at: Pixel): Hit | null {
   if (layer >= frame.layers) return null;
-  rayAt(stage, x, y);
+  rayAt(stage, at);
   let nearest: Hit | null = null;
   for (let i = frame.first[layer]; i < frame.first[layer + 1]; ++i) {
     const geometry = stage.geometries[frame.mesh[i]];
     if (frame.body[i] === NO_BODY || !geometry) continue;
-    position.fromArray(frame.position, 3 * i);
-    turn.fromArray(frame.turn, 4 * i).normalize();
-    scale.fromArray(frame.scale, 3 * i);
     probe.geometry = geometry;
-    probe.matrixWorld.compose(position, turn, scale);
+    pose.read(frame, i).compose(probe.matrixWorld);
     for (const { point, distance } of ray.intersectObject(probe, false))
       if (!nearest || distance < nearest.distance) nearest = { body: frame.body[i], point, distance };
   }

@@ -6,8 +6,10 @@ import type { MeshData, View } from '../protocol/run';
 import { Arrows } from './arrows';
 import { Ground } from './ground';
 import { Labels } from './labels';
+import { glossy, plainly } from './surfaces';
 import { Painter, type Part } from './painter';
 
+export type Pixel = { x: number; y: number };
 export type ViewName = 'start' | 'front' | 'side' | 'top' | 'iso';
 
 // From the target to the eye. Top: x to the right, y up.
@@ -23,8 +25,9 @@ const DIRECTIONS: Record<Exclude<ViewName, 'start'>, [number, number, number]> =
 function backdrop(view: View, dark: boolean): string {
   const light = dark ? 0.05 : 1;
   const encode = new THREE.Color();
-  const bottom = new THREE.Color().setRGB(...shares(view.bottom), THREE.SRGBColorSpace);
-  const top = new THREE.Color().setRGB(...shares(view.top), THREE.SRGBColorSpace);
+  const color = (bytes: View['top']) =>
+    new THREE.Color().setRGB(bytes[0] / 255, bytes[1] / 255, bytes[2] / 255, THREE.SRGBColorSpace);
+  const [bottom, top] = [color(view.bottom), color(view.top)];
   const stops = Array.from({ length: 11 }, (_, i) => {
     encode.lerpColors(bottom, top, THREE.MathUtils.smoothstep(i / 10, 0.05, 1));
     return `${encode.multiplyScalar(light).getStyle()} ${10 * i}%`;
@@ -32,15 +35,11 @@ function backdrop(view: View, dark: boolean): string {
   return `linear-gradient(to top, ${stops.join(', ')})`;
 }
 
-function shares(bytes: [number, number, number]): [number, number, number] {
-  return [bytes[0] / 255, bytes[1] / 255, bytes[2] / 255];
-}
-
 // What a slow machine saves: pixels, and those of the shadows. From fine to coarse.
 const DETAILS = [{ pixels: 2, shadow: 2048 }, { pixels: 1, shadow: 1024 }, { pixels: 0.75, shadow: 512 }];
 
 export class Stage {
-  readonly camera: THREE.PerspectiveCamera;
+  readonly camera = new THREE.PerspectiveCamera();
   readonly controls: OrbitControls;
   private readonly renderer: THREE.WebGLRenderer;
   readonly labels = new Labels();
@@ -79,7 +78,6 @@ export class Stage {
     domElement.setAttribute('aria-label', 'the robot, to be turned, moved and zoomed');
     host.prepend(domElement, this.labels.root);
 
-    this.camera = new THREE.PerspectiveCamera();
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, domElement);
     this.controls.addEventListener('change', changed);
@@ -140,7 +138,7 @@ export class Stage {
     this.ground = new Ground(this.scene, view);
     this.ground.showShadow(this.hasShadows);
     this.arrows = new Arrows(this.scene, 0.008 * view.radius);
-    this.painter = new Painter(this.scene, 0.03 * view.radius, this.isPlain);
+    this.painter = new Painter(this.scene, 0.03 * view.radius, this.isPlain ? plainly : glossy);
   }
 
   // Nothing is drawn before draw().
@@ -156,28 +154,24 @@ export class Stage {
     const { eye, target } = this.view;
     const distance = new THREE.Vector3(...eye).distanceTo(new THREE.Vector3(...target));
     this.controls.target.set(...target);
-    if (name === 'start') {
-      this.camera.position.set(...eye);
-    } else {
+    if (name === 'start') this.camera.position.set(...eye);
+    else {
       const direction = new THREE.Vector3(...DIRECTIONS[name]).normalize();
       this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
     }
-    if (this.followed) this.followed = null;
+    this.followed = null;
     this.controls.update();
     this.changed();
   }
 
   // Moves along with a point; null: stays.
   follow(point: [number, number, number] | null): void {
-    if (!point) {
-      this.followed = null;
-      return;
-    }
-    const now = new THREE.Vector3(...point);
-    const shift = now.clone().sub(this.followed ?? this.controls.target);
+    const before = this.followed ?? this.controls.target.clone();
+    this.followed = point && new THREE.Vector3(...point);
+    if (!this.followed) return;
+    const shift = this.followed.clone().sub(before);
     this.camera.position.add(shift);
     this.controls.target.add(shift);
-    this.followed = now;
     this.controls.update();
   }
 
@@ -189,19 +183,18 @@ export class Stage {
     const limit = Math.PI / 2 - 0.001;
     const rise = Math.asin(THREE.MathUtils.clamp(offset.z / offset.length(), -1, 1)) + up;
     const elevation = THREE.MathUtils.clamp(rise, -limit, limit);
+    const { minDistance, maxDistance, target } = this.controls;
+    const distance = THREE.MathUtils.clamp(length, minDistance, maxDistance);
+    const flat = Math.cos(elevation);
     this.camera.position
-      .set(
-        Math.cos(elevation) * Math.cos(azimuth),
-        Math.cos(elevation) * Math.sin(azimuth),
-        Math.sin(elevation),
-      )
-      .multiplyScalar(THREE.MathUtils.clamp(length, 0.15 * this.view.radius, 20 * this.view.radius))
-      .add(this.controls.target);
+      .set(flat * Math.cos(azimuth), flat * Math.sin(azimuth), Math.sin(elevation))
+      .multiplyScalar(distance)
+      .add(target);
     this.controls.update();
   }
 
   // Pixels from the upper left of the view; null: behind the camera.
-  project(x: number, y: number, z: number): { x: number; y: number } | null {
+  project(x: number, y: number, z: number): Pixel | null {
     const p = new THREE.Vector3(x, y, z).project(this.camera);
     if (p.z > 1 || p.z < -1) return null;
     const { clientWidth, clientHeight } = this.host;
@@ -220,11 +213,7 @@ export class Stage {
     const target = new THREE.Vector3(...this.view.target);
     const reach = 1.9 * this.view.radius;
     this.sky.position.set(0, 0, 1);
-    this.sun.position
-      .set(...this.view.light)
-      .normalize()
-      .multiplyScalar(3 * reach)
-      .add(target);
+    this.sun.position.set(...this.view.light).setLength(3 * reach).add(target);
     this.sun.target.position.copy(target);
     this.sun.castShadow = this.hasShadows;
     this.sun.shadow.mapSize.setScalar(DETAILS[this.detail].shadow);

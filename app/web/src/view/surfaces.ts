@@ -1,4 +1,4 @@
-// How surfaces are drawn, and what is drawn before what.
+// Materials of surfaces, their drawing order, and batches of instances.
 import * as THREE from 'three';
 
 export const ORDER = { solid: 0, outline: 1, hidden: 5, ghostDepth: 6, ghost: 7 };
@@ -76,11 +76,12 @@ export class Batch {
   }
 
   remove(): void {
-    for (const mesh of this.meshes) {
-      this.scene.remove(mesh);
-      mesh.dispose();
-    }
+    this.clear();
     for (const { material } of this.materials) material.dispose();
+  }
+  private clear(): void {
+    this.scene.remove(...this.meshes);
+    for (const mesh of this.meshes.splice(0)) mesh.dispose();
   }
 
   finish(): void {
@@ -102,11 +103,7 @@ export class Batch {
       matrices.array.set(before.instanceMatrix.array);
       colors.array.set(before.instanceColor!.array);
     }
-    for (const mesh of this.meshes) {
-      this.scene.remove(mesh);
-      mesh.dispose();
-    }
-    this.meshes.length = 0;
+    this.clear();
     for (const { material, order, shadow } of this.materials) {
       const mesh = new THREE.InstancedMesh(this.geometry, material, this.capacity);
       mesh.instanceMatrix = matrices;

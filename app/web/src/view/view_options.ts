@@ -1,4 +1,4 @@
-// Which layers are shown, and what their colours mean.
+// Layers that are shown, what their colours mean, and views of the camera.
 import type { Layer } from '../protocol/run';
 import { button, changeDetector, element, icon, option } from '../ui/dom';
 import type { SceneBody, SceneMessage } from '../source/link';
@@ -68,11 +68,11 @@ function mayHaveEntries(layer: LayerHead): boolean {
   return instances.mesh.length > 0 || labels.text.length > 0;
 }
 
-// Which overlays are shown: chosen once, kept for all scenes, and told to the lab, which sends no
-// others. Folded away until wanted: there are many of them.
 const AT_FIRST = ['ghost', 'device', 'couplings', 'contacts', 'felt', 'before'];
 type Head = SceneMessage['layers'][number] & { shown: boolean };
 
+// Which overlays are shown: chosen once, kept for all scenes, and told to the lab, which sends no
+// others. Folded away until wanted: there are many of them.
 export class Overlays {
   readonly root = element('div.overlays');
   readonly legend = element('div');
@@ -130,9 +130,9 @@ export class Overlays {
   }
 }
 
-// From where the robot is seen, and what the camera goes along with.
 const NAMES: ViewName[] = ['start', 'front', 'side', 'top', 'iso'];
 
+// From where the robot is seen, and what the camera goes along with.
 export class Views {
   readonly root = element('div.views');
   private readonly follows = element('select', { title: 'what the camera follows (f)', 'aria-label': 'camera' });
