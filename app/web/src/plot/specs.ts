@@ -182,7 +182,8 @@ export class PlotSpecs {
 
   private device(): PlotSpec[] {
     const words = `the device's limit, ${DEVICE_LIMIT} N`;
-    const shown = this.of('hand').filter(isShown);
+    // Angles of the device's own joints stand among its coordinates already.
+    const shown = this.of('hand').filter(({ unit }) => unit !== 'rad' && unit !== '1');
     return this.plain('device', 'Torques of the device’s motors', shown).map((spec) =>
       spec.unit === 'N'
         ? { ...spec, title: 'Device force', limit: { value: DEVICE_LIMIT, words, always: true } }
@@ -208,11 +209,6 @@ function curve(column: number, name: string, color: number, style: Curve['style'
 function labelOf({ name, kind, of }: SceneChannel): string {
   const isOwn = kind === 'hand' || kind === 'time' || kind === 'pull';
   return isOwn || !of ? name.slice(name.indexOf('/') + 1) : of;
-}
-
-// Angles of the device's own joints stand among its coordinates already.
-function isShown(channel: SceneChannel): boolean {
-  return channel.unit !== 'rad' && channel.unit !== '1';
 }
 
 // Stored is SI. On screen: degrees if asked for, microseconds, millimetres where all is small.

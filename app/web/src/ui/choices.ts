@@ -61,9 +61,7 @@ export class Segments {
 
   constructor(label: string, names: string[], chosen: string, choose: (name: string) => void) {
     const name = `segments-${groups++}`;
-    this.choices = names.map((value) =>
-      element('input', { type: 'radio', name, value, 'aria-label': value }),
-    );
+    this.choices = names.map((value) => element('input', { type: 'radio', name, value, 'aria-label': value }));
     this.root = element('div.segments', { role: 'radiogroup', 'aria-label': label });
     this.root.append(...this.choices);
     this.show(chosen);
