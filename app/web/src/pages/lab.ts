@@ -13,7 +13,7 @@ import * as wire from '../source/link';
 import { LiveStage, Picture } from '../view/live_stage';
 import { remember, remembered, Theme } from '../ui/preferences';
 import { Overlays, Views } from '../view/view_options';
-import { type LabPage, type Listener, type Panel, panelsOf } from '../panels/panel';
+import { type Listener, type Panel, panelsOf } from '../panels/panel';
 import { Pace } from '../view/pace';
 import { Hints } from '../panels/hints';
 import { button, element, icon } from '../ui/dom';
@@ -29,7 +29,7 @@ const TABS = ['Knobs', 'Plots', 'Glass', 'Ledger'];
 // Commands that need no hand.
 const FREE = new Set(['layers', 'glass', 'look', 'take']);
 
-class Page implements LabPage, LabKeys {
+class Page implements LabKeys {
   scene: wire.SceneMessage | null = null;
   state: wire.StateMessage | null = null;
   frame: wire.Frame | null = null;

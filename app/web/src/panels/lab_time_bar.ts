@@ -10,6 +10,7 @@ import { type Clock, speedText, TimeBar } from './time_bar';
 
 const REAL_TIME = 0.015; // nearer to 1 is real time
 const STEP = 1 / 60; // of arrows [s]
+const BRANCH = 'go on from this instant, with other knobs';
 const LABEL = 'instant of the run, back over what is remembered';
 
 export class LabTimeBar implements Panel, Clock {
@@ -17,7 +18,7 @@ export class LabTimeBar implements Panel, Clock {
   private readonly step = button(icon('step'), 'one step', () => this.single());
   private readonly reset = () => this.page.send({ do: 'reset' });
   private readonly again = button(icon('again'), 'to the start: the run begins anew', this.reset);
-  private readonly branch = button('branch …', 'go on from this instant, with other knobs', () => this.askBranch());
+  private readonly branch = button('branch …', BRANCH, () => this.askBranch());
   private readonly present = button('to now', 'to the newest instant', () => this.rewind.look(null));
   private readonly fork = element('i.fork', { 'aria-hidden': 'true' });
   private readonly end = element('i.end', { 'aria-hidden': 'true' });

@@ -80,7 +80,8 @@ export function stackSeries(curves: Curve[]): Series {
   return { series, bands };
 }
 
-export function ghostsOf({ before }: RunRecord, window: Window, spec: PlotSpec, curves: Curve[], factor: number) {
+export function ghostsOf(record: RunRecord, window: Window, spec: PlotSpec, curves: Curve[], factor: number) {
+  const { before } = record;
   if (!before || before.length === 0) return [];
   const begin = Math.max(0, before.after(window.from) - 1);
   const end = Math.min(before.length, before.after(window.to) + 1);
