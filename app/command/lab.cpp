@@ -160,7 +160,7 @@ class Lab {
       // What a page held that is gone would be held for ever.
       if (audience_.has_hand(client)) session_.push(drop_all());
       audience_.closed(client);
-      session_.wake();
+      session_.shown().wake();
     };
     handlers.message = [this](ClientId client, const std::string& text) { hear(client, text); };
     return handlers;

@@ -41,30 +41,6 @@ State<double> poses_on_the_way(const Inspection& in, double s) {
   return x;
 }
 
-// g between bodies, from poses alone; of a distance its square, which no root bends.
-VectorXd rows_of(LoopType type, const Pose& X_CaCb, double distance) {
-  VectorXd rows(static_cast<Index>(facts_of(type).rows));
-  const Matrix3& R = X_CaCb.R;
-  switch (type) {
-    case LoopType::ball:
-      rows << X_CaCb.p;
-      break;
-    case LoopType::hinge:
-      rows << X_CaCb.p, R(0, 2), R(1, 2);
-      break;
-    case LoopType::weld:
-      rows << X_CaCb.p, R(1, 2), R(2, 0), R(0, 1);
-      break;
-    case LoopType::distance:
-      rows << X_CaCb.p.squaredNorm() / (2 * distance);
-      break;
-    case LoopType::gear:
-    case LoopType::locked:
-      break;
-  }
-  return rows;
-}
-
 // g, then the places and the axes of both ends.
 VectorXd rows_and_ends(const Inspection& in, const LoopClosure& loop, double s, double distance,
                        Kinematics& k) {
@@ -80,7 +56,7 @@ VectorXd rows_and_ends(const Inspection& in, const LoopClosure& loop, double s, 
   forward_kinematics(in.model, x, k);
   const Pose X_WCa = k.X_WL[a] * loop.X_LaC, X_WCb = k.X_WL[b] * loop.X_LbC;
   const Pose X_CaCb = X_WCa.inverse() * X_WCb;
-  const VectorXd rows = rows_of(loop.type, X_CaCb, distance);
+  const VectorXd rows = facts_of(loop.type).g_of_pose(X_CaCb, distance);
   VectorXd all(rows.size() + 24);
   all << rows, X_WCa.p, X_WCb.p, X_WCa.R.reshaped(), X_WCb.R.reshaped();
   return all;

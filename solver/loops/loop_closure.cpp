@@ -20,7 +20,8 @@ std::size_t last_shared_body(const Model<double>& model, int a, int b) {
 }  // namespace
 
 std::span<const LoopTypeFacts> all_loop_types() {
-#define TWINARM_FACTS(name, Loop) LoopTypeFacts{LoopType::name, #name, Loop::rows, Loop::ends},
+#define TWINARM_FACTS(name, Loop) \
+  LoopTypeFacts{LoopType::name, #name, Loop::rows, Loop::ends, &Loop::g_of_pose},
   static constexpr std::array all{TWINARM_LOOPS(TWINARM_FACTS)};
 #undef TWINARM_FACTS
   return all;

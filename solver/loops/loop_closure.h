@@ -51,6 +51,9 @@ struct LoopTypeFacts {
   const char* name;
   std::size_t rows;
   LoopBetween ends;
+  // g a second time, from the pose of C_b in C_a alone (between bodies; a distance: its length):
+  // what a check differences that does not trust J and gamma. Same zeros and, there, same g''.
+  Eigen::VectorXd (*g_of_pose)(const Pose& X_CaCb, double length);
 };
 std::span<const LoopTypeFacts> all_loop_types();
 inline const LoopTypeFacts& facts_of(LoopType type) {

@@ -7,6 +7,7 @@
 //   wrench            on link a, of the multipliers of its rows
 //   problem           what is wrong with the closure's own numbers; empty where nothing is
 //   is_turned_over    whether g = 0 is met, but by axes that point in opposite directions
+//   g_of_pose         between bodies: g again, from poses alone, for the inspector's check
 #pragma once
 
 #include <array>
@@ -79,6 +80,7 @@ struct AnyLoop {
   static LoopWrench wrench(const LoopEnds&, const double*) { return {}; }
   static LoopProblem problem(const LoopClosure&) { return {}; }
   static bool is_turned_over(const Matrix3&) { return false; }
+  static Eigen::VectorXd g_of_pose(const Pose&, double) { return {}; }
 };
 
 // ---- frames: the origins of C_a and C_b agree, and some of their axes ----
@@ -153,13 +155,22 @@ struct FrameLoop : AnyLoop {
     return on_a;
   }
 };
-struct BallLoop : FrameLoop<> {};
+struct BallLoop : FrameLoop<> {
+  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) { return X_CaCb.p; }
+};
 struct HingeLoop : FrameLoop<AxisRow{1, 2, 1}, AxisRow{0, 2, -1}> {
   static bool is_turned_over(const Matrix3& R_CaCb) { return R_CaCb(2, 2) < 0; }
+  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {
+    return (Eigen::VectorXd(5) << X_CaCb.p, X_CaCb.R(0, 2), X_CaCb.R(1, 2)).finished();
+  }
 };
 struct WeldLoop : FrameLoop<AxisRow{1, 2, 1}, AxisRow{2, 0, 1}, AxisRow{0, 1, 1}> {
   static bool is_turned_over(const Matrix3& R_CaCb) {
     return (R_CaCb.diagonal().array() < 0).any();
+  }
+  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {
+    const Matrix3& R = X_CaCb.R;
+    return (Eigen::VectorXd(6) << X_CaCb.p, R(1, 2), R(2, 0), R(0, 1)).finished();
   }
 };
 
@@ -196,6 +207,10 @@ struct DistanceLoop : AnyLoop {
     if (loop.length > 0 && std::isfinite(loop.length)) return {};
     return {"its length is " + short_number_text(loop.length) + " m, must be positive",
             "give the length of the rod, or a ball"};
+  }
+  // Half of its square over it: no root bends it.
+  static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double length) {
+    return Eigen::VectorXd::Constant(1, X_CaCb.p.squaredNorm() / (2 * length));
   }
 };
 

@@ -167,7 +167,7 @@ class Browser:
         while not self.evaluate(expression):
             if time.monotonic() > deadline:
                 raise TimeoutError(f"never true: {expression}; the console says {self.errors}")
-            time.sleep(0.1)
+            time.sleep(0.02)
 
     def open(self, url):
         """Opens it and waits until the page says that it is ready, and has drawn."""

@@ -35,6 +35,7 @@ class Program:
 
 
 class LabCase(unittest.TestCase):
+    """A browser for all tests; a lab for each, at a port of its own, so that the browser remembers nothing of it."""
     program = None
     pictures = None  # a folder
 
@@ -42,19 +43,21 @@ class LabCase(unittest.TestCase):
     def setUpClass(cls):
         if reason := why_no_page(cls.program):
             raise unittest.SkipTest(reason)
+        cls.page = Browser(width=1280, height=720, scale=1 if cls.pictures else 0.25)
+        cls.addClassCleanup(cls.page.__exit__)
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.path = pathlib.Path(self.folder.name)
         self.lab = Program(self.program)
         self.url = self.lab.url
-        self.page = Browser(width=1280, height=720, scale=1 if self.pictures else 0.25)
+        self.page.resize(1280, 720)
         self.page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=self.folder.name)
         self.page.open(self.url)
 
     def tearDown(self):
         errors = list(self.page.errors)
-        self.page.__exit__(None, None, None)
+        self.page.call("Page.navigate", url="about:blank")  # or it misses the lab
         self.assertEqual(self.lab.end(), (0, ""))
         self.assertEqual(errors, [])
         self.folder.cleanup()

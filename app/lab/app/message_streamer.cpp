@@ -35,7 +35,7 @@ void LabPainter::end() {
     const std::lock_guard lock(mutex_);
     stop_ = true;
   }
-  session_.wake();
+  session_.shown().wake();
   thread_.join();
 }
 
@@ -44,7 +44,7 @@ void LabPainter::ask(std::function<void(LabPainter&)> job) {
     const std::lock_guard lock(mutex_);
     jobs_.push_back(std::move(job));
   }
-  session_.wake();
+  session_.shown().wake();
 }
 
 void LabPainter::welcome(ClientId client) {
@@ -52,7 +52,7 @@ void LabPainter::welcome(ClientId client) {
     const std::lock_guard lock(mutex_);
     newcomers_.push_back(client);
   }
-  session_.wake();
+  session_.shown().wake();
 }
 
 void LabPainter::work() {

@@ -20,9 +20,10 @@ constexpr auto kIdle = std::chrono::milliseconds(200);
 LabSession::LabSession(Built scene, const std::vector<GalleryScene>& gallery,
                        std::size_t most_bytes)
     : state_(most_bytes),
-      commands_(state_, gallery, [this](Order order) { open(std::move(order)); }) {
+      commands_(state_, gallery, [this](Order order) { open(std::move(order)); }),
+      reporter_(state_, shown_) {
   commands_.adopt(std::move(scene));
-  publish();  // from now on there is something to be seen
+  reporter_.publish();  // from now on there is something to be seen
   builder_ = std::make_unique<Workshop>(state_.inbox);
   thread_ = std::thread([this] { work(); });
 }
@@ -89,7 +90,7 @@ void LabSession::take_inbox() {
     const auto done = one.order.done;
     try {
       commands_.adopt(std::move(one));
-      publish();  // its start is seen and remembered, however soon steps follow
+      reporter_.publish();  // its start is seen and remembered, however soon steps follow
       if (done) done("");
     } catch (const std::exception& error) {
       note("error", error.what());
@@ -104,13 +105,13 @@ void LabSession::advance() {
     const auto after = [this] {
       state_.is_stale = true;
       for (const std::string& words : state_.loop.take_warnings()) note("warning", words);
-      if (is_frame_due()) publish();
+      if (reporter_.is_frame_due()) reporter_.publish();
     };
     if (!loop.take_steps(after)) show_end();
   } else {
     loop.set_pace(state_.status.speed);
   }
-  publish();
+  reporter_.publish();
 }
 
 // The run pauses. A failure that comes again at once is shown once.
@@ -150,37 +151,6 @@ void LabSession::sleep() {
   if (state_.loop.has_single_steps()) return;
   state_.inbox.sleep_until(state_.status.playing ? next_tick_ : Clock::now() + kIdle);
   next_tick_ = std::max(next_tick_ + kTick, Clock::now());
-}
-
-LabNow Publisher::now() const {
-  const std::lock_guard lock(mutex_);
-  LabNow now = now_;
-  now.wakes = wakes_;
-  return now;
-}
-
-void Publisher::wait(const LabNow& seen, double longest) const {
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, std::chrono::duration<double>(longest),
-                    [&] { return now_.number != seen.number || wakes_ != seen.wakes; });
-}
-
-void Publisher::wake() {
-  {
-    const std::lock_guard lock(mutex_);
-    ++wakes_;
-  }
-  changed_.notify_all();
-}
-
-void Publisher::publish(LabNow now) {
-  {
-    const std::lock_guard lock(mutex_);
-    now.number = now_.number + 1;
-    if (!now.status) now.status = now_.status;
-    now_ = std::move(now);
-  }
-  changed_.notify_all();
 }
 
 }  // namespace twinarm

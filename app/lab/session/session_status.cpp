@@ -1,7 +1,7 @@
-// What the session shows: the newest instant, its status, notes.
-#include <algorithm>
+#include "app/lab/session/session_status.h"
 
-#include "app/lab/session/lab_session.h"
+#include <algorithm>
+#include <utility>
 
 namespace twinarm {
 namespace {
@@ -12,7 +12,7 @@ constexpr auto kStatusEvery = std::chrono::milliseconds(250);
 
 // Frames stand at multiples of as many steps as fit between two of them: evenly, and in a branch at
 // the same steps as before. Of a run that does not keep up, more often.
-bool LabSession::is_frame_due() {
+bool StatusReporter::is_frame_due() const {
   const LabStatus& status = state_.status;
   const double steps = status.speed * frame_interval_ / state_.loop.run().step_length();
   long apart = std::max(1L, static_cast<long>(steps));
@@ -22,7 +22,7 @@ bool LabSession::is_frame_due() {
 
 // The newest frame is remembered, and handed over with whatever else is new. The status goes with
 // news at once; its times and measures alone, now and then.
-void LabSession::publish() {
+void StatusReporter::publish() {
   const Clock::time_point now = Clock::now();
   const bool is_playing = state_.status.playing;
   const bool is_due = state_.is_stale && is_frame_due();
@@ -40,7 +40,7 @@ void LabSession::publish() {
   show(with_status);
 }
 
-void LabSession::add_frame() {
+void StatusReporter::add_frame() {
   LabStatus& status = state_.status;
   LabFrame frame = state_.loop.frame();
   const LabNames& names = state_.loop.names();
@@ -54,7 +54,7 @@ void LabSession::add_frame() {
   state_.timeline.add(std::move(frame), names);
 }
 
-bool LabSession::take_notes() {
+bool StatusReporter::take_notes() {
   std::deque<LabNote> came = state_.inbox.take_notes();
   std::vector<LabNote>& notes = state_.status.notes;
   for (LabNote& note : came) {
@@ -67,7 +67,7 @@ bool LabSession::take_notes() {
 }
 
 // The hand as pages see it: one that is opened later finds it so.
-LabHandStatus LabSession::status_of_hand() {
+LabHandStatus StatusReporter::status_of_hand() const {
   using Source = LabHand::Source;
   static const char* const kSources[] = {"scene", "drag", "joints", "device"};
   static const char* const kModes[] = {"live", "held", "released"};
@@ -87,7 +87,7 @@ LabHandStatus LabSession::status_of_hand() {
   return shown;
 }
 
-void LabSession::show(bool with_status) {
+void StatusReporter::show(bool with_status) {
   LabStatus& status = state_.status;
   status.time = state_.loop.run().time();
   status.step = state_.loop.run().step_length();
@@ -110,6 +110,37 @@ void LabSession::show(bool with_status) {
   now.rows = rows_;
   now.input_came = shown_input_came_;
   shown_.publish(std::move(now));
+}
+
+LabNow Publisher::now() const {
+  const std::lock_guard lock(mutex_);
+  LabNow now = now_;
+  now.wakes = wakes_;
+  return now;
+}
+
+void Publisher::wait(const LabNow& seen, double longest) const {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, std::chrono::duration<double>(longest),
+                    [&] { return now_.number != seen.number || wakes_ != seen.wakes; });
+}
+
+void Publisher::wake() const {
+  {
+    const std::lock_guard lock(mutex_);
+    ++wakes_;
+  }
+  changed_.notify_all();
+}
+
+void Publisher::publish(LabNow now) {
+  {
+    const std::lock_guard lock(mutex_);
+    now.number = now_.number + 1;
+    if (!now.status) now.status = now_.status;
+    now_ = std::move(now);
+  }
+  changed_.notify_all();
 }
 
 }  // namespace twinarm

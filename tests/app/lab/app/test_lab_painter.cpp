@@ -200,7 +200,7 @@ TEST_CASE("lab session: whoever is woken between a look and the wait does not wa
   session.push(said(R"({"do": "play", "on": false})"));
   REQUIRE(comes_true([&] { return !session.shown().now().status->playing; }));
   const LabNow seen = session.shown().now();
-  session.wake();
+  session.shown().wake();
   constexpr double kLongest = 20;
   const auto start = std::chrono::steady_clock::now();
   session.shown().wait(seen, kLongest);
