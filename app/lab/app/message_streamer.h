@@ -61,7 +61,7 @@ class LabPainter {
 
   // From any thread: to be done by the painter's, which alone may touch its view.
   void ask(std::function<void(LabPainter&)> job);
-  void welcome(ClientId client);          // it is to be told everything
+  void welcome(ClientId client);                  // it is to be told everything
   void look_again() { session_.shown().wake(); }  // something about clients has changed
 
   // A copy of what was drawn last, for whoever paints it elsewhere. From any thread.
