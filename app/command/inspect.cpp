@@ -46,18 +46,8 @@ std::string title_of(const RobotInput& input, const Inspection& in, const std::s
       input.robot.name, in.body_count() - 1, in.model.nv, g.x, g.y, g.z, state);
 }
 
-int run_inspect(const InspectOptions& options, const Words& typed) {
-  FaultList faults;
-  InspectView view;
-  read_passes(options, view, faults);
-  if (!options.html.empty()) check_place(options.html, faults);
-  SimulateOptions simulate;
-  simulate.robot = options.robot;
-  simulate.duration = 1;
-  simulate.step = options.step;
-  simulate.integrator = "semi-implicit";
-  std::optional<Memory> memory;
-  const bool is_recorded = is_recording(options.robot.model);
+// Options that have no meaning for what is inspected.
+void check_useless(const InspectOptions& options, bool is_recorded, FaultList& faults) {
   if (options.at && !is_recorded)
     faults.add({"", 0, "--at", "is for a recording", "give one, or --state", "option.useless"});
   if (options.step && is_recorded)
@@ -66,52 +56,71 @@ int run_inspect(const InspectOptions& options, const Words& typed) {
     faults.add({"", 0, "--step", "a robot alone takes no step: what is told is of one instant",
                 "leave it out, or give a scene", "option.useless"});
   if (is_recorded) check_recorded(options.robot, faults);
-  std::shared_ptr<const UnpackedRun> files;
-  double t = 0;
-  auto prepared = attempt(faults, [&] {
-    if (!is_recorded) return prepare_simulation(simulate);
-    RecordedInstant instant = open_instant(options.robot.model, options.at);
-    memory = std::move(instant.memory);
-    files = std::move(instant.files);
-    t = instant.t;
-    view.ledger = std::move(instant.ledger);
-    return std::move(instant.prepared);
+}
+
+// What is inspected, and how it is to be shown.
+struct Reading {
+  InspectView view;
+  RecordedInstant instant;  // of what was not recorded the plan alone
+  Inspected inspected;
+};
+
+// Throws all faults of options and files together.
+Reading read_all(const InspectOptions& options, bool is_recorded) {
+  FaultList faults;
+  InspectView view;
+  read_passes(options, view, faults);
+  if (!options.html.empty()) check_place(options.html, faults);
+  check_useless(options, is_recorded, faults);
+  SimulateOptions simulate;
+  simulate.robot = options.robot;
+  simulate.duration = 1;
+  simulate.step = options.step;
+  simulate.integrator = "semi-implicit";
+  auto instant = attempt(faults, [&] {
+    return is_recorded ? open_instant(options.robot.model, options.at)
+                       : RecordedInstant{prepare_simulation(simulate), {}, 0, {}, {}};
   });
   std::optional<Inspected> inspected;
-  if (prepared) {
-    SimulateInput& input = prepared->input;
+  if (instant) {
+    auto& [input, run] = instant->prepared;
     read_bodies(options, input.robot.model, view, faults);
     inspected = attempt(faults, [&] {
-      return input.scene
-                 ? inspect_scene(input, prepared->run.step, memory ? &*memory : nullptr,
-                                 memory ? prepared->run.integrator : Integrator::semi_implicit)
-                 : inspect_robot(input.robot);
+      if (!input.scene) return inspect_robot(input.robot);
+      return is_recorded ? inspect_scene(input, run.step, &instant->memory, run.integrator)
+                         : inspect_scene(input, run.step);
     });
   }
   if (inspected) read_forces(options, inspected->actors, view, faults);
   faults.check();
+  view.ledger = std::move(instant->ledger);
+  return {std::move(view), std::move(*instant), std::move(*inspected)};
+}
 
-  const SimulateInput& input = prepared->input;
+int run_inspect(const InspectOptions& options, const Words& typed) {
+  const bool is_recorded = is_recording(options.robot.model);
+  auto [view, instant, inspected] = read_all(options, is_recorded);
+  const SimulateInput& input = instant.prepared.input;
   const bool is_scene = input.scene != nullptr;
   if (is_scene && input.scene->description.integrator.value_or(Integrator::semi_implicit) !=
                       Integrator::semi_implicit)
-    inspected->warnings.emplace_back(
+    inspected.warnings.emplace_back(
         "the forces are those of a semi-implicit step, not of the scene's integrator");
-  const Inspection in(input.robot.model, inspected->x, inspected->actors, inspected->loops);
+  const Inspection in(input.robot.model, inspected.x, inspected.actors, inspected.loops);
   std::vector<Check> checks = run_checks(in);
-  if (is_scene) checks.push_back(step_check(in, inspected->qdd_of_step));
+  if (is_scene) checks.push_back(step_check(in, inspected.qdd_of_step));
 
-  view.warnings = inspected->warnings;
+  view.warnings = inspected.warnings;
   warn_of_bad_numbers(in, view.warnings);
   const std::string file = options.robot.state.string();
   view.title = title_of(input.robot, in,
-                        is_recorded    ? fmt::format("recorded, t = {:.9g} s", t)
+                        is_recorded    ? fmt::format("recorded, t = {:.9g} s", instant.t)
                         : file.empty() ? "at its start, no state file"
                                        : "state " + file);
   if (!options.html.empty()) {
     const InspectedWords words{input.robot.robot.name, view.title, typed};
     write_whole_file(options.html,
-                     inspect_page(input, inspected->x, inspect_json(in, view, checks), words));
+                     inspect_page(input, inspected.x, inspect_json(in, view, checks), words));
   }
   fmt::print("{}\n",
              options.json ? inspect_json(in, view, checks) : inspect_text(in, view, checks));

@@ -81,13 +81,9 @@ void set_gravity(Robot& robot, const py::object& given) {
   robot.model.gravity = {g[0], g[1], g[2]};
 }
 
-}  // namespace
+using ModelClass = py::class_<Robot, std::shared_ptr<Robot>>;
 
-void add_robots(py::module_& m) {
-  py::class_<Robot, std::shared_ptr<Robot>> model(
-      m, "Model", py::is_final(),
-      "A mechanism: bodies, joints, inertias. Made by load(). Body 0 is the "
-      "base;\nbody i is carried by joint i, and its parent has a lower number.");
+void add_names_and_places(ModelClass& model) {
   model.def_property_readonly(
       "name", [](const Robot& r) { return r.input.robot.name; }, "of the robot in its file");
   model.def_property_readonly(
@@ -111,6 +107,9 @@ void add_robots(py::module_& m) {
   model.def_property_readonly(
       "qd_of", [](const Robot& r) { return places(r, false); },
       "{joint: slice}: where in qd its velocities stand; of joints that move");
+}
+
+void add_numbers(ModelClass& model) {
   model.def_property_readonly(
       "q", [](const Robot& r) { return frozen(q_with_prescribed(r.model, r.input.state.x)); },
       "(nq,) where the file starts: joints at zero, or as the scene says [rad, m]");
@@ -150,6 +149,16 @@ void add_robots(py::module_& m) {
            "': " + std::to_string(r.model.parent.size() - 1) + " bodies, " + r.size_of_q() + ", " +
            r.size_of_qd() + ">";
   });
+}
+
+}  // namespace
+
+void add_robots(py::module_& m) {
+  ModelClass model(m, "Model", py::is_final(),
+                   "A mechanism: bodies, joints, inertias. Made by load(). Body 0 is the "
+                   "base;\nbody i is carried by joint i, and its parent has a lower number.");
+  add_names_and_places(model);
+  add_numbers(model);
 
   m.def("load", load, py::arg("file"), py::kw_only(), py::arg("floating") = false,
         py::arg("friction") = true, py::arg("armature") = true,

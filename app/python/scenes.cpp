@@ -109,11 +109,7 @@ py::object stopped(const Run& run) {
   return why;
 }
 
-}  // namespace
-
-void add_scenes(py::module_& m) {
-  py::class_<Run> run(m, "Run",
-                      "What simulate() gives: N samples in rows, and the books of the whole run.");
+void add_samples(py::class_<Run>& run) {
   const auto array = [&](const char* name, std::vector<double> Run::*numbers, const char* doc) {
     run.def_property_readonly(
         name, [numbers](const Run& r) { return array_of(r.*numbers); }, doc);
@@ -137,6 +133,9 @@ void add_scenes(py::module_& m) {
       "other robots stand in it as they started");
   array("kinetic_energy", &Run::kinetic, "(N,) [J]");
   array("potential_energy", &Run::potential, "(N,) in the field of gravity [J]");
+}
+
+void add_books(py::class_<Run>& run) {
   run.def_property_readonly(
       "model", [](const Run& r) { return r.robot; }, "all bodies of the scene, as one Model");
   run.def_property_readonly(
@@ -168,6 +167,15 @@ void add_scenes(py::module_& m) {
         return all;
       },
       "of the files, and of the run");
+}
+
+}  // namespace
+
+void add_scenes(py::module_& m) {
+  py::class_<Run> run(m, "Run",
+                      "What simulate() gives: N samples in rows, and the books of the whole run.");
+  add_samples(run);
+  add_books(run);
 
   m.def(
       "simulate", simulate, py::arg("file"), py::kw_only(), py::arg("duration") = py::none(),

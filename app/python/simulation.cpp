@@ -137,14 +137,7 @@ py::list integrators() {
   return all;
 }
 
-}  // namespace
-
-void add_simulation(py::module_& m) {
-  py::class_<RobotInMotion> simulation(m, "Simulation",
-                                       "A robot alone in motion under gravity, its joints' "
-                                       "friction, and joint forces that you set.\n"
-                                       "Nothing touches, and position limits do not act: for those "
-                                       "write a scene, and simulate() it.");
+void add_motion(py::class_<RobotInMotion>& simulation) {
   simulation.def(
       py::init(&start), py::arg("model"), py::arg("q") = py::none(), py::arg("qd") = py::none(),
       py::kw_only(), py::arg("integrator") = "semi-implicit", py::arg("h") = 0.001,
@@ -170,6 +163,9 @@ void add_simulation(py::module_& m) {
       py::arg("q") = py::none(), py::arg("qd") = py::none(), py::arg("t") = 0.0,
       "Stands at q (nq,) [rad, m] with velocity qd (nv,) [rad/s, m/s] at time t [s]; what is left\n"
       "out stays. Joints that follow others are placed by their leaders.");
+}
+
+void add_readings(py::class_<RobotInMotion>& simulation) {
   simulation.def_property_readonly(
       "t", [](const RobotInMotion& moving) { return moving.simulation.state().t; }, "time [s]");
   simulation.def_property_readonly(
@@ -204,6 +200,18 @@ void add_simulation(py::module_& m) {
                               potential_energy(moving.robot.model, x));
       },
       "(kinetic, potential) [J]");
+}
+
+}  // namespace
+
+void add_simulation(py::module_& m) {
+  py::class_<RobotInMotion> simulation(m, "Simulation",
+                                       "A robot alone in motion under gravity, its joints' "
+                                       "friction, and joint forces that you set.\n"
+                                       "Nothing touches, and position limits do not act: for those "
+                                       "write a scene, and simulate() it.");
+  add_motion(simulation);
+  add_readings(simulation);
 
   m.def("integrators", integrators,
         "A row for each: name; order, with which the error at a fixed time falls; solves, whether\n"

@@ -1,5 +1,4 @@
-// Constraints: what ties links and bodies together.
-
+// Couplings: spring-dampers and other pulls after a kinematic twin.
 #include <algorithm>
 #include <cmath>
 
@@ -10,71 +9,6 @@
 #include "coupling/target/recorded_trace.h"
 
 namespace twinarm {
-
-void SceneReader::read_constraint(const Value& value, std::size_t index) {
-  using Type = ConstraintDescription::Type;
-  TableReader table = open(value, "constraint");
-  ConstraintDescription constraint;
-  constraint.line = table.line();
-  constraint.name = read_item_name(table, "constraint", index, scene.constraints);
-  table.missing("type", "give type = \"weld\", \"ball\", \"hinge\", \"distance\" or \"gear\"");
-  if (const auto type = table.choice("type", {"weld", "ball", "hinge", "distance", "gear"}))
-    constraint.type = static_cast<Type>(*type);
-  const bool gear = constraint.type == Type::gear;
-
-  const auto read_end = [&](const char* key) -> std::string {
-    table.missing(key, gear ? "name a joint: robot/joint" : "name a body, robot/link or world");
-    const auto name = table.text(key);
-    if (!name) return "";
-    if (gear) {
-      const auto joint = find_joint(scene, *name);
-      if (!joint)
-        table.fault(key, "there is no joint '" + *name + "'", "name it as robot/joint",
-                    "scene.unknown-name");
-      else if (joint->joint->dofs() != 1)
-        table.fault(key,
-                    "the joint has " + std::to_string(joint->joint->dofs()) + " degrees of freedom",
-                    "a gear goes between joints of one", "scene.degrees-of-freedom");
-      return *name;
-    }
-    const auto found = find_reference(scene, *name);
-    if (!found || (found->robot >= 0 && found->link.empty()))
-      table.fault(key, found ? "a robot has many links" : "there is no body '" + *name + "'",
-                  name_remedy(*name, reference_names(scene), "names"), "scene.unknown-name");
-    return *name;
-  };
-  constraint.a = read_end("a");
-  constraint.b = read_end("b");
-  if (!constraint.a.empty() && constraint.a == constraint.b)
-    table.fault("b", "is the same as a", "name two", "scene.same-ends");
-
-  const auto place = [&](const char* key, bool allowed) -> std::optional<Vector3> {
-    const auto found = table.vector(key);
-    if (table.has(key) && !allowed)
-      table.fault(key, "has no meaning in this type of constraint", "leave it out",
-                  "scene.key-useless");
-    return found;
-  };
-  constraint.point = place("point", !gear);
-  constraint.point_b = place("point_b", constraint.type == Type::distance);
-  constraint.axis = place("axis", constraint.type == Type::hinge);
-  if (constraint.axis && !(constraint.axis->norm() > 0))
-    table.fault("axis", "has no direction", "give an axis that is not zero", "scene.no-direction");
-  if (constraint.type == Type::ball || constraint.type == Type::hinge)
-    table.missing("point", "give the point that both share, in the world at the start");
-  if (constraint.type == Type::hinge)
-    table.missing("axis", "give the axis of the hinge, in the world at the start");
-  if (gear) table.missing("ratio", "give the speed of a as a multiple of that of b");
-  if (const auto ratio = table.number("ratio")) {
-    constraint.ratio = *ratio;
-    if (!gear) table.fault("ratio", "is of a gear", "leave it out", "scene.key-useless");
-    if (*ratio == 0) table.fault("ratio", "must not be 0", "", "scene.zero");
-  }
-  table.done();
-  scene.constraints.push_back(std::move(constraint));
-}
-
-// Couplings: spring-dampers and other pulls after a kinematic twin.
 namespace {
 
 // The robot that carries the link; nullptr, told, where it cannot be found.
