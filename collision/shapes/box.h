@@ -6,6 +6,7 @@
 
 #include "collision/geometry/convex_hull.h"
 #include "collision/geometry/mass_properties.h"
+#include "collision/shapes/shape_number.h"
 #include "collision/shapes/signed_point.h"
 
 namespace twinarm {
@@ -36,5 +37,6 @@ struct Box {
     return {-inside, std::copysign(1.0, p[axis]) * Vector3::Unit(axis)};
   }
 };
+Box numbered(ShapeNumber<1>);
 
 }  // namespace twinarm

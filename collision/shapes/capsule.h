@@ -2,6 +2,7 @@
 #pragma once
 
 #include "collision/shapes/cylinder.h"
+#include "collision/shapes/shape_number.h"
 #include "collision/shapes/sphere.h"
 
 namespace twinarm {
@@ -37,5 +38,6 @@ struct Capsule {
     return p;
   }
 };
+Capsule numbered(ShapeNumber<3>);
 
 }  // namespace twinarm

@@ -7,6 +7,7 @@
 
 #include "collision/geometry/convex_hull.h"
 #include "collision/geometry/mass_properties.h"
+#include "collision/shapes/shape_number.h"
 #include "collision/shapes/signed_point.h"
 
 namespace twinarm {
@@ -76,5 +77,6 @@ struct Cylinder {
     }
   }
 };
+Cylinder numbered(ShapeNumber<4>);
 
 }  // namespace twinarm

@@ -6,6 +6,7 @@
 
 #include "collision/geometry/convex_hull.h"
 #include "collision/geometry/mass_properties.h"
+#include "collision/shapes/shape_number.h"
 
 namespace twinarm {
 
@@ -33,5 +34,6 @@ struct Ellipsoid {
     return patches;
   }
 };
+Ellipsoid numbered(ShapeNumber<5>);
 
 }  // namespace twinarm

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "collision/shapes/shape_number.h"
 #include "solver/spatial/pose.h"
 
 namespace twinarm {
@@ -25,5 +26,6 @@ struct HalfSpace {
     return "normal has length " + std::to_string(normal.norm()) + ", must be 1";
   }
 };
+HalfSpace numbered(ShapeNumber<0>);
 
 }  // namespace twinarm

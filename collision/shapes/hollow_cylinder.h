@@ -2,6 +2,7 @@
 #pragma once
 
 #include "collision/shapes/cylinder.h"
+#include "collision/shapes/shape_number.h"
 
 namespace twinarm {
 
@@ -17,5 +18,6 @@ struct HollowCylinder {  // the inside of a tube with open ends
 
   Vector3 support(const Vector3& d) const { return Cylinder{radius, length}.support(d); }
 };
+HollowCylinder numbered(ShapeNumber<7>);
 
 }  // namespace twinarm

@@ -1,6 +1,7 @@
 // The inside of a sphere, as a wall.
 #pragma once
 
+#include "collision/shapes/shape_number.h"
 #include "collision/shapes/sphere.h"
 
 namespace twinarm {
@@ -15,5 +16,6 @@ struct HollowSphere {  // the inside: bodies move within
 
   Vector3 support(const Vector3& d) const { return Sphere{radius}.support(d); }
 };
+HollowSphere numbered(ShapeNumber<6>);
 
 }  // namespace twinarm

@@ -1,7 +1,7 @@
 // Shapes, each in its own geometry frame G (its pose is X_WG), and what is asked of all of them.
 //
-// Adding one that is stated by a few numbers: a file such as cylinder.h, included here, and its
-// name in AnyShape. It must have
+// Adding one that is stated by a few numbers: a file such as cylinder.h, included here. It says
+// which number it has (shape_number.h), and must have
 //   name, key            in messages, and in files: "hollow sphere", "hollow_sphere"
 //   lengths()            what files state of it: doubles and Vector3, all > 0
 //   support(d)           its point that lies farthest along d (any length but zero):
@@ -19,6 +19,7 @@
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "collision/geometry/convex_hull.h"
@@ -35,17 +36,21 @@
 
 namespace twinarm {
 
+// Each ShapeNumber from this one on, as it is by default.
+template <int number = 0>
+constexpr auto numbered_shapes() {
+  if constexpr (requires { numbered(ShapeNumber<number>()); })
+    return std::tuple_cat(std::tuple<decltype(numbered(ShapeNumber<number>()))>(),
+                          numbered_shapes<number + 1>());
+  else
+    return std::tuple<>();
+}
+template <class... Numbered, class... Others>
+std::variant<Numbered..., Others...> one_of(const std::tuple<Numbered...>&, const Others&...);
+
 // Those that are stated by a few numbers, and others.
 template <class... Others>
-using AnyShape = std::variant<HalfSpace,       //
-                              Box,             //
-                              Sphere,          //
-                              Capsule,         //
-                              Cylinder,        //
-                              Ellipsoid,       //
-                              HollowSphere,    //
-                              HollowCylinder,  //
-                              Others...>;
+using AnyShape = decltype(one_of(numbered_shapes(), std::declval<Others>()...));
 using Shape = AnyShape<ConvexHull, MeshShape>;
 
 // Of a hollow shape, that of the solid that would fill it.
@@ -74,11 +79,10 @@ void for_each_length(S& shape, F f) {
              std::remove_const_t<S>::lengths());
 }
 
-// Calls f(shape) for each of AnyShape as it is by default, in their order.
+// Calls f(shape) for each numbered one as it is by default, in their order.
 template <class F>
 void for_each_shape(F f) {
-  const auto each = [&]<class... S>(const std::variant<S...>*) { (f(S{}), ...); };
-  each(static_cast<const AnyShape<>*>(nullptr));
+  std::apply([&](const auto&... shape) { (f(shape), ...); }, numbered_shapes());
 }
 
 }  // namespace twinarm

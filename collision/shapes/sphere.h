@@ -3,6 +3,7 @@
 
 #include "collision/geometry/convex_hull.h"
 #include "collision/shapes/ellipsoid.h"
+#include "collision/shapes/shape_number.h"
 
 namespace twinarm {
 
@@ -24,5 +25,6 @@ struct Sphere {
     return p;
   }
 };
+Sphere numbered(ShapeNumber<2>);
 
 }  // namespace twinarm

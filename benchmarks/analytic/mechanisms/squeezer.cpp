@@ -4,6 +4,8 @@
 // K1 turns about O by beta and carries F; K2 turns on it by Theta and reaches from F to E. K3 turns
 // about B by gamma and holds E and the spring's end D; K5 and K7 turn about A by delta and epsilon
 // and carry H and G, on which K4 and K6 turn by Phi and Omega and reach to E.
+#include <array>
+
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
 #include "benchmarks/analytic/mechanisms/loop_parts.h"
 #include "solver/forces/spring.h"
@@ -43,10 +45,8 @@ BodyInertia plate(double mass, double inertia, double x, double y) {
   return {mass, {x, y, 0}, inertia * Matrix3::Identity()};
 }
 
-}  // namespace
-
-LoopCase squeezer() {
-  LoopCase c{"Andrews' squeezing mechanism"};
+// The seven bodies, in the order beta, Theta, gamma, Phi, delta, Omega, epsilon.
+std::array<int, 7> build_squeezer(LoopCase& c) {
   ModelBuilder builder;
   builder.set_gravity(Vector3::Zero());
   const auto add = [&](const char* name, int parent, const Vector3& p, const BodyInertia& inertia) {
@@ -67,17 +67,22 @@ LoopCase squeezer() {
   loop("E on K3", k3, {0, -ss, 0});
   loop("E on K4", k4, {0, -e, 0});
   loop("E on K6", k6, {zf, 0, 0});
+  return {k1, k2, k3, k4, k5, k6, k7};
+}
 
-  // beta, Theta, gamma, Phi, delta, Omega, epsilon
+}  // namespace
+
+LoopCase squeezer() {
+  LoopCase c{"Andrews' squeezing mechanism"};
+  const std::array<int, 7> bodies = build_squeezer(c);
   std::vector<std::size_t> order;
-  for (const int body : {k1, k2, k3, k4, k5, k6, k7})
-    order.push_back(c.model.iv[static_cast<std::size_t>(body)]);
+  for (const int body : bodies) order.push_back(c.model.iv[static_cast<std::size_t>(body)]);
   const double q0[] = {-0.0617138900142764496, 0,
                        0.455279819163070380,   0.222668390165885885,
                        0.487364979543842550,   -0.222668390165885885,
                        1.23054744454982119};
   for (std::size_t i = 0; i < 7; ++i) c.start.q[order[i]] = q0[i];
-  const auto source = std::make_shared<MotorAndSpring>(order[0], k3);
+  const auto source = std::make_shared<MotorAndSpring>(order[0], bodies[2]);
   c.source = source;
   c.stored = [source, model = c.model](const State<double>& x) {
     Kinematics k(model);
