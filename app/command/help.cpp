@@ -5,6 +5,7 @@
 
 #include "app/command/command.h"
 #include "app/command/parser/command_tree.h"
+#include "app/scene/read/scene_keys.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "solver/support/diagnostics.h"
@@ -15,17 +16,23 @@ namespace {
 struct HelpOptions {
   CLI::App* program = nullptr;
   std::vector<std::string> command;
-  bool man = false, completion = false;
+  bool man = false, completion = false, scene_numbers = false;
 };
 
 void add_options(CLI::App& command, HelpOptions& options) {
   options.program = command.get_parent();
   command.add_option("command", options.command, "the program itself if not given");
   CLI::Option* man = command.add_flag("--man", options.man, "print the man page, for man -l -");
+  CLI::Option* completion =
+      command
+          .add_flag("--completion", options.completion,
+                    "print the completion of commands, options and files, for bash")
+          ->excludes(man);
   command
-      .add_flag("--completion", options.completion,
-                "print the completion of commands, options and files, for bash")
-      ->excludes(man);
+      .add_flag("--scene-numbers", options.scene_numbers,
+                "print the numbers of a scene file as tables: units, defaults, ranges, meanings")
+      ->excludes(man)
+      ->excludes(completion);
 }
 
 CLI::App* find_command(CLI::App& parent, const std::string& name) {
@@ -45,6 +52,8 @@ int run_help(const HelpOptions& asked) {
     fmt::print("{}", man_page(program, kProgramVersion));
   } else if (asked.completion) {
     fmt::print("{}", shell_completion(program));
+  } else if (asked.scene_numbers) {
+    fmt::print("{}", scene_numbers());
   } else {
     CLI::App* command = &program;
     std::string path = "twinarm";

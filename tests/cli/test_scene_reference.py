@@ -106,6 +106,11 @@ class Keys(unittest.TestCase):
             with self.subTest(name):
                 self.check(f"`[[{name}]]`", known(before, skip=skip))
 
+    def test_the_tables_of_numbers_are_those_that_the_program_prints(self):
+        printed = run("help", "--scene-numbers").stdout
+        for table in printed.strip().split("\n\n"):
+            self.assertIn(f"\n{table}\n\n", PAGE, "docs/scenes.md: take the table from twinarm help --scene-numbers")
+
     def test_tables_within_tables(self):
         for heading, key, before, inside, extra in (
                 ("`[[robot]]`", "payload", ROBOT, "payload = [{ %s }]", ()),

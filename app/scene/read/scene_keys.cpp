@@ -1,11 +1,14 @@
 #include "app/scene/read/scene_keys.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include "app/robot/robot_input.h"
 #include "app/scene/read/change_scene.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 
@@ -26,15 +29,20 @@ const std::vector<SurfaceKey>& surface_keys() {
        .member = &Surface::restitution, .of_pair = &P::restitution,
        .slider = {"restitution", 0, 1, "Speed after an impact over speed before: a pair takes the "
                   "product.", SliderRow::linear}},
-      {.key = "torsional_friction", .unit = "m", .member = &Surface::torsional_friction},
-      {.key = "rolling_friction", .unit = "m", .member = &Surface::rolling_friction},
+      {.key = "torsional_friction", .unit = "m", .member = &Surface::torsional_friction,
+       .slider = {.meaning = "Couple about the normal per normal force: a pair takes the larger "
+                  "one."}},
+      {.key = "rolling_friction", .unit = "m", .member = &Surface::rolling_friction,
+       .slider = {.meaning = "Couple against rolling per normal force, likewise."}},
       {.key = "stiffness", .unit = "N/m", .range = {Sign::positive},
        .member = &Surface::stiffness, .of_pair = &P::stiffness,
        .slider = {"contact stiffness", 1e3, 1e9, "Of each contact point; two surfaces are springs "
                   "in series."},
        .is_of_compliant = true},
       {.key = "dissipation", .unit = "s/m",
-       .member = &Surface::dissipation, .of_pair = &P::dissipation}};
+       .member = &Surface::dissipation, .of_pair = &P::dissipation,
+       .slider = {.meaning = "c of N = k d (1 + c d') of each contact point; of two springs in "
+                  "series the softer one says more."}}};
   // clang-format on
   return rows;
 }
@@ -117,7 +125,8 @@ const std::vector<CouplingKey>& coupling_keys() {
                   SliderRow::linear}},
       {.key = "rate", .has = [](const F& f) { return f.can_hold; },
        .useless = "this type of coupling is computed at every step",
-       .unit = "Hz", .range = kPositive, .number = at<&C::rate>},
+       .unit = "Hz", .range = kPositive, .number = at<&C::rate>,
+       .slider = {.meaning = "The force is computed at this rate and held between; explicit."}},
       {.key = "treatment", .has = [](const F& f) { return f.treatments == F::Treatments::all; },
        .useless = "this type of coupling is a treatment of its own"},
       {.key = "link", .has = [](const F& f) { return f.gains != Gains::none; },
@@ -126,6 +135,7 @@ const std::vector<CouplingKey>& coupling_keys() {
       {.key = "delay", .has = any_coupling,
        .useless = "the target stands still: seen late, it is the same",
        .unit = "s", .number = at<&C::delay>,
+       .slider = {.meaning = "The coupling sees its target this late."},
        .of_target = moves, .help = "leave it out, or give a target that moves"},
       {.key = "speed", .has = any_coupling,
        .useless = "is of a target that is a motion by name or a trace",
@@ -226,6 +236,51 @@ std::string unit_of_number(const Value& scene, const std::string& text) {
       });
   });
   return unit;
+}
+
+// ---- the same for people ----
+
+namespace {
+
+struct ReferenceRow {
+  std::string key, of;
+  const char* unit;
+  std::optional<double> by_default;
+  const NumberRange& range;
+  const char* meaning;
+};
+
+std::string to_markdown(const ReferenceRow& row) {
+  std::string range = row.range.sign == Sign::positive ? "> 0" : ">= 0";
+  if (*row.range.rule) range += std::string("; ") + row.range.rule;
+  return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.key, row.of, row.unit,
+                     row.by_default ? short_number_text(*row.by_default) : "", range, row.meaning);
+}
+
+}  // namespace
+
+std::string scene_numbers() {
+  constexpr const char* kHead =
+      "| key | of | unit | default | range | meaning |\n|---|---|---|---|---|---|\n";
+  std::string page = kHead;
+  for (const SurfaceKey& row : surface_keys())
+    page += to_markdown({row.key, row.of_pair ? "robot, body, pair" : "robot, body", row.unit,
+                         Surface().*row.member, row.range, row.slider.meaning});
+  page += std::string("\n") + kHead;
+  for (const CouplingKey& row : coupling_keys()) {
+    if (!row.number) continue;
+    std::string of;
+    for (const CouplingFacts& facts : all_couplings)
+      if (row.has(facts)) of += (of.empty() ? "" : ", ") + std::string(facts.name);
+    const double value = row.value({});
+    const bool is_given = value > 0 || row.range.sign != Sign::positive;
+    std::string unit = row.unit;
+    if (row.turning_unit) unit += std::string(" or ") + row.turning_unit;
+    page += to_markdown({row.key, of, unit.c_str(),
+                         is_given && !row.is_required() ? std::optional(value) : std::nullopt,
+                         row.range, row.slider.meaning});
+  }
+  return page;
 }
 
 }  // namespace twinarm

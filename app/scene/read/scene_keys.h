@@ -1,7 +1,7 @@
 // The numbers of a scene file, one row a key. From the rows are made: what the reader takes and
-// refuses, what a change of a coupling's type leaves out, the units of `map`, and the sliders of
-// the lab. A key more is a row more, and the member that it fills; a slider more is `slider` in its
-// row.
+// refuses, what a change of a coupling's type leaves out, the units of `map`, the sliders of the
+// lab, and the tables of docs/scenes.md. A key more is a row more, and the member that it fills; a
+// slider more is `slider` in its row.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct NumberRange {
   const char *rule = "", *remedy = "";
 };
 
-// What the lab offers; without a label, nothing.
+// What the lab offers, without a label nothing; and what the number means.
 struct SliderRow {
   enum Scale { log, linear };
   const char* label = nullptr;
@@ -77,5 +77,8 @@ void fit_keys_to_type(Value& coupling, int line);
 // What is measured in which unit, by the path's last key; empty where that is not known. Of a
 // coupling's gain it depends on the couplings that are meant.
 std::string unit_of_number(const Value& scene, const std::string& path);
+
+// The rows as Markdown: a table of surfaces, an empty line, one of couplings.
+std::string scene_numbers();
 
 }  // namespace twinarm
