@@ -83,7 +83,8 @@ Reading read_all(const InspectOptions& options, bool is_recorded) {
   });
   std::optional<Inspected> inspected;
   if (instant) {
-    auto& [input, run] = instant->prepared;
+    SimulateInput& input = instant->prepared.input;
+    const RunPlan& run = instant->prepared.run;
     read_bodies(options, input.robot.model, view, faults);
     inspected = attempt(faults, [&] {
       if (!input.scene) return inspect_robot(input.robot);

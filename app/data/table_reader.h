@@ -61,8 +61,7 @@ class TableReader {
   std::string where(const std::string& key) const;
 
   // At the key where it stands, else at the table.
-  void fault(const std::string& key, std::string rule, std::string remedy,
-             std::string_view code = {});
+  void fault(const std::string& key, std::string rule, std::string remedy, std::string_view code);
   void missing(const std::string& key, std::string remedy);
   bool is_full() const { return faults_.is_full(); }  // more faults are not kept
   void done();

@@ -28,7 +28,7 @@ int ContactBodies::add(const ContactGeometry& geometry) {
   FaultList faults;
   const std::string where = "geometry '" + geometry.name + "'";
   const auto check = [&](bool good, const char* what, const char* remedy) {
-    if (!good) faults.add(where, what, remedy);
+    if (!good) faults.add(where, what, remedy, "contact.geometry");
   };
   check(geometry.body >= 0 && geometry.body < model_->body_count(), "it hangs on no body",
         "name a body of the model, or the world");

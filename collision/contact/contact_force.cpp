@@ -37,7 +37,7 @@ ContactForce::ContactForce(const Model<double>& model, const ContactLaw& law)
 void ContactForce::add(int body, const Pose& X_LG, const std::string& name, const Shape& shape) {
   if (body < 0 || body >= model_.body_count())
     throw InputError({{"", 0, "geometry '" + name + "'", "it hangs on no link of the robot",
-                       "name a link of the robot, or the world"}});
+                       "name a link of the robot, or the world", "contact.no-link"}});
   world_.add({name, shape, body == 0 ? kObstacleGroup : kLinkGroup});
   pieces_.push_back({body, X_LG});
   X_WG_.push_back(X_LG);

@@ -59,13 +59,12 @@ int CollisionWorld::add(Geometry geometry) {
   const std::string where = "geometry '" + geometry.name + "'";
   FaultList faults;
   const std::string fault = shape_fault(geometry.shape);
-  if (!fault.empty()) {
-    faults.add(where, shape_name(geometry.shape) + ": " + fault, "correct the shape");
-  }
-  if (geometry.group < 0 || geometry.group >= group_count) {
+  if (!fault.empty())
+    faults.add(where, shape_name(geometry.shape) + ": " + fault, "correct the shape",
+               "shape.numbers");
+  if (geometry.group < 0 || geometry.group >= group_count)
     faults.add(where, "group is " + std::to_string(geometry.group),
-               "give a group from 0 to " + std::to_string(group_count - 1));
-  }
+               "give a group from 0 to " + std::to_string(group_count - 1), "contact.group");
   faults.check();
 
   const int id = size();
@@ -92,7 +91,8 @@ void CollisionWorld::check_pair(int a, int b) const {
       {{"", 0, "geometries '" + geometry(a).name + "' and '" + geometry(b).name + "'",
         "a " + shape_name(geometry(a).shape) + " cannot collide with a " +
             shape_name(geometry(b).shape),
-        "keep their groups apart with set_group_filter() before adding them, or fix both"}});
+        "keep their groups apart with set_group_filter() before adding them, or fix both",
+        "contact.pair"}});
 }
 
 void CollisionWorld::disable_pair(int a, int b) {
@@ -105,8 +105,9 @@ void CollisionWorld::disable_pair(int a, int b) {
 void CollisionWorld::set_group_filter(int group_a, int group_b, bool collide) {
   for (int group : {group_a, group_b}) {
     if (group < 0 || group >= group_count) {
-      throw InputError({{"", 0, "group filter", "group is " + std::to_string(group),
-                         "give a group from 0 to " + std::to_string(group_count - 1)}});
+      throw InputError(
+          {{"", 0, "group filter", "group is " + std::to_string(group),
+            "give a group from 0 to " + std::to_string(group_count - 1), "contact.group"}});
     }
   }
   const auto before = mask_;
@@ -286,9 +287,7 @@ void BroadPhase::overlaps(std::span<const Aabb> boxes, Pairs& pairs) {
   }
   if (impl_->is_new) {  // built over boxes that are already in their places
     impl_->manager.clear();
-    for (StandIn& stand_in : impl_->objects) {
-      impl_->manager.registerObject(stand_in.object.get());
-    }
+    for (StandIn& stand_in : impl_->objects) impl_->manager.registerObject(stand_in.object.get());
     impl_->manager.setup();
     impl_->is_new = false;
   } else {

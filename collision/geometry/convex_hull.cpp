@@ -28,8 +28,8 @@ namespace twinarm {
 namespace {
 
 [[noreturn]] void refuse(const std::string& rule) {
-  throw InputError(
-      {{"", 0, "convex hull", rule, "give at least 4 finite points that do not lie in one plane"}});
+  throw InputError({{"", 0, "convex hull", rule,
+                     "give at least 4 finite points that do not lie in one plane", "hull.points"}});
 }
 
 double extent_of(std::span<const Vector3> points) {
@@ -151,10 +151,11 @@ ConvexHull convex_hull(std::span<const Vector3> points, double flatness) {
   // Each plane is held against each point.
   constexpr double kMostPlaneChecks = 4e9;
   if (static_cast<double>(loops.size()) * static_cast<double>(points.size()) > kMostPlaneChecks)
-    throw InputError({{"", 0, "convex hull",
-                       "there are " + std::to_string(points.size()) + " points, and " +
-                           std::to_string(loops.size()) + " faces about them: too many",
-                       "simplify the mesh: a body that is to be touched needs some hundred"}});
+    throw InputError(
+        {{"", 0, "convex hull",
+          "there are " + std::to_string(points.size()) + " points, and " +
+              std::to_string(loops.size()) + " faces about them: too many",
+          "simplify the mesh: a body that is to be touched needs some hundred", "hull.faces"}});
 
   // Number the corners in the order of the input.
   std::map<int, int> index;

@@ -26,7 +26,7 @@ namespace twinarm {
 namespace {
 
 [[noreturn]] void refuse(const std::string& rule, const std::string& remedy) {
-  throw InputError({{"", 0, "mass properties", rule, remedy}});
+  throw InputError({{"", 0, "mass properties", rule, remedy, "mesh.mass"}});
 }
 
 Matrix3 outer(const Vector3& v) {

@@ -48,7 +48,7 @@ class Welder {
 
 TriangleMesh load_mesh(const std::filesystem::path& file, double scale) {
   const auto refuse = [&](const std::string& rule, const std::string& remedy) {
-    throw InputError({{file.string(), 0, "mesh", rule, remedy}});
+    throw InputError({{file.string(), 0, "mesh", rule, remedy, "mesh.file"}});
   };
   if (!(scale > 0 && std::isfinite(scale)))
     refuse("scale is " + std::to_string(scale) + ", must be positive",

@@ -40,7 +40,7 @@ constexpr std::array<const char*, 5> readers = {"Wavefront Object", "Stereolitho
 constexpr std::array<const char*, 6> extensions = {".stl", ".obj", ".ply", ".dae", ".gltf", ".glb"};
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& rule, const std::string& remedy) {
-  throw InputError({{file.string(), 0, "mesh", rule, remedy}});
+  throw InputError({{file.string(), 0, "mesh", rule, remedy, "mesh.file"}});
 }
 
 // Files of the model's own folder (and below), up to the size cap, for reading only.

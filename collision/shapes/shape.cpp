@@ -9,7 +9,7 @@ namespace twinarm {
 namespace {
 
 [[noreturn]] void refuse_solid(const std::string& rule, const char* remedy) {
-  throw InputError({{"", 0, "mass properties", rule, remedy}});
+  throw InputError({{"", 0, "mass properties", rule, remedy, "shape.mass"}});
 }
 
 std::string positive(const char* name, double value) {

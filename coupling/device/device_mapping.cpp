@@ -154,7 +154,7 @@ void check_number(const std::string& what, double value, bool positive, FaultLis
   faults.add(
       "mapping, " + what,
       "it is " + std::to_string(value) + ", must be a " + (positive ? "positive " : "") + "number",
-      "give a " + std::string(positive ? "positive " : "") + "number");
+      "give a " + std::string(positive ? "positive " : "") + "number", "mapping.number");
 }
 
 void check_spec(const MappingSpec& spec, FaultList& faults) {
@@ -178,24 +178,26 @@ void check_robot(MappingKind kind, const MappedRobot& robot, FaultList& faults) 
   const bool in_joints = kind != MappingKind::cartesian;
   if (robot.turned.empty() || (in_joints && robot.turned.size() > 3))
     faults.add("mapping", "it is given " + std::to_string(robot.turned.size()) + " joints to turn",
-               in_joints ? "name one to three joints" : "name at least one joint");
+               in_joints ? "name one to three joints" : "name at least one joint",
+               "mapping.joints");
   for (const int body : robot.turned) {
     if (body <= 0 || body >= model.body_count())
       faults.add("mapping", "body " + std::to_string(body) + " is none of the robot's",
-                 "name joints of the robot");
+                 "name joints of the robot", "mapping.body");
     else if (model.dofs(static_cast<std::size_t>(body)) != 1)
       faults.add("joint '" + model.joint_name[static_cast<std::size_t>(body)] + "'",
                  "it has not one degree of freedom, but a hand device turns it",
-                 "name revolute or prismatic joints");
+                 "name revolute or prismatic joints", "mapping.degrees-of-freedom");
   }
   for (const auto* range : {&robot.lower, &robot.upper})
     if (!range->empty() && range->size() != robot.turned.size())
-      faults.add("mapping", "ranges are not those of its joints", "give one per joint");
+      faults.add("mapping", "ranges are not those of its joints", "give one per joint",
+                 "mapping.ranges");
   if (!in_joints && !moves(model, robot.turned, robot.body))
     faults.add("mapping",
                "no driven joint moves body " + std::to_string(robot.body) +
                    ", which should follow the stylus",
-               "name a point beyond a driven joint");
+               "name a point beyond a driven joint", "mapping.point");
 }
 
 }  // namespace

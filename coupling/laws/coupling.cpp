@@ -14,11 +14,11 @@ Coupling::Coupling(const CouplingSpec& spec, const Model<double>& model, Kinemat
   for (const Spring& spring : springs_) {
     const std::string where = "coupling '" + name_ + "', spring '" + spring.name + "'";
     if (spring.body <= 0 || spring.body >= model.body_count())
-      faults.add(where, "it names no moving link", "name a link of the robot");
+      faults.add(where, "it names no moving link", "name a link of the robot", "coupling.link");
     const auto check = [&](double gain, const std::string& what) {
       if (gain >= 0) return;
       faults.add(where, what + " is " + std::to_string(gain) + ", must not be negative",
-                 "give a " + what + " of at least 0");
+                 "give a " + what + " of at least 0", "coupling.gain");
     };
     check(spring.k, "stiffness");
     check(spring.b, "damping");
@@ -46,7 +46,7 @@ void Coupling::check_one_dof() const {
     if (model_.dofs(i) == 1) continue;
     faults.add("coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
                "the joint has " + std::to_string(model_.dofs(i)) + " degrees of freedom, not one",
-               "name links on revolute, prismatic or screw joints");
+               "name links on revolute, prismatic or screw joints", "coupling.degrees-of-freedom");
   }
   faults.check();
 }

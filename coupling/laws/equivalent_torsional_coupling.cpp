@@ -40,7 +40,8 @@ MatchedTorsional::MatchedTorsional(const CouplingSpec& spec, const Model<double>
       if (model.dofs(i) > 1)
         faults.add("coupling '" + name_ + "', joint '" + model.joint_name[i] + "'",
                    "the joint has " + std::to_string(model.dofs(i)) + " degrees of freedom",
-                   "the matched law takes joints of one; choose a linear coupling");
+                   "the matched law takes joints of one; choose a linear coupling",
+                   "coupling.degrees-of-freedom");
     }
   faults.check();
 }

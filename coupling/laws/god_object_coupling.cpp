@@ -56,7 +56,8 @@ void GodObject::check_joints() const {
   FaultList faults;
   const auto fault = [&](std::size_t i) {
     faults.add("coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
-               "it is left out, but its neighbours are driven", "drive all joints of the robot");
+               "it is left out, but its neighbours are driven", "drive all joints of the robot",
+               "coupling.joints");
   };
   for (std::size_t i = 1; i < driven.size(); ++i) {
     const auto parent = static_cast<std::size_t>(model_.parent[i]);

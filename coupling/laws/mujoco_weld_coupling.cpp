@@ -72,7 +72,7 @@ WeldLike::WeldLike(const CouplingSpec& spec, const Model<double>& model, Kinemat
   const auto good = [](double x) { return x > 0 && std::isfinite(x); };
   FaultList faults;
   const auto check = [&](bool holds, const char* what, const char* rule) {
-    if (!holds) faults.add("coupling '" + name_ + "', " + what, rule, "");
+    if (!holds) faults.add("coupling '" + name_ + "', " + what, rule, "", "coupling.weld");
   };
   check(good(reference.time_constant), "time constant", "must be positive");
   check(good(reference.damping_ratio), "damping ratio", "must be positive");

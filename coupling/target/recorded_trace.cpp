@@ -45,7 +45,8 @@ class TraceReader {
  private:
   using Cells = std::vector<std::string_view>;
   void add(int line, const std::string& where, const std::string& rule, const std::string& remedy) {
-    if (++fault_count_ <= kMostTraceFaults) faults_.add({trace_.file_, line, where, rule, remedy});
+    if (++fault_count_ <= kMostTraceFaults)
+      faults_.add({trace_.file_, line, where, rule, remedy, "trace.value"});
   }
   std::string column_name(std::size_t joint) const {
     return in_degrees_[joint] ? degree_column(joint) : kColumns[joint + 1];
@@ -80,9 +81,8 @@ void TraceReader::read(std::istream& stream) {
   if (fault_count_ == 0 && trace_.samples_.size() < 2)
     add(0, "", "the trace has fewer than two samples", "give a header line and at least two lines");
   check_angles();
-  if (fault_count_ > kMostTraceFaults)
-    faults_.add({trace_.file_, 0, "",
-                 fmt::format("and {} more faults", fault_count_ - kMostTraceFaults), ""});
+  if (const auto more = fault_count_ - std::min(fault_count_, kMostTraceFaults))
+    faults_.add({trace_.file_, 0, "", fmt::format("and {} more faults", more), "", "trace.more"});
   faults_.check();
   measure();
   const double start = trace_.samples_.front().t;

@@ -26,12 +26,13 @@ KinematicRobot::KinematicRobot(const Model<double>& model, const HandSource& han
     const int body = model.find_joint(name);
     if (body < 0)
       faults.add("joint '" + name + "'", "the robot has no such joint, but the hand moves it",
-                 "name the robot's joints joint1, joint2, joint3, gripper_lift");
+                 "name the robot's joints joint1, joint2, joint3, gripper_lift",
+                 "target.unknown-joint");
     else if (const std::size_t dofs = model.dofs(static_cast<std::size_t>(body)); dofs != 1)
       faults.add("joint '" + name + "'",
                  "it has " + std::to_string(dofs) +
                      " degrees of freedom, but the hand moves it by one angle",
-                 "name a revolute, prismatic or screw joint");
+                 "name a revolute, prismatic or screw joint", "target.degrees-of-freedom");
     return static_cast<std::size_t>(body < 0 ? 0 : body);
   };
   for (const std::string& name : joints.turned) {

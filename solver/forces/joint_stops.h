@@ -29,15 +29,16 @@ class JointStops final : public SpringSource {
     for (const Stop& stop : stops_) {
       const std::string where = "coupling '" + name + "'";
       if (!(stop.k >= 0 && stop.b >= 0))
-        faults.add(where, "a gain of a stop is negative", "give gains of at least 0");
+        faults.add(where, "a gain of a stop is negative", "give gains of at least 0",
+                   "coupling.gain");
       const auto i = static_cast<std::size_t>(stop.body);
       if (stop.body <= 0 || stop.body >= model.body_count())
-        faults.add(where, "it names no moving link", "name a link of the robot");
+        faults.add(where, "it names no moving link", "name a link of the robot", "coupling.link");
       else if (model.dofs(i) != 1)
         faults.add(
             where + ", joint '" + model.joint_name[i] + "'",
             "the joint has " + std::to_string(model.dofs(i)) + " degrees of freedom, not one",
-            "name links on revolute, prismatic or screw joints");
+            "name links on revolute, prismatic or screw joints", "coupling.degrees-of-freedom");
     }
     faults.check();
   }

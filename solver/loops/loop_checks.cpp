@@ -62,7 +62,8 @@ class OneLoop {
 
  private:
   void add(std::string rule, std::string remedy) {
-    faults_.push_back({"", 0, "loop '" + loop_.name + "'", std::move(rule), std::move(remedy)});
+    faults_.push_back(
+        {"", 0, "loop '" + loop_.name + "'", std::move(rule), std::move(remedy), "loop.ends"});
   }
   bool is_body(int body, const char* end) {
     if (body >= 0 && body < model_.body_count()) return true;
@@ -100,7 +101,8 @@ std::vector<std::vector<Fault>> faults_by_loop(const Model<double>& model,
     for (std::size_t other = 0; other < l; ++other)
       if (same(loops[l], loops[other]))
         faults[l].push_back({"", 0, "loop '" + loops[l].name + "'",
-                             "it is the same as loop '" + loops[other].name + "'", "give it once"});
+                             "it is the same as loop '" + loops[other].name + "'", "give it once",
+                             "loop.twice"});
   }
   return faults;
 }

@@ -19,9 +19,8 @@ struct Fault {
   std::string rule;    // what does not hold, with the value that was found
   std::string remedy;  // what to do about it
   // What kind of fault it is: GROUP.NAME, a literal that stays when the texts above change.
-  // Programs and tests compare this and no text. Empty where nothing tells the fault from others
-  // yet.
-  std::string_view code = {};
+  // Programs and tests compare this and no text.
+  std::string_view code;
 };
 
 bool is_of_option(const Fault& fault, std::string_view option);  // "duration"
@@ -50,7 +49,7 @@ class FaultList {
  public:
   void add(Fault fault);
   // Of no file.
-  void add(std::string where, std::string rule, std::string remedy, std::string_view code = {}) {
+  void add(std::string where, std::string rule, std::string remedy, std::string_view code) {
     add(Fault{"", 0, std::move(where), std::move(rule), std::move(remedy), code});
   }
   void add(const std::vector<Fault>& more);

@@ -21,7 +21,8 @@ LaneSet read_lanes(TableReader& entry, const Value& told, const std::string& fil
       lanes.values.push_back(value.kind == Value::Kind::number ? fmt::format("{}", value.number)
                                                                : value.text);
   table.done();
-  if (const auto fault = fault_of(lanes)) entry.fault("lanes", fault->rule, fault->remedy);
+  if (const auto fault = fault_of(lanes))
+    entry.fault("lanes", fault->rule, fault->remedy, "gallery.lanes");
   return lanes;
 }
 
@@ -36,7 +37,7 @@ GalleryScene read_entry(TableReader& table, const std::filesystem::path& folder,
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(scene.file, ignored))
     table.fault("file", "the file '" + scene.file.string() + "' does not exist",
-                "name a scene of the folder above");
+                "name a scene of the folder above", "file.missing");
   scene.picture = folder / (scene.name + ".png");
   if (!std::filesystem::is_regular_file(scene.picture, ignored)) scene.picture.clear();
   const Value* look = table.find("look");
@@ -45,7 +46,8 @@ GalleryScene read_entry(TableReader& table, const std::filesystem::path& folder,
                       return line.kind == Value::Kind::text && !line.text.empty();
                     });
   if (!fits)
-    table.fault("look", "is not three lines of text", "give what to look for, in three lines");
+    table.fault("look", "is not three lines of text", "give what to look for, in three lines",
+                "gallery.look");
   else
     for (std::size_t i = 0; i < scene.look.size(); ++i) scene.look[i] = look->items[i].text;
   if (const Value* lanes = table.table("lanes"))
@@ -66,10 +68,11 @@ std::vector<GalleryScene> read_gallery(const std::filesystem::path& file) {
     TableReader table(*entry, "scene", name, faults);
     gallery.push_back(read_entry(table, file.parent_path(), name, faults));
     if (find_scene(gallery, gallery.back().name) != &gallery.back())
-      table.fault("name", "the name is taken already", "give each scene its own name");
+      table.fault("name", "the name is taken already", "give each scene its own name",
+                  "gallery.name-taken");
   }
   top.done();
-  if (gallery.empty()) top.fault("scene", "there is no scene", "write [[scene]]");
+  if (gallery.empty()) top.fault("scene", "there is no scene", "write [[scene]]", "gallery.empty");
   faults.check();
   return gallery;
 }

@@ -101,7 +101,7 @@ LaneSet parse_lanes(const std::string& text) {
   lanes.path = text.substr(0, equals);
   if (equals != std::string::npos) lanes.values = split_values(text.substr(equals + 1));
   if (const auto fault = fault_of(lanes))
-    throw InputError({{"", 0, "--lanes " + text, fault->rule, fault->remedy}});
+    throw InputError({{"", 0, "--lanes " + text, fault->rule, fault->remedy, "option.lanes"}});
   return lanes;
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 [[noreturn]] void fail(const std::string& library, const std::string& rule,
                        const std::string& remedy) {
-  throw InputError({Fault{"", 0, "renderer " + library, rule, remedy}});
+  throw InputError({Fault{"", 0, "renderer " + library, rule, remedy, "render.library"}});
 }
 
 // A library opened for good: unloading Mesa and LLVM, which have threads and exit handlers, is not

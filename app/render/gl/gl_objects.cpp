@@ -48,7 +48,7 @@ void set_attribute(const GlTable& gl, GLuint index, GLint numbers) {
 void check_framebuffer(const GlTable& gl, const std::string& what) {
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw InputError({Fault{"", 0, "renderer", "cannot allocate " + what,
-                            "use a smaller picture or free memory"}});
+                            "use a smaller picture or free memory", "render.memory"}});
   }
 }
 
@@ -141,8 +141,9 @@ Canvas::Canvas(const GlTable& gl, int width, int height, bool multisampled)
   gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &limit);
   if (width < 1 || height < 1 || width > limit || height > limit) {
     const std::string size = std::to_string(width) + " x " + std::to_string(height);
-    throw InputError({Fault{"", 0, "picture", "size is " + size + " pixels",
-                            "give 1 to " + std::to_string(limit) + " pixels each way"}});
+    throw InputError(
+        {Fault{"", 0, "picture", "size is " + size + " pixels",
+               "give 1 to " + std::to_string(limit) + " pixels each way", "render.size"}});
   }
   GLint samples = 0;
   gl.GetIntegerv(GL_MAX_SAMPLES, &samples);

@@ -28,7 +28,7 @@ ShaderVariant variant_of(Quality quality) {
 
 void check_camera(const Camera& camera) {
   const auto refuse = [](const std::string& rule, const std::string& remedy) {
-    throw InputError({Fault{"", 0, "camera", rule, remedy}});
+    throw InputError({Fault{"", 0, "camera", rule, remedy, "render.camera"}});
   };
   if (!camera.eye.allFinite() || !camera.target.allFinite() || !camera.up.allFinite())
     refuse("a coordinate is not a finite number", "give metres");

@@ -24,7 +24,7 @@ namespace {
 constexpr int kCompressionLevel = 3;
 
 [[noreturn]] void fail(const std::string& rule, const std::string& remedy) {
-  throw InputError({Fault{"", 0, "picture", rule, remedy}});
+  throw InputError({Fault{"", 0, "picture", rule, remedy, "picture.write"}});
 }
 
 void check(const Image& image) {
@@ -90,7 +90,8 @@ constexpr int kMostPixels = 1 << 26;   // 8192 x 8192
 constexpr int kLongestSide = 1 << 14;  // of a texture, in Mesa
 
 [[noreturn]] void refuse(const std::string& name, const std::string& rule) {
-  throw InputError({Fault{name, 0, "picture", rule, "save it again as PNG or JPEG"}});
+  throw InputError(
+      {Fault{name, 0, "picture", rule, "save it again as PNG or JPEG", "picture.read"}});
 }
 
 Image sized(const std::string& name, std::int64_t width, std::int64_t height) {

@@ -207,7 +207,7 @@ VisualModel load_visual(const std::filesystem::path& file, const Vector3& scale,
   }
   if (visual.parts.empty())
     throw InputError({{file.string(), 0, "mesh", "there is no triangle with an area in it",
-                       "export the mesh again"}});
+                       "export the mesh again", "mesh.no-triangle"}});
   if (turned > 0)
     visual.notes.push_back(std::to_string(turned) +
                            " triangles looked inwards and were turned about");

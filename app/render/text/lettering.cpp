@@ -161,7 +161,7 @@ class Lettering::Impl {
  private:
   [[noreturn]] static void fail(const std::string& file, const std::string& rule,
                                 const std::string& remedy) {
-    throw InputError({Fault{file, 0, "lettering", rule, remedy}});
+    throw InputError({Fault{file, 0, "lettering", rule, remedy, "render.lettering"}});
   }
 
   FT_Face sized_face(double size_px, Weight weight) {

@@ -42,8 +42,8 @@ class LiveLog {
   explicit LiveLog(const std::filesystem::path& file)
       : file_(file.string()), stream_(file, std::ios::binary) {
     if (!stream_)
-      throw InputError(
-          {{file_, 0, "--out", "the log cannot be written", "give a folder that can"}});
+      throw InputError({{file_, 0, "--out", "the log cannot be written", "give a folder that can",
+                         "file.open"}});
     stream_ << hand_log_header();
   }
   void write(const HandStep& step) { stream_ << hand_log_line(step); }
@@ -54,7 +54,7 @@ class LiveLog {
     stream_.flush();
     if (!stream_)
       throw InputError({{file_, 0, "--out", "the log could not be written to its end",
-                         "make room on the disk"}});
+                         "make room on the disk", "file.write"}});
   }
 
  private:

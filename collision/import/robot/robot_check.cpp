@@ -80,7 +80,8 @@ void physical_moments(RuleBook& book, const LinkDescription& link, bool strict) 
   else
     book.warn(line, of(link), rule,
               "no rigid body of positive density has it; forward dynamics may still work, MuJoCo "
-              "and Drake refuse it");
+              "and Drake refuse it",
+              "robot.inertia");
 }
 
 void inertia(RuleBook& book, const LinkDescription& link, bool strict) {
@@ -97,13 +98,15 @@ void inertia(RuleBook& book, const LinkDescription& link, bool strict) {
     if (link.mass > 0)
       book.warn(line_of(link.inertia_line, link.line), of(link),
                 "its inertia is zero: a point mass of " + number_text(link.mass) + " kg",
-                "give its inertia; a joint whose axis goes through the point has none else");
+                "give its inertia; a joint whose axis goes through the point has none else",
+                "robot.inertia");
     return;  // without mass it is a frame
   }
   if (link.mass == 0)
     book.warn(mass_line, of(link), "its mass is 0, but its inertia is not",
               "such a body turns with inertia and is moved without; a rotor is better told by "
-              "<twinarm armature>");
+              "<twinarm armature>",
+              "robot.no-mass");
   physical_moments(book, link, strict);
 }
 
@@ -119,7 +122,7 @@ void values(RuleBook& book, const JointDescription& joint) {
                "exchange them, or make the joint continuous", "robot.limits");
   if (joint.type == JointDescription::Type::screw && joint.pitch == 0)
     book.warn(line_of(lines.extension, joint.line), of(joint), "its pitch is 0",
-              "then it is a plain hinge: make it continuous");
+              "then it is a plain hinge: make it continuous", "robot.pitch");
   const auto not_negative = [&](const char* name, double value, int line) {
     if (!(value >= 0) || std::isinf(value))
       book.fault(

@@ -49,9 +49,10 @@ struct RuleBook {
     add_fault(found.faults, {robot.file.string(), line, std::move(where), std::move(rule),
                              std::move(remedy), code});
   }
-  void warn(int line, std::string where, std::string rule, std::string remedy) {
-    add_fault(found.warnings,
-              {robot.file.string(), line, std::move(where), std::move(rule), std::move(remedy)});
+  void warn(int line, std::string where, std::string rule, std::string remedy,
+            std::string_view code) {
+    add_fault(found.warnings, {robot.file.string(), line, std::move(where), std::move(rule),
+                               std::move(remedy), code});
   }
 };
 

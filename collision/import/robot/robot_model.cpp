@@ -69,7 +69,7 @@ class Weighted {
     const auto found = link_.find(name);
     if (found != link_.end()) return found->second;
     faults_.push_back({robot_.file.string(), 0, option, "'" + name + "' is no link of this robot",
-                       "name one of its links"});
+                       "name one of its links", "robot.unknown-link"});
     return nullptr;
   }
 
@@ -136,7 +136,7 @@ Model<double> build_model(const RobotDescription& robot, const ModelOptions& opt
 const std::filesystem::path& file_of(const MeshGeometry& geometry) {
   if (geometry.file.empty())
     throw InputError({{"", 0, "mesh '" + geometry.name + "'", "its file was not found",
-                       "put it where the robot's file names it"}});
+                       "put it where the robot's file names it", "file.missing"}});
   return geometry.file;
 }
 

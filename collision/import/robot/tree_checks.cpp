@@ -139,7 +139,7 @@ class TreeRules {
       if (moves && !heavy.count(joint.child))
         book_.warn(joint.line, of(joint),
                    "neither link '" + joint.child + "' nor anything outward of it has mass",
-                   "dynamics needs mass and inertia there, or a fixed joint");
+                   "dynamics needs mass and inertia there, or a fixed joint", "robot.no-mass");
     }
   }
 
@@ -204,7 +204,7 @@ class MimicRules {
     if (joint.mimic->multiplier == 0)
       book_.warn(line_of(joint.lines.mimic, joint.line), of(joint),
                  "its mimic has multiplier 0: it stands still at the offset",
-                 "make it a fixed joint");
+                 "make it a fixed joint", "robot.mimic-still");
     leader_[follower] = leader;
   }
 

@@ -88,7 +88,7 @@ void check_attributes(const XMLElement& element, const Word& word, const std::st
     if (contains(word.attributes, name) || name.starts_with("xmlns")) continue;
     source.warn_once("attribute " + std::string(word.element) + " " + name, a->GetLineNum(), where,
                      "attribute '" + name + "' of <" + element.Name() + "> is not known",
-                     "it is left out; check its spelling");
+                     "it is left out; check its spelling", "urdf.unknown-attribute");
   }
 }
 
@@ -109,11 +109,12 @@ void check_element(const XMLElement& element, const Word& word, const std::strin
                    "expand it first (xacro robot.urdf.xacro > robot.urdf)", "urdf.xacro");
     } else if (contains(word.without_effect, name)) {
       source.warn_once("element " + name, e->GetLineNum(), where,
-                       "<" + name + "> has no effect here", "other programs read it");
+                       "<" + name + "> has no effect here", "other programs read it",
+                       "urdf.no-effect");
     } else if (word.element != "geometry") {  // an unknown shape is told by its reader
       source.warn_once("element " + std::string(word.element) + " " + name, e->GetLineNum(), where,
                        "<" + name + "> in <" + element.Name() + "> is not known",
-                       "it is left out; check its spelling");
+                       "it is left out; check its spelling", "urdf.unknown-element");
     }
   }
 }

@@ -52,7 +52,7 @@ void warn_without_effect(const XMLElement* element, const char* what, const std:
   if (!element) return;
   source.warn_once(what, element->GetLineNum(), where,
                    std::string(what) + " has no effect on a " + to_string(joint.type) + " joint",
-                   "leave it out, or change the type of the joint");
+                   "leave it out, or change the type of the joint", "urdf.no-effect");
 }
 
 void read_limits(const XMLElement& element, const std::string& where, JointDescription& joint,
@@ -75,11 +75,12 @@ void read_limits(const XMLElement& element, const std::string& where, JointDescr
   }
   if (must && !has_range)
     source.warn(limit->GetLineNum(), where, "its <limit> has neither lower nor upper",
-                "URDF takes both as 0, and the joint cannot move where limits act");
+                "URDF takes both as 0, and the joint cannot move where limits act",
+                "urdf.no-limits");
   if (must && !(limit->FindAttribute("effort") && limit->FindAttribute("velocity")))
-    source.warn_once("limit without effort", limit->GetLineNum(), where,
-                     "its <limit> lacks effort or velocity",
-                     "they have no effect here, but other programs refuse the file");
+    source.warn_once(
+        "limit without effort", limit->GetLineNum(), where, "its <limit> lacks effort or velocity",
+        "they have no effect here, but other programs refuse the file", "urdf.no-effort");
   if (must || (joint.type == Type::screw && has_range)) {
     const auto lower = source.bound(*limit, "lower", where, 0.0);
     const auto upper = source.bound(*limit, "upper", where, 0.0);
@@ -113,7 +114,7 @@ void read_axis(const XMLElement& element, const std::string& where, JointDescrip
   if (length >= 1e-9 && std::abs(length - 1) > 1e-3)
     source.warn_once("length of axis", axis->GetLineNum(), where,
                      "its axis has length " + number_text(length),
-                     "only the direction counts; give a unit vector");
+                     "only the direction counts; give a unit vector", "urdf.axis-length");
 }
 
 void read_dynamics(const XMLElement& element, const std::string& where, JointDescription& joint,

@@ -32,7 +32,7 @@ MeshGeometry read_mesh(const XMLElement& element, const std::string& where, Urdf
   if (source.options().geometry == RobotFileOptions::Geometry::required)
     source.fault(element.GetLineNum(), where, place.rule, place.remedy, place.code);
   else
-    source.warn_once("mesh", element.GetLineNum(), where, place.rule, place.remedy);
+    source.warn_once("mesh", element.GetLineNum(), where, place.rule, place.remedy, "file.missing");
   return mesh;
 }
 
@@ -108,12 +108,13 @@ void read_texture(const XMLElement& material, UrdfMaterial& result, UrdfSource& 
   const std::string where = material_name(material);
   if (!name)
     return source.warn(texture->GetLineNum(), where, "its <texture> has no 'filename'",
-                       "give filename=\"...\"");
+                       "give filename=\"...\"", "urdf.no-texture");
   result.texture_name = name;
   const FilePlace place = find_named_file("texture", name, source.folder(), source.options().roots);
   result.texture = place.file;
   if (!place.rule.empty())
-    source.warn_once("texture", texture->GetLineNum(), where, place.rule, place.remedy);
+    source.warn_once("texture", texture->GetLineNum(), where, place.rule, place.remedy,
+                     "file.missing");
 }
 
 // What a <material> element states itself, if anything.
@@ -138,7 +139,8 @@ void read_material(const XMLElement& visual, const std::string& where,
   if (!found)
     return source.warn_once("material " + part.material, material->GetLineNum(), where,
                             "material '" + part.material + "' is not defined in this file",
-                            "define it with a <color> below <robot>; until then it is grey");
+                            "define it with a <color> below <robot>; until then it is grey",
+                            "urdf.no-material");
   part.color = found->color;
   part.texture_name = found->texture_name;
   part.texture = found->texture;
@@ -157,7 +159,8 @@ UrdfMaterials read_materials(const XMLElement& robot, UrdfSource& source) {
     const UrdfSource::Softly softly(source, true);
     const std::string name = source.text(*m, "name", "material");
     if (materials.count(name))
-      source.warn(m->GetLineNum(), material_name(*m), "it is defined twice", "the first counts");
+      source.warn(m->GetLineNum(), material_name(*m), "it is defined twice", "the first counts",
+                  "urdf.twice");
     take(*m);
   }
   for (auto* l = robot.FirstChildElement("link"); l; l = l->NextSiblingElement("link"))

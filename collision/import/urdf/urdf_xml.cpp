@@ -65,9 +65,10 @@ void UrdfSource::fault(std::vector<Fault> faults) {
   for (Fault& fault : faults) add_fault(faults_, std::move(fault));
 }
 
-void UrdfSource::warn(int line, std::string where, std::string rule, std::string remedy) {
+void UrdfSource::warn(int line, std::string where, std::string rule, std::string remedy,
+                      std::string_view code) {
   add_fault(warnings_,
-            {file_.string(), line, std::move(where), std::move(rule), std::move(remedy)});
+            {file_.string(), line, std::move(where), std::move(rule), std::move(remedy), code});
 }
 
 void UrdfSource::warn(std::vector<Fault> warnings) {
@@ -75,10 +76,11 @@ void UrdfSource::warn(std::vector<Fault> warnings) {
 }
 
 void UrdfSource::warn_once(const std::string& kind, int line, std::string where, std::string rule,
-                           std::string remedy) {
+                           std::string remedy, std::string_view code) {
   Kind& entry = kinds_[kind];
   if (entry.count++ == 0)
-    entry.first = {file_.string(), line, std::move(where), std::move(rule), std::move(remedy)};
+    entry.first = {file_.string(),    line, std::move(where), std::move(rule),
+                   std::move(remedy), code};
 }
 
 void UrdfSource::check() {
@@ -177,7 +179,7 @@ Origin UrdfSource::origin(const XMLElement& parent, const std::string& where) {
   if (origin.rpy.lpNorm<Eigen::Infinity>() > kFullTurn)
     warn(element->GetLineNum(), where,
          "rpy = '" + std::string(element->Attribute("rpy")) + "' is more than a full turn",
-         "angles are in radians: 90 degrees are 1.5707963267948966");
+         "angles are in radians: 90 degrees are 1.5707963267948966", "urdf.full-turn");
   if (!element->FindAttribute("quat_xyzw")) return origin;
   if (element->FindAttribute("rpy"))
     fault(element->GetLineNum(), where, "its <origin> has both rpy and quat_xyzw", "give one",

@@ -30,13 +30,14 @@ class UrdfSource {
   const RobotFileOptions& options() const { return options_; }
 
   void fault(int line, std::string where, std::string rule, std::string remedy,
-             std::string_view code = {});
+             std::string_view code);
   void fault(std::vector<Fault> faults);
-  void warn(int line, std::string where, std::string rule, std::string remedy);
+  void warn(int line, std::string where, std::string rule, std::string remedy,
+            std::string_view code);
   void warn(std::vector<Fault> warnings);
   // All warnings of one `kind` become one: that of the first, with their number.
   void warn_once(const std::string& kind, int line, std::string where, std::string rule,
-                 std::string remedy);
+                 std::string remedy, std::string_view code);
 
   // While an object of this type lives, faults are taken for warnings.
   class Softly {

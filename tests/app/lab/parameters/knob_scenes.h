@@ -58,7 +58,7 @@ inline std::filesystem::path temporary_scene(const std::string& name, const std:
 inline const Knob& knob_at(const std::vector<Knob>& knobs, const std::string& path) {
   for (const Knob& knob : knobs)
     if (knob.path == path) return knob;
-  throw InputError({{"", 0, path, "there is no such knob", ""}});
+  throw InputError({{"", 0, path, "there is no such knob", "", "test.no-knob"}});
 }
 
 // All that a page opens by a click.
