@@ -154,7 +154,7 @@ class Lab {
     };
     handlers.opened = [this](ClientId client) {
       audience_.opened(client);
-      painter_.welcome(client);
+      painter_.look_again();
     };
     handlers.closed = [this](ClientId client) {
       // What a page held that is gone would be held for ever.

@@ -47,14 +47,6 @@ void LabPainter::ask(std::function<void(LabPainter&)> job) {
   session_.shown().wake();
 }
 
-void LabPainter::welcome(ClientId client) {
-  {
-    const std::lock_guard lock(mutex_);
-    newcomers_.push_back(client);
-  }
-  session_.shown().wake();
-}
-
 void LabPainter::work() {
   pthread_setname_np(pthread_self(), "lab painter");
   for (;;) {
@@ -63,6 +55,7 @@ void LabPainter::work() {
     try {
       take_scene(now);
       do_jobs();
+      look_at_clients();
       left = paint(now);
     } catch (const std::exception& error) {
       show_failure(error.what());
@@ -76,7 +69,7 @@ void LabPainter::work() {
 }
 
 double LabPainter::paint(const LabNow& now) {
-  const double rate = audience_.view().clients.size() > kManyClients ? kSlowRate : kRate;
+  const double rate = clients_.size() > kManyClients ? kSlowRate : kRate;
   session_.set_rate(rate);
   look_at_knobs(now);
   tell_state(now);
@@ -95,20 +88,23 @@ void LabPainter::show_failure(const std::string& why) {
 
 void LabPainter::do_jobs() {
   std::deque<std::function<void(LabPainter&)>> jobs;
-  std::vector<ClientId> newcomers;
   {
     const std::lock_guard lock(mutex_);
     jobs.swap(jobs_);
-    newcomers.swap(newcomers_);
   }
   for (const auto& job : jobs) job(*this);
-  if (newcomers.empty()) return;
-  state_.clear();  // told anew, to all: who has the hand may have changed
-  const Bytes scene = shared_bytes(view_->scene_message());
-  for (const ClientId client : newcomers) {
-    post_(client, scene_channel, scene, false);
+}
+
+// A newcomer is told everything, the scene first and each frame once.
+void LabPainter::look_at_clients() {
+  std::vector<ClientId> clients = audience_.view().clients;
+  for (const ClientId client : clients) {
+    if (std::ranges::find(clients_, client) != clients_.end()) continue;
+    post_(client, scene_channel, shared_bytes(view_->scene_message()), false);
     if (last_frame_) post_(client, frame_channel, last_frame_, true);
+    state_.clear();  // told anew, to all: who has the hand may have changed
   }
+  clients_ = std::move(clients);
 }
 
 // The scene of this instant, with plans of the painter's own.
@@ -159,11 +155,10 @@ void LabPainter::look_at_knobs(const LabNow& now) {
 
 // To each its own, since it says who is who.
 void LabPainter::tell_state(const LabNow& now) {
-  const Audience::View audience = audience_.view();
-  std::string state = state_message(*now.status, audience, knobs_, gallery_);
+  std::string state = state_message(*now.status, audience_.view(), knobs_, gallery_);
   if (state == state_) return;
   state_ = std::move(state);
-  for (const ClientId client : audience.clients)
+  for (const ClientId client : clients_)
     post_(client, state_channel, shared_bytes(addressed(state_, client, audience_.secret(client))),
           false);
 }
@@ -195,8 +190,7 @@ double LabPainter::tell_frame(const LabNow& now, double per_second) {
   drawing.unlock();
   if (view_->revision() != revision_) tell_scene();
   last_frame_ = shared_bytes(std::move(frame));
-  for (const ClientId client : audience_.view().clients)
-    post_(client, frame_channel, last_frame_, true);
+  for (const ClientId client : clients_) post_(client, frame_channel, last_frame_, true);
   return kIdle;
 }
 
@@ -237,7 +231,7 @@ std::string LabPainter::history(double from) {
 
 void LabPainter::to_all(Channel channel, const std::string& message, bool is_binary) {
   const Bytes bytes = shared_bytes(message);
-  for (const ClientId client : audience_.view().clients) post_(client, channel, bytes, is_binary);
+  for (const ClientId client : clients_) post_(client, channel, bytes, is_binary);
 }
 
 bool LabPainter::is_due(Clock::time_point& last, double interval) const {

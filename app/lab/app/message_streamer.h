@@ -61,7 +61,6 @@ class LabPainter {
 
   // From any thread: to be done by the painter's, which alone may touch its view.
   void ask(std::function<void(LabPainter&)> job);
-  void welcome(ClientId client);                  // it is to be told everything
   void look_again() { session_.shown().wake(); }  // something about clients has changed
 
   // A copy of what was drawn last, for whoever paints it elsewhere. From any thread.
@@ -78,6 +77,7 @@ class LabPainter {
   double paint(const LabNow& now);
   void show_failure(const std::string& why);
   void do_jobs();
+  void look_at_clients();
   void take_scene(const LabNow& now);
   void tell_scene();
   void tell_state(const LabNow& now);
@@ -93,12 +93,12 @@ class LabPainter {
   Post post_;
 
   std::mutex view_mutex_;  // of what view_ has drawn
-  std::mutex mutex_;       // of the next three
+  std::mutex mutex_;       // of the next two
   std::deque<std::function<void(LabPainter&)>> jobs_;
-  std::vector<ClientId> newcomers_;
   bool stop_ = false;
 
   std::unique_ptr<LabView> view_;
+  std::vector<ClientId> clients_;  // that have been told the scene
   struct GlassTold {
     long scene = 0;
     std::uint64_t number = 0;  // LabNow's

@@ -1,8 +1,13 @@
 // A session in real time, and what its painter sends to clients: each frame once, and not too many.
+#include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <map>
 #include <mutex>
+#include <set>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "app/lab/app/clients.h"
 #include "app/lab/app/message_streamer.h"
@@ -28,11 +33,13 @@ struct Painted {
   explicit Painted(const std::string& text)
       : session(built_from(text), gallery),
         painter(session, audience, gallery,
-                [this](ClientId, LabPainter::Channel channel, Bytes bytes, bool) {
-                  take(channel, *bytes);
+                [this](ClientId client, LabPainter::Channel channel, Bytes bytes, bool) {
+                  if (client == 1)
+                    take(channel, *bytes);
+                  else
+                    take_as_newcomer(client, channel, *bytes);
                 }) {
     audience.opened(1);
-    painter.welcome(1);
     painter.begin();
     REQUIRE(comes_true([&] { return !frames().empty(); }));
   }
@@ -44,14 +51,27 @@ struct Painted {
   void take(LabPainter::Channel channel, const std::string& bytes) {
     const std::lock_guard lock(mutex);
     if (channel == LabPainter::state_channel) ++states_;
-    if (channel != LabPainter::frame_channel) return;
+    if (channel == LabPainter::frame_channel) frames_.push_back(read(bytes));
+  }
+  static SentFrame read(const std::string& bytes) {
     SentFrame frame;
     std::memcpy(&frame.time, bytes.data() + 8, 8);
     std::memcpy(&frame.stamp, bytes.data() + 16, 8);
     std::memcpy(&frame.age, bytes.data() + 24, 8);
     std::memcpy(&frame.step, bytes.data() + 32, 8);
     std::memcpy(&frame.flags, bytes.data() + 44, 4);
-    frames_.push_back(frame);
+    return frame;
+  }
+  void take_as_newcomer(ClientId client, LabPainter::Channel channel, const std::string& bytes) {
+    const std::lock_guard lock(mutex);
+    told_newcomers_[client].push_back(
+        {channel, channel == LabPainter::frame_channel ? read(bytes).step : 0});
+  }
+  // Of each: what it was sent, a frame with its step.
+  std::map<ClientId, std::vector<std::pair<LabPainter::Channel, std::uint64_t>>> told_newcomers()
+      const {
+    const std::lock_guard lock(mutex);
+    return told_newcomers_;
   }
   std::vector<SentFrame> frames() const {
     const std::lock_guard lock(mutex);
@@ -87,6 +107,7 @@ struct Painted {
   mutable std::mutex mutex;
   std::vector<SentFrame> frames_;
   std::size_t states_ = 0;
+  std::map<ClientId, std::vector<std::pair<LabPainter::Channel, std::uint64_t>>> told_newcomers_;
   Audience audience;
   LabSession session;
   LabPainter painter;
@@ -178,6 +199,26 @@ TEST_CASE(
   lab.session.push(said(R"({"do": "look", "at": 0})"));
   REQUIRE(comes_true([&] { return (lab.frames().back().flags & 2) != 0; }));
   CHECK(lab.frames().back().step == 0);
+}
+
+TEST_CASE("lab painter: a newcomer is told the scene first, and each frame once") {
+  Painted lab(kSlowlyDriven);
+  for (ClientId client = 2; client < 60; ++client) {
+    lab.audience.opened(client);
+    if (client % 2 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    lab.painter.look_again();
+  }
+  REQUIRE(comes_true([&] {
+    const auto told = lab.told_newcomers();
+    return told.size() == 58 &&
+           std::ranges::all_of(told, [](const auto& entry) { return entry.second.size() > 8; });
+  }));
+  for (const auto& [client, messages] : lab.told_newcomers()) {
+    CHECK(messages.front().first == LabPainter::scene_channel);
+    std::set<std::uint64_t> steps;
+    for (const auto& [channel, step] : messages)
+      if (channel == LabPainter::frame_channel) CHECK(steps.insert(step).second);
+  }
 }
 
 TEST_CASE("lab painter: a failure while it draws is shown as an error, and frames go on") {
